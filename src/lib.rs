@@ -1,0 +1,2 @@
+//! Analysis of parallel and closed-chain mechanisms described as serial Denavit–Hartenberg chains,
+//! broken at chosen joints and put back together by closures.
