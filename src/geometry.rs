@@ -1,0 +1,13 @@
+//! Vectors, rotations and poses over any [`Number`](crate::number::Number).
+//!
+//! Poses are named `target_from_source`: `ground_from_top * point_in_top` is the point in ground.
+
+mod orientation;
+mod pose;
+mod rotation;
+mod vector;
+
+pub use orientation::{Quaternion, RollPitchYaw};
+pub use pose::{Axis, Pose};
+pub use rotation::Rotation;
+pub use vector::Vector3;

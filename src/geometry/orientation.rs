@@ -1,0 +1,139 @@
+use super::{Axis, Rotation, Vector3};
+use crate::number::Number;
+
+/// A unit quaternion w + xi + yj + zk, scalar first.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Quaternion<T>(pub [T; 4]);
+
+impl<T: Number> Quaternion<T> {
+    /// No rotation.
+    pub fn identity() -> Self {
+        Quaternion([T::one(), T::zero(), T::zero(), T::zero()])
+    }
+
+    /// The Hamilton product: first `other`, then `self`.
+    #[inline(always)]
+    pub fn then_left(&self, other: &Self) -> Self {
+        let ([a, b, c, d], [w, x, y, z]) = (self.0, other.0);
+        Quaternion([
+            a * w - b * x - c * y - d * z,
+            a * x + b * w + c * z - d * y,
+            a * y - b * z + c * w + d * x,
+            a * z + b * y - c * x + d * w,
+        ])
+    }
+
+    /// The rotation turned further by a small rotation vector ω given in the target frame.
+    ///
+    /// The step is the Cayley map, q ← (1 + ω/2) q / ‖·‖: it agrees with the exponential to second
+    /// order and needs no trigonometry.
+    #[inline(always)]
+    pub fn turned_by(&self, omega: &Vector3<T>) -> Self {
+        let [x, y, z] = omega.0.map(|w| w.scale(0.5));
+        Quaternion([T::one(), x, y, z]).then_left(self).normalised()
+    }
+
+    /// q/√(q·q).
+    #[inline(always)]
+    pub fn normalised(&self) -> Self {
+        let [w, x, y, z] = self.0;
+        let factor = T::one() / (w * w + x * x + y * y + z * z).sqrt();
+        Quaternion([w * factor, x * factor, y * factor, z * factor])
+    }
+
+    /// The rotation matrix of a unit quaternion.
+    #[inline(always)]
+    pub fn rotation(&self) -> Rotation<T> {
+        let [w, x, y, z] = self.0;
+        let (x2, y2, z2) = (x + x, y + y, z + z);
+        let (wx, wy, wz) = (w * x2, w * y2, w * z2);
+        let (xx, xy, xz) = (x * x2, x * y2, x * z2);
+        let (yy, yz, zz) = (y * y2, y * z2, z * z2);
+        let one = T::one();
+        Rotation([
+            Vector3([one - yy - zz, xy + wz, xz - wy]),
+            Vector3([xy - wz, one - xx - zz, yz + wx]),
+            Vector3([xz + wy, yz - wx, one - xx - yy]),
+        ])
+    }
+
+    /// The quaternion of a rotation, by the largest of the four components (Shepperd 1978).
+    pub fn from_rotation(rotation: &Rotation<T>) -> Self {
+        let r = rotation.rows();
+        let one = T::one();
+        let four = [
+            one + r[0][0] + r[1][1] + r[2][2],
+            one + r[0][0] - r[1][1] - r[2][2],
+            one - r[0][0] + r[1][1] - r[2][2],
+            one - r[0][0] - r[1][1] + r[2][2],
+        ];
+        let largest = (1..4).fold(0, |best, i| {
+            if four[i].real() > four[best].real() {
+                i
+            } else {
+                best
+            }
+        });
+        let (a, b, c) = (r[2][1] - r[1][2], r[0][2] - r[2][0], r[1][0] - r[0][1]);
+        let (d, e, f) = (r[1][0] + r[0][1], r[0][2] + r[2][0], r[2][1] + r[1][2]);
+        Quaternion(match largest {
+            0 => [four[0], a, b, c],
+            1 => [a, four[1], d, e],
+            2 => [b, d, four[2], f],
+            _ => [c, e, f, four[3]],
+        })
+        .normalised()
+    }
+
+    /// The same rotation with a scalar part that is not negative, so that it prints one way only.
+    pub fn canonical(&self) -> Self {
+        let first = self.0.iter().map(|x| x.real()).find(|&x| x != 0.0);
+        match first {
+            Some(x) if x < 0.0 => Quaternion(self.0.map(|x| -x)),
+            _ => *self,
+        }
+    }
+}
+
+/// Roll, pitch and yaw in radians: rotations about the fixed x, then y, then z axis,
+/// R = Rz(yaw)·Ry(pitch)·Rx(roll).
+///
+/// This is the order of URDF and of most robotics texts. Slides that name the angles after the
+/// tool's vectors (yaw about n, roll about a) swap the words roll and yaw.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct RollPitchYaw<T> {
+    /// Angle about x, in (−π, π].
+    pub roll: T,
+    /// Angle about y, in [−π/2, π/2].
+    pub pitch: T,
+    /// Angle about z, in (−π, π].
+    pub yaw: T,
+}
+
+impl<T: Number> RollPitchYaw<T> {
+    /// The angles of a rotation. At pitch ±90° only roll ∓ yaw is determined, and roll is zero.
+    pub fn from_rotation(rotation: &Rotation<T>) -> Self {
+        let r = rotation.rows();
+        let cos_pitch = (r[0][0] * r[0][0] + r[1][0] * r[1][0]).sqrt();
+        let pitch = (-r[2][0]).atan2(cos_pitch);
+        if cos_pitch.real().abs() < 1e-12 {
+            return RollPitchYaw {
+                roll: T::zero(),
+                pitch,
+                yaw: (-r[0][1]).atan2(r[1][1]),
+            };
+        }
+        RollPitchYaw {
+            roll: r[2][1].atan2(r[2][2]),
+            pitch,
+            yaw: r[1][0].atan2(r[0][0]),
+        }
+    }
+
+    /// Rz(yaw)·Ry(pitch)·Rx(roll).
+    pub fn rotation(&self) -> Rotation<T> {
+        Rotation::about(Axis::Z, self.yaw.sin_cos())
+            * Rotation::about(Axis::Y, self.pitch.sin_cos())
+            * Rotation::about(Axis::X, self.roll.sin_cos())
+    }
+}

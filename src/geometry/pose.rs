@@ -1,0 +1,126 @@
+use std::ops::Mul;
+
+use super::{Rotation, Vector3};
+use crate::number::Number;
+
+/// A coordinate axis.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, serde::Serialize)]
+pub enum Axis {
+    /// The first axis, along the normal vector n.
+    X,
+    /// The second axis, along the sliding vector s.
+    Y,
+    /// The third axis, along the approach vector a; joint axes lie on it.
+    Z,
+}
+
+impl Axis {
+    /// The axis and the two that follow it in right-handed order, as indices.
+    pub(super) fn cyclic(self) -> (usize, usize, usize) {
+        let i = self as usize;
+        (i, (i + 1) % 3, (i + 2) % 3)
+    }
+}
+
+/// A rigid displacement: a rotation and a position in metres.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Pose<T> {
+    /// Axes of the frame, seen from the target frame.
+    pub rotation: Rotation<T>,
+    /// Origin of the frame in the target frame, in metres.
+    pub position: Vector3<T>,
+}
+
+impl<T: Number> Pose<T> {
+    /// The frame itself.
+    pub fn identity() -> Self {
+        Pose {
+            rotation: Rotation::identity(),
+            position: Vector3::zero(),
+        }
+    }
+
+    /// A displacement without rotation.
+    pub fn translation(position: Vector3<T>) -> Self {
+        Pose {
+            position,
+            ..Pose::identity()
+        }
+    }
+
+    /// A rotation about a coordinate axis by the angle in radians.
+    pub fn rotation(axis: Axis, angle: T) -> Self {
+        Pose {
+            rotation: Rotation::about(axis, exact_sin_cos(angle)),
+            position: Vector3::zero(),
+        }
+    }
+
+    /// The inverse displacement: ⁱⱼT⁻¹ = ʲᵢT.
+    pub fn inverse(&self) -> Self {
+        Pose {
+            rotation: self.rotation.transpose(),
+            position: -self.rotation.inverse_rotate(&self.position),
+        }
+    }
+
+    /// T·Rz(θ)·Tz(d): the motion of a joint about and along the frame's z axis.
+    #[inline(always)]
+    pub fn moved_along_z(&self, sin_cos: (T, T), d: T) -> Self {
+        Pose {
+            rotation: self.rotation.turned_about_z(sin_cos),
+            position: self.position + self.rotation.0[2].times(d),
+        }
+    }
+
+    /// The displacement with every constant lifted to another number.
+    pub fn map<U>(&self, mut f: impl FnMut(T) -> U) -> Pose<U> {
+        let mut lift = |v: Vector3<T>| Vector3(v.0.map(&mut f));
+        Pose {
+            rotation: Rotation(self.rotation.0.map(&mut lift)),
+            position: lift(self.position),
+        }
+    }
+}
+
+impl<T: Number> Mul for Pose<T> {
+    type Output = Self;
+    #[inline(always)]
+    fn mul(self, other: Self) -> Self {
+        Pose {
+            rotation: self.rotation * other.rotation,
+            position: self.rotation * other.position + self.position,
+        }
+    }
+}
+
+impl<T: Number> Mul<Vector3<T>> for Pose<T> {
+    type Output = Vector3<T>;
+    #[inline(always)]
+    fn mul(self, point: Vector3<T>) -> Vector3<T> {
+        self.rotation * point + self.position
+    }
+}
+
+/// Sine and cosine of a fixed angle, exact where the angle is a right one.
+///
+/// `90 deg` is not exactly π/2 in binary; a twist typed as a right angle must still make exact
+/// zeros, so that planar linkages stay planar and printed tables stay clean.
+pub(crate) fn exact_sin_cos<T: Number>(angle: T) -> (T, T) {
+    let quarters = angle.real() / std::f64::consts::FRAC_PI_2;
+    let whole = quarters.round();
+    let right = angle == T::from_f64(angle.real()) && whole.abs() < 1e6;
+    if right
+        && (quarters - whole).abs() <= 4.0 * f64::EPSILON * whole.abs().max(1.0)
+        && (whole != 0.0 || angle.real() == 0.0)
+    {
+        let (sin, cos) = match (whole as i64).rem_euclid(4) {
+            0 => (0.0, 1.0),
+            1 => (1.0, 0.0),
+            2 => (0.0, -1.0),
+            _ => (-1.0, 0.0),
+        };
+        return (T::from_f64(sin), T::from_f64(cos));
+    }
+    angle.sin_cos()
+}

@@ -1,0 +1,79 @@
+use std::ops::Mul;
+
+use super::{Axis, Vector3};
+use crate::number::Number;
+
+/// A rotation matrix held by its columns: the normal, sliding and approach vectors n, s, a.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Rotation<T>(pub [Vector3<T>; 3]);
+
+impl<T: Number> Rotation<T> {
+    /// No rotation.
+    pub fn identity() -> Self {
+        Rotation([Vector3::unit(0), Vector3::unit(1), Vector3::unit(2)])
+    }
+
+    /// Rotation about a coordinate axis by an angle of the given sine and cosine.
+    pub fn about(axis: Axis, (sin, cos): (T, T)) -> Self {
+        let (i, j, k) = axis.cyclic();
+        let mut columns = [Vector3::zero(); 3];
+        columns[i].0[i] = T::one();
+        columns[j].0[j] = cos;
+        columns[j].0[k] = sin;
+        columns[k].0[j] = -sin;
+        columns[k].0[k] = cos;
+        Rotation(columns)
+    }
+
+    /// Column x, y or z: the axis of the rotated frame.
+    #[inline(always)]
+    pub fn column(&self, axis: Axis) -> Vector3<T> {
+        self.0[axis as usize]
+    }
+
+    /// Rᵀ, the inverse.
+    pub fn transpose(&self) -> Self {
+        let [x, y, z] = &self.0;
+        Rotation([0, 1, 2].map(|i| Vector3([x.0[i], y.0[i], z.0[i]])))
+    }
+
+    /// Rᵀ v: the vector seen from the rotated frame.
+    #[inline(always)]
+    pub fn inverse_rotate(&self, v: &Vector3<T>) -> Vector3<T> {
+        Vector3([self.0[0].dot(v), self.0[1].dot(v), self.0[2].dot(v)])
+    }
+
+    /// The rotation followed about its own z axis: R·Rz(θ).
+    #[inline(always)]
+    pub fn turned_about_z(&self, (sin, cos): (T, T)) -> Self {
+        let [x, y, z] = self.0;
+        Rotation([x.times(cos) + y.times(sin), y.times(cos) - x.times(sin), z])
+    }
+
+    /// Row-major entries r₁₁ … r₃₃.
+    pub fn rows(&self) -> [[T; 3]; 3] {
+        self.transpose().0.map(|row| row.0)
+    }
+
+    /// The rotation with the given rows. No check is made that they are orthonormal.
+    pub fn from_rows(rows: [[T; 3]; 3]) -> Self {
+        Rotation(rows.map(Vector3)).transpose()
+    }
+}
+
+impl<T: Number> Mul<Vector3<T>> for Rotation<T> {
+    type Output = Vector3<T>;
+    #[inline(always)]
+    fn mul(self, v: Vector3<T>) -> Vector3<T> {
+        let [x, y, z] = self.0;
+        x.times(v.0[0]) + y.times(v.0[1]) + z.times(v.0[2])
+    }
+}
+
+impl<T: Number> Mul for Rotation<T> {
+    type Output = Self;
+    #[inline(always)]
+    fn mul(self, other: Self) -> Self {
+        Rotation(other.0.map(|column| self * column))
+    }
+}

@@ -1,0 +1,276 @@
+use super::Qr;
+use crate::number::Field;
+
+/// Where one block of rows stands: its own unknowns, and the shared ones it touches.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Block {
+    /// Number of rows.
+    pub rows: usize,
+    /// Indices of the unknowns that appear in no other block.
+    pub own: Vec<usize>,
+    /// Indices of the shared unknowns the block touches, in the order of its carried columns.
+    pub shared: Vec<usize>,
+}
+
+/// Least squares min ‖J x + r‖ for a J made of blocks with unknowns of their own and shared ones.
+///
+/// Each block is factorised orthogonally over its own unknowns; the rows that are left (a leg's
+/// reciprocal wrenches on the platform) form a small border over the shared unknowns. Because the
+/// factors are orthogonal the result is the least-squares step of the whole, rank deficient or not.
+/// With damping λ > 0, rows √λ·I are added (Levenberg 1944).
+#[derive(Clone, Debug)]
+pub struct Bordered<T> {
+    unknowns: usize,
+    rows: usize,
+    blocks: Vec<Factor<T>>,
+    extra_rows: usize,
+    shared: Vec<usize>,
+    border: Qr<T>,
+    border_rhs: Vec<T>,
+    border_x: Vec<T>,
+    largest: f64,
+    damped: bool,
+}
+
+#[derive(Clone, Debug)]
+struct Factor<T> {
+    layout: Block,
+    /// Places of the block's shared unknowns in the border.
+    border_places: Vec<usize>,
+    matrix: Vec<T>,
+    qr: Qr<T>,
+    rhs: Vec<T>,
+    x: Vec<T>,
+}
+
+impl<T: Field> Bordered<T> {
+    /// A matrix of the given blocks, and below them `extra_rows` rows over the shared unknowns.
+    pub fn new(unknowns: usize, blocks: Vec<Block>, extra_rows: usize, shared: Vec<usize>) -> Self {
+        let place = |unknown: &usize| {
+            (shared.iter().position(|s| s == unknown)).expect("blocks share only shared unknowns")
+        };
+        let blocks: Vec<Factor<T>> = blocks
+            .into_iter()
+            .map(|layout| {
+                let (rows, own, carried) = (layout.rows, layout.own.len(), layout.shared.len());
+                Factor {
+                    border_places: layout.shared.iter().map(place).collect(),
+                    matrix: vec![T::zero(); rows * (own + carried)],
+                    qr: Qr::new(rows + own, own, carried),
+                    rhs: vec![T::zero(); rows + own],
+                    x: vec![T::zero(); own],
+                    layout,
+                }
+            })
+            .collect();
+        let rows: usize = blocks.iter().map(|b| b.layout.rows).sum::<usize>() + extra_rows;
+        let most = rows + unknowns;
+        Bordered {
+            unknowns,
+            rows,
+            blocks,
+            extra_rows,
+            border: Qr::new(most, shared.len(), 0),
+            border_rhs: vec![T::zero(); most],
+            border_x: vec![T::zero(); shared.len()],
+            shared,
+            largest: 0.0,
+            damped: false,
+        }
+    }
+
+    /// Number of unknowns.
+    pub fn unknowns(&self) -> usize {
+        self.unknowns
+    }
+
+    /// Number of rows: those of the blocks in order, then the extra ones.
+    pub fn rows(&self) -> usize {
+        self.rows
+    }
+
+    /// Number of rows below the blocks.
+    pub fn extra_rows(&self) -> usize {
+        self.extra_rows
+    }
+
+    /// The shared unknowns, in the order of the border's columns.
+    pub fn shared(&self) -> &[usize] {
+        &self.shared
+    }
+
+    /// The entries of block `b` for filling in: column-major, own columns first, then the shared.
+    #[inline(always)]
+    pub fn block_mut(&mut self, b: usize) -> &mut [T] {
+        &mut self.blocks[b].matrix
+    }
+
+    /// Factorises the blocks as filled in and then the border; `extra` holds the extra rows, one
+    /// after another over the shared unknowns.
+    pub fn factorise(&mut self, extra: &[T], damping: f64) {
+        self.damped = damping > 0.0;
+        let root = T::from_f64(damping.sqrt());
+        let mut border_rows = self.extra_rows;
+        self.largest = 0.0;
+        for block in &mut self.blocks {
+            let (rows, own) = (block.layout.rows, block.layout.own.len());
+            let total = if self.damped { rows + own } else { rows };
+            block.qr.reset(total);
+            for (j, column) in block.matrix.chunks_exact(rows.max(1)).enumerate() {
+                let target = block.qr.column_mut(j);
+                target[..rows].copy_from_slice(column);
+                if self.damped && j < own {
+                    target[rows + j] = root;
+                }
+            }
+            // rows and unknowns are dimensionless, so a pivot is measured against 1
+            self.largest = block.qr.factorise(1.0).max(self.largest);
+            border_rows += total - block.qr.rank();
+        }
+        if self.damped {
+            border_rows += self.shared.len();
+        }
+        self.border.reset(border_rows);
+        let mut row = 0;
+        for block in &self.blocks {
+            let rank = block.qr.rank();
+            for (j, &place) in block.border_places.iter().enumerate() {
+                let left = &block.qr.carried(j)[rank..];
+                self.border.column_mut(place)[row..row + left.len()].copy_from_slice(left);
+            }
+            row += block.qr.rows() - rank;
+        }
+        for i in 0..self.extra_rows {
+            for place in 0..self.shared.len() {
+                self.border.column_mut(place)[row] = extra[i * self.shared.len() + place];
+            }
+            row += 1;
+        }
+        if self.damped {
+            for place in 0..self.shared.len() {
+                self.border.column_mut(place)[row + place] = root;
+            }
+        }
+        self.largest = self.border.factorise(1.0).max(self.largest);
+    }
+
+    /// The step −J⁺r for the residual `r` in the order of the rows, written to `x` in the order of
+    /// the unknowns. May be called again with other residuals for the same factors.
+    pub fn solve(&mut self, r: &[T], x: &mut [T]) {
+        let mut row = 0;
+        let mut border_row = 0;
+        for block in &mut self.blocks {
+            let rows = block.layout.rows;
+            for (b, &r) in block.rhs.iter_mut().zip(&r[row..row + rows]) {
+                *b = -r;
+            }
+            let total = block.qr.rows();
+            block.rhs[rows..total].fill(T::zero());
+            block.qr.rotate(&mut block.rhs);
+            let left = &block.rhs[block.qr.rank()..total];
+            self.border_rhs[border_row..border_row + left.len()].copy_from_slice(left);
+            row += rows;
+            border_row += left.len();
+        }
+        for (b, &r) in (self.border_rhs[border_row..].iter_mut()).zip(&r[row..]) {
+            *b = -r;
+        }
+        border_row += self.extra_rows;
+        let border_total = self.border.rows();
+        self.border_rhs[border_row..border_total].fill(T::zero());
+        self.border.rotate(&mut self.border_rhs);
+        (self.border).back_substitute(&mut self.border_rhs, &mut self.border_x);
+        for (&unknown, &value) in self.shared.iter().zip(&self.border_x) {
+            x[unknown] = value;
+        }
+        for block in &mut self.blocks {
+            let rank = block.qr.rank();
+            for (j, &place) in block.border_places.iter().enumerate() {
+                let value = self.border_x[place];
+                for (b, c) in block.rhs[..rank].iter_mut().zip(block.qr.carried(j)) {
+                    *b -= value * *c;
+                }
+            }
+            block.qr.back_substitute(&mut block.rhs, &mut block.x);
+            for (&unknown, &value) in block.layout.own.iter().zip(&block.x) {
+                x[unknown] = value;
+            }
+        }
+    }
+
+    /// How many unknowns the last factorisation left undetermined.
+    pub fn nullity(&self) -> usize {
+        let blocks = self.blocks.iter().map(|b| b.layout.own.len() - b.qr.rank());
+        blocks.sum::<usize>() + self.shared.len() - self.border.rank()
+    }
+
+    /// The blocks' layout, in order.
+    pub fn blocks(&self) -> impl ExactSizeIterator<Item = &Block> {
+        self.blocks.iter().map(|b| &b.layout)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Two blocks of three rows with one own unknown each, three shared unknowns, one extra row.
+    fn example() -> (Bordered<f64>, Vec<f64>, Vec<f64>) {
+        let layout = |own| Block {
+            rows: 3,
+            own: vec![own],
+            shared: vec![2, 3, 4],
+        };
+        let mut j = Bordered::new(5, vec![layout(0), layout(1)], 1, vec![2, 3, 4]);
+        let entry = |k: usize| ((k * 37 + 11) % 17) as f64 / 7.0 - 1.0;
+        let mut dense = vec![0.0; 7 * 5];
+        for block in 0..2 {
+            for column in 0..4 {
+                for row in 0..3 {
+                    let value = entry(block * 12 + column * 3 + row);
+                    j.block_mut(block)[column * 3 + row] = value;
+                    let unknown = if column == 0 { block } else { column + 1 };
+                    dense[unknown * 7 + block * 3 + row] = value;
+                }
+            }
+        }
+        let extra = [0.3, -0.7, 1.1];
+        for (k, value) in extra.into_iter().enumerate() {
+            dense[(k + 2) * 7 + 6] = value;
+        }
+        (j, extra.to_vec(), dense)
+    }
+
+    #[test]
+    fn the_bordered_step_is_the_least_squares_step_of_the_whole() {
+        for damping in [0.0, 0.3] {
+            let (mut j, extra, dense) = example();
+            let r = [0.4, -0.2, 0.9, 0.1, 0.5, -0.8, 0.25];
+            let mut x = [0.0; 5];
+            j.factorise(&extra, damping);
+            j.solve(&r, &mut x);
+            // normal equations (JᵀJ + λ) x = −Jᵀr by another library
+            let dense = nalgebra::DMatrix::from_column_slice(7, 5, &dense);
+            let normal = dense.transpose() * &dense + nalgebra::DMatrix::identity(5, 5) * damping;
+            let rhs = -(dense.transpose() * nalgebra::DVector::from_row_slice(&r));
+            let expected = normal.lu().solve(&rhs).expect("full rank");
+            for k in 0..5 {
+                assert!((x[k] - expected[k]).abs() < 1e-11, "{x:?} {expected}");
+            }
+            assert_eq!(j.nullity(), 0);
+        }
+    }
+
+    #[test]
+    fn an_unknown_no_row_feels_is_reported_and_left_alone() {
+        let (mut j, extra, _) = example();
+        for value in &mut j.block_mut(1)[..3] {
+            *value = 0.0;
+        }
+        j.factorise(&extra, 0.0);
+        let mut x = [9.0; 5];
+        j.solve(&[0.1; 7], &mut x);
+        assert_eq!(j.nullity(), 1);
+        assert_eq!(x[1], 0.0);
+    }
+}

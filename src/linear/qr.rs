@@ -1,0 +1,254 @@
+use super::RANK_TOLERANCE;
+use crate::number::Field;
+
+/// Householder factorisation with column pivoting of the first columns of a matrix, the remaining
+/// columns being carried along: Qᴴ·[A | B] = [R | QᴴB].
+///
+/// Storage is column-major with a fixed capacity; nothing allocates after [`Qr::new`].
+/// Source: Businger and Golub 1965; the reflectors are those of Golub and Van Loan, §5.1.
+#[derive(Clone, Debug)]
+pub struct Qr<T> {
+    rows: usize,
+    pivots: usize,
+    columns: usize,
+    entries: Vec<T>,
+    heads: Vec<T>,
+    scales: Vec<f64>,
+    order: Vec<usize>,
+    rank: usize,
+}
+
+impl<T: Field> Qr<T> {
+    /// Room for at most `rows` rows, `pivots` columns to factorise and `carried` columns beside.
+    pub fn new(rows: usize, pivots: usize, carried: usize) -> Self {
+        Qr {
+            rows,
+            pivots,
+            columns: pivots + carried,
+            entries: vec![T::zero(); rows * (pivots + carried)],
+            heads: vec![T::zero(); pivots],
+            scales: vec![0.0; pivots],
+            order: (0..pivots).collect(),
+            rank: 0,
+        }
+    }
+
+    /// Starts a new matrix of `rows` rows, all zero.
+    pub fn reset(&mut self, rows: usize) {
+        self.rows = rows;
+        self.entries[..rows * self.columns].fill(T::zero());
+    }
+
+    /// The number of rows of the matrix now held.
+    pub fn rows(&self) -> usize {
+        self.rows
+    }
+
+    /// The number of columns to factorise.
+    pub fn pivots(&self) -> usize {
+        self.pivots
+    }
+
+    /// The numerical rank found by the last factorisation.
+    pub fn rank(&self) -> usize {
+        self.rank
+    }
+
+    /// Column `j` as stored: before factorisation the matrix, afterwards R and the reflectors.
+    #[inline(always)]
+    pub fn column(&self, j: usize) -> &[T] {
+        &self.entries[j * self.rows..(j + 1) * self.rows]
+    }
+
+    /// Column `j` for filling in.
+    #[inline(always)]
+    pub fn column_mut(&mut self, j: usize) -> &mut [T] {
+        &mut self.entries[j * self.rows..(j + 1) * self.rows]
+    }
+
+    /// The carried column `j`, after factorisation QᴴB.
+    #[inline(always)]
+    pub fn carried(&self, j: usize) -> &[T] {
+        self.column(self.pivots + j)
+    }
+
+    /// Factorises in place. A pivot below the rank tolerance times `reference` (or times the
+    /// largest pivot, if that is larger) ends it. Returns the largest pivot.
+    pub fn factorise(&mut self, reference: f64) -> f64 {
+        let (rows, pivots) = (self.rows, self.pivots);
+        for (place, column) in self.order.iter_mut().enumerate() {
+            *column = place;
+        }
+        self.rank = 0;
+        let mut largest = reference;
+        for k in 0..pivots.min(rows) {
+            let (best, norm_squared) = self.longest_column(k);
+            let norm = norm_squared.sqrt();
+            if k == 0 {
+                largest = largest.max(norm);
+            }
+            if norm <= RANK_TOLERANCE * largest || norm == 0.0 {
+                break;
+            }
+            if best != k {
+                self.swap(k, best);
+            }
+            self.reflect(k, norm);
+            self.rank = k + 1;
+        }
+        largest
+    }
+
+    fn longest_column(&self, k: usize) -> (usize, f64) {
+        let mut best = (k, -1.0);
+        for j in k..self.pivots {
+            let norm_squared = self.column(j)[k..].iter().map(|x| x.norm_squared()).sum();
+            if norm_squared > best.1 {
+                best = (j, norm_squared);
+            }
+        }
+        best
+    }
+
+    fn swap(&mut self, i: usize, j: usize) {
+        self.order.swap(i, j);
+        let (left, right) = self.entries.split_at_mut(j * self.rows);
+        left[i * self.rows..(i + 1) * self.rows].swap_with_slice(&mut right[..self.rows]);
+    }
+
+    /// Reflects column `k` onto its first entry from row `k` and every later column with it.
+    #[inline]
+    fn reflect(&mut self, k: usize, norm: f64) {
+        let rows = self.rows;
+        let (left, right) = self.entries[..rows * self.columns].split_at_mut((k + 1) * rows);
+        let v = &mut left[k * rows + k..];
+        let size = v[0].norm_squared().sqrt();
+        let phase = if size == 0.0 {
+            T::one()
+        } else {
+            v[0].scale(1.0 / size)
+        };
+        let diagonal = -phase.scale(norm);
+        v[0] = v[0] - diagonal;
+        let scale = 1.0 / (norm * (norm + size));
+        for column in right.chunks_exact_mut(rows) {
+            reflect_one(v, scale, &mut column[k..]);
+        }
+        // the reflector stays below the diagonal; its first entry gives way to that of R
+        self.heads[k] = v[0];
+        self.scales[k] = scale;
+        self.entries[k * rows + k] = diagonal;
+    }
+
+    /// b ← Qᴴ b for a further right-hand side of `rows` entries.
+    #[inline]
+    pub fn rotate(&self, b: &mut [T]) {
+        for k in 0..self.rank {
+            let tail = &self.column(k)[k + 1..];
+            let head = self.heads[k];
+            let (first, rest) = b[k..self.rows].split_first_mut().expect("k < rows");
+            let mut sum = head.conjugate() * *first;
+            for (v, x) in tail.iter().zip(&*rest) {
+                sum += v.conjugate() * *x;
+            }
+            let sum = sum.scale(self.scales[k]);
+            *first -= sum * head;
+            for (v, x) in tail.iter().zip(rest) {
+                *x -= sum * *v;
+            }
+        }
+    }
+
+    /// Solves R x = b for rotated `b`; unknowns beyond the rank are zero. `x` is in the original
+    /// order of the columns.
+    #[inline]
+    pub fn back_substitute(&self, b: &mut [T], x: &mut [T]) {
+        for place in self.rank..self.pivots {
+            x[self.order[place]] = T::zero();
+        }
+        for k in (0..self.rank).rev() {
+            let column = self.column(k);
+            let value = b[k] / column[k];
+            for (b, r) in b[..k].iter_mut().zip(column) {
+                *b -= value * *r;
+            }
+            x[self.order[k]] = value;
+        }
+    }
+}
+
+#[inline(always)]
+fn reflect_one<T: Field>(v: &[T], scale: f64, column: &mut [T]) {
+    let mut sum = T::zero();
+    for (v, x) in v.iter().zip(&*column) {
+        sum += v.conjugate() * *x;
+    }
+    let sum = sum.scale(scale);
+    for (v, x) in v.iter().zip(column) {
+        *x -= sum * *v;
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::number::Complex;
+
+    fn example<T: Field>(entry: impl Fn(usize, usize) -> T) -> Qr<T> {
+        let mut qr = Qr::new(4, 3, 0);
+        qr.reset(4);
+        for j in 0..3 {
+            for i in 0..4 {
+                qr.column_mut(j)[i] = entry(i, j);
+            }
+        }
+        qr
+    }
+
+    #[test]
+    fn solves_a_consistent_tall_system_over_reals_and_complex_numbers() {
+        fn check<T: Field>(entry: impl Fn(usize, usize) -> T, solution: [T; 3]) {
+            let mut qr = example(&entry);
+            qr.factorise(0.0);
+            assert_eq!(qr.rank(), 3);
+            let mut b = [0, 1, 2, 3]
+                .map(|i| (0..3).fold(T::zero(), |sum, j| sum + entry(i, j) * solution[j]));
+            let mut x = [T::zero(); 3];
+            qr.rotate(&mut b);
+            qr.back_substitute(&mut b, &mut x);
+            for j in 0..3 {
+                assert!((x[j] - solution[j]).norm_squared() < 1e-26, "{x:?}");
+            }
+        }
+        let real = |i: usize, j: usize| ((3 * i + 5 * j + i * j * j) % 7) as f64 - 2.5;
+        check(real, [1.0, -2.0, 0.5]);
+        check(
+            |i, j| Complex::new(real(i, j), real(j + 1, i)),
+            [
+                Complex::new(1.0, 2.0),
+                Complex::new(-0.5, 0.1),
+                Complex::new(0.0, 3.0),
+            ],
+        );
+    }
+
+    #[test]
+    fn a_repeated_column_lowers_the_rank_and_its_unknown_stays_zero() {
+        let mut qr = example(|i, j| {
+            if j == 0 {
+                i as f64
+            } else {
+                1.0 + (i * i) as f64
+            }
+        });
+        qr.factorise(0.0);
+        assert_eq!(qr.rank(), 2);
+        let mut b = [1.0, 3.0, 7.0, 13.0];
+        let mut x = [f64::NAN; 3];
+        qr.rotate(&mut b);
+        qr.back_substitute(&mut b, &mut x);
+        assert!((x[0] - 1.0).abs() < 1e-12);
+        assert!(x[1] == 0.0 || x[2] == 0.0);
+        assert!((x[1] + x[2] - 1.0).abs() < 1e-12);
+    }
+}

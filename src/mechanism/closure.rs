@@ -1,0 +1,284 @@
+//! Residuals of the eight closures and their derivatives along twists: the only copy of either.
+//!
+//! With A and B the two frames, a, b their axes in ground, g = p_B − p_A, and L the characteristic
+//! length, a closure is made of these rows, all dimensionless and zero when the joint is whole:
+//!
+//! | rows | residual | derivative along a relative twist (ω, v) |
+//! |---|---|---|
+//! | point (3) | g/L | v/L at the own point of each side |
+//! | perpendicular (1) | a_z·b_z | ω·(b_z × a_z) |
+//! | alignment (2) | u = 2 a_x·b_z/(1 + c), likewise y; c = a_z·b_z | ω·(2 b_z × a_x − u b_z × a_z)/(1 + c) |
+//! | orientation (3) | w = 2 s/t, s = vee(Rᵀ_A R_B − ·ᵀ), t = 1 + tr(Rᵀ_A R_B) | ω·(2 δs − w δt)/t |
+//! | offset (1, 2) | a_x·g/L, … | a_x·v/L at p_B |
+//! | distance (1) | (g·g − s²)/2L² | g·v/L² at the own point of each side |
+//!
+//! Alignment is twice the tangent of half the angle between the axes (a stereographic projection),
+//! orientation the Rodrigues vector 2 tan(θ/2)·n: the flipped axis, which a_x·b_z = a_y·b_z = 0
+//! alone would admit, lies at infinity. A side-A motion counts with the opposite sign; taking its
+//! velocity at p_B accounts for the turning of A's axes.
+
+use super::ClosureKind;
+use super::configuration::Configuration;
+use super::dimensions::{ClosureDimensions, Dimensions, LinearForm};
+use super::kinematics::{Kinematics, Mover, Placement, Slot};
+use crate::geometry::{Pose, Vector3};
+use crate::number::Number;
+
+/// The most rows a closure has.
+pub(crate) const MOST_ROWS: usize = 6;
+
+/// A closure ready for evaluation.
+#[derive(Clone, Debug)]
+pub struct Closure<T> {
+    /// The joint it restores.
+    pub kind: ClosureKind,
+    slots: [Slot; 2],
+    /// The joints that move side A and side B.
+    pub(crate) movers: [Vec<Mover<T>>; 2],
+    /// The platforms that sides A and B stand on.
+    pub(crate) platforms: [Option<usize>; 2],
+    length: T,
+    extension: LinearForm<T>,
+    joint_scales: Vec<f64>,
+    inverse_length: f64,
+}
+
+/// A side of a closure: the first or the second frame.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) enum Side {
+    A,
+    B,
+}
+
+/// The rows of a closure at a configuration: residuals and the wrenches that measure twists.
+#[derive(Clone, Debug)]
+pub(crate) struct Rows<T> {
+    /// Residuals, in the order point, moments, forces.
+    pub residual: [T; MOST_ROWS],
+    point: bool,
+    moments: [Vector3<T>; 3],
+    moment_count: usize,
+    forces: [Vector3<T>; 2],
+    force_count: usize,
+    /// Where the velocity of side A and side B is taken.
+    points: [Vector3<T>; 2],
+    inverse_length: f64,
+}
+
+impl<T: Number> Closure<T> {
+    pub(crate) fn new(
+        dimensions: &Dimensions<T>,
+        closure: &ClosureDimensions<T>,
+        kinematics: &Kinematics<T>,
+    ) -> Self {
+        let slots = closure.frames.map(|frame| {
+            (kinematics.slot(frame)).expect("the plan was made for the closures' frames")
+        });
+        let sides = slots.map(|slot| kinematics.movers(slot, &dimensions.joint_scales));
+        let platforms = [sides[0].1, sides[1].1];
+        Closure {
+            kind: closure.kind,
+            slots,
+            movers: sides.map(|(movers, _)| movers),
+            platforms,
+            length: closure.length,
+            extension: closure.extension.clone(),
+            joint_scales: dimensions.joint_scales.clone(),
+            inverse_length: 1.0 / dimensions.characteristic_length,
+        }
+    }
+
+    /// The joints that stand in the length of a `Distance`, with the derivative of its residual for
+    /// a unit of the scaled variable: −s cⱼ/L².
+    pub(crate) fn length_column(&self, joint: usize, at: &Configuration<T>) -> T {
+        let length = self.length + self.extension.at(&at.joints);
+        let factor = self.joint_scales[joint] * self.inverse_length * self.inverse_length;
+        -(length * self.extension.coefficient(joint)).scale(factor)
+    }
+
+    /// The joints whose variables the closure feels, without repetition.
+    pub(crate) fn joints(&self) -> Vec<usize> {
+        let moved = self.movers.iter().flatten().map(|mover| mover.joint);
+        let mut joints: Vec<usize> = moved
+            .chain(self.extension.0.iter().map(|(j, _)| *j))
+            .collect();
+        joints.sort_unstable();
+        joints.dedup();
+        joints
+    }
+
+    /// Whether a joint stands in the length of the closure.
+    pub(crate) fn extends_with(&self, joint: usize) -> bool {
+        self.extension.0.iter().any(|(j, _)| *j == joint)
+    }
+
+    /// The poses of the two frames: ground from A, ground from B.
+    pub(crate) fn frames<'a>(&self, placement: &'a Placement<T>) -> [&'a Pose<T>; 2] {
+        self.slots.map(|slot| placement.pose(slot))
+    }
+
+    /// The length of a `Distance` in m.
+    pub(crate) fn length(&self, at: &Configuration<T>) -> T {
+        self.length + self.extension.at(&at.joints)
+    }
+
+    /// Residuals only. Nothing allocates.
+    #[inline]
+    pub(crate) fn residual(&self, placement: &Placement<T>, at: &Configuration<T>, out: &mut [T]) {
+        let [a, b] = self.frames(placement);
+        let gap = b.position - a.position;
+        if self.kind == ClosureKind::Spherical {
+            for (out, gap) in out.iter_mut().zip(gap.0) {
+                *out = gap.scale(self.inverse_length);
+            }
+        } else {
+            let rows = self.rows(placement, at);
+            out.copy_from_slice(&rows.residual[..out.len()]);
+        }
+    }
+
+    /// Residuals and wrenches.
+    #[inline]
+    pub(crate) fn rows(&self, placement: &Placement<T>, at: &Configuration<T>) -> Rows<T> {
+        let [a, b] = self.frames(placement);
+        let gap = b.position - a.position;
+        let mut rows = Rows {
+            residual: [T::zero(); MOST_ROWS],
+            point: false,
+            moments: [Vector3::zero(); 3],
+            moment_count: 0,
+            forces: [Vector3::zero(); 2],
+            force_count: 0,
+            points: [a.position, b.position],
+            inverse_length: self.inverse_length,
+        };
+        match self.kind {
+            ClosureKind::Spherical => rows.point(&gap),
+            ClosureKind::Revolute => {
+                rows.point(&gap);
+                rows.alignment(a, b);
+            }
+            ClosureKind::Universal => {
+                rows.point(&gap);
+                rows.perpendicular(a, b);
+            }
+            ClosureKind::Rigid => {
+                rows.point(&gap);
+                rows.orientation(a, b);
+            }
+            ClosureKind::Prismatic => {
+                rows.orientation(a, b);
+                rows.offsets(&gap, &a.rotation.0[..2]);
+            }
+            ClosureKind::Cylindrical => {
+                rows.alignment(a, b);
+                rows.offsets(&gap, &a.rotation.0[..2]);
+            }
+            ClosureKind::Planar => {
+                rows.alignment(a, b);
+                rows.offsets(&gap, &a.rotation.0[2..]);
+            }
+            ClosureKind::Distance => rows.distance(&gap, self.length(at)),
+        }
+        rows
+    }
+}
+
+impl<T: Number> Rows<T> {
+    fn next_row(&self) -> usize {
+        3 * usize::from(self.point) + self.moment_count + self.force_count
+    }
+
+    #[inline(always)]
+    fn point(&mut self, gap: &Vector3<T>) {
+        for (row, gap) in self.residual.iter_mut().zip(gap.0) {
+            *row = gap.scale(self.inverse_length);
+        }
+        self.point = true;
+    }
+
+    #[inline(always)]
+    fn moment(&mut self, residual: T, moment: Vector3<T>) {
+        let row = self.next_row();
+        self.residual[row] = residual;
+        self.moments[self.moment_count] = moment;
+        self.moment_count += 1;
+    }
+
+    fn perpendicular(&mut self, a: &Pose<T>, b: &Pose<T>) {
+        let (az, bz) = (a.rotation.0[2], b.rotation.0[2]);
+        self.moment(az.dot(&bz), bz.cross(&az));
+    }
+
+    #[inline(always)]
+    fn alignment(&mut self, a: &Pose<T>, b: &Pose<T>) {
+        let ([ax, ay, az], bz) = (a.rotation.0, b.rotation.0[2]);
+        let inverse = T::one() / (T::one() + az.dot(&bz));
+        let slope = bz.cross(&az);
+        for axis in [ax, ay] {
+            let u = axis.dot(&bz).scale(2.0) * inverse;
+            let twice = bz.cross(&axis).times(T::from_f64(2.0));
+            self.moment(u, (twice - slope.times(u)).times(inverse));
+        }
+    }
+
+    fn orientation(&mut self, a: &Pose<T>, b: &Pose<T>) {
+        let (a, b) = (&a.rotation.0, &b.rotation.0);
+        let trace = a[0].dot(&b[0]) + a[1].dot(&b[1]) + a[2].dot(&b[2]);
+        let inverse = T::one() / (T::one() + trace);
+        let slope = b[0].cross(&a[0]) + b[1].cross(&a[1]) + b[2].cross(&a[2]);
+        for (i, j) in [(1, 2), (2, 0), (0, 1)] {
+            let s = a[j].dot(&b[i]) - a[i].dot(&b[j]);
+            let w = s.scale(2.0) * inverse;
+            let twice = (b[i].cross(&a[j]) - b[j].cross(&a[i])).times(T::from_f64(2.0));
+            self.moment(w, (twice - slope.times(w)).times(inverse));
+        }
+    }
+
+    fn offsets(&mut self, gap: &Vector3<T>, axes: &[Vector3<T>]) {
+        for axis in axes {
+            let row = self.next_row();
+            self.residual[row] = axis.dot(gap).scale(self.inverse_length);
+            self.forces[self.force_count] = axis.times(T::from_f64(self.inverse_length));
+            self.force_count += 1;
+        }
+        self.points[0] = self.points[1];
+    }
+
+    #[inline(always)]
+    fn distance(&mut self, gap: &Vector3<T>, length: T) {
+        let factor = self.inverse_length * self.inverse_length;
+        self.residual[0] = (gap.dot(gap) - length * length).scale(0.5 * factor);
+        self.forces[0] = gap.times(T::from_f64(factor));
+        self.force_count = 1;
+    }
+
+    /// The rate of every row along a motion of one side, given as rotation rate and the velocity
+    /// at that side's [`Rows::velocity_point`].
+    #[inline(always)]
+    pub(crate) fn rates(&self, side: Side, omega: &Vector3<T>, v: &Vector3<T>, out: &mut [T]) {
+        let sign = match side {
+            Side::A => -1.0,
+            Side::B => 1.0,
+        };
+        let mut out = out.iter_mut();
+        if self.point {
+            let factor = sign * self.inverse_length;
+            for (out, v) in out.by_ref().take(3).zip(v.0) {
+                *out += v.scale(factor);
+            }
+        }
+        for (moment, out) in self.moments[..self.moment_count].iter().zip(out.by_ref()) {
+            *out += moment.dot(omega).scale(sign);
+        }
+        for (force, out) in self.forces[..self.force_count].iter().zip(out) {
+            *out += force.dot(v).scale(sign);
+        }
+    }
+
+    /// Where the velocity of a side is to be taken.
+    #[inline(always)]
+    pub(crate) fn velocity_point(&self, side: Side) -> &Vector3<T> {
+        &self.points[side as usize]
+    }
+}

@@ -1,0 +1,67 @@
+use crate::geometry::{Pose, Quaternion, Vector3};
+use crate::number::Number;
+
+/// The pose of a platform as the solver keeps it: orientation by a unit quaternion.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct PlatformPose<T> {
+    /// Ground from platform.
+    pub orientation: Quaternion<T>,
+    /// Origin of the platform frame in ground, in m.
+    pub position: Vector3<T>,
+}
+
+impl<T: Number> PlatformPose<T> {
+    /// The pose as a rotation matrix and a position.
+    #[inline(always)]
+    pub fn pose(&self) -> Pose<T> {
+        Pose {
+            rotation: self.orientation.rotation(),
+            position: self.position,
+        }
+    }
+
+    /// From a rotation matrix and a position.
+    pub fn from_pose(pose: &Pose<T>) -> Self {
+        PlatformPose {
+            orientation: Quaternion::from_rotation(&pose.rotation),
+            position: pose.position,
+        }
+    }
+
+    /// Moved by a small twist in ground: rotation vector ω about the platform's origin, in rad, and
+    /// displacement of the origin, in m.
+    #[inline(always)]
+    pub fn moved_by(&self, omega: &Vector3<T>, displacement: Vector3<T>) -> Self {
+        PlatformPose {
+            orientation: self.orientation.turned_by(omega),
+            position: self.position + displacement,
+        }
+    }
+}
+
+/// A configuration: a value for every joint variable and a pose for every platform.
+///
+/// It need not be assembled.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Configuration<T> {
+    /// Joint values in the order of the mechanism's joints: rad for revolute and helical joints,
+    /// m for prismatic ones.
+    pub joints: Vec<T>,
+    /// Platform poses in the order of the mechanism's platforms.
+    pub platforms: Vec<PlatformPose<T>>,
+}
+
+impl<T: Number> Configuration<T> {
+    /// The same configuration over another number.
+    pub fn map<U: Number>(&self, mut f: impl FnMut(T) -> U) -> Configuration<U> {
+        Configuration {
+            joints: self.joints.iter().map(|&x| f(x)).collect(),
+            platforms: (self.platforms.iter())
+                .map(|p| PlatformPose {
+                    orientation: Quaternion(p.orientation.0.map(&mut f)),
+                    position: Vector3(p.position.0.map(&mut f)),
+                })
+                .collect(),
+        }
+    }
+}

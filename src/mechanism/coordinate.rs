@@ -1,0 +1,134 @@
+//! The coordinates of a platform that can be held: position and roll, pitch, yaw.
+
+use crate::geometry::{Axis, Pose, RollPitchYaw, Rotation, Vector3};
+use crate::number::Number;
+
+/// One coordinate of a platform's pose in ground.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub enum Coordinate {
+    /// Position along ground's x, in m.
+    X,
+    /// Position along ground's y, in m.
+    Y,
+    /// Position along ground's z, in m.
+    Z,
+    /// Angle about ground's x, in rad; see [`RollPitchYaw`].
+    Roll,
+    /// Angle about ground's y, in rad.
+    Pitch,
+    /// Angle about ground's z, in rad.
+    Yaw,
+}
+
+impl Coordinate {
+    /// All six, position first.
+    pub const ALL: [Coordinate; 6] = [
+        Coordinate::X,
+        Coordinate::Y,
+        Coordinate::Z,
+        Coordinate::Roll,
+        Coordinate::Pitch,
+        Coordinate::Yaw,
+    ];
+
+    /// The name used after the platform's: `top.z`, `top.yaw`.
+    pub fn name(self) -> &'static str {
+        match self {
+            Coordinate::X => "x",
+            Coordinate::Y => "y",
+            Coordinate::Z => "z",
+            Coordinate::Roll => "roll",
+            Coordinate::Pitch => "pitch",
+            Coordinate::Yaw => "yaw",
+        }
+    }
+
+    /// The coordinate of that name.
+    pub fn by_name(name: &str) -> Option<Self> {
+        Coordinate::ALL.into_iter().find(|c| c.name() == name)
+    }
+
+    /// Whether it is an angle, in rad; otherwise a length, in m.
+    pub fn is_angle(self) -> bool {
+        matches!(self, Coordinate::Roll | Coordinate::Pitch | Coordinate::Yaw)
+    }
+
+    /// Its value at a pose.
+    pub fn of<T: Number>(self, pose: &Pose<T>) -> T {
+        let angles = || RollPitchYaw::from_rotation(&pose.rotation);
+        match self {
+            Coordinate::X => pose.position.0[0],
+            Coordinate::Y => pose.position.0[1],
+            Coordinate::Z => pose.position.0[2],
+            Coordinate::Roll => angles().roll,
+            Coordinate::Pitch => angles().pitch,
+            Coordinate::Yaw => angles().yaw,
+        }
+    }
+
+    /// How far the coordinate is from `value`, dimensionless, with the derivative along a twist
+    /// (ω; v/L) of the platform about its origin.
+    ///
+    /// An angle φ = atan2(y, x) differs from its value by atan2(y c − x s, x c + y s), which has no
+    /// jump at ±π; dφ = (x dy − y dx)/(x² + y²), and an entry r of column n along e changes by
+    /// ω·(n × e).
+    pub(crate) fn row<T: Number>(self, pose: &Pose<T>, value: T, length: f64) -> (T, [T; 6]) {
+        let mut slope = [T::zero(); 6];
+        let [n, s, a] = pose.rotation.0;
+        let entry = |column: &Vector3<T>, axis: Axis| {
+            let e = Vector3::unit(axis as usize);
+            (column.dot(&e), column.cross(&e))
+        };
+        let ((y, dy), (x, dx)) = match self {
+            Coordinate::X | Coordinate::Y | Coordinate::Z => {
+                let i = self as usize;
+                slope[3 + i] = T::one();
+                return ((pose.position.0[i] - value).scale(1.0 / length), slope);
+            }
+            Coordinate::Roll => (entry(&s, Axis::Z), entry(&a, Axis::Z)),
+            Coordinate::Yaw => (entry(&n, Axis::Y), entry(&n, Axis::X)),
+            Coordinate::Pitch => {
+                let (r31, d31) = entry(&n, Axis::Z);
+                let cos = (n.0[0] * n.0[0] + n.0[1] * n.0[1]).sqrt();
+                // cos² = 1 − r31², so d cos = −r31 d r31/cos
+                ((-r31, -d31), (cos, d31.times(-(r31 / cos))))
+            }
+        };
+        let (sin, cos) = value.sin_cos();
+        let gap = (y * cos - x * sin).atan2(x * cos + y * sin);
+        let d = (dy.times(x) - dx.times(y)).times(T::one() / (x * x + y * y));
+        slope[..3].copy_from_slice(&d.0);
+        (gap, slope)
+    }
+}
+
+/// How far an orientation is from a wanted one, as the rotation vector 2 tan(θ/2)·n in ground, with
+/// the derivative along ω.
+///
+/// w = 2 s/t with s = Σ wᵢ × rᵢ and t = 1 + Σ wᵢ·rᵢ over the columns of the wanted and the actual
+/// rotation.
+pub(crate) fn orientation_rows<T: Number>(
+    actual: &Rotation<T>,
+    wanted: &Rotation<T>,
+) -> ([T; 3], [Vector3<T>; 3]) {
+    let mut s = Vector3::zero();
+    let mut t = T::one();
+    let mut dt = Vector3::zero();
+    for (r, w) in actual.0.iter().zip(&wanted.0) {
+        s += w.cross(r);
+        t += w.dot(r);
+        dt += r.cross(w);
+    }
+    let inverse = T::one() / t;
+    let w = s.times(inverse.scale(2.0));
+    let rows = [0, 1, 2].map(|i| {
+        // d(w × r)ᵢ = eᵢ·(w × (ω × r)) = ω·(r × (eᵢ × w))
+        let e = Vector3::unit(i);
+        let mut ds = Vector3::zero();
+        for (r, w) in actual.0.iter().zip(&wanted.0) {
+            ds += r.cross(&e.cross(w));
+        }
+        (ds.times(T::from_f64(2.0)) - dt.times(w.0[i])).times(inverse)
+    });
+    (w.0, rows)
+}

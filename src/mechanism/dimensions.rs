@@ -1,0 +1,94 @@
+//! Every dimension of a mechanism as numbers: the one door from the real-valued mechanism to
+//! complex, dual and other number types.
+
+use super::{ClosureKind, Frame};
+use crate::geometry::Pose;
+use crate::number::Number;
+
+/// A linear form Σ cⱼ qⱼ in the joint variables, as (joint, coefficient) pairs.
+#[derive(Clone, Debug, PartialEq)]
+pub struct LinearForm<T>(pub Vec<(usize, T)>);
+
+impl<T: Number> LinearForm<T> {
+    /// The value at the given joint values.
+    #[inline(always)]
+    pub fn at(&self, joints: &[T]) -> T {
+        match self.0.as_slice() {
+            [] => T::zero(),
+            [(joint, factor)] => *factor * joints[*joint],
+            terms => terms.iter().fold(T::zero(), |sum, (joint, factor)| {
+                sum + *factor * joints[*joint]
+            }),
+        }
+    }
+
+    /// The coefficient of a joint variable.
+    pub fn coefficient(&self, joint: usize) -> T {
+        let mut terms = self.0.iter().filter(|(j, _)| *j == joint);
+        terms.next().map_or(T::zero(), |(_, factor)| *factor)
+    }
+}
+
+/// One row of a table as: a fixed displacement, a motion about and along z, a fixed displacement.
+///
+/// Modified: before = Rx(αᵢ₋₁)·Tx(aᵢ₋₁)·Rz(θ₀)·Tz(d₀), after = 1.
+/// Standard: before = Rz(θ₀)·Tz(d₀), after = Tx(aᵢ)·Rx(αᵢ).
+#[derive(Clone, Debug, PartialEq)]
+pub struct RowDimensions<T> {
+    /// Displacement ahead of the joint axis.
+    pub before: Pose<T>,
+    /// Rotation about the joint axis, in rad.
+    pub turn: LinearForm<T>,
+    /// Translation along the joint axis, in m.
+    pub slide: LinearForm<T>,
+    /// Displacement behind the joint axis.
+    pub after: Pose<T>,
+}
+
+impl<T> RowDimensions<T> {
+    /// Whether a joint variable stands in the row.
+    pub fn moves(&self) -> bool {
+        !self.turn.0.is_empty() || !self.slide.0.is_empty()
+    }
+}
+
+/// The dimensions of one chain.
+#[derive(Clone, Debug, PartialEq)]
+pub struct ChainDimensions<T> {
+    /// The frame the chain stands on.
+    pub on: Frame,
+    /// From that frame to the chain's frame 0.
+    pub base: Pose<T>,
+    /// The rows of the table.
+    pub rows: Vec<RowDimensions<T>>,
+    /// From the last link frame to the chain's tip frame.
+    pub tip: Pose<T>,
+}
+
+/// The dimensions of one closure.
+#[derive(Clone, Debug, PartialEq)]
+pub struct ClosureDimensions<T> {
+    /// The joint that the closure restores.
+    pub kind: ClosureKind,
+    /// The two frames it joins.
+    pub frames: [Frame; 2],
+    /// Constant part of the length of a `Distance`, in m.
+    pub length: T,
+    /// Variable part of the length of a `Distance`, in m.
+    pub extension: LinearForm<T>,
+}
+
+/// All dimensions of a mechanism over one number type.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Dimensions<T> {
+    /// The characteristic length in m that makes residuals and Jacobians dimensionless.
+    pub characteristic_length: f64,
+    /// For each joint the natural size of its variable: 1 rad, or the characteristic length.
+    pub joint_scales: Vec<f64>,
+    /// The chains.
+    pub chains: Vec<ChainDimensions<T>>,
+    /// For each platform its named frames.
+    pub platforms: Vec<Vec<Pose<T>>>,
+    /// The closures.
+    pub closures: Vec<ClosureDimensions<T>>,
+}

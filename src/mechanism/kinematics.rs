@@ -1,0 +1,245 @@
+//! Frames of a mechanism by chain products, over any number.
+
+use std::collections::BTreeMap;
+
+use super::Frame;
+use super::configuration::Configuration;
+use super::dimensions::{Dimensions, LinearForm};
+use crate::geometry::{Pose, Rotation, Vector3};
+use crate::number::Number;
+
+/// A place in a [`Placement`]: ground first, then the platforms, then everything that moves.
+pub(crate) type Slot = usize;
+
+/// The order in which the frames of a mechanism are multiplied out.
+///
+/// Fixed displacements between joints are merged when it is built, so that one step costs one
+/// product and one turn.
+#[derive(Clone, Debug)]
+pub struct Kinematics<T> {
+    platforms: usize,
+    steps: Vec<Step<T>>,
+    frames: Vec<(Frame, Slot)>,
+    /// Link frames that already have a slot, by (chain, row).
+    moving: BTreeMap<(usize, usize), Slot>,
+}
+
+#[derive(Clone, Debug)]
+struct Step<T> {
+    parent: Slot,
+    fixed: Pose<T>,
+    shape: Shape,
+    turn: LinearForm<T>,
+    slide: LinearForm<T>,
+}
+
+/// What a fixed displacement consists of, so that products with ones and zeros are left out.
+#[derive(Clone, Copy, Debug, PartialEq)]
+enum Shape {
+    Nothing,
+    Translation,
+    General,
+}
+
+/// The poses of all slots at one configuration: ground from frame.
+#[derive(Clone, Debug)]
+pub struct Placement<T>(pub(crate) Vec<Pose<T>>);
+
+/// A joint on the way from ground or a platform to a frame.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Mover<T> {
+    /// Frame whose z is the joint's axis.
+    pub(crate) slot: Slot,
+    /// Index of the joint.
+    pub joint: usize,
+    /// Rotation about the axis for a unit of the scaled joint variable, in rad.
+    pub(crate) turn: T,
+    /// Translation along the axis for a unit of the scaled joint variable, in m.
+    pub(crate) slide: T,
+}
+
+impl<T: Number> Kinematics<T> {
+    /// A plan that places the given frames and what they stand on, nothing else.
+    pub fn new(dimensions: &Dimensions<T>, frames: impl IntoIterator<Item = Frame>) -> Self {
+        let mut plan = Kinematics {
+            platforms: dimensions.platforms.len(),
+            steps: Vec::new(),
+            frames: Vec::new(),
+            moving: BTreeMap::new(),
+        };
+        for frame in frames {
+            if plan.slot(frame).is_none() {
+                let (parent, fixed) = plan.resolve(dimensions, frame);
+                let slot = plan.fixed_slot(parent, fixed);
+                plan.frames.push((frame, slot));
+            }
+        }
+        plan
+    }
+
+    /// The slot of a frame the plan was asked for.
+    pub(crate) fn slot(&self, frame: Frame) -> Option<Slot> {
+        let mut found = self.frames.iter().filter(|(f, _)| *f == frame);
+        found.next().map(|&(_, slot)| slot)
+    }
+
+    fn fixed_slot(&mut self, parent: Slot, fixed: Pose<T>) -> Slot {
+        match Shape::of(&fixed) {
+            Shape::Nothing => parent,
+            _ => self.push(parent, fixed, LinearForm(vec![]), LinearForm(vec![])),
+        }
+    }
+
+    fn push(
+        &mut self,
+        parent: Slot,
+        fixed: Pose<T>,
+        turn: LinearForm<T>,
+        slide: LinearForm<T>,
+    ) -> Slot {
+        self.steps.push(Step {
+            parent,
+            shape: Shape::of(&fixed),
+            fixed,
+            turn,
+            slide,
+        });
+        self.platforms + self.steps.len()
+    }
+
+    /// The slot a frame is fixed to and its displacement there.
+    fn resolve(&mut self, dimensions: &Dimensions<T>, frame: Frame) -> (Slot, Pose<T>) {
+        match frame {
+            Frame::Ground => (0, Pose::identity()),
+            Frame::Platform { platform } => (1 + platform, Pose::identity()),
+            Frame::OnPlatform { platform, frame } => {
+                (1 + platform, dimensions.platforms[platform][frame])
+            }
+            Frame::Tip { chain } => {
+                let row = dimensions.chains[chain].rows.len();
+                let (slot, fixed) = self.resolve(dimensions, Frame::Link { chain, row });
+                (slot, fixed * dimensions.chains[chain].tip)
+            }
+            Frame::Link { chain, row } => self.resolve_link(dimensions, chain, row),
+        }
+    }
+
+    fn resolve_link(
+        &mut self,
+        dimensions: &Dimensions<T>,
+        chain: usize,
+        row: usize,
+    ) -> (Slot, Pose<T>) {
+        let dims = &dimensions.chains[chain];
+        let placed = (1..=row)
+            .rev()
+            .find_map(|k| Some((k, *self.moving.get(&(chain, k))?)));
+        let (first, (mut slot, mut fixed)) = match placed {
+            Some((k, slot)) => (k, (slot, dims.rows[k - 1].after)),
+            None => {
+                let (slot, fixed) = self.resolve(dimensions, dims.on);
+                (0, (slot, fixed * dims.base))
+            }
+        };
+        for (k, row) in dims.rows.iter().enumerate().take(row).skip(first) {
+            fixed = fixed * row.before;
+            if row.moves() {
+                slot = self.push(slot, fixed, row.turn.clone(), row.slide.clone());
+                self.moving.insert((chain, k + 1), slot);
+                fixed = Pose::identity();
+            }
+            fixed = fixed * row.after;
+        }
+        (slot, fixed)
+    }
+
+    /// Room for the poses of all slots.
+    pub fn placement(&self) -> Placement<T> {
+        Placement(vec![
+            Pose::identity();
+            1 + self.platforms + self.steps.len()
+        ])
+    }
+
+    /// Multiplies the chains out at a configuration. Nothing allocates.
+    #[inline]
+    pub fn place(&self, at: &Configuration<T>, placement: &mut Placement<T>) {
+        let poses = placement.0.as_mut_slice();
+        for (slot, platform) in poses[1..].iter_mut().zip(&at.platforms) {
+            *slot = platform.pose();
+        }
+        for (i, step) in self.steps.iter().enumerate() {
+            let parent = &poses[step.parent];
+            let mut pose = match step.shape {
+                Shape::Nothing => *parent,
+                Shape::Translation => Pose {
+                    rotation: parent.rotation,
+                    position: *parent * step.fixed.position,
+                },
+                Shape::General => *parent * step.fixed,
+            };
+            if !step.slide.0.is_empty() {
+                pose.position += pose.rotation.0[2].times(step.slide.at(&at.joints));
+            }
+            if !step.turn.0.is_empty() {
+                let sin_cos = step.turn.at(&at.joints).sin_cos();
+                pose.rotation = pose.rotation.turned_about_z(sin_cos);
+            }
+            poses[1 + self.platforms + i] = pose;
+        }
+    }
+
+    /// The joints on the way to a slot, from it towards the root, and the platform it stands on.
+    pub(crate) fn movers(&self, slot: Slot, scales: &[f64]) -> (Vec<Mover<T>>, Option<usize>) {
+        let mut movers = Vec::new();
+        let mut slot = slot;
+        while slot > self.platforms {
+            let step = &self.steps[slot - 1 - self.platforms];
+            let (turns, slides) = (step.turn.0.iter(), step.slide.0.iter());
+            let mut joints: Vec<usize> = turns.chain(slides).map(|(joint, _)| *joint).collect();
+            joints.sort_unstable();
+            joints.dedup();
+            movers.extend(joints.into_iter().map(|joint| Mover {
+                slot,
+                joint,
+                turn: step.turn.coefficient(joint).scale(scales[joint]),
+                slide: step.slide.coefficient(joint).scale(scales[joint]),
+            }));
+            slot = step.parent;
+        }
+        (movers, slot.checked_sub(1))
+    }
+}
+
+impl<T: Number> Placement<T> {
+    /// Ground from the frame in a slot.
+    #[inline(always)]
+    pub(crate) fn pose(&self, slot: Slot) -> &Pose<T> {
+        &self.0[slot]
+    }
+
+    /// Rotation rate and velocity at a point for a unit rate of a joint's scaled variable:
+    /// ω = z, v = z × (p − o) for a turn, v = z for a slide.
+    #[inline(always)]
+    pub(crate) fn twist(&self, mover: &Mover<T>, point: &Vector3<T>) -> (Vector3<T>, Vector3<T>) {
+        let Pose { rotation, position } = &self.0[mover.slot];
+        let z = rotation.0[2];
+        let omega = z.times(mover.turn);
+        (
+            omega,
+            omega.cross(&(*point - *position)) + z.times(mover.slide),
+        )
+    }
+}
+
+impl Shape {
+    fn of<T: Number>(pose: &Pose<T>) -> Self {
+        if pose.rotation != Rotation::identity() {
+            Shape::General
+        } else if pose.position != Vector3::zero() {
+            Shape::Translation
+        } else {
+            Shape::Nothing
+        }
+    }
+}

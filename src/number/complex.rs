@@ -1,0 +1,62 @@
+use super::{Complex, Field, Number};
+
+impl Number for Complex<f64> {
+    #[inline(always)]
+    fn from_f64(x: f64) -> Self {
+        Complex::new(x, 0.0)
+    }
+    #[inline(always)]
+    fn real(self) -> f64 {
+        self.re
+    }
+    /// sin(x + iy) = sin x cosh y + i cos x sinh y, cos(x + iy) = cos x cosh y − i sin x sinh y.
+    fn sin_cos(self) -> (Self, Self) {
+        let (sin, cos) = pxfm::f_sincos(self.re);
+        let (sinh, cosh) = (pxfm::f_sinh(self.im), pxfm::f_cosh(self.im));
+        (
+            Complex::new(sin * cosh, cos * sinh),
+            Complex::new(cos * cosh, -sin * sinh),
+        )
+    }
+    fn sqrt(self) -> Self {
+        Complex::sqrt(self)
+    }
+    fn asin(self) -> Self {
+        Complex::asin(self)
+    }
+    fn acos(self) -> Self {
+        Complex::acos(self)
+    }
+    fn atan(self) -> Self {
+        Complex::atan(self)
+    }
+    /// −i ln((x + iy)/√(x² + y²)), which is the analytic continuation of the real function.
+    fn atan2(self, x: Self) -> Self {
+        let i = Complex::new(0.0, 1.0);
+        -i * ((x + i * self) / (x * x + self * self).sqrt()).ln()
+    }
+    fn exp(self) -> Self {
+        Complex::exp(self)
+    }
+    fn ln(self) -> Self {
+        Complex::ln(self)
+    }
+    fn is_finite(self) -> bool {
+        self.re.is_finite() && self.im.is_finite()
+    }
+    #[inline(always)]
+    fn scale(self, factor: f64) -> Self {
+        Complex::new(self.re * factor, self.im * factor)
+    }
+}
+
+impl Field for Complex<f64> {
+    #[inline(always)]
+    fn conjugate(self) -> Self {
+        self.conj()
+    }
+    #[inline(always)]
+    fn norm_squared(self) -> f64 {
+        self.norm_sqr()
+    }
+}

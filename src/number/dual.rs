@@ -1,0 +1,161 @@
+use std::ops::{Add, AddAssign, Div, Mul, MulAssign, Neg, Sub, SubAssign};
+
+use super::Number;
+
+/// A value with its derivative along one direction: a + a′ε with ε² = 0 (Clifford 1873).
+///
+/// Running the kinematics over duals differentiates it exactly, whatever the inner number is.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Dual<T> {
+    /// The value a.
+    pub value: T,
+    /// The derivative a′.
+    pub slope: T,
+}
+
+impl<T: Number> Dual<T> {
+    /// The variable of differentiation, at `value`.
+    pub fn variable(value: T) -> Self {
+        Dual {
+            value,
+            slope: T::one(),
+        }
+    }
+
+    /// A constant: its derivative is zero.
+    pub fn constant(value: T) -> Self {
+        Dual {
+            value,
+            slope: T::zero(),
+        }
+    }
+
+    /// f(a) + f′(a) a′ε.
+    fn chain(self, value: T, derivative: T) -> Self {
+        Dual {
+            value,
+            slope: derivative * self.slope,
+        }
+    }
+}
+
+impl<T: Number> Add for Dual<T> {
+    type Output = Self;
+    fn add(self, other: Self) -> Self {
+        Dual {
+            value: self.value + other.value,
+            slope: self.slope + other.slope,
+        }
+    }
+}
+
+impl<T: Number> Sub for Dual<T> {
+    type Output = Self;
+    fn sub(self, other: Self) -> Self {
+        Dual {
+            value: self.value - other.value,
+            slope: self.slope - other.slope,
+        }
+    }
+}
+
+impl<T: Number> Mul for Dual<T> {
+    type Output = Self;
+    fn mul(self, other: Self) -> Self {
+        Dual {
+            value: self.value * other.value,
+            slope: self.value * other.slope + self.slope * other.value,
+        }
+    }
+}
+
+impl<T: Number> Div for Dual<T> {
+    type Output = Self;
+    fn div(self, other: Self) -> Self {
+        let value = self.value / other.value;
+        Dual {
+            value,
+            slope: (self.slope - value * other.slope) / other.value,
+        }
+    }
+}
+
+impl<T: Number> Neg for Dual<T> {
+    type Output = Self;
+    fn neg(self) -> Self {
+        Dual {
+            value: -self.value,
+            slope: -self.slope,
+        }
+    }
+}
+
+impl<T: Number> AddAssign for Dual<T> {
+    fn add_assign(&mut self, other: Self) {
+        *self = *self + other;
+    }
+}
+
+impl<T: Number> SubAssign for Dual<T> {
+    fn sub_assign(&mut self, other: Self) {
+        *self = *self - other;
+    }
+}
+
+impl<T: Number> MulAssign for Dual<T> {
+    fn mul_assign(&mut self, other: Self) {
+        *self = *self * other;
+    }
+}
+
+impl<T: Number> Number for Dual<T> {
+    fn from_f64(x: f64) -> Self {
+        Dual::constant(T::from_f64(x))
+    }
+    fn real(self) -> f64 {
+        self.value.real()
+    }
+    fn sin_cos(self) -> (Self, Self) {
+        let (sin, cos) = self.value.sin_cos();
+        (self.chain(sin, cos), self.chain(cos, -sin))
+    }
+    fn sqrt(self) -> Self {
+        let root = self.value.sqrt();
+        self.chain(root, T::from_f64(0.5) / root)
+    }
+    fn asin(self) -> Self {
+        let a = self.value;
+        self.chain(a.asin(), T::one() / (T::one() - a * a).sqrt())
+    }
+    fn acos(self) -> Self {
+        let a = self.value;
+        self.chain(a.acos(), -(T::one() / (T::one() - a * a).sqrt()))
+    }
+    fn atan(self) -> Self {
+        let a = self.value;
+        self.chain(a.atan(), T::one() / (T::one() + a * a))
+    }
+    fn atan2(self, x: Self) -> Self {
+        let (y, r2) = (self, self.value * self.value + x.value * x.value);
+        Dual {
+            value: y.value.atan2(x.value),
+            slope: (x.value * y.slope - y.value * x.slope) / r2,
+        }
+    }
+    fn exp(self) -> Self {
+        let e = self.value.exp();
+        self.chain(e, e)
+    }
+    fn ln(self) -> Self {
+        self.chain(self.value.ln(), T::one() / self.value)
+    }
+    fn is_finite(self) -> bool {
+        self.value.is_finite() && self.slope.is_finite()
+    }
+    fn scale(self, factor: f64) -> Self {
+        Dual {
+            value: self.value.scale(factor),
+            slope: self.slope.scale(factor),
+        }
+    }
+}

@@ -1,0 +1,61 @@
+use super::{Field, Number};
+
+/// Trigonometry comes from `pxfm`, not from the platform's C library, so that the same input gives
+/// the same bytes on every machine.
+impl Number for f64 {
+    #[inline(always)]
+    fn from_f64(x: f64) -> Self {
+        x
+    }
+    #[inline(always)]
+    fn real(self) -> f64 {
+        self
+    }
+    #[inline]
+    fn sin_cos(self) -> (Self, Self) {
+        pxfm::f_sincos(self)
+    }
+    #[inline(always)]
+    fn sqrt(self) -> Self {
+        f64::sqrt(self)
+    }
+    fn asin(self) -> Self {
+        pxfm::f_asin(self)
+    }
+    fn acos(self) -> Self {
+        pxfm::f_acos(self)
+    }
+    fn atan(self) -> Self {
+        pxfm::f_atan(self)
+    }
+    fn atan2(self, x: Self) -> Self {
+        pxfm::f_atan2(self, x)
+    }
+    fn exp(self) -> Self {
+        pxfm::f_exp(self)
+    }
+    fn ln(self) -> Self {
+        pxfm::f_log(self)
+    }
+    fn powf(self, exponent: Self) -> Self {
+        pxfm::f_pow(self, exponent)
+    }
+    fn is_finite(self) -> bool {
+        f64::is_finite(self)
+    }
+    #[inline(always)]
+    fn scale(self, factor: f64) -> Self {
+        self * factor
+    }
+}
+
+impl Field for f64 {
+    #[inline(always)]
+    fn conjugate(self) -> Self {
+        self
+    }
+    #[inline(always)]
+    fn norm_squared(self) -> f64 {
+        self * self
+    }
+}

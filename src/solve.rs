@@ -1,0 +1,62 @@
+//! Newton's method for equations that may be redundant, inconsistent or singular.
+//!
+//! Nothing here knows joints: a problem offers its residual, a least-squares step and a way to move
+//! along it ([`Equations`]), and is told where and why the iteration stopped ([`Stop`]).
+
+mod newton;
+mod warm;
+
+pub use newton::{Newton, Report, Stop};
+pub use warm::{Warm, WarmReport};
+
+/// Equations r(x) = 0 on a manifold, with a least-squares step at a point.
+pub trait Equations {
+    /// A point of the manifold.
+    type Point;
+    /// Storage for residual, factors and step, so that no iteration allocates.
+    type Work;
+
+    /// Evaluates r at a point.
+    fn residual(&self, at: &Self::Point, work: &mut Self::Work) -> Size;
+    /// Evaluates r and its Jacobian J at a point.
+    fn linearise(&self, at: &Self::Point, work: &mut Self::Work) -> Size;
+    /// Factorises the Jacobian last evaluated, with rows √λ·I added.
+    fn factorise(&self, damping: f64, work: &mut Self::Work);
+    /// The step −J⁺r for the residual last evaluated; returns its largest component.
+    fn step(&self, work: &mut Self::Work) -> f64;
+    /// Moves along a fraction of the last step: from ⊕ fraction·step.
+    fn advance(&self, from: &Self::Point, fraction: f64, work: &Self::Work, to: &mut Self::Point);
+}
+
+/// How large a residual is.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Size {
+    /// The largest absolute value of a row.
+    pub largest: f64,
+    /// The sum of squares of the rows.
+    pub squares: f64,
+}
+
+impl Size {
+    /// The size of the given rows. A NaN anywhere gives an infinite size.
+    #[inline]
+    pub fn of<T: crate::number::Field>(rows: &[T]) -> Self {
+        let (mut largest, mut squares) = (0.0f64, 0.0);
+        for row in rows {
+            let square = row.norm_squared();
+            squares += square;
+            largest = largest.max(square);
+        }
+        if squares.is_finite() {
+            Size {
+                largest: largest.sqrt(),
+                squares,
+            }
+        } else {
+            Size {
+                largest: f64::INFINITY,
+                squares: f64::INFINITY,
+            }
+        }
+    }
+}

@@ -1,0 +1,165 @@
+use super::{Equations, Size};
+
+/// Newton's method from a guess that may be far off: Gauss–Newton steps, damped when they fail
+/// (Levenberg 1944, Marquardt 1963). Near a solution the damping is zero and convergence quadratic,
+/// redundant rows or not.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Newton {
+    /// A point is a solution when no dimensionless row exceeds this. Coordinates of order one carry
+    /// rounding errors of some 1e-16, so 1e-12 leaves room for long chains.
+    pub tolerance: f64,
+    /// Steps after which to give up.
+    pub max_steps: usize,
+    /// The longest step in any unknown: 1 rad or one characteristic length, beyond which a
+    /// linearised rotation predicts nothing.
+    pub longest_step: f64,
+    /// The first damping tried after a failed step.
+    pub first_damping: f64,
+    /// A minimum is reached when a step lowers the sum of squares by less than this fraction.
+    pub least_progress: f64,
+}
+
+impl Default for Newton {
+    fn default() -> Self {
+        Newton {
+            tolerance: 1e-12,
+            max_steps: 100,
+            longest_step: 1.0,
+            first_damping: 1e-3,
+            least_progress: 1e-9,
+        }
+    }
+}
+
+/// Why the iteration stopped.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Stop {
+    /// The residual is below the tolerance.
+    Solved,
+    /// The residual no longer falls: a minimum that is not a solution, or too flat to tell.
+    Minimum,
+    /// The permitted number of steps is used up.
+    StepLimit,
+}
+
+/// Where and why the iteration stopped.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Report {
+    /// Why it stopped.
+    pub stop: Stop,
+    /// Accepted steps.
+    pub steps: usize,
+    /// The size of the residual there.
+    pub size: Size,
+}
+
+impl Newton {
+    /// Iterates from `point`, which is left at the best point found. `trial` is storage.
+    pub fn solve<E: Equations>(
+        &self,
+        equations: &E,
+        point: &mut E::Point,
+        trial: &mut E::Point,
+        work: &mut E::Work,
+    ) -> Report {
+        let mut size = equations.linearise(point, work);
+        let mut damping = 0.0;
+        let mut slow = 0;
+        for steps in 0..self.max_steps {
+            if size.largest <= self.tolerance {
+                return self.polish(equations, point, trial, work, steps, size);
+            }
+            let before = size;
+            match self.lower(equations, point, trial, work, size, &mut damping) {
+                None => return report(Stop::Minimum, steps, size),
+                Some(lower) => size = lower,
+            }
+            // a slow step may be the way round a bend; several in a row are a minimum
+            let progress = 1.0 - size.squares / before.squares;
+            slow = if progress < self.least_progress {
+                slow + 1
+            } else {
+                0
+            };
+            if slow == 3 {
+                return report(Stop::Minimum, steps + 1, size);
+            }
+        }
+        let stop = if size.largest <= self.tolerance {
+            Stop::Solved
+        } else {
+            Stop::StepLimit
+        };
+        report(stop, self.max_steps, size)
+    }
+
+    /// One accepted step, damped as much as needed. `None` if no damping lowers the residual.
+    fn lower<E: Equations>(
+        &self,
+        equations: &E,
+        point: &mut E::Point,
+        trial: &mut E::Point,
+        work: &mut E::Work,
+        size: Size,
+        damping: &mut f64,
+    ) -> Option<Size> {
+        loop {
+            equations.factorise(*damping, work);
+            let longest = equations.step(work);
+            if longest.is_finite() {
+                let fraction = (self.longest_step / longest).min(1.0);
+                equations.advance(point, fraction, work, trial);
+                let next = equations.residual(trial, work);
+                if next.squares < size.squares {
+                    std::mem::swap(point, trial);
+                    let gain = next.squares / size.squares;
+                    *damping = match gain {
+                        _ if *damping < 1e-9 => 0.0,
+                        _ if gain < 0.25 => *damping * 0.05,
+                        _ if gain < 0.9 => *damping * 0.3,
+                        _ => *damping,
+                    };
+                    return Some(equations.linearise(point, work));
+                }
+                if longest < 1e-15 {
+                    return None;
+                }
+            }
+            *damping = (*damping * 8.0).max(self.first_damping);
+            if *damping > 1e8 {
+                return None;
+            }
+            // the residual of the rejected point has replaced the one the step is made from
+            equations.linearise(point, work);
+        }
+    }
+
+    /// Quadratic convergence makes one more step worth its price: the residual falls to rounding.
+    fn polish<E: Equations>(
+        &self,
+        equations: &E,
+        point: &mut E::Point,
+        trial: &mut E::Point,
+        work: &mut E::Work,
+        steps: usize,
+        size: Size,
+    ) -> Report {
+        equations.factorise(0.0, work);
+        let longest = equations.step(work);
+        if longest.is_finite() && longest < 1e-3 {
+            equations.advance(point, 1.0, work, trial);
+            let next = equations.residual(trial, work);
+            if next.largest < size.largest {
+                std::mem::swap(point, trial);
+                equations.linearise(point, work);
+                return report(Stop::Solved, steps + 1, next);
+            }
+            equations.linearise(point, work);
+        }
+        report(Stop::Solved, steps, size)
+    }
+}
+
+fn report(stop: Stop, steps: usize, size: Size) -> Report {
+    Report { stop, steps, size }
+}

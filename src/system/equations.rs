@@ -1,0 +1,355 @@
+use super::layout::{Held, HeldPlatform, HoldRow, Layout, Unknown};
+use crate::geometry::Vector3;
+use crate::linear::Bordered;
+use crate::mechanism::{
+    Closure, Configuration, Dimensions, Kinematics, Mover, Placement, Side, orientation_rows,
+};
+use crate::number::Field;
+use crate::solve::{Equations, Size};
+
+/// The closure equations of a mechanism for one choice of held coordinates.
+///
+/// Rows and unknowns are dimensionless. A point is a [`Configuration`]; held joints and poses keep
+/// the values it has.
+#[derive(Clone, Debug)]
+pub struct System<T> {
+    kinematics: Kinematics<T>,
+    closures: Vec<Closure<T>>,
+    plans: Vec<ClosurePlan<T>>,
+    unknowns: Vec<Unknown>,
+    joint_scales: Vec<f64>,
+    length: f64,
+    holds: Vec<HoldRow<T>>,
+    empty: Bordered<T>,
+}
+
+/// Where the derivatives of one closure go.
+#[derive(Clone, Debug)]
+struct ClosurePlan<T> {
+    /// First row among all rows.
+    row: usize,
+    rows: usize,
+    block: usize,
+    block_row: usize,
+    block_rows: usize,
+    movers: Vec<(Side, Mover<T>, usize)>,
+    extensions: Vec<(usize, usize)>,
+    /// Side, platform and the column of its first twist component.
+    platforms: Vec<(Side, usize, usize)>,
+}
+
+/// Storage of a [`System`]: nothing in it outlives the question it was made for.
+#[derive(Clone, Debug)]
+pub struct Work<T> {
+    placement: Placement<T>,
+    residual: Vec<T>,
+    jacobian: Bordered<T>,
+    hold_rows: Vec<T>,
+    step: Vec<T>,
+}
+
+impl<T: Field> System<T> {
+    /// The equations for a choice of what is held.
+    pub fn new(dimensions: &Dimensions<T>, held: &Held<T>) -> Self {
+        let frames = dimensions
+            .closures
+            .iter()
+            .flat_map(|closure| closure.frames);
+        let kinematics = Kinematics::new(dimensions, frames);
+        let closures: Vec<Closure<T>> = (dimensions.closures.iter())
+            .map(|closure| Closure::new(dimensions, closure, &kinematics))
+            .collect();
+        let layout = Layout::new(&closures, held);
+        let holds = hold_rows(held);
+        let hold_count = holds.iter().map(HoldRow::rows).sum();
+        let mut block_start = Vec::with_capacity(layout.blocks.len());
+        let mut row = 0;
+        for block in &layout.blocks {
+            block_start.push(row);
+            row += block.rows;
+        }
+        let plans = (closures.iter().zip(&layout.places))
+            .map(|(closure, &(block, block_row))| {
+                let column = |unknown| layout.column(block, unknown);
+                let sides = [Side::A, Side::B];
+                ClosurePlan {
+                    row: block_start[block] + block_row,
+                    rows: closure.kind.equations(),
+                    block,
+                    block_row,
+                    block_rows: layout.blocks[block].rows,
+                    movers: (sides.iter().zip(&closure.movers))
+                        .flat_map(|(&side, movers)| movers.iter().map(move |m| (side, *m)))
+                        .filter_map(|(side, m)| Some((side, m, column(Unknown::Joint(m.joint))?)))
+                        .collect(),
+                    extensions: (closure.joints().into_iter())
+                        .filter(|&joint| closure.extends_with(joint))
+                        .filter_map(|joint| Some((joint, column(Unknown::Joint(joint))?)))
+                        .collect(),
+                    platforms: (sides.into_iter().zip(closure.platforms))
+                        .filter_map(|(side, platform)| {
+                            let platform = platform?;
+                            let first = Unknown::Twist {
+                                platform,
+                                component: 0,
+                            };
+                            Some((side, platform, column(first)?))
+                        })
+                        .collect(),
+                }
+            })
+            .collect();
+        System {
+            kinematics,
+            closures,
+            plans,
+            joint_scales: dimensions.joint_scales.clone(),
+            length: dimensions.characteristic_length,
+            empty: Bordered::new(
+                layout.unknowns.len(),
+                layout.blocks,
+                hold_count,
+                layout.shared,
+            ),
+            unknowns: layout.unknowns,
+            holds,
+        }
+    }
+
+    /// Storage for solving.
+    pub fn work(&self) -> Work<T> {
+        Work {
+            placement: self.kinematics.placement(),
+            residual: vec![T::zero(); self.empty.rows()],
+            jacobian: self.empty.clone(),
+            hold_rows: vec![T::zero(); self.empty.extra_rows() * self.empty.shared().len()],
+            step: vec![T::zero(); self.unknowns.len()],
+        }
+    }
+
+    /// The unknowns in the order of the Jacobian's columns.
+    pub fn unknowns(&self) -> &[Unknown] {
+        &self.unknowns
+    }
+
+    /// For each closure the range of its rows.
+    pub fn closure_rows(&self) -> impl Iterator<Item = std::ops::Range<usize>> {
+        self.plans.iter().map(|plan| plan.row..plan.row + plan.rows)
+    }
+
+    /// Number of rows: closure equations, then held platform coordinates.
+    pub fn rows(&self) -> usize {
+        self.empty.rows()
+    }
+
+    /// Asks for another value of a held platform coordinate.
+    pub fn set_target(
+        &mut self,
+        platform: usize,
+        coordinate: crate::mechanism::Coordinate,
+        value: T,
+    ) {
+        for hold in &mut self.holds {
+            if let HoldRow::Coordinate(p, c, target) = hold
+                && (*p, *c) == (platform, coordinate)
+            {
+                *target = value;
+            }
+        }
+    }
+
+    /// The dimensionless residual last evaluated.
+    pub fn residual_of<'a>(&self, work: &'a Work<T>) -> &'a [T] {
+        &work.residual
+    }
+
+    /// The Jacobian last evaluated, dense and column-major, rows × unknowns.
+    pub fn dense_jacobian(&self, work: &mut Work<T>) -> Vec<T> {
+        let rows = self.rows();
+        let mut dense = vec![T::zero(); rows * self.unknowns.len()];
+        let mut row = 0;
+        let blocks: Vec<_> = self.empty.blocks().cloned().collect();
+        for (b, block) in blocks.iter().enumerate() {
+            let entries = work.jacobian.block_mut(b);
+            let unknowns = block.own.iter().chain(&block.shared);
+            for (column, &unknown) in entries.chunks_exact(block.rows.max(1)).zip(unknowns) {
+                let start = unknown * rows + row;
+                dense[start..start + block.rows].copy_from_slice(column);
+            }
+            row += block.rows;
+        }
+        let shared = self.empty.shared();
+        for (i, entries) in work.hold_rows.chunks_exact(shared.len().max(1)).enumerate() {
+            for (&unknown, &entry) in shared.iter().zip(entries) {
+                dense[unknown * rows + row + i] = entry;
+            }
+        }
+        dense
+    }
+
+    fn residual_rows(&self, at: &Configuration<T>, work: &mut Work<T>) -> Size {
+        self.kinematics.place(at, &mut work.placement);
+        for (plan, closure) in self.plans.iter().zip(&self.closures) {
+            let out = &mut work.residual[plan.row..plan.row + plan.rows];
+            closure.residual(&work.placement, at, out);
+        }
+        if !self.holds.is_empty() {
+            self.hold_residuals(at, work);
+        }
+        Size::of(&work.residual)
+    }
+
+    fn hold_residuals(&self, at: &Configuration<T>, work: &mut Work<T>) {
+        let width = self.empty.shared().len();
+        let first = self.rows() - self.empty.extra_rows();
+        let twist_place = |platform| {
+            let twist = Unknown::Twist {
+                platform,
+                component: 0,
+            };
+            let unknown = self.unknowns.iter().position(|u| *u == twist);
+            unknown.expect("a partly held platform is unknown") - self.empty.shared()[0]
+        };
+        let mut row = 0;
+        for hold in &self.holds {
+            match hold {
+                HoldRow::Coordinate(platform, coordinate, value) => {
+                    let pose = at.platforms[*platform].pose();
+                    let (gap, slope) = coordinate.row(&pose, *value, self.length);
+                    work.residual[first + row] = gap;
+                    let place = row * width + twist_place(*platform);
+                    work.hold_rows[place..place + 6].copy_from_slice(&slope);
+                }
+                HoldRow::Orientation(platform, wanted) => {
+                    let actual = at.platforms[*platform].orientation.rotation();
+                    let (gaps, slopes) = orientation_rows(&actual, wanted);
+                    for (i, (gap, slope)) in gaps.into_iter().zip(slopes).enumerate() {
+                        work.residual[first + row + i] = gap;
+                        let place = (row + i) * width + twist_place(*platform);
+                        work.hold_rows[place..place + 3].copy_from_slice(&slope.0);
+                    }
+                }
+            }
+            row += hold.rows();
+        }
+    }
+
+    fn jacobian_columns(&self, at: &Configuration<T>, work: &mut Work<T>) {
+        for block in 0..self.empty.blocks().len() {
+            work.jacobian.block_mut(block).fill(T::zero());
+        }
+        for (plan, closure) in self.plans.iter().zip(&self.closures) {
+            let rows = closure.rows(&work.placement, at);
+            let residual = &rows.residual[..plan.rows];
+            work.residual[plan.row..plan.row + plan.rows].copy_from_slice(residual);
+            let entries = work.jacobian.block_mut(plan.block);
+            let place = |column: usize| {
+                let start = column * plan.block_rows + plan.block_row;
+                start..start + plan.rows
+            };
+            for (side, mover, column) in &plan.movers {
+                let (omega, v) = work.placement.twist(mover, rows.velocity_point(*side));
+                rows.rates(*side, &omega, &v, &mut entries[place(*column)]);
+            }
+            for &(joint, column) in &plan.extensions {
+                entries[place(column)][0] += closure.length_column(joint, at);
+            }
+            for &(side, platform, column) in &plan.platforms {
+                let arm = *rows.velocity_point(side) - at.platforms[platform].position;
+                for k in 0..3 {
+                    let axis = Vector3::unit(k);
+                    let out = &mut entries[place(column + k)];
+                    rows.rates(side, &axis, &axis.cross(&arm), out);
+                    let shift = axis.times(T::from_f64(self.length));
+                    let out = &mut entries[place(column + 3 + k)];
+                    rows.rates(side, &Vector3::zero(), &shift, out);
+                }
+            }
+        }
+    }
+}
+
+fn hold_rows<T: Field>(held: &Held<T>) -> Vec<HoldRow<T>> {
+    let mut rows = Vec::new();
+    for (platform, held) in held.platforms.iter().enumerate() {
+        if let HeldPlatform::Partly {
+            coordinates,
+            orientation,
+        } = held
+        {
+            let single = coordinates.iter();
+            rows.extend(single.map(|&(c, value)| HoldRow::Coordinate(platform, c, value)));
+            rows.extend(orientation.map(|wanted| HoldRow::Orientation(platform, wanted)));
+        }
+    }
+    rows
+}
+
+impl<T: Field> Equations for System<T> {
+    type Point = Configuration<T>;
+    type Work = Work<T>;
+
+    #[inline]
+    fn residual(&self, at: &Configuration<T>, work: &mut Work<T>) -> Size {
+        self.residual_rows(at, work)
+    }
+
+    #[inline]
+    fn linearise(&self, at: &Configuration<T>, work: &mut Work<T>) -> Size {
+        self.kinematics.place(at, &mut work.placement);
+        self.jacobian_columns(at, work);
+        if !self.holds.is_empty() {
+            self.hold_residuals(at, work);
+        }
+        Size::of(&work.residual)
+    }
+
+    #[inline]
+    fn factorise(&self, damping: f64, work: &mut Work<T>) {
+        work.jacobian.factorise(&work.hold_rows, damping);
+    }
+
+    #[inline]
+    fn step(&self, work: &mut Work<T>) -> f64 {
+        work.jacobian.solve(&work.residual, &mut work.step);
+        let largest = work
+            .step
+            .iter()
+            .fold(0.0, |m: f64, x| m.max(x.norm_squared()));
+        if work.step.iter().all(|x| x.is_finite()) {
+            largest.sqrt()
+        } else {
+            f64::NAN
+        }
+    }
+
+    #[inline]
+    fn advance(
+        &self,
+        from: &Configuration<T>,
+        fraction: f64,
+        work: &Work<T>,
+        to: &mut Configuration<T>,
+    ) {
+        to.joints.copy_from_slice(&from.joints);
+        to.platforms.copy_from_slice(&from.platforms);
+        let mut unknown = 0;
+        while let Some(kind) = self.unknowns.get(unknown) {
+            match *kind {
+                Unknown::Joint(joint) => {
+                    let factor = fraction * self.joint_scales[joint];
+                    to.joints[joint] += work.step[unknown].scale(factor);
+                    unknown += 1;
+                }
+                Unknown::Twist { platform, .. } => {
+                    let twist = &work.step[unknown..unknown + 6];
+                    let omega = Vector3([0, 1, 2].map(|i| twist[i].scale(fraction)));
+                    let shift = fraction * self.length;
+                    let shift = Vector3([3, 4, 5].map(|i| twist[i].scale(shift)));
+                    to.platforms[platform] = from.platforms[platform].moved_by(&omega, shift);
+                    unknown += 6;
+                }
+            }
+        }
+    }
+}
