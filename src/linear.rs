@@ -5,6 +5,7 @@
 //! appear in that leg's closures only, and the platforms tie the legs together.
 
 mod bordered;
+mod lu;
 mod qr;
 
 pub use bordered::{Block, Bordered};

@@ -6,6 +6,7 @@
 mod complex;
 mod dual;
 mod real;
+mod trigonometry;
 
 use std::fmt::Debug;
 use std::ops::{Add, AddAssign, Div, Mul, MulAssign, Neg, Sub, SubAssign};

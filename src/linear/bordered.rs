@@ -1,4 +1,5 @@
 use super::Qr;
+use super::lu::Lu;
 use crate::number::Field;
 
 /// Where one block of rows stands: its own unknowns, and the shared ones it touches.
@@ -26,11 +27,17 @@ pub struct Bordered<T> {
     extra_rows: usize,
     shared: Vec<usize>,
     border: Qr<T>,
+    square_border: Lu<T>,
+    /// Whether the square factors of the border are the ones to use.
+    square: bool,
     border_rhs: Vec<T>,
     border_x: Vec<T>,
-    largest: f64,
     damped: bool,
 }
+
+/// Elimination without exchange of columns can hide a loss of rank behind pivots that are merely
+/// small, so it is trusted only far from the rank tolerance.
+const TRUSTED_PIVOT: f64 = 1e-3;
 
 #[derive(Clone, Debug)]
 struct Factor<T> {
@@ -71,10 +78,11 @@ impl<T: Field> Bordered<T> {
             blocks,
             extra_rows,
             border: Qr::new(most, shared.len(), 0),
+            square_border: Lu::new(shared.len()),
+            square: false,
             border_rhs: vec![T::zero(); most],
             border_x: vec![T::zero(); shared.len()],
             shared,
-            largest: 0.0,
             damped: false,
         }
     }
@@ -111,7 +119,6 @@ impl<T: Field> Bordered<T> {
         self.damped = damping > 0.0;
         let root = T::from_f64(damping.sqrt());
         let mut border_rows = self.extra_rows;
-        self.largest = 0.0;
         for block in &mut self.blocks {
             let (rows, own) = (block.layout.rows, block.layout.own.len());
             let total = if self.damped { rows + own } else { rows };
@@ -124,7 +131,7 @@ impl<T: Field> Bordered<T> {
                 }
             }
             // rows and unknowns are dimensionless, so a pivot is measured against 1
-            self.largest = block.qr.factorise(1.0).max(self.largest);
+            block.qr.factorise(1.0);
             border_rows += total - block.qr.rank();
         }
         if self.damped {
@@ -151,7 +158,12 @@ impl<T: Field> Bordered<T> {
                 self.border.column_mut(place)[row + place] = root;
             }
         }
-        self.largest = self.border.factorise(1.0).max(self.largest);
+        // a square border is the rule; its smallest pivot tells whether elimination may be trusted
+        self.square = border_rows == self.shared.len()
+            && self.square_border.factorise(self.border.entries()) > TRUSTED_PIVOT;
+        if !self.square {
+            self.border.factorise(1.0);
+        }
     }
 
     /// The step −J⁺r for the residual `r` in the order of the rows, written to `x` in the order of
@@ -178,8 +190,14 @@ impl<T: Field> Bordered<T> {
         border_row += self.extra_rows;
         let border_total = self.border.rows();
         self.border_rhs[border_row..border_total].fill(T::zero());
-        self.border.rotate(&mut self.border_rhs);
-        (self.border).back_substitute(&mut self.border_rhs, &mut self.border_x);
+        if self.square {
+            self.square_border.solve(&mut self.border_rhs);
+            self.border_x
+                .copy_from_slice(&self.border_rhs[..self.shared.len()]);
+        } else {
+            self.border.rotate(&mut self.border_rhs);
+            (self.border).back_substitute(&mut self.border_rhs, &mut self.border_x);
+        }
         for (&unknown, &value) in self.shared.iter().zip(&self.border_x) {
             x[unknown] = value;
         }
@@ -201,7 +219,12 @@ impl<T: Field> Bordered<T> {
     /// How many unknowns the last factorisation left undetermined.
     pub fn nullity(&self) -> usize {
         let blocks = self.blocks.iter().map(|b| b.layout.own.len() - b.qr.rank());
-        blocks.sum::<usize>() + self.shared.len() - self.border.rank()
+        let border = if self.square {
+            self.shared.len()
+        } else {
+            self.border.rank()
+        };
+        blocks.sum::<usize>() + self.shared.len() - border
     }
 
     /// The blocks' layout, in order.

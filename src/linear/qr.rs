@@ -60,6 +60,11 @@ impl<T: Field> Qr<T> {
         &self.entries[j * self.rows..(j + 1) * self.rows]
     }
 
+    /// All entries, column-major.
+    pub(super) fn entries(&self) -> &[T] {
+        &self.entries[..self.rows * self.columns]
+    }
+
     /// Column `j` for filling in.
     #[inline(always)]
     pub fn column_mut(&mut self, j: usize) -> &mut [T] {
@@ -75,14 +80,26 @@ impl<T: Field> Qr<T> {
     /// Factorises in place. A pivot below the rank tolerance times `reference` (or times the
     /// largest pivot, if that is larger) ends it. Returns the largest pivot.
     pub fn factorise(&mut self, reference: f64) -> f64 {
-        let (rows, pivots) = (self.rows, self.pivots);
+        // the sizes of one closure and of one platform, known to the compiler: three times as fast
+        match (self.rows, self.pivots) {
+            (_, 0) => reference,
+            (3, 1) => self.factorise_sized(3, 1, reference),
+            (3, 2) => self.factorise_sized(3, 2, reference),
+            (5, 2) => self.factorise_sized(5, 2, reference),
+            (6, 6) => self.factorise_sized(6, 6, reference),
+            (rows, pivots) => self.factorise_sized(rows, pivots, reference),
+        }
+    }
+
+    #[inline(always)]
+    fn factorise_sized(&mut self, rows: usize, pivots: usize, reference: f64) -> f64 {
         for (place, column) in self.order.iter_mut().enumerate() {
             *column = place;
         }
         self.rank = 0;
         let mut largest = reference;
         for k in 0..pivots.min(rows) {
-            let (best, norm_squared) = self.longest_column(k);
+            let (best, norm_squared) = self.longest_column(rows, pivots, k);
             let norm = norm_squared.sqrt();
             if k == 0 {
                 largest = largest.max(norm);
@@ -93,16 +110,18 @@ impl<T: Field> Qr<T> {
             if best != k {
                 self.swap(k, best);
             }
-            self.reflect(k, norm);
+            self.reflect(rows, k, norm);
             self.rank = k + 1;
         }
         largest
     }
 
-    fn longest_column(&self, k: usize) -> (usize, f64) {
+    #[inline(always)]
+    fn longest_column(&self, rows: usize, pivots: usize, k: usize) -> (usize, f64) {
         let mut best = (k, -1.0);
-        for j in k..self.pivots {
-            let norm_squared = self.column(j)[k..].iter().map(|x| x.norm_squared()).sum();
+        for j in k..pivots {
+            let column = &self.entries[j * rows..(j + 1) * rows];
+            let norm_squared = column[k..].iter().map(|x| x.norm_squared()).sum();
             if norm_squared > best.1 {
                 best = (j, norm_squared);
             }
@@ -117,9 +136,8 @@ impl<T: Field> Qr<T> {
     }
 
     /// Reflects column `k` onto its first entry from row `k` and every later column with it.
-    #[inline]
-    fn reflect(&mut self, k: usize, norm: f64) {
-        let rows = self.rows;
+    #[inline(always)]
+    fn reflect(&mut self, rows: usize, k: usize, norm: f64) {
         let (left, right) = self.entries[..rows * self.columns].split_at_mut((k + 1) * rows);
         let v = &mut left[k * rows + k..];
         let size = v[0].norm_squared().sqrt();

@@ -127,13 +127,18 @@ impl<T: Number> Closure<T> {
     pub(crate) fn residual(&self, placement: &Placement<T>, at: &Configuration<T>, out: &mut [T]) {
         let [a, b] = self.frames(placement);
         let gap = b.position - a.position;
-        if self.kind == ClosureKind::Spherical {
-            for (out, gap) in out.iter_mut().zip(gap.0) {
-                *out = gap.scale(self.inverse_length);
+        match self.kind {
+            ClosureKind::Spherical => {
+                for (out, gap) in out.iter_mut().zip(gap.0) {
+                    *out = gap.scale(self.inverse_length);
+                }
             }
-        } else {
-            let rows = self.rows(placement, at);
-            out.copy_from_slice(&rows.residual[..out.len()]);
+            ClosureKind::Distance => {
+                let mut rows = Rows::new(self.inverse_length, [a.position, b.position]);
+                rows.distance(&gap, self.length(at));
+                out[0] = rows.residual[0];
+            }
+            _ => out.copy_from_slice(&self.rows(placement, at).residual[..out.len()]),
         }
     }
 
@@ -142,16 +147,7 @@ impl<T: Number> Closure<T> {
     pub(crate) fn rows(&self, placement: &Placement<T>, at: &Configuration<T>) -> Rows<T> {
         let [a, b] = self.frames(placement);
         let gap = b.position - a.position;
-        let mut rows = Rows {
-            residual: [T::zero(); MOST_ROWS],
-            point: false,
-            moments: [Vector3::zero(); 3],
-            moment_count: 0,
-            forces: [Vector3::zero(); 2],
-            force_count: 0,
-            points: [a.position, b.position],
-            inverse_length: self.inverse_length,
-        };
+        let mut rows = Rows::new(self.inverse_length, [a.position, b.position]);
         match self.kind {
             ClosureKind::Spherical => rows.point(&gap),
             ClosureKind::Revolute => {
@@ -185,6 +181,21 @@ impl<T: Number> Closure<T> {
 }
 
 impl<T: Number> Rows<T> {
+    #[inline(always)]
+    fn new(inverse_length: f64, points: [Vector3<T>; 2]) -> Self {
+        Rows {
+            residual: [T::zero(); MOST_ROWS],
+            point: false,
+            moments: [Vector3::zero(); 3],
+            moment_count: 0,
+            forces: [Vector3::zero(); 2],
+            force_count: 0,
+            points,
+            inverse_length,
+        }
+    }
+
+    #[inline(always)]
     fn next_row(&self) -> usize {
         3 * usize::from(self.point) + self.moment_count + self.force_count
     }
@@ -274,6 +285,47 @@ impl<T: Number> Rows<T> {
         for (force, out) in self.forces[..self.force_count].iter().zip(out) {
             *out += force.dot(v).scale(sign);
         }
+    }
+
+    /// The derivatives of every row along a platform's twist (ω; v/L) about its origin, from which
+    /// `arm` leads to the side's velocity point: a force f there has the moment arm × f.
+    #[inline(always)]
+    pub(crate) fn twist_rows(
+        &self,
+        side: Side,
+        arm: &Vector3<T>,
+        length: f64,
+    ) -> [[T; 6]; MOST_ROWS] {
+        let sign = match side {
+            Side::A => -1.0,
+            Side::B => 1.0,
+        };
+        let mut rows = [[T::zero(); 6]; MOST_ROWS];
+        let mut next = rows.iter_mut();
+        let force_row = |row: &mut [T; 6], force: &Vector3<T>| {
+            let moment = arm.cross(force);
+            for i in 0..3 {
+                row[i] = moment.0[i].scale(sign);
+                row[3 + i] = force.0[i].scale(sign * length);
+            }
+        };
+        if self.point {
+            for (i, row) in next.by_ref().take(3).enumerate() {
+                force_row(
+                    row,
+                    &Vector3::unit(i).times(T::from_f64(self.inverse_length)),
+                );
+            }
+        }
+        for (moment, row) in self.moments[..self.moment_count].iter().zip(next.by_ref()) {
+            for i in 0..3 {
+                row[i] = moment.0[i].scale(sign);
+            }
+        }
+        for (force, row) in self.forces[..self.force_count].iter().zip(next) {
+            force_row(row, force);
+        }
+        rows
     }
 
     /// Where the velocity of a side is to be taken.

@@ -29,6 +29,8 @@ struct Step<T> {
     parent: Slot,
     fixed: Pose<T>,
     shape: Shape,
+    /// Fixed to ground.
+    still: bool,
     turn: LinearForm<T>,
     slide: LinearForm<T>,
 }
@@ -97,9 +99,15 @@ impl<T: Number> Kinematics<T> {
         turn: LinearForm<T>,
         slide: LinearForm<T>,
     ) -> Slot {
+        let moves = !turn.0.is_empty() || !slide.0.is_empty();
+        let parent_still = match parent.checked_sub(1 + self.platforms) {
+            Some(step) => self.steps[step].still,
+            None => parent == 0,
+        };
         self.steps.push(Step {
             parent,
             shape: Shape::of(&fixed),
+            still: parent_still && !moves,
             fixed,
             turn,
             slide,
@@ -153,12 +161,13 @@ impl<T: Number> Kinematics<T> {
         (slot, fixed)
     }
 
-    /// Room for the poses of all slots.
+    /// Room for the poses of all slots. Frames that never move are placed once and for all.
     pub fn placement(&self) -> Placement<T> {
-        Placement(vec![
-            Pose::identity();
-            1 + self.platforms + self.steps.len()
-        ])
+        let mut poses = vec![Pose::identity(); 1 + self.platforms + self.steps.len()];
+        for (i, step) in self.steps.iter().enumerate().filter(|(_, step)| step.still) {
+            poses[1 + self.platforms + i] = poses[step.parent] * step.fixed;
+        }
+        Placement(poses)
     }
 
     /// Multiplies the chains out at a configuration. Nothing allocates.
@@ -169,6 +178,9 @@ impl<T: Number> Kinematics<T> {
             *slot = platform.pose();
         }
         for (i, step) in self.steps.iter().enumerate() {
+            if step.still {
+                continue;
+            }
             let parent = &poses[step.parent];
             let mut pose = match step.shape {
                 Shape::Nothing => *parent,

@@ -1,7 +1,7 @@
-use super::{Field, Number};
+use super::{Field, Number, trigonometry};
 
-/// Trigonometry comes from `pxfm`, not from the platform's C library, so that the same input gives
-/// the same bytes on every machine.
+/// Nothing comes from the platform's C library, so that the same input gives the same bytes on every
+/// machine.
 impl Number for f64 {
     #[inline(always)]
     fn from_f64(x: f64) -> Self {
@@ -11,9 +11,9 @@ impl Number for f64 {
     fn real(self) -> f64 {
         self
     }
-    #[inline]
+    #[inline(always)]
     fn sin_cos(self) -> (Self, Self) {
-        pxfm::f_sincos(self)
+        trigonometry::sin_cos(self)
     }
     #[inline(always)]
     fn sqrt(self) -> Self {

@@ -256,13 +256,11 @@ impl<T: Field> System<T> {
             }
             for &(side, platform, column) in &plan.platforms {
                 let arm = *rows.velocity_point(side) - at.platforms[platform].position;
-                for k in 0..3 {
-                    let axis = Vector3::unit(k);
-                    let out = &mut entries[place(column + k)];
-                    rows.rates(side, &axis, &axis.cross(&arm), out);
-                    let shift = axis.times(T::from_f64(self.length));
-                    let out = &mut entries[place(column + 3 + k)];
-                    rows.rates(side, &Vector3::zero(), &shift, out);
+                let twist_rows = rows.twist_rows(side, &arm, self.length);
+                for (i, row) in twist_rows[..plan.rows].iter().enumerate() {
+                    for (k, &entry) in row.iter().enumerate() {
+                        entries[place(column + k).start + i] += entry;
+                    }
                 }
             }
         }
