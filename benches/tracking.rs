@@ -136,7 +136,7 @@ fn track<S: Clone, I: Copy>(
         for &input in &inputs[k * CHUNK..(k + 1) * CHUNK] {
             steps += solve(&mut state, input).steps;
         }
-        black_box((&state, steps));
+        black_box((state, steps));
     };
     print_line(name, &tally, || (0..starts.len()).for_each(chunk));
     let mut k = 0;

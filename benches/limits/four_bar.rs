@@ -1,7 +1,9 @@
 //! A: the 4-bar. Unknown the coupler and rocker angles t2, t3 for a given crank angle t1:
 //! l1 e^{i t1} + l2 e^{i t2} = l0 + l3 e^{i t3}.
 
-use super::{Circle, MAX_STEPS, Report, TOLERANCE, Trig};
+use std::array::from_fn;
+
+use super::{Circle, MAX_STEPS, Report, TOLERANCE, Trig, turn};
 
 pub const L0: f64 = 4.5;
 pub const L1: f64 = 2.0;
@@ -41,54 +43,39 @@ impl From<State> for Carried {
 /// Newton from the state; inputs: the crank angle.
 #[inline]
 pub fn solve<T: Trig>(state: &mut State, t1: f64) -> Report {
-    let mut t = state.t.map(Circle::at::<T>);
-    let (report, moved) = newton(&mut t, Circle::at::<T>(t1));
-    state.rate = moved;
-    for i in 0..2 {
-        state.t[i] += moved[i];
-    }
+    let (report, _, moved) = newton(state.t.map(Circle::at::<T>), Circle::at::<T>(t1));
+    *state = State { t: from_fn(|i| state.t[i] + moved[i]), rate: moved };
     report
 }
 
 /// Newton from where the last move, made once more, leads.
 #[inline]
 pub fn solve_predicted<T: Trig>(state: &mut State, t1: f64) -> Report {
-    let rate = state.rate;
-    for i in 0..2 {
-        state.t[i] += rate[i];
-    }
-    let report = solve::<T>(state, t1);
-    for i in 0..2 {
-        state.rate[i] += rate[i];
-    }
+    let t: [f64; 2] = from_fn(|i| state.t[i] + state.rate[i]);
+    let (report, _, moved) = newton(t.map(Circle::at::<T>), Circle::at::<T>(t1));
+    *state = State { t: from_fn(|i| t[i] + moved[i]), rate: from_fn(|i| state.rate[i] + moved[i]) };
     report
 }
 
 /// [`solve`] on carried circles.
 #[inline]
 pub fn track<T: Trig>(state: &mut Carried, t1: f64) -> Report {
-    let (report, moved) = newton(&mut state.t, Circle::at::<T>(t1));
-    state.t.iter_mut().for_each(Circle::renormalise);
-    state.rate = moved;
+    let (report, t, moved) = newton(state.t, Circle::at::<T>(t1));
+    *state = Carried { t: t.map(Circle::renormalised), rate: moved };
     report
 }
 
 /// [`solve_predicted`] on carried circles.
 #[inline]
 pub fn track_predicted<T: Trig>(state: &mut Carried, t1: f64) -> Report {
-    let rate = state.rate;
-    for i in 0..2 {
-        state.t[i].turn(rate[i]);
-    }
-    let report = track::<T>(state, t1);
-    for i in 0..2 {
-        state.rate[i] += rate[i];
-    }
+    let (predicted, _) = turn(state.t, state.rate);
+    let (report, t, moved) = newton(predicted, Circle::at::<T>(t1));
+    *state = Carried { t: t.map(Circle::renormalised), rate: from_fn(|i| state.rate[i] + moved[i]) };
     report
 }
 
 #[inline(always)]
-fn newton(t: &mut [Circle; 2], crank: Circle) -> (Report, [f64; 2]) {
+fn newton(mut t: [Circle; 2], crank: Circle) -> (Report, [Circle; 2], [f64; 2]) {
     let reach = [L1 * crank.cos - L0, L1 * crank.sin];
     let mut moved = [0.0; 2];
     let mut steps = 0;
@@ -98,14 +85,14 @@ fn newton(t: &mut [Circle; 2], crank: Circle) -> (Report, [f64; 2]) {
         let residual = if f[0].abs() > f[1].abs() { f[0].abs() } else { f[1].abs() };
         let converged = residual <= TOLERANCE;
         if converged || steps == MAX_STEPS {
-            return (Report { steps, residual, converged }, moved);
+            return (Report { steps, residual, converged }, t, moved);
         }
         // J = [-a₁ b₁; a₀ -b₀] by Cramer's rule: one division, and no pivot to look for
         let inverse = 1.0 / (a[1] * b[0] - b[1] * a[0]);
         let step = [(f[0] * b[0] + f[1] * b[1]) * inverse, (f[0] * a[0] + f[1] * a[1]) * inverse];
-        for i in 0..2 {
-            moved[i] += t[i].turn(step[i]);
-        }
+        let (turned, turns) = turn(t, step);
+        t = turned;
+        moved = from_fn(|i| moved[i] + turns[i]);
         steps += 1;
     }
 }

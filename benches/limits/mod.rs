@@ -5,6 +5,8 @@
 
 #![allow(dead_code)]
 
+use std::array::from_fn;
+
 pub mod four_bar;
 pub mod stewart_gough;
 pub mod three_rps;
@@ -132,41 +134,46 @@ impl Circle {
         Circle { cos, sin }
     }
 
-    /// Turns by `delta` and returns the turn made: `delta` less its whole revolutions.
+    /// Turned by `delta`, |delta| < 1/64.
     #[inline(always)]
-    pub fn turn(&mut self, delta: f64) -> f64 {
-        if delta.abs() < 1.0 / 64.0 {
-            let z = delta * delta;
-            let s = delta - delta * z * (1.0 / 6.0 - z * (1.0 / 120.0));
-            let c = z * (0.5 - z * (1.0 / 24.0 - z * (1.0 / 720.0))); // 1 - cos
-            let (cos, sin) = (self.cos, self.sin);
-            self.cos = cos - (cos * c + sin * s);
-            self.sin = sin - (sin * c - cos * s);
-            delta
-        } else {
-            self.turn_far(delta)
-        }
+    fn turned_near(self, delta: f64) -> Self {
+        let z = delta * delta;
+        let s = delta - delta * z * (1.0 / 6.0 - z * (1.0 / 120.0));
+        let c = z * (0.5 - z * (1.0 / 24.0 - z * (1.0 / 720.0))); // 1 - cos
+        Circle { cos: self.cos - (self.cos * c + self.sin * s), sin: self.sin - (self.sin * c - self.cos * s) }
     }
 
+    // out of line and by value: taking a pointer here would keep every circle in memory on the near path too
+    #[cold]
     #[inline(never)]
-    fn turn_far(&mut self, delta: f64) -> f64 {
+    fn turned_far(self, delta: f64) -> (Self, f64) {
         use std::f64::consts::TAU;
         let delta = delta - TAU * (delta / TAU).round();
         let (s, c) = delta.sin_cos();
-        *self = Circle { cos: self.cos * c - self.sin * s, sin: self.sin * c + self.cos * s };
-        delta
+        (Circle { cos: self.cos * c - self.sin * s, sin: self.sin * c + self.cos * s }, delta)
     }
 
     /// One Newton step of 1/√x back to the circle: a carried point does not drift off it.
     #[inline(always)]
-    pub fn renormalise(&mut self) {
+    #[must_use]
+    pub fn renormalised(self) -> Self {
         let k = 1.5 - 0.5 * (self.cos * self.cos + self.sin * self.sin);
-        self.cos *= k;
-        self.sin *= k;
+        Circle { cos: self.cos * k, sin: self.sin * k }
     }
 
     pub fn angle(&self) -> f64 {
         self.sin.atan2(self.cos)
+    }
+}
+
+/// Turns all angles by their `deltas`. Returns the turns made too: the deltas less their whole revolutions.
+#[inline(always)]
+pub fn turn<const N: usize>(angles: [Circle; N], deltas: [f64; N]) -> ([Circle; N], [f64; N]) {
+    if deltas.iter().all(|delta| delta.abs() < 1.0 / 64.0) {
+        (from_fn(|i| angles[i].turned_near(deltas[i])), deltas)
+    } else {
+        let far: [_; N] = from_fn(|i| angles[i].turned_far(deltas[i]));
+        (far.map(|(angle, _)| angle), far.map(|(_, delta)| delta))
     }
 }
 
@@ -175,21 +182,14 @@ impl Circle {
 pub fn eliminate<const N: usize>(a: &mut [[f64; N]; N], b: &mut [f64; N]) -> bool {
     let mut inverse = [0.0; N];
     for k in 0..N {
-        let mut pivot = k;
-        let mut largest = a[k][k].abs();
         for i in k + 1..N {
-            let size = a[i][k].abs();
-            if size > largest {
-                largest = size;
-                pivot = i;
+            if a[i][k].abs() > a[k][k].abs() {
+                a.swap(k, i);
+                b.swap(k, i);
             }
         }
-        if largest == 0.0 {
+        if a[k][k] == 0.0 {
             return false;
-        }
-        if pivot != k {
-            a.swap(k, pivot);
-            b.swap(k, pivot);
         }
         eliminate_column(a, b, &mut inverse, k);
     }
