@@ -1,7 +1,8 @@
 //! Following a mechanism along a trajectory, and finding it from afar: time for one solved configuration.
 //!
 //! Criterion times chunks of 10,000 solves, so 1 ms reads as 100 ns a solve. The lines beside it give steps,
-//! successes, the largest residual (recomputed here from the geometry) and the median time of whole sweeps.
+//! successes, the largest residual (recomputed here from the geometry) and the median and best time of
+//! eleven whole sweeps.
 
 mod limits;
 
@@ -12,7 +13,9 @@ use std::time::{Duration, Instant};
 use criterion::measurement::WallTime;
 use criterion::{BenchmarkGroup, Criterion, Throughput, criterion_group, criterion_main};
 
-use limits::{Inline, Pxfm, Report, Std, TOLERANCE, Tally, four_bar, stewart_gough, three_rps, trajectories};
+use limits::{
+    Inline, Pxfm, Report, Std, TOLERANCE, Tally, four_bar, stewart_gough, three_rps, trajectories,
+};
 
 const CHUNK: usize = 10_000;
 
@@ -34,12 +37,54 @@ fn a_four_bar(criterion: &mut Criterion) {
     let angles = |s: &four_bar::State, t1: f64| four_bar_residual(t1, s.t);
     let carried = |s: &four_bar::Carried, t1: f64| four_bar_residual(t1, s.t.map(|c| c.angle()));
 
-    track(&mut group, "limit, std", &inputs, open, four_bar::solve::<Std>, angles);
-    track(&mut group, "limit, pxfm", &inputs, open, four_bar::solve::<Pxfm>, angles);
-    track(&mut group, "limit", &inputs, open, four_bar::solve::<Inline>, angles);
-    track(&mut group, "limit, predictor", &inputs, open, four_bar::solve_predicted::<Inline>, angles);
-    track(&mut group, "limit, carried", &inputs, open.into(), four_bar::track::<Inline>, carried);
-    track(&mut group, "limit, carried, predictor", &inputs, open.into(), four_bar::track_predicted::<Inline>, carried);
+    track(
+        &mut group,
+        "limit, std",
+        &inputs,
+        open,
+        four_bar::solve::<Std>,
+        angles,
+    );
+    track(
+        &mut group,
+        "limit, pxfm",
+        &inputs,
+        open,
+        four_bar::solve::<Pxfm>,
+        angles,
+    );
+    track(
+        &mut group,
+        "limit",
+        &inputs,
+        open,
+        four_bar::solve::<Inline>,
+        angles,
+    );
+    track(
+        &mut group,
+        "limit, predictor",
+        &inputs,
+        open,
+        four_bar::solve_predicted::<Inline>,
+        angles,
+    );
+    track(
+        &mut group,
+        "limit, carried",
+        &inputs,
+        open.into(),
+        four_bar::track::<Inline>,
+        carried,
+    );
+    track(
+        &mut group,
+        "limit, carried, predictor",
+        &inputs,
+        open.into(),
+        four_bar::track_predicted::<Inline>,
+        carried,
+    );
 
     // the general engine goes here: track(&mut group, "engine", &inputs, ...)
     group.finish();
@@ -50,16 +95,65 @@ fn b_three_rps(criterion: &mut Criterion) {
     let mut group = group(criterion, "B: 3-RPS");
     let start = three_rps::State::ramped_to(inputs[0]);
     let angles = |s: &three_rps::State, legs: [f64; 3]| three_rps_residual(legs, s.angles);
-    let carried = |s: &three_rps::Carried, legs: [f64; 3]| three_rps_residual(legs, s.angles.map(|c| c.angle()));
+    let carried = |s: &three_rps::Carried, legs: [f64; 3]| {
+        three_rps_residual(legs, s.angles.map(|c| c.angle()))
+    };
 
-    track(&mut group, "limit, std", &inputs, start, three_rps::solve::<Std>, angles);
-    track(&mut group, "limit, pxfm", &inputs, start, three_rps::solve::<Pxfm>, angles);
-    track(&mut group, "limit", &inputs, start, three_rps::solve::<Inline>, angles);
-    track(&mut group, "limit, predictor", &inputs, start, three_rps::solve_predicted::<Inline>, angles);
-    track(&mut group, "limit, carried", &inputs, start.into(), three_rps::track, carried);
-    track(&mut group, "limit, carried, predictor", &inputs, start.into(), three_rps::track_predicted, carried);
+    track(
+        &mut group,
+        "limit, std",
+        &inputs,
+        start,
+        three_rps::solve::<Std>,
+        angles,
+    );
+    track(
+        &mut group,
+        "limit, pxfm",
+        &inputs,
+        start,
+        three_rps::solve::<Pxfm>,
+        angles,
+    );
+    track(
+        &mut group,
+        "limit",
+        &inputs,
+        start,
+        three_rps::solve::<Inline>,
+        angles,
+    );
+    track(
+        &mut group,
+        "limit, predictor",
+        &inputs,
+        start,
+        three_rps::solve_predicted::<Inline>,
+        angles,
+    );
+    track(
+        &mut group,
+        "limit, carried",
+        &inputs,
+        start.into(),
+        three_rps::track,
+        carried,
+    );
+    track(
+        &mut group,
+        "limit, carried, predictor",
+        &inputs,
+        start.into(),
+        three_rps::track_predicted,
+        carried,
+    );
+    for unreachable in [[0.8, 0.8, 5.0], [0.8, 0.8, f64::NAN]] {
+        assert!(!three_rps::solve::<Std>(&mut start.clone(), unreachable).converged);
+    }
     let starts = trajectories::rps_cold();
-    cold(&mut group, "limit, cold", || three_rps::cold_starts(&starts));
+    cold(&mut group, "limit, cold", || {
+        three_rps::cold_starts(&starts)
+    });
 
     // the general engine goes here: track(&mut group, "engine", &inputs, ...) and cold(&mut group, "engine, cold", ...)
     group.finish();
@@ -74,13 +168,41 @@ fn c_stewart_gough(criterion: &mut Criterion) {
     // the legs' own residual, and the distance from the pose that made them
     let residual = |s: &stewart_gough::State, (legs, truth): ([f64; 6], stewart_gough::Pose)| {
         let distance = s.pose.distance(&truth);
-        assert!(distance < 1e-11, "the pose is {distance:e} away from the truth");
-        s.pose.legs().iter().zip(legs).fold(0.0, |m: f64, (a, b)| m.max((a - b).abs()))
+        assert!(
+            distance < 1e-11,
+            "the pose is {distance:e} away from the truth"
+        );
+        s.pose
+            .legs()
+            .iter()
+            .zip(legs)
+            .fold(0.0, |m: f64, (a, b)| m.max((a - b).abs()))
     };
 
-    track(&mut group, "limit", &inputs, start, |s, (legs, _)| stewart_gough::solve(s, legs), residual);
-    track(&mut group, "limit, predictor", &inputs, start, |s, (legs, _)| stewart_gough::solve_predicted(s, legs), residual);
-    track(&mut group, "limit, in order", &inputs, start, |s, (legs, _)| stewart_gough::solve_in_order(s, legs), residual);
+    track(
+        &mut group,
+        "limit",
+        &inputs,
+        start,
+        |s, (legs, _)| stewart_gough::solve(s, legs),
+        residual,
+    );
+    track(
+        &mut group,
+        "limit, predictor",
+        &inputs,
+        start,
+        |s, (legs, _)| stewart_gough::solve_predicted(s, legs),
+        residual,
+    );
+    track(
+        &mut group,
+        "limit, in order",
+        &inputs,
+        start,
+        |s, (legs, _)| stewart_gough::solve_in_order(s, legs),
+        residual,
+    );
     track(
         &mut group,
         "limit, in order, predictor",
@@ -89,12 +211,47 @@ fn c_stewart_gough(criterion: &mut Criterion) {
         |s, (legs, _)| stewart_gough::solve_in_order_predicted(s, legs),
         residual,
     );
+    #[cfg(target_arch = "x86_64")]
+    if stewart_gough::wide::available() {
+        use stewart_gough::wide;
+        // SAFETY: the processor's features have been asked for
+        track(
+            &mut group,
+            "limit, wide",
+            &inputs,
+            start,
+            |s, (legs, _)| unsafe { wide::solve(s, legs) },
+            residual,
+        );
+        track(
+            &mut group,
+            "limit, wide, predictor",
+            &inputs,
+            start,
+            |s, (legs, _)| unsafe { wide::solve_predicted(s, legs) },
+            residual,
+        );
+    }
+    for unreachable in [5.0, f64::NAN] {
+        let legs = [1.0, 1.2, unreachable, 1.2, 1.0, 1.2];
+        assert!(!stewart_gough::solve(&mut start.clone(), legs).converged);
+    }
     for (name, starts) in [
-        ("limit, cold from home", trajectories::platform_cold_from_home()),
-        ("limit, cold from random", trajectories::platform_cold_from_random()),
+        (
+            "limit, cold from home",
+            trajectories::platform_cold_from_home(),
+        ),
+        (
+            "limit, cold from random",
+            trajectories::platform_cold_from_random(),
+        ),
     ] {
         cold(&mut group, name, || stewart_gough::cold_starts(&starts));
-        println!("  {} of {} land in the pose that made the legs", stewart_gough::cold_starts_at_truth(&starts), starts.len());
+        println!(
+            "  {} of {} land in the pose that made the legs",
+            stewart_gough::cold_starts_at_truth(&starts),
+            starts.len()
+        );
     }
 
     // the general engine goes here: track(&mut group, "engine", &inputs, ...) and cold(&mut group, "engine, cold ...", ...)
@@ -123,7 +280,10 @@ fn track<S: Clone, I: Copy>(
         }
         let report = solve(&mut state, input);
         let found = residual(&state, input);
-        assert!(report.converged && found <= TOLERANCE, "{name}: row {row}: {report:?}, recomputed {found:e}");
+        assert!(
+            report.converged && found <= TOLERANCE,
+            "{name}: row {row}: {report:?}, recomputed {found:e}"
+        );
         tally.solves += 1;
         tally.converged += 1;
         tally.steps += u64::from(report.steps);
@@ -165,8 +325,9 @@ fn print_line(name: &str, tally: &Tally, sweep: impl Fn()) {
     }
     times.sort_by(f64::total_cmp);
     println!(
-        "\n{name}: {:.1} ns a solve, {:.2} steps, {} of {} solved ({:.1} %), residual {:.1e}",
+        "\n{name}: {:.1} ns a solve (best {:.1}), {:.2} steps, {} of {} solved ({:.1} %), residual {:.1e}",
         times[times.len() / 2],
+        times[0],
         tally.mean_steps(),
         tally.converged,
         tally.solves,
@@ -178,7 +339,10 @@ fn print_line(name: &str, tally: &Tally, sweep: impl Fn()) {
 /// max(|fx|, |fy|), from the angles and the standard library alone.
 fn four_bar_residual(t1: f64, [t2, t3]: [f64; 2]) -> f64 {
     use four_bar::{L0, L1, L2, L3};
-    assert!((0.0..=TAU / 2.0).contains(&t3.rem_euclid(TAU)), "left the open branch");
+    assert!(
+        (0.0..=TAU / 2.0).contains(&t3.rem_euclid(TAU)),
+        "left the open branch"
+    );
     let fx = L1 * t1.cos() + L2 * t2.cos() - L0 - L3 * t3.cos();
     let fy = L1 * t1.sin() + L2 * t2.sin() - L3 * t3.sin();
     fx.abs().max(fy.abs())
@@ -190,7 +354,10 @@ fn three_rps_residual(legs: [f64; 3], angles: [f64; 3]) -> f64 {
         let (e, r) = (TAU * i as f64 / 3.0, 1.0 - legs[i] * angles[i].cos());
         [r * e.cos(), r * e.sin(), legs[i] * angles[i].sin()]
     });
-    [(0, 1), (1, 2), (2, 0)].map(|(i, j)| ((0..3).map(|k| (s[i][k] - s[j][k]).powi(2)).sum::<f64>() - three_rps::SIDE2).abs())
+    [(0, 1), (1, 2), (2, 0)]
+        .map(|(i, j)| {
+            ((0..3).map(|k| (s[i][k] - s[j][k]).powi(2)).sum::<f64>() - three_rps::SIDE2).abs()
+        })
         .into_iter()
         .fold(0.0, f64::max)
 }

@@ -23,7 +23,10 @@ impl State {
         let d = L0 - L1;
         let t2 = ((L2 * L2 + d * d - L3 * L3) / (2.0 * L2 * d)).acos();
         let t3 = (L2 * t2.sin()).atan2(L2 * t2.cos() - d);
-        State { t: [t2, t3], rate: [0.0; 2] }
+        State {
+            t: [t2, t3],
+            rate: [0.0; 2],
+        }
     }
 }
 
@@ -36,7 +39,10 @@ pub struct Carried {
 
 impl From<State> for Carried {
     fn from(state: State) -> Self {
-        Carried { t: state.t.map(Circle::at::<super::Std>), rate: state.rate }
+        Carried {
+            t: state.t.map(Circle::at::<super::Std>),
+            rate: state.rate,
+        }
     }
 }
 
@@ -44,7 +50,10 @@ impl From<State> for Carried {
 #[inline]
 pub fn solve<T: Trig>(state: &mut State, t1: f64) -> Report {
     let (report, _, moved) = newton(state.t.map(Circle::at::<T>), Circle::at::<T>(t1));
-    *state = State { t: from_fn(|i| state.t[i] + moved[i]), rate: moved };
+    *state = State {
+        t: from_fn(|i| state.t[i] + moved[i]),
+        rate: moved,
+    };
     report
 }
 
@@ -53,7 +62,10 @@ pub fn solve<T: Trig>(state: &mut State, t1: f64) -> Report {
 pub fn solve_predicted<T: Trig>(state: &mut State, t1: f64) -> Report {
     let t: [f64; 2] = from_fn(|i| state.t[i] + state.rate[i]);
     let (report, _, moved) = newton(t.map(Circle::at::<T>), Circle::at::<T>(t1));
-    *state = State { t: from_fn(|i| t[i] + moved[i]), rate: from_fn(|i| state.rate[i] + moved[i]) };
+    *state = State {
+        t: from_fn(|i| t[i] + moved[i]),
+        rate: from_fn(|i| state.rate[i] + moved[i]),
+    };
     report
 }
 
@@ -61,7 +73,10 @@ pub fn solve_predicted<T: Trig>(state: &mut State, t1: f64) -> Report {
 #[inline]
 pub fn track<T: Trig>(state: &mut Carried, t1: f64) -> Report {
     let (report, t, moved) = newton(state.t, Circle::at::<T>(t1));
-    *state = Carried { t: t.map(Circle::renormalised), rate: moved };
+    *state = Carried {
+        t: t.map(Circle::renormalised),
+        rate: moved,
+    };
     report
 }
 
@@ -70,7 +85,10 @@ pub fn track<T: Trig>(state: &mut Carried, t1: f64) -> Report {
 pub fn track_predicted<T: Trig>(state: &mut Carried, t1: f64) -> Report {
     let (predicted, _) = turn(state.t, state.rate);
     let (report, t, moved) = newton(predicted, Circle::at::<T>(t1));
-    *state = Carried { t: t.map(Circle::renormalised), rate: from_fn(|i| state.rate[i] + moved[i]) };
+    *state = Carried {
+        t: t.map(Circle::renormalised),
+        rate: from_fn(|i| state.rate[i] + moved[i]),
+    };
     report
 }
 
@@ -80,16 +98,34 @@ fn newton(mut t: [Circle; 2], crank: Circle) -> (Report, [Circle; 2], [f64; 2]) 
     let mut moved = [0.0; 2];
     let mut steps = 0;
     loop {
-        let (a, b) = ([L2 * t[0].cos, L2 * t[0].sin], [L3 * t[1].cos, L3 * t[1].sin]);
+        let (a, b) = (
+            [L2 * t[0].cos, L2 * t[0].sin],
+            [L3 * t[1].cos, L3 * t[1].sin],
+        );
         let f = [reach[0] + a[0] - b[0], reach[1] + a[1] - b[1]];
-        let residual = if f[0].abs() > f[1].abs() { f[0].abs() } else { f[1].abs() };
+        let residual = if f[0].abs() > f[1].abs() {
+            f[0].abs()
+        } else {
+            f[1].abs()
+        };
         let converged = residual <= TOLERANCE;
         if converged || steps == MAX_STEPS {
-            return (Report { steps, residual, converged }, t, moved);
+            return (
+                Report {
+                    steps,
+                    residual,
+                    converged,
+                },
+                t,
+                moved,
+            );
         }
         // J = [-a₁ b₁; a₀ -b₀] by Cramer's rule: one division, and no pivot to look for
         let inverse = 1.0 / (a[1] * b[0] - b[1] * a[0]);
-        let step = [(f[0] * b[0] + f[1] * b[1]) * inverse, (f[0] * a[0] + f[1] * a[1]) * inverse];
+        let step = [
+            (f[0] * b[0] + f[1] * b[1]) * inverse,
+            (f[0] * a[0] + f[1] * a[1]) * inverse,
+        ];
         let (turned, turns) = turn(t, step);
         t = turned;
         moved = from_fn(|i| moved[i] + turns[i]);

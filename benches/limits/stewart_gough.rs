@@ -1,6 +1,9 @@
 //! C: the 6-SPS Stewart–Gough platform. Unknown the platform's pose for given leg lengths, as a
 //! translation and a small turn of a unit quaternion: |p + R b_i - a_i| = l_i.
 
+#[cfg(target_arch = "x86_64")]
+pub mod wide;
+
 use super::{MAX_STEPS, Report, TOLERANCE, Tally, eliminate, eliminate_in_order};
 
 pub const BASE: [[f64; 3]; 6] = [
@@ -29,13 +32,23 @@ pub struct Pose {
 }
 
 impl Pose {
-    pub const HOME: Pose = Pose { p: [0.0, 0.0, 0.9], q: [1.0, 0.0, 0.0, 0.0] };
+    pub const HOME: Pose = Pose {
+        p: [0.0, 0.0, 0.9],
+        q: [1.0, 0.0, 0.0, 0.0],
+    };
 
     /// From a translation and a rotation vector.
     pub fn new(p: [f64; 3], r: [f64; 3]) -> Self {
         let angle = (r[0] * r[0] + r[1] * r[1] + r[2] * r[2]).sqrt();
-        let k = if angle > 0.0 { (0.5 * angle).sin() / angle } else { 0.5 };
-        Pose { p, q: [(0.5 * angle).cos(), k * r[0], k * r[1], k * r[2]] }
+        let k = if angle > 0.0 {
+            (0.5 * angle).sin() / angle
+        } else {
+            0.5
+        };
+        Pose {
+            p,
+            q: [(0.5 * angle).cos(), k * r[0], k * r[1], k * r[2]],
+        }
     }
 
     #[inline(always)]
@@ -54,7 +67,9 @@ impl Pose {
         let r = self.rotation();
         std::array::from_fn(|i| {
             let b = PLATFORM[i];
-            let v: [f64; 3] = std::array::from_fn(|k| self.p[k] + r[k][0] * b[0] + r[k][1] * b[1] + r[k][2] * b[2] - BASE[i][k]);
+            let v: [f64; 3] = std::array::from_fn(|k| {
+                self.p[k] + r[k][0] * b[0] + r[k][1] * b[1] + r[k][2] * b[2] - BASE[i][k]
+            });
             (v[0] * v[0] + v[1] * v[1] + v[2] * v[2]).sqrt()
         })
     }
@@ -63,7 +78,8 @@ impl Pose {
     pub fn distance(&self, other: &Pose) -> f64 {
         let (r, s) = (self.rotation(), other.rotation());
         let turn = r.as_flattened().iter().zip(s.as_flattened());
-        turn.chain(self.p.iter().zip(&other.p)).fold(0.0, |m: f64, (a, b)| m.max((a - b).abs()))
+        turn.chain(self.p.iter().zip(&other.p))
+            .fold(0.0, |m: f64, (a, b)| m.max((a - b).abs()))
     }
 
     /// Moves by a translation and turns by a vector, through Cayley's map: (1 + t/2) q, normalised.
@@ -94,7 +110,10 @@ pub struct State {
 
 impl State {
     pub fn at(pose: Pose) -> Self {
-        State { pose, rate: [0.0; 6] }
+        State {
+            pose,
+            rate: [0.0; 6],
+        }
     }
 }
 
@@ -146,12 +165,13 @@ fn newton<const PIVOT: bool>(state: &mut State, legs: [f64; 6]) -> Report {
         let mut residual = 0.0;
         for i in 0..6 {
             let b = PLATFORM[i];
-            let s: [f64; 3] = std::array::from_fn(|k| r[k][0] * b[0] + r[k][1] * b[1] + r[k][2] * b[2]);
+            let s: [f64; 3] =
+                std::array::from_fn(|k| r[k][0] * b[0] + r[k][1] * b[1] + r[k][2] * b[2]);
             let v: [f64; 3] = std::array::from_fn(|k| s[k] + (p[k] - BASE[i][k]));
             f[i] = 0.5 * (legs[i] * legs[i] - (v[0] * v[0] + v[1] * v[1] + v[2] * v[2]));
             // | |v| - l | = |l² - |v|²| / (|v| + l) < 2 |f| / l
             let bound = 2.0 * f[i].abs() / legs[i];
-            if !(bound <= residual) {
+            if bound > residual || bound.is_nan() {
                 residual = bound;
             }
             a[i] = [
@@ -165,12 +185,20 @@ fn newton<const PIVOT: bool>(state: &mut State, legs: [f64; 6]) -> Report {
         }
         let converged = residual <= TOLERANCE;
         if converged || steps == MAX_STEPS {
-            return Report { steps, residual, converged };
+            return Report {
+                steps,
+                residual,
+                converged,
+            };
         }
         if !PIVOT {
             eliminate_in_order(&mut a, &mut f);
         } else if !eliminate(&mut a, &mut f) {
-            return Report { steps, residual, converged };
+            return Report {
+                steps,
+                residual,
+                converged,
+            };
         }
         state.pose.retract(&f);
         for i in 0..6 {
@@ -184,7 +212,11 @@ fn newton<const PIVOT: bool>(state: &mut State, legs: [f64; 6]) -> Report {
 pub type Cold = (Pose, [f64; 6], Pose);
 
 pub fn cold_starts(starts: &[Cold]) -> Tally {
-    Tally::of(starts.iter().map(|&(_, legs, start)| solve(&mut State::at(start), legs)))
+    Tally::of(
+        starts
+            .iter()
+            .map(|&(_, legs, start)| solve(&mut State::at(start), legs)),
+    )
 }
 
 /// How many cold starts end in the pose that made the legs: another assembly is as good an answer.

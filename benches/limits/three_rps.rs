@@ -20,7 +20,10 @@ pub struct State {
 
 impl State {
     pub fn at(angles: [f64; 3]) -> Self {
-        State { angles, rate: [0.0; 3] }
+        State {
+            angles,
+            rate: [0.0; 3],
+        }
     }
 
     /// From home to the given legs in a hundred warm starts.
@@ -28,7 +31,10 @@ impl State {
         let mut state = State::at(HOME);
         for k in 1..=100 {
             let s = f64::from(k) / 100.0;
-            let report = solve::<super::Std>(&mut state, from_fn(|i| HOME_LEGS[i] + s * (legs[i] - HOME_LEGS[i])));
+            let report = solve::<super::Std>(
+                &mut state,
+                from_fn(|i| HOME_LEGS[i] + s * (legs[i] - HOME_LEGS[i])),
+            );
             assert!(report.converged);
         }
         state.rate = [0.0; 3];
@@ -45,7 +51,10 @@ pub struct Carried {
 
 impl From<State> for Carried {
     fn from(state: State) -> Self {
-        Carried { angles: state.angles.map(Circle::at::<super::Std>), rate: state.rate }
+        Carried {
+            angles: state.angles.map(Circle::at::<super::Std>),
+            rate: state.rate,
+        }
     }
 }
 
@@ -53,7 +62,10 @@ impl From<State> for Carried {
 #[inline]
 pub fn solve<T: Trig>(state: &mut State, legs: [f64; 3]) -> Report {
     let (report, _, moved) = newton(state.angles.map(Circle::at::<T>), legs);
-    *state = State { angles: from_fn(|i| state.angles[i] + moved[i]), rate: moved };
+    *state = State {
+        angles: from_fn(|i| state.angles[i] + moved[i]),
+        rate: moved,
+    };
     report
 }
 
@@ -62,7 +74,10 @@ pub fn solve<T: Trig>(state: &mut State, legs: [f64; 3]) -> Report {
 pub fn solve_predicted<T: Trig>(state: &mut State, legs: [f64; 3]) -> Report {
     let angles: [f64; 3] = from_fn(|i| state.angles[i] + state.rate[i]);
     let (report, _, moved) = newton(angles.map(Circle::at::<T>), legs);
-    *state = State { angles: from_fn(|i| angles[i] + moved[i]), rate: from_fn(|i| state.rate[i] + moved[i]) };
+    *state = State {
+        angles: from_fn(|i| angles[i] + moved[i]),
+        rate: from_fn(|i| state.rate[i] + moved[i]),
+    };
     report
 }
 
@@ -70,7 +85,10 @@ pub fn solve_predicted<T: Trig>(state: &mut State, legs: [f64; 3]) -> Report {
 #[inline]
 pub fn track(state: &mut Carried, legs: [f64; 3]) -> Report {
     let (report, angles, moved) = newton(state.angles, legs);
-    *state = Carried { angles: angles.map(Circle::renormalised), rate: moved };
+    *state = Carried {
+        angles: angles.map(Circle::renormalised),
+        rate: moved,
+    };
     report
 }
 
@@ -79,7 +97,10 @@ pub fn track(state: &mut Carried, legs: [f64; 3]) -> Report {
 pub fn track_predicted(state: &mut Carried, legs: [f64; 3]) -> Report {
     let (predicted, _) = turn(state.angles, state.rate);
     let (report, angles, moved) = newton(predicted, legs);
-    *state = Carried { angles: angles.map(Circle::renormalised), rate: from_fn(|i| state.rate[i] + moved[i]) };
+    *state = Carried {
+        angles: angles.map(Circle::renormalised),
+        rate: from_fn(|i| state.rate[i] + moved[i]),
+    };
     report
 }
 
@@ -100,13 +121,21 @@ fn newton(mut angles: [Circle; 3], legs: [f64; 3]) -> (Report, [Circle; 3], [f64
         });
         let mut residual = f[0].abs();
         for f in &f[1..] {
-            if f.abs() > residual {
+            if f.abs() > residual || f.is_nan() {
                 residual = f.abs();
             }
         }
         let converged = residual <= TOLERANCE;
         if converged || steps == MAX_STEPS {
-            return (Report { steps, residual, converged }, angles, moved);
+            return (
+                Report {
+                    steps,
+                    residual,
+                    converged,
+                },
+                angles,
+                moved,
+            );
         }
         // row i holds p_i at column i and q_i at column i + 1 and nothing else: Cramer's rule costs
         // twelve products and one division
@@ -136,5 +165,9 @@ fn newton(mut angles: [Circle; 3], legs: [f64; 3]) -> (Report, [Circle; 3], [f64
 pub type Cold = ([f64; 3], [f64; 3]);
 
 pub fn cold_starts(starts: &[Cold]) -> Tally {
-    Tally::of(starts.iter().map(|&(legs, angles)| solve::<super::Std>(&mut State::at(angles), legs)))
+    Tally::of(
+        starts
+            .iter()
+            .map(|&(legs, angles)| solve::<super::Std>(&mut State::at(angles), legs)),
+    )
 }

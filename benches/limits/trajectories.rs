@@ -40,8 +40,16 @@ pub fn platform_poses() -> Vec<Pose> {
     let row = |k| {
         let t = TAU * k as f64 / ROWS as f64;
         Pose::new(
-            [0.15 * t.sin(), 0.12 * (2.0 * t).cos(), 0.9 + 0.1 * (3.0 * t).sin()],
-            [0.25 * (t + 0.3).sin(), 0.2 * (2.0 * t + 1.0).sin(), 0.3 * (t + 2.0).sin()],
+            [
+                0.15 * t.sin(),
+                0.12 * (2.0 * t).cos(),
+                0.9 + 0.1 * (3.0 * t).sin(),
+            ],
+            [
+                0.25 * (t + 0.3).sin(),
+                0.2 * (2.0 * t + 1.0).sin(),
+                0.3 * (t + 2.0).sin(),
+            ],
         )
     };
     (0..ROWS).map(row).collect()
@@ -61,15 +69,22 @@ pub fn platform_cold_from_random() -> Vec<stewart_gough::Cold> {
         let (s1, c1) = rng.random_range(0.0..TAU).sin_cos();
         let (s2, c2) = rng.random_range(0.0..TAU).sin_cos();
         let (a, b) = ((1.0 - u).sqrt(), u.sqrt());
-        Pose { p, q: [a * s1, a * c1, b * s2, b * c2] }
+        Pose {
+            p,
+            q: [a * s1, a * c1, b * s2, b * c2],
+        }
     })
 }
 
 fn platform_cold(start: impl Fn(&mut Pcg64) -> Pose) -> Vec<stewart_gough::Cold> {
     // two generators, so that both sets ask for the same poses
-    let (mut rng, mut starts) = (Pcg64::seed_from_u64(SEED + 1), Pcg64::seed_from_u64(SEED + 2));
+    let (mut rng, mut starts) = (
+        Pcg64::seed_from_u64(SEED + 1),
+        Pcg64::seed_from_u64(SEED + 2),
+    );
     let mut draw = || {
-        let p = [(-0.3, 0.3), (-0.3, 0.3), (0.65, 1.15)].map(|(low, high)| rng.random_range(low..=high));
+        let p = [(-0.3, 0.3), (-0.3, 0.3), (0.65, 1.15)]
+            .map(|(low, high)| rng.random_range(low..=high));
         let truth = Pose::new(p, from_fn(|_| rng.random_range(-0.5..=0.5)));
         (truth, truth.legs(), start(&mut starts))
     };
