@@ -157,7 +157,7 @@ impl Circle {
     fn turned_far(self, delta: f64) -> (Self, f64) {
         use std::f64::consts::TAU;
         let delta = delta - TAU * (delta / TAU).round();
-        let (s, c) = delta.sin_cos();
+        let (s, c) = Inline::sin_cos(delta);
         (
             Circle {
                 cos: self.cos * c - self.sin * s,

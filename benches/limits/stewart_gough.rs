@@ -162,7 +162,7 @@ fn newton<const PIVOT: bool>(state: &mut State, legs: [f64; 6]) -> Report {
         // half of l² - |v|²: rows v·δp + (Rb × v)·ω, and no square root
         let mut a = [[0.0; 6]; 6];
         let mut f = [0.0; 6];
-        let mut residual = 0.0;
+        let (mut residual, mut sum) = (0.0, 0.0);
         for i in 0..6 {
             let b = PLATFORM[i];
             let s: [f64; 3] =
@@ -171,9 +171,8 @@ fn newton<const PIVOT: bool>(state: &mut State, legs: [f64; 6]) -> Report {
             f[i] = 0.5 * (legs[i] * legs[i] - (v[0] * v[0] + v[1] * v[1] + v[2] * v[2]));
             // | |v| - l | = |l² - |v|²| / (|v| + l) < 2 |f| / l
             let bound = 2.0 * f[i].abs() / legs[i];
-            if bound > residual || bound.is_nan() {
-                residual = bound;
-            }
+            residual = if residual > bound { residual } else { bound };
+            sum += f[i];
             a[i] = [
                 v[0],
                 v[1],
@@ -183,7 +182,8 @@ fn newton<const PIVOT: bool>(state: &mut State, legs: [f64; 6]) -> Report {
                 s[0] * v[1] - s[1] * v[0],
             ];
         }
-        let converged = residual <= TOLERANCE;
+        // the maximum may pass over a leg that is not a number, the sum does not
+        let converged = residual <= TOLERANCE && !sum.is_nan();
         if converged || steps == MAX_STEPS {
             return Report {
                 steps,

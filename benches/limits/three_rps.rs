@@ -121,11 +121,14 @@ fn newton(mut angles: [Circle; 3], legs: [f64; 3]) -> (Report, [Circle; 3], [f64
         });
         let mut residual = f[0].abs();
         for f in &f[1..] {
-            if f.abs() > residual || f.is_nan() {
-                residual = f.abs();
-            }
+            residual = if residual > f.abs() {
+                residual
+            } else {
+                f.abs()
+            };
         }
-        let converged = residual <= TOLERANCE;
+        // the maximum may pass over a leg that is not a number, the sum does not
+        let converged = residual <= TOLERANCE && !(f[0] + f[1] + f[2]).is_nan();
         if converged || steps == MAX_STEPS {
             return (
                 Report {
