@@ -1,41 +1,48 @@
 //! The meaningful, immutable mechanism, and its one kinematics over any number.
 
+mod build;
 mod closure;
 mod configuration;
 mod coordinate;
 mod dimensions;
+mod frames;
+mod inspect;
 mod kinematics;
+mod lift;
+mod model;
+mod names;
 
 pub use configuration::{Configuration, PlatformPose};
 pub use coordinate::Coordinate;
 pub use dimensions::{ChainDimensions, ClosureDimensions, Dimensions, LinearForm, RowDimensions};
+pub use frames::Body;
 pub use kinematics::{Kinematics, Placement};
+
+pub use crate::description::{ClosureKind, Convention, MatrixEntry, Role};
+pub use model::{
+    Chain, ClosedForm, Closure as NamedClosure, FixedStep, Formula, Given, Joint, JointKind,
+    Parameter, Platform, Row, Symbol,
+};
+
+use crate::description::Problem;
 
 pub(crate) use closure::{Closure, Side};
 pub(crate) use coordinate::orientation_rows;
 pub(crate) use kinematics::Mover;
 
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum ClosureKind {
-    Spherical,
-    Revolute,
-    Prismatic,
-    Universal,
-    Cylindrical,
-    Planar,
-    Rigid,
-    Distance,
-}
-impl ClosureKind {
-    pub fn equations(self) -> usize {
-        match self {
-            Self::Distance => 1,
-            Self::Spherical | Self::Planar => 3,
-            Self::Universal | Self::Cylindrical => 4,
-            Self::Revolute | Self::Prismatic => 5,
-            Self::Rigid => 6,
-        }
-    }
+/// A valid mechanism. It never changes; holding one proves that its description makes sense.
+#[derive(Clone, Debug)]
+pub struct Mechanism {
+    name: String,
+    source: Option<String>,
+    parameters: Vec<Parameter>,
+    joints: Vec<Joint>,
+    chains: Vec<Chain>,
+    platforms: Vec<Platform>,
+    closures: Vec<model::Closure>,
+    closed_forms: Vec<ClosedForm>,
+    dimensions: Dimensions<f64>,
+    warnings: Vec<Problem>,
 }
 
 /// A frame of a mechanism.

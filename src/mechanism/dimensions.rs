@@ -92,3 +92,16 @@ pub struct Dimensions<T> {
     /// The closures.
     pub closures: Vec<ClosureDimensions<T>>,
 }
+
+impl<T> Dimensions<T> {
+    /// The dimensions of a mechanism that has nothing.
+    pub(super) fn empty() -> Self {
+        Dimensions {
+            characteristic_length: 1.0,
+            joint_scales: vec![],
+            chains: vec![],
+            platforms: vec![],
+            closures: vec![],
+        }
+    }
+}

@@ -79,6 +79,11 @@ impl<T: Number> Kinematics<T> {
         plan
     }
 
+    /// Ground from a frame the plan was asked for; `None` for any other.
+    pub fn pose<'a>(&self, frame: Frame, placement: &'a Placement<T>) -> Option<&'a Pose<T>> {
+        Some(placement.pose(self.slot(frame)?))
+    }
+
     /// The slot of a frame the plan was asked for.
     pub(crate) fn slot(&self, frame: Frame) -> Option<Slot> {
         let mut found = self.frames.iter().filter(|(f, _)| *f == frame);

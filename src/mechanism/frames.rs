@@ -1,0 +1,298 @@
+//! What a mechanism tells about itself: parts, names, bodies, frames.
+
+use super::configuration::{Configuration, PlatformPose};
+use super::kinematics::Kinematics;
+use super::model::{
+    Chain, ClosedForm, Closure, Formula, Joint, JointKind, Parameter, Platform, Symbol,
+};
+use super::{Dimensions, Frame, Mechanism};
+use crate::algebra::Affine;
+use crate::description::{GROUND, Problem};
+use crate::geometry::Pose;
+
+/// A rigid body: what is fixed to one another whatever the joints do.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub enum Body {
+    /// The fixed body.
+    Ground,
+    /// The platform of that index.
+    Platform(usize),
+    /// The link after a moving row of a chain.
+    Link {
+        /// Index of the chain.
+        chain: usize,
+        /// Number of the row, from 1.
+        row: usize,
+    },
+}
+
+impl Mechanism {
+    /// What the mechanism is called.
+    pub fn name(&self) -> &str {
+        &self.name
+    }
+
+    /// Where it comes from.
+    pub fn source(&self) -> Option<&str> {
+        self.source.as_deref()
+    }
+
+    /// The parameters with their values, in the order of the file.
+    pub fn parameters(&self) -> &[Parameter] {
+        &self.parameters
+    }
+
+    /// The joints, in the order of the file.
+    pub fn joints(&self) -> &[Joint] {
+        &self.joints
+    }
+
+    /// The chains, in the order of the file.
+    pub fn chains(&self) -> &[Chain] {
+        &self.chains
+    }
+
+    /// The platforms, in the order of the file.
+    pub fn platforms(&self) -> &[Platform] {
+        &self.platforms
+    }
+
+    /// The closures, in the order of the file.
+    pub fn closures(&self) -> &[Closure] {
+        &self.closures
+    }
+
+    /// The closed forms, in the order of the file.
+    pub fn closed_forms(&self) -> &[ClosedForm] {
+        &self.closed_forms
+    }
+
+    /// What is odd about the mechanism, though it can be analysed.
+    pub fn warnings(&self) -> &[Problem] {
+        &self.warnings
+    }
+
+    /// All dimensions, in m and rad.
+    pub fn dimensions(&self) -> &Dimensions<f64> {
+        &self.dimensions
+    }
+
+    /// The length in m by which residuals and Jacobians are made dimensionless.
+    pub fn characteristic_length(&self) -> f64 {
+        self.dimensions.characteristic_length
+    }
+
+    /// The index of the joint of that name.
+    pub fn joint(&self, name: &str) -> Option<usize> {
+        self.joints.iter().position(|joint| joint.name == name)
+    }
+
+    /// The index of the platform of that name.
+    pub fn platform(&self, name: &str) -> Option<usize> {
+        self.platforms
+            .iter()
+            .position(|platform| platform.name == name)
+    }
+
+    /// The frame of that name: `ground`, `leg1`, `leg1.2`, `top`, `top.S1`.
+    pub fn frame(&self, name: &str) -> Option<Frame> {
+        let frames = self.frames();
+        frames
+            .into_iter()
+            .find(|&frame| self.frame_name(frame) == name)
+    }
+
+    /// The name of a frame.
+    pub fn frame_name(&self, frame: Frame) -> String {
+        match frame {
+            Frame::Ground => GROUND.into(),
+            Frame::Platform { platform } => self.platforms[platform].name.clone(),
+            Frame::OnPlatform { platform, frame } => {
+                let Platform { name, frames, .. } = &self.platforms[platform];
+                format!("{name}.{}", frames[frame].0)
+            }
+            Frame::Link { chain, row } => format!("{}.{row}", self.chains[chain].name),
+            Frame::Tip { chain } => self.chains[chain].name.clone(),
+        }
+    }
+
+    /// Every frame: ground, the link and tip frames of each chain, the frames of each platform.
+    pub fn frames(&self) -> Vec<Frame> {
+        let mut frames = vec![Frame::Ground];
+        for (chain, part) in self.chains.iter().enumerate() {
+            frames.extend((0..=part.rows.len()).map(|row| Frame::Link { chain, row }));
+            frames.push(Frame::Tip { chain });
+        }
+        for (platform, part) in self.platforms.iter().enumerate() {
+            frames.push(Frame::Platform { platform });
+            let named = 0..part.frames.len();
+            frames.extend(named.map(|frame| Frame::OnPlatform { platform, frame }));
+        }
+        frames
+    }
+
+    /// The home configuration of the file; it need not be assembled.
+    pub fn home(&self) -> Configuration<f64> {
+        Configuration {
+            joints: self.joints.iter().map(|joint| joint.home).collect(),
+            platforms: self
+                .platforms
+                .iter()
+                .map(|p| PlatformPose::from_pose(&p.home))
+                .collect(),
+        }
+    }
+
+    /// ⁱⱼT: the pose of frame `of` seen from frame `relative_to`, positions in m.
+    pub fn transform(&self, relative_to: Frame, of: Frame, at: &Configuration<f64>) -> Pose<f64> {
+        let [relative_to, of] = self.poses([relative_to, of], at);
+        relative_to.inverse() * of
+    }
+
+    /// Ground from each of the given frames.
+    pub fn poses<const N: usize>(
+        &self,
+        frames: [Frame; N],
+        at: &Configuration<f64>,
+    ) -> [Pose<f64>; N] {
+        let kinematics = Kinematics::new(&self.dimensions, frames);
+        let mut placement = kinematics.placement();
+        kinematics.place(at, &mut placement);
+        frames.map(|frame| {
+            *kinematics
+                .pose(frame, &placement)
+                .expect("the plan was made for it")
+        })
+    }
+
+    /// The body that a frame is fixed to.
+    pub fn body(&self, frame: Frame) -> Body {
+        let mut frame = frame;
+        loop {
+            let (chain, rows) = match frame {
+                Frame::Ground => return Body::Ground,
+                Frame::Platform { platform } | Frame::OnPlatform { platform, .. } => {
+                    return Body::Platform(platform);
+                }
+                Frame::Link { chain, row } => (chain, row),
+                Frame::Tip { chain } => (chain, self.chains[chain].rows.len()),
+            };
+            let Chain {
+                rows: table, on, ..
+            } = &self.chains[chain];
+            if let Some(row) = table[..rows]
+                .iter()
+                .rposition(|row| !row.joints().is_empty())
+            {
+                return Body::Link {
+                    chain,
+                    row: row + 1,
+                };
+            }
+            frame = *on;
+        }
+    }
+
+    /// Every moving or fixed body, ground first.
+    pub fn bodies(&self) -> Vec<Body> {
+        let mut bodies: Vec<Body> = self
+            .frames()
+            .into_iter()
+            .map(|frame| self.body(frame))
+            .collect();
+        bodies.sort_unstable();
+        bodies.dedup();
+        bodies
+    }
+
+    /// Every entry that may contain joint variables.
+    pub(super) fn affine_entries(&self) -> impl Iterator<Item = &Affine<Symbol>> {
+        let rows = self.chains.iter().flat_map(|chain| &chain.rows);
+        let lengths = self
+            .closures
+            .iter()
+            .filter_map(|closure| closure.length.as_ref());
+        rows.flat_map(|row| [&row.d, &row.theta]).chain(lengths)
+    }
+
+    /// The value of a formula over parameters that is known to have one.
+    pub(super) fn constant(&self, formula: &Formula) -> f64 {
+        let value = formula.evaluate(&|symbol| match *symbol {
+            Symbol::Parameter(i) => self.parameters[i].value,
+            Symbol::Joint(_) | Symbol::Local(_) => f64::NAN,
+        });
+        value.unwrap_or(f64::NAN)
+    }
+
+    /// A joint turns where it stands in θ and slides where it stands in d or in a length.
+    pub(super) fn infer_kinds(&mut self) {
+        let mut turns = vec![false; self.joints.len()];
+        let mut slides = vec![false; self.joints.len()];
+        for row in self.chains.iter().flat_map(|chain| &chain.rows) {
+            joints_of(&row.theta).for_each(|joint| turns[joint] = true);
+            joints_of(&row.d).for_each(|joint| slides[joint] = true);
+        }
+        for length in self
+            .closures
+            .iter()
+            .filter_map(|closure| closure.length.as_ref())
+        {
+            joints_of(length).for_each(|joint| slides[joint] = true);
+        }
+        for (joint, (turns, slides)) in self.joints.iter_mut().zip(turns.into_iter().zip(slides)) {
+            joint.kind = match (turns, slides) {
+                (true, true) => JointKind::Helical,
+                (false, true) => JointKind::Prismatic,
+                (_, false) => JointKind::Revolute,
+            };
+        }
+    }
+
+    /// The joints that move one side of a closure or change its length.
+    pub(super) fn felt_joints(&self) -> std::collections::BTreeSet<usize> {
+        let mut felt = std::collections::BTreeSet::new();
+        for closure in &self.closures {
+            felt.extend(closure.length.iter().flat_map(joints_of));
+            for frame in closure.frames {
+                felt.extend(self.joints_below(frame));
+            }
+        }
+        felt
+    }
+
+    /// The joints between a frame and the ground or platform that carries it.
+    pub fn joints_below(&self, frame: Frame) -> Vec<usize> {
+        let mut joints = Vec::new();
+        let mut frame = frame;
+        loop {
+            let (chain, rows) = match frame {
+                Frame::Link { chain, row } => (chain, row),
+                Frame::Tip { chain } => (chain, self.chains[chain].rows.len()),
+                _ => return joints,
+            };
+            let Chain {
+                rows: table, on, ..
+            } = &self.chains[chain];
+            joints.extend(table[..rows].iter().rev().flat_map(|row| row.joints()));
+            frame = *on;
+        }
+    }
+}
+
+/// The joints in an affine entry.
+fn joints_of(affine: &Affine<Symbol>) -> impl Iterator<Item = usize> {
+    affine.terms.iter().filter_map(|(symbol, _)| match symbol {
+        Symbol::Joint(joint) => Some(*joint),
+        _ => None,
+    })
+}
+
+impl super::model::Row {
+    /// The joints whose variables stand in the row.
+    pub fn joints(&self) -> Vec<usize> {
+        let mut joints: Vec<usize> = joints_of(&self.theta).chain(joints_of(&self.d)).collect();
+        joints.sort_unstable();
+        joints.dedup();
+        joints
+    }
+}

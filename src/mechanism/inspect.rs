@@ -1,0 +1,180 @@
+//! What is wrong or odd about a mechanism whose names are all resolved.
+
+use std::collections::HashSet;
+
+use super::model::{Closure, FixedStep, Formula, Given, Symbol};
+use super::{Frame, Mechanism};
+use crate::description::{ClosureKind, Description, Problem, ProblemKind};
+
+pub(super) fn inspect(
+    mechanism: &Mechanism,
+    description: &Description,
+    problems: &mut Vec<Problem>,
+) {
+    if mechanism.chains.is_empty() && mechanism.platforms.is_empty() {
+        problems.push(ProblemKind::NothingToAnalyse.at(description.name.span.clone()));
+    }
+    for (closure, described) in mechanism.closures.iter().zip(&description.closures) {
+        let [a, b] = closure.frames.map(|frame| mechanism.body(frame));
+        if a == b {
+            let kind = ProblemKind::SameBody {
+                closure: closure.name.clone(),
+            };
+            let [first, second] = &described.value.frames;
+            problems.push(kind.at(first.span.start..second.span.end));
+        }
+        inspect_length(
+            mechanism,
+            closure,
+            described.value.length.as_ref(),
+            problems,
+        );
+    }
+    for (joint, described) in mechanism.joints.iter().zip(&description.joints) {
+        if let Some((low, high)) = joint.limits
+            && !joint.allows(joint.home)
+        {
+            let kind = ProblemKind::HomeOutsideLimits {
+                joint: joint.name.clone(),
+                home: joint.home,
+                low,
+                high,
+            };
+            problems.push(kind.at(described.value.home.span.clone()));
+        }
+    }
+    for (chain, described) in mechanism.chains.iter().zip(&description.chains) {
+        for (i, (row, described)) in chain.rows.iter().zip(&described.value.rows).enumerate() {
+            let a = mechanism.constant(&row.a);
+            if a < 0.0 {
+                let kind = ProblemKind::NegativeLinkLength {
+                    chain: chain.name.clone(),
+                    row: i + 1,
+                    a,
+                };
+                problems.push(kind.at(described.a.span.clone()));
+            }
+        }
+    }
+    unused(mechanism, description, problems);
+}
+
+/// A distance that no joint changes has a sign and a size that can be judged now.
+fn inspect_length(
+    mechanism: &Mechanism,
+    closure: &Closure,
+    described: Option<&crate::description::Entry>,
+    problems: &mut Vec<Problem>,
+) {
+    if let (ClosureKind::Distance, Some(length), Some(entry)) =
+        (closure.kind, &closure.length, described)
+        && length.is_constant()
+    {
+        let length = mechanism.constant(&length.constant);
+        if length < 0.0 {
+            problems.push(ProblemKind::NegativeDistance { length }.at(entry.span.clone()));
+        } else if length == 0.0 {
+            let kind = ProblemKind::ZeroDistance {
+                closure: closure.name.clone(),
+            };
+            problems.push(kind.at(entry.span.clone()));
+        }
+    }
+}
+
+fn unused(mechanism: &Mechanism, description: &Description, problems: &mut Vec<Problem>) {
+    let mut used: HashSet<Symbol> = HashSet::new();
+    mechanism.for_each_formula(&mut |formula: &Formula| {
+        used.extend(formula.names().map(|(symbol, _)| *symbol));
+    });
+    let mut in_rows_and_lengths: HashSet<usize> = HashSet::new();
+    for affine in mechanism.affine_entries() {
+        in_rows_and_lengths.extend(affine.terms.iter().filter_map(|(symbol, _)| match symbol {
+            Symbol::Joint(joint) => Some(*joint),
+            _ => None,
+        }));
+    }
+    // homes and limits were evaluated and are kept as values only
+    let homes_and_limits = description.joints.iter().flat_map(|joint| {
+        let limits = joint
+            .value
+            .limits
+            .iter()
+            .flat_map(|(low, high)| [low, high]);
+        limits.chain([&joint.value.home])
+    });
+    let platform_homes = description.platforms.iter();
+    let platform_homes = platform_homes.flat_map(|p| p.value.home.iter().flat_map(|d| d.entries()));
+    let evaluated: HashSet<&str> = (homes_and_limits.chain(platform_homes))
+        .flat_map(|entry| entry.expression.names().map(|(name, _)| name.as_str()))
+        .collect();
+    for (i, named) in description.parameters.iter().enumerate() {
+        let name = named.name.value.clone();
+        if !used.contains(&Symbol::Parameter(i)) && !evaluated.contains(name.as_str()) {
+            let problem = ProblemKind::UnusedParameter { name };
+            problems.push(problem.at(named.name.span.clone()));
+        }
+    }
+    let felt = mechanism.felt_joints();
+    for (i, named) in description.joints.iter().enumerate() {
+        let name = named.name.value.clone();
+        let span = named.name.span.clone();
+        if !in_rows_and_lengths.contains(&i) {
+            problems.push(ProblemKind::UnusedJoint { name }.at(span));
+        } else if !mechanism.closures.is_empty() && !felt.contains(&i) {
+            problems.push(ProblemKind::UnfeltJoint { name }.at(span));
+        }
+    }
+    let touched: HashSet<usize> = (mechanism.closures.iter().flat_map(|c| c.frames))
+        .chain(mechanism.chains.iter().map(|chain| chain.on))
+        .filter_map(|frame| match frame {
+            Frame::Platform { platform } | Frame::OnPlatform { platform, .. } => Some(platform),
+            _ => None,
+        })
+        .collect();
+    for (i, named) in description.platforms.iter().enumerate() {
+        if !touched.contains(&i) {
+            let name = named.name.value.clone();
+            problems.push(ProblemKind::UnusedPlatform { name }.at(named.name.span.clone()));
+        }
+    }
+}
+
+impl Mechanism {
+    /// Visits every formula of the mechanism.
+    fn for_each_formula(&self, visit: &mut impl FnMut(&Formula)) {
+        let fixed = |steps: &[FixedStep], visit: &mut dyn FnMut(&Formula)| {
+            for step in steps {
+                step.formulas().iter().for_each(&mut *visit);
+            }
+        };
+        for parameter in &self.parameters {
+            visit(&parameter.definition);
+        }
+        for chain in &self.chains {
+            fixed(&chain.base, visit);
+            fixed(&chain.tip, visit);
+            for row in &chain.rows {
+                visit(&row.alpha);
+                visit(&row.a);
+            }
+        }
+        for (_, steps) in self.platforms.iter().flat_map(|platform| &platform.frames) {
+            fixed(steps, visit);
+        }
+        for affine in self.affine_entries() {
+            visit(&affine.constant);
+            affine
+                .terms
+                .iter()
+                .for_each(|(_, coefficient)| visit(coefficient));
+        }
+        for form in &self.closed_forms {
+            form.locals.iter().for_each(|(_, formula)| visit(formula));
+            match &form.gives {
+                Given::Pose { entries, .. } => entries.iter().for_each(|(_, f)| visit(f)),
+                Given::Identities(identities) => identities.iter().for_each(|(_, f)| visit(f)),
+            }
+        }
+    }
+}

@@ -1,0 +1,180 @@
+//! The one door from formulas to dimensions over a number type.
+
+use super::Mechanism;
+use super::dimensions::{
+    ChainDimensions, ClosureDimensions, Dimensions, LinearForm, RowDimensions,
+};
+use super::model::{FixedStep, Formula, JointKind, Row, Symbol};
+use crate::algebra::{Affine, EvaluationError};
+use crate::description::Convention;
+use crate::geometry::{Axis, Pose, Vector3};
+use crate::number::Number;
+
+fn value<T: Number>(formula: &Formula, parameters: &[T]) -> Result<T, EvaluationError> {
+    formula.evaluate(&|symbol| match *symbol {
+        Symbol::Parameter(i) => parameters[i],
+        Symbol::Joint(_) | Symbol::Local(_) => unreachable!("resolved over parameters only"),
+    })
+}
+
+fn linear_form<T: Number>(
+    affine: &Affine<Symbol>,
+    parameters: &[T],
+) -> Result<(T, LinearForm<T>), EvaluationError> {
+    let mut terms = Vec::with_capacity(affine.terms.len());
+    for (symbol, coefficient) in &affine.terms {
+        let Symbol::Joint(joint) = *symbol else {
+            unreachable!("an entry is affine in joint variables");
+        };
+        let coefficient = value(coefficient, parameters)?;
+        if coefficient != T::zero() {
+            terms.push((joint, coefficient));
+        }
+    }
+    Ok((value(&affine.constant, parameters)?, LinearForm(terms)))
+}
+
+fn along<T: Number>(axis: Axis, length: T) -> Pose<T> {
+    Pose::translation(Vector3::unit(axis as usize).times(length))
+}
+
+impl FixedStep {
+    /// The formulas it is made of.
+    pub(super) fn formulas(&self) -> &[Formula] {
+        match self {
+            FixedStep::Translate(_, formula) | FixedStep::Rotate(_, formula) => {
+                std::slice::from_ref(formula)
+            }
+            FixedStep::TranslateBy(formulas) => formulas,
+        }
+    }
+
+    /// The displacement for given values of the parameters.
+    pub(super) fn over<T: Number>(&self, parameters: &[T]) -> Result<Pose<T>, EvaluationError> {
+        Ok(match self {
+            FixedStep::Translate(axis, length) => along(*axis, value(length, parameters)?),
+            FixedStep::Rotate(axis, angle) => Pose::rotation(*axis, value(angle, parameters)?),
+            FixedStep::TranslateBy([x, y, z]) => Pose::translation(Vector3([
+                value(x, parameters)?,
+                value(y, parameters)?,
+                value(z, parameters)?,
+            ])),
+        })
+    }
+}
+
+fn product<T: Number>(steps: &[FixedStep], parameters: &[T]) -> Result<Pose<T>, EvaluationError> {
+    (steps.iter()).try_fold(Pose::identity(), |pose, step| {
+        Ok(pose * step.over(parameters)?)
+    })
+}
+
+impl Row {
+    fn over<T: Number>(
+        &self,
+        convention: Convention,
+        parameters: &[T],
+    ) -> Result<RowDimensions<T>, EvaluationError> {
+        let alpha = Pose::rotation(Axis::X, value(&self.alpha, parameters)?);
+        let a = along(Axis::X, value(&self.a, parameters)?);
+        let (theta, turn) = linear_form(&self.theta, parameters)?;
+        let (d, slide) = linear_form(&self.d, parameters)?;
+        let joint = Pose::rotation(Axis::Z, theta) * along(Axis::Z, d);
+        // Rz(θ₀) and Tz(d₀) commute with the motion about and along the same z
+        let (before, after) = match convention {
+            Convention::Modified => (alpha * a * joint, Pose::identity()),
+            Convention::Standard => (joint, a * alpha),
+        };
+        Ok(RowDimensions {
+            before,
+            turn,
+            slide,
+            after,
+        })
+    }
+}
+
+impl Mechanism {
+    /// All dimensions for given values of the parameters, over any number.
+    ///
+    /// `parameters` holds a value for each parameter of the mechanism, in order; relations between
+    /// them are the caller's affair.
+    ///
+    /// # Errors
+    /// If an expression has no value at these parameters.
+    pub fn dimensions_over<T: Number>(
+        &self,
+        parameters: &[T],
+    ) -> Result<Dimensions<T>, EvaluationError> {
+        let mut chains = Vec::with_capacity(self.chains.len());
+        for chain in &self.chains {
+            let rows = chain
+                .rows
+                .iter()
+                .map(|row| row.over(chain.convention, parameters));
+            chains.push(ChainDimensions {
+                on: chain.on,
+                base: product(&chain.base, parameters)?,
+                rows: rows.collect::<Result<_, _>>()?,
+                tip: product(&chain.tip, parameters)?,
+            });
+        }
+        let mut platforms = Vec::with_capacity(self.platforms.len());
+        for platform in &self.platforms {
+            let frames = platform
+                .frames
+                .iter()
+                .map(|(_, steps)| product(steps, parameters));
+            platforms.push(frames.collect::<Result<_, _>>()?);
+        }
+        let mut closures = Vec::with_capacity(self.closures.len());
+        for closure in &self.closures {
+            let (length, extension) = match &closure.length {
+                Some(affine) => linear_form(affine, parameters)?,
+                None => (T::zero(), LinearForm(vec![])),
+            };
+            closures.push(ClosureDimensions {
+                kind: closure.kind,
+                frames: closure.frames,
+                length,
+                extension,
+            });
+        }
+        let mut dimensions = Dimensions {
+            characteristic_length: 1.0,
+            joint_scales: vec![1.0; self.joints.len()],
+            chains,
+            platforms,
+            closures,
+        };
+        let length = self.largest_length(&dimensions);
+        dimensions.characteristic_length = length;
+        for (scale, joint) in dimensions.joint_scales.iter_mut().zip(&self.joints) {
+            if joint.kind == JointKind::Prismatic {
+                *scale = length;
+            }
+        }
+        Ok(dimensions)
+    }
+
+    /// The largest length that stands in the mechanism, in m; 1 m if there is none.
+    fn largest_length<T: Number>(&self, dimensions: &Dimensions<T>) -> f64 {
+        let size = |pose: &Pose<T>| {
+            let squares = pose.position.0.map(|x| x.real() * x.real());
+            squares.iter().sum::<f64>().sqrt()
+        };
+        let chains = dimensions.chains.iter().flat_map(|chain| {
+            let rows = chain.rows.iter().flat_map(|row| [&row.before, &row.after]);
+            rows.chain([&chain.base, &chain.tip])
+        });
+        let poses = chains.chain(dimensions.platforms.iter().flatten());
+        let distances = dimensions
+            .closures
+            .iter()
+            .map(|closure| closure.length.real().abs());
+        let slides = self.joints.iter().filter(|joint| !joint.kind.is_angle());
+        let slides = slides.map(|joint| joint.home.abs());
+        let largest = (poses.map(size).chain(distances).chain(slides)).fold(0.0, f64::max);
+        if largest > 0.0 { largest } else { 1.0 }
+    }
+}

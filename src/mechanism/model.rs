@@ -1,0 +1,178 @@
+//! The parts of a mechanism, every name resolved.
+
+use crate::algebra::{Affine, Expression};
+use crate::description::{ClosureKind, Convention, MatrixEntry, Role};
+use crate::geometry::{Axis, Pose};
+
+/// What a name in an expression stands for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub enum Symbol {
+    /// The parameter of that index.
+    Parameter(usize),
+    /// The variable of the joint of that index.
+    Joint(usize),
+    /// The local name of that index in its closed form.
+    Local(usize),
+}
+
+/// An expression whose names are resolved.
+pub type Formula = Expression<Symbol>;
+
+/// A named constant.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Parameter {
+    /// Its name.
+    pub name: String,
+    /// What it is defined as; only parameters occur in it.
+    pub definition: Formula,
+    /// Its value, in m or rad or without unit.
+    pub value: f64,
+}
+
+/// How a joint moves.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum JointKind {
+    /// Its variable is an angle in rad: it stands in `theta` only.
+    Revolute,
+    /// Its variable is a length in m: it stands in `d` or in the length of a `Distance`.
+    Prismatic,
+    /// Its variable is an angle in rad that also slides: it stands in both.
+    Helical,
+}
+
+/// A joint variable.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Joint {
+    /// Its name.
+    pub name: String,
+    /// Whether it is driven.
+    pub role: Role,
+    /// How it moves, inferred from the columns where it stands.
+    pub kind: JointKind,
+    /// Its value in the home configuration, rad or m.
+    pub home: f64,
+    /// Lowest and highest value, rad or m.
+    pub limits: Option<(f64, f64)>,
+}
+
+impl JointKind {
+    /// Whether the variable is an angle (rad); otherwise a length (m).
+    pub fn is_angle(self) -> bool {
+        self != JointKind::Prismatic
+    }
+}
+
+impl Joint {
+    /// Whether a value is within the limits, where there are any. An angle counts modulo a turn.
+    pub fn allows(&self, value: f64) -> bool {
+        // what a solver returns for a joint held at its limit may be off by rounding
+        const ROUNDING: f64 = 1e-9;
+        let Some((low, high)) = self.limits else {
+            return true;
+        };
+        let within = |x: f64| x >= low - ROUNDING && x <= high + ROUNDING;
+        if self.kind.is_angle() && self.kind != JointKind::Helical {
+            let turn = std::f64::consts::TAU;
+            let first = value + turn * ((low - ROUNDING - value) / turn).ceil();
+            within(first)
+        } else {
+            within(value)
+        }
+    }
+}
+
+/// One step of a fixed transform.
+#[derive(Clone, Debug, PartialEq)]
+pub enum FixedStep {
+    /// By a length (m) along an axis.
+    Translate(Axis, Formula),
+    /// By an angle (rad) about an axis.
+    Rotate(Axis, Formula),
+    /// By a vector (m).
+    TranslateBy([Formula; 3]),
+}
+
+/// One row of a Denavit–Hartenberg table.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Row {
+    /// Twist of the link (rad).
+    pub alpha: Formula,
+    /// Length of the link (m).
+    pub a: Formula,
+    /// Offset along the joint axis (m), affine in the joint variables.
+    pub d: Affine<Symbol>,
+    /// Angle about the joint axis (rad), affine in the joint variables.
+    pub theta: Affine<Symbol>,
+    /// α, a, d, θ as written in the file.
+    pub written: [String; 4],
+}
+
+/// A serial chain.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Chain {
+    /// Its name, which is also that of its tip frame.
+    pub name: String,
+    /// The frame it stands on.
+    pub on: super::Frame,
+    /// How its rows are multiplied.
+    pub convention: Convention,
+    /// From the frame it stands on to its frame 0.
+    pub base: Vec<FixedStep>,
+    /// Its table.
+    pub rows: Vec<Row>,
+    /// From its last link frame to its tip frame.
+    pub tip: Vec<FixedStep>,
+}
+
+/// A rigid body whose pose is unknown.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Platform {
+    /// Its name, which is also that of its own frame.
+    pub name: String,
+    /// Its pose in the home configuration: ground from platform.
+    pub home: Pose<f64>,
+    /// Frames fixed in it.
+    pub frames: Vec<(String, Vec<FixedStep>)>,
+}
+
+/// A broken joint, put back between two frames.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Closure {
+    /// Its name.
+    pub name: String,
+    /// The kind of joint.
+    pub kind: ClosureKind,
+    /// The frames it joins; the joint's axes are their z axes.
+    pub frames: [super::Frame; 2],
+    /// The length of a `Distance` (m), affine in the joint variables.
+    pub length: Option<Affine<Symbol>>,
+}
+
+/// A printed formula, to be checked against the chains.
+#[derive(Clone, Debug, PartialEq)]
+pub struct ClosedForm {
+    /// Its name.
+    pub name: String,
+    /// Where it is printed.
+    pub source: Option<String>,
+    /// Local names and what they are defined as, each after those it uses.
+    pub locals: Vec<(String, Formula)>,
+    /// What it gives.
+    pub gives: Given,
+}
+
+/// What a closed form gives.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Given {
+    /// Entries of the transform of one frame seen from another.
+    Pose {
+        /// The frame.
+        of: super::Frame,
+        /// The frame it is seen from.
+        relative_to: super::Frame,
+        /// The entries that are given.
+        entries: Vec<(MatrixEntry, Formula)>,
+    },
+    /// Expressions that vanish at every assembled configuration, with their names.
+    Identities(Vec<(String, Formula)>),
+}

@@ -1,0 +1,204 @@
+//! What the names of a description stand for.
+
+use std::collections::HashMap;
+use std::ops::Range;
+
+use super::Frame;
+use super::model::Symbol;
+use crate::description::{
+    Description, GROUND, Named, Problem, ProblemKind, Scope, Spanned, nearest,
+};
+
+/// The names that expressions and frame references of a file may use.
+pub(super) struct Names<'a> {
+    pub parameters: HashMap<&'a str, usize>,
+    pub joints: HashMap<&'a str, usize>,
+    chains: HashMap<&'a str, usize>,
+    platforms: HashMap<&'a str, usize>,
+    description: &'a Description,
+}
+
+fn index<T>(named: &[Named<T>]) -> HashMap<&str, usize> {
+    let names = named.iter().map(|named| named.name.value.as_str());
+    names.enumerate().map(|(i, name)| (name, i)).collect()
+}
+
+impl<'a> Names<'a> {
+    pub fn new(description: &'a Description) -> Self {
+        Names {
+            parameters: index(&description.parameters),
+            joints: index(&description.joints),
+            chains: index(&description.chains),
+            platforms: index(&description.platforms),
+            description,
+        }
+    }
+
+    /// The symbol of a name in an expression.
+    pub fn symbol(
+        &self,
+        name: &str,
+        span: &Range<usize>,
+        scope: Scope,
+        locals: &HashMap<&str, usize>,
+    ) -> Result<Symbol, Problem> {
+        if let Some(&local) = locals.get(name) {
+            return Ok(Symbol::Local(local));
+        }
+        if let Some(&parameter) = self.parameters.get(name) {
+            return Ok(Symbol::Parameter(parameter));
+        }
+        match (self.joints.get(name), scope) {
+            (Some(_), Scope::Parameters) => {
+                let kind = ProblemKind::JointNotAllowed { name: name.into() };
+                return Err(kind.at(span.clone()));
+            }
+            (Some(&joint), _) => return Ok(Symbol::Joint(joint)),
+            (None, _) => {}
+        }
+        let parameters = self.parameters.keys().copied();
+        let mut candidates: Vec<&str> = parameters.chain(locals.keys().copied()).collect();
+        if scope != Scope::Parameters {
+            candidates.extend(self.joints.keys());
+        }
+        // hash maps have no order, and of two equally near names the same must always be suggested
+        candidates.sort_unstable();
+        let suggestion = nearest(name, candidates).map(str::to_owned);
+        let kind = ProblemKind::UnknownName {
+            name: name.into(),
+            suggestion,
+            scope,
+        };
+        Err(kind.at(span.clone()))
+    }
+
+    /// The frame of a name such as `leg1`, `leg1.2`, `top` or `top.S1`.
+    pub fn frame(&self, name: &Spanned<String>) -> Result<Frame, Problem> {
+        self.find_frame(&name.value)
+            .map_err(|kind| kind.at(name.span.clone()))
+    }
+
+    fn find_frame(&self, name: &str) -> Result<Frame, ProblemKind> {
+        if name == GROUND {
+            return Ok(Frame::Ground);
+        }
+        let (owner, rest) = match name.split_once('.') {
+            Some((owner, rest)) => (owner, Some(rest)),
+            None => (name, None),
+        };
+        if let Some(&chain) = self.chains.get(owner) {
+            let Some(link) = rest else {
+                return Ok(Frame::Tip { chain });
+            };
+            let rows = self.description.chains[chain].value.rows.len();
+            return match link.parse() {
+                Ok(row) if row <= rows => Ok(Frame::Link { chain, row }),
+                _ => Err(ProblemKind::NoSuchLink {
+                    chain: owner.into(),
+                    link: link.into(),
+                    rows,
+                }),
+            };
+        }
+        if let Some(&platform) = self.platforms.get(owner) {
+            let Some(rest) = rest else {
+                return Ok(Frame::Platform { platform });
+            };
+            let frames = &self.description.platforms[platform].value.frames;
+            let found = frames.iter().position(|frame| frame.name.value == rest);
+            if let Some(frame) = found {
+                return Ok(Frame::OnPlatform { platform, frame });
+            }
+        }
+        let known = self.frame_names();
+        let suggestion = nearest(name, known.iter().map(String::as_str));
+        Err(ProblemKind::UnknownFrame {
+            name: name.into(),
+            suggestion: suggestion.map(str::to_owned),
+        })
+    }
+
+    fn frame_names(&self) -> Vec<String> {
+        let mut names = vec![GROUND.to_owned()];
+        for Named { name, value } in &self.description.chains {
+            names.push(name.value.clone());
+            // a chain of a thousand rows is not mistyped in the row number
+            let links = (0..=value.rows.len().min(20)).map(|row| format!("{}.{row}", name.value));
+            names.extend(links);
+        }
+        for Named { name, value } in &self.description.platforms {
+            names.push(name.value.clone());
+            let frames = value.frames.iter();
+            names.extend(frames.map(|frame| format!("{}.{}", name.value, frame.name.value)));
+        }
+        names
+    }
+}
+
+/// The order in which definitions can be evaluated, each after those it uses; or the first cycle.
+///
+/// `uses[i]` are the definitions that definition `i` uses.
+pub(super) fn definition_order(uses: &[Vec<usize>]) -> Result<Vec<usize>, Vec<usize>> {
+    #[derive(Clone, Copy, PartialEq)]
+    enum Mark {
+        New,
+        Open,
+        Done,
+    }
+    let mut marks = vec![Mark::New; uses.len()];
+    let mut order = Vec::with_capacity(uses.len());
+    for start in 0..uses.len() {
+        // depth first, with a stack of its own: a file may hold thousands of definitions in a row
+        let mut path: Vec<(usize, usize)> = Vec::new();
+        if marks[start] == Mark::New {
+            marks[start] = Mark::Open;
+            path.push((start, 0));
+        }
+        while let Some((at, next)) = path.last_mut() {
+            match uses[*at].get(*next) {
+                Some(&used) => {
+                    *next += 1;
+                    match marks[used] {
+                        Mark::Done => {}
+                        Mark::New => {
+                            marks[used] = Mark::Open;
+                            path.push((used, 0));
+                        }
+                        Mark::Open => {
+                            let names = path.iter().map(|&(definition, _)| definition);
+                            return Err(names.skip_while(|&d| d != used).collect());
+                        }
+                    }
+                }
+                None => {
+                    marks[*at] = Mark::Done;
+                    order.push(*at);
+                    path.pop();
+                }
+            }
+        }
+    }
+    Ok(order)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::definition_order;
+
+    #[test]
+    fn definitions_come_after_those_they_use() {
+        assert_eq!(
+            definition_order(&[vec![2], vec![], vec![1]]),
+            Ok(vec![1, 2, 0])
+        );
+    }
+
+    #[test]
+    fn a_cycle_is_returned_in_its_order() {
+        assert_eq!(
+            definition_order(&[vec![1], vec![2, 3], vec![], vec![1]]),
+            Err(vec![1, 3])
+        );
+        assert_eq!(definition_order(&[vec![0]]), Err(vec![0]));
+    }
+}
