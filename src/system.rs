@@ -3,7 +3,13 @@
 //! Direct, inverse and mixed kinematics are only different choices of what is held ([`Held`]).
 
 mod equations;
+mod freedom;
 mod layout;
+mod question;
+mod value;
 
 pub use equations::{System, Work};
+pub use freedom::{Freedoms, Holdable, Mobility};
 pub use layout::{Held, HeldPlatform, Unknown};
+pub use question::{Question, QuestionError};
+pub use value::ValueError;
