@@ -1,2 +1,5 @@
 //! Analysis of parallel and closed-chain mechanisms described as serial Denavit–Hartenberg chains,
 //! broken at chosen joints and put back together by closures.
+
+pub mod algebra;
+pub mod number;

@@ -1,0 +1,224 @@
+//! Expressions such as `"90 deg - phi1"` or `"b - l1*cos(theta1)"`.
+//!
+//! An [`Expression`] is read once, its names are exchanged for whatever they turn out to mean with
+//! [`Expression::try_resolve`], and it is then evaluated in any [`Number`](crate::number::Number). Every part
+//! knows where it stands in the text, so that whoever finds a fault in it can point at it.
+
+mod affine;
+mod display;
+mod evaluation;
+mod parser;
+mod vocabulary;
+
+pub use affine::{Affine, NonAffine};
+pub use evaluation::{EvaluationError, EvaluationErrorKind};
+pub use parser::{MAX_HEIGHT, MAX_NESTING, ParseError, ParseErrorKind};
+pub use vocabulary::{Constant, Function, Unit, is_name, is_reserved};
+
+use std::ops::Range;
+
+/// An expression whose names are of type `N`: text when just read, something resolved later.
+///
+/// Two expressions are equal when they are the same tree, wherever they stand.
+#[derive(Debug, Clone)]
+pub struct Expression<N = String> {
+    /// What the expression is.
+    pub node: Node<N>,
+    /// Where it stands: bytes of the text it was parsed from, or of the file when it is part of a description.
+    pub span: Range<usize>,
+}
+
+/// One node of the tree.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Node<N> {
+    /// A plain number.
+    Number(f64),
+    /// A number with a unit, as written: `60 deg` holds 60.
+    Quantity(f64, Unit),
+    /// `pi`, `deg` or `rad`.
+    Constant(Constant),
+    /// A parameter, a joint variable or a local name.
+    Name(N),
+    /// `-x`
+    Negate(Box<Expression<N>>),
+    /// `x + y` and its like.
+    Binary(Operator, Box<Expression<N>>, Box<Expression<N>>),
+    /// `f(x)` or `f(x, y)`, with as many arguments as the function takes.
+    Call(Function, Vec<Expression<N>>),
+}
+
+/// An operator between two expressions.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub enum Operator {
+    /// `+`
+    Add,
+    /// `-`
+    Subtract,
+    /// `*`
+    Multiply,
+    /// `/`
+    Divide,
+    /// `^`
+    Power,
+}
+
+impl<N: PartialEq> PartialEq for Expression<N> {
+    fn eq(&self, other: &Self) -> bool {
+        self.node == other.node
+    }
+}
+
+impl Expression<String> {
+    /// Reads an expression. Spans count bytes of `text`.
+    pub fn parse(text: &str) -> Result<Self, ParseError> {
+        parser::parse(text)
+    }
+}
+
+impl<N> Expression<N> {
+    /// The expression that is only a number; it stands nowhere.
+    pub fn number(value: f64) -> Self {
+        Node::Number(value).at(0..0)
+    }
+
+    /// The expression that is only a name; it stands nowhere.
+    pub fn name(name: N) -> Self {
+        Node::Name(name).at(0..0)
+    }
+
+    /// The value, if the expression is only a number.
+    pub fn as_number(&self) -> Option<f64> {
+        match self.node {
+            Node::Number(value) => Some(value),
+            _ => None,
+        }
+    }
+
+    /// Whether the expression is the number 0.
+    pub fn is_zero(&self) -> bool {
+        self.as_number() == Some(0.0)
+    }
+
+    /// The expressions this one is directly made of, in the order they are written.
+    pub fn operands(&self) -> impl DoubleEndedIterator<Item = &Expression<N>> {
+        let (first, second, arguments): (Option<&Self>, Option<&Self>, &[Self]) = match &self.node {
+            Node::Number(_) | Node::Quantity(..) | Node::Constant(_) | Node::Name(_) => (None, None, &[]),
+            Node::Negate(x) => (Some(x), None, &[]),
+            Node::Binary(_, x, y) => (Some(x), Some(y), &[]),
+            Node::Call(_, arguments) => (None, None, arguments),
+        };
+        first.into_iter().chain(second).chain(arguments)
+    }
+
+    /// Every occurrence of a name, in the order they are written, with its place.
+    pub fn names(&self) -> impl Iterator<Item = (&N, &Range<usize>)> {
+        let mut waiting = vec![self];
+        std::iter::from_fn(move || {
+            while let Some(expression) = waiting.pop() {
+                if let Node::Name(name) = &expression.node {
+                    return Some((name, &expression.span));
+                }
+                waiting.extend(expression.operands().rev());
+            }
+            None
+        })
+    }
+
+    /// Exchanges every name for what `resolve` makes of it; returns all its errors if there are any.
+    pub fn try_resolve<M, E>(
+        &self,
+        mut resolve: impl FnMut(&N, &Range<usize>) -> Result<M, E>,
+    ) -> Result<Expression<M>, Vec<E>> {
+        let mut errors = Vec::new();
+        match self.exchange(&mut |name, span| resolve(name, span).map_err(|error| errors.push(error)).ok()) {
+            Some(resolved) if errors.is_empty() => Ok(resolved),
+            _ => Err(errors),
+        }
+    }
+
+    /// Visits every name even after one has no answer, so that all of them are heard.
+    fn exchange<M>(&self, resolve: &mut impl FnMut(&N, &Range<usize>) -> Option<M>) -> Option<Expression<M>> {
+        let node = match &self.node {
+            Node::Number(value) => Node::Number(*value),
+            Node::Quantity(value, unit) => Node::Quantity(*value, *unit),
+            Node::Constant(constant) => Node::Constant(*constant),
+            Node::Name(name) => Node::Name(resolve(name, &self.span)?),
+            Node::Negate(x) => Node::Negate(Box::new(x.exchange(resolve)?)),
+            Node::Binary(operator, x, y) => {
+                let (x, y) = (x.exchange(resolve), y.exchange(resolve));
+                Node::Binary(*operator, Box::new(x?), Box::new(y?))
+            }
+            Node::Call(function, arguments) => {
+                let arguments: Vec<_> = arguments.iter().map(|x| x.exchange(resolve)).collect();
+                Node::Call(*function, arguments.into_iter().collect::<Option<_>>()?)
+            }
+        };
+        Some(node.at(self.span.clone()))
+    }
+
+    /// The same expression standing elsewhere: every span is exchanged.
+    pub fn relocate(mut self, place: &impl Fn(Range<usize>) -> Range<usize>) -> Self {
+        self.relocate_in_place(place);
+        self
+    }
+
+    fn relocate_in_place(&mut self, place: &impl Fn(Range<usize>) -> Range<usize>) {
+        self.span = place(self.span.clone());
+        match &mut self.node {
+            Node::Number(_) | Node::Quantity(..) | Node::Constant(_) | Node::Name(_) => {}
+            Node::Negate(x) => x.relocate_in_place(place),
+            Node::Binary(_, x, y) => {
+                x.relocate_in_place(place);
+                y.relocate_in_place(place);
+            }
+            Node::Call(_, arguments) => arguments.iter_mut().for_each(|x| x.relocate_in_place(place)),
+        }
+    }
+}
+
+impl<N> Node<N> {
+    /// This node standing at `span`.
+    pub fn at(self, span: Range<usize>) -> Expression<N> {
+        Expression { node: self, span }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn names_come_in_the_order_they_are_written_with_their_places() {
+        let expression = Expression::parse("b - l1*cos(θ1) + b").unwrap();
+        let names: Vec<_> = expression.names().map(|(name, span)| (name.as_str(), span.clone())).collect();
+        assert_eq!(names, [("b", 0..1), ("l1", 4..6), ("θ1", 11..14), ("b", 18..19)]);
+    }
+
+    #[test]
+    fn every_name_that_cannot_be_resolved_is_reported() {
+        let expression = Expression::parse("atan2(x, a + y) - z").unwrap();
+        let errors = expression
+            .try_resolve(|name, span| if name == "a" { Ok(7_usize) } else { Err((name.clone(), span.clone())) })
+            .unwrap_err();
+        assert_eq!(errors, [("x".to_owned(), 6..7), ("y".to_owned(), 13..14), ("z".to_owned(), 18..19)]);
+    }
+
+    #[test]
+    fn resolved_names_keep_their_places() {
+        let expression = Expression::parse("2*a").unwrap().try_resolve(|_, _| Ok::<_, ()>(3_usize)).unwrap();
+        assert_eq!(expression.names().collect::<Vec<_>>(), [(&3, &(2..3))]);
+    }
+
+    #[test]
+    fn relocating_moves_every_span() {
+        let expression = Expression::parse("a+b").unwrap().relocate(&|span| span.start + 10..span.end + 10);
+        assert_eq!(expression.span, 10..13);
+        assert_eq!(expression.names().map(|(_, span)| span.clone()).collect::<Vec<_>>(), [10..11, 12..13]);
+    }
+
+    #[test]
+    fn equality_does_not_look_at_places() {
+        assert_eq!(Expression::parse("a+b").unwrap(), Expression::parse(" a + b ").unwrap());
+        assert_ne!(Expression::parse("a+b").unwrap(), Expression::parse("b+a").unwrap());
+    }
+}

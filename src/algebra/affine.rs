@@ -1,0 +1,196 @@
+//! Expression → constant + Σ coefficient·variable.
+
+use std::ops::Range;
+
+use super::{Expression, Node, Operator};
+
+/// An expression taken apart: `constant + Σ coefficient·variable`.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Affine<N> {
+    /// What is left when every variable is zero.
+    pub constant: Expression<N>,
+    /// Each variable once, in the order of first appearance, with a coefficient that is not the number 0.
+    pub terms: Vec<(N, Expression<N>)>,
+}
+
+/// The smallest part of an expression that is not affine in the variables.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct NonAffine {
+    /// Where it stands.
+    pub span: Range<usize>,
+}
+
+impl<N: Clone + PartialEq> Expression<N> {
+    /// Takes the expression apart, where `is_variable` tells variables from other names.
+    ///
+    /// Constant and coefficients are expressions over the other names.
+    pub fn affine(&self, is_variable: impl Fn(&N) -> bool) -> Result<Affine<N>, NonAffine> {
+        let mut affine = self.split(&is_variable)?;
+        affine.terms.retain(|(_, coefficient)| !coefficient.is_zero());
+        Ok(affine)
+    }
+
+    fn split(&self, is_variable: &impl Fn(&N) -> bool) -> Result<Affine<N>, NonAffine> {
+        if !self.names().any(|(name, _)| is_variable(name)) {
+            return Ok(Affine { constant: self.clone(), terms: Vec::new() });
+        }
+        let refusal = || NonAffine { span: self.span.clone() };
+        match &self.node {
+            Node::Name(name) => Ok(Affine {
+                constant: Node::Number(0.0).at(self.span.clone()),
+                terms: vec![(name.clone(), Node::Number(1.0).at(self.span.clone()))],
+            }),
+            Node::Negate(x) => Ok(x.split(is_variable)?.map(negate)),
+            Node::Binary(operator, x, y) => {
+                let (x, y) = (x.split(is_variable)?, y.split(is_variable)?);
+                match operator {
+                    Operator::Add => Ok(x.plus(y)),
+                    Operator::Subtract => Ok(x.plus(y.map(negate))),
+                    Operator::Multiply if y.is_constant() => Ok(x.map(|c| multiply(c, y.constant.clone()))),
+                    Operator::Multiply if x.is_constant() => Ok(y.map(|c| multiply(x.constant.clone(), c))),
+                    Operator::Divide if y.is_constant() => Ok(x.map(|c| divide(c, y.constant.clone()))),
+                    // A power whose variables have cancelled is a constant after all.
+                    Operator::Divide | Operator::Power if x.is_constant() && y.is_constant() => {
+                        let node = Node::Binary(*operator, Box::new(x.constant), Box::new(y.constant));
+                        Ok(Affine { constant: node.at(self.span.clone()), terms: Vec::new() })
+                    }
+                    _ => Err(refusal()),
+                }
+            }
+            _ => Err(refusal()),
+        }
+    }
+}
+
+impl<N: Clone + PartialEq> Affine<N> {
+    /// Whether no variable is left.
+    pub fn is_constant(&self) -> bool {
+        self.terms.iter().all(|(_, coefficient)| coefficient.is_zero())
+    }
+
+    fn map(self, change: impl Fn(Expression<N>) -> Expression<N>) -> Self {
+        let terms = self.terms.into_iter().map(|(name, coefficient)| (name, change(coefficient))).collect();
+        Self { constant: change(self.constant), terms }
+    }
+
+    fn plus(mut self, other: Self) -> Self {
+        self.constant = add(self.constant, other.constant);
+        for (name, coefficient) in other.terms {
+            match self.terms.iter_mut().find(|(known, _)| *known == name) {
+                Some((_, sum)) => *sum = add(sum.clone(), coefficient),
+                None => self.terms.push((name, coefficient)),
+            }
+        }
+        self
+    }
+}
+
+fn negate<N>(x: Expression<N>) -> Expression<N> {
+    let span = x.span.clone();
+    match x.node {
+        Node::Number(value) => Node::Number(0.0 - value).at(span),
+        Node::Negate(inner) => *inner,
+        _ => Node::Negate(Box::new(x)).at(span),
+    }
+}
+
+fn add<N: PartialEq>(x: Expression<N>, y: Expression<N>) -> Expression<N> {
+    let span = hull(&x, &y);
+    match (&x.node, &y.node) {
+        (Node::Number(a), Node::Number(b)) => Node::Number(a + b).at(span),
+        (Node::Number(0.0), _) => y,
+        (_, Node::Number(0.0)) => x,
+        (Node::Negate(a), _) if **a == y => Node::Number(0.0).at(span),
+        (_, Node::Negate(b)) if **b == x => Node::Number(0.0).at(span),
+        (_, Node::Negate(_)) => {
+            let y = negate(y);
+            Node::Binary(Operator::Subtract, Box::new(x), Box::new(y)).at(span)
+        }
+        _ => Node::Binary(Operator::Add, Box::new(x), Box::new(y)).at(span),
+    }
+}
+
+fn multiply<N: PartialEq>(x: Expression<N>, y: Expression<N>) -> Expression<N> {
+    let span = hull(&x, &y);
+    match (&x.node, &y.node) {
+        (Node::Number(a), Node::Number(b)) => Node::Number(a * b).at(span),
+        (Node::Number(0.0), _) | (_, Node::Number(0.0)) => Node::Number(0.0).at(span),
+        (Node::Number(1.0), _) => y,
+        (_, Node::Number(1.0)) => x,
+        (Node::Number(-1.0), _) => negate(y),
+        (_, Node::Number(-1.0)) => negate(x),
+        _ => Node::Binary(Operator::Multiply, Box::new(x), Box::new(y)).at(span),
+    }
+}
+
+fn divide<N: PartialEq>(x: Expression<N>, y: Expression<N>) -> Expression<N> {
+    let span = hull(&x, &y);
+    match (&x.node, &y.node) {
+        (_, Node::Number(1.0)) => x,
+        (Node::Number(a), Node::Number(b)) if *b != 0.0 => Node::Number(a / b).at(span),
+        // A zero divided by something that may itself be zero is not simplified: evaluation will tell.
+        _ => Node::Binary(Operator::Divide, Box::new(x), Box::new(y)).at(span),
+    }
+}
+
+fn hull<N>(x: &Expression<N>, y: &Expression<N>) -> Range<usize> {
+    x.span.start.min(y.span.start)..x.span.end.max(y.span.end)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn affine(text: &str) -> Result<Affine<String>, NonAffine> {
+        Expression::parse(text).unwrap().affine(|name| matches!(name.as_str(), "q" | "phi1" | "phi2"))
+    }
+
+    fn parts(text: &str) -> String {
+        let Affine { constant, terms } = affine(text).unwrap();
+        let terms = terms.iter().map(|(name, coefficient)| format!(" | {name}: {coefficient}"));
+        format!("{constant}{}", terms.collect::<String>())
+    }
+
+    #[test]
+    fn the_entries_of_printed_tables_come_apart() {
+        assert_eq!(parts("pi/2 - phi1"), "pi/2 | phi1: -1");
+        assert_eq!(parts("-q"), "0 | q: -1");
+        assert_eq!(parts("2*q"), "0 | q: 2");
+        assert_eq!(parts("phi1 + phi2"), "0 | phi1: 1 | phi2: 1");
+        assert_eq!(parts("n*q + 0.1"), "0.1 | q: n");
+        assert_eq!(parts("a*b"), "a*b");
+        assert_eq!(parts("q"), "0 | q: 1");
+    }
+
+    #[test]
+    fn terms_of_one_variable_are_merged() {
+        assert_eq!(parts("phi1 - phi1"), "0");
+        assert_eq!(parts("3*q - q/2 + 1 + q"), "1 | q: 3.5");
+        assert_eq!(parts("a*q - a*q"), "0");
+        assert_eq!(parts("a*q + q"), "0 | q: a + 1");
+        assert_eq!(parts("0*q + a"), "a");
+    }
+
+    #[test]
+    fn products_and_quotients_by_constants_are_distributed() {
+        assert_eq!(parts("n*(q + 1)"), "n | q: n");
+        assert_eq!(parts("(q - a)/2"), "-a/2 | q: 0.5");
+        assert_eq!(parts("-(2*(phi1 - 3) - phi2)*2"), "12 | phi1: -4 | phi2: 2");
+        assert_eq!(parts("(phi1 - phi1 + a)^2 + q"), "a^2 | q: 1");
+    }
+
+    #[test]
+    fn the_smallest_part_that_is_not_affine_is_pointed_at() {
+        assert_eq!(affine("1 + cos(q)").unwrap_err().span, 4..10);
+        assert_eq!(affine("1 + phi1*phi2").unwrap_err().span, 4..13);
+        assert_eq!(affine("q^2 + 1").unwrap_err().span, 0..3);
+        assert_eq!(affine("a/q").unwrap_err().span, 0..3);
+        assert_eq!(affine("2*(b + a^q)").unwrap_err().span, 7..10);
+        assert_eq!(affine("max(q, 0)").unwrap_err().span, 0..9);
+    }
+
+    #[test]
+    fn a_doubtful_division_is_left_to_evaluation() {
+        assert_eq!(parts("q/(a - a)"), "0/(a - a) | q: 1/(a - a)");
+    }
+}

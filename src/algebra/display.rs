@@ -1,0 +1,188 @@
+//! Expression → text that reads back as the same tree.
+
+use std::fmt::{self, Display, Formatter};
+
+use serde::{Serialize, Serializer};
+
+use super::{Expression, Node, Operator};
+
+/// How tightly the outermost operation of an expression binds.
+#[derive(Clone, Copy, PartialEq, PartialOrd)]
+enum Tightness {
+    Sum,
+    Product,
+    Sign,
+    /// A number with a unit: as tight as an operand, except under a power, where the unit would be taken for the base.
+    Quantity,
+    Power,
+    Operand,
+}
+
+impl Operator {
+    /// How it is written.
+    pub fn symbol(self) -> char {
+        match self {
+            Self::Add => '+',
+            Self::Subtract => '-',
+            Self::Multiply => '*',
+            Self::Divide => '/',
+            Self::Power => '^',
+        }
+    }
+
+    fn tightness(self) -> Tightness {
+        match self {
+            Self::Add | Self::Subtract => Tightness::Sum,
+            Self::Multiply | Self::Divide => Tightness::Product,
+            Self::Power => Tightness::Power,
+        }
+    }
+}
+
+impl<N> Expression<N> {
+    fn tightness(&self) -> Tightness {
+        match &self.node {
+            Node::Number(value) if value.is_sign_negative() => Tightness::Sign,
+            Node::Quantity(..) => Tightness::Quantity,
+            Node::Number(_) | Node::Constant(_) | Node::Name(_) | Node::Call(..) => Tightness::Operand,
+            Node::Negate(_) => Tightness::Sign,
+            Node::Binary(operator, ..) => operator.tightness(),
+        }
+    }
+}
+
+/// A part of an expression, in parentheses unless it binds at least as tightly as asked.
+struct Part<'a, N>(&'a Expression<N>, Tightness);
+
+impl<N: Display> Display for Part<'_, N> {
+    fn fmt(&self, f: &mut Formatter) -> fmt::Result {
+        match self.0.tightness() >= self.1 {
+            true => write!(f, "{}", self.0),
+            false => write!(f, "({})", self.0),
+        }
+    }
+}
+
+impl<N: Display> Display for Expression<N> {
+    fn fmt(&self, f: &mut Formatter) -> fmt::Result {
+        match &self.node {
+            Node::Number(value) => write_number(f, *value),
+            Node::Quantity(value, unit) => {
+                write_number(f, *value)?;
+                write!(f, " {}", unit.word())
+            }
+            Node::Constant(constant) => f.write_str(constant.word()),
+            Node::Name(name) => write!(f, "{name}"),
+            Node::Negate(x) => write!(f, "-{}", Part(x, Tightness::Sign)),
+            Node::Binary(operator, x, y) => {
+                let (left, right) = match operator {
+                    Operator::Add | Operator::Subtract => (Tightness::Sum, Tightness::Product),
+                    Operator::Multiply | Operator::Divide => (Tightness::Product, Tightness::Sign),
+                    Operator::Power => (Tightness::Operand, Tightness::Sign),
+                };
+                let (x, y) = (Part(x, left), Part(y, right));
+                match operator {
+                    Operator::Add | Operator::Subtract => write!(f, "{x} {} {y}", operator.symbol()),
+                    _ => write!(f, "{x}{}{y}", operator.symbol()),
+                }
+            }
+            Node::Call(function, arguments) => {
+                write!(f, "{}(", function.word())?;
+                for (i, argument) in arguments.iter().enumerate() {
+                    let comma = if i == 0 { "" } else { ", " };
+                    write!(f, "{comma}{argument}")?;
+                }
+                f.write_str(")")
+            }
+        }
+    }
+}
+
+fn write_number(f: &mut Formatter, value: f64) -> fmt::Result {
+    // Both forms are the shortest that read back as the same number.
+    match value == 0.0 || (1e-5..1e16).contains(&value.abs()) {
+        true => write!(f, "{value}"),
+        false => write!(f, "{value:e}"),
+    }
+}
+
+/// A plain number is written as a number, everything else as text.
+impl<N: Display> Serialize for Expression<N> {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        match self.as_number() {
+            Some(value) => serializer.serialize_f64(value),
+            None => serializer.collect_str(self),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use proptest::prelude::*;
+
+    use super::super::{Constant, Function, Unit};
+    use super::*;
+
+    fn printed(text: &str) -> String {
+        Expression::parse(text).unwrap().to_string()
+    }
+
+    #[test]
+    fn only_the_parentheses_that_are_needed_are_printed() {
+        assert_eq!(printed("((a))+(b*c)"), "a + b*c");
+        assert_eq!(printed("a-(b-c)"), "a - (b - c)");
+        assert_eq!(printed("(a-b)-c"), "a - b - c");
+        assert_eq!(printed("(a/b)/(c/d)"), "a/b/(c/d)");
+        assert_eq!(printed("-(x^2)"), "-x^2");
+        assert_eq!(printed("(-x)^2"), "(-x)^2");
+        assert_eq!(printed("(a^b)^c"), "(a^b)^c");
+        assert_eq!(printed("a^(b^c)"), "a^b^c");
+        assert_eq!(printed("90deg-phi1"), "90 deg - phi1");
+        assert_eq!(printed("(2 m)^2"), "(2 m)^2");
+        assert_eq!(printed("2^(2 m)"), "2^2 m");
+        assert_eq!(printed("atan2( y ,-x )"), "atan2(y, -x)");
+        assert_eq!(printed("1e-9*1e20"), "1e-9*1e20");
+    }
+
+    #[test]
+    fn plain_numbers_are_serialised_as_numbers() {
+        assert_eq!(serde_json::to_string(&Expression::parse("1.50").unwrap()).unwrap(), "1.5");
+        assert_eq!(serde_json::to_string(&Expression::parse("60deg").unwrap()).unwrap(), "\"60 deg\"");
+    }
+
+    fn any_expression() -> impl Strategy<Value = Expression> {
+        let leaf = prop_oneof![
+            (0.0..1e20).prop_map(Node::Number),
+            (0.0..1e-9).prop_map(Node::Number),
+            ((0.0..400.0), prop::sample::select(&Unit::ALL[..])).prop_map(|(x, unit)| Node::Quantity(x, unit)),
+            prop::sample::select(&Constant::ALL[..]).prop_map(Node::Constant),
+            prop::sample::select(&["a", "θ1", "m"][..]).prop_map(|name| Node::Name(name.to_owned())),
+        ];
+        leaf.prop_map(|node| node.at(0..0)).prop_recursive(8, 64, 2, |inner| {
+            let operator = prop::sample::select(
+                &[Operator::Add, Operator::Subtract, Operator::Multiply, Operator::Divide, Operator::Power][..],
+            );
+            prop_oneof![
+                inner.clone().prop_map(|x| Node::Negate(Box::new(x))),
+                (operator, inner.clone(), inner.clone()).prop_map(|(o, x, y)| Node::Binary(o, x.into(), y.into())),
+                inner.clone().prop_map(|x| Node::Call(Function::Cos, vec![x])),
+                (inner.clone(), inner).prop_map(|(x, y)| Node::Call(Function::Atan2, vec![x, y])),
+            ]
+            .prop_map(|node| node.at(0..0))
+        })
+    }
+
+    proptest! {
+        #[test]
+        fn what_is_printed_reads_back_as_the_same_tree(expression in any_expression()) {
+            prop_assert_eq!(Expression::parse(&expression.to_string()), Ok(expression));
+        }
+
+        #[test]
+        fn no_text_makes_the_parser_panic(text in "[a-c0-9.+*/^() ,eπ²θ-]{0,40}|\\PC{0,20}") {
+            if let Err(error) = Expression::parse(&text) {
+                prop_assert!(text.get(error.span).is_some());
+            }
+        }
+    }
+}

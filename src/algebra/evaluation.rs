@@ -1,0 +1,159 @@
+//! Expression → number.
+
+use std::ops::Range;
+
+use super::{Expression, Function, Node, Operator};
+use crate::number::Number;
+
+/// Why an expression has no value, and which part of it is to blame.
+#[derive(Debug, Clone, PartialEq)]
+pub struct EvaluationError {
+    /// The smallest part that has no value.
+    pub span: Range<usize>,
+    /// Why it has none.
+    pub kind: EvaluationErrorKind,
+}
+
+/// Why a part of an expression has no value. The numbers are the real parts of the arguments.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum EvaluationErrorKind {
+    /// A divisor is zero.
+    DivisionByZero,
+    /// A real square root of a negative number.
+    RootOfNegative(f64),
+    /// A real logarithm of a number that is not positive.
+    LogarithmOfNonPositive(f64),
+    /// `asin` or `acos` of a number outside [-1, 1].
+    OutOfRange(Function, f64),
+    /// A negative number to a power that is not whole.
+    PowerOfNegative(f64),
+    /// The value is infinite or undefined for another reason.
+    NotFinite,
+}
+
+/// Beyond this a whole exponent gains nothing from repeated multiplication.
+const MAX_WHOLE_EXPONENT: f64 = 1024.0;
+
+impl<N> Expression<N> {
+    /// The value, with `value_of` giving that of each name.
+    pub fn evaluate<T: Number>(&self, value_of: &impl Fn(&N) -> T) -> Result<T, EvaluationError> {
+        let value = match &self.node {
+            Node::Number(value) => T::from_f64(*value),
+            Node::Quantity(value, unit) => T::from_f64(unit.to_si(*value)),
+            Node::Constant(constant) => T::from_f64(constant.value()),
+            Node::Name(name) => value_of(name),
+            Node::Negate(x) => -x.evaluate(value_of)?,
+            Node::Binary(operator, x, y) => {
+                let (x, y_value) = (x.evaluate(value_of)?, y.evaluate(value_of)?);
+                if *operator == Operator::Divide && y_value == T::from_f64(0.0) {
+                    return Err(EvaluationError { span: y.span.clone(), kind: EvaluationErrorKind::DivisionByZero });
+                }
+                let value = combine(*operator, x, y_value);
+                return self.finite(value, || fault_of_operator(*operator, x.real(), y_value.real()));
+            }
+            Node::Call(function, arguments) => {
+                let x = arguments[0].evaluate(value_of)?;
+                let y = arguments.get(1).map_or(Ok(x), |y| y.evaluate(value_of))?;
+                return self.finite(call(*function, x, y), || fault_of_call(*function, x.real()));
+            }
+        };
+        self.finite(value, || EvaluationErrorKind::NotFinite)
+    }
+
+    fn finite<T: Number>(&self, value: T, fault: impl Fn() -> EvaluationErrorKind) -> Result<T, EvaluationError> {
+        match value.is_finite() {
+            true => Ok(value),
+            false => Err(EvaluationError { span: self.span.clone(), kind: fault() }),
+        }
+    }
+}
+
+fn combine<T: Number>(operator: Operator, x: T, y: T) -> T {
+    match operator {
+        Operator::Add => x + y,
+        Operator::Subtract => x - y,
+        Operator::Multiply => x * y,
+        Operator::Divide => x / y,
+        Operator::Power => {
+            let whole = y.real().round();
+            // A whole exponent needs no logarithm, so the base may be negative in every kind of number.
+            if y == T::from_f64(whole) && whole.abs() <= MAX_WHOLE_EXPONENT {
+                x.powi(whole as i32)
+            } else {
+                x.powf(y)
+            }
+        }
+    }
+}
+
+/// `y` is used only by functions of two arguments.
+fn call<T: Number>(function: Function, x: T, y: T) -> T {
+    match function {
+        Function::Sin => x.sin_cos().0,
+        Function::Cos => x.sin_cos().1,
+        Function::Tan => x.tan(),
+        Function::Asin => x.asin(),
+        Function::Acos => x.acos(),
+        Function::Atan => x.atan(),
+        Function::Atan2 => x.atan2(y),
+        Function::Sqrt => x.sqrt(),
+        Function::Exp => x.exp(),
+        Function::Ln => x.ln(),
+        Function::Abs => x.abs(),
+        Function::Hypot => (x * x + y * y).sqrt(),
+        Function::Min => if y.real() < x.real() { y } else { x },
+        Function::Max => if y.real() > x.real() { y } else { x },
+    }
+}
+
+fn fault_of_operator(operator: Operator, x: f64, y: f64) -> EvaluationErrorKind {
+    match operator {
+        Operator::Power if x == 0.0 && y < 0.0 => EvaluationErrorKind::DivisionByZero,
+        Operator::Power if x < 0.0 && y.fract() != 0.0 => EvaluationErrorKind::PowerOfNegative(x),
+        _ => EvaluationErrorKind::NotFinite,
+    }
+}
+
+fn fault_of_call(function: Function, x: f64) -> EvaluationErrorKind {
+    match function {
+        Function::Sqrt if x < 0.0 => EvaluationErrorKind::RootOfNegative(x),
+        Function::Ln if x <= 0.0 => EvaluationErrorKind::LogarithmOfNonPositive(x),
+        Function::Asin | Function::Acos if x.abs() > 1.0 => EvaluationErrorKind::OutOfRange(function, x),
+        _ => EvaluationErrorKind::NotFinite,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::EvaluationErrorKind::*;
+    use super::*;
+
+    fn fault(text: &str) -> (EvaluationErrorKind, Range<usize>) {
+        let error = Expression::parse(text).unwrap().evaluate(&|_| 0.0_f64).unwrap_err();
+        (error.kind, error.span)
+    }
+
+    #[test]
+    fn the_part_without_a_value_is_pointed_at() {
+        assert_eq!(fault("1 + 2/(x*3)"), (DivisionByZero, 6..11));
+        assert_eq!(fault("1 + sqrt(x - 4)"), (RootOfNegative(-4.0), 4..15));
+        assert_eq!(fault("asin(2)"), (OutOfRange(Function::Asin, 2.0), 0..7));
+        assert_eq!(fault("acos(-1.5)"), (OutOfRange(Function::Acos, -1.5), 0..10));
+        assert_eq!(fault("ln(x)"), (LogarithmOfNonPositive(0.0), 0..5));
+        assert_eq!(fault("x^-1"), (DivisionByZero, 0..4));
+        assert_eq!(fault("(x-2)^0.5"), (PowerOfNegative(-2.0), 0..9));
+        assert_eq!(fault("2*exp(1000)"), (NotFinite, 2..11));
+        assert_eq!(fault("1e300*1e300"), (NotFinite, 0..11));
+    }
+
+    #[test]
+    fn a_name_without_a_finite_value_is_pointed_at() {
+        let error = Expression::parse("1 + x").unwrap().evaluate(&|_| f64::NAN).unwrap_err();
+        assert_eq!(error, EvaluationError { span: 4..5, kind: NotFinite });
+    }
+
+    #[test]
+    fn whole_powers_of_negative_numbers_have_values() {
+        assert_eq!(Expression::parse("(-2)^3 + (-2)^n").unwrap().evaluate(&|_| 2.0), Ok(-4.0));
+    }
+}

@@ -1,0 +1,415 @@
+//! Text → expression, by precedence climbing (Pratt, "Top down operator precedence", 1973).
+
+use std::ops::Range;
+
+use super::vocabulary::{continues_name, starts_name};
+use super::{Constant, Expression, Function, Node, Operator, Unit};
+
+/// How deeply parentheses, calls, signs and powers may stand within one another.
+pub const MAX_NESTING: usize = 64;
+
+/// How tall the tree may grow; a sum of n terms is n tall. Everything that walks a tree recurses, so this keeps the
+/// stack safe.
+pub const MAX_HEIGHT: usize = 500;
+
+/// Why a text is not an expression, and where.
+#[derive(Debug, Clone, PartialEq)]
+pub struct ParseError {
+    /// The offending bytes; empty at the end of the text.
+    pub span: Range<usize>,
+    /// What is wrong there.
+    pub kind: ParseErrorKind,
+}
+
+/// What is wrong with the text of an expression.
+#[derive(Debug, Clone, PartialEq)]
+pub enum ParseErrorKind {
+    /// There is nothing but white space.
+    Empty,
+    /// A character that has no meaning in an expression.
+    UnexpectedCharacter(char),
+    /// Something else stands where a number, a name or `(` must.
+    ExpectedOperand,
+    /// Two operands follow one another.
+    MissingOperator,
+    /// A number is followed by a name that is no unit.
+    UnknownUnit(String),
+    /// This `(` is not closed.
+    UnclosedParenthesis,
+    /// This `)` closes nothing.
+    UnopenedParenthesis,
+    /// A comma outside the arguments of a function.
+    UnexpectedComma,
+    /// A name that is no function is called.
+    UnknownFunction(String),
+    /// A function stands without its arguments.
+    MissingArguments(Function),
+    /// A function is called with the wrong number of arguments.
+    WrongArgumentCount {
+        /// The function.
+        function: Function,
+        /// How many arguments it was given.
+        found: usize,
+    },
+    /// A power of a number with a unit, `5 mm^2`: it is not clear what is raised.
+    PowerOfUnit,
+    /// `**`
+    DoubleStar,
+    /// A number such as `1.2.3`.
+    MalformedNumber,
+    /// A number too large for a 64-bit floating-point number.
+    NumberTooLarge,
+    /// More than [`MAX_NESTING`] levels.
+    TooDeep,
+    /// A tree taller than [`MAX_HEIGHT`].
+    TooLong,
+}
+
+impl ParseErrorKind {
+    fn at(self, span: Range<usize>) -> ParseError {
+        ParseError { span, kind: self }
+    }
+}
+
+pub(super) fn parse(text: &str) -> Result<Expression, ParseError> {
+    let mut parser = Parser { text, position: 0, nesting: 0 };
+    parser.skip_space();
+    if parser.peek().is_none() {
+        return Err(ParseErrorKind::Empty.at(0..text.len()));
+    }
+    let (expression, _) = parser.expression(0)?;
+    match parser.peek() {
+        None => Ok(expression),
+        Some(_) => Err(parser.leftover()),
+    }
+}
+
+/// An expression and the height of its tree.
+type Tall = (Expression, usize);
+
+const SUM: u8 = 1;
+const PRODUCT: u8 = 2;
+const SIGN: u8 = 3;
+const POWER: u8 = 4;
+
+struct Parser<'a> {
+    text: &'a str,
+    /// Never at white space between two calls.
+    position: usize,
+    nesting: usize,
+}
+
+impl Parser<'_> {
+    fn rest(&self) -> &str {
+        &self.text[self.position..]
+    }
+
+    fn peek(&self) -> Option<char> {
+        self.rest().chars().next()
+    }
+
+    /// The next character, or the end of the text.
+    fn here(&self) -> Range<usize> {
+        self.position..self.position + self.peek().map_or(0, char::len_utf8)
+    }
+
+    fn skip_space(&mut self) {
+        self.position += self.rest().len() - self.rest().trim_start().len();
+    }
+
+    fn advance(&mut self, bytes: usize) -> Range<usize> {
+        let span = self.position..self.position + bytes;
+        self.position = span.end;
+        self.skip_space();
+        span
+    }
+
+    fn deeper(&mut self, strength: u8) -> Result<Tall, ParseError> {
+        if self.nesting == MAX_NESTING {
+            return Err(ParseErrorKind::TooDeep.at(self.here()));
+        }
+        self.nesting += 1;
+        let result = self.expression(strength);
+        self.nesting -= 1;
+        result
+    }
+
+    /// An expression of operators that bind at least as tightly as `strength`.
+    fn expression(&mut self, strength: u8) -> Result<Tall, ParseError> {
+        let mut left = self.operand()?;
+        loop {
+            let (operator, binds) = match self.peek() {
+                Some('+') => (Operator::Add, SUM),
+                Some('-') => (Operator::Subtract, SUM),
+                Some('*') => (Operator::Multiply, PRODUCT),
+                Some('/') => (Operator::Divide, PRODUCT),
+                Some('^') => (Operator::Power, POWER),
+                _ => return Ok(left),
+            };
+            if binds < strength {
+                return Ok(left);
+            }
+            if self.rest().starts_with("**") {
+                return Err(ParseErrorKind::DoubleStar.at(self.position..self.position + 2));
+            }
+            let sign = self.advance(1);
+            if operator == Operator::Power && matches!(left.0.node, Node::Quantity(..)) && self.just_after_unit(&left.0)
+            {
+                return Err(ParseErrorKind::PowerOfUnit.at(left.0.span.start..sign.end));
+            }
+            // A power takes everything to its right that binds as tightly; the others leave it to the loop.
+            let right = match operator {
+                Operator::Power => self.deeper(SIGN)?,
+                _ => self.deeper(binds + 1)?,
+            };
+            let height = left.1.max(right.1) + 1;
+            let span = left.0.span.start..right.0.span.end;
+            if height > MAX_HEIGHT {
+                return Err(ParseErrorKind::TooLong.at(sign));
+            }
+            left = (Node::Binary(operator, Box::new(left.0), Box::new(right.0)).at(span), height);
+        }
+    }
+
+    /// A quantity in parentheses has a span wider than what ends in its unit.
+    fn just_after_unit(&self, quantity: &Expression) -> bool {
+        !self.text[quantity.span.clone()].ends_with(')')
+    }
+
+    fn operand(&mut self) -> Result<Tall, ParseError> {
+        match self.peek() {
+            Some('0'..='9' | '.') => self.number(),
+            Some('(') => self.parenthesis(),
+            Some('-') => {
+                let sign = self.advance(1);
+                let (x, height) = self.deeper(SIGN)?;
+                let span = sign.start..x.span.end;
+                Ok((Node::Negate(Box::new(x)).at(span), height + 1))
+            }
+            Some('+') => {
+                self.advance(1);
+                self.deeper(SIGN)
+            }
+            Some(c) if starts_name(c) => self.name(),
+            Some('*' | '/' | '^' | ')' | ',') | None => Err(ParseErrorKind::ExpectedOperand.at(self.here())),
+            Some(c) => Err(ParseErrorKind::UnexpectedCharacter(c).at(self.here())),
+        }
+    }
+
+    fn parenthesis(&mut self) -> Result<Tall, ParseError> {
+        let open = self.advance(1);
+        let (mut inner, height) = self.deeper(0)?;
+        let close = self.closing(&open)?;
+        inner.span = open.start..close.end;
+        Ok((inner, height))
+    }
+
+    fn closing(&mut self, open: &Range<usize>) -> Result<Range<usize>, ParseError> {
+        match self.peek() {
+            Some(')') => Ok(self.advance(1)),
+            None => Err(ParseErrorKind::UnclosedParenthesis.at(open.clone())),
+            Some(_) => Err(self.leftover()),
+        }
+    }
+
+    /// What is wrong with something that follows a complete operand and is no operator.
+    fn leftover(&self) -> ParseError {
+        let kind = match self.peek() {
+            Some(')') => ParseErrorKind::UnopenedParenthesis,
+            Some(',') => ParseErrorKind::UnexpectedComma,
+            Some(c) if c == '(' || c == '.' || c.is_ascii_digit() || starts_name(c) => ParseErrorKind::MissingOperator,
+            Some(c) => ParseErrorKind::UnexpectedCharacter(c),
+            None => ParseErrorKind::ExpectedOperand,
+        };
+        let word = match self.peek() {
+            Some(c) if starts_name(c) => self.word().len(),
+            _ => 0,
+        };
+        kind.at(self.position..self.here().end.max(self.position + word))
+    }
+
+    fn word(&self) -> &str {
+        let rest = self.rest();
+        &rest[..rest.find(|c| !continues_name(c)).unwrap_or(rest.len())]
+    }
+
+    fn number(&mut self) -> Result<Tall, ParseError> {
+        let rest = self.rest();
+        let mut length = rest.find(|c: char| !c.is_ascii_digit() && c != '.').unwrap_or(rest.len());
+        let after = &rest[length..];
+        if let Some(exponent) = after.strip_prefix(['e', 'E']) {
+            let digits = exponent.trim_start_matches(['+', '-']);
+            let sign = exponent.len() - digits.len();
+            let count = digits.find(|c: char| !c.is_ascii_digit()).unwrap_or(digits.len());
+            if sign <= 1 && count > 0 {
+                length += 1 + sign + count;
+            }
+        }
+        let value = rest[..length].parse::<f64>();
+        let mut span = self.advance(length);
+        let value = value.map_err(|_| ParseErrorKind::MalformedNumber.at(span.clone()))?;
+        if !value.is_finite() {
+            return Err(ParseErrorKind::NumberTooLarge.at(span));
+        }
+        if !self.peek().is_some_and(starts_name) {
+            return Ok((Node::Number(value).at(span), 1));
+        }
+        let word = self.word().to_owned();
+        let unit = Unit::from_word(&word);
+        let place = self.advance(word.len());
+        if self.peek() == Some('(') && unit.is_none() {
+            return Err(ParseErrorKind::MissingOperator.at(place));
+        }
+        let unit = unit.ok_or_else(|| ParseErrorKind::UnknownUnit(word).at(place.clone()))?;
+        span.end = place.end;
+        Ok((Node::Quantity(value, unit).at(span), 1))
+    }
+
+    fn name(&mut self) -> Result<Tall, ParseError> {
+        let word = self.word().to_owned();
+        if word.is_empty() {
+            let c = self.peek().unwrap_or_default();
+            return Err(ParseErrorKind::UnexpectedCharacter(c).at(self.here()));
+        }
+        let span = self.advance(word.len());
+        match (Function::from_word(&word), self.peek()) {
+            (Some(function), Some('(')) => self.call(function, span),
+            (Some(function), _) => Err(ParseErrorKind::MissingArguments(function).at(span)),
+            (None, Some('(')) if Constant::from_word(&word).is_some() => {
+                Err(ParseErrorKind::MissingOperator.at(self.here()))
+            }
+            (None, Some('(')) => Err(ParseErrorKind::UnknownFunction(word).at(span)),
+            (None, _) => {
+                let node = Constant::from_word(&word).map_or(Node::Name(word), Node::Constant);
+                Ok((node.at(span), 1))
+            }
+        }
+    }
+
+    fn call(&mut self, function: Function, name: Range<usize>) -> Result<Tall, ParseError> {
+        let open = self.advance(1);
+        let mut arguments = Vec::new();
+        let mut height = 0;
+        while self.peek() != Some(')') || !arguments.is_empty() {
+            let (argument, tall) = self.deeper(0)?;
+            arguments.push(argument);
+            height = height.max(tall);
+            if self.peek() != Some(',') {
+                break;
+            }
+            self.advance(1);
+        }
+        let close = self.closing(&open)?;
+        let span = name.start..close.end;
+        if arguments.len() != function.arity() {
+            return Err(ParseErrorKind::WrongArgumentCount { function, found: arguments.len() }.at(span));
+        }
+        Ok((Node::Call(function, arguments).at(span), height + 1))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn value(text: &str) -> f64 {
+        let variables = |name: &String| match name.as_str() {
+            "a" => 2.0,
+            "b" => 3.0,
+            "θ₁" => 0.5,
+            name => panic!("{name} has no value"),
+        };
+        Expression::parse(text).unwrap().evaluate(&variables).unwrap()
+    }
+
+    fn error(text: &str) -> (ParseErrorKind, Range<usize>) {
+        let error = Expression::parse(text).unwrap_err();
+        (error.kind, error.span)
+    }
+
+    #[test]
+    fn operators_bind_as_on_paper() {
+        assert_eq!(value("1 + 2*3"), 7.0);
+        assert_eq!(value("(1 + 2)*3"), 9.0);
+        assert_eq!(value("10 - 4 - 3"), 3.0);
+        assert_eq!(value("24/4/3"), 2.0);
+        assert_eq!(value("2^3^2"), 512.0);
+        assert_eq!(value("-a^2"), -4.0);
+        assert_eq!(value("2^-1"), 0.5);
+        assert_eq!(value("-a*b"), -6.0);
+        assert_eq!(value("a - -b"), 5.0);
+        assert_eq!(value("+a--b*+2"), 8.0);
+        assert_eq!(value("2^-a^2"), 0.0625);
+    }
+
+    #[test]
+    fn numbers_are_read_in_every_usual_form() {
+        assert_eq!(value("1.5"), 1.5);
+        assert_eq!(value(".5"), 0.5);
+        assert_eq!(value("2."), 2.0);
+        assert_eq!(value("1e-3"), 0.001);
+        assert_eq!(value("1E+3"), 1000.0);
+    }
+
+    #[test]
+    fn units_follow_a_number_with_or_without_space() {
+        assert_eq!(value("60 deg"), 60_f64.to_radians());
+        assert_eq!(value("60deg"), 60_f64.to_radians());
+        assert_eq!(value("2 rad + 1 m"), 3.0);
+        assert_eq!(value("100 mm + 5cm"), 0.1 + 0.05);
+        assert_eq!(value("7 in"), 0.1778);
+        assert_eq!(value("b*deg"), 3.0 * (std::f64::consts::PI / 180.0));
+        assert_eq!(value("(2 m)^2"), 4.0);
+    }
+
+    #[test]
+    fn functions_and_constants_are_known() {
+        assert_eq!(value("sin(pi/2)"), 1.0);
+        assert_eq!(value("atan2(1, 0)"), std::f64::consts::FRAC_PI_2);
+        assert_eq!(value("hypot(a + 1, 4)"), 5.0);
+        assert_eq!(value("min(a, b) + max(a, b)"), 5.0);
+        assert_eq!(value("abs(-a) + sqrt(4) + exp(0) + ln(1)"), 5.0);
+        assert_eq!(value("2*θ₁"), 1.0);
+    }
+
+    #[test]
+    fn faults_are_named_and_placed() {
+        use ParseErrorKind::*;
+        assert_eq!(error(""), (Empty, 0..0));
+        assert_eq!(error("  "), (Empty, 0..2));
+        assert_eq!(error("a +"), (ExpectedOperand, 3..3));
+        assert_eq!(error("a + * b"), (ExpectedOperand, 4..5));
+        assert_eq!(error("a b"), (MissingOperator, 2..3));
+        assert_eq!(error("a (b)"), (UnknownFunction("a".into()), 0..1));
+        assert_eq!(error("pi(b)"), (MissingOperator, 2..3));
+        assert_eq!(error("2 (b)"), (MissingOperator, 2..3));
+        assert_eq!(error("2 sin(b)"), (MissingOperator, 2..5));
+        assert_eq!(error("2a"), (UnknownUnit("a".into()), 1..2));
+        assert_eq!(error("1 2"), (MissingOperator, 2..3));
+        assert_eq!(error("(a + b"), (UnclosedParenthesis, 0..1));
+        assert_eq!(error("a + b)"), (UnopenedParenthesis, 5..6));
+        assert_eq!(error("a, b"), (UnexpectedComma, 1..2));
+        assert_eq!(error("arctan(b)"), (UnknownFunction("arctan".into()), 0..6));
+        assert_eq!(error("cos a"), (MissingArguments(Function::Cos), 0..3));
+        assert_eq!(error("1 + cos()"), (WrongArgumentCount { function: Function::Cos, found: 0 }, 4..9));
+        assert_eq!(error("atan2(a)"), (WrongArgumentCount { function: Function::Atan2, found: 1 }, 0..8));
+        assert_eq!(error("5 mm^2"), (PowerOfUnit, 0..5));
+        assert_eq!(error("a**2"), (DoubleStar, 1..3));
+        assert_eq!(error("1.2.3"), (MalformedNumber, 0..5));
+        assert_eq!(error("."), (MalformedNumber, 0..1));
+        assert_eq!(error("1e999"), (NumberTooLarge, 0..5));
+        assert_eq!(error("a²"), (UnexpectedCharacter('²'), 1..3));
+        assert_eq!(error("a − b"), (UnexpectedCharacter('−'), 2..5));
+        assert_eq!(error("ªa"), (UnexpectedCharacter('ª'), 0..2));
+    }
+
+    #[test]
+    fn depth_and_length_are_bounded() {
+        for text in ["(", "-", "sin(", "2^", "a-("] {
+            assert_eq!(error(&text.repeat(100_000)).0, ParseErrorKind::TooDeep, "{text}");
+        }
+        assert_eq!(error(&format!("1{}", "+1".repeat(500_000))).0, ParseErrorKind::TooLong);
+        assert_eq!(value(&format!("1{}", "+1".repeat(MAX_HEIGHT - 1))), MAX_HEIGHT as f64);
+        assert_eq!(value(&format!("{}a{}", "(".repeat(MAX_NESTING), ")".repeat(MAX_NESTING))), 2.0);
+    }
+}
