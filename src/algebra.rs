@@ -102,7 +102,9 @@ impl<N> Expression<N> {
     /// The expressions this one is directly made of, in the order they are written.
     pub fn operands(&self) -> impl DoubleEndedIterator<Item = &Expression<N>> {
         let (first, second, arguments): (Option<&Self>, Option<&Self>, &[Self]) = match &self.node {
-            Node::Number(_) | Node::Quantity(..) | Node::Constant(_) | Node::Name(_) => (None, None, &[]),
+            Node::Number(_) | Node::Quantity(..) | Node::Constant(_) | Node::Name(_) => {
+                (None, None, &[])
+            }
             Node::Negate(x) => (Some(x), None, &[]),
             Node::Binary(_, x, y) => (Some(x), Some(y), &[]),
             Node::Call(_, arguments) => (None, None, arguments),
@@ -130,14 +132,19 @@ impl<N> Expression<N> {
         mut resolve: impl FnMut(&N, &Range<usize>) -> Result<M, E>,
     ) -> Result<Expression<M>, Vec<E>> {
         let mut errors = Vec::new();
-        match self.exchange(&mut |name, span| resolve(name, span).map_err(|error| errors.push(error)).ok()) {
+        match self.exchange(&mut |name, span| {
+            resolve(name, span).map_err(|error| errors.push(error)).ok()
+        }) {
             Some(resolved) if errors.is_empty() => Ok(resolved),
             _ => Err(errors),
         }
     }
 
     /// Visits every name even after one has no answer, so that all of them are heard.
-    fn exchange<M>(&self, resolve: &mut impl FnMut(&N, &Range<usize>) -> Option<M>) -> Option<Expression<M>> {
+    fn exchange<M>(
+        &self,
+        resolve: &mut impl FnMut(&N, &Range<usize>) -> Option<M>,
+    ) -> Option<Expression<M>> {
         let node = match &self.node {
             Node::Number(value) => Node::Number(*value),
             Node::Quantity(value, unit) => Node::Quantity(*value, *unit),
@@ -171,7 +178,9 @@ impl<N> Expression<N> {
                 x.relocate_in_place(place);
                 y.relocate_in_place(place);
             }
-            Node::Call(_, arguments) => arguments.iter_mut().for_each(|x| x.relocate_in_place(place)),
+            Node::Call(_, arguments) => arguments
+                .iter_mut()
+                .for_each(|x| x.relocate_in_place(place)),
         }
     }
 }
@@ -190,35 +199,71 @@ mod tests {
     #[test]
     fn names_come_in_the_order_they_are_written_with_their_places() {
         let expression = Expression::parse("b - l1*cos(θ1) + b").unwrap();
-        let names: Vec<_> = expression.names().map(|(name, span)| (name.as_str(), span.clone())).collect();
-        assert_eq!(names, [("b", 0..1), ("l1", 4..6), ("θ1", 11..14), ("b", 18..19)]);
+        let names: Vec<_> = expression
+            .names()
+            .map(|(name, span)| (name.as_str(), span.clone()))
+            .collect();
+        assert_eq!(
+            names,
+            [("b", 0..1), ("l1", 4..6), ("θ1", 11..14), ("b", 18..19)]
+        );
     }
 
     #[test]
     fn every_name_that_cannot_be_resolved_is_reported() {
         let expression = Expression::parse("atan2(x, a + y) - z").unwrap();
         let errors = expression
-            .try_resolve(|name, span| if name == "a" { Ok(7_usize) } else { Err((name.clone(), span.clone())) })
+            .try_resolve(|name, span| {
+                if name == "a" {
+                    Ok(7_usize)
+                } else {
+                    Err((name.clone(), span.clone()))
+                }
+            })
             .unwrap_err();
-        assert_eq!(errors, [("x".to_owned(), 6..7), ("y".to_owned(), 13..14), ("z".to_owned(), 18..19)]);
+        assert_eq!(
+            errors,
+            [
+                ("x".to_owned(), 6..7),
+                ("y".to_owned(), 13..14),
+                ("z".to_owned(), 18..19)
+            ]
+        );
     }
 
     #[test]
     fn resolved_names_keep_their_places() {
-        let expression = Expression::parse("2*a").unwrap().try_resolve(|_, _| Ok::<_, ()>(3_usize)).unwrap();
+        let expression = Expression::parse("2*a")
+            .unwrap()
+            .try_resolve(|_, _| Ok::<_, ()>(3_usize))
+            .unwrap();
         assert_eq!(expression.names().collect::<Vec<_>>(), [(&3, &(2..3))]);
     }
 
     #[test]
     fn relocating_moves_every_span() {
-        let expression = Expression::parse("a+b").unwrap().relocate(&|span| span.start + 10..span.end + 10);
+        let expression = Expression::parse("a+b")
+            .unwrap()
+            .relocate(&|span| span.start + 10..span.end + 10);
         assert_eq!(expression.span, 10..13);
-        assert_eq!(expression.names().map(|(_, span)| span.clone()).collect::<Vec<_>>(), [10..11, 12..13]);
+        assert_eq!(
+            expression
+                .names()
+                .map(|(_, span)| span.clone())
+                .collect::<Vec<_>>(),
+            [10..11, 12..13]
+        );
     }
 
     #[test]
     fn equality_does_not_look_at_places() {
-        assert_eq!(Expression::parse("a+b").unwrap(), Expression::parse(" a + b ").unwrap());
-        assert_ne!(Expression::parse("a+b").unwrap(), Expression::parse("b+a").unwrap());
+        assert_eq!(
+            Expression::parse("a+b").unwrap(),
+            Expression::parse(" a + b ").unwrap()
+        );
+        assert_ne!(
+            Expression::parse("a+b").unwrap(),
+            Expression::parse("b+a").unwrap()
+        );
     }
 }

@@ -2,4 +2,6 @@
 //! broken at chosen joints and put back together by closures.
 
 pub mod algebra;
+pub mod description;
 pub mod number;
+pub mod output;

@@ -26,15 +26,22 @@ impl<N: Clone + PartialEq> Expression<N> {
     /// Constant and coefficients are expressions over the other names.
     pub fn affine(&self, is_variable: impl Fn(&N) -> bool) -> Result<Affine<N>, NonAffine> {
         let mut affine = self.split(&is_variable)?;
-        affine.terms.retain(|(_, coefficient)| !coefficient.is_zero());
+        affine
+            .terms
+            .retain(|(_, coefficient)| !coefficient.is_zero());
         Ok(affine)
     }
 
     fn split(&self, is_variable: &impl Fn(&N) -> bool) -> Result<Affine<N>, NonAffine> {
         if !self.names().any(|(name, _)| is_variable(name)) {
-            return Ok(Affine { constant: self.clone(), terms: Vec::new() });
+            return Ok(Affine {
+                constant: self.clone(),
+                terms: Vec::new(),
+            });
         }
-        let refusal = || NonAffine { span: self.span.clone() };
+        let refusal = || NonAffine {
+            span: self.span.clone(),
+        };
         match &self.node {
             Node::Name(name) => Ok(Affine {
                 constant: Node::Number(0.0).at(self.span.clone()),
@@ -46,13 +53,23 @@ impl<N: Clone + PartialEq> Expression<N> {
                 match operator {
                     Operator::Add => Ok(x.plus(y)),
                     Operator::Subtract => Ok(x.plus(y.map(negate))),
-                    Operator::Multiply if y.is_constant() => Ok(x.map(|c| multiply(c, y.constant.clone()))),
-                    Operator::Multiply if x.is_constant() => Ok(y.map(|c| multiply(x.constant.clone(), c))),
-                    Operator::Divide if y.is_constant() => Ok(x.map(|c| divide(c, y.constant.clone()))),
+                    Operator::Multiply if y.is_constant() => {
+                        Ok(x.map(|c| multiply(c, y.constant.clone())))
+                    }
+                    Operator::Multiply if x.is_constant() => {
+                        Ok(y.map(|c| multiply(x.constant.clone(), c)))
+                    }
+                    Operator::Divide if y.is_constant() => {
+                        Ok(x.map(|c| divide(c, y.constant.clone())))
+                    }
                     // A power whose variables have cancelled is a constant after all.
                     Operator::Divide | Operator::Power if x.is_constant() && y.is_constant() => {
-                        let node = Node::Binary(*operator, Box::new(x.constant), Box::new(y.constant));
-                        Ok(Affine { constant: node.at(self.span.clone()), terms: Vec::new() })
+                        let node =
+                            Node::Binary(*operator, Box::new(x.constant), Box::new(y.constant));
+                        Ok(Affine {
+                            constant: node.at(self.span.clone()),
+                            terms: Vec::new(),
+                        })
                     }
                     _ => Err(refusal()),
                 }
@@ -65,12 +82,21 @@ impl<N: Clone + PartialEq> Expression<N> {
 impl<N: Clone + PartialEq> Affine<N> {
     /// Whether no variable is left.
     pub fn is_constant(&self) -> bool {
-        self.terms.iter().all(|(_, coefficient)| coefficient.is_zero())
+        self.terms
+            .iter()
+            .all(|(_, coefficient)| coefficient.is_zero())
     }
 
     fn map(self, change: impl Fn(Expression<N>) -> Expression<N>) -> Self {
-        let terms = self.terms.into_iter().map(|(name, coefficient)| (name, change(coefficient))).collect();
-        Self { constant: change(self.constant), terms }
+        let terms = self
+            .terms
+            .into_iter()
+            .map(|(name, coefficient)| (name, change(coefficient)))
+            .collect();
+        Self {
+            constant: change(self.constant),
+            terms,
+        }
     }
 
     fn plus(mut self, other: Self) -> Self {
@@ -142,12 +168,16 @@ mod tests {
     use super::*;
 
     fn affine(text: &str) -> Result<Affine<String>, NonAffine> {
-        Expression::parse(text).unwrap().affine(|name| matches!(name.as_str(), "q" | "phi1" | "phi2"))
+        Expression::parse(text)
+            .unwrap()
+            .affine(|name| matches!(name.as_str(), "q" | "phi1" | "phi2"))
     }
 
     fn parts(text: &str) -> String {
         let Affine { constant, terms } = affine(text).unwrap();
-        let terms = terms.iter().map(|(name, coefficient)| format!(" | {name}: {coefficient}"));
+        let terms = terms
+            .iter()
+            .map(|(name, coefficient)| format!(" | {name}: {coefficient}"));
         format!("{constant}{}", terms.collect::<String>())
     }
 

@@ -44,7 +44,9 @@ impl<N> Expression<N> {
         match &self.node {
             Node::Number(value) if value.is_sign_negative() => Tightness::Sign,
             Node::Quantity(..) => Tightness::Quantity,
-            Node::Number(_) | Node::Constant(_) | Node::Name(_) | Node::Call(..) => Tightness::Operand,
+            Node::Number(_) | Node::Constant(_) | Node::Name(_) | Node::Call(..) => {
+                Tightness::Operand
+            }
             Node::Negate(_) => Tightness::Sign,
             Node::Binary(operator, ..) => operator.tightness(),
         }
@@ -82,7 +84,9 @@ impl<N: Display> Display for Expression<N> {
                 };
                 let (x, y) = (Part(x, left), Part(y, right));
                 match operator {
-                    Operator::Add | Operator::Subtract => write!(f, "{x} {} {y}", operator.symbol()),
+                    Operator::Add | Operator::Subtract => {
+                        write!(f, "{x} {} {y}", operator.symbol())
+                    }
                     _ => write!(f, "{x}{}{y}", operator.symbol()),
                 }
             }
@@ -146,30 +150,52 @@ mod tests {
 
     #[test]
     fn plain_numbers_are_serialised_as_numbers() {
-        assert_eq!(serde_json::to_string(&Expression::parse("1.50").unwrap()).unwrap(), "1.5");
-        assert_eq!(serde_json::to_string(&Expression::parse("60deg").unwrap()).unwrap(), "\"60 deg\"");
+        assert_eq!(
+            serde_json::to_string(&Expression::parse("1.50").unwrap()).unwrap(),
+            "1.5"
+        );
+        assert_eq!(
+            serde_json::to_string(&Expression::parse("60deg").unwrap()).unwrap(),
+            "\"60 deg\""
+        );
     }
 
     fn any_expression() -> impl Strategy<Value = Expression> {
         let leaf = prop_oneof![
             (0.0..1e20).prop_map(Node::Number),
             (0.0..1e-9).prop_map(Node::Number),
-            ((0.0..400.0), prop::sample::select(&Unit::ALL[..])).prop_map(|(x, unit)| Node::Quantity(x, unit)),
+            ((0.0..400.0), prop::sample::select(&Unit::ALL[..]))
+                .prop_map(|(x, unit)| Node::Quantity(x, unit)),
             prop::sample::select(&Constant::ALL[..]).prop_map(Node::Constant),
-            prop::sample::select(&["a", "θ1", "m"][..]).prop_map(|name| Node::Name(name.to_owned())),
+            prop::sample::select(&["a", "θ1", "m"][..])
+                .prop_map(|name| Node::Name(name.to_owned())),
         ];
-        leaf.prop_map(|node| node.at(0..0)).prop_recursive(8, 64, 2, |inner| {
-            let operator = prop::sample::select(
-                &[Operator::Add, Operator::Subtract, Operator::Multiply, Operator::Divide, Operator::Power][..],
-            );
-            prop_oneof![
-                inner.clone().prop_map(|x| Node::Negate(Box::new(x))),
-                (operator, inner.clone(), inner.clone()).prop_map(|(o, x, y)| Node::Binary(o, x.into(), y.into())),
-                inner.clone().prop_map(|x| Node::Call(Function::Cos, vec![x])),
-                (inner.clone(), inner).prop_map(|(x, y)| Node::Call(Function::Atan2, vec![x, y])),
-            ]
-            .prop_map(|node| node.at(0..0))
-        })
+        leaf.prop_map(|node| node.at(0..0))
+            .prop_recursive(8, 64, 2, |inner| {
+                let operator = prop::sample::select(
+                    &[
+                        Operator::Add,
+                        Operator::Subtract,
+                        Operator::Multiply,
+                        Operator::Divide,
+                        Operator::Power,
+                    ][..],
+                );
+                prop_oneof![
+                    inner.clone().prop_map(|x| Node::Negate(Box::new(x))),
+                    (operator, inner.clone(), inner.clone()).prop_map(|(o, x, y)| Node::Binary(
+                        o,
+                        x.into(),
+                        y.into()
+                    )),
+                    inner
+                        .clone()
+                        .prop_map(|x| Node::Call(Function::Cos, vec![x])),
+                    (inner.clone(), inner)
+                        .prop_map(|(x, y)| Node::Call(Function::Atan2, vec![x, y])),
+                ]
+                .prop_map(|node| node.at(0..0))
+            })
     }
 
     proptest! {

@@ -46,10 +46,15 @@ impl<N> Expression<N> {
             Node::Binary(operator, x, y) => {
                 let (x, y_value) = (x.evaluate(value_of)?, y.evaluate(value_of)?);
                 if *operator == Operator::Divide && y_value == T::from_f64(0.0) {
-                    return Err(EvaluationError { span: y.span.clone(), kind: EvaluationErrorKind::DivisionByZero });
+                    return Err(EvaluationError {
+                        span: y.span.clone(),
+                        kind: EvaluationErrorKind::DivisionByZero,
+                    });
                 }
                 let value = combine(*operator, x, y_value);
-                return self.finite(value, || fault_of_operator(*operator, x.real(), y_value.real()));
+                return self.finite(value, || {
+                    fault_of_operator(*operator, x.real(), y_value.real())
+                });
             }
             Node::Call(function, arguments) => {
                 let x = arguments[0].evaluate(value_of)?;
@@ -60,10 +65,17 @@ impl<N> Expression<N> {
         self.finite(value, || EvaluationErrorKind::NotFinite)
     }
 
-    fn finite<T: Number>(&self, value: T, fault: impl Fn() -> EvaluationErrorKind) -> Result<T, EvaluationError> {
+    fn finite<T: Number>(
+        &self,
+        value: T,
+        fault: impl Fn() -> EvaluationErrorKind,
+    ) -> Result<T, EvaluationError> {
         match value.is_finite() {
             true => Ok(value),
-            false => Err(EvaluationError { span: self.span.clone(), kind: fault() }),
+            false => Err(EvaluationError {
+                span: self.span.clone(),
+                kind: fault(),
+            }),
         }
     }
 }
@@ -101,8 +113,20 @@ fn call<T: Number>(function: Function, x: T, y: T) -> T {
         Function::Ln => x.ln(),
         Function::Abs => x.abs(),
         Function::Hypot => (x * x + y * y).sqrt(),
-        Function::Min => if y.real() < x.real() { y } else { x },
-        Function::Max => if y.real() > x.real() { y } else { x },
+        Function::Min => {
+            if y.real() < x.real() {
+                y
+            } else {
+                x
+            }
+        }
+        Function::Max => {
+            if y.real() > x.real() {
+                y
+            } else {
+                x
+            }
+        }
     }
 }
 
@@ -118,7 +142,9 @@ fn fault_of_call(function: Function, x: f64) -> EvaluationErrorKind {
     match function {
         Function::Sqrt if x < 0.0 => EvaluationErrorKind::RootOfNegative(x),
         Function::Ln if x <= 0.0 => EvaluationErrorKind::LogarithmOfNonPositive(x),
-        Function::Asin | Function::Acos if x.abs() > 1.0 => EvaluationErrorKind::OutOfRange(function, x),
+        Function::Asin | Function::Acos if x.abs() > 1.0 => {
+            EvaluationErrorKind::OutOfRange(function, x)
+        }
         _ => EvaluationErrorKind::NotFinite,
     }
 }
@@ -129,7 +155,10 @@ mod tests {
     use super::*;
 
     fn fault(text: &str) -> (EvaluationErrorKind, Range<usize>) {
-        let error = Expression::parse(text).unwrap().evaluate(&|_| 0.0_f64).unwrap_err();
+        let error = Expression::parse(text)
+            .unwrap()
+            .evaluate(&|_| 0.0_f64)
+            .unwrap_err();
         (error.kind, error.span)
     }
 
@@ -138,7 +167,10 @@ mod tests {
         assert_eq!(fault("1 + 2/(x*3)"), (DivisionByZero, 6..11));
         assert_eq!(fault("1 + sqrt(x - 4)"), (RootOfNegative(-4.0), 4..15));
         assert_eq!(fault("asin(2)"), (OutOfRange(Function::Asin, 2.0), 0..7));
-        assert_eq!(fault("acos(-1.5)"), (OutOfRange(Function::Acos, -1.5), 0..10));
+        assert_eq!(
+            fault("acos(-1.5)"),
+            (OutOfRange(Function::Acos, -1.5), 0..10)
+        );
         assert_eq!(fault("ln(x)"), (LogarithmOfNonPositive(0.0), 0..5));
         assert_eq!(fault("x^-1"), (DivisionByZero, 0..4));
         assert_eq!(fault("(x-2)^0.5"), (PowerOfNegative(-2.0), 0..9));
@@ -148,12 +180,26 @@ mod tests {
 
     #[test]
     fn a_name_without_a_finite_value_is_pointed_at() {
-        let error = Expression::parse("1 + x").unwrap().evaluate(&|_| f64::NAN).unwrap_err();
-        assert_eq!(error, EvaluationError { span: 4..5, kind: NotFinite });
+        let error = Expression::parse("1 + x")
+            .unwrap()
+            .evaluate(&|_| f64::NAN)
+            .unwrap_err();
+        assert_eq!(
+            error,
+            EvaluationError {
+                span: 4..5,
+                kind: NotFinite
+            }
+        );
     }
 
     #[test]
     fn whole_powers_of_negative_numbers_have_values() {
-        assert_eq!(Expression::parse("(-2)^3 + (-2)^n").unwrap().evaluate(&|_| 2.0), Ok(-4.0));
+        assert_eq!(
+            Expression::parse("(-2)^3 + (-2)^n")
+                .unwrap()
+                .evaluate(&|_| 2.0),
+            Ok(-4.0)
+        );
     }
 }

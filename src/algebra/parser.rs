@@ -72,7 +72,11 @@ impl ParseErrorKind {
 }
 
 pub(super) fn parse(text: &str) -> Result<Expression, ParseError> {
-    let mut parser = Parser { text, position: 0, nesting: 0 };
+    let mut parser = Parser {
+        text,
+        position: 0,
+        nesting: 0,
+    };
     parser.skip_space();
     if parser.peek().is_none() {
         return Err(ParseErrorKind::Empty.at(0..text.len()));
@@ -153,7 +157,9 @@ impl Parser<'_> {
                 return Err(ParseErrorKind::DoubleStar.at(self.position..self.position + 2));
             }
             let sign = self.advance(1);
-            if operator == Operator::Power && matches!(left.0.node, Node::Quantity(..)) && self.just_after_unit(&left.0)
+            if operator == Operator::Power
+                && matches!(left.0.node, Node::Quantity(..))
+                && self.just_after_unit(&left.0)
             {
                 return Err(ParseErrorKind::PowerOfUnit.at(left.0.span.start..sign.end));
             }
@@ -167,7 +173,10 @@ impl Parser<'_> {
             if height > MAX_HEIGHT {
                 return Err(ParseErrorKind::TooLong.at(sign));
             }
-            left = (Node::Binary(operator, Box::new(left.0), Box::new(right.0)).at(span), height);
+            left = (
+                Node::Binary(operator, Box::new(left.0), Box::new(right.0)).at(span),
+                height,
+            );
         }
     }
 
@@ -191,7 +200,9 @@ impl Parser<'_> {
                 self.deeper(SIGN)
             }
             Some(c) if starts_name(c) => self.name(),
-            Some('*' | '/' | '^' | ')' | ',') | None => Err(ParseErrorKind::ExpectedOperand.at(self.here())),
+            Some('*' | '/' | '^' | ')' | ',') | None => {
+                Err(ParseErrorKind::ExpectedOperand.at(self.here()))
+            }
             Some(c) => Err(ParseErrorKind::UnexpectedCharacter(c).at(self.here())),
         }
     }
@@ -217,7 +228,9 @@ impl Parser<'_> {
         let kind = match self.peek() {
             Some(')') => ParseErrorKind::UnopenedParenthesis,
             Some(',') => ParseErrorKind::UnexpectedComma,
-            Some(c) if c == '(' || c == '.' || c.is_ascii_digit() || starts_name(c) => ParseErrorKind::MissingOperator,
+            Some(c) if c == '(' || c == '.' || c.is_ascii_digit() || starts_name(c) => {
+                ParseErrorKind::MissingOperator
+            }
             Some(c) => ParseErrorKind::UnexpectedCharacter(c),
             None => ParseErrorKind::ExpectedOperand,
         };
@@ -235,12 +248,16 @@ impl Parser<'_> {
 
     fn number(&mut self) -> Result<Tall, ParseError> {
         let rest = self.rest();
-        let mut length = rest.find(|c: char| !c.is_ascii_digit() && c != '.').unwrap_or(rest.len());
+        let mut length = rest
+            .find(|c: char| !c.is_ascii_digit() && c != '.')
+            .unwrap_or(rest.len());
         let after = &rest[length..];
         if let Some(exponent) = after.strip_prefix(['e', 'E']) {
             let digits = exponent.trim_start_matches(['+', '-']);
             let sign = exponent.len() - digits.len();
-            let count = digits.find(|c: char| !c.is_ascii_digit()).unwrap_or(digits.len());
+            let count = digits
+                .find(|c: char| !c.is_ascii_digit())
+                .unwrap_or(digits.len());
             if sign <= 1 && count > 0 {
                 length += 1 + sign + count;
             }
@@ -302,7 +319,11 @@ impl Parser<'_> {
         let close = self.closing(&open)?;
         let span = name.start..close.end;
         if arguments.len() != function.arity() {
-            return Err(ParseErrorKind::WrongArgumentCount { function, found: arguments.len() }.at(span));
+            return Err(ParseErrorKind::WrongArgumentCount {
+                function,
+                found: arguments.len(),
+            }
+            .at(span));
         }
         Ok((Node::Call(function, arguments).at(span), height + 1))
     }
@@ -319,7 +340,10 @@ mod tests {
             "θ₁" => 0.5,
             name => panic!("{name} has no value"),
         };
-        Expression::parse(text).unwrap().evaluate(&variables).unwrap()
+        Expression::parse(text)
+            .unwrap()
+            .evaluate(&variables)
+            .unwrap()
     }
 
     fn error(text: &str) -> (ParseErrorKind, Range<usize>) {
@@ -391,8 +415,26 @@ mod tests {
         assert_eq!(error("a, b"), (UnexpectedComma, 1..2));
         assert_eq!(error("arctan(b)"), (UnknownFunction("arctan".into()), 0..6));
         assert_eq!(error("cos a"), (MissingArguments(Function::Cos), 0..3));
-        assert_eq!(error("1 + cos()"), (WrongArgumentCount { function: Function::Cos, found: 0 }, 4..9));
-        assert_eq!(error("atan2(a)"), (WrongArgumentCount { function: Function::Atan2, found: 1 }, 0..8));
+        assert_eq!(
+            error("1 + cos()"),
+            (
+                WrongArgumentCount {
+                    function: Function::Cos,
+                    found: 0
+                },
+                4..9
+            )
+        );
+        assert_eq!(
+            error("atan2(a)"),
+            (
+                WrongArgumentCount {
+                    function: Function::Atan2,
+                    found: 1
+                },
+                0..8
+            )
+        );
         assert_eq!(error("5 mm^2"), (PowerOfUnit, 0..5));
         assert_eq!(error("a**2"), (DoubleStar, 1..3));
         assert_eq!(error("1.2.3"), (MalformedNumber, 0..5));
@@ -406,10 +448,27 @@ mod tests {
     #[test]
     fn depth_and_length_are_bounded() {
         for text in ["(", "-", "sin(", "2^", "a-("] {
-            assert_eq!(error(&text.repeat(100_000)).0, ParseErrorKind::TooDeep, "{text}");
+            assert_eq!(
+                error(&text.repeat(100_000)).0,
+                ParseErrorKind::TooDeep,
+                "{text}"
+            );
         }
-        assert_eq!(error(&format!("1{}", "+1".repeat(500_000))).0, ParseErrorKind::TooLong);
-        assert_eq!(value(&format!("1{}", "+1".repeat(MAX_HEIGHT - 1))), MAX_HEIGHT as f64);
-        assert_eq!(value(&format!("{}a{}", "(".repeat(MAX_NESTING), ")".repeat(MAX_NESTING))), 2.0);
+        assert_eq!(
+            error(&format!("1{}", "+1".repeat(500_000))).0,
+            ParseErrorKind::TooLong
+        );
+        assert_eq!(
+            value(&format!("1{}", "+1".repeat(MAX_HEIGHT - 1))),
+            MAX_HEIGHT as f64
+        );
+        assert_eq!(
+            value(&format!(
+                "{}a{}",
+                "(".repeat(MAX_NESTING),
+                ")".repeat(MAX_NESTING)
+            )),
+            2.0
+        );
     }
 }

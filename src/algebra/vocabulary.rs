@@ -28,7 +28,9 @@ impl Constant {
 
     /// The constant written `word`.
     pub fn from_word(word: &str) -> Option<Self> {
-        Self::ALL.into_iter().find(|constant| constant.word() == word)
+        Self::ALL
+            .into_iter()
+            .find(|constant| constant.word() == word)
     }
 
     /// Its value.
@@ -60,8 +62,14 @@ pub enum Unit {
 
 impl Unit {
     /// Every unit.
-    pub const ALL: [Self; 6] =
-        [Self::Degree, Self::Radian, Self::Millimetre, Self::Centimetre, Self::Metre, Self::Inch];
+    pub const ALL: [Self; 6] = [
+        Self::Degree,
+        Self::Radian,
+        Self::Millimetre,
+        Self::Centimetre,
+        Self::Metre,
+        Self::Inch,
+    ];
 
     /// How it is written.
     pub fn word(self) -> &'static str {
@@ -155,7 +163,9 @@ impl Function {
 
     /// The function written `word`.
     pub fn from_word(word: &str) -> Option<Self> {
-        Self::ALL.into_iter().find(|function| function.word() == word)
+        Self::ALL
+            .into_iter()
+            .find(|function| function.word() == word)
     }
 
     /// How many arguments it takes.
@@ -196,15 +206,35 @@ mod tests {
 
     #[test]
     fn words_lead_back_to_what_they_name() {
-        assert!(Function::ALL.into_iter().all(|f| Function::from_word(f.word()) == Some(f)));
-        assert!(Unit::ALL.into_iter().all(|u| Unit::from_word(u.word()) == Some(u)));
-        assert!(Constant::ALL.into_iter().all(|c| Constant::from_word(c.word()) == Some(c)));
+        assert!(
+            Function::ALL
+                .into_iter()
+                .all(|f| Function::from_word(f.word()) == Some(f))
+        );
+        assert!(
+            Unit::ALL
+                .into_iter()
+                .all(|u| Unit::from_word(u.word()) == Some(u))
+        );
+        assert!(
+            Constant::ALL
+                .into_iter()
+                .all(|c| Constant::from_word(c.word()) == Some(c))
+        );
     }
 
     #[test]
     fn names_may_be_greek_and_subscripted_but_not_superscripted() {
-        assert!(["phi1", "_", "θ", "θ₁", "l_12", "Ä"].into_iter().all(is_name));
-        assert!(!["", "1a", "x²", "a-b", "a.b", "a b", "x'"].into_iter().any(is_name));
+        assert!(
+            ["phi1", "_", "θ", "θ₁", "l_12", "Ä"]
+                .into_iter()
+                .all(is_name)
+        );
+        assert!(
+            !["", "1a", "x²", "a-b", "a.b", "a b", "x'"]
+                .into_iter()
+                .any(is_name)
+        );
     }
 
     #[test]

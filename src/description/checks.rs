@@ -1,0 +1,176 @@
+//! What can be found wrong with a description without asking what its names refer to.
+
+use std::collections::HashMap;
+use std::ops::Range;
+
+use super::*;
+use crate::algebra::{is_name, is_reserved};
+
+pub(super) fn check(description: &Description, problems: &mut Vec<Problem>) {
+    let parameters = names(Noun::Parameter, &description.parameters);
+    let joints = names(Noun::Joint, &description.joints);
+    let quantities: Vec<_> = parameters.chain(joints).collect();
+    let bodies: Vec<_> = names(Noun::Chain, &description.chains)
+        .chain(names(Noun::Platform, &description.platforms))
+        .collect();
+    quantities
+        .iter()
+        .for_each(|&(noun, name)| check_quantity(noun, name, problems));
+    bodies
+        .iter()
+        .for_each(|&(noun, name)| check_body(noun, name, problems));
+    check_distinct(&quantities, problems);
+    check_distinct(&bodies, problems);
+    let labels = names(Noun::Closure, &description.closures)
+        .chain(names(Noun::ClosedForm, &description.closed_forms))
+        .chain(
+            description
+                .platforms
+                .iter()
+                .flat_map(|p| names(Noun::PlatformFrame, &p.value.frames)),
+        );
+    for (noun, name) in labels {
+        check_not_empty(noun, name, problems);
+    }
+    check_conventions(description, problems);
+    let quantities: HashMap<_, _> = quantities
+        .iter()
+        .map(|(noun, name)| (name.value.as_str(), (*noun, name.span.clone())))
+        .collect();
+    for closed_form in &description.closed_forms {
+        check_locals(&closed_form.value, &quantities, problems);
+    }
+}
+
+fn names<T>(noun: Noun, named: &[Named<T>]) -> impl Iterator<Item = (Noun, &Spanned<String>)> {
+    named.iter().map(move |named| (noun, &named.name))
+}
+
+fn check_not_empty(noun: Noun, name: &Spanned<String>, problems: &mut Vec<Problem>) -> bool {
+    let empty = name.value.trim().is_empty();
+    if empty {
+        problems.push(ProblemKind::EmptyName { noun }.at(name.span.clone()));
+    }
+    !empty
+}
+
+/// A name that expressions use.
+fn check_quantity(noun: Noun, name: &Spanned<String>, problems: &mut Vec<Problem>) {
+    if !check_not_empty(noun, name, problems) {
+        return;
+    }
+    if is_reserved(&name.value) {
+        problems.push(
+            ProblemKind::ReservedName {
+                noun,
+                name: name.value.clone(),
+            }
+            .at(name.span.clone()),
+        );
+    } else if !is_name(&name.value) {
+        problems.push(
+            ProblemKind::NotAName {
+                noun,
+                name: name.value.clone(),
+            }
+            .at(name.span.clone()),
+        );
+    }
+}
+
+/// A name that the names of frames begin with.
+fn check_body(noun: Noun, name: &Spanned<String>, problems: &mut Vec<Problem>) {
+    if !check_not_empty(noun, name, problems) {
+        return;
+    }
+    if name.value == GROUND {
+        problems.push(
+            ProblemKind::ReservedName {
+                noun,
+                name: name.value.clone(),
+            }
+            .at(name.span.clone()),
+        );
+    } else if name.value.contains('.') {
+        problems.push(
+            ProblemKind::DottedName {
+                noun,
+                name: name.value.clone(),
+            }
+            .at(name.span.clone()),
+        );
+    }
+}
+
+/// Names of different things that share one namespace. (Within one map the reader has seen to it.)
+fn check_distinct(names: &[(Noun, &Spanned<String>)], problems: &mut Vec<Problem>) {
+    let mut first: HashMap<&str, (Noun, &Range<usize>)> = HashMap::new();
+    for &(noun, name) in names {
+        match first.get(name.value.as_str()) {
+            None => {
+                first.insert(&name.value, (noun, &name.span));
+            }
+            Some(&(other, span)) => {
+                let problem = ProblemKind::DuplicateName {
+                    noun,
+                    name: name.value.clone(),
+                }
+                .at(name.span.clone());
+                problems.push(problem.with(span.clone(), Note::FirstHere(other)));
+            }
+        }
+    }
+}
+
+/// One problem for all chains: one line in the file mends them all.
+fn check_conventions(description: &Description, problems: &mut Vec<Problem>) {
+    // A convention that could not be read was not forgotten.
+    let unreadable = |problem: &Problem| {
+        matches!(
+            problem.kind,
+            ProblemKind::UnknownWord {
+                expected: Expected::Convention,
+                ..
+            } | ProblemKind::WrongType {
+                expected: Expected::Convention,
+                ..
+            }
+        )
+    };
+    if description.convention.is_some() || problems.iter().any(unreadable) {
+        return;
+    }
+    let mut chains = description
+        .chains
+        .iter()
+        .filter(|chain| chain.value.convention.is_none() && !chain.value.rows.is_empty());
+    if let Some(Named { name, .. }) = chains.next() {
+        let problem = ProblemKind::NoConvention {
+            chain: name.value.clone(),
+        }
+        .at(name.span.clone());
+        problems.push(chains.fold(problem, |problem, chain| {
+            problem.with(chain.name.span.clone(), Note::AlsoHere)
+        }));
+    }
+}
+
+fn check_locals(
+    form: &ClosedFormDescription,
+    quantities: &HashMap<&str, (Noun, Range<usize>)>,
+    problems: &mut Vec<Problem>,
+) {
+    for Named { name, .. } in &form.locals {
+        check_quantity(Noun::LocalName, name, problems);
+        if let Some((noun, span)) = quantities.get(name.value.as_str()) {
+            let kind = ProblemKind::DuplicateName {
+                noun: Noun::LocalName,
+                name: name.value.clone(),
+            };
+            problems.push(
+                kind.at(name.span.clone())
+                    .with(span.clone(), Note::FirstHere(*noun)),
+            );
+        }
+    }
+}

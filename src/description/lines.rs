@@ -1,0 +1,76 @@
+//! Byte offset ↔ line and column.
+
+/// Where the lines of a text begin.
+#[derive(Debug, Clone)]
+pub struct Lines<'a> {
+    text: &'a str,
+    starts: Vec<usize>,
+}
+
+impl<'a> Lines<'a> {
+    /// Finds the lines of `text`.
+    pub fn new(text: &'a str) -> Self {
+        let starts = std::iter::once(0)
+            .chain(text.match_indices('\n').map(|(i, _)| i + 1))
+            .collect();
+        Self { text, starts }
+    }
+
+    /// Line and column of the byte `offset`, both counted from 1, the column in characters.
+    pub fn position(&self, offset: usize) -> (usize, usize) {
+        let line = self.starts.partition_point(|&start| start <= offset);
+        let before = self.text[self.starts[line - 1]..]
+            .char_indices()
+            .map(|(i, c)| i + c.len_utf8());
+        let within = offset - self.starts[line - 1];
+        (line, before.take_while(|&end| end <= within).count() + 1)
+    }
+
+    /// The byte offset of a line and a column.
+    pub fn offset(&self, line: usize, column: usize) -> usize {
+        let Some(&start) = line.checked_sub(1).and_then(|line| self.starts.get(line)) else {
+            return self.text.len();
+        };
+        let rest = &self.text[start..];
+        start
+            + rest
+                .char_indices()
+                .nth(column.saturating_sub(1))
+                .map_or(rest.len(), |(i, _)| i)
+    }
+
+    /// The byte offset at which the line begins; the end of the text for a line beyond the last.
+    pub fn start(&self, line: usize) -> usize {
+        line.checked_sub(1)
+            .and_then(|line| self.starts.get(line))
+            .copied()
+            .unwrap_or(self.text.len())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn positions_count_characters_from_one() {
+        let lines = Lines::new("aé\nb\n");
+        assert_eq!(lines.position(0), (1, 1));
+        assert_eq!(lines.position(3), (1, 3));
+        assert_eq!(lines.position(4), (2, 1));
+        assert_eq!(lines.position(6), (3, 1));
+        assert_eq!(lines.position(99), (3, 1));
+        assert_eq!(lines.position(2), (1, 2), "inside a character");
+    }
+
+    #[test]
+    fn offsets_lead_back_from_positions() {
+        let text = "aé\nb\nθθ";
+        let lines = Lines::new(text);
+        for (offset, _) in text.char_indices() {
+            let (line, column) = lines.position(offset);
+            assert_eq!(lines.offset(line, column), offset);
+        }
+        assert_eq!(lines.offset(9, 1), text.len());
+    }
+}

@@ -1,0 +1,170 @@
+//! Reading a mechanism file from disk; nothing else in the library touches files.
+
+use std::fmt::{self, Display, Formatter};
+use std::fs::File;
+use std::io::{self, Read};
+use std::path::{Path, PathBuf};
+
+use super::{Description, Lines, Problem, Severity, words};
+
+/// The largest file that is read (bytes); a mechanism of a thousand chains needs a tenth of it.
+pub const MAX_BYTES: u64 = 1 << 20;
+
+/// Why a mechanism file could not be loaded.
+#[derive(Debug)]
+pub enum LoadError {
+    /// The file could not be opened or read.
+    Unreadable {
+        /// The file.
+        path: PathBuf,
+        /// What the machine says.
+        error: io::Error,
+    },
+    /// The file is not text in UTF-8.
+    NotText {
+        /// The file.
+        path: PathBuf,
+        /// The first byte that is not.
+        offset: usize,
+    },
+    /// The file is larger than [`MAX_BYTES`].
+    TooLarge {
+        /// The file.
+        path: PathBuf,
+        /// Its size, if it has one.
+        bytes: Option<u64>,
+    },
+    /// The file is not a description of a mechanism.
+    Wrong(FileError),
+}
+
+/// A file and everything that is wrong with it.
+#[derive(Debug, Clone, PartialEq)]
+pub struct FileError {
+    /// The file.
+    pub path: PathBuf,
+    /// What it says.
+    pub text: String,
+    /// What is wrong with it.
+    pub problems: Vec<Problem>,
+}
+
+/// Reads a mechanism file. Returns its text too, to point at in later problems.
+pub fn load(path: impl AsRef<Path>) -> Result<(String, Description), LoadError> {
+    let path = path.as_ref().to_owned();
+    let text = read_text(&path)?;
+    match Description::read(&text) {
+        Ok(description) => Ok((text, description)),
+        Err(problems) => Err(LoadError::Wrong(FileError {
+            path,
+            text,
+            problems,
+        })),
+    }
+}
+
+fn read_text(path: &Path) -> Result<String, LoadError> {
+    let unreadable = |error| LoadError::Unreadable {
+        path: path.to_owned(),
+        error,
+    };
+    let too_large = |bytes| LoadError::TooLarge {
+        path: path.to_owned(),
+        bytes,
+    };
+    let file = File::open(path).map_err(unreadable)?;
+    let size = file.metadata().map_err(unreadable)?.len();
+    if size > MAX_BYTES {
+        return Err(too_large(Some(size)));
+    }
+    // A pipe has no size beforehand, and a file may grow meanwhile.
+    let mut bytes = Vec::new();
+    file.take(MAX_BYTES + 1)
+        .read_to_end(&mut bytes)
+        .map_err(unreadable)?;
+    if bytes.len() as u64 > MAX_BYTES {
+        return Err(too_large(None));
+    }
+    String::from_utf8(bytes).map_err(|error| LoadError::NotText {
+        path: path.to_owned(),
+        offset: error.utf8_error().valid_up_to(),
+    })
+}
+
+impl Display for LoadError {
+    fn fmt(&self, f: &mut Formatter) -> fmt::Result {
+        match self {
+            Self::Unreadable { path, error } => {
+                write!(f, "{}: cannot be read: {error}", path.display())
+            }
+            Self::NotText { path, offset } => {
+                write!(
+                    f,
+                    "{}: not a text file in UTF-8: byte {offset} does not belong to any character",
+                    path.display()
+                )
+            }
+            Self::TooLarge { path, bytes } => {
+                let size =
+                    bytes.map_or_else(|| "more".to_owned(), |bytes| format!("{bytes} bytes"));
+                write!(
+                    f,
+                    "{}: too large: {size}, where at most {MAX_BYTES} bytes are read",
+                    path.display()
+                )
+            }
+            Self::Wrong(error) => error.fmt(f),
+        }
+    }
+}
+
+impl std::error::Error for LoadError {
+    fn source(&self) -> Option<&(dyn std::error::Error + 'static)> {
+        match self {
+            Self::Unreadable { error, .. } => Some(error),
+            _ => None,
+        }
+    }
+}
+
+/// A file with more problems than this is not the file its author thinks it is.
+const MAX_SHOWN: usize = 100;
+
+impl FileError {
+    /// The problems worth showing, and how many more there are.
+    pub fn shown(&self) -> (&[Problem], usize) {
+        let shown = self.problems.len().min(MAX_SHOWN);
+        (&self.problems[..shown], self.problems.len() - shown)
+    }
+}
+
+/// One line for each problem: `file:line:column: what is wrong`.
+impl Display for FileError {
+    fn fmt(&self, f: &mut Formatter) -> fmt::Result {
+        let lines = Lines::new(&self.text);
+        let path = self.path.display();
+        let (shown, more) = self.shown();
+        for (i, problem) in shown.iter().enumerate() {
+            let (line, column) = lines.position(problem.span.start);
+            let break_before = if i == 0 { "" } else { "\n" };
+            let severity = match problem.severity() {
+                Severity::Error => "",
+                Severity::Warning => "warning: ",
+            };
+            write!(
+                f,
+                "{break_before}{path}:{line}:{column}: {severity}{}",
+                problem.kind.title()
+            )?;
+            if let Some(help) = problem.kind.help() {
+                write!(f, " ({help})")?;
+            }
+        }
+        if more > 0 {
+            write!(f, "\n{path}: and {}", words::count(more, "more problem"))?;
+        }
+        Ok(())
+    }
+}
+
+impl std::error::Error for FileError {}

@@ -1,0 +1,372 @@
+//! What a mechanism file says, part by part.
+//!
+//! Parts are equal when they say the same, wherever they stand in their files.
+
+use std::fmt::{self, Display, Formatter};
+use std::ops::Range;
+
+use crate::algebra::Expression;
+
+/// A value and the bytes of the file where it stands.
+#[derive(Debug, Clone)]
+pub struct Spanned<T> {
+    /// The value.
+    pub value: T,
+    /// Where it stands.
+    pub span: Range<usize>,
+}
+
+/// A value under its name.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Named<T> {
+    /// The name.
+    pub name: Spanned<String>,
+    /// What bears the name.
+    pub value: T,
+}
+
+/// A number or an expression. The spans inside the expression count bytes of the file.
+#[derive(Debug, Clone)]
+pub struct Entry {
+    /// The expression; a plain number is one too.
+    pub expression: Expression,
+    /// The whole entry, with its quotes.
+    pub span: Range<usize>,
+}
+
+/// A whole mechanism file. Everything is in the order of the file.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Description {
+    /// What the mechanism is called.
+    pub name: Spanned<String>,
+    /// Where it comes from.
+    pub source: Option<Spanned<String>>,
+    /// The convention of the chains that give none.
+    pub convention: Option<Spanned<Convention>>,
+    /// Dimensions and other constants.
+    pub parameters: Vec<Named<Entry>>,
+    /// The joint variables.
+    pub joints: Vec<Named<JointDescription>>,
+    /// The serial chains left when the mechanism is broken at some joints.
+    pub chains: Vec<Named<ChainDescription>>,
+    /// Rigid bodies whose pose is unknown.
+    pub platforms: Vec<Named<PlatformDescription>>,
+    /// The broken joints, put back.
+    pub closures: Vec<Named<ClosureDescription>>,
+    /// Formulas to be checked against the chains.
+    pub closed_forms: Vec<Named<ClosedFormDescription>>,
+}
+
+/// Which of the two ways to attach frames a Denavit–Hartenberg table uses.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub enum Convention {
+    /// Craig: T = Rx(alpha) Tx(a) Rz(theta) Tz(d).
+    Modified,
+    /// Denavit and Hartenberg: T = Rz(theta) Tz(d) Tx(a) Rx(alpha).
+    Standard,
+}
+
+/// Whether a joint is driven.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub enum Role {
+    /// Driven: its value is an input.
+    Actuated,
+    /// Not driven: its value follows.
+    Passive,
+}
+
+/// A joint variable.
+#[derive(Debug, Clone)]
+pub struct JointDescription {
+    /// Whether it is driven.
+    pub role: Role,
+    /// Its value in the home configuration; 0 if not given.
+    pub home: Entry,
+    /// Lowest and highest value.
+    pub limits: Option<(Entry, Entry)>,
+    /// Where the joint is declared.
+    pub span: Range<usize>,
+}
+
+/// A serial chain.
+#[derive(Debug, Clone, PartialEq)]
+pub struct ChainDescription {
+    /// The frame it stands on; ground if not given.
+    pub on: Option<Spanned<String>>,
+    /// The convention of its rows, if it is not that of the file.
+    pub convention: Option<Spanned<Convention>>,
+    /// From the frame it stands on to the frame before the first row.
+    pub base: Vec<Displacement>,
+    /// The Denavit–Hartenberg table.
+    pub rows: Vec<Row>,
+    /// From the frame after the last row to the tip.
+    pub tip: Vec<Displacement>,
+}
+
+/// One row of a Denavit–Hartenberg table. What is not given is 0.
+#[derive(Debug, Clone)]
+pub struct Row {
+    /// Twist of the link (rad).
+    pub alpha: Entry,
+    /// Length of the link (m).
+    pub a: Entry,
+    /// Offset along the joint axis (m).
+    pub d: Entry,
+    /// Angle about the joint axis (rad).
+    pub theta: Entry,
+    /// Where the row stands.
+    pub span: Range<usize>,
+}
+
+/// A coordinate axis.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+#[allow(missing_docs)]
+pub enum Axis {
+    X,
+    Y,
+    Z,
+}
+
+/// One step of a transform; a list of them is read left to right.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Displacement {
+    /// `Tx(e)`, `Ty(e)`, `Tz(e)`: by a length (m) along an axis.
+    Translate(Axis, Entry),
+    /// `Rx(e)`, `Ry(e)`, `Rz(e)`: by an angle (rad) about an axis.
+    Rotate(Axis, Entry),
+    /// `T(e, e, e)`: by a vector (m).
+    TranslateBy([Entry; 3]),
+}
+
+/// A rigid body whose pose is unknown.
+#[derive(Debug, Clone, PartialEq)]
+pub struct PlatformDescription {
+    /// Its pose in the home configuration.
+    pub home: Vec<Displacement>,
+    /// Frames fixed in it.
+    pub frames: Vec<Named<Vec<Displacement>>>,
+}
+
+/// What joint is put back where the mechanism was broken. Axes are the z axes of the frames.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub enum ClosureKind {
+    /// The origins coincide.
+    Spherical,
+    /// Origins and axes coincide.
+    Revolute,
+    /// Axes and orientations coincide, one frame slides along the axis.
+    Prismatic,
+    /// Origins coincide and the axes are perpendicular.
+    Universal,
+    /// The axes coincide.
+    Cylindrical,
+    /// The xy planes coincide.
+    Planar,
+    /// The frames coincide.
+    Rigid,
+    /// The origins have a given distance.
+    Distance,
+}
+
+/// A broken joint, put back between two frames.
+#[derive(Debug, Clone)]
+pub struct ClosureDescription {
+    /// The kind of joint.
+    pub kind: ClosureKind,
+    /// The frames it joins.
+    pub frames: [Spanned<String>; 2],
+    /// The distance (m), for [`ClosureKind::Distance`] only.
+    pub length: Option<Entry>,
+    /// Where the closure stands.
+    pub span: Range<usize>,
+}
+
+/// A printed formula, either for the pose of a frame or an identity.
+#[derive(Debug, Clone, PartialEq)]
+pub struct ClosedFormDescription {
+    /// The frame whose pose is given; always there unless only identities are.
+    pub of: Option<Spanned<String>>,
+    /// `in`: the frame in which it is expressed; ground if not given.
+    pub relative_to: Option<Spanned<String>>,
+    /// `where`: local names.
+    pub locals: Vec<Named<Entry>>,
+    /// Where it is printed.
+    pub source: Option<Spanned<String>>,
+    /// The position (m).
+    pub position: Option<[Entry; 3]>,
+    /// The rotation matrix, row by row.
+    pub rotation: Option<[[Entry; 3]; 3]>,
+    /// Rotation and position `[R | p]`, row by row.
+    pub transform: Option<[[Entry; 4]; 3]>,
+    /// Single entries of `[R | p]`.
+    pub entries: Vec<(Spanned<MatrixEntry>, Entry)>,
+    /// An expression that vanishes at every assembled configuration.
+    pub identity: Option<Entry>,
+    /// Several of them.
+    pub identities: Vec<Named<Entry>>,
+}
+
+/// Which entry of `[R | p]`; indices count from 0.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub enum MatrixEntry {
+    /// Row and column of the rotation matrix: `r11` is (0, 0).
+    Rotation(usize, usize),
+    /// Row of the position: `px` is 0.
+    Position(usize),
+}
+
+impl<T> Spanned<T> {
+    /// `value`, standing at `span`.
+    pub fn new(value: T, span: Range<usize>) -> Self {
+        Self { value, span }
+    }
+}
+
+impl Entry {
+    /// The entry that is a plain number.
+    pub fn number(value: f64, span: Range<usize>) -> Self {
+        let mut expression = Expression::number(value);
+        expression.span = span.clone();
+        Self { expression, span }
+    }
+
+    /// The 0 of an entry that is not given.
+    pub(super) fn absent() -> Self {
+        Self::number(0.0, 0..0)
+    }
+}
+
+impl ChainDescription {
+    /// The frame the chain stands on.
+    pub fn stands_on(&self) -> &str {
+        self.on.as_ref().map_or(GROUND, |frame| &frame.value)
+    }
+}
+
+/// The name of the fixed frame.
+pub const GROUND: &str = "ground";
+
+impl Convention {
+    /// Both conventions.
+    pub const ALL: [Self; 2] = [Self::Modified, Self::Standard];
+
+    /// How it is written in a file.
+    pub fn word(self) -> &'static str {
+        match self {
+            Self::Modified => "Modified",
+            Self::Standard => "Standard",
+        }
+    }
+}
+
+impl Role {
+    /// How it is written in a file.
+    pub fn word(self) -> &'static str {
+        match self {
+            Self::Actuated => "Actuated",
+            Self::Passive => "Passive",
+        }
+    }
+}
+
+impl ClosureKind {
+    /// Every kind.
+    pub const ALL: [Self; 8] = [
+        Self::Spherical,
+        Self::Revolute,
+        Self::Prismatic,
+        Self::Universal,
+        Self::Cylindrical,
+        Self::Planar,
+        Self::Rigid,
+        Self::Distance,
+    ];
+
+    /// How it is written in a file.
+    pub fn word(self) -> &'static str {
+        match self {
+            Self::Spherical => "Spherical",
+            Self::Revolute => "Revolute",
+            Self::Prismatic => "Prismatic",
+            Self::Universal => "Universal",
+            Self::Cylindrical => "Cylindrical",
+            Self::Planar => "Planar",
+            Self::Rigid => "Rigid",
+            Self::Distance => "Distance",
+        }
+    }
+
+    /// How many independent equations it sets between two free bodies.
+    pub fn equations(self) -> usize {
+        match self {
+            Self::Distance => 1,
+            Self::Spherical | Self::Planar => 3,
+            Self::Universal | Self::Cylindrical => 4,
+            Self::Revolute | Self::Prismatic => 5,
+            Self::Rigid => 6,
+        }
+    }
+}
+
+impl Displacement {
+    /// How it is written in a file.
+    pub fn word(&self) -> &'static str {
+        match self {
+            Self::Translate(Axis::X, _) => "Tx",
+            Self::Translate(Axis::Y, _) => "Ty",
+            Self::Translate(Axis::Z, _) => "Tz",
+            Self::Rotate(Axis::X, _) => "Rx",
+            Self::Rotate(Axis::Y, _) => "Ry",
+            Self::Rotate(Axis::Z, _) => "Rz",
+            Self::TranslateBy(_) => "T",
+        }
+    }
+
+    /// The lengths or the angle it is made of.
+    pub fn entries(&self) -> &[Entry] {
+        match self {
+            Self::Translate(_, entry) | Self::Rotate(_, entry) => std::slice::from_ref(entry),
+            Self::TranslateBy(entries) => entries,
+        }
+    }
+}
+
+impl MatrixEntry {
+    /// Every entry.
+    pub fn all() -> impl Iterator<Item = Self> {
+        let rotation = (0..9).map(|i| Self::Rotation(i / 3, i % 3));
+        rotation.chain((0..3).map(Self::Position))
+    }
+}
+
+impl Display for MatrixEntry {
+    fn fmt(&self, f: &mut Formatter) -> fmt::Result {
+        match *self {
+            Self::Rotation(row, column) => write!(f, "r{}{}", row + 1, column + 1),
+            Self::Position(row) => write!(f, "p{}", ["x", "y", "z"][row]),
+        }
+    }
+}
+
+macro_rules! equal_up_to_place {
+    ($($part:ty: $($field:ident),+;)+) => {
+        $(impl PartialEq for $part {
+            fn eq(&self, other: &Self) -> bool {
+                $(self.$field == other.$field)&&+
+            }
+        })+
+    };
+}
+
+equal_up_to_place! {
+    Entry: expression;
+    JointDescription: role, home, limits;
+    Row: alpha, a, d, theta;
+    ClosureDescription: kind, frames, length;
+}
+
+impl<T: PartialEq> PartialEq for Spanned<T> {
+    fn eq(&self, other: &Self) -> bool {
+        self.value == other.value
+    }
+}

@@ -1,0 +1,431 @@
+//! A piece of a RON text, and how it comes apart.
+//!
+//! `ron` reads values but not where they stand. It does lend out any value as a slice of the text, though, and a slice
+//! knows its place; so the tree is taken apart level by level, each child being lent out unread.
+
+use std::borrow::Cow;
+use std::fmt::{self, Formatter};
+use std::ops::Range;
+
+use ron::value::RawValue;
+use serde::Deserialize;
+use serde::de::{Deserializer, IgnoredAny, MapAccess, SeqAccess, Visitor};
+
+use super::{Found, Spanned};
+
+/// A value that `ron` has found to be well formed.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Piece<'a> {
+    /// Begins with the value; may end with white space and comments.
+    text: &'a str,
+    start: usize,
+}
+
+/// What kind of value a piece is.
+#[derive(Debug, Clone, Copy)]
+pub(super) enum Shape<'a> {
+    Number,
+    Text,
+    Character,
+    Bytes,
+    List,
+    Map,
+    /// In parentheses, without names.
+    Tuple,
+    /// In parentheses, with names.
+    Fields,
+    /// A word and what stands in parentheses behind it.
+    Word {
+        word: &'a str,
+        content: Option<Piece<'a>>,
+    },
+}
+
+/// A text and the place of each of its bytes in the file.
+pub(super) struct Literal<'a> {
+    pub text: Cow<'a, str>,
+    places: Places,
+}
+
+enum Places {
+    /// The text stands in the file as it is, from here on.
+    Straight(usize),
+    /// Where each byte, and the end, is escaped to.
+    Escaped(Vec<usize>),
+    /// Not known more exactly than the whole literal.
+    Whole(Range<usize>),
+}
+
+type Parts<T> = Result<Vec<T>, ron::Error>;
+
+impl<'a> Piece<'a> {
+    /// `text` stands at byte `start` of the file.
+    pub fn new(text: &'a str, start: usize) -> Self {
+        let trimmed = skip_blank(text);
+        Self {
+            text: trimmed,
+            start: start + text.len() - trimmed.len(),
+        }
+    }
+
+    fn part(&self, slice: &'a str) -> Self {
+        Self::new(slice, self.place(slice).start)
+    }
+
+    /// Where a slice of this piece stands in the file.
+    fn place(&self, slice: &str) -> Range<usize> {
+        let start = self.start + (slice.as_ptr() as usize - self.text.as_ptr() as usize);
+        start..start + slice.len()
+    }
+
+    /// Where the value stands.
+    pub fn span(&self) -> Range<usize> {
+        let end = self.deserializer().and_then(|mut deserializer| {
+            IgnoredAny::deserialize(&mut deserializer)?;
+            Ok(self.text.len() - deserializer.remainder().len())
+        });
+        let value = &self.text[..end.unwrap_or(self.text.len())];
+        self.start..self.start + value.trim_end().len()
+    }
+
+    pub fn shape(&self) -> Shape<'a> {
+        let mut characters = self.text.chars();
+        match characters.next() {
+            Some('"') => Shape::Text,
+            Some('\'') => Shape::Character,
+            Some('[') => Shape::List,
+            Some('{') => Shape::Map,
+            Some('(') => match word(skip_blank(characters.as_str())) {
+                Some((_, rest)) if skip_blank(rest).starts_with(':') => Shape::Fields,
+                _ => Shape::Tuple,
+            },
+            Some('b')
+                if matches!(characters.next(), Some('"' | '\''))
+                    || self.text.starts_with("br\"") =>
+            {
+                Shape::Bytes
+            }
+            _ => match word(self.text) {
+                Some((word, rest)) => {
+                    let content = self.part(rest);
+                    Shape::Word {
+                        word,
+                        content: content.text.starts_with('(').then_some(content),
+                    }
+                }
+                None if self.text.starts_with('r') => Shape::Text,
+                None => Shape::Number,
+            },
+        }
+    }
+
+    /// What to say stands here instead of something else.
+    pub fn found(&self) -> Found {
+        match self.shape() {
+            Shape::Number => Found::Number,
+            Shape::Text => Found::Text,
+            Shape::Character => Found::Character,
+            Shape::Bytes => Found::Bytes,
+            Shape::List => Found::List,
+            Shape::Map => Found::Map,
+            Shape::Tuple => Found::Tuple,
+            Shape::Fields => Found::Fields,
+            Shape::Word {
+                word,
+                content: None,
+            } => Found::Word(word.to_owned()),
+            Shape::Word {
+                word,
+                content: Some(_),
+            } => Found::Call(word.to_owned()),
+        }
+    }
+
+    pub fn number(&self) -> Result<f64, ron::Error> {
+        match ron::Value::deserialize(&mut self.deserializer()?)? {
+            ron::Value::Number(number) => Ok(number.into_f64()),
+            _ => Err(ron::Error::ExpectedFloat),
+        }
+    }
+
+    pub fn text(&self) -> Result<Literal<'a>, ron::Error> {
+        let text = self.deserializer()?.deserialize_str(TextVisitor)?;
+        let places = match &text {
+            Cow::Borrowed(text) => Places::Straight(self.place(text).start),
+            Cow::Owned(text) => escaped_places(self.text, self.start)
+                .filter(|places| places.len() == text.len() + 1)
+                .map_or_else(|| Places::Whole(self.span()), Places::Escaped),
+        };
+        Ok(Literal { text, places })
+    }
+
+    /// The values of a list or a tuple.
+    pub fn elements(&self) -> Parts<Piece<'a>> {
+        let mut deserializer = self.deserializer()?;
+        let slices = match self.text.starts_with('[') {
+            true => deserializer.deserialize_seq(ElementsVisitor),
+            false => deserializer.deserialize_tuple(0, ElementsVisitor),
+        }?;
+        Ok(slices.into_iter().map(|slice| self.part(slice)).collect())
+    }
+
+    /// The keys and values of a map.
+    pub fn pairs(&self) -> Parts<(Piece<'a>, Piece<'a>)> {
+        let slices = self.deserializer()?.deserialize_map(PairsVisitor)?;
+        Ok(slices
+            .into_iter()
+            .map(|(key, value)| (self.part(key), self.part(value)))
+            .collect())
+    }
+
+    /// The names and values of named fields in parentheses.
+    pub fn fields(&self) -> Parts<(Spanned<&'a str>, Piece<'a>)> {
+        let slices = self
+            .deserializer()?
+            .deserialize_struct("", &[], FieldsVisitor)?;
+        let named = |(name, value): (&'a str, &'a str)| {
+            (Spanned::new(name, self.place(name)), self.part(value))
+        };
+        Ok(slices.into_iter().map(named).collect())
+    }
+
+    fn deserializer(&self) -> Result<ron::Deserializer<'a>, ron::Error> {
+        ron::Deserializer::from_str(self.text).map_err(|error| error.code)
+    }
+}
+
+impl Literal<'_> {
+    /// The bytes of the file in which a range of the text is written.
+    pub fn place(&self, range: Range<usize>) -> Range<usize> {
+        match &self.places {
+            Places::Straight(start) => start + range.start..start + range.end,
+            Places::Escaped(places) => {
+                let last = places.len() - 1;
+                places[range.start.min(last)]..places[range.end.min(last)]
+            }
+            Places::Whole(span) => span.clone(),
+        }
+    }
+}
+
+/// The text after white space and comments.
+fn skip_blank(text: &str) -> &str {
+    ron::Deserializer::from_str(text).map_or(text, |deserializer| deserializer.remainder())
+}
+
+/// The word at the start of a text, and what follows it.
+fn word(text: &str) -> Option<(&str, &str)> {
+    let mut deserializer = ron::Deserializer::from_str(text).ok()?;
+    let word = deserializer.deserialize_identifier(WordVisitor).ok()?;
+    Some((word, deserializer.remainder()))
+}
+
+/// Where each byte of an escaped string comes from, and where the string ends.
+fn escaped_places(literal: &str, start: usize) -> Option<Vec<usize>> {
+    let inner = literal.strip_prefix('"')?;
+    let mut places = Vec::new();
+    let mut i = 0;
+    loop {
+        let rest = &inner[i..];
+        let place = start + 1 + i;
+        let first = rest.chars().next()?;
+        let (read, made) = match first {
+            '"' => {
+                places.push(place);
+                return Some(places);
+            }
+            '\\' => match rest[1..].chars().next()? {
+                'x' => (4, 1),
+                'u' => {
+                    let digits = rest.get(3..rest.find('}')?)?;
+                    let character = char::from_u32(u32::from_str_radix(digits, 16).ok()?)?;
+                    (digits.len() + 4, character.len_utf8())
+                }
+                '\n' | '\r' => (
+                    rest.len() - rest[1..].trim_start_matches([' ', '\t', '\n', '\r']).len(),
+                    0,
+                ),
+                escaped => (1 + escaped.len_utf8(), 1),
+            },
+            plain => {
+                let length = plain.len_utf8();
+                places.extend(place..place + length);
+                i += length;
+                continue;
+            }
+        };
+        places.extend(std::iter::repeat_n(place, made));
+        i += read;
+        if !inner.is_char_boundary(i) {
+            return None;
+        }
+    }
+}
+
+struct TextVisitor;
+
+impl<'de> Visitor<'de> for TextVisitor {
+    type Value = Cow<'de, str>;
+
+    fn expecting(&self, f: &mut Formatter) -> fmt::Result {
+        f.write_str("a string")
+    }
+
+    fn visit_borrowed_str<E>(self, text: &'de str) -> Result<Self::Value, E> {
+        Ok(Cow::Borrowed(text))
+    }
+
+    fn visit_str<E>(self, text: &str) -> Result<Self::Value, E> {
+        Ok(Cow::Owned(text.to_owned()))
+    }
+
+    fn visit_string<E>(self, text: String) -> Result<Self::Value, E> {
+        Ok(Cow::Owned(text))
+    }
+}
+
+struct WordVisitor;
+
+impl<'de> Visitor<'de> for WordVisitor {
+    type Value = &'de str;
+
+    fn expecting(&self, f: &mut Formatter) -> fmt::Result {
+        f.write_str("a word")
+    }
+
+    fn visit_borrowed_str<E>(self, word: &'de str) -> Result<Self::Value, E> {
+        Ok(word)
+    }
+}
+
+/// A word, as a field name.
+struct Word<'de>(&'de str);
+
+impl<'de> Deserialize<'de> for Word<'de> {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        deserializer.deserialize_identifier(WordVisitor).map(Word)
+    }
+}
+
+struct ElementsVisitor;
+
+impl<'de> Visitor<'de> for ElementsVisitor {
+    type Value = Vec<&'de str>;
+
+    fn expecting(&self, f: &mut Formatter) -> fmt::Result {
+        f.write_str("a list")
+    }
+
+    fn visit_seq<A: SeqAccess<'de>>(self, mut sequence: A) -> Result<Self::Value, A::Error> {
+        let mut elements = Vec::new();
+        while let Some(element) = sequence.next_element::<&RawValue>()? {
+            elements.push(element.get_ron());
+        }
+        Ok(elements)
+    }
+}
+
+struct PairsVisitor;
+
+impl<'de> Visitor<'de> for PairsVisitor {
+    type Value = Vec<(&'de str, &'de str)>;
+
+    fn expecting(&self, f: &mut Formatter) -> fmt::Result {
+        f.write_str("a map")
+    }
+
+    fn visit_map<A: MapAccess<'de>>(self, mut map: A) -> Result<Self::Value, A::Error> {
+        let mut pairs = Vec::new();
+        while let Some((key, value)) = map.next_entry::<&RawValue, &RawValue>()? {
+            pairs.push((key.get_ron(), value.get_ron()));
+        }
+        Ok(pairs)
+    }
+}
+
+struct FieldsVisitor;
+
+impl<'de> Visitor<'de> for FieldsVisitor {
+    type Value = Vec<(&'de str, &'de str)>;
+
+    fn expecting(&self, f: &mut Formatter) -> fmt::Result {
+        f.write_str("named fields")
+    }
+
+    fn visit_map<A: MapAccess<'de>>(self, mut map: A) -> Result<Self::Value, A::Error> {
+        let mut fields = Vec::new();
+        while let Some((name, value)) = map.next_entry::<Word, &RawValue>()? {
+            fields.push((name.0, value.get_ron()));
+        }
+        Ok(fields)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn values_know_their_places_without_the_comments_around_them() {
+        let text = "/* before */ ( a: /* c */ 1.5 /* d */, b: [\"x\" , 'c'] // end\n ) // after";
+        let whole = Piece::new(text, 0);
+        assert_eq!(
+            &text[whole.span()],
+            "( a: /* c */ 1.5 /* d */, b: [\"x\" , 'c'] // end\n )"
+        );
+        let fields = whole.fields().unwrap();
+        assert_eq!(
+            fields
+                .iter()
+                .map(|(name, _)| &text[name.span.clone()])
+                .collect::<Vec<_>>(),
+            ["a", "b"]
+        );
+        assert_eq!(&text[fields[0].1.span()], "1.5");
+        let elements = fields[1].1.elements().unwrap();
+        assert_eq!(
+            elements.iter().map(|x| &text[x.span()]).collect::<Vec<_>>(),
+            ["\"x\"", "'c'"]
+        );
+    }
+
+    #[test]
+    fn shapes_are_told_apart() {
+        let found = |text: &str| Piece::new(text, 0).found();
+        assert_eq!(found("-1.5"), Found::Number);
+        assert_eq!(found("\"a\""), Found::Text);
+        assert_eq!(found("r#\"a\"#"), Found::Text);
+        assert_eq!(found("'a'"), Found::Character);
+        assert_eq!(found("b\"a\""), Found::Bytes);
+        assert_eq!(found("[]"), Found::List);
+        assert_eq!(found("{}"), Found::Map);
+        assert_eq!(found("(1, 2)"), Found::Tuple);
+        assert_eq!(found("( /* c */ a : 2)"), Found::Fields);
+        assert_eq!(found("true"), Found::Word("true".into()));
+        assert_eq!(found("Tx (1)"), Found::Call("Tx".into()));
+        assert_eq!(found("base(1)"), Found::Call("base".into()));
+    }
+
+    #[test]
+    fn places_see_through_escapes() {
+        let source = r#""a\u{3b8}\tb\x41\
+            c\"d""#;
+        let literal = Piece::new(source, 100).text().unwrap();
+        assert_eq!(literal.text, "aθ\tbAc\"d");
+        let at = |part: &str| {
+            let start = literal.text.find(part).unwrap();
+            let place = literal.place(start..start + part.len());
+            &source[place.start - 100..place.end - 100]
+        };
+        assert_eq!(at("a"), "a");
+        assert_eq!(at("θ"), r"\u{3b8}");
+        assert_eq!(at("b"), "b");
+        assert_eq!(
+            at("A"),
+            r"\x41\
+            "
+        );
+        assert_eq!(at("c"), "c");
+        assert_eq!(at("\"d"), "\\\"d");
+    }
+}

@@ -1,0 +1,451 @@
+//! What can be wrong with a mechanism file, as data. `words.rs` says it in English.
+
+use std::ops::Range;
+
+use crate::algebra::{EvaluationErrorKind, ParseErrorKind};
+
+/// Something wrong with a mechanism file.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Problem {
+    /// What is wrong.
+    pub kind: ProblemKind,
+    /// The offending bytes of the file.
+    pub span: Range<usize>,
+    /// Other places that have to do with it.
+    pub related: Vec<(Range<usize>, Note)>,
+}
+
+/// How serious a problem is.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub enum Severity {
+    /// Worth knowing; the file is usable.
+    Warning,
+    /// The file is refused.
+    Error,
+}
+
+/// What another place has to do with a problem.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Note {
+    /// The name or field was first given here.
+    FirstHere(Noun),
+    /// The same problem is here too.
+    AlsoHere,
+    /// This bracket is still open.
+    StillOpen,
+    /// The joint is declared here.
+    DeclaredHere(Noun),
+    /// One more step of a cycle.
+    ThenHere,
+}
+
+/// The kinds of things that have names.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+#[allow(missing_docs)]
+pub enum Noun {
+    Field,
+    Parameter,
+    Joint,
+    Chain,
+    Platform,
+    PlatformFrame,
+    Closure,
+    ClosedForm,
+    LocalName,
+    MatrixEntry,
+    Identity,
+}
+
+/// The groups of named fields in a file.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+#[allow(missing_docs)]
+pub enum Structure {
+    Mechanism,
+    Passive,
+    Actuated,
+    Chain,
+    Row,
+    Platform,
+    ClosedForm,
+}
+
+/// What must stand at a place of the file.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub enum Expected {
+    /// The fields of a structure.
+    Fields(Structure),
+    /// The number of the file format.
+    Version,
+    /// Any text.
+    Text,
+    /// A name, as the key of a map.
+    NameOf(Noun),
+    /// The name of a frame.
+    Frame,
+    /// A number or an expression.
+    Entry,
+    /// A map from names to things.
+    MapOf(Noun),
+    /// A list of rows.
+    Rows,
+    /// A list of displacements.
+    Transform,
+    /// `Tx(…)` and its like.
+    Displacement,
+    /// One of the displacements, with this many entries.
+    DisplacementEntries(&'static str),
+    /// Passive or actuated.
+    Joint,
+    /// A lowest and a highest value.
+    Limits,
+    /// Modified or standard.
+    Convention,
+    /// `Spherical(…)` and its like.
+    Closure,
+    /// The frames of a closure, for a distance with the length.
+    ClosureFrames(&'static str),
+    /// Three entries.
+    Vector,
+    /// Rows of a rotation matrix.
+    RotationRows,
+    /// One row of a rotation matrix.
+    RotationRow,
+    /// Three or four rows of a transform.
+    TransformRows,
+    /// One row of a transform.
+    TransformRow,
+}
+
+/// What stands at a place of the file instead.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub enum Found {
+    /// A number.
+    Number,
+    /// A string.
+    Text,
+    /// A character in apostrophes.
+    Character,
+    /// A byte string.
+    Bytes,
+    /// `[…]`
+    List,
+    /// `{…}`
+    Map,
+    /// `(…, …)`
+    Tuple,
+    /// `(name: …)`
+    Fields,
+    /// A word by itself, such as `true`.
+    Word(String),
+    /// A word followed by parentheses.
+    Call(String),
+}
+
+/// Which names an expression may use.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub enum Scope {
+    /// Parameters only.
+    Parameters,
+    /// Parameters and joint variables.
+    ParametersAndJoints,
+    /// Parameters, joint variables and the local names of a closed form.
+    ClosedForm,
+}
+
+/// What is wrong.
+#[derive(Debug, Clone, PartialEq)]
+pub enum ProblemKind {
+    /// The text is larger than the limit.
+    TooLarge {
+        /// Its size.
+        bytes: usize,
+    },
+    /// There is nothing in the file.
+    Empty,
+    /// Brackets within brackets without end.
+    TooDeep,
+    /// The text is not RON.
+    Syntax(ron::Error),
+    /// The file is for a later version of the program.
+    LaterVersion(f64),
+    /// The version is not a positive whole number.
+    NotAVersion(f64),
+    /// Something of the wrong type.
+    WrongType {
+        /// What must stand here.
+        expected: Expected,
+        /// What stands here.
+        found: Found,
+    },
+    /// Too few or too many things in parentheses.
+    WrongLength {
+        /// What must stand here.
+        of: Expected,
+        /// How many things it is made of.
+        expected: usize,
+        /// How many there are.
+        found: usize,
+    },
+    /// A word that is none of those possible here.
+    UnknownWord {
+        /// What must stand here.
+        expected: Expected,
+        /// The word.
+        word: String,
+        /// The word that was probably meant.
+        suggestion: Option<String>,
+        /// The words possible here.
+        known: Vec<&'static str>,
+    },
+    /// A field that the structure does not have.
+    UnknownField {
+        /// The structure.
+        structure: Structure,
+        /// The field.
+        field: String,
+        /// The field that was probably meant.
+        suggestion: Option<String>,
+    },
+    /// A field that the structure must have.
+    MissingField {
+        /// The structure.
+        structure: Structure,
+        /// The field.
+        field: &'static str,
+    },
+    /// A field given twice.
+    DuplicateField {
+        /// The field.
+        field: String,
+    },
+    /// A name given twice.
+    DuplicateName {
+        /// What bears it here.
+        noun: Noun,
+        /// The name.
+        name: String,
+    },
+    /// An expression that does not parse.
+    Expression(ParseErrorKind),
+    /// A number that is infinite or not a number.
+    NotFinite,
+    /// A name that no expression could use.
+    NotAName {
+        /// What bears it.
+        noun: Noun,
+        /// The name.
+        name: String,
+    },
+    /// A name that already means something else.
+    ReservedName {
+        /// What bears it.
+        noun: Noun,
+        /// The name.
+        name: String,
+    },
+    /// The name of a chain or platform has a dot, which separates it from the names of its frames.
+    DottedName {
+        /// What bears it.
+        noun: Noun,
+        /// The name.
+        name: String,
+    },
+    /// A name without a letter.
+    EmptyName {
+        /// What bears it.
+        noun: Noun,
+    },
+    /// Neither the file nor the chain says which convention the rows follow.
+    NoConvention {
+        /// The chain.
+        chain: String,
+    },
+    /// A closed form that gives neither a pose nor an identity.
+    EmptyClosedForm,
+    /// A closed form that gives a pose and an identity.
+    MixedClosedForm,
+    /// A key of `entries` that is no entry of `[R | p]`.
+    UnknownMatrixEntry {
+        /// The key.
+        name: String,
+    },
+    /// The fourth row of a transform is not (0, 0, 0, 1).
+    WrongLastRow,
+    /// An expression uses a name that means nothing.
+    UnknownName {
+        /// The name.
+        name: String,
+        /// The name that was probably meant.
+        suggestion: Option<String>,
+        /// The names possible here.
+        scope: Scope,
+    },
+    /// A joint variable where only parameters may stand.
+    JointNotAllowed {
+        /// The joint.
+        name: String,
+    },
+    /// The name of a frame that does not exist.
+    UnknownFrame {
+        /// The name.
+        name: String,
+        /// The frame that was probably meant.
+        suggestion: Option<String>,
+    },
+    /// A link frame beyond the last row of a chain.
+    NoSuchLink {
+        /// The chain.
+        chain: String,
+        /// The number of the link.
+        link: String,
+        /// How many rows the chain has.
+        rows: usize,
+    },
+    /// Parameters or local names defined through one another.
+    DefinitionCycle {
+        /// What they are.
+        noun: Noun,
+        /// The names; the first follows the last.
+        names: Vec<String>,
+    },
+    /// Chains that stand on one another.
+    ChainCycle {
+        /// The names; the first follows the last.
+        names: Vec<String>,
+    },
+    /// An expression that is not constant + Σ coefficient·joint.
+    NotAffine,
+    /// An expression that has no value.
+    NoValue(EvaluationErrorKind),
+    /// A closure between two frames of one body.
+    SameBody {
+        /// The closure.
+        closure: String,
+    },
+    /// A distance that is negative.
+    NegativeDistance {
+        /// The length (m).
+        length: f64,
+    },
+    /// The lowest value is above the highest.
+    LimitsReversed {
+        /// The joint.
+        joint: String,
+        /// The lowest value (rad or m).
+        low: f64,
+        /// The highest value (rad or m).
+        high: f64,
+    },
+    /// The home value is not within the limits.
+    HomeOutsideLimits {
+        /// The joint.
+        joint: String,
+        /// The home value (rad or m).
+        home: f64,
+        /// The lowest value (rad or m).
+        low: f64,
+        /// The highest value (rad or m).
+        high: f64,
+    },
+    /// Neither a chain nor a platform.
+    NothingToAnalyse,
+    /// A joint variable that no chain and no closure uses.
+    UnusedJoint {
+        /// The joint.
+        name: String,
+    },
+    /// A parameter that nothing uses.
+    UnusedParameter {
+        /// The parameter.
+        name: String,
+    },
+    /// A platform that no closure and no chain touches.
+    UnusedPlatform {
+        /// The platform.
+        name: String,
+    },
+}
+
+impl ProblemKind {
+    /// Whether the file is refused.
+    pub fn severity(&self) -> Severity {
+        match self {
+            Self::UnusedJoint { .. }
+            | Self::UnusedParameter { .. }
+            | Self::UnusedPlatform { .. }
+            | Self::HomeOutsideLimits { .. } => Severity::Warning,
+            _ => Severity::Error,
+        }
+    }
+
+    /// The problem of this kind at `span`.
+    pub fn at(self, span: Range<usize>) -> Problem {
+        Problem {
+            kind: self,
+            span,
+            related: Vec::new(),
+        }
+    }
+}
+
+impl Problem {
+    /// Whether the file is refused.
+    pub fn severity(&self) -> Severity {
+        self.kind.severity()
+    }
+
+    /// The same problem, with one more place that has to do with it.
+    pub fn with(mut self, span: Range<usize>, note: Note) -> Self {
+        self.related.push((span, note));
+        self
+    }
+}
+
+impl Structure {
+    /// How it is named in a file.
+    pub fn word(self) -> &'static str {
+        match self {
+            Self::Mechanism => "Mechanism",
+            Self::Passive => "Passive",
+            Self::Actuated => "Actuated",
+            Self::Chain => "Chain",
+            Self::Row => "Row",
+            Self::Platform => "Platform",
+            Self::ClosedForm => "ClosedForm",
+        }
+    }
+
+    /// The fields it may have.
+    pub fn fields(self) -> &'static [&'static str] {
+        match self {
+            Self::Mechanism => &[
+                "version",
+                "name",
+                "source",
+                "convention",
+                "parameters",
+                "joints",
+                "chains",
+                "platforms",
+                "closures",
+                "closed_forms",
+            ],
+            Self::Passive | Self::Actuated => &["home", "limits"],
+            Self::Chain => &["on", "convention", "base", "rows", "tip"],
+            Self::Row => &["alpha", "a", "d", "theta"],
+            Self::Platform => &["home", "frames"],
+            Self::ClosedForm => &[
+                "of",
+                "in",
+                "where",
+                "source",
+                "position",
+                "rotation",
+                "transform",
+                "entries",
+                "identity",
+                "identities",
+            ],
+        }
+    }
+}

@@ -1,0 +1,106 @@
+//! Printed formulas.
+
+use super::*;
+
+impl Reader {
+    pub(super) fn closed_form(&mut self, piece: Piece) -> Option<ClosedFormDescription> {
+        let mut fields = self.fields(piece, Structure::ClosedForm)?;
+        // Reading takes the fields out, so what kind of formula it is must be asked first.
+        let pose = fields.gives(&["position", "rotation", "transform", "entries"]);
+        let identity = fields.gives(&["identity", "identities"]);
+        if pose && !fields.gives(&["of"]) {
+            self.require(&mut fields, "of");
+        }
+        match (pose, identity) {
+            (true, true) => self
+                .problems
+                .push(ProblemKind::MixedClosedForm.at(fields.head())),
+            (false, false) => self
+                .problems
+                .push(ProblemKind::EmptyClosedForm.at(fields.head())),
+            _ => {}
+        }
+        Some(ClosedFormDescription {
+            of: self.optional_text(&mut fields, "of", Expected::Frame),
+            relative_to: self.optional_text(&mut fields, "in", Expected::Frame),
+            locals: self.named(&mut fields, "where", Noun::LocalName, Self::entry),
+            source: self.optional_text(&mut fields, "source", Expected::Text),
+            position: fields.take("position").and_then(|piece| {
+                let vector = self.tuple(piece, Expected::Vector)?;
+                self.entries(vector)
+            }),
+            rotation: fields.take("rotation").and_then(|piece| {
+                let rows = self.tuple(piece, Expected::RotationRows)?;
+                self.matrix(rows, Expected::RotationRow)
+            }),
+            transform: fields
+                .take("transform")
+                .and_then(|piece| self.homogeneous(piece)),
+            entries: self.matrix_entries(&mut fields),
+            identity: fields.take("identity").and_then(|piece| self.entry(piece)),
+            identities: self.named(&mut fields, "identities", Noun::Identity, Self::entry),
+        })
+    }
+
+    fn matrix<const N: usize>(
+        &mut self,
+        rows: [Piece; 3],
+        expected: Expected,
+    ) -> Option<[[Entry; N]; 3]> {
+        let rows = rows.map(|row| {
+            let row = self.tuple(row, expected)?;
+            self.entries(row)
+        });
+        let rows: Vec<_> = rows.into_iter().flatten().collect();
+        rows.try_into().ok()
+    }
+
+    /// Three rows of `[R | p]`, and perhaps the fourth that every homogeneous transform has.
+    fn homogeneous(&mut self, piece: Piece) -> Option<[[Entry; 4]; 3]> {
+        let Shape::Tuple = piece.shape() else {
+            self.wrong_type(piece, Expected::TransformRows);
+            return None;
+        };
+        let mut rows = self.split(piece, piece.elements())?;
+        if rows.len() == 4
+            && let Some(last) = rows.pop()
+        {
+            let row = self.tuple::<4>(last, Expected::TransformRow)?;
+            let row = self.entries(row)?;
+            let is_usual = row
+                .iter()
+                .zip([0.0, 0.0, 0.0, 1.0])
+                .all(|(entry, usual)| entry.expression.as_number() == Some(usual));
+            if !is_usual {
+                self.problems
+                    .push(ProblemKind::WrongLastRow.at(last.span()));
+            }
+        }
+        let found = rows.len();
+        match rows.try_into() {
+            Ok(rows) => self.matrix(rows, Expected::TransformRow),
+            Err(_) => {
+                let kind = ProblemKind::WrongLength {
+                    of: Expected::TransformRows,
+                    expected: 3,
+                    found,
+                };
+                self.problems.push(kind.at(piece.span()));
+                None
+            }
+        }
+    }
+
+    fn matrix_entries(&mut self, fields: &mut Fields) -> Vec<(Spanned<MatrixEntry>, Entry)> {
+        let mut entries = Vec::new();
+        for Named { name, value } in self.named(fields, "entries", Noun::MatrixEntry, Self::entry) {
+            match MatrixEntry::all().find(|entry| entry.to_string() == name.value) {
+                Some(entry) => entries.push((Spanned::new(entry, name.span), value)),
+                None => self
+                    .problems
+                    .push(ProblemKind::UnknownMatrixEntry { name: name.value }.at(name.span)),
+            }
+        }
+        entries
+    }
+}

@@ -1,0 +1,363 @@
+//! The words for every problem: a sentence, a label for the offending text, and what to do about it.
+
+mod expression;
+mod syntax;
+
+use std::fmt::{self, Display, Formatter};
+
+use super::*;
+
+impl ProblemKind {
+    /// What is wrong, in one sentence without a full stop.
+    pub fn title(&self) -> String {
+        use ProblemKind::*;
+        match self {
+            TooLarge { bytes } => {
+                format!("the text has {bytes} bytes, more than the {MAX_BYTES} that are read")
+            }
+            Empty => "the file is empty".into(),
+            TooDeep => "brackets are nested too deeply for a mechanism file".into(),
+            Syntax(error) => syntax::title(error),
+            LaterVersion(version) => {
+                format!("the file has version {version}: it is written for a later linkwork")
+            }
+            NotAVersion(version) => format!("{version} is not a version of the file format"),
+            WrongType { expected, found } => format!("expected {expected}, found {found}"),
+            WrongLength {
+                of,
+                expected,
+                found,
+            } => {
+                format!(
+                    "expected {of}, which takes {}, found {found}",
+                    count(*expected, of.unit())
+                )
+            }
+            UnknownWord { expected, word, .. } => format!("expected {expected}, found `{word}`"),
+            UnknownField {
+                structure, field, ..
+            } => format!("{structure} has no field `{field}`"),
+            MissingField { structure, field } => format!("{structure} needs the field `{field}`"),
+            DuplicateField { field } => format!("the field `{field}` is given twice"),
+            DuplicateName { name, .. } => format!("the name `{name}` is given twice"),
+            Expression(error) => expression::title(error),
+            NotFinite => "the number is not finite".into(),
+            NotAName { noun, name } => format!("`{name}` cannot be the name of {noun}"),
+            ReservedName { noun, name } => {
+                format!("`{name}` is reserved and cannot be the name of {noun}")
+            }
+            DottedName { noun, name } => format!("the name `{name}` of {noun} contains a dot"),
+            EmptyName { noun } => format!("the name of {noun} is empty"),
+            NoConvention { chain } => {
+                format!("nothing says which convention the rows of chain `{chain}` follow")
+            }
+            EmptyClosedForm => "the closed form gives no formula".into(),
+            MixedClosedForm => "the closed form gives both a pose and an identity".into(),
+            UnknownMatrixEntry { name } => {
+                format!("`{name}` is not an entry of a rotation or a position")
+            }
+            WrongLastRow => "the fourth row of a transform must be (0, 0, 0, 1)".into(),
+            UnknownName { name, scope, .. } => format!("`{name}` is {scope}"),
+            JointNotAllowed { name } => format!("the joint `{name}` cannot be used here"),
+            UnknownFrame { name, .. } => format!("there is no frame `{name}`"),
+            NoSuchLink { chain, link, rows } => {
+                format!(
+                    "chain `{chain}` has {} and no link frame `{link}`",
+                    count(*rows, "row")
+                )
+            }
+            DefinitionCycle { noun, names } => {
+                format!("{noun} is defined through itself: {}", cycle(names))
+            }
+            ChainCycle { names } => format!("a chain stands on itself: {}", cycle(names)),
+            NotAffine => {
+                "the expression is not a constant plus multiples of joint variables".into()
+            }
+            NoValue(error) => expression::no_value(error),
+            SameBody { closure } => {
+                format!("the closure `{closure}` joins two frames of the same body")
+            }
+            NegativeDistance { length } => format!("the distance {length} is negative"),
+            LimitsReversed { joint, low, high } => {
+                format!("the lowest value of joint `{joint}`, {low}, is above the highest, {high}")
+            }
+            HomeOutsideLimits {
+                joint,
+                home,
+                low,
+                high,
+            } => {
+                format!(
+                    "the home value of joint `{joint}`, {home}, is not between its limits {low} and {high}"
+                )
+            }
+            NothingToAnalyse => "the file has neither a chain nor a platform".into(),
+            UnusedJoint { name } => format!("no chain and no closure uses the joint `{name}`"),
+            UnusedParameter { name } => format!("nothing uses the parameter `{name}`"),
+            UnusedPlatform { name } => format!("nothing is attached to the platform `{name}`"),
+        }
+    }
+
+    /// A few words to stand under the offending text; may be empty.
+    pub fn label(&self) -> String {
+        use ProblemKind::*;
+        match self {
+            Syntax(error) => syntax::label(error).into(),
+            WrongType { expected, .. } => format!("must be {expected}"),
+            WrongLength { found, .. } => {
+                format!("there {} {found}", if *found == 1 { "is" } else { "are" })
+            }
+            UnknownWord { .. } | UnknownField { .. } | UnknownMatrixEntry { .. } => {
+                "not known here".into()
+            }
+            MissingField { field, .. } => format!("`{field}` is missing"),
+            DuplicateField { .. } | DuplicateName { .. } => "given again here".into(),
+            Expression(error) => expression::label(error).into(),
+            NoConvention { .. } => "Modified or Standard?".into(),
+            UnknownName { .. } | UnknownFrame { .. } => "not known".into(),
+            NoSuchLink { rows, .. } => format!("the last link is {rows}"),
+            JointNotAllowed { .. } => "a joint variable".into(),
+            NotAffine => "not affine".into(),
+            NoValue(_) => "has no value".into(),
+            EmptyClosedForm => "no formula".into(),
+            UnusedJoint { .. } | UnusedParameter { .. } | UnusedPlatform { .. } => {
+                "not used".into()
+            }
+            DefinitionCycle { .. } | ChainCycle { .. } => "the cycle begins here".into(),
+            _ => String::new(),
+        }
+    }
+
+    /// What to do about it.
+    pub fn help(&self) -> Option<String> {
+        use ProblemKind::*;
+        let help = match self {
+            TooDeep => "lists of rows and transforms need no further brackets".into(),
+            Syntax(error) => return syntax::help(error).map(str::to_owned),
+            Empty => format!("begin with `Mechanism(version: {VERSION}, name: \"…\", …)`"),
+            LaterVersion(_) => format!("this program reads version {VERSION}"),
+            NotAVersion(_) => format!("write `version: {VERSION}`"),
+            WrongType { expected, found } => return wrong_type_help(*expected, found).map(str::to_owned),
+            UnknownWord { suggestion: Some(meant), .. }
+            | UnknownField { suggestion: Some(meant), .. }
+            | UnknownName { suggestion: Some(meant), .. }
+            | UnknownFrame { suggestion: Some(meant), .. } => format!("did you mean `{meant}`?"),
+            UnknownWord { known, .. } => format!("possible here: {}", listed(known)),
+            UnknownField { structure, .. } => format!("its fields are {}", listed(structure.fields())),
+            UnknownFrame { .. } => {
+                "a frame is `ground`, a chain, `chain.k`, a platform, or `platform.frame`".into()
+            }
+            UnknownName { scope: Scope::ClosedForm, .. } => "name it under `where`, `parameters` or `joints`".into(),
+            UnknownName { scope: Scope::ParametersAndJoints, .. } => {
+                "declare it under `parameters` or `joints`".into()
+            }
+            UnknownName { scope: Scope::Parameters, .. } => "declare it under `parameters`".into(),
+            Expression(error) => return expression::help(error),
+            NotAName { .. } => {
+                "a name begins with a letter or `_` and goes on with letters, digits and `_`".into()
+            }
+            DottedName { .. } => "the dot separates it from the names of its frames".into(),
+            NoConvention { .. } => {
+                "write `convention: Modified` or `convention: Standard` in the file, or in each chain".into()
+            }
+            EmptyClosedForm => {
+                "give `position`, `rotation`, `transform` or `entries`, or else `identity` or `identities`".into()
+            }
+            MixedClosedForm => "write two closed forms".into(),
+            UnknownMatrixEntry { .. } => "entries are r11 to r33, px, py and pz".into(),
+            JointNotAllowed { .. } => "only parameters, numbers and constants can be used here".into(),
+            NotAffine => "only theta, d and distances may contain joints, as in `\"pi/2 - 2*phi1\"`".into(),
+            SameBody { .. } => "such a closure either always holds or never".into(),
+            LimitsReversed { .. } => "write the lowest value first".into(),
+            DefinitionCycle { .. } => "give one of them a value of its own".into(),
+            ChainCycle { .. } => "let one of them stand on `ground` and close the loop by a closure".into(),
+            _ => return None,
+        };
+        Some(help)
+    }
+}
+
+impl Note {
+    /// What another place has to do with the problem.
+    pub fn label(self) -> String {
+        match self {
+            Self::FirstHere(Noun::Field) => "first given here".into(),
+            Self::FirstHere(noun) => format!("first given here, to {noun}"),
+            Self::AlsoHere => "here too".into(),
+            Self::StillOpen => "this bracket is still open".into(),
+            Self::DeclaredHere(noun) => format!("declared here as {noun}"),
+            Self::ThenHere => "then here".into(),
+        }
+    }
+}
+
+fn wrong_type_help(expected: Expected, found: &Found) -> Option<&'static str> {
+    match (expected, found) {
+        (Expected::Convention, Found::Text) => Some("write it without quotes"),
+        (
+            Expected::Text | Expected::NameOf(_) | Expected::Frame,
+            Found::Word(_) | Found::Character,
+        ) => Some("write it in double quotes"),
+        (Expected::Entry, Found::Word(_) | Found::Call(_) | Found::Character) => {
+            Some("write an expression in double quotes")
+        }
+        (Expected::Fields(_) | Expected::Joint, Found::Map) => {
+            Some("fields stand in `(…)`, only names in `{…}`")
+        }
+        (Expected::MapOf(_), Found::List | Found::Tuple | Found::Fields) => {
+            Some("write `{ \"name\": …, … }`, with the names in double quotes")
+        }
+        (Expected::Rows | Expected::Transform, _) => Some("a list stands in `[…]`"),
+        (_, Found::Call(word)) if word == "Some" => Some("leave out `Some(…)`"),
+        (_, Found::Word(word)) if word == "None" => Some("leave the field out"),
+        _ => None,
+    }
+}
+
+/// `1 row`, `2 rows`.
+pub fn count(number: usize, noun: &str) -> String {
+    match (number, noun) {
+        (1, _) => format!("1 {noun}"),
+        (_, "entry") => format!("{number} entries"),
+        _ => format!("{number} {noun}s"),
+    }
+}
+
+pub(super) fn listed(words: &[&str]) -> String {
+    match words {
+        [] => String::new(),
+        [word] => format!("`{word}`"),
+        [words @ .., last] => {
+            let words: Vec<_> = words.iter().map(|word| format!("`{word}`")).collect();
+            format!("{} and `{last}`", words.join(", "))
+        }
+    }
+}
+
+fn cycle(names: &[String]) -> String {
+    let around = names.iter().chain(names.first());
+    around
+        .map(|name| format!("`{name}`"))
+        .collect::<Vec<_>>()
+        .join(" -> ")
+}
+
+impl Display for Noun {
+    fn fmt(&self, f: &mut Formatter) -> fmt::Result {
+        f.write_str(match self {
+            Self::Field => "a field",
+            Self::Parameter => "a parameter",
+            Self::Joint => "a joint",
+            Self::Chain => "a chain",
+            Self::Platform => "a platform",
+            Self::PlatformFrame => "a platform frame",
+            Self::Closure => "a closure",
+            Self::ClosedForm => "a closed form",
+            Self::LocalName => "a local name",
+            Self::MatrixEntry => "an entry of a pose",
+            Self::Identity => "an identity",
+        })
+    }
+}
+
+impl Display for Structure {
+    fn fmt(&self, f: &mut Formatter) -> fmt::Result {
+        f.write_str(match self {
+            Self::Mechanism => "a mechanism",
+            Self::Passive | Self::Actuated => "a joint",
+            Self::Chain => "a chain",
+            Self::Row => "a row",
+            Self::Platform => "a platform",
+            Self::ClosedForm => "a closed form",
+        })
+    }
+}
+
+impl Display for Scope {
+    fn fmt(&self, f: &mut Formatter) -> fmt::Result {
+        f.write_str(match self {
+            Self::Parameters => "not a parameter",
+            Self::ParametersAndJoints => "neither a parameter nor a joint",
+            Self::ClosedForm => "neither a parameter nor a joint nor a local name",
+        })
+    }
+}
+
+impl Expected {
+    /// What a tuple is made of.
+    fn unit(self) -> &'static str {
+        match self {
+            Self::ClosureFrames("Distance") => "value",
+            Self::ClosureFrames(_) => "frame",
+            Self::RotationRows | Self::TransformRows => "row",
+            _ => "entry",
+        }
+    }
+}
+
+impl Display for Expected {
+    fn fmt(&self, f: &mut Formatter) -> fmt::Result {
+        f.write_str(match self {
+            Self::Fields(structure) => return write!(f, "{structure}, `{}(…)`", structure.word()),
+            Self::NameOf(noun) => return write!(f, "the name of {noun}"),
+            Self::MapOf(noun) => {
+                return write!(
+                    f,
+                    "a map in which each name is followed by {}",
+                    content(*noun)
+                );
+            }
+            Self::DisplacementEntries(word) => return write!(f, "`{word}(…)`"),
+            Self::ClosureFrames("Distance") => "`Distance(frame, frame, length)`",
+            Self::ClosureFrames(word) => return write!(f, "`{word}(frame, frame)`"),
+            Self::Version => "the number of the file format",
+            Self::Text => "a text",
+            Self::Frame => "the name of a frame",
+            Self::Entry => "a number or an expression",
+            Self::Rows => "a list of rows",
+            Self::Transform => "a list of displacements",
+            Self::Displacement => "a displacement such as `Tx(…)` or `Rz(…)`",
+            Self::Joint => "`Passive(…)` or `Actuated(…)`",
+            Self::Limits => "limits `(lowest, highest)`",
+            Self::Convention => "`Modified` or `Standard`",
+            Self::Closure => "a closure such as `Revolute(frame, frame)`",
+            Self::Vector => "a vector `(x, y, z)`",
+            Self::RotationRows => "a rotation matrix",
+            Self::RotationRow => "a row of a rotation matrix",
+            Self::TransformRows => "a transform",
+            Self::TransformRow => "a row of a transform",
+        })
+    }
+}
+
+fn content(noun: Noun) -> &'static str {
+    match noun {
+        Noun::Parameter | Noun::LocalName | Noun::MatrixEntry | Noun::Identity => {
+            "a number or an expression"
+        }
+        Noun::Joint => "`Passive(…)` or `Actuated(…)`",
+        Noun::Chain => "`Chain(…)`",
+        Noun::Platform => "`Platform(…)`",
+        Noun::PlatformFrame => "a list of displacements",
+        Noun::Closure => "a closure",
+        Noun::ClosedForm => "`ClosedForm(…)`",
+        Noun::Field => "a value",
+    }
+}
+
+impl Display for Found {
+    fn fmt(&self, f: &mut Formatter) -> fmt::Result {
+        f.write_str(match self {
+            Self::Number => "a number",
+            Self::Text => "a text",
+            Self::Character => "a character in apostrophes",
+            Self::Bytes => "a string of bytes",
+            Self::List => "a list `[…]`",
+            Self::Map => "a map `{…}`",
+            Self::Tuple => "values without field names `(…)`",
+            Self::Fields => "fields `(name: …)`",
+            Self::Word(word) => return write!(f, "`{word}`"),
+            Self::Call(word) => return write!(f, "`{word}(…)`"),
+        })
+    }
+}

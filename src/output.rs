@@ -1,0 +1,4 @@
+//! Answers and complaints made visible.
+
+#[cfg(feature = "cli")]
+pub mod diagnostics;
