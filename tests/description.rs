@@ -187,7 +187,6 @@ fn large_texts_are_answered_in_time() {
         }
         let spent = begin.elapsed();
         let beginning: String = text.chars().take(90).collect();
-        println!("{spent:?} {beginning}");
         assert!(spent < Duration::from_secs(5), "{spent:?} for {beginning}");
     }
 }
@@ -200,7 +199,7 @@ fn a_hundred_thousand_open_brackets_do_not_exhaust_the_stack() {
         assert!(
             matches!(
                 problems[0].kind,
-                ProblemKind::TooDeep | ProblemKind::Syntax(_)
+                ProblemKind::TooDeep | ProblemKind::Syntax { .. }
             ),
             "{bracket}"
         );
@@ -326,4 +325,84 @@ proptest! {
     fn any_bytes_read_as_text_are_answered(bytes in prop::collection::vec(any::<u8>(), 0..200)) {
         answer(&String::from_utf8_lossy(&bytes));
     }
+}
+
+#[test]
+fn problems_of_meaning_have_words() {
+    use ProblemKind::*;
+    use linkwork::algebra::{EvaluationErrorKind as Value, Function};
+    use linkwork::description::{Noun, Scope};
+
+    let name = || "tehta1".to_owned();
+    let suggestion = || Some("theta1".to_owned());
+    let unknown = |scope, suggestion| UnknownName {
+        name: name(),
+        suggestion,
+        scope,
+    };
+    let kinds = [
+        unknown(Scope::Parameters, None),
+        unknown(Scope::ParametersAndJoints, suggestion()),
+        unknown(Scope::ParametersAndJoints, None),
+        unknown(Scope::ClosedForm, None),
+        JointNotAllowed { name: name() },
+        UnknownFrame {
+            name: "top.S4".into(),
+            suggestion: Some("top.S1".into()),
+        },
+        UnknownFrame {
+            name: "roof".into(),
+            suggestion: None,
+        },
+        NoSuchLink {
+            chain: "left".into(),
+            link: "7".into(),
+            rows: 2,
+        },
+        DefinitionCycle {
+            noun: Noun::Parameter,
+            names: vec!["a".into(), "b".into()],
+        },
+        ChainCycle {
+            names: vec!["left".into(), "right".into()],
+        },
+        NotAffine,
+        NoValue(Value::DivisionByZero),
+        NoValue(Value::RootOfNegative(-2.0)),
+        NoValue(Value::LogarithmOfNonPositive(0.0)),
+        NoValue(Value::OutOfRange(Function::Acos, 1.5)),
+        NoValue(Value::PowerOfNegative(-1.0)),
+        NoValue(Value::NotFinite),
+        SameBody {
+            closure: "S1".into(),
+        },
+        NegativeDistance { length: -0.5 },
+        LimitsReversed {
+            joint: "l1".into(),
+            low: 2.0,
+            high: 1.0,
+        },
+        HomeOutsideLimits {
+            joint: "l1".into(),
+            home: 3.0,
+            low: 1.0,
+            high: 2.0,
+        },
+        NothingToAnalyse,
+        UnusedJoint { name: "q9".into() },
+        UnusedParameter { name: "b".into() },
+        UnusedPlatform { name: "top".into() },
+    ];
+    let words: Vec<_> = kinds
+        .iter()
+        .map(|kind| {
+            let severity = kind.severity();
+            let (title, label) = (kind.title(), kind.label());
+            format!(
+                "{severity:?} | {title} | {label} | {}",
+                kind.help().unwrap_or_default()
+            )
+        })
+        .collect();
+    insta::assert_snapshot!("words_for_problems_of_meaning", words.join("\n"));
 }
