@@ -6,6 +6,7 @@
 
 mod brackets;
 mod checks;
+mod expectation;
 mod lines;
 mod load;
 mod parts;
@@ -16,6 +17,7 @@ mod suggestion;
 mod words;
 mod write;
 
+pub use expectation::*;
 pub use lines::Lines;
 pub use load::{FileError, LoadError, MAX_BYTES, load};
 pub use parts::*;

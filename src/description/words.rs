@@ -17,7 +17,7 @@ impl ProblemKind {
             }
             Empty => "the file is empty".into(),
             TooDeep => "brackets are nested too deeply for a mechanism file".into(),
-            Syntax(error) => syntax::title(error),
+            Syntax { error, found } => syntax::title(error, *found),
             LaterVersion(version) => {
                 format!("the file has version {version}: it is written for a later linkwork")
             }
@@ -44,17 +44,15 @@ impl ProblemKind {
             NotFinite => "the number is not finite".into(),
             NotAName { noun, name } => format!("`{name}` cannot be the name of {noun}"),
             ReservedName { noun, name } => {
-                format!("`{name}` is reserved and cannot be the name of {noun}")
+                format!("`{name}` is reserved and cannot be used for {noun}")
             }
             DottedName { noun, name } => format!("the name `{name}` of {noun} contains a dot"),
             EmptyName { noun } => format!("the name of {noun} is empty"),
             NoConvention { chain } => {
                 format!("nothing says which convention the rows of chain `{chain}` follow")
             }
-            EmptyClosedForm { name } => format!("the closed form `{name}` gives no formula"),
-            MixedClosedForm { name } => {
-                format!("the closed form `{name}` gives both a pose and an identity")
-            }
+            EmptyClosedForm => "the closed form gives no formula".into(),
+            MixedClosedForm => "the closed form gives both a pose and an identity".into(),
             UnknownMatrixEntry { name } => {
                 format!("`{name}` is not an entry of a rotation or a position")
             }
@@ -97,13 +95,6 @@ impl ProblemKind {
             UnusedJoint { name } => format!("no chain and no closure uses the joint `{name}`"),
             UnusedParameter { name } => format!("nothing uses the parameter `{name}`"),
             UnusedPlatform { name } => format!("nothing is attached to the platform `{name}`"),
-            UnfeltJoint { name } => format!("no closure feels the joint `{name}`"),
-            NegativeLinkLength { chain, row, a } => {
-                format!("row {row} of chain `{chain}` has the negative link length {a} m")
-            }
-            ZeroDistance { closure } => {
-                format!("the closure `{closure}` asks for a distance of zero")
-            }
         }
     }
 
@@ -111,7 +102,7 @@ impl ProblemKind {
     pub fn label(&self) -> String {
         use ProblemKind::*;
         match self {
-            Syntax(error) => syntax::label(error).into(),
+            Syntax { error, found } => syntax::label(error, *found).into(),
             WrongType { expected, .. } => format!("must be {expected}"),
             WrongLength { found, .. } => {
                 format!("there {} {found}", if *found == 1 { "is" } else { "are" })
@@ -128,8 +119,7 @@ impl ProblemKind {
             JointNotAllowed { .. } => "a joint variable".into(),
             NotAffine => "not affine".into(),
             NoValue(_) => "has no value".into(),
-            EmptyClosedForm { .. } => "no formula".into(),
-            UnfeltJoint { .. } => "moves no closure".into(),
+            EmptyClosedForm => "no formula".into(),
             UnusedJoint { .. } | UnusedParameter { .. } | UnusedPlatform { .. } => {
                 "not used".into()
             }
@@ -143,7 +133,7 @@ impl ProblemKind {
         use ProblemKind::*;
         let help = match self {
             TooDeep => "lists of rows and transforms need no further brackets".into(),
-            Syntax(error) => return syntax::help(error).map(str::to_owned),
+            Syntax { error, found } => return syntax::help(error, *found).map(str::to_owned),
             Empty => format!("begin with `Mechanism(version: {VERSION}, name: \"…\", …)`"),
             LaterVersion(_) => format!("this program reads version {VERSION}"),
             NotAVersion(_) => format!("write `version: {VERSION}`"),
@@ -152,7 +142,7 @@ impl ProblemKind {
             | UnknownField { suggestion: Some(meant), .. }
             | UnknownName { suggestion: Some(meant), .. }
             | UnknownFrame { suggestion: Some(meant), .. } => format!("did you mean `{meant}`?"),
-            UnknownWord { known, .. } => format!("possible here: {}", listed(known)),
+            UnknownWord { known, .. } if known.len() > 2 => format!("possible here: {}", listed(known)),
             UnknownField { structure, .. } => format!("its fields are {}", listed(structure.fields())),
             UnknownFrame { .. } => {
                 "a frame is `ground`, a chain, `chain.k`, a platform, or `platform.frame`".into()
@@ -170,23 +160,47 @@ impl ProblemKind {
             NoConvention { .. } => {
                 "write `convention: Modified` or `convention: Standard` in the file, or in each chain".into()
             }
-            EmptyClosedForm { .. } => {
+            EmptyClosedForm => {
                 "give `position`, `rotation`, `transform` or `entries`, or else `identity` or `identities`".into()
             }
-            MixedClosedForm { .. } => "write two closed forms".into(),
+            MixedClosedForm => "write two closed forms".into(),
             UnknownMatrixEntry { .. } => "entries are r11 to r33, px, py and pz".into(),
             JointNotAllowed { .. } => "only parameters, numbers and constants can be used here".into(),
             NotAffine => "only theta, d and distances may contain joints, as in `\"pi/2 - 2*phi1\"`".into(),
             SameBody { .. } => "such a closure either always holds or never".into(),
-            UnfeltJoint { .. } => "it can have any value; remove it, or close the chain it moves".into(),
-            NegativeLinkLength { .. } => "turn theta by 180 deg and change the sign of alpha, or leave it".into(),
-            ZeroDistance { .. } => "two points that coincide are a `Spherical` closure".into(),
             LimitsReversed { .. } => "write the lowest value first".into(),
             DefinitionCycle { .. } => "give one of them a value of its own".into(),
             ChainCycle { .. } => "let one of them stand on `ground` and close the loop by a closure".into(),
             _ => return None,
         };
         Some(help)
+    }
+}
+
+impl Display for LoadError {
+    fn fmt(&self, f: &mut Formatter) -> fmt::Result {
+        match self {
+            Self::Unreadable { path, error } => {
+                write!(f, "{}: cannot be read: {error}", path.display())
+            }
+            Self::NotText { path, offset } => {
+                write!(
+                    f,
+                    "{}: not a text file in UTF-8: byte {offset} does not belong to any character",
+                    path.display()
+                )
+            }
+            Self::TooLarge { path, bytes } => {
+                let size =
+                    bytes.map_or_else(|| "more".to_owned(), |bytes| format!("{bytes} bytes"));
+                write!(
+                    f,
+                    "{}: too large: {size}, where at most {MAX_BYTES} bytes are read",
+                    path.display()
+                )
+            }
+            Self::Wrong(error) => error.fmt(f),
+        }
     }
 }
 
