@@ -3,5 +3,10 @@
 
 pub mod algebra;
 pub mod description;
+pub mod geometry;
+pub mod linear;
+pub mod mechanism;
 pub mod number;
 pub mod output;
+pub mod solve;
+pub mod system;

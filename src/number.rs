@@ -1,9 +1,23 @@
-//! The numbers in which kinematics is evaluated.
+//! The numbers that run through the one kinematics: reals, complex numbers and duals.
+//!
+//! A joint enters the algebra only through (cos, sin) or a slide, so chain products, closure
+//! residuals and their Jacobians are written once over [`Number`].
+
+mod complex;
+mod dual;
+mod real;
+mod trigonometry;
 
 use std::fmt::Debug;
 use std::ops::{Add, AddAssign, Div, Mul, MulAssign, Neg, Sub, SubAssign};
 
-/// A number in which expressions can be evaluated.
+pub use dual::Dual;
+pub use num_complex::Complex;
+
+/// A number the kinematics can be evaluated over.
+///
+/// Every function is the analytic continuation of the real one, so that an identity between
+/// dimensions which holds for reals holds for every implementor.
 pub trait Number:
     Copy
     + Debug
@@ -18,82 +32,71 @@ pub trait Number:
     + SubAssign
     + MulAssign
 {
-    /// The number that stands for the real number `x`.
+    /// The constant `x`.
     fn from_f64(x: f64) -> Self;
-    /// The real part.
+    /// The real part: what comparisons and printed values use.
     fn real(self) -> f64;
     /// Sine and cosine of an angle in radians.
     fn sin_cos(self) -> (Self, Self);
-    /// Square root.
+    /// Principal square root.
     fn sqrt(self) -> Self;
     /// Tangent of an angle in radians.
-    fn tan(self) -> Self;
-    /// Inverse sine, in radians.
+    fn tan(self) -> Self {
+        let (sin, cos) = self.sin_cos();
+        sin / cos
+    }
+    /// Arc sine, in radians.
     fn asin(self) -> Self;
-    /// Inverse cosine, in radians.
+    /// Arc cosine, in radians.
     fn acos(self) -> Self;
-    /// Inverse tangent, in radians.
+    /// Arc tangent, in radians.
     fn atan(self) -> Self;
-    /// Angle in radians of the point (`x`, `self`).
+    /// The angle of the point (`x`, `self`), in radians.
     fn atan2(self, x: Self) -> Self;
     /// Exponential.
     fn exp(self) -> Self;
     /// Natural logarithm.
     fn ln(self) -> Self;
-    /// Absolute value.
-    fn abs(self) -> Self;
+    /// `self` or `-self`, whichever has a real part that is not negative.
+    fn abs(self) -> Self {
+        if self.real() < 0.0 { -self } else { self }
+    }
     /// Whole power.
-    fn powi(self, n: i32) -> Self;
-    /// Real power.
-    fn powf(self, e: Self) -> Self;
-    /// Whether every component is finite.
+    fn powi(self, n: i32) -> Self {
+        let (mut base, mut left, mut power) = (self, n.unsigned_abs(), Self::one());
+        while left > 0 {
+            if left & 1 == 1 {
+                power *= base;
+            }
+            base *= base;
+            left >>= 1;
+        }
+        if n < 0 { Self::one() / power } else { power }
+    }
+    /// Power with any exponent.
+    fn powf(self, exponent: Self) -> Self {
+        (self.ln() * exponent).exp()
+    }
+    /// Whether no part of the number is infinite or NaN.
     fn is_finite(self) -> bool;
+    /// Zero.
+    fn zero() -> Self {
+        Self::from_f64(0.0)
+    }
+    /// One.
+    fn one() -> Self {
+        Self::from_f64(1.0)
+    }
+    /// `self` times a real constant.
+    fn scale(self, factor: f64) -> Self {
+        self * Self::from_f64(factor)
+    }
 }
 
-impl Number for f64 {
-    fn from_f64(x: f64) -> Self {
-        x
-    }
-    fn real(self) -> f64 {
-        self
-    }
-    fn sin_cos(self) -> (Self, Self) {
-        f64::sin_cos(self)
-    }
-    fn sqrt(self) -> Self {
-        f64::sqrt(self)
-    }
-    fn tan(self) -> Self {
-        f64::tan(self)
-    }
-    fn asin(self) -> Self {
-        f64::asin(self)
-    }
-    fn acos(self) -> Self {
-        f64::acos(self)
-    }
-    fn atan(self) -> Self {
-        f64::atan(self)
-    }
-    fn atan2(self, x: Self) -> Self {
-        f64::atan2(self, x)
-    }
-    fn exp(self) -> Self {
-        f64::exp(self)
-    }
-    fn ln(self) -> Self {
-        f64::ln(self)
-    }
-    fn abs(self) -> Self {
-        f64::abs(self)
-    }
-    fn powi(self, n: i32) -> Self {
-        f64::powi(self, n)
-    }
-    fn powf(self, e: Self) -> Self {
-        f64::powf(self, e)
-    }
-    fn is_finite(self) -> bool {
-        f64::is_finite(self)
-    }
+/// A number with a conjugate and a size: what orthogonal factorisations need beyond [`Number`].
+pub trait Field: Number {
+    /// Complex conjugate; the number itself for reals.
+    fn conjugate(self) -> Self;
+    /// Squared absolute value |z|².
+    fn norm_squared(self) -> f64;
 }

@@ -280,6 +280,25 @@ pub enum ProblemKind {
         /// The parameter.
         name: String,
     },
+    /// A joint variable that moves no closure.
+    UnfeltJoint {
+        /// The joint.
+        name: String,
+    },
+    /// A link length below zero: the x axis points the other way.
+    NegativeLinkLength {
+        /// The chain.
+        chain: String,
+        /// The number of the row, from 1.
+        row: usize,
+        /// The length (m).
+        a: f64,
+    },
+    /// A distance of zero, whose equation is singular where it holds.
+    ZeroDistance {
+        /// The closure.
+        closure: String,
+    },
     /// A platform that no closure and no chain touches.
     UnusedPlatform {
         /// The platform.
@@ -294,6 +313,8 @@ impl ProblemKind {
             Self::UnusedJoint { .. }
             | Self::UnusedParameter { .. }
             | Self::UnusedPlatform { .. }
+            | Self::UnfeltJoint { .. }
+            | Self::NegativeLinkLength { .. }
             | Self::HomeOutsideLimits { .. } => Severity::Warning,
             _ => Severity::Error,
         }

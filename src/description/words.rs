@@ -95,6 +95,13 @@ impl ProblemKind {
             UnusedJoint { name } => format!("no chain and no closure uses the joint `{name}`"),
             UnusedParameter { name } => format!("nothing uses the parameter `{name}`"),
             UnusedPlatform { name } => format!("nothing is attached to the platform `{name}`"),
+            UnfeltJoint { name } => format!("no closure feels the joint `{name}`"),
+            NegativeLinkLength { chain, row, a } => {
+                format!("row {row} of chain `{chain}` has the negative link length {a} m")
+            }
+            ZeroDistance { closure } => {
+                format!("the closure `{closure}` asks for a distance of zero")
+            }
         }
     }
 
@@ -120,6 +127,7 @@ impl ProblemKind {
             NotAffine => "not affine".into(),
             NoValue(_) => "has no value".into(),
             EmptyClosedForm => "no formula".into(),
+            UnfeltJoint { .. } => "moves no closure".into(),
             UnusedJoint { .. } | UnusedParameter { .. } | UnusedPlatform { .. } => {
                 "not used".into()
             }
@@ -168,6 +176,9 @@ impl ProblemKind {
             JointNotAllowed { .. } => "only parameters, numbers and constants can be used here".into(),
             NotAffine => "only theta, d and distances may contain joints, as in `\"pi/2 - 2*phi1\"`".into(),
             SameBody { .. } => "such a closure either always holds or never".into(),
+            UnfeltJoint { .. } => "it can have any value; remove it, or close the chain it moves".into(),
+            NegativeLinkLength { .. } => "turn theta by 180 deg and change the sign of alpha, or leave it".into(),
+            ZeroDistance { .. } => "two points that coincide are a `Spherical` closure".into(),
             LimitsReversed { .. } => "write the lowest value first".into(),
             DefinitionCycle { .. } => "give one of them a value of its own".into(),
             ChainCycle { .. } => "let one of them stand on `ground` and close the loop by a closure".into(),
