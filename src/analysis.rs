@@ -1,0 +1,4 @@
+//! Analyses: each one function, one settings struct and one report. They print nothing and do not
+//! use one another.
+
+pub mod assembly;
