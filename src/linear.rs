@@ -40,6 +40,9 @@ pub fn rank(singular_values: &[f64]) -> usize {
 
 /// Orthonormal basis of the directions that a column-major matrix maps to zero, one `Vec` each.
 pub fn null_space(rows: usize, columns: usize, entries: &[f64]) -> Vec<Vec<f64>> {
+    if columns == 0 {
+        return Vec::new();
+    }
     // rows of zeros make the factor V square, so that it spans the null space too
     let tall = rows.max(columns);
     let mut matrix = nalgebra::DMatrix::zeros(tall, columns);

@@ -2,6 +2,7 @@
 //!
 //! Direct, inverse and mixed kinematics are only different choices of what is held ([`Held`]).
 
+mod displacement;
 mod equations;
 mod freedom;
 mod layout;

@@ -132,6 +132,16 @@ impl<T: Field> System<T> {
         &self.unknowns
     }
 
+    /// The natural size of a joint's variable: 1 rad, or the characteristic length in m.
+    pub fn joint_scale(&self, joint: usize) -> f64 {
+        self.joint_scales[joint]
+    }
+
+    /// The length in m that makes rows and unknowns dimensionless.
+    pub fn characteristic_length(&self) -> f64 {
+        self.length
+    }
+
     /// For each closure the range of its rows.
     pub fn closure_rows(&self) -> impl Iterator<Item = std::ops::Range<usize>> {
         self.plans.iter().map(|plan| plan.row..plan.row + plan.rows)

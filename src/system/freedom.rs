@@ -50,6 +50,14 @@ impl Freedoms {
         }
     }
 
+    /// The same ratio over the unknowns that are determined.
+    pub fn condition_of_determined(&self) -> f64 {
+        match (self.rank(), self.singular_values.first()) {
+            (0, _) | (_, None) => 1.0,
+            (rank, Some(largest)) => largest / self.singular_values[rank - 1],
+        }
+    }
+
     /// The component of a motion along a joint variable.
     fn joint_rate(&self, motion: &[f64], joint: usize) -> f64 {
         let place = self

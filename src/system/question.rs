@@ -1,3 +1,4 @@
+use super::freedom::Holdable;
 use super::layout::{Held, HeldPlatform};
 use super::value::{self, ValueError};
 use crate::description::{Role, nearest};
@@ -13,6 +14,8 @@ use crate::mechanism::{Configuration, Coordinate, Mechanism, PlatformPose};
 pub struct Question<'a> {
     mechanism: &'a Mechanism,
     joints: Vec<bool>,
+    /// Joints held by the asker rather than by the file.
+    asked: Vec<bool>,
     coordinates: Vec<[Option<f64>; 6]>,
     start: Configuration<f64>,
     guessed: Vec<bool>,
@@ -79,6 +82,7 @@ impl<'a> Question<'a> {
             joints: (mechanism.joints().iter())
                 .map(|joint| joint.role == Role::Actuated)
                 .collect(),
+            asked: vec![false; mechanism.joints().len()],
             coordinates: vec![[None; 6]; platforms],
             start: mechanism.home(),
             guessed: vec![false; platforms],
@@ -98,6 +102,7 @@ impl<'a> Question<'a> {
                 let value = self.number(name, value, self.mechanism.joints()[joint].home)?;
                 self.split_changed |= !self.joints[joint];
                 self.joints[joint] = true;
+                self.asked[joint] = true;
                 self.start.joints[joint] = value;
             }
             Target::Coordinate(platform, coordinate) => {
@@ -226,6 +231,21 @@ impl<'a> Question<'a> {
     /// Whether something else is held than the file's actuated joints.
     pub fn split_changed(&self) -> bool {
         self.split_changed
+    }
+
+    /// The held coordinates, those asked for before the joints that are held only because the file
+    /// says so.
+    pub fn held_coordinates(&self) -> Vec<Holdable> {
+        let platforms = self.coordinates.iter().enumerate();
+        let coordinates = platforms.flat_map(|(platform, values)| {
+            let held = Coordinate::ALL.into_iter().zip(values);
+            let held = held.filter(|(_, value)| value.is_some());
+            held.map(move |(c, _)| Holdable::Coordinate(platform, c))
+        });
+        let held = (0..self.joints.len()).filter(|&joint| self.joints[joint]);
+        let (asked, by_file): (Vec<usize>, Vec<usize>) = held.partition(|&joint| self.asked[joint]);
+        let joints = |joints: Vec<usize>| joints.into_iter().map(Holdable::Joint);
+        (joints(asked).chain(coordinates).chain(joints(by_file))).collect()
     }
 
     /// The names of the held coordinates.
