@@ -108,7 +108,7 @@ pub struct AssemblyReport {
     pub gaps: Vec<Gap>,
     /// Freedoms that only turn a link about its own line and do not matter.
     pub idle: usize,
-    /// Whether held values were given that the mechanism can take by a smaller set only.
+    /// What is held beside what the mechanism allows.
     pub count: Count,
 }
 
@@ -349,7 +349,8 @@ impl<'a> Search<'a> {
         let freedoms = Freedoms::at(self.mechanism.dimensions(), &self.held, &attempt.at);
         let condition = freedoms.condition();
         AssemblyReport {
-            near_singular: condition > self.settings.poor_condition,
+            near_singular: attempt.report.stop == Stop::Solved
+                && condition > self.settings.poor_condition,
             condition,
             outcome,
             steps: attempt.report.steps,

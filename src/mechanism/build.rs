@@ -1,6 +1,7 @@
 //! From a well-formed description to a meaningful mechanism, or to all that is wrong with it.
 
 use std::collections::HashMap;
+use std::path::Path;
 
 use super::model::{
     Chain, ClosedForm, Closure, FixedStep, Formula, Given, Joint, JointKind, Parameter, Platform,
@@ -10,7 +11,7 @@ use super::names::{Names, definition_order};
 use super::{Frame, Mechanism, inspect};
 use crate::algebra::Affine;
 use crate::description::{self, Description, Displacement, Entry, MatrixEntry, Named, Note, Noun};
-use crate::description::{Problem, ProblemKind, Scope, Severity};
+use crate::description::{FileError, LoadError, Problem, ProblemKind, Scope, Severity};
 use crate::geometry::{Axis, Pose};
 
 /// Collects problems while parts are resolved; a part with a problem is left out.
@@ -21,6 +22,21 @@ pub(super) struct Builder<'a> {
 }
 
 impl Mechanism {
+    /// Reads a mechanism file.
+    ///
+    /// # Errors
+    /// If the file cannot be read, or with everything that is wrong with it.
+    pub fn load(path: impl AsRef<Path>) -> Result<Self, LoadError> {
+        let (text, description) = description::load(&path)?;
+        Mechanism::new(&description).map_err(|problems| {
+            LoadError::Wrong(FileError {
+                path: path.as_ref().to_owned(),
+                text,
+                problems,
+            })
+        })
+    }
+
     /// Resolves every name and evaluates every dimension of a description.
     ///
     /// All problems are found at once, with their places in the file.

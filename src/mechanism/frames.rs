@@ -149,6 +149,12 @@ impl Mechanism {
         relative_to.inverse() * of
     }
 
+    /// Ground from the frame of that name, positions in m; `None` if there is no such frame.
+    pub fn pose(&self, frame: &str, at: &Configuration<f64>) -> Option<Pose<f64>> {
+        let frame = self.frame(frame)?;
+        Some(self.transform(Frame::Ground, frame, at))
+    }
+
     /// Ground from each of the given frames.
     pub fn poses<const N: usize>(
         &self,
