@@ -147,7 +147,12 @@ pub fn assemble(
         restarts = start;
         let attempt = search.from(at);
         if attempt.report.stop == Stop::Solved {
-            if search.outside_limits(&attempt.at).is_empty() {
+            // another start cannot change where a held joint is
+            let outside_limits = search.outside_limits(&attempt.at);
+            if outside_limits
+                .iter()
+                .all(|&joint| search.held.joints[joint])
+            {
                 return Ok(search.assembled(attempt, restarts, count));
             }
             outside.get_or_insert(attempt);
