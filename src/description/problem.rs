@@ -83,7 +83,7 @@ pub enum ProblemKind {
     /// The text is not RON.
     Syntax {
         /// What `ron` says.
-        error: ron::Error,
+        error: Box<ron::Error>,
         /// The character it stopped at, if the text goes on.
         found: Option<char>,
     },

@@ -101,12 +101,15 @@ impl Builder<'_> {
         scope: Scope,
         locals: &HashMap<&str, usize>,
     ) -> Option<Formula> {
-        let resolved = (entry.expression)
-            .try_resolve(|name, span| self.names.symbol(name, span, scope, locals));
+        let resolved = (entry.expression).try_resolve(|name, span| {
+            let symbol = self.names.symbol(name, scope, locals);
+            symbol.map_err(|kind| Box::new(kind.at(span.clone())))
+        });
         match resolved {
             Ok(formula) => Some(formula),
             Err(problems) => {
-                self.problems.extend(problems);
+                self.problems
+                    .extend(problems.into_iter().map(|problem| *problem));
                 None
             }
         }
@@ -275,8 +278,8 @@ impl Builder<'_> {
     }
 
     fn frame(&mut self, name: &description::Spanned<String>) -> Frame {
-        self.names.frame(name).unwrap_or_else(|problem| {
-            self.problems.push(problem);
+        self.names.frame(&name.value).unwrap_or_else(|kind| {
+            self.problems.push(kind.at(name.span.clone()));
             Frame::Ground
         })
     }

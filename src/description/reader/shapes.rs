@@ -250,8 +250,13 @@ impl Reader {
     pub(super) fn split<T>(&mut self, piece: Piece, result: Result<T, ron::Error>) -> Option<T> {
         result
             .map_err(|error| {
-                self.problems
-                    .push(ProblemKind::Syntax { error, found: None }.at(piece.span()))
+                self.problems.push(
+                    ProblemKind::Syntax {
+                        error: Box::new(error),
+                        found: None,
+                    }
+                    .at(piece.span()),
+                )
             })
             .ok()
     }

@@ -43,7 +43,11 @@ fn problem(text: &str, offset: usize, error: Error) -> Problem {
     if error == Error::ExceededRecursionLimit {
         return ProblemKind::TooDeep.at(span);
     }
-    let problem = ProblemKind::Syntax { error, found }.at(span);
+    let problem = ProblemKind::Syntax {
+        error: Box::new(error),
+        found,
+    }
+    .at(span);
     match unclosed(text) {
         Some(bracket) if bracket.missed_at >= offset.min(end) && bracket.open.start < offset => {
             problem.with(bracket.open, Note::StillOpen)
