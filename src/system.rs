@@ -4,6 +4,8 @@
 
 mod equations;
 mod layout;
+mod tracker;
 
 pub use equations::{System, Work};
 pub use layout::{Held, HeldPlatform, Unknown};
+pub use tracker::Tracker;

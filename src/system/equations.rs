@@ -284,6 +284,7 @@ fn hold_rows<T: Field>(held: &Held<T>) -> Vec<HoldRow<T>> {
 }
 
 impl<T: Field> Equations for System<T> {
+    type Number = T;
     type Point = Configuration<T>;
     type Work = Work<T>;
 
@@ -319,6 +320,11 @@ impl<T: Field> Equations for System<T> {
         } else {
             f64::NAN
         }
+    }
+
+    #[inline]
+    fn step_mut<'a>(&self, work: &'a mut Work<T>) -> &'a mut [T] {
+        &mut work.step
     }
 
     #[inline]
