@@ -13,7 +13,7 @@ pub use kinematics::{Kinematics, Placement};
 
 pub(crate) use closure::{Closure, Side};
 pub(crate) use coordinate::orientation_rows;
-pub(crate) use kinematics::Mover;
+pub(crate) use kinematics::{Mover, Need};
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum ClosureKind {
@@ -34,6 +34,16 @@ impl ClosureKind {
             Self::Universal | Self::Cylindrical => 4,
             Self::Revolute | Self::Prismatic => 5,
             Self::Rigid => 6,
+        }
+    }
+
+    /// How much of the poses of its two frames the rows of the closure are made from.
+    pub(crate) fn needs(self) -> [Need; 2] {
+        match self {
+            Self::Spherical | Self::Distance => [Need::Position; 2],
+            Self::Universal => [Need::Axis; 2],
+            Self::Revolute | Self::Cylindrical | Self::Planar => [Need::Pose, Need::Axis],
+            Self::Prismatic | Self::Rigid => [Need::Pose; 2],
         }
     }
 }

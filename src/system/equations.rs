@@ -54,8 +54,8 @@ impl<T: Field> System<T> {
         let frames = dimensions
             .closures
             .iter()
-            .flat_map(|closure| closure.frames);
-        let kinematics = Kinematics::new(dimensions, frames);
+            .flat_map(|closure| closure.frames.into_iter().zip(closure.kind.needs()));
+        let kinematics = Kinematics::needing(dimensions, frames);
         let closures: Vec<Closure<T>> = (dimensions.closures.iter())
             .map(|closure| Closure::new(dimensions, closure, &kinematics))
             .collect();
