@@ -217,16 +217,27 @@ impl<T: Number> Kinematics<T> {
             if step.still {
                 continue;
             }
-            let parent = &poses[step.parent];
-            let mut pose = match step.shape {
-                Shape::Grounded => step.fixed,
-                Shape::Nothing => *parent,
-                Shape::Translation => Pose {
-                    rotation: parent.rotation,
-                    position: *parent * step.fixed.position,
-                },
-                Shape::General => step.need.of_product(parent, &step.fixed),
-            };
+            let (placed, rest) = poses.split_at_mut(1 + self.platforms + i);
+            let (parent, pose) = (&placed[step.parent], &mut rest[0]);
+            match step.shape {
+                Shape::Grounded => *pose = step.fixed,
+                Shape::Nothing => *pose = *parent,
+                Shape::Translation => {
+                    pose.position = *parent * step.fixed.position;
+                    if step.need > Need::Position {
+                        pose.rotation = parent.rotation;
+                    }
+                }
+                Shape::General => {
+                    pose.position = *parent * step.fixed.position;
+                    let fixed = &step.fixed.rotation;
+                    match step.need {
+                        Need::Position => {}
+                        Need::Axis => pose.rotation.0[2] = parent.rotation * fixed.0[2],
+                        Need::Pose => pose.rotation = parent.rotation * *fixed,
+                    }
+                }
+            }
             if !step.slide.0.is_empty() {
                 pose.position += pose.rotation.0[2].times(step.slide.at(&at.joints));
             }
@@ -235,7 +246,6 @@ impl<T: Number> Kinematics<T> {
                 let sin_cos = step.turn.at(&at.joints).sin_cos();
                 pose.rotation = pose.rotation.turned_about_z(sin_cos);
             }
-            poses[1 + self.platforms + i] = pose;
         }
     }
 
@@ -279,23 +289,6 @@ impl<T: Number> Placement<T> {
             omega,
             omega.cross(&(*point - *position)) + z.times(mover.slide),
         )
-    }
-}
-
-impl Need {
-    /// As much of the product as is needed.
-    #[inline(always)]
-    fn of_product<T: Number>(self, parent: &Pose<T>, fixed: &Pose<T>) -> Pose<T> {
-        let mut pose = Pose {
-            rotation: parent.rotation,
-            position: *parent * fixed.position,
-        };
-        match self {
-            Need::Position => {}
-            Need::Axis => pose.rotation.0[2] = parent.rotation * fixed.rotation.0[2],
-            Need::Pose => pose.rotation = parent.rotation * fixed.rotation,
-        }
-        pose
     }
 }
 

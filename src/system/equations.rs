@@ -311,15 +311,7 @@ impl<T: Field> Equations for System<T> {
     #[inline]
     fn step(&self, work: &mut Work<T>) -> f64 {
         work.jacobian.solve(&work.residual, &mut work.step);
-        let largest = work
-            .step
-            .iter()
-            .fold(0.0, |m: f64, x| m.max(x.norm_squared()));
-        if work.step.iter().all(|x| x.is_finite()) {
-            largest.sqrt()
-        } else {
-            f64::NAN
-        }
+        Size::of(&work.step).largest
     }
 
     #[inline]
