@@ -7,10 +7,12 @@ mod equations;
 mod freedom;
 mod layout;
 mod question;
+mod tracker;
 mod value;
 
 pub use equations::{System, Work};
 pub use freedom::{Freedoms, Holdable, Mobility};
 pub use layout::{Held, HeldPlatform, Unknown};
 pub use question::{Question, QuestionError};
+pub use tracker::Tracker;
 pub use value::ValueError;

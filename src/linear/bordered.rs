@@ -173,20 +173,23 @@ impl<T: Field> Bordered<T> {
         let mut border_row = 0;
         for block in &mut self.blocks {
             let rows = block.layout.rows;
-            for (b, &r) in block.rhs.iter_mut().zip(&r[row..row + rows]) {
-                *b = -r;
+            let r = &r[row..row + rows];
+            row += rows;
+            // without own unknowns there is nothing to rotate: the rows stand in the border
+            if block.layout.own.is_empty() {
+                negate(r, &mut self.border_rhs[border_row..]);
+                border_row += rows;
+                continue;
             }
+            negate(r, &mut block.rhs);
             let total = block.qr.rows();
             block.rhs[rows..total].fill(T::zero());
             block.qr.rotate(&mut block.rhs);
             let left = &block.rhs[block.qr.rank()..total];
             self.border_rhs[border_row..border_row + left.len()].copy_from_slice(left);
-            row += rows;
             border_row += left.len();
         }
-        for (b, &r) in (self.border_rhs[border_row..].iter_mut()).zip(&r[row..]) {
-            *b = -r;
-        }
+        negate(&r[row..], &mut self.border_rhs[border_row..]);
         border_row += self.extra_rows;
         let border_total = self.border.rows();
         self.border_rhs[border_row..border_total].fill(T::zero());
@@ -201,12 +204,12 @@ impl<T: Field> Bordered<T> {
         for (&unknown, &value) in self.shared.iter().zip(&self.border_x) {
             x[unknown] = value;
         }
-        for block in &mut self.blocks {
-            let rank = block.qr.rank();
-            for (j, &place) in block.border_places.iter().enumerate() {
-                let value = self.border_x[place];
-                for (b, c) in block.rhs[..rank].iter_mut().zip(block.qr.carried(j)) {
-                    *b -= value * *c;
+        let with_own = |block: &&mut Factor<T>| !block.layout.own.is_empty();
+        for block in self.blocks.iter_mut().filter(with_own) {
+            // row by row: there are few of them, often one, and more shared unknowns
+            for (k, b) in block.rhs[..block.qr.rank()].iter_mut().enumerate() {
+                for (carried, &place) in block.qr.all_carried().zip(&block.border_places) {
+                    *b -= self.border_x[place] * carried[k];
                 }
             }
             block.qr.back_substitute(&mut block.rhs, &mut block.x);
@@ -230,6 +233,14 @@ impl<T: Field> Bordered<T> {
     /// The blocks' layout, in order.
     pub fn blocks(&self) -> impl ExactSizeIterator<Item = &Block> {
         self.blocks.iter().map(|b| &b.layout)
+    }
+}
+
+/// to ← −r, as far as `r` goes.
+#[inline(always)]
+fn negate<T: Field>(r: &[T], to: &mut [T]) {
+    for (to, &r) in to.iter_mut().zip(r) {
+        *to = -r;
     }
 }
 

@@ -2,7 +2,7 @@ use super::layout::{Held, HeldPlatform, HoldRow, Layout, Unknown};
 use crate::geometry::Vector3;
 use crate::linear::Bordered;
 use crate::mechanism::{
-    Closure, Configuration, Dimensions, Kinematics, Mover, Placement, Side, orientation_rows,
+    Closure, Configuration, Dimensions, Kinematics, Mover, Placement, Side, needs, orientation_rows,
 };
 use crate::number::Field;
 use crate::solve::{Equations, Size};
@@ -54,8 +54,8 @@ impl<T: Field> System<T> {
         let frames = dimensions
             .closures
             .iter()
-            .flat_map(|closure| closure.frames);
-        let kinematics = Kinematics::new(dimensions, frames);
+            .flat_map(|closure| closure.frames.into_iter().zip(needs(closure.kind)));
+        let kinematics = Kinematics::needing(dimensions, frames);
         let closures: Vec<Closure<T>> = (dimensions.closures.iter())
             .map(|closure| Closure::new(dimensions, closure, &kinematics))
             .collect();
@@ -294,6 +294,7 @@ fn hold_rows<T: Field>(held: &Held<T>) -> Vec<HoldRow<T>> {
 }
 
 impl<T: Field> Equations for System<T> {
+    type Number = T;
     type Point = Configuration<T>;
     type Work = Work<T>;
 
@@ -320,15 +321,12 @@ impl<T: Field> Equations for System<T> {
     #[inline]
     fn step(&self, work: &mut Work<T>) -> f64 {
         work.jacobian.solve(&work.residual, &mut work.step);
-        let largest = work
-            .step
-            .iter()
-            .fold(0.0, |m: f64, x| m.max(x.norm_squared()));
-        if work.step.iter().all(|x| x.is_finite()) {
-            largest.sqrt()
-        } else {
-            f64::NAN
-        }
+        Size::of(&work.step).largest
+    }
+
+    #[inline]
+    fn step_mut<'a>(&self, work: &'a mut Work<T>) -> &'a mut [T] {
+        &mut work.step
     }
 
     #[inline]
