@@ -1,5 +1,7 @@
 use super::Qr;
 use super::lu::Lu;
+#[cfg(feature = "sparse")]
+use super::{DENSE_LIMIT, sparse::SparseNormal};
 use crate::number::Field;
 
 /// Where one block of rows stands: its own unknowns, and the shared ones it touches.
@@ -33,6 +35,8 @@ pub struct Bordered<T> {
     border_rhs: Vec<T>,
     border_x: Vec<T>,
     damped: bool,
+    #[cfg(feature = "sparse")]
+    sparse: Option<SparseNormal<T>>,
 }
 
 /// Elimination without exchange of columns can hide a loss of rank behind pivots that are merely
@@ -56,6 +60,9 @@ impl<T: Field> Bordered<T> {
         let place = |unknown: &usize| {
             (shared.iter().position(|s| s == unknown)).expect("blocks share only shared unknowns")
         };
+        #[cfg(feature = "sparse")]
+        let sparse =
+            (shared.len() > DENSE_LIMIT).then(|| SparseNormal::new(unknowns, &blocks, extra_rows));
         let blocks: Vec<Factor<T>> = blocks
             .into_iter()
             .map(|layout| {
@@ -72,6 +79,23 @@ impl<T: Field> Bordered<T> {
             .collect();
         let rows: usize = blocks.iter().map(|b| b.layout.rows).sum::<usize>() + extra_rows;
         let most = rows + unknowns;
+        #[cfg(feature = "sparse")]
+        if sparse.is_some() {
+            return Bordered {
+                unknowns,
+                rows,
+                blocks,
+                extra_rows,
+                border: Qr::new(0, 0, 0),
+                square_border: Lu::new(0),
+                square: false,
+                border_rhs: vec![T::zero(); unknowns],
+                border_x: vec![T::zero(); unknowns],
+                shared,
+                damped: false,
+                sparse,
+            };
+        }
         Bordered {
             unknowns,
             rows,
@@ -84,6 +108,8 @@ impl<T: Field> Bordered<T> {
             border_x: vec![T::zero(); shared.len()],
             shared,
             damped: false,
+            #[cfg(feature = "sparse")]
+            sparse: None,
         }
     }
 
@@ -116,6 +142,17 @@ impl<T: Field> Bordered<T> {
     /// Factorises the blocks as filled in and then the border; `extra` holds the extra rows, one
     /// after another over the shared unknowns.
     pub fn factorise(&mut self, extra: &[T], damping: f64) {
+        #[cfg(feature = "sparse")]
+        if let Some(sparse) = &mut self.sparse {
+            sparse.factorise(
+                self.blocks
+                    .iter()
+                    .map(|block| (&block.layout, block.matrix.as_slice())),
+                extra,
+                damping,
+            );
+            return;
+        }
         self.damped = damping > 0.0;
         let root = T::from_f64(damping.sqrt());
         let mut border_rows = self.extra_rows;
@@ -169,6 +206,16 @@ impl<T: Field> Bordered<T> {
     /// The step −J⁺r for the residual `r` in the order of the rows, written to `x` in the order of
     /// the unknowns. May be called again with other residuals for the same factors.
     pub fn solve(&mut self, r: &[T], x: &mut [T]) {
+        #[cfg(feature = "sparse")]
+        if let Some(sparse) = &self.sparse {
+            let blocks = || {
+                self.blocks
+                    .iter()
+                    .map(|block| (&block.layout, block.matrix.as_slice()))
+            };
+            sparse.step(blocks, r, x);
+            return;
+        }
         let mut row = 0;
         let mut border_row = 0;
         for block in &mut self.blocks {
