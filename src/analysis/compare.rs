@@ -70,7 +70,8 @@ pub struct FormReport {
     pub source: Option<String>,
     /// Its entries or identities.
     pub components: Vec<ComponentReport>,
-    /// The joint values of the worst sample, rad or m; empty if there was none.
+    /// The joint values at which its worst component differs most, rad or m; empty if there was no
+    /// sample.
     #[serde(serialize_with = "as_map")]
     pub worst: Vec<(String, f64)>,
 }
@@ -98,16 +99,17 @@ pub struct ComponentReport {
     pub agree: bool,
     /// The largest difference: m, or without unit.
     pub max_difference: f64,
+    /// The largest difference beside the size of what is compared, which decides.
+    pub relative: f64,
     /// Samples at which it has a value.
     pub samples: usize,
     /// Samples at which it has none, as when it divides by zero.
     pub without_value: usize,
-    /// Joint values at the sample that fits worst, rad or m, and what the form and the chains give
-    /// there.
+    /// The sample with the largest difference.
     pub worst: Option<WorstSample>,
 }
 
-/// The sample at which a component fits worst.
+/// The sample at which a component differs most.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct WorstSample {
     /// Joint values, rad or m.
@@ -117,8 +119,6 @@ pub struct WorstSample {
     pub closed_form: f64,
     /// What the chains give; zero for an identity.
     pub chains: f64,
-    /// The difference beside the size of what is compared.
-    pub relative: f64,
 }
 
 /// What kind of quantity a component is.
@@ -186,6 +186,7 @@ impl Check {
                 quantity,
                 agree: false,
                 max_difference: 0.0,
+                relative: 0.0,
                 samples: 0,
                 without_value: 0,
                 worst: None,
@@ -204,14 +205,14 @@ impl Check {
         };
         let report = &mut self.report;
         report.samples += 1;
-        report.max_difference = report.max_difference.max(difference);
-        if (report.worst.as_ref()).is_none_or(|worst| relative > worst.relative) {
+        report.relative = report.relative.max(relative);
+        if self.worst.is_none() || difference > report.max_difference {
+            report.max_difference = difference;
             self.worst = Some(sample);
             report.worst = Some(WorstSample {
                 joints: Vec::new(),
                 closed_form,
                 chains,
-                relative,
             });
         }
     }
@@ -296,7 +297,7 @@ fn report(
         let Some(worst) = &mut check.report.worst else {
             continue;
         };
-        check.report.agree = worst.relative <= tolerance;
+        check.report.agree = check.report.relative <= tolerance;
         let names = mechanism.joints().iter().map(|joint| joint.name.clone());
         let values = check.worst.map(|sample| &configurations[sample].joints);
         worst.joints = names.zip(values.into_iter().flatten().copied()).collect();
@@ -309,8 +310,9 @@ fn report(
         _ => Verdict::NotTried,
     };
     let worst = (components.iter())
-        .filter_map(|component| component.worst.as_ref())
-        .reduce(|a, b| if b.relative > a.relative { b } else { a });
+        .filter(|component| component.samples > 0)
+        .reduce(|a, b| if b.relative > a.relative { b } else { a })
+        .and_then(|component| component.worst.as_ref());
     FormReport {
         name: form.name.clone(),
         agree: verdict == Verdict::Agrees,
