@@ -2,4 +2,5 @@
 //! use one another.
 
 pub mod assembly;
+pub mod compare;
 pub mod overview;

@@ -5,13 +5,17 @@
 //! appear in that leg's closures only, and the platforms tie the legs together.
 
 mod bordered;
+mod factorable;
 mod lu;
 mod qr;
 #[cfg(feature = "sparse")]
 mod sparse;
 
 pub use bordered::{Block, Bordered};
+pub use factorable::{DenseOnly, Factorable, SparseStep};
 pub use qr::Qr;
+#[cfg(feature = "sparse")]
+pub use sparse::SparseNormal;
 
 /// The one rank tolerance of the program: a direction counts as lost when it is this small beside
 /// the largest one.

@@ -93,18 +93,11 @@ pub trait Number:
     }
 }
 
-/// What the sparse factorisations of faer need of a number.
-#[cfg(feature = "sparse")]
-pub use faer::traits::ComplexField as SparseEntry;
-
-/// Without sparse factorisations nothing is needed.
-#[cfg(not(feature = "sparse"))]
-pub trait SparseEntry {}
-#[cfg(not(feature = "sparse"))]
-impl<T> SparseEntry for T {}
-
 /// A number with a conjugate and a size: what orthogonal factorisations need beyond [`Number`].
-pub trait Field: Number + SparseEntry {
+///
+/// A dual has the size of its value, so that everything solved over duals takes the same way as over
+/// its inner number and carries derivatives along.
+pub trait Field: Number {
     /// Complex conjugate; the number itself for reals.
     fn conjugate(self) -> Self;
     /// Squared absolute value |z|².

@@ -1,6 +1,8 @@
 //! Answers and complaints made visible.
 
 #[cfg(feature = "cli")]
+pub mod comparison;
+#[cfg(feature = "cli")]
 pub mod diagnostics;
 #[cfg(feature = "cli")]
 mod layout;

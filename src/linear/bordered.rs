@@ -1,7 +1,6 @@
 use super::Qr;
 use super::lu::Lu;
-#[cfg(feature = "sparse")]
-use super::{DENSE_LIMIT, sparse::SparseNormal};
+use super::{DENSE_LIMIT, Factorable, SparseStep};
 use crate::number::Field;
 
 /// Where one block of rows stands: its own unknowns, and the shared ones it touches.
@@ -22,7 +21,7 @@ pub struct Block {
 /// factors are orthogonal the result is the least-squares step of the whole, rank deficient or not.
 /// With damping λ > 0, rows √λ·I are added (Levenberg 1944).
 #[derive(Clone, Debug)]
-pub struct Bordered<T> {
+pub struct Bordered<T: Factorable> {
     unknowns: usize,
     rows: usize,
     blocks: Vec<Factor<T>>,
@@ -35,8 +34,7 @@ pub struct Bordered<T> {
     border_rhs: Vec<T>,
     border_x: Vec<T>,
     damped: bool,
-    #[cfg(feature = "sparse")]
-    sparse: Option<SparseNormal<T>>,
+    sparse: Option<T::Sparse>,
 }
 
 /// Elimination without exchange of columns can hide a loss of rank behind pivots that are merely
@@ -54,15 +52,14 @@ struct Factor<T> {
     x: Vec<T>,
 }
 
-impl<T: Field> Bordered<T> {
+impl<T: Factorable> Bordered<T> {
     /// A matrix of the given blocks, and below them `extra_rows` rows over the shared unknowns.
     pub fn new(unknowns: usize, blocks: Vec<Block>, extra_rows: usize, shared: Vec<usize>) -> Self {
         let place = |unknown: &usize| {
             (shared.iter().position(|s| s == unknown)).expect("blocks share only shared unknowns")
         };
-        #[cfg(feature = "sparse")]
-        let sparse =
-            (shared.len() > DENSE_LIMIT).then(|| SparseNormal::new(unknowns, &blocks, extra_rows));
+        let sparse = (T::Sparse::AVAILABLE && shared.len() > DENSE_LIMIT)
+            .then(|| T::Sparse::new(unknowns, &blocks, extra_rows));
         let blocks: Vec<Factor<T>> = blocks
             .into_iter()
             .map(|layout| {
@@ -79,7 +76,6 @@ impl<T: Field> Bordered<T> {
             .collect();
         let rows: usize = blocks.iter().map(|b| b.layout.rows).sum::<usize>() + extra_rows;
         let most = rows + unknowns;
-        #[cfg(feature = "sparse")]
         if sparse.is_some() {
             return Bordered {
                 unknowns,
@@ -108,7 +104,6 @@ impl<T: Field> Bordered<T> {
             border_x: vec![T::zero(); shared.len()],
             shared,
             damped: false,
-            #[cfg(feature = "sparse")]
             sparse: None,
         }
     }
@@ -142,7 +137,6 @@ impl<T: Field> Bordered<T> {
     /// Factorises the blocks as filled in and then the border; `extra` holds the extra rows, one
     /// after another over the shared unknowns.
     pub fn factorise(&mut self, extra: &[T], damping: f64) {
-        #[cfg(feature = "sparse")]
         if let Some(sparse) = &mut self.sparse {
             sparse.factorise(
                 self.blocks
@@ -206,7 +200,6 @@ impl<T: Field> Bordered<T> {
     /// The step −J⁺r for the residual `r` in the order of the rows, written to `x` in the order of
     /// the unknowns. May be called again with other residuals for the same factors.
     pub fn solve(&mut self, r: &[T], x: &mut [T]) {
-        #[cfg(feature = "sparse")]
         if let Some(sparse) = &self.sparse {
             let blocks = || {
                 self.blocks

@@ -1,9 +1,10 @@
 use faer::linalg::solvers::Solve;
 use faer::sparse::linalg::solvers::{Llt, SymbolicLlt};
 use faer::sparse::{Argsort, Pair, SparseColMat, SymbolicSparseColMat};
+use faer::traits::ComplexField;
 use faer::{Mat, Side};
 
-use super::Block;
+use super::{Block, SparseStep};
 use crate::number::Field;
 
 /// Least squares min ‖J x + r‖ for a large J in which every block of rows touches few unknowns.
@@ -12,7 +13,7 @@ use crate::number::Field;
 /// is analysed once, and corrects x by the residual that is left, because normal equations square
 /// the condition number. (Sparse orthogonal factors fill in along chains of loops.)
 #[derive(Clone, Debug)]
-pub(super) struct SparseNormal<T> {
+pub struct SparseNormal<T> {
     size: usize,
     pattern: SymbolicSparseColMat<usize>,
     order: Argsort<usize>,
@@ -30,9 +31,10 @@ impl Block {
     }
 }
 
-impl<T: Field> SparseNormal<T> {
-    /// Analyses the pattern of the blocks and of `extra_rows` rows that touch every unknown.
-    pub fn new(size: usize, blocks: &[Block], extra_rows: usize) -> Self {
+impl<T: Field + ComplexField> SparseStep<T> for SparseNormal<T> {
+    const AVAILABLE: bool = true;
+
+    fn new(size: usize, blocks: &[Block], extra_rows: usize) -> Self {
         let mut pairs: Vec<Pair<usize, usize>> = Vec::new();
         for block in blocks {
             pairs.extend(lower(block.columns()).map(|(row, col)| Pair { row, col }));
@@ -57,9 +59,8 @@ impl<T: Field> SparseNormal<T> {
         }
     }
 
-    /// Factorises JᴴJ + λ for the blocks in the order of [`SparseNormal::new`], column-major each,
-    /// and the extra rows, row after row.
-    pub fn factorise<'a>(
+    /// JᴴJ + λ = L·Lᴴ.
+    fn factorise<'a>(
         &mut self,
         blocks: impl Iterator<Item = (&'a Block, &'a [T])>,
         extra: &[T],
@@ -105,8 +106,8 @@ impl<T: Field> SparseNormal<T> {
         }
     }
 
-    /// The step −J⁺r; zero if the entries were not finite.
-    pub fn step<'a, I>(&self, blocks: impl Fn() -> I, r: &[T], x: &mut [T])
+    /// Zero if the entries were not finite.
+    fn step<'a, I>(&self, blocks: impl Fn() -> I, r: &[T], x: &mut [T])
     where
         T: 'a,
         I: Iterator<Item = (&'a Block, &'a [T])>,

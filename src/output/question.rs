@@ -154,7 +154,7 @@ fn value(text: &str, error: &ValueError) -> (Complaint, Part) {
             };
             (kind, part)
         }
-        ValueError::NoValue(kind) => (ProblemKind::NoValue(kind.clone()), Part::WholeValue),
+        ValueError::NoValue(kind) => (ProblemKind::NoValue(*kind), Part::WholeValue),
         ValueError::NotAPose { part } => {
             let title = format!("`{part}` is not a pose");
             let help = "a pose is a list such as [Tz(0.5), Rx(10 deg)], or home".to_owned();

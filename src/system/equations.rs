@@ -1,6 +1,6 @@
 use super::layout::{Held, HeldPlatform, HoldRow, Layout, Unknown};
 use crate::geometry::Vector3;
-use crate::linear::Bordered;
+use crate::linear::{Bordered, Factorable};
 use crate::mechanism::{
     Closure, Configuration, Dimensions, Kinematics, Mover, Placement, Side, needs, orientation_rows,
 };
@@ -12,7 +12,7 @@ use crate::solve::{Equations, Size};
 /// Rows and unknowns are dimensionless. A point is a [`Configuration`]; held joints and poses keep
 /// the values it has.
 #[derive(Clone, Debug)]
-pub struct System<T> {
+pub struct System<T: Factorable> {
     kinematics: Kinematics<T>,
     closures: Vec<Closure<T>>,
     plans: Vec<ClosurePlan<T>>,
@@ -40,7 +40,7 @@ struct ClosurePlan<T> {
 
 /// Storage of a [`System`]: nothing in it outlives the question it was made for.
 #[derive(Clone, Debug)]
-pub struct Work<T> {
+pub struct Work<T: Factorable> {
     placement: Placement<T>,
     residual: Vec<T>,
     jacobian: Bordered<T>,
@@ -48,7 +48,7 @@ pub struct Work<T> {
     step: Vec<T>,
 }
 
-impl<T: Field> System<T> {
+impl<T: Factorable> System<T> {
     /// The equations for a choice of what is held.
     pub fn new(dimensions: &Dimensions<T>, held: &Held<T>) -> Self {
         let frames = dimensions
@@ -293,7 +293,7 @@ fn hold_rows<T: Field>(held: &Held<T>) -> Vec<HoldRow<T>> {
     rows
 }
 
-impl<T: Field> Equations for System<T> {
+impl<T: Factorable> Equations for System<T> {
     type Number = T;
     type Point = Configuration<T>;
     type Work = Work<T>;

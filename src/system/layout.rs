@@ -1,5 +1,5 @@
 use crate::geometry::Rotation;
-use crate::linear::{Block, DENSE_LIMIT};
+use crate::linear::{Block, DENSE_LIMIT, Factorable, SparseStep};
 use crate::mechanism::{Closure, Coordinate};
 use crate::number::Number;
 
@@ -69,7 +69,7 @@ pub(super) struct Layout {
 
 impl Layout {
     /// Closures that share a free joint variable form a block; platforms tie the blocks together.
-    pub fn new<T: Number>(closures: &[Closure<T>], held: &Held<T>) -> Self {
+    pub fn new<T: Factorable>(closures: &[Closure<T>], held: &Held<T>) -> Self {
         let mut unknowns: Vec<Unknown> = Vec::new();
         let mut joint_unknown = vec![None; held.joints.len()];
         for (joint, _) in held.joints.iter().enumerate().filter(|(_, held)| !**held) {
@@ -89,7 +89,7 @@ impl Layout {
             }
         }
 
-        if unknowns.len() > DENSE_LIMIT && cfg!(feature = "sparse") {
+        if T::Sparse::AVAILABLE && unknowns.len() > DENSE_LIMIT {
             return Layout::of_single_closures(closures, unknowns, &joint_unknown, &first_twist);
         }
         let mut owner: Vec<usize> = (0..closures.len()).collect();
