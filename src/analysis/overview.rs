@@ -295,10 +295,9 @@ fn steps(mechanism: &Mechanism, steps: &[FixedStep]) -> Vec<String> {
     let step = |step: &FixedStep| match step {
         FixedStep::Translate(axis, length) => format!("T{}({})", axis.letter(), written(length)),
         FixedStep::Rotate(axis, angle) => format!("R{}({})", axis.letter(), written(angle)),
-        FixedStep::TranslateBy(vector) => format!(
-            "T({})",
-            vector.each_ref().map(|entry| written(entry)).join(", ")
-        ),
+        FixedStep::TranslateBy(vector) => {
+            format!("T({})", vector.each_ref().map(&written).join(", "))
+        }
     };
     steps.iter().map(step).collect()
 }
