@@ -124,7 +124,15 @@ impl Source {
                 text,
                 problems: in_file,
             };
-            shown.push(diagnostics::render(&error, style()));
+            let mut rendered = diagnostics::render(&error, style());
+            if !self.set.is_empty() {
+                let set = self.set.iter();
+                let set: Vec<String> = set
+                    .map(|s| format!("--set {}={}", s.name, s.value))
+                    .collect();
+                rendered += &format!("note: read with {}\n", set.join(" "));
+            }
+            shown.push(rendered);
         }
         shown.join("\n")
     }

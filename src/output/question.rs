@@ -105,7 +105,7 @@ fn release(held: &[String]) -> String {
     let mut ways = Vec::new();
     if !joints.is_empty() {
         let free = options("--free", &joints, "");
-        ways.push(format!("free {}, e.g. {free}", listed(&joints)));
+        ways.push(format!("free {}: {free}", listed(&joints)));
     }
     if !coordinates.is_empty() {
         ways.push(format!("leave out --hold {}", listed(&coordinates)));

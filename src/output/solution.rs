@@ -100,10 +100,13 @@ pub fn sentence(mechanism: &Mechanism, report: &AssemblyReport) -> String {
 
 /// `0.213 m and 4.2°`
 fn gap(gap: &Gap) -> String {
-    match (gap.distance, gap.angle) {
-        (distance, 0.0) => quantity(distance, false),
-        (0.0, angle) => degrees(angle),
-        (distance, angle) => format!("{} and {}", quantity(distance, false), degrees(angle)),
+    // what rounding leaves of a gap is none
+    const NONE: f64 = 1e-9;
+    let (distance, angle) = (quantity(gap.distance, false), degrees(gap.angle));
+    match (gap.distance < NONE, gap.angle < NONE) {
+        (_, true) => distance,
+        (true, false) => angle,
+        (false, false) => format!("{distance} and {angle}"),
     }
 }
 
