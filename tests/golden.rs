@@ -8,7 +8,7 @@ use linkwork::description::{Description, Entry};
 use linkwork::geometry::{Pose, Quaternion, RollPitchYaw, Rotation, Vector3};
 use linkwork::mechanism::{Configuration, Mechanism, PlatformPose, Role};
 use linkwork::solve::{Equations, Newton, Stop};
-use linkwork::system::{Held, HeldPlatform, Question, System};
+use linkwork::system::{Freedoms, Held, HeldPlatform, Question, System};
 use serde_json::Value;
 
 /// Numbers printed with 15 digits or computed by another program.
@@ -578,27 +578,60 @@ fn universal_joints() {
     }
 }
 
+/// A loop of standard rows that ends where it starts.
+fn closed_loop(rows: &Value, unit: &str) -> Mechanism {
+    let (mut joints, mut table) = (String::new(), String::new());
+    for (i, row) in list(rows).iter().enumerate() {
+        let [a, alpha, d] = triple(row);
+        joints += &format!("\"theta{i}\": Passive(),");
+        table +=
+            &format!("(a: {a:?}, alpha: \"{alpha:?} {unit}\", d: {d:?}, theta: \"theta{i}\"),");
+    }
+    let text = format!(
+        "Mechanism(version: 1, name: \"loop\", convention: Standard, joints: {{{joints}}},
+        chains: {{\"links\": Chain(rows: [{table}])}}, closures: {{\"c\": Rigid(\"links\", \"ground\")}})"
+    );
+    Mechanism::new(&Description::read(&text).unwrap()).unwrap()
+}
+
 #[test]
-fn overconstrained_loops() {
-    let data = data("overconstrained");
-    let goldberg = data["goldberg_5r"].clone();
-    assert_eq!(list(&data["sarrus"]).len(), 4);
-    for (name, configurations) in data.as_object().unwrap() {
-        let Some(configurations) = configurations.as_array() else {
-            continue;
-        };
-        if name == "goldberg_5r" {
-            // listed for a loop whose first two Bennett linkages stand the other way round
-            assert_eq!(list(&goldberg).len(), 1);
-            continue;
+fn closed_loops_of_one_chain() {
+    for case in list(&data("loops")["loops"]) {
+        let mechanism = closed_loop(&case["a_alpha_d"], case["alpha_unit"].as_str().unwrap());
+        let mobility = number(&case["mobility"]);
+        let mut joints = vec![false; mechanism.joints().len()];
+        joints[0] = mobility == 1.0;
+        let platforms = vec![];
+        let system = System::new(mechanism.dimensions(), &Held { joints, platforms });
+        for angles in list(&case["assemblies"]) {
+            let printed = all_joints_at(&mechanism, &numbers(angles));
+            is_found(&system, &printed, 0.01, 1e-11);
+            let held = Held {
+                joints: vec![false; printed.joints.len()],
+                platforms: vec![],
+            };
+            let freedoms = Freedoms::at(mechanism.dimensions(), &held, &printed);
+            assert_eq!(freedoms.motions.len() as f64, mobility, "{}", case["name"]);
         }
-        let mechanism = mechanism(name);
-        let system = direct(&mechanism);
-        for angles in configurations {
+    }
+}
+
+#[test]
+fn overconstrained_loops_of_the_mechanism_files() {
+    let data = data("loops");
+    for (file, name) in [
+        ("bennett", "Bennett 4R"),
+        ("sarrus", "Sarrus 6R"),
+        ("schatz", "Schatz 6R"),
+    ] {
+        let mechanism = mechanism(file);
+        let mut loops = list(&data["loops"]).iter();
+        let case = loops.find(|case| case["name"] == name).unwrap();
+        for angles in list(&case["assemblies"]) {
             let angles = numbers(angles);
             // the last hinge is the broken one
             let printed = all_joints_at(&mechanism, &angles[..angles.len() - 1]);
-            is_found(&system, &printed, 0.02, 1e-11);
+            is_found(&direct(&mechanism), &printed, 0.02, 1e-11);
         }
     }
 }

@@ -293,7 +293,7 @@ fn with_one_twist_or_length_wrong_a_structure_without_freedom_does_not_assemble(
             let frames = wrong.ron();
             let entry = usize::from(!twist);
             let old = wrong.legs[leg].rows[0].entries[entry];
-            wrong.legs[leg].rows[0].entries[entry] = old + 0.01;
+            wrong.legs[leg].rows[0].entries[entry] = old + 1e-3;
             let rows = |text: &str| -> String {
                 let start = text.find("chains:").unwrap();
                 text[start..text.find("platforms:").unwrap()].to_owned()
@@ -304,12 +304,15 @@ fn with_one_twist_or_length_wrong_a_structure_without_freedom_does_not_assemble(
             let left = leftover(&system, &wrong.home());
             let rigid = freedoms.condition() < 1e2;
             let (at, stop, size) = solve(&system, &wrong.home());
-            if rigid && left > 1e-3 {
+            if rigid && left > 1e-4 {
                 prop_assert!(stop != Stop::Solved, "assembled with {left} left over");
                 // the closest approach is where the linear theory says it is
                 prop_assert!((size - left).abs() < 0.3 * left, "{size} {left}");
                 **refusals.borrow_mut() += 1;
-            } else if rigid && left < 1e-9 {
+            } else if rigid
+                && system.rows() == system.unknowns().len()
+                && freedoms.condition() < 30.0
+            {
                 // as many equations as unknowns: the wrong dimension only moves the solution
                 prop_assert_eq!(stop, Stop::Solved);
                 let away = apart(&mechanism, &at, &mechanism.home());
