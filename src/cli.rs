@@ -1,6 +1,7 @@
 //! Commands, one file each. Data goes to stdout, problems to stderr.
 
 mod check;
+mod compare;
 mod solve;
 mod source;
 
@@ -25,6 +26,7 @@ const EXIT_CODES: &str =
 enum Command {
     Check(check::Check),
     Solve(solve::Solve),
+    Compare(compare::Compare),
 }
 
 /// How an answer is written.
@@ -55,6 +57,7 @@ pub fn run() -> ExitCode {
     let answer = match &arguments.command {
         Command::Check(check) => check.run(),
         Command::Solve(solve) => solve.run(),
+        Command::Compare(compare) => compare.run(),
     };
     match answer {
         Ok(answer) => {

@@ -5,6 +5,8 @@ pub mod comparison;
 #[cfg(feature = "cli")]
 pub mod diagnostics;
 #[cfg(feature = "cli")]
+mod json;
+#[cfg(feature = "cli")]
 mod layout;
 #[cfg(feature = "cli")]
 pub mod option;

@@ -55,6 +55,7 @@ fn a_wrong_sign_is_shown_with_its_component_and_joint_values() {
 fn json_says_the_same() {
     let (mechanism, report) = compared(&wrong());
     let json = comparison::json(&mechanism, &report);
+    let json: serde_json::Value = serde_json::from_str(&json).unwrap();
     assert_eq!(json["agree"], false);
     assert_eq!(json["seed"], 1);
     let forms = json["closed_forms"].as_array().unwrap();

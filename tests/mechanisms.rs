@@ -534,7 +534,8 @@ fn a_four_bar_broken_at_any_joint_has_the_same_assemblies_over_a_full_turn() {
                         *value += 0.1 * side;
                     }
                 }
-                let (at, residual) = solve_from(&system, &guess).expect(cut.name());
+                let (at, residual) =
+                    solve_from(&system, &guess).unwrap_or_else(|| panic!("{}", cut.name()));
                 assert!(residual <= 1e-12);
                 for (found, wanted) in directions(cut, &at).into_iter().zip(expected) {
                     let off = (found - wanted + 3.0 * std::f64::consts::PI)

@@ -18,6 +18,7 @@ use crate::mechanism::{
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Overview {
     /// What the mechanism is called.
+    #[serde(rename = "mechanism")]
     pub name: String,
     /// Where it comes from.
     pub source: Option<String>,

@@ -1,56 +1,48 @@
-//! `linkwork compare`: the closed forms of a file beside its chains.
+//! `linkwork compare`
 
-use std::path::PathBuf;
-use std::process::ExitCode;
-
-use clap::ValueEnum;
+use clap::Args;
 use linkwork::analysis::compare::{CompareSettings, compare};
-use linkwork::description::LoadError;
-use linkwork::mechanism::Mechanism;
 use linkwork::output::comparison;
+
+use super::source::Source;
+use super::{Answer, Format, Refusal};
 
 /// Check every closed form of a mechanism file against its chains.
 ///
-/// Exit code 0 if all agree or there are none, 1 if one does not.
-#[derive(Debug, clap::Args)]
-pub struct Args {
-    /// The mechanism file.
-    file: PathBuf,
-    /// How many random joint values to try beside the home configuration.
+/// They are compared at the solved home configuration and at random joint values within the limits; identities, which
+/// hold only when the mechanism is assembled, at random assembled configurations.
+#[derive(Args)]
+#[command(after_help = "Example: linkwork compare mechanisms/three_rps.ron --samples 1000")]
+pub struct Compare {
+    #[command(flatten)]
+    source: Source,
+    /// How many random configurations to try beside home
     #[arg(long, value_name = "COUNT", default_value_t = CompareSettings::default().samples)]
     samples: usize,
-    /// Seed of the random joint values.
+    /// Seed of the random configurations
     #[arg(long, default_value_t = CompareSettings::default().seed)]
     seed: u64,
-    /// How the answer is printed.
+    /// How to write the answer
     #[arg(long, value_enum, default_value_t = Format::Text)]
     format: Format,
 }
 
-/// How an answer is printed.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-enum Format {
-    /// For people.
-    Text,
-    /// For programs.
-    Json,
-}
-
-/// Compares and prints.
-///
-/// # Errors
-/// If the file cannot be read or is wrong.
-pub fn run(args: &Args) -> Result<ExitCode, LoadError> {
-    let mechanism = Mechanism::load(&args.file)?;
-    let settings = CompareSettings {
-        samples: args.samples,
-        seed: args.seed,
-        ..CompareSettings::default()
-    };
-    let report = compare(&mechanism, &settings);
-    match args.format {
-        Format::Text => print!("{}", comparison::text(&mechanism, &report)),
-        Format::Json => println!("{:#}", comparison::json(&mechanism, &report)),
+impl Compare {
+    pub fn run(&self) -> Result<Answer, Refusal> {
+        let loaded = self.source.load()?;
+        let settings = CompareSettings {
+            samples: self.samples,
+            seed: self.seed,
+            ..CompareSettings::default()
+        };
+        let report = compare(&loaded.mechanism, &settings);
+        Ok(Answer {
+            data: match self.format {
+                Format::Text => comparison::text(&loaded.mechanism, &report),
+                Format::Json => comparison::json(&loaded.mechanism, &report),
+            },
+            remarks: loaded.warnings(),
+            yes: report.agree,
+        })
     }
-    Ok(ExitCode::from(u8::from(!report.agree)))
 }

@@ -1,8 +1,8 @@
 //! A comparison of closed forms with the chains, as text and as JSON.
 
 use comfy_table::{CellAlignment, Table, presets};
-use serde_json::{Value, json};
 
+use super::json::document;
 use crate::analysis::compare::{
     CompareReport, ComponentReport, FormReport, Quantity, Verdict, WorstSample,
 };
@@ -181,15 +181,7 @@ fn sentence(report: &CompareReport) -> String {
     }
 }
 
-/// The report with the mechanism's name and the program's version.
-pub fn json(mechanism: &Mechanism, report: &CompareReport) -> Value {
-    let mut value = json!({
-        "linkwork": env!("CARGO_PKG_VERSION"),
-        "mechanism": mechanism.name(),
-    });
-    let report = serde_json::to_value(report).unwrap_or_default();
-    if let (Value::Object(value), Value::Object(report)) = (&mut value, report) {
-        value.extend(report);
-    }
-    value
+/// The report as JSON, with the mechanism's name and the program's version.
+pub fn json(mechanism: &Mechanism, report: &CompareReport) -> String {
+    document(mechanism.name(), report)
 }

@@ -2,6 +2,7 @@
 
 use std::fmt::Write;
 
+use super::json::document;
 use super::layout::{align_right, indented, plain, ruled};
 use super::quantity::{degrees, number, quantity};
 use crate::analysis::overview::{
@@ -12,12 +13,7 @@ use crate::description::count;
 
 /// The overview as JSON.
 pub fn json(overview: &Overview) -> String {
-    let mut object = serde_json::Map::new();
-    object.insert("linkwork".into(), env!("CARGO_PKG_VERSION").into());
-    if let Ok(serde_json::Value::Object(rest)) = serde_json::to_value(overview) {
-        object.extend(rest);
-    }
-    format!("{:#}\n", serde_json::Value::Object(object))
+    document(&overview.name, overview)
 }
 
 /// The overview as text.

@@ -3,6 +3,7 @@
 use serde::Serialize;
 use serde_json::{Map, Value};
 
+use super::super::json::document;
 use super::{sentence, warnings};
 use crate::analysis::assembly::{AssemblyReport, Outcome};
 use crate::geometry::{Pose, Quaternion, RollPitchYaw};
@@ -12,10 +13,6 @@ use crate::system::Question;
 /// A report as it is written. A number that is not finite is written as `null`.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct SolutionJson {
-    /// Version of this program.
-    pub linkwork: &'static str,
-    /// Name of the mechanism.
-    pub mechanism: String,
     /// `converged`, `converged_outside_limits`, `singular`, `cannot_be_assembled` or `gave_up`.
     pub outcome: &'static str,
     /// The outcome in words.
@@ -148,8 +145,6 @@ impl SolutionJson {
         let gaps = mechanism.closures().iter().zip(&report.gaps);
         let file = mechanism.warnings().iter();
         let mut json = SolutionJson {
-            linkwork: env!("CARGO_PKG_VERSION"),
-            mechanism: mechanism.name().into(),
             outcome: word(&report.outcome),
             sentence: sentence(mechanism, report),
             steps: report.steps,
@@ -216,5 +211,8 @@ fn value(part: impl Serialize) -> Value {
 
 /// The report as JSON, as the command line prints it.
 pub fn json(question: &Question, report: &AssemblyReport) -> String {
-    format!("{:#}\n", value(SolutionJson::new(question, report)))
+    document(
+        question.mechanism().name(),
+        &SolutionJson::new(question, report),
+    )
 }
