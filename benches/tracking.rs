@@ -4,6 +4,7 @@
 //! successes, the largest residual (recomputed here from the geometry) and the median and best time of
 //! eleven whole sweeps.
 
+mod engine;
 mod limits;
 
 use std::f64::consts::TAU;
@@ -18,6 +19,8 @@ use limits::{
 };
 
 const CHUNK: usize = 10_000;
+/// Cold questions asked of the engine, of the 10,000 starts.
+const QUESTIONS: usize = 1_000;
 
 criterion_group! {
     name = benches;
@@ -86,7 +89,24 @@ fn a_four_bar(criterion: &mut Criterion) {
         carried,
     );
 
-    // the general engine goes here: track(&mut group, "engine", &inputs, ...)
+    let mechanism = engine::four_bar();
+    let start = engine::follow_four_bar(&mechanism);
+    let angles = |f: &engine::Follower<1>, t1: f64| {
+        four_bar_residual(t1, engine::four_bar_angles(&mechanism, f))
+    };
+    for (name, start) in [
+        ("engine", start.clone().without_predictor()),
+        ("engine, predictor", start),
+    ] {
+        track(
+            &mut group,
+            name,
+            &inputs,
+            start,
+            |f, t1| f.solve([t1]),
+            angles,
+        );
+    }
     group.finish();
 }
 
@@ -155,7 +175,27 @@ fn b_three_rps(criterion: &mut Criterion) {
         three_rps::cold_starts(&starts)
     });
 
-    // the general engine goes here: track(&mut group, "engine", &inputs, ...) and cold(&mut group, "engine, cold", ...)
+    let mechanism = engine::three_rps();
+    let start = engine::follow_three_rps(&mechanism, inputs[0]);
+    let angles = |f: &engine::Follower<3>, legs| {
+        three_rps_residual(legs, engine::three_rps_angles(&mechanism, f))
+    };
+    for (name, start) in [
+        ("engine", start.clone().without_predictor()),
+        ("engine, predictor", start),
+    ] {
+        track(
+            &mut group,
+            name,
+            &inputs,
+            start,
+            engine::Follower::solve,
+            angles,
+        );
+    }
+    cold(&mut group, "engine, cold, whole question", || {
+        engine::three_rps_cold(&mechanism, &starts[..QUESTIONS])
+    });
     group.finish();
 }
 
@@ -254,7 +294,39 @@ fn c_stewart_gough(criterion: &mut Criterion) {
         );
     }
 
-    // the general engine goes here: track(&mut group, "engine", &inputs, ...) and cold(&mut group, "engine, cold ...", ...)
+    let mechanism = engine::stewart_gough();
+    let start = engine::follow_stewart_gough(&mechanism, poses[poses.len() - 1]);
+    let engine_residual = |f: &engine::Follower<6>, input| {
+        residual(
+            &stewart_gough::State::at(engine::stewart_gough_pose(f)),
+            input,
+        )
+    };
+    for (name, start) in [
+        ("engine", start.clone().without_predictor()),
+        ("engine, predictor", start),
+    ] {
+        track(
+            &mut group,
+            name,
+            &inputs,
+            start,
+            |f, (legs, _)| f.solve(legs),
+            engine_residual,
+        );
+    }
+    for (from, starts) in [
+        ("home", trajectories::platform_cold_from_home()),
+        ("random", trajectories::platform_cold_from_random()),
+    ] {
+        cold(&mut group, &format!("engine, cold from {from}"), || {
+            engine::stewart_gough_newton(&mechanism, &starts)
+        });
+        let name = format!("engine, cold from {from}, whole question");
+        cold(&mut group, &name, || {
+            engine::stewart_gough_cold(&mechanism, &starts[..QUESTIONS])
+        });
+    }
     group.finish();
 }
 

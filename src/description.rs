@@ -25,7 +25,7 @@ pub use parts::*;
 pub use problem::*;
 pub use replacement::ReplacementError;
 pub use suggestion::nearest;
-pub use words::count;
+pub use words::{count, listed};
 
 /// The version of the file format that this program reads and writes.
 pub const VERSION: u32 = 1;

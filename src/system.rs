@@ -9,6 +9,7 @@ mod layout;
 mod question;
 mod tracker;
 mod value;
+mod words;
 
 pub use equations::{System, Work};
 pub use freedom::{Freedoms, Holdable, Mobility};

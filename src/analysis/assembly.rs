@@ -252,7 +252,7 @@ impl<'a> Search<'a> {
     fn new(question: &'a Question<'a>, settings: &'a AssemblySettings) -> Self {
         let mechanism = question.mechanism();
         let held = question.held();
-        let system = System::new(mechanism.dimensions(), &held);
+        let system = question.system();
         Search {
             question,
             mechanism,

@@ -17,6 +17,8 @@ pub enum ReplacementError {
     Value(Vec<Problem>),
 }
 
+impl std::error::Error for ReplacementError {}
+
 impl Description {
     /// The same file with another definition of one parameter, an expression that may use the other parameters.
     ///

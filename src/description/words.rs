@@ -150,8 +150,8 @@ impl ProblemKind {
             | UnknownField { suggestion: Some(meant), .. }
             | UnknownName { suggestion: Some(meant), .. }
             | UnknownFrame { suggestion: Some(meant), .. } => format!("did you mean `{meant}`?"),
-            UnknownWord { known, .. } if known.len() > 2 => format!("possible here: {}", listed(known)),
-            UnknownField { structure, .. } => format!("its fields are {}", listed(structure.fields())),
+            UnknownWord { known, .. } if known.len() > 2 => format!("possible here: {}", quoted(known)),
+            UnknownField { structure, .. } => format!("its fields are {}", quoted(structure.fields())),
             UnknownFrame { .. } => {
                 "a frame is `ground`, a chain, `chain.k`, a platform, or `platform.frame`".into()
             }
@@ -261,15 +261,22 @@ pub fn count(number: usize, noun: &str) -> String {
     }
 }
 
-pub(super) fn listed(words: &[&str]) -> String {
+/// `a, b and c`.
+pub fn listed<S: AsRef<str>>(words: &[S]) -> String {
     match words {
         [] => String::new(),
-        [word] => format!("`{word}`"),
+        [word] => word.as_ref().into(),
         [words @ .., last] => {
-            let words: Vec<_> = words.iter().map(|word| format!("`{word}`")).collect();
-            format!("{} and `{last}`", words.join(", "))
+            let words: Vec<&str> = words.iter().map(AsRef::as_ref).collect();
+            format!("{} and {}", words.join(", "), last.as_ref())
         }
     }
+}
+
+/// The same between back quotes.
+pub(super) fn quoted(words: &[&str]) -> String {
+    let words: Vec<String> = words.iter().map(|word| format!("`{word}`")).collect();
+    listed(&words)
 }
 
 fn cycle(names: &[String]) -> String {
@@ -278,6 +285,18 @@ fn cycle(names: &[String]) -> String {
         .map(|name| format!("`{name}`"))
         .collect::<Vec<_>>()
         .join(" -> ")
+}
+
+impl Display for ReplacementError {
+    fn fmt(&self, f: &mut Formatter) -> fmt::Result {
+        match self {
+            Self::UnknownParameter { name, .. } => write!(f, "the file has no parameter `{name}`"),
+            Self::Value(problems) => {
+                let titles: Vec<String> = problems.iter().map(|p| p.kind.title()).collect();
+                f.write_str(&titles.join("; "))
+            }
+        }
+    }
 }
 
 impl Display for Noun {

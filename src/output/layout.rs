@@ -36,15 +36,3 @@ pub(super) fn indented(text: &str) -> String {
         .map(|line| format!("  {line}").trim_end().to_owned() + "\n");
     lines.collect()
 }
-
-/// `a, b and c`.
-pub(super) fn listed<S: AsRef<str>>(words: &[S]) -> String {
-    match words {
-        [] => String::new(),
-        [word] => word.as_ref().into(),
-        [words @ .., last] => {
-            let words: Vec<&str> = words.iter().map(AsRef::as_ref).collect();
-            format!("{} and {}", words.join(", "), last.as_ref())
-        }
-    }
-}

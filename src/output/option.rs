@@ -98,9 +98,9 @@ fn renderer(style: Style) -> Renderer {
 /// Everything that is wrong with another value for a parameter.
 pub fn replacement(error: &ReplacementError, given: &Given, style: Style) -> String {
     match error {
-        ReplacementError::UnknownParameter { name, suggestion } => {
+        ReplacementError::UnknownParameter { suggestion, .. } => {
             let complaint = Complaint {
-                title: format!("the file has no parameter `{name}`"),
+                title: error.to_string(),
                 label: "not known".into(),
                 help: suggestion
                     .as_ref()

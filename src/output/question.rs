@@ -1,54 +1,30 @@
 //! Words for questions that cannot be put, with the options that would put them right.
 
-use super::layout::listed;
 use super::option::{Complaint, Part};
 use crate::algebra::Expression;
-use crate::description::{ProblemKind, Scope, count};
+use crate::description::{ProblemKind, Scope, listed};
 use crate::system::{QuestionError, ValueError};
 
 /// What is wrong with a question, and with which part of the option that asked it, if one did.
 pub fn complaint(error: &QuestionError) -> (Complaint, Part) {
+    let title = error.title();
     match error {
-        QuestionError::UnknownName { name, suggestion } => {
+        QuestionError::UnknownName { suggestion, .. } => {
             let help = match suggestion {
                 Some(meant) => format!("did you mean `{meant}`?"),
                 None => "a coordinate is a joint, `platform.x`, `.y`, `.z`, `.roll`, `.pitch` or \
                          `.yaw`, or a whole platform"
                     .into(),
             };
-            let title = format!("`{name}` is neither a joint nor a coordinate of a platform");
             (said(title, "not known", Some(help)), Part::Name)
         }
-        QuestionError::NotAJoint { name } => {
-            let title = format!("`{name}` is not a joint, and only joints are held by themselves");
+        QuestionError::NotAJoint { .. } => {
             let help = "a platform is free unless it is held with --hold".to_owned();
             (said(title, "not a joint", Some(help)), Part::Name)
         }
         QuestionError::Value { text, error, .. } => value(text, error),
-        QuestionError::TooMany {
-            mobility,
-            held,
-            free,
-        } => {
-            let title = format!(
-                "{} too many: the mechanism has {} and {} held",
-                held.saturating_sub(*mobility),
-                freedoms(*mobility),
-                are(*held)
-            );
-            (said(title, "", Some(release(free))), Part::Name)
-        }
-        QuestionError::TooFew {
-            mobility,
-            held,
-            hold,
-        } => {
-            let title = format!(
-                "{} too few: the mechanism has {} and {} held",
-                mobility.saturating_sub(*held),
-                freedoms(*mobility),
-                are(*held)
-            );
+        QuestionError::TooMany { free, .. } => (said(title, "", Some(release(free))), Part::Name),
+        QuestionError::TooFew { hold, .. } => {
             let help = format!(
                 "hold {} too, e.g. {}",
                 listed(hold),
@@ -57,13 +33,6 @@ pub fn complaint(error: &QuestionError) -> (Complaint, Part) {
             (said(title, "", Some(help)), Part::Name)
         }
         QuestionError::Dependent { free, hold } => {
-            let title = format!(
-                "the number held is right, but {} cannot be chosen beside the others, and {} {} \
-                 undetermined",
-                listed(free),
-                listed(hold),
-                if hold.len() == 1 { "stays" } else { "stay" }
-            );
             let help = format!(
                 "{}; then hold {}, e.g. {}",
                 release(free),
@@ -80,21 +49,6 @@ fn said(title: String, label: &str, help: Option<String>) -> Complaint {
         title,
         label: label.into(),
         help,
-    }
-}
-
-fn freedoms(number: usize) -> String {
-    match number {
-        0 => "no freedom".into(),
-        _ => count(number, "freedom"),
-    }
-}
-
-fn are(held: usize) -> String {
-    match held {
-        0 => "nothing is".into(),
-        1 => "1 coordinate is".into(),
-        _ => format!("{held} coordinates are"),
     }
 }
 
@@ -155,8 +109,8 @@ fn value(text: &str, error: &ValueError) -> (Complaint, Part) {
             (kind, part)
         }
         ValueError::NoValue(kind) => (ProblemKind::NoValue(*kind), Part::WholeValue),
-        ValueError::NotAPose { part } => {
-            let title = format!("`{part}` is not a pose");
+        ValueError::NotAPose { .. } => {
+            let title = error.to_string();
             let help = "a pose is a list such as [Tz(0.5), Rx(10 deg)], or home".to_owned();
             return (said(title, "", Some(help)), Part::WholeValue);
         }

@@ -6,10 +6,10 @@ pub use json::{FrameJson, GapJson, PlatformJson, SolutionJson, json};
 
 use std::fmt::Write;
 
-use super::layout::{align_right, indented, listed, plain};
+use super::layout::{align_right, indented, plain};
 use super::quantity::{degrees, number, quantity, size};
 use crate::analysis::assembly::{AssemblyReport, Gap, Outcome};
-use crate::description::count;
+use crate::description::{count, listed};
 use crate::geometry::{Pose, Quaternion, RollPitchYaw};
 use crate::mechanism::{Frame, Mechanism};
 use crate::system::Question;

@@ -1,3 +1,4 @@
+use super::equations::System;
 use super::freedom::Holdable;
 use super::layout::{Held, HeldPlatform};
 use super::value::{self, ValueError};
@@ -203,6 +204,11 @@ impl<'a> Question<'a> {
             joints: self.joints.clone(),
             platforms: platforms.collect(),
         }
+    }
+
+    /// The equations of the question.
+    pub fn system(&self) -> System<f64> {
+        System::new(self.mechanism.dimensions(), &self.held())
     }
 
     /// Where the search starts: guesses, held values and for the rest the home configuration.

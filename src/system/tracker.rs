@@ -5,7 +5,7 @@ use crate::solve::{Newton, Report, Trail, Warm, WarmReport};
 /// Follows a mechanism while its held coordinates move: one short solve for each change of them.
 ///
 /// ```text
-/// let mut tracker = Tracker::new(system, home);
+/// let mut tracker = Tracker::new(question.system(), assembled.configuration);
 /// for angle in crank_angles {
 ///     let report = tracker.solve(|held| held.joints[crank] = angle);
 ///     assert!(report.solved || tracker.recover(&Newton::default()).stop == Stop::Solved);

@@ -1,7 +1,7 @@
 //! Words for what is wrong with an expression.
 
 use super::syntax::shown;
-use super::{count, listed, nearest};
+use super::{count, nearest, quoted};
 use crate::algebra::{
     EvaluationErrorKind, Function, MAX_HEIGHT, MAX_NESTING, ParseErrorKind, Unit,
 };
@@ -71,7 +71,7 @@ pub(super) fn help(error: &ParseErrorKind) -> Option<String> {
             let units = Unit::ALL.map(Unit::word);
             return Some(format!(
                 "write `*` to multiply; the units are {}",
-                listed(&units)
+                quoted(&units)
             ));
         }
         UnknownFunction(name) => {
@@ -80,7 +80,7 @@ pub(super) fn help(error: &ParseErrorKind) -> Option<String> {
                 Some(meant) => format!("did you mean `{meant}`?"),
                 None => format!(
                     "write `*` to multiply; the functions are {}",
-                    listed(&functions)
+                    quoted(&functions)
                 ),
             });
         }

@@ -1,0 +1,96 @@
+//! Words for questions that cannot be put.
+
+use std::error::Error;
+use std::fmt::{self, Display, Formatter};
+
+use super::{QuestionError, ValueError};
+use crate::description::{ProblemKind, Scope, count, listed};
+
+impl QuestionError {
+    /// What is wrong, without what to do about it.
+    pub fn title(&self) -> String {
+        match self {
+            QuestionError::UnknownName { name, .. } => {
+                format!("`{name}` is neither a joint nor a coordinate of a platform")
+            }
+            QuestionError::NotAJoint { name } => {
+                format!("`{name}` is not a joint, and only joints are held by themselves")
+            }
+            QuestionError::Value { name, text, error } => {
+                format!("`{text}` cannot be the value of `{name}`: {error}")
+            }
+            QuestionError::TooMany { mobility, held, .. } => format!(
+                "{} too many: the mechanism has {} and {} held",
+                held.saturating_sub(*mobility),
+                freedoms(*mobility),
+                are(*held)
+            ),
+            QuestionError::TooFew { mobility, held, .. } => format!(
+                "{} too few: the mechanism has {} and {} held",
+                mobility.saturating_sub(*held),
+                freedoms(*mobility),
+                are(*held)
+            ),
+            QuestionError::Dependent { free, hold } => format!(
+                "the number held is right, but {} cannot be chosen beside the others, and {} {} \
+                 undetermined",
+                listed(free),
+                listed(hold),
+                if hold.len() == 1 { "stays" } else { "stay" }
+            ),
+        }
+    }
+}
+
+impl Display for QuestionError {
+    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
+        f.write_str(&self.title())?;
+        match self {
+            QuestionError::UnknownName {
+                suggestion: Some(meant),
+                ..
+            } => write!(f, "; did you mean `{meant}`?"),
+            QuestionError::TooMany { free, .. } => write!(f, "; free {}", listed(free)),
+            QuestionError::TooFew { hold, .. } => write!(f, "; hold {} too", listed(hold)),
+            QuestionError::Dependent { free, hold } => {
+                write!(f, "; free {} and hold {}", listed(free), listed(hold))
+            }
+            _ => Ok(()),
+        }
+    }
+}
+
+impl Error for QuestionError {}
+
+impl Display for ValueError {
+    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
+        let kind = match self {
+            ValueError::Parse(kind) => ProblemKind::Expression(kind.clone()),
+            ValueError::NoValue(kind) => ProblemKind::NoValue(*kind),
+            ValueError::UnknownName { name, suggestion } => ProblemKind::UnknownName {
+                name: name.clone(),
+                suggestion: suggestion.clone(),
+                scope: Scope::Parameters,
+            },
+            ValueError::NotAPose { part } => return write!(f, "`{part}` is not a pose"),
+        };
+        f.write_str(&kind.title())
+    }
+}
+
+impl Error for ValueError {}
+
+fn freedoms(number: usize) -> String {
+    match number {
+        0 => "no freedom".into(),
+        _ => count(number, "freedom"),
+    }
+}
+
+fn are(held: usize) -> String {
+    match held {
+        0 => "nothing is".into(),
+        1 => "1 coordinate is".into(),
+        _ => format!("{held} coordinates are"),
+    }
+}
