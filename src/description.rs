@@ -4,6 +4,8 @@
 //! is a possible name. Whether the names refer to anything is asked later. All problems of a file are found in one
 //! reading; each is a [`Problem`] that points into the text, and one file puts words to them.
 
+use std::collections::HashSet;
+
 mod brackets;
 mod checks;
 mod expectation;
@@ -30,17 +32,68 @@ pub use words::{count, listed};
 /// The version of the file format that this program reads and writes.
 pub const VERSION: u32 = 1;
 
-impl Description {
-    /// Reads the text of a mechanism file, or says everything that is wrong with it, in the order of the text.
+/// A file as far as it could be read.
+pub struct Draft {
+    /// What could be read; parts with a problem are left out or hold something harmless.
+    pub description: Description,
+    /// What is wrong with the form of the file, in the order of the text.
+    pub problems: Vec<Problem>,
+    /// Names whose definitions have one of these problems.
+    broken: HashSet<String>,
+}
+
+impl Draft {
+    /// Reads the text of a mechanism file as far as possible; nothing of a text without any structure.
     pub fn read(text: &str) -> Result<Self, Vec<Problem>> {
-        let (description, mut problems) = reader::read(text);
+        let (description, mut problems, mut broken) = reader::read(text);
         if let Some(description) = &description {
             checks::check(description, &mut problems);
         }
+        let names = problems.iter().filter_map(|problem| match &problem.kind {
+            ProblemKind::NotAName { name, .. } | ProblemKind::DottedName { name, .. } => {
+                Some(name.clone())
+            }
+            _ => None,
+        });
+        broken.extend(names);
         problems.sort_by_key(|problem| (problem.span.start, problem.span.end));
         match description {
-            Some(description) if problems.is_empty() => Ok(description),
-            _ => Err(problems),
+            Some(description) => Ok(Draft {
+                description,
+                problems,
+                broken,
+            }),
+            None => Err(problems),
+        }
+    }
+
+    /// Whether a problem with the meaning may be there only because a part could not be read: a name whose
+    /// definition, or all definitions of its kind, have a problem of form.
+    pub fn explains(&self, problem: &Problem) -> bool {
+        let file = &self.description;
+        match &problem.kind {
+            ProblemKind::UnknownName { name, .. } => {
+                self.broken.contains(name) || file.parameters.is_empty() || file.joints.is_empty()
+            }
+            ProblemKind::UnknownFrame { name, .. } => {
+                let parts = name.split('.').chain([name.as_str()]);
+                parts.into_iter().any(|part| self.broken.contains(part))
+                    || (file.chains.is_empty() && file.platforms.is_empty())
+            }
+            ProblemKind::NoSuchLink { chain, .. } => self.broken.contains(chain),
+            ProblemKind::NothingToAnalyse => true,
+            _ => false,
+        }
+    }
+}
+
+impl Description {
+    /// Reads the text of a mechanism file, or says what is wrong with its form, in the order of the text.
+    pub fn read(text: &str) -> Result<Self, Vec<Problem>> {
+        let draft = Draft::read(text)?;
+        match draft.problems.is_empty() {
+            true => Ok(draft.description),
+            false => Err(draft.problems),
         }
     }
 }

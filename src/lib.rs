@@ -11,3 +11,8 @@ pub mod number;
 pub mod output;
 pub mod solve;
 pub mod system;
+
+/// The Rust of the README, compiled and run.
+#[cfg(doctest)]
+#[doc = include_str!("../README.md")]
+struct Readme;

@@ -30,11 +30,11 @@ fn problems(text: &str) -> Vec<Problem> {
     Description::read(text).expect_err("the file is wrong")
 }
 
-/// What is wrong with the form of a file, or else with its meaning.
-fn problems_of_form_or_meaning(text: &str) -> Vec<Problem> {
-    Description::read(text)
-        .and_then(|description| Mechanism::new(&description))
-        .expect_err("the file is wrong")
+/// What is wrong with the form of a file and with its meaning.
+fn all_problems(text: &str) -> Vec<Problem> {
+    let problems = Mechanism::problems(text);
+    assert!(!problems.is_empty(), "the file is wrong");
+    problems
 }
 
 fn file_error(text: &str, problems: Vec<Problem>) -> FileError {
@@ -53,7 +53,7 @@ fn wrong_files_are_answered_with_all_their_problems() {
         let name = path.file_stem().unwrap().to_str().unwrap();
         let error = FileError {
             path: format!("{name}.ron").into(),
-            problems: problems_of_form_or_meaning(&text),
+            problems: all_problems(&text),
             text,
         };
         lines += &format!("{error}\n");

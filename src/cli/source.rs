@@ -62,7 +62,7 @@ pub struct Loaded {
 impl Source {
     /// Reads the file, or says everything that is wrong with it or with `--set`.
     pub fn load(&self) -> Result<Loaded, Refusal> {
-        let (text, mut description) = description::load(&self.file).map_err(|error| {
+        let (text, mut description) = Mechanism::read(&self.file).map_err(|error| {
             Refusal(match error {
                 LoadError::Wrong(error) => diagnostics::render(&error, style()),
                 other => format!("error: {other}\n"),

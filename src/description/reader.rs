@@ -7,16 +7,19 @@ mod leaves;
 mod shapes;
 mod syntax;
 
+use std::collections::HashSet;
+
 use super::piece::{Piece, Shape};
 use super::*;
 use shapes::Fields;
 
-/// The description as far as it could be read, and what is wrong with the text.
-pub(super) fn read(text: &str) -> (Option<Description>, Vec<Problem>) {
+/// The description as far as it could be read, what is wrong with the text, and the names it is wrong with.
+pub(super) fn read(text: &str) -> (Option<Description>, Vec<Problem>, HashSet<String>) {
     if text.len() as u64 > MAX_BYTES {
         return (
             None,
             vec![ProblemKind::TooLarge { bytes: text.len() }.at(0..0)],
+            HashSet::new(),
         );
     }
     // Some editors begin a file with a byte order mark.
@@ -27,6 +30,7 @@ pub(super) fn read(text: &str) -> (Option<Description>, Vec<Problem>) {
     };
     let mut reader = Reader {
         problems: Vec::new(),
+        broken: HashSet::new(),
     };
     let description = match syntax::check(text, start) {
         Ok(begin) => reader.mechanism(Piece::new(&text[begin..], begin)),
@@ -35,11 +39,12 @@ pub(super) fn read(text: &str) -> (Option<Description>, Vec<Problem>) {
             None
         }
     };
-    (description, reader.problems)
+    (description, reader.problems, reader.broken)
 }
 
 struct Reader {
     problems: Vec<Problem>,
+    broken: HashSet<String>,
 }
 
 impl Reader {

@@ -10,7 +10,9 @@ use super::model::{
 use super::names::{Names, definition_order};
 use super::{Frame, Mechanism, inspect};
 use crate::algebra::Affine;
-use crate::description::{self, Description, Displacement, Entry, MatrixEntry, Named, Note, Noun};
+use crate::description::{
+    self, Description, Displacement, Draft, Entry, MatrixEntry, Named, Note, Noun,
+};
 use crate::description::{FileError, LoadError, Problem, ProblemKind, Scope, Severity};
 use crate::geometry::{Axis, Pose};
 
@@ -19,6 +21,8 @@ pub(super) struct Builder<'a> {
     pub names: Names<'a>,
     pub problems: Vec<Problem>,
     pub values: Vec<f64>,
+    /// Whether all parameters have values: without, every dimension would be wrong for the same reason again.
+    values_known: bool,
 }
 
 impl Mechanism {
@@ -27,7 +31,7 @@ impl Mechanism {
     /// # Errors
     /// If the file cannot be read, or with everything that is wrong with it.
     pub fn load(path: impl AsRef<Path>) -> Result<Self, LoadError> {
-        let (text, description) = description::load(&path)?;
+        let (text, description) = Mechanism::read(&path)?;
         Mechanism::new(&description).map_err(|problems| {
             LoadError::Wrong(FileError {
                 path: path.as_ref().to_owned(),
@@ -35,6 +39,39 @@ impl Mechanism {
                 problems,
             })
         })
+    }
+
+    /// Reads a mechanism file as a description, to be changed before it becomes a mechanism. Returns its text too.
+    ///
+    /// # Errors
+    /// If the file cannot be read or its form is wrong; then with everything that is wrong with it.
+    pub fn read(path: impl AsRef<Path>) -> Result<(String, Description), LoadError> {
+        description::load(path).map_err(|error| match error {
+            LoadError::Wrong(mut error) => {
+                error.problems = Mechanism::problems(&error.text);
+                LoadError::Wrong(error)
+            }
+            other => other,
+        })
+    }
+
+    /// Everything that is wrong with the text of a mechanism file, in its form and in its meaning, in the order of
+    /// the text; nothing if it describes a mechanism.
+    pub fn problems(text: &str) -> Vec<Problem> {
+        let draft = match Draft::read(text) {
+            Ok(draft) => draft,
+            Err(problems) => return problems,
+        };
+        let mut problems = draft.problems.clone();
+        if let Err(found) = Mechanism::new(&draft.description) {
+            // warnings of a file that is only partly read may be wrong
+            let error = |problem: &Problem| problem.severity() == Severity::Error;
+            let new = |problem: &Problem| error(problem) && !draft.explains(problem);
+            let whole = draft.problems.is_empty();
+            problems.extend(found.into_iter().filter(|problem| whole || new(problem)));
+        }
+        problems.sort_by_key(|problem| (problem.span.start, problem.span.end));
+        problems
     }
 
     /// Resolves every name and evaluates every dimension of a description.
@@ -45,12 +82,10 @@ impl Mechanism {
             names: Names::new(description),
             problems: Vec::new(),
             values: vec![f64::NAN; description.parameters.len()],
+            values_known: true,
         };
         let parameters = builder.parameters(description);
-        // without values every dimension would be wrong for the same reason again
-        let Some(parameters) = parameters.filter(|_| builder.problems.is_empty()) else {
-            return Err(builder.problems);
-        };
+        builder.values_known = parameters.is_some() && builder.problems.is_empty();
         let joints = builder.joints(description);
         let chains = builder.chains(description);
         let platforms = builder.platforms(description);
@@ -59,7 +94,7 @@ impl Mechanism {
         let mut mechanism = Mechanism {
             name: description.name.value.clone(),
             source: description.source.as_ref().map(|s| s.value.clone()),
-            parameters,
+            parameters: parameters.unwrap_or_default(),
             joints,
             chains,
             platforms,
@@ -124,6 +159,9 @@ impl Builder<'_> {
 
     /// The value of a formula over parameters.
     fn value(&mut self, formula: &Formula) -> Option<f64> {
+        if !self.values_known {
+            return Some(f64::NAN);
+        }
         let values = &self.values;
         let result = formula.evaluate(&|symbol| match *symbol {
             Symbol::Parameter(i) => values[i],

@@ -158,8 +158,12 @@ impl Reader {
         for (key, value) in self.split(piece, piece.pairs()).unwrap_or_default() {
             let name = self.text(key, Expected::NameOf(noun));
             // What a name stands for is read even if the name is wrong, to find what else is.
+            let before = self.problems.len();
             let value = read(self, value);
             let Some(name) = name else { continue };
+            if self.problems.len() > before {
+                self.broken.insert(name.value.clone());
+            }
             if let Some(first) = first.get(&name.value) {
                 let problem = ProblemKind::DuplicateName {
                     noun,
