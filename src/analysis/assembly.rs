@@ -270,31 +270,39 @@ impl<'a> Search<'a> {
         Attempt { at, report }
     }
 
-    /// The start of the question; platforms without a guess of their own are put where they suit
-    /// the joints best when those do not start at home.
+    /// The start of the question. When it is not home, what has no guess of its own is first
+    /// brought to where it suits the rest best.
     fn guess(&self) -> Configuration<f64> {
         let start = self.question.start();
-        if self.question.differs_from_home() {
-            self.fit_platforms(start, self.question.guessed())
-        } else {
-            start
+        if !self.question.differs_from_home() {
+            return start;
         }
+        let guessed = self.question.guessed_joints();
+        let joints = match guessed.contains(&true) {
+            true => (guessed.iter().zip(&self.held.joints))
+                .map(|(guessed, held)| guessed | held)
+                .collect(),
+            false => vec![true; guessed.len()],
+        };
+        self.fit(start, joints, self.question.guessed_platforms())
     }
 
-    /// Brings platforms as near to the chains as they can come with all joints held: the
-    /// formulation decides success more than the method, and a platform that fits its legs is a far
-    /// better guess than one that does not.
-    fn fit_platforms(&self, start: Configuration<f64>, fixed: &[bool]) -> Configuration<f64> {
-        let platforms = self.held.platforms.iter().zip(fixed);
+    /// Brings what is not fixed as near to closing as it can come: the formulation decides success
+    /// more than the method, and a platform that fits its legs is a far better guess than one that
+    /// does not.
+    fn fit(
+        &self,
+        start: Configuration<f64>,
+        joints: Vec<bool>,
+        fixed_platforms: &[bool],
+    ) -> Configuration<f64> {
+        let platforms = self.held.platforms.iter().zip(fixed_platforms);
         let held = Held {
-            joints: vec![true; start.joints.len()],
+            joints,
             platforms: platforms
-                .map(|(held, &fixed)| {
-                    if fixed {
-                        HeldPlatform::Pose
-                    } else {
-                        held.clone()
-                    }
+                .map(|(held, &fixed)| match fixed {
+                    true => HeldPlatform::Pose,
+                    false => held.clone(),
                 })
                 .collect(),
         };
@@ -334,7 +342,8 @@ impl<'a> Search<'a> {
                 };
             }
         }
-        self.fit_platforms(at, &vec![false; self.held.platforms.len()])
+        let joints = vec![true; at.joints.len()];
+        self.fit(at, joints, &vec![false; self.held.platforms.len()])
     }
 
     fn outside_limits(&self, at: &Configuration<f64>) -> Vec<usize> {

@@ -19,7 +19,8 @@ pub struct Question<'a> {
     asked: Vec<bool>,
     coordinates: Vec<[Option<f64>; 6]>,
     start: Configuration<f64>,
-    guessed: Vec<bool>,
+    guessed_joints: Vec<bool>,
+    guessed_platforms: Vec<bool>,
     changed: bool,
     split_changed: bool,
 }
@@ -86,7 +87,8 @@ impl<'a> Question<'a> {
             asked: vec![false; mechanism.joints().len()],
             coordinates: vec![[None; 6]; platforms],
             start: mechanism.home(),
-            guessed: vec![false; platforms],
+            guessed_joints: vec![false; mechanism.joints().len()],
+            guessed_platforms: vec![false; platforms],
             changed: false,
             split_changed: false,
             mechanism,
@@ -119,7 +121,7 @@ impl<'a> Question<'a> {
                     self.coordinates[platform][coordinate as usize] = Some(value);
                 }
                 self.start.platforms[platform] = PlatformPose::from_pose(&pose);
-                self.guessed[platform] = true;
+                self.guessed_platforms[platform] = true;
                 self.split_changed = true;
             }
         }
@@ -150,6 +152,7 @@ impl<'a> Question<'a> {
                 let value = self.number(name, value, self.mechanism.joints()[joint].home)?;
                 if !self.joints[joint] {
                     self.start.joints[joint] = value;
+                    self.guessed_joints[joint] = true;
                     self.changed = true;
                 }
             }
@@ -161,12 +164,12 @@ impl<'a> Question<'a> {
                     [(coordinate, value)],
                 );
                 self.start.platforms[platform] = PlatformPose::from_pose(&pose);
-                self.guessed[platform] = true;
+                self.guessed_platforms[platform] = true;
             }
             Target::Pose(platform) => {
                 let pose = self.pose(name, value, platform)?;
                 self.start.platforms[platform] = PlatformPose::from_pose(&pose);
-                self.guessed[platform] = true;
+                self.guessed_platforms[platform] = true;
             }
         }
         Ok(self)
@@ -224,9 +227,14 @@ impl<'a> Question<'a> {
         start
     }
 
+    /// For each joint whether its starting value was given with the question.
+    pub fn guessed_joints(&self) -> &[bool] {
+        &self.guessed_joints
+    }
+
     /// For each platform whether its starting pose was given with the question.
-    pub fn guessed(&self) -> &[bool] {
-        &self.guessed
+    pub fn guessed_platforms(&self) -> &[bool] {
+        &self.guessed_platforms
     }
 
     /// Whether joints start elsewhere than at home.
