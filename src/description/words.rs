@@ -1,6 +1,7 @@
 //! The words for every problem: a sentence, a label for the offending text, and what to do about it.
 
 mod expression;
+mod parts;
 mod syntax;
 
 use std::fmt::{self, Display, Formatter};
@@ -296,125 +297,5 @@ impl Display for ReplacementError {
                 f.write_str(&titles.join("; "))
             }
         }
-    }
-}
-
-impl Display for Noun {
-    fn fmt(&self, f: &mut Formatter) -> fmt::Result {
-        f.write_str(match self {
-            Self::Field => "a field",
-            Self::Parameter => "a parameter",
-            Self::Joint => "a joint",
-            Self::Chain => "a chain",
-            Self::Platform => "a platform",
-            Self::PlatformFrame => "a platform frame",
-            Self::Closure => "a closure",
-            Self::ClosedForm => "a closed form",
-            Self::LocalName => "a local name",
-            Self::MatrixEntry => "an entry of a pose",
-            Self::Identity => "an identity",
-        })
-    }
-}
-
-impl Display for Structure {
-    fn fmt(&self, f: &mut Formatter) -> fmt::Result {
-        f.write_str(match self {
-            Self::Mechanism => "a mechanism",
-            Self::Passive | Self::Actuated => "a joint",
-            Self::Chain => "a chain",
-            Self::Row => "a row",
-            Self::Platform => "a platform",
-            Self::ClosedForm => "a closed form",
-        })
-    }
-}
-
-impl Display for Scope {
-    fn fmt(&self, f: &mut Formatter) -> fmt::Result {
-        f.write_str(match self {
-            Self::Parameters => "not a parameter",
-            Self::ParametersAndJoints => "neither a parameter nor a joint",
-            Self::ClosedForm => "neither a parameter nor a joint nor a local name",
-        })
-    }
-}
-
-impl Expected {
-    /// What a tuple is made of.
-    fn unit(self) -> &'static str {
-        match self {
-            Self::ClosureFrames("Distance") => "value",
-            Self::ClosureFrames(_) => "frame",
-            Self::RotationRows | Self::TransformRows => "row",
-            _ => "entry",
-        }
-    }
-}
-
-impl Display for Expected {
-    fn fmt(&self, f: &mut Formatter) -> fmt::Result {
-        f.write_str(match self {
-            Self::Fields(structure) => return write!(f, "{structure}, `{}(…)`", structure.word()),
-            Self::NameOf(noun) => return write!(f, "the name of {noun}"),
-            Self::MapOf(noun) => {
-                return write!(
-                    f,
-                    "a map in which each name is followed by {}",
-                    content(*noun)
-                );
-            }
-            Self::DisplacementEntries(word) => return write!(f, "`{word}(…)`"),
-            Self::ClosureFrames("Distance") => "`Distance(frame, frame, length)`",
-            Self::ClosureFrames(word) => return write!(f, "`{word}(frame, frame)`"),
-            Self::Version => "the number of the file format",
-            Self::Text => "a text",
-            Self::Frame => "the name of a frame",
-            Self::Entry => "a number or an expression",
-            Self::Rows => "a list of rows",
-            Self::Transform => "a list of displacements",
-            Self::Displacement => "a displacement such as `Tx(…)` or `Rz(…)`",
-            Self::Joint => "`Passive(…)` or `Actuated(…)`",
-            Self::Limits => "limits `(lowest, highest)`",
-            Self::Convention => "`Modified` or `Standard`",
-            Self::Closure => "a closure such as `Revolute(frame, frame)`",
-            Self::Vector => "a vector `(x, y, z)`",
-            Self::RotationRows => "a rotation matrix",
-            Self::RotationRow => "a row of a rotation matrix",
-            Self::TransformRows => "a transform",
-            Self::TransformRow => "a row of a transform",
-        })
-    }
-}
-
-fn content(noun: Noun) -> &'static str {
-    match noun {
-        Noun::Parameter | Noun::LocalName | Noun::MatrixEntry | Noun::Identity => {
-            "a number or an expression"
-        }
-        Noun::Joint => "`Passive(…)` or `Actuated(…)`",
-        Noun::Chain => "`Chain(…)`",
-        Noun::Platform => "`Platform(…)`",
-        Noun::PlatformFrame => "a list of displacements",
-        Noun::Closure => "a closure",
-        Noun::ClosedForm => "`ClosedForm(…)`",
-        Noun::Field => "a value",
-    }
-}
-
-impl Display for Found {
-    fn fmt(&self, f: &mut Formatter) -> fmt::Result {
-        f.write_str(match self {
-            Self::Number => "a number",
-            Self::Text => "a text",
-            Self::Character => "a character in apostrophes",
-            Self::Bytes => "a string of bytes",
-            Self::List => "a list `[…]`",
-            Self::Map => "a map `{…}`",
-            Self::Tuple => "values without field names `(…)`",
-            Self::Fields => "fields `(name: …)`",
-            Self::Word(word) => return write!(f, "`{word}`"),
-            Self::Call(word) => return write!(f, "`{word}(…)`"),
-        })
     }
 }

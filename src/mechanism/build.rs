@@ -1,18 +1,16 @@
 //! From a well-formed description to a meaningful mechanism, or to all that is wrong with it.
 
+mod closed_form;
+mod parameters;
+
 use std::collections::HashMap;
 use std::path::Path;
 
-use super::model::{
-    Chain, ClosedForm, Closure, FixedStep, Formula, Given, Joint, JointKind, Parameter, Platform,
-    Row, Symbol,
-};
+use super::model::{Chain, Closure, FixedStep, Formula, Joint, JointKind, Platform, Row, Symbol};
 use super::names::{Names, definition_order};
 use super::{Frame, Mechanism, inspect};
 use crate::algebra::Affine;
-use crate::description::{
-    self, Description, Displacement, Draft, Entry, MatrixEntry, Named, Note, Noun,
-};
+use crate::description::{self, Description, Displacement, Draft, Entry, Named, Note};
 use crate::description::{FileError, LoadError, Problem, ProblemKind, Scope, Severity};
 use crate::geometry::{Axis, Pose};
 
@@ -195,67 +193,6 @@ impl Builder<'_> {
         }
     }
 
-    fn parameters(&mut self, description: &Description) -> Option<Vec<Parameter>> {
-        let entries = &description.parameters;
-        let none = HashMap::new();
-        let formulas: Vec<Option<Formula>> = (entries.iter())
-            .map(|named| self.formula(&named.value, Scope::Parameters, &none))
-            .collect();
-        let formulas: Vec<Formula> = formulas.into_iter().collect::<Option<_>>()?;
-        let order = self.order(Noun::Parameter, entries, &formulas, |symbol| match symbol {
-            Symbol::Parameter(i) => Some(i),
-            _ => None,
-        })?;
-        for i in order {
-            // a parameter without a value makes those defined through it fail for the same reason
-            self.values[i] = self.value(&formulas[i])?;
-        }
-        let parts = entries.iter().zip(formulas).zip(&self.values);
-        Some(
-            parts
-                .map(|((named, definition), &value)| Parameter {
-                    name: named.name.value.clone(),
-                    definition,
-                    value,
-                })
-                .collect(),
-        )
-    }
-
-    /// The order in which definitions can be evaluated, or `None` with the cycle recorded.
-    fn order(
-        &mut self,
-        noun: Noun,
-        entries: &[Named<Entry>],
-        formulas: &[Formula],
-        definition: impl Fn(Symbol) -> Option<usize>,
-    ) -> Option<Vec<usize>> {
-        let uses: Vec<Vec<usize>> = (formulas.iter())
-            .map(|formula| {
-                formula
-                    .names()
-                    .filter_map(|(symbol, _)| definition(*symbol))
-                    .collect()
-            })
-            .collect();
-        match definition_order(&uses) {
-            Ok(order) => Some(order),
-            Err(cycle) => {
-                let names = cycle
-                    .iter()
-                    .map(|&i| entries[i].name.value.clone())
-                    .collect();
-                let kind = ProblemKind::DefinitionCycle { noun, names };
-                let problem = kind.at(entries[cycle[0]].name.span.clone());
-                let rest = cycle[1..].iter().map(|&i| entries[i].name.span.clone());
-                let problem =
-                    rest.fold(problem, |problem, span| problem.with(span, Note::ThenHere));
-                self.problems.push(problem);
-                None
-            }
-        }
-    }
-
     fn joints(&mut self, description: &Description) -> Vec<Joint> {
         let mut joints = Vec::new();
         for Named { name, value } in &description.joints {
@@ -415,114 +352,5 @@ impl Builder<'_> {
             });
         }
         closures
-    }
-
-    fn closed_forms(&mut self, description: &Description) -> Vec<ClosedForm> {
-        let mut forms = Vec::new();
-        for Named { name, value } in &description.closed_forms {
-            if let Some((locals, gives)) = self.closed_form(value) {
-                forms.push(ClosedForm {
-                    name: name.value.clone(),
-                    source: value.source.as_ref().map(|s| s.value.clone()),
-                    locals,
-                    gives,
-                });
-            }
-        }
-        forms
-    }
-
-    fn closed_form(
-        &mut self,
-        form: &description::ClosedFormDescription,
-    ) -> Option<(Vec<(String, Formula)>, Given)> {
-        let names = form.locals.iter().map(|local| local.name.value.as_str());
-        let indices: HashMap<&str, usize> = names.enumerate().map(|(i, n)| (n, i)).collect();
-        let scope = Scope::ClosedForm;
-        let formulas: Vec<Option<Formula>> = (form.locals.iter())
-            .map(|local| self.formula(&local.value, scope, &indices))
-            .collect();
-        let mut entries = Vec::new();
-        let mut add = |builder: &mut Self, place: MatrixEntry, entry: &Entry| {
-            let formula = builder.formula(entry, scope, &indices);
-            entries.extend(formula.map(|formula| (place, formula)));
-        };
-        for (i, entry) in form.position.iter().flatten().enumerate() {
-            add(self, MatrixEntry::Position(i), entry);
-        }
-        for (i, row) in form.rotation.iter().flatten().enumerate() {
-            for (j, entry) in row.iter().enumerate() {
-                add(self, MatrixEntry::Rotation(i, j), entry);
-            }
-        }
-        for (i, row) in form.transform.iter().flatten().enumerate() {
-            for (j, entry) in row.iter().enumerate() {
-                let place = match j {
-                    3 => MatrixEntry::Position(i),
-                    _ => MatrixEntry::Rotation(i, j),
-                };
-                add(self, place, entry);
-            }
-        }
-        for (place, entry) in &form.entries {
-            add(self, place.value, entry);
-        }
-        let mut identities = Vec::new();
-        if let Some(entry) = &form.identity {
-            let formula = self.formula(entry, scope, &indices);
-            identities.extend(formula.map(|formula| (String::from("identity"), formula)));
-        }
-        for Named { name, value } in &form.identities {
-            let formula = self.formula(value, scope, &indices);
-            identities.extend(formula.map(|formula| (name.value.clone(), formula)));
-        }
-        let of = form.of.as_ref().map(|frame| self.frame(frame));
-        let relative_to = form
-            .relative_to
-            .as_ref()
-            .map_or(Frame::Ground, |frame| self.frame(frame));
-
-        let formulas: Vec<Formula> = formulas.into_iter().collect::<Option<_>>()?;
-        let order = self.order(
-            Noun::LocalName,
-            &form.locals,
-            &formulas,
-            |symbol| match symbol {
-                Symbol::Local(i) => Some(i),
-                _ => None,
-            },
-        )?;
-        // the locals are stored in the order of evaluation, so their indices change
-        let mut place = vec![0; order.len()];
-        for (new, &old) in order.iter().enumerate() {
-            place[old] = new;
-        }
-        let renumber = |formula: &Formula| {
-            let renumbered = formula.try_resolve(|symbol, _| {
-                Ok::<_, std::convert::Infallible>(match *symbol {
-                    Symbol::Local(i) => Symbol::Local(place[i]),
-                    other => other,
-                })
-            });
-            renumbered.expect("no error is possible")
-        };
-        let locals = order
-            .iter()
-            .map(|&i| (form.locals[i].name.value.clone(), renumber(&formulas[i])));
-        let locals = locals.collect();
-        let gives = match of {
-            Some(of) => Given::Pose {
-                of,
-                relative_to,
-                entries: entries.iter().map(|(e, f)| (*e, renumber(f))).collect(),
-            },
-            None => Given::Identities(
-                identities
-                    .iter()
-                    .map(|(n, f)| (n.clone(), renumber(f)))
-                    .collect(),
-            ),
-        };
-        Some((locals, gives))
     }
 }
