@@ -58,7 +58,7 @@ fn mechanisms() -> Vec<String> {
 }
 
 #[test]
-fn every_shipped_mechanism_is_checked_and_solved() {
+fn every_shipped_mechanism_is_checked_solved_and_compared() {
     for file in mechanisms() {
         answer(&["check", &file]);
         assert_eq!(
@@ -67,7 +67,23 @@ fn every_shipped_mechanism_is_checked_and_solved() {
         );
         answer(&["solve", &file]);
         assert_eq!(json(&["solve", &file])["outcome"], "converged", "{file}");
+        answer(&["compare", &file]);
+        assert_eq!(json(&["compare", &file])["agree"], true, "{file}");
     }
+}
+
+#[test]
+fn a_wrong_closed_form_is_answered_no() {
+    let file = "mechanisms/three_rps.ron";
+    answer(&["compare", file, "--set", "b=1.1"]);
+    let right = std::fs::read_to_string(Path::new(env!("CARGO_MANIFEST_DIR")).join(file)).unwrap();
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("wrong.ron");
+    std::fs::write(&path, right.replace("b - l1*", "b + l1*")).unwrap();
+    let output = run(&["compare", path.to_str().unwrap()]);
+    assert_eq!(output.status.code(), Some(1));
+    let text = String::from_utf8(output.stdout).unwrap();
+    assert!(text.contains("disagrees") && text.contains("S1"), "{text}");
 }
 
 #[test]
@@ -261,7 +277,7 @@ fn files_that_cannot_be_read_are_refused() {
 
 #[test]
 fn a_wrong_file_is_answered_with_all_its_problems() {
-    for command in ["check", "solve"] {
+    for command in ["check", "solve", "compare"] {
         let said = refusal(&[command, "tests/wrong/unknown_frames.ron"]);
         assert!(said.contains("did you mean `ground`?"), "{said}");
         assert!(
@@ -323,7 +339,7 @@ fn a_full_disk_is_reported() {
 
 #[test]
 fn help_shows_an_example_of_every_command() {
-    for command in ["check", "solve"] {
+    for command in ["check", "solve", "compare"] {
         let help = answer(&[command, "--help"]);
         assert!(
             help.contains(&format!("linkwork {command} mechanisms/")),
