@@ -2,3 +2,4 @@
 //! use one another.
 
 pub mod assembly;
+pub mod mobility;

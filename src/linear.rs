@@ -5,10 +5,12 @@
 //! appear in that leg's closures only, and the platforms tie the legs together.
 
 mod bordered;
+mod decomposition;
 mod lu;
 mod qr;
 
 pub use bordered::{Block, Bordered};
+pub use decomposition::{Decomposition, complement, dot, norm, orthonormal, remove};
 pub use qr::Qr;
 
 /// The one rank tolerance of the program: a direction counts as lost when it is this small beside

@@ -2,15 +2,25 @@
 //!
 //! Direct, inverse and mixed kinematics are only different choices of what is held ([`Held`]).
 
+mod closing;
 mod displacement;
 mod equations;
 mod freedom;
+mod gap;
 mod layout;
+mod neighbourhood;
 mod question;
+mod starts;
+mod twists;
 mod value;
 
-pub use equations::{System, Work};
+pub use closing::{Analysed, Closed, NotClosed, WidestGap, close, fit_platforms};
+pub use equations::{ClosureWrenches, System, Work};
 pub use freedom::{Freedoms, Holdable, Mobility};
+pub use gap::Gap;
 pub use layout::{Held, HeldPlatform, Unknown};
+pub use neighbourhood::{Followed, Neighbourhood, Tangent};
 pub use question::{Question, QuestionError};
+pub use starts::{random_configuration, sampling_range};
+pub use twists::{FrameTwists, Twist};
 pub use value::ValueError;

@@ -7,12 +7,14 @@ use rand::{Rng, SeedableRng};
 use rand_pcg::Pcg64Mcg;
 use serde::Serialize;
 
-use crate::description::{ClosureKind, Role};
+use crate::description::Role;
 use crate::geometry::{Quaternion, Vector3};
-use crate::mechanism::{Configuration, Coordinate, Joint, JointKind, Mechanism, PlatformPose};
+use crate::mechanism::{Configuration, Coordinate, JointKind, Mechanism, PlatformPose};
 use crate::solve::{Equations, Newton, Report, Stop};
+pub use crate::system::Gap;
 use crate::system::{
     Freedoms, Held, HeldPlatform, Holdable, Mobility, Question, QuestionError, System, Work,
+    fit_platforms, sampling_range,
 };
 
 /// How to look for an assembled configuration.
@@ -71,16 +73,6 @@ pub enum Outcome {
         /// Index of the closure with the widest gap.
         worst: usize,
     },
-}
-
-/// How far a closure is from being whole.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Gap {
-    /// Distance in m: between the origins, or what a `Distance` differs by, or along the blocked
-    /// directions of a sliding joint.
-    pub distance: f64,
-    /// Angle in rad between the axes, or between the frames where no turn is allowed.
-    pub angle: f64,
 }
 
 /// Where the search for an assembled configuration ended.
@@ -274,41 +266,16 @@ impl<'a> Search<'a> {
     fn guess(&self) -> Configuration<f64> {
         let start = self.question.start();
         if self.question.differs_from_home() {
-            self.fit_platforms(start, self.question.guessed())
+            fit_platforms(
+                self.mechanism,
+                &self.held,
+                &self.settings.newton,
+                start,
+                self.question.guessed(),
+            )
         } else {
             start
         }
-    }
-
-    /// Brings platforms as near to the chains as they can come with all joints held: the
-    /// formulation decides success more than the method, and a platform that fits its legs is a far
-    /// better guess than one that does not.
-    fn fit_platforms(&self, start: Configuration<f64>, fixed: &[bool]) -> Configuration<f64> {
-        let platforms = self.held.platforms.iter().zip(fixed);
-        let held = Held {
-            joints: vec![true; start.joints.len()],
-            platforms: platforms
-                .map(|(held, &fixed)| {
-                    if fixed {
-                        HeldPlatform::Pose
-                    } else {
-                        held.clone()
-                    }
-                })
-                .collect(),
-        };
-        let system = System::new(self.mechanism.dimensions(), &held);
-        if system.unknowns().is_empty() {
-            return start;
-        }
-        let mut work = system.work();
-        let newton = Newton {
-            max_steps: 20,
-            ..self.settings.newton.clone()
-        };
-        let (mut at, mut trial) = (start.clone(), start);
-        newton.solve(&system, &mut at, &mut trial, &mut work);
-        at
     }
 
     fn random_start(&self, rng: &mut Pcg64Mcg) -> Configuration<f64> {
@@ -333,7 +300,13 @@ impl<'a> Search<'a> {
                 };
             }
         }
-        self.fit_platforms(at, &vec![false; self.held.platforms.len()])
+        fit_platforms(
+            self.mechanism,
+            &self.held,
+            &self.settings.newton,
+            at,
+            &vec![false; self.held.platforms.len()],
+        )
     }
 
     fn outside_limits(&self, at: &Configuration<f64>) -> Vec<usize> {
@@ -362,7 +335,7 @@ impl<'a> Search<'a> {
             restarts,
             seed: self.settings.seed,
             residual: attempt.report.size.largest,
-            gaps: self.gaps(&attempt.at),
+            gaps: Gap::of(self.mechanism, &attempt.at),
             idle: 0,
             count,
             configuration: attempt.at,
@@ -407,7 +380,7 @@ impl<'a> Search<'a> {
             },
         };
         let length = self.mechanism.characteristic_length();
-        let gaps = self.gaps(&attempt.at);
+        let gaps = Gap::of(self.mechanism, &attempt.at);
         let width = |gap: &Gap| (gap.distance / length).max(gap.angle);
         let worst = (0..gaps.len()).fold(0, |worst, i| {
             if width(&gaps[i]) > width(&gaps[worst]) {
@@ -451,52 +424,5 @@ impl<'a> Search<'a> {
             .flat_map(|chain| &chain.rows);
         rows.map(|row| row.turn.coefficient(joint))
             .all(|c| c == c.round())
-    }
-
-    fn gaps(&self, at: &Configuration<f64>) -> Vec<Gap> {
-        let closures = self.mechanism.closures().iter().enumerate();
-        closures
-            .map(|(i, closure)| {
-                let [a, b] = self.mechanism.poses(closure.frames, at);
-                let g = a.rotation.inverse_rotate(&(b.position - a.position)).0;
-                let relative = a.rotation.transpose() * b.rotation;
-                let between_axes = || {
-                    let z = relative.0[2].0;
-                    z[0].hypot(z[1]).atan2(z[2])
-                };
-                let between_frames = || {
-                    let [w, x, y, z] = Quaternion::from_rotation(&relative).canonical().0;
-                    2.0 * x.hypot(y).hypot(z).atan2(w)
-                };
-                let apart = g[0].hypot(g[1]).hypot(g[2]);
-                let (distance, angle) = match closure.kind {
-                    ClosureKind::Spherical => (apart, 0.0),
-                    ClosureKind::Revolute => (apart, between_axes()),
-                    ClosureKind::Universal => {
-                        (apart, (between_axes() - std::f64::consts::FRAC_PI_2).abs())
-                    }
-                    ClosureKind::Rigid => (apart, between_frames()),
-                    ClosureKind::Prismatic => (g[0].hypot(g[1]), between_frames()),
-                    ClosureKind::Cylindrical => (g[0].hypot(g[1]), between_axes()),
-                    ClosureKind::Planar => (g[2].abs(), between_axes()),
-                    ClosureKind::Distance => {
-                        let dimensions = &self.mechanism.dimensions().closures[i];
-                        let length = dimensions.length + dimensions.extension.at(&at.joints);
-                        ((apart - length.abs()).abs(), 0.0)
-                    }
-                };
-                Gap { distance, angle }
-            })
-            .collect()
-    }
-}
-
-/// Where random values of a joint are drawn from: its limits, or a turn, or a characteristic length
-/// to each side of home.
-fn sampling_range(joint: &Joint, length: f64) -> (f64, f64) {
-    match joint.limits {
-        Some((low, high)) if low.is_finite() && high.is_finite() => (low, high),
-        _ if joint.kind.is_angle() => (-std::f64::consts::PI, std::f64::consts::PI),
-        _ => (joint.home - length, joint.home + length),
     }
 }

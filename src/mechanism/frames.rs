@@ -266,6 +266,13 @@ impl Mechanism {
         felt
     }
 
+    /// The joints that no closure feels: those of open chains.
+    pub fn unfelt_joints(&self) -> std::collections::BTreeSet<usize> {
+        let felt = self.felt_joints();
+        let all = 0..self.joints.len();
+        all.filter(|joint| !felt.contains(joint)).collect()
+    }
+
     /// The joints between a frame and the ground or platform that carries it.
     pub fn joints_below(&self, frame: Frame) -> Vec<usize> {
         let mut joints = Vec::new();

@@ -1,0 +1,180 @@
+//! Closing a mechanism before it is analysed: published poses are often not closed.
+
+use serde::Serialize;
+
+use super::{Gap, Held, HeldPlatform, Question, System};
+use crate::mechanism::{Configuration, Mechanism};
+use crate::solve::{Equations, Newton, Stop};
+
+/// How far a closure of a given pose is from being whole.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct WidestGap {
+    /// Name of the closure.
+    pub closure: String,
+    /// Distance in m.
+    pub distance: f64,
+    /// Angle in rad.
+    pub angle: f64,
+}
+
+impl WidestGap {
+    /// The larger of distance over the characteristic length and angle.
+    pub fn size(&self, mechanism: &Mechanism) -> f64 {
+        (self.distance / mechanism.characteristic_length()).max(self.angle)
+    }
+}
+
+/// A mechanism closed near the pose a question starts from.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Closed {
+    /// The assembled configuration.
+    pub configuration: Configuration<f64>,
+    /// The widest gap of the pose given; `None` if the mechanism has no closures.
+    pub given: Option<WidestGap>,
+    /// Whether what the question holds kept its values.
+    pub kept: bool,
+}
+
+/// The answer of an analysis of assembled configurations.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Analysed<R> {
+    /// The mechanism closes near the pose given; the report is about the configuration there.
+    Closed(R),
+    /// It does not.
+    NotClosed(NotClosed),
+}
+
+impl<R> Analysed<R> {
+    /// The report, if there is one.
+    pub fn closed(self) -> Option<R> {
+        match self {
+            Analysed::Closed(report) => Some(report),
+            Analysed::NotClosed(_) => None,
+        }
+    }
+}
+
+/// A mechanism that does not close near the pose given.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct NotClosed {
+    /// The widest gap that is left at the closest approach.
+    pub left: Option<WidestGap>,
+    /// Names of the held coordinates.
+    pub held: Vec<String>,
+}
+
+/// Closes a mechanism near the start of a question by Newton's method.
+///
+/// What is held keeps its values. If nothing was asked for beyond the file and that fails, the
+/// actuated joints may move too, because the file's pose may be rounded or overdetermined.
+pub fn close(question: &Question, newton: &Newton) -> Result<Closed, NotClosed> {
+    let mechanism = question.mechanism();
+    let start = question.start();
+    let given = widest(mechanism, &start);
+    let held = question.held();
+    let guess = if question.differs_from_home() {
+        fit_platforms(mechanism, &held, newton, start.clone(), question.guessed())
+    } else {
+        start.clone()
+    };
+    let (at, solved) = solve(mechanism, &held, newton, guess);
+    if solved {
+        return Ok(Closed {
+            configuration: at,
+            given,
+            kept: true,
+        });
+    }
+    if !question.differs_from_home() && !question.split_changed() {
+        let (at, solved) = solve(mechanism, &Held::nothing(mechanism), newton, start);
+        if solved {
+            return Ok(Closed {
+                configuration: at,
+                given,
+                kept: false,
+            });
+        }
+    }
+    Err(NotClosed {
+        left: widest(mechanism, &at),
+        held: question.held_names(),
+    })
+}
+
+fn solve(
+    mechanism: &Mechanism,
+    held: &Held<f64>,
+    newton: &Newton,
+    mut at: Configuration<f64>,
+) -> (Configuration<f64>, bool) {
+    let system = System::new(mechanism.dimensions(), held);
+    let mut work = system.work();
+    // a pose typed with expressions is exact, and no step can make it better
+    if system.residual(&at, &mut work).largest <= EXACT {
+        return (at, true);
+    }
+    let mut trial = at.clone();
+    let report = newton.solve(&system, &mut at, &mut trial, &mut work);
+    (at, report.stop == Stop::Solved)
+}
+
+/// Below this a dimensionless closure row is rounding.
+const EXACT: f64 = 1e-15;
+
+fn widest(mechanism: &Mechanism, at: &Configuration<f64>) -> Option<WidestGap> {
+    let gaps = Gap::of(mechanism, at);
+    let closures = mechanism.closures().iter().zip(gaps);
+    let widest = closures.max_by(|(_, a), (_, b)| a.size(mechanism).total_cmp(&b.size(mechanism)));
+    widest.map(|(closure, gap)| WidestGap {
+        closure: closure.name.clone(),
+        distance: gap.distance,
+        angle: gap.angle,
+    })
+}
+
+/// Brings platforms as near to the chains as they can come with all joints held: the formulation
+/// decides success more than the method, and a platform that fits its legs is a far better guess
+/// than one that does not. Platforms marked as fixed stay.
+pub fn fit_platforms(
+    mechanism: &Mechanism,
+    held: &Held<f64>,
+    newton: &Newton,
+    start: Configuration<f64>,
+    fixed: &[bool],
+) -> Configuration<f64> {
+    let platforms = held.platforms.iter().zip(fixed);
+    let held = Held {
+        joints: vec![true; start.joints.len()],
+        platforms: platforms
+            .map(|(held, &fixed)| {
+                if fixed {
+                    HeldPlatform::Pose
+                } else {
+                    held.clone()
+                }
+            })
+            .collect(),
+    };
+    let system = System::new(mechanism.dimensions(), &held);
+    if system.unknowns().is_empty() {
+        return start;
+    }
+    let mut work = system.work();
+    let newton = Newton {
+        max_steps: 20,
+        ..newton.clone()
+    };
+    let (mut at, mut trial) = (start.clone(), start);
+    newton.solve(&system, &mut at, &mut trial, &mut work);
+    at
+}
+
+impl Held<f64> {
+    /// Nothing held: all joints and platforms are to be found.
+    pub fn nothing(mechanism: &Mechanism) -> Self {
+        Held {
+            joints: vec![false; mechanism.joints().len()],
+            platforms: vec![HeldPlatform::Free; mechanism.platforms().len()],
+        }
+    }
+}
