@@ -2,4 +2,6 @@
 //! use one another.
 
 pub mod assembly;
+pub mod compare;
 pub mod mobility;
+pub mod overview;

@@ -13,6 +13,7 @@ mod parts;
 mod piece;
 mod problem;
 mod reader;
+mod replacement;
 mod suggestion;
 mod words;
 mod write;
@@ -22,6 +23,7 @@ pub use lines::Lines;
 pub use load::{FileError, LoadError, MAX_BYTES, load};
 pub use parts::*;
 pub use problem::*;
+pub use replacement::ReplacementError;
 pub use suggestion::nearest;
 pub use words::count;
 

@@ -11,6 +11,7 @@ mod layout;
 mod neighbourhood;
 mod question;
 mod starts;
+mod tracker;
 mod twists;
 mod value;
 
@@ -22,5 +23,6 @@ pub use layout::{Held, HeldPlatform, Unknown};
 pub use neighbourhood::{Followed, Neighbourhood, Tangent};
 pub use question::{Question, QuestionError};
 pub use starts::{random_configuration, sampling_range};
+pub use tracker::Tracker;
 pub use twists::{FrameTwists, Twist};
 pub use value::ValueError;

@@ -6,6 +6,7 @@ use std::time::{Duration, Instant};
 use linkwork::description::{
     self, Description, FileError, LoadError, MAX_BYTES, Problem, ProblemKind,
 };
+use linkwork::mechanism::Mechanism;
 #[cfg(feature = "cli")]
 use linkwork::output::diagnostics::{Style, render};
 use proptest::prelude::*;
@@ -29,6 +30,13 @@ fn problems(text: &str) -> Vec<Problem> {
     Description::read(text).expect_err("the file is wrong")
 }
 
+/// What is wrong with the form of a file, or else with its meaning.
+fn problems_of_form_or_meaning(text: &str) -> Vec<Problem> {
+    Description::read(text)
+        .and_then(|description| Mechanism::new(&description))
+        .expect_err("the file is wrong")
+}
+
 fn file_error(text: &str, problems: Vec<Problem>) -> FileError {
     FileError {
         path: "wrong.ron".into(),
@@ -45,7 +53,7 @@ fn wrong_files_are_answered_with_all_their_problems() {
         let name = path.file_stem().unwrap().to_str().unwrap();
         let error = FileError {
             path: format!("{name}.ron").into(),
-            problems: problems(&text),
+            problems: problems_of_form_or_meaning(&text),
             text,
         };
         lines += &format!("{error}\n");

@@ -92,7 +92,8 @@ pub struct AssemblyReport {
     /// rad.
     pub residual: f64,
     /// Ratio of the largest to the smallest singular value of the dimensionless Jacobian; infinite
-    /// at a singular configuration.
+    /// at a singular configuration, NaN where there are too many unknowns to compute it
+    /// ([`SPECTRUM_LIMIT`](crate::linear::SPECTRUM_LIMIT)).
     pub condition: f64,
     /// Whether the condition number is poor.
     pub near_singular: bool,

@@ -199,6 +199,16 @@ impl Mechanism {
         }
     }
 
+    /// The platform that carries a frame; `None` if it stands on the ground. Joint values alone fix
+    /// where a frame is on its carrier.
+    pub fn carrier(&self, frame: Frame) -> Option<usize> {
+        match frame {
+            Frame::Ground => None,
+            Frame::Platform { platform } | Frame::OnPlatform { platform, .. } => Some(platform),
+            Frame::Link { chain, .. } | Frame::Tip { chain } => self.carrier(self.chains[chain].on),
+        }
+    }
+
     /// Every moving or fixed body, ground first.
     pub fn bodies(&self) -> Vec<Body> {
         let mut bodies: Vec<Body> = self

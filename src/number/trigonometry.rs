@@ -30,8 +30,8 @@ const C: [f64; 6] = [
 /// (sin x, cos x) for x in rad, to within 1 unit in the last place of 1.
 #[inline(always)]
 pub(crate) fn sin_cos(x: f64) -> (f64, f64) {
-    // also true for NaN and infinities
-    if !(x.abs() < REDUCIBLE) {
+    // infinities and NaN are reduced there too
+    if x.abs() >= REDUCIBLE || x.is_nan() {
         return pxfm::f_sincos(x);
     }
     let k = round(x * std::f64::consts::FRAC_2_PI);

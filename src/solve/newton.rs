@@ -155,12 +155,12 @@ impl Newton {
             equations.factorise(0.0, work);
             let longest = equations.step(work);
             // a long step so near a solution only slides along a freedom
-            if !(longest < 1e-3) {
+            if longest >= 1e-3 {
                 break;
             }
             equations.advance(point, 1.0, work, trial);
             let next = equations.residual(trial, work);
-            if !(next.largest < 0.5 * size.largest) {
+            if next.largest >= 0.5 * size.largest {
                 break;
             }
             std::mem::swap(point, trial);

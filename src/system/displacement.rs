@@ -1,11 +1,11 @@
 use super::layout::Unknown;
 use super::{System, Work};
 use crate::geometry::{Quaternion, Vector3};
+use crate::linear::Factorable;
 use crate::mechanism::Configuration;
-use crate::number::Field;
 use crate::solve::Equations;
 
-impl<T: Field> System<T> {
+impl<T: Factorable> System<T> {
     /// The configuration moved by dimensionless steps of the unknowns: at ⊕ step.
     pub fn displaced(&self, at: &Configuration<T>, step: &[T]) -> Configuration<T> {
         let mut to = at.clone();

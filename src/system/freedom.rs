@@ -1,6 +1,6 @@
 use super::equations::System;
 use super::layout::{Held, HeldPlatform, Unknown};
-use crate::linear::{null_space, rank, singular_values};
+use crate::linear::{SPECTRUM_LIMIT, Spectrum, rank};
 use crate::mechanism::{Configuration, Coordinate, Dimensions, Kinematics, Mechanism};
 use crate::number::Dual;
 use crate::solve::{Equations, Newton, Stop};
@@ -17,17 +17,26 @@ pub struct Freedoms {
 }
 
 impl Freedoms {
-    /// The motions that closures and held coordinates leave at a configuration.
+    /// The motions that closures and held coordinates leave at a configuration. Beyond
+    /// [`SPECTRUM_LIMIT`] unknowns nothing is computed, and the condition number is NaN.
     pub fn at(dimensions: &Dimensions<f64>, held: &Held<f64>, at: &Configuration<f64>) -> Self {
         let system = System::new(dimensions, held);
+        if system.unknowns().len() > SPECTRUM_LIMIT {
+            return Freedoms {
+                unknowns: system.unknowns().to_vec(),
+                motions: Vec::new(),
+                singular_values: Vec::new(),
+            };
+        }
         let mut work = system.work();
         system.linearise(at, &mut work);
         let jacobian = system.dense_jacobian(&mut work);
         let (rows, columns) = (system.rows(), system.unknowns().len());
+        let spectrum = Spectrum::of(rows, columns, &jacobian);
         Freedoms {
             unknowns: system.unknowns().to_vec(),
-            motions: null_space(rows, columns, &jacobian),
-            singular_values: singular_values(rows, columns, &jacobian),
+            motions: spectrum.null_space,
+            singular_values: spectrum.values,
         }
     }
 
@@ -46,6 +55,7 @@ impl Freedoms {
         ) {
             (Some(largest), Some(smallest)) if self.motions.is_empty() => largest / smallest,
             (_, _) if self.unknowns.is_empty() => 1.0,
+            (None, _) => f64::NAN,
             _ => f64::INFINITY,
         }
     }
@@ -153,7 +163,7 @@ pub struct Mobility {
 impl Mobility {
     /// Looks near a configuration for assembled ones and takes the one with the fewest freedoms:
     /// what is lost or gained at a special configuration does not count. `None` if the mechanism
-    /// does not assemble near there.
+    /// does not assemble near there, or has too many unknowns to tell.
     pub fn near(mechanism: &Mechanism, start: &Configuration<f64>) -> Option<Self> {
         let dimensions = mechanism.dimensions();
         let all_free = Held {
@@ -161,6 +171,9 @@ impl Mobility {
             platforms: vec![HeldPlatform::Free; mechanism.platforms().len()],
         };
         let system = System::new(dimensions, &all_free);
+        if system.unknowns().len() > SPECTRUM_LIMIT {
+            return None;
+        }
         let mut work = system.work();
         let mut fewest: Option<(Freedoms, Configuration<f64>)> = None;
         // the start itself, and three points beside it in directions that have no symmetry

@@ -1,7 +1,7 @@
 //! Who is to blame for a singular configuration.
 
 use super::Outcome;
-use crate::linear::null_space;
+use crate::linear::Spectrum;
 use crate::mechanism::{Configuration, Mechanism};
 use crate::solve::Equations;
 use crate::system::{Freedoms, Held, HeldPlatform, System, Unknown};
@@ -48,7 +48,7 @@ pub(super) fn blame(
         .flat_map(|i| free.iter().map(move |c| c[i]))
         .collect();
     let mut strongest = (0.0, 0, Vec::new());
-    for w in null_space(free.len(), rows, &transposed) {
+    for w in Spectrum::of(free.len(), rows, &transposed).null_space {
         let drive = |column: &[f64]| -> f64 { column.iter().zip(&w).map(|(a, b)| a * b).sum() };
         let drives: Vec<(usize, f64)> = inputs.iter().map(|(j, c)| (*j, drive(c).abs())).collect();
         let most = drives.iter().fold(0.0, |m: f64, (_, d)| m.max(*d));
