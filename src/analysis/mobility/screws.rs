@@ -95,7 +95,6 @@ pub(super) fn spaces(
 /// principal screws (Ball 1900; Hunt 1978).
 fn principal_screws(twists: &[Vec<f64>], length: f64) -> Vec<Screw> {
     let space = axis_aligned(twists);
-    // swap to (v; ω) blocks is not needed: the null space of the rotation part are translations
     let omegas: Vec<Vec<f64>> = space.iter().map(|t| t[..3].to_vec()).collect();
     let rotations = axis_aligned(&omegas);
     let translations: Vec<Vec<f64>> = {
@@ -124,7 +123,24 @@ fn principal_screws(twists: &[Vec<f64>], length: f64) -> Vec<Screw> {
             velocity
         })
         .collect();
+    let mut screws = rotations_of(&rotation_basis, &velocities, length);
+    screws.extend(translations.iter().map(|t| {
+        let unit = Vector3([t[0], t[1], t[2]]).times(1.0 / norm(t));
+        Screw {
+            direction: clean(pointing(unit).0, 1.0),
+            point: None,
+            pitch: None,
+        }
+    }));
+    screws
+}
+
+/// The principal screws that turn, the one of least pitch first.
+fn rotations_of(rotation_basis: &[Vec<f64>], velocities: &[Vec<f64>], length: f64) -> Vec<Screw> {
     let size = rotation_basis.len();
+    if size == 0 {
+        return Vec::new();
+    }
     let pitches = nalgebra::DMatrix::from_fn(size, size, |i, j| {
         let ahead = crate::linear::dot(&rotation_basis[i], &velocities[j]);
         let back = crate::linear::dot(&rotation_basis[j], &velocities[i]);
@@ -143,7 +159,7 @@ fn principal_screws(twists: &[Vec<f64>], length: f64) -> Vec<Screw> {
                 }
                 sum
             };
-            let (omega, velocity) = (combine(&rotation_basis), combine(&velocities));
+            let (omega, velocity) = (combine(rotation_basis), combine(velocities));
             let point = omega.cross(&velocity).times(length);
             let pitch = omega.dot(&velocity) * length;
             Screw {
@@ -157,14 +173,6 @@ fn principal_screws(twists: &[Vec<f64>], length: f64) -> Vec<Screw> {
         let pitch = |screw: &Screw| screw.pitch.unwrap_or(f64::INFINITY);
         pitch(a).abs().total_cmp(&pitch(b).abs())
     });
-    screws.extend(translations.iter().map(|t| {
-        let unit = Vector3([t[0], t[1], t[2]]).times(1.0 / norm(t));
-        Screw {
-            direction: clean(pointing(unit).0, 1.0),
-            point: None,
-            pitch: None,
-        }
-    }));
     screws
 }
 
