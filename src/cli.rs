@@ -1,7 +1,9 @@
 //! Commands, one file each. Data goes to stdout, problems to stderr.
 
+mod asked;
 mod check;
 mod compare;
+mod mobility;
 mod solve;
 mod source;
 
@@ -27,6 +29,7 @@ enum Command {
     Check(check::Check),
     Solve(solve::Solve),
     Compare(compare::Compare),
+    Mobility(mobility::Mobility),
 }
 
 /// How an answer is written.
@@ -58,6 +61,7 @@ pub fn run() -> ExitCode {
         Command::Check(check) => check.run(),
         Command::Solve(solve) => solve.run(),
         Command::Compare(compare) => compare.run(),
+        Command::Mobility(mobility) => mobility.run(),
     };
     match answer {
         Ok(answer) => {

@@ -3,6 +3,7 @@
 //! Direct, inverse and mixed kinematics are only different choices of what is held ([`Held`]).
 
 mod closing;
+mod count;
 mod displacement;
 mod equations;
 mod freedom;
@@ -10,18 +11,21 @@ mod gap;
 mod layout;
 mod neighbourhood;
 mod question;
+mod search;
 mod starts;
 mod tracker;
 mod twists;
 mod value;
 
 pub use closing::{Analysed, Closed, NotClosed, WidestGap, close, fit_platforms};
+pub use count::{Count, check_count};
 pub use equations::{ClosureWrenches, System, Work};
 pub use freedom::{Freedoms, Holdable, Mobility};
 pub use gap::Gap;
 pub use layout::{Held, HeldPlatform, Unknown};
 pub use neighbourhood::{Followed, Neighbourhood, Tangent};
 pub use question::{Question, QuestionError};
+pub use search::{Attempt, Search, Searched};
 pub use starts::{random_configuration, sampling_range};
 pub use tracker::Tracker;
 pub use twists::{FrameTwists, Twist};

@@ -3,19 +3,10 @@
 mod closest;
 mod singular;
 
-use rand::{Rng, SeedableRng};
-use rand_pcg::Pcg64Mcg;
-use serde::Serialize;
-
-use crate::description::Role;
-use crate::geometry::{Quaternion, Vector3};
-use crate::mechanism::{Configuration, Coordinate, JointKind, Mechanism, PlatformPose};
+use crate::mechanism::{Configuration, Mechanism};
 use crate::solve::{Equations, Newton, Report, Stop};
-pub use crate::system::Gap;
-use crate::system::{
-    Freedoms, Held, HeldPlatform, Holdable, Mobility, Question, QuestionError, System, Work,
-    fit_platforms, sampling_range,
-};
+use crate::system::{Attempt, Freedoms, Question, QuestionError, Search, check_count};
+pub use crate::system::{Count, Gap};
 
 /// How to look for an assembled configuration.
 #[derive(Clone, Debug, PartialEq)]
@@ -105,15 +96,6 @@ pub struct AssemblyReport {
     pub count: Count,
 }
 
-/// What is held beside what the mechanism allows.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
-pub struct Count {
-    /// Freedoms of the mechanism, if it assembles near the start.
-    pub mobility: Option<usize>,
-    /// Coordinates held.
-    pub held: usize,
-}
-
 /// Finds the assembled configuration near the start of a question.
 ///
 /// Newton's method on the loop closure from the guess; if that fails, or ends outside the limits,
@@ -126,206 +108,34 @@ pub fn assemble(
     settings: &AssemblySettings,
 ) -> Result<AssemblyReport, QuestionError> {
     let count = check_count(question)?;
-    let mut search = Search::new(question, settings);
-    let mut rng = Pcg64Mcg::seed_from_u64(settings.seed);
-    let mut outside: Option<Attempt> = None;
-    let mut closest: Option<Attempt> = None;
-    let mut restarts = 0;
-    for start in 0..=settings.restarts {
-        let at = if start == 0 {
-            search.guess()
-        } else {
-            search.random_start(&mut rng)
-        };
-        restarts = start;
-        let attempt = search.from(at);
-        if attempt.report.stop == Stop::Solved {
-            // another start cannot change where a held joint is
-            let outside_limits = search.outside_limits(&attempt.at);
-            if outside_limits
-                .iter()
-                .all(|&joint| search.held.joints[joint])
-            {
-                return Ok(search.assembled(attempt, restarts, count));
-            }
-            outside.get_or_insert(attempt);
-        } else if closest
-            .as_ref()
-            .is_none_or(|c| attempt.report.size.squares < c.report.size.squares)
-        {
-            closest = Some(attempt);
-        }
-        // an assembled configuration outside limits is worth a few more starts, not all
-        if outside.is_some() && start >= settings.restarts / 4 {
-            break;
-        }
-    }
-    Ok(match (outside, closest) {
-        (Some(attempt), _) => search.assembled(attempt, restarts, count),
-        (None, Some(attempt)) => search.unassembled(attempt, restarts, count),
-        (None, None) => unreachable!("every start is either assembled or not"),
+    let mut search = Search::new(question, &settings.newton);
+    let found = search.run(settings.restarts, settings.seed);
+    let reporter = Reporter {
+        mechanism: question.mechanism(),
+        settings,
+        search,
+        count,
+        restarts: found.restarts,
+    };
+    Ok(if found.assembles() {
+        reporter.assembled(found.attempt)
+    } else {
+        reporter.unassembled(found.attempt)
     })
 }
 
-/// Compares what is held with what the mechanism allows.
-fn check_count(question: &Question) -> Result<Count, QuestionError> {
-    let mechanism = question.mechanism();
-    let held = question.held_coordinates();
-    let start = question.start();
-    let mobility =
-        Mobility::near(mechanism, &start).or_else(|| Mobility::near(mechanism, &mechanism.home()));
-    let Some(mobility) = mobility else {
-        return Ok(Count {
-            mobility: None,
-            held: held.len(),
-        });
-    };
-    let count = Count {
-        mobility: Some(mobility.count()),
-        held: held.len(),
-    };
-    let joints = (0..mechanism.joints().len()).map(Holdable::Joint);
-    let coordinates = (0..mechanism.platforms().len())
-        .flat_map(|platform| Coordinate::ALL.map(|c| Holdable::Coordinate(platform, c)));
-    let (actuated, passive): (Vec<_>, Vec<_>) = joints.partition(|joint| match joint {
-        Holdable::Joint(joint) => mechanism.joints()[*joint].role == Role::Actuated,
-        Holdable::Coordinate(..) => false,
-    });
-    let candidates: Vec<Holdable> = (held.iter().copied())
-        .chain(actuated)
-        .chain(passive)
-        .chain(coordinates)
-        .collect();
-    let chosen = mobility.independent(mechanism, &candidates);
-    let name = |holdable: &Holdable| holdable.name(mechanism);
-    let free: Vec<String> = held
-        .iter()
-        .filter(|h| !chosen.contains(h))
-        .map(name)
-        .collect();
-    let hold: Vec<String> = chosen
-        .iter()
-        .filter(|c| !held.contains(c))
-        .map(name)
-        .collect();
-    let (mobility, held) = (mobility.count(), held.len());
-    match (free.is_empty(), hold.is_empty()) {
-        (true, true) => Ok(count),
-        (false, true) => Err(QuestionError::TooMany {
-            mobility,
-            held,
-            free,
-        }),
-        (true, false) => Err(QuestionError::TooFew {
-            mobility,
-            held,
-            hold,
-        }),
-        (false, false) => Err(QuestionError::Dependent { free, hold }),
-    }
-}
-
-/// One start and where it led.
-struct Attempt {
-    at: Configuration<f64>,
-    report: Report,
-}
-
-struct Search<'a> {
-    question: &'a Question<'a>,
+/// Says what an attempt means.
+struct Reporter<'a> {
     mechanism: &'a Mechanism,
     settings: &'a AssemblySettings,
-    held: Held<f64>,
-    system: System<f64>,
-    work: Work<f64>,
+    search: Search<'a>,
+    count: Count,
+    restarts: usize,
 }
 
-impl<'a> Search<'a> {
-    fn new(question: &'a Question<'a>, settings: &'a AssemblySettings) -> Self {
-        let mechanism = question.mechanism();
-        let held = question.held();
-        let system = System::new(mechanism.dimensions(), &held);
-        Search {
-            question,
-            mechanism,
-            settings,
-            work: system.work(),
-            system,
-            held,
-        }
-    }
-
-    fn from(&mut self, mut at: Configuration<f64>) -> Attempt {
-        let mut trial = at.clone();
-        let newton = &self.settings.newton;
-        let report = newton.solve(&self.system, &mut at, &mut trial, &mut self.work);
-        Attempt { at, report }
-    }
-
-    /// The start of the question; platforms without a guess of their own are put where they suit
-    /// the joints best when those do not start at home.
-    fn guess(&self) -> Configuration<f64> {
-        let start = self.question.start();
-        if self.question.differs_from_home() {
-            fit_platforms(
-                self.mechanism,
-                &self.held,
-                &self.settings.newton,
-                start,
-                self.question.guessed(),
-            )
-        } else {
-            start
-        }
-    }
-
-    fn random_start(&self, rng: &mut Pcg64Mcg) -> Configuration<f64> {
-        let mut at = self.question.start();
-        let length = self.mechanism.characteristic_length();
-        for (i, joint) in self.mechanism.joints().iter().enumerate() {
-            let (low, high) = sampling_range(joint, length);
-            // drawn for held joints too, so that the draws of the others do not depend on the split
-            let value = low + (high - low) * rng.random::<f64>();
-            if !self.held.joints[i] {
-                at.joints[i] = value;
-            }
-        }
-        for (pose, held) in at.platforms.iter_mut().zip(&self.held.platforms) {
-            let mut inside = || 2.0 * rng.random::<f64>() - 1.0;
-            let shift = Vector3([inside(), inside(), inside()]).times(length);
-            let quaternion = Quaternion([inside(), inside(), inside(), inside()]);
-            if *held != HeldPlatform::Pose {
-                *pose = PlatformPose {
-                    orientation: quaternion.normalised(),
-                    position: pose.position + shift,
-                };
-            }
-        }
-        fit_platforms(
-            self.mechanism,
-            &self.held,
-            &self.settings.newton,
-            at,
-            &vec![false; self.held.platforms.len()],
-        )
-    }
-
-    fn outside_limits(&self, at: &Configuration<f64>) -> Vec<usize> {
-        let joints = self.mechanism.joints().iter().zip(&at.joints).enumerate();
-        joints
-            .filter(|(_, (joint, value))| !joint.allows(**value))
-            .map(|(i, _)| i)
-            .collect()
-    }
-
-    fn report(
-        &self,
-        attempt: Attempt,
-        outcome: Outcome,
-        restarts: usize,
-        count: Count,
-    ) -> AssemblyReport {
-        let freedoms = Freedoms::at(self.mechanism.dimensions(), &self.held, &attempt.at);
+impl Reporter<'_> {
+    fn report(&self, attempt: Attempt, outcome: Outcome) -> AssemblyReport {
+        let freedoms = Freedoms::at(self.mechanism.dimensions(), self.search.held(), &attempt.at);
         let condition = freedoms.condition();
         AssemblyReport {
             near_singular: attempt.report.stop == Stop::Solved
@@ -333,33 +143,32 @@ impl<'a> Search<'a> {
             condition,
             outcome,
             steps: attempt.report.steps,
-            restarts,
+            restarts: self.restarts,
             seed: self.settings.seed,
             residual: attempt.report.size.largest,
             gaps: Gap::of(self.mechanism, &attempt.at),
             idle: 0,
-            count,
+            count: self.count,
             configuration: attempt.at,
         }
     }
 
-    fn assembled(&mut self, mut attempt: Attempt, restarts: usize, count: Count) -> AssemblyReport {
-        self.normalise_angles(&mut attempt.at);
-        let outside = self.outside_limits(&attempt.at);
-        let freedoms = Freedoms::at(self.mechanism.dimensions(), &self.held, &attempt.at);
+    fn assembled(&self, attempt: Attempt) -> AssemblyReport {
+        let outside = self.search.outside_limits(&attempt.at);
+        let freedoms = Freedoms::at(self.mechanism.dimensions(), self.search.held(), &attempt.at);
         let idle = if freedoms.are_idle(self.mechanism, &attempt.at) {
             freedoms.motions.len()
         } else {
             0
         };
         let outcome = if freedoms.motions.len() > idle {
-            singular::blame(self.mechanism, &self.held, &attempt.at, &freedoms)
+            singular::blame(self.mechanism, self.search.held(), &attempt.at, &freedoms)
         } else if outside.is_empty() {
             Outcome::Converged
         } else {
             Outcome::ConvergedOutsideLimits { joints: outside }
         };
-        let mut report = self.report(attempt, outcome, restarts, count);
+        let mut report = self.report(attempt, outcome);
         if idle > 0 {
             // unknowns that nothing determines have no part in the conditioning of the others
             report.condition = freedoms.condition_of_determined();
@@ -369,10 +178,11 @@ impl<'a> Search<'a> {
         report
     }
 
-    fn unassembled(&mut self, attempt: Attempt, restarts: usize, count: Count) -> AssemblyReport {
+    fn unassembled(&self, attempt: Attempt) -> AssemblyReport {
         let settled = attempt.report.stop == Stop::Minimum;
-        let (at, local_minimum) = closest::approach(&self.system, &attempt.at);
-        let size = self.system.residual(&at, &mut self.work);
+        let (at, local_minimum) = closest::approach(self.search.system(), &attempt.at);
+        let system = self.search.system();
+        let size = system.residual(&at, &mut system.work());
         let attempt = Attempt {
             at,
             report: Report {
@@ -380,9 +190,8 @@ impl<'a> Search<'a> {
                 ..attempt.report
             },
         };
-        let length = self.mechanism.characteristic_length();
         let gaps = Gap::of(self.mechanism, &attempt.at);
-        let width = |gap: &Gap| (gap.distance / length).max(gap.angle);
+        let width = |gap: &Gap| gap.size(self.mechanism);
         let worst = (0..gaps.len()).fold(0, |worst, i| {
             if width(&gaps[i]) > width(&gaps[worst]) {
                 i
@@ -398,32 +207,6 @@ impl<'a> Search<'a> {
         } else {
             Outcome::GaveUp { worst }
         };
-        self.report(attempt, outcome, restarts, count)
-    }
-
-    /// Passive turns found by a long search come back to (−π, π], or into their limits.
-    fn normalise_angles(&self, at: &mut Configuration<f64>) {
-        let turn = std::f64::consts::TAU;
-        for (i, joint) in self.mechanism.joints().iter().enumerate() {
-            if self.held.joints[i] || joint.kind != JointKind::Revolute || !self.turns_freely(i) {
-                continue;
-            }
-            let middle = joint.limits.map_or(0.0, |(low, high)| 0.5 * (low + high));
-            let value = &mut at.joints[i];
-            *value -= turn * ((*value - middle) / turn).round();
-        }
-    }
-
-    /// Whether a whole turn of the joint leaves every frame where it is: not if the variable turns
-    /// some row by a fraction.
-    fn turns_freely(&self, joint: usize) -> bool {
-        let rows = self
-            .mechanism
-            .dimensions()
-            .chains
-            .iter()
-            .flat_map(|chain| &chain.rows);
-        rows.map(|row| row.turn.coefficient(joint))
-            .all(|c| c == c.round())
+        self.report(attempt, outcome)
     }
 }

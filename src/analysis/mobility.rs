@@ -9,20 +9,19 @@ mod branches;
 mod loops;
 mod redundancy;
 mod screws;
-mod words;
 
 use rand::SeedableRng;
 use rand_pcg::Pcg64Mcg;
 use serde::Serialize;
 
-use crate::mechanism::{Body, Mechanism};
+use crate::mechanism::{Body, ClosureKind, Mechanism};
 use crate::solve::Newton;
 use crate::system::{
-    Analysed, Neighbourhood, Question, Unknown, WidestGap, close, random_configuration,
+    Analysed, Neighbourhood, Question, Tangent, Unknown, WidestGap, close, random_configuration,
 };
 
 pub use loops::LoopCount;
-pub use redundancy::Redundancy;
+pub use redundancy::{Redundancy, Wrench};
 pub use screws::{Screw, TwistSpace};
 
 /// How to look for freedoms.
@@ -30,6 +29,8 @@ pub use screws::{Screw, TwistSpace};
 pub struct MobilitySettings {
     /// The iteration that closes the mechanism.
     pub newton: Newton,
+    /// Random starts within limits after the guess has failed.
+    pub restarts: usize,
     /// Length of the finite step along a candidate motion, in rad and characteristic lengths. A
     /// motion that is only infinitesimal to second order leaves a gap of about its square.
     pub step: f64,
@@ -49,6 +50,7 @@ impl Default for MobilitySettings {
     fn default() -> Self {
         MobilitySettings {
             newton: Newton::default(),
+            restarts: 40,
             step: 0.05,
             directions: 3,
             branch_step: 0.01,
@@ -76,10 +78,8 @@ pub struct MobilityReport {
     pub idle_joints: Vec<String>,
     /// Joints that move.
     pub moving_joints: Vec<String>,
-    /// The dependent equations in words, by closure and direction in the closure's first frame.
-    pub redundant_constraints: Vec<String>,
-    /// The answer in sentences.
-    pub explanation: String,
+    /// Joint values of the closed configuration, rad or m.
+    pub joints: Vec<f64>,
     /// What kind of point of the configuration space this is.
     pub character: Character,
     /// The branches through the configuration, if more than the one regular motion.
@@ -90,8 +90,8 @@ pub struct MobilityReport {
     pub unknowns: usize,
     /// Closure equations.
     pub equations: usize,
-    /// Freedoms that only turn a link about its own line: one sentence each.
-    pub idle_freedoms: Vec<String>,
+    /// Freedoms that only turn a link about its own line.
+    pub idle_freedoms: Vec<IdleFreedom>,
     /// Kutzbach's count loop by loop.
     pub loops: Vec<LoopCount>,
     /// The dependent equations as wrenches.
@@ -130,6 +130,16 @@ pub enum Character {
     Kinematotropic,
 }
 
+/// A freedom that only turns a link about its own line.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+#[serde(rename_all = "snake_case")]
+pub enum IdleFreedom {
+    /// The link turns in its joints, which these are.
+    Joints(Vec<String>),
+    /// The rod of a `Distance` turns in the balls at its ends, which the closure does not model.
+    Rod(String),
+}
+
 /// A branch of assembled configurations through the one given.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct BranchReport {
@@ -146,8 +156,8 @@ pub struct BranchReport {
 pub struct Elsewhere {
     /// Its freedoms.
     pub mobility: usize,
-    /// Joint values there, rad or m, by name.
-    pub joints: Vec<(String, f64)>,
+    /// Joint values there, rad or m.
+    pub joints: Vec<f64>,
 }
 
 /// Counts the freedoms of a mechanism, closed near the start of a question.
@@ -157,7 +167,7 @@ pub struct Elsewhere {
 /// configuration singular, from the branches that small steps in many directions settle on.
 pub fn mobility(question: &Question, settings: &MobilitySettings) -> Analysed<MobilityReport> {
     let mechanism = question.mechanism();
-    let closed = match close(question, &settings.newton) {
+    let closed = match close(question, &settings.newton, settings.restarts, settings.seed) {
         Ok(closed) => closed,
         Err(open) => return Analysed::NotClosed(open),
     };
@@ -198,14 +208,13 @@ pub fn mobility(question: &Question, settings: &MobilitySettings) -> Analysed<Mo
             .filter(|name| !moving_joints.contains(name))
             .collect(),
         moving_joints,
-        redundant_constraints: redundancies.iter().map(Redundancy::to_string).collect(),
-        explanation: String::new(),
+        joints: closed.configuration.joints.clone(),
         character: found.character(tangent.motions.len()),
         branches,
         elsewhere: Vec::new(),
         unknowns,
         equations: rows,
-        idle_freedoms: words::idle_freedoms(mechanism, near.system().unknowns(), &tangent),
+        idle_freedoms: idle_freedoms(mechanism, near.system().unknowns(), &tangent),
         loops: loops::count(&mut near, &closed.configuration),
         redundancies,
         twists: screws::spaces(&near, &carriers, &tangent),
@@ -216,7 +225,6 @@ pub fn mobility(question: &Question, settings: &MobilitySettings) -> Analysed<Mo
         gap_after_step: found.gap,
     };
     report.elsewhere = elsewhere(&mut near, settings, report.mobility, &mut rng);
-    report.explanation = words::explain(&report);
     Analysed::Closed(report)
 }
 
@@ -243,15 +251,34 @@ fn elsewhere(
         if freedoms > 0 && !branches::is_regular(near, &tangent, settings.step, 2, rng) {
             continue;
         }
-        let joints = mechanism.joints().iter().zip(&tangent.at.joints);
         found.push(Elsewhere {
             mobility: freedoms,
-            joints: joints
-                .map(|(joint, &value)| (joint.name.clone(), value))
-                .collect(),
+            joints: tangent.at.joints.clone(),
         });
     }
     found
+}
+
+/// The idle freedoms of the model, then one for each rod between two balls.
+fn idle_freedoms(
+    mechanism: &Mechanism,
+    unknowns: &[Unknown],
+    tangent: &Tangent,
+) -> Vec<IdleFreedom> {
+    /// Below this a component of a unit motion is rounding.
+    const ROUNDING: f64 = 1e-6;
+    let spins = redundancy::axis_aligned(&tangent.idle);
+    let joints = |motion: &Vec<f64>| {
+        let turning = (unknowns.iter().zip(motion)).filter(|(_, rate)| rate.abs() > ROUNDING);
+        let names = turning.filter_map(|(unknown, _)| match *unknown {
+            Unknown::Joint(joint) => Some(mechanism.joints()[joint].name.clone()),
+            Unknown::Twist { .. } => None,
+        });
+        IdleFreedom::Joints(names.collect())
+    };
+    let rods = (mechanism.closures().iter()).filter(|c| c.kind == ClosureKind::Distance);
+    let rods = rods.map(|rod| IdleFreedom::Rod(rod.name.clone()));
+    (spins.iter().map(joints)).chain(rods).collect()
 }
 
 /// The name of a body: `ground`, a platform, or a link by the frame that carries it.

@@ -2,7 +2,7 @@
 
 use serde::Serialize;
 
-use super::{Gap, Held, HeldPlatform, Question, System};
+use super::{Gap, Held, HeldPlatform, Question, Search, System};
 use crate::mechanism::{Configuration, Mechanism};
 use crate::solve::{Equations, Newton, Stop};
 
@@ -63,59 +63,50 @@ pub struct NotClosed {
     pub held: Vec<String>,
 }
 
-/// Closes a mechanism near the start of a question by Newton's method.
+/// Closes a mechanism as a question asks, the same way as for the question itself.
 ///
 /// What is held keeps its values. If nothing was asked for beyond the file and that fails, the
 /// actuated joints may move too, because the file's pose may be rounded or overdetermined.
-pub fn close(question: &Question, newton: &Newton) -> Result<Closed, NotClosed> {
+pub fn close(
+    question: &Question,
+    newton: &Newton,
+    restarts: usize,
+    seed: u64,
+) -> Result<Closed, NotClosed> {
     let mechanism = question.mechanism();
     let start = question.start();
     let given = widest(mechanism, &start);
-    let held = question.held();
-    let guess = if question.differs_from_home() {
-        fit_platforms(mechanism, &held, newton, start.clone(), question.guessed())
-    } else {
-        start.clone()
+    let closed = |configuration, kept| Closed {
+        configuration,
+        given: given.clone(),
+        kept,
     };
-    let (at, solved) = solve(mechanism, &held, newton, guess);
-    if solved {
-        return Ok(Closed {
-            configuration: at,
-            given,
-            kept: true,
-        });
+    if !question.differs_from_home() && is_exact(mechanism, &start) {
+        return Ok(closed(start, true));
+    }
+    let found = Search::new(question, newton).run(restarts, seed);
+    if found.assembles() {
+        return Ok(closed(found.attempt.at, true));
     }
     if !question.differs_from_home() && !question.split_changed() {
-        let (at, solved) = solve(mechanism, &Held::nothing(mechanism), newton, start);
-        if solved {
-            return Ok(Closed {
-                configuration: at,
-                given,
-                kept: false,
-            });
+        let nothing = Held::nothing(mechanism);
+        let system = System::new(mechanism.dimensions(), &nothing);
+        let (mut at, mut trial) = (start.clone(), start);
+        let report = newton.solve(&system, &mut at, &mut trial, &mut system.work());
+        if report.stop == Stop::Solved {
+            return Ok(closed(at, false));
         }
     }
     Err(NotClosed {
-        left: widest(mechanism, &at),
+        left: widest(mechanism, &found.attempt.at),
         held: question.held_names(),
     })
 }
 
-fn solve(
-    mechanism: &Mechanism,
-    held: &Held<f64>,
-    newton: &Newton,
-    mut at: Configuration<f64>,
-) -> (Configuration<f64>, bool) {
-    let system = System::new(mechanism.dimensions(), held);
-    let mut work = system.work();
-    // a pose typed with expressions is exact, and no step can make it better
-    if system.residual(&at, &mut work).largest <= EXACT {
-        return (at, true);
-    }
-    let mut trial = at.clone();
-    let report = newton.solve(&system, &mut at, &mut trial, &mut work);
-    (at, report.stop == Stop::Solved)
+/// A pose typed with expressions is exact, and no step can make it better.
+fn is_exact(mechanism: &Mechanism, at: &Configuration<f64>) -> bool {
+    let system = System::new(mechanism.dimensions(), &Held::nothing(mechanism));
+    system.residual(at, &mut system.work()).largest <= EXACT
 }
 
 /// Below this a dimensionless closure row is rounding.

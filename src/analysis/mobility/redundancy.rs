@@ -1,7 +1,5 @@
 //! Closure equations that depend on the others, by closure and direction.
 
-use std::fmt;
-
 use serde::Serialize;
 
 use crate::description::ClosureKind;
@@ -167,75 +165,4 @@ fn echelon(mut rows: Vec<Vec<f64>>) -> Vec<Vec<f64>> {
         });
     }
     rows
-}
-
-impl Wrench {
-    /// `(0, 2)` for a force along z, `(1, 0)` for a moment about x.
-    fn axis(&self) -> Option<(usize, usize)> {
-        let parts = [self.force, self.moment];
-        let nonzero: Vec<(usize, usize)> = (0..6)
-            .map(|i| (i / 3, i % 3))
-            .filter(|&(part, i)| parts[part][i] != 0.0)
-            .collect();
-        match nonzero[..] {
-            [one] => Some(one),
-            _ => None,
-        }
-    }
-
-    fn in_words(&self) -> String {
-        let (force, moment) = (norm(&self.force), norm(&self.moment));
-        let triple = |v: &[f64; 3], length: f64| {
-            let [x, y, z] = v.map(|x| super::words::short(x / length));
-            format!("({x}, {y}, {z})")
-        };
-        if force == 0.0 {
-            return format!("moment about {}", triple(&self.moment, moment));
-        }
-        let along = triple(&self.force, force);
-        if moment == 0.0 {
-            return format!("force along {along}");
-        }
-        if (moment / force).abs() < 1e-9 {
-            format!("force along {along}")
-        } else {
-            let [x, y, z] = self.moment.map(|m| super::words::short(m / force));
-            format!("force along {along} with moment ({x}, {y}, {z}) m")
-        }
-    }
-}
-
-/// `closure `pin`: force along z, moments about x and y`
-impl fmt::Display for Redundancy {
-    fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
-        write!(f, "closure `{}`: ", self.closure)?;
-        if self.rod {
-            return write!(f, "force along the rod");
-        }
-        let mut parts = Vec::new();
-        for (part, (one, many)) in [
-            ("force along", "forces along"),
-            ("moment about", "moments about"),
-        ]
-        .into_iter()
-        .enumerate()
-        {
-            let axes: Vec<&str> = (self.wrenches.iter())
-                .filter_map(|wrench| wrench.axis())
-                .filter(|(kind, _)| *kind == part)
-                .map(|(_, axis)| ["x", "y", "z"][axis])
-                .collect();
-            match axes[..] {
-                [] => {}
-                [axis] => parts.push(format!("{one} {axis}")),
-                _ => parts.push(format!("{many} {}", super::words::list(&axes))),
-            }
-        }
-        let others = self
-            .wrenches
-            .iter()
-            .filter(|wrench| wrench.axis().is_none());
-        parts.extend(others.map(Wrench::in_words));
-        write!(f, "{}", parts.join(", "))
-    }
 }
