@@ -59,6 +59,13 @@ pub fn check_count(question: &Question) -> Result<Count, QuestionError> {
         .filter(|c| !held.contains(c))
         .map(name)
         .collect();
+    // what is only infinitesimally free cannot be chosen
+    if free.is_empty() && !hold.is_empty() && !mobility.is_finite(mechanism) {
+        return Ok(Count {
+            mobility: None,
+            held: held.len(),
+        });
+    }
     let (mobility, held) = (mobility.count(), held.len());
     match (free.is_empty(), hold.is_empty()) {
         (true, true) => Ok(count),

@@ -1,3 +1,4 @@
+use super::Neighbourhood;
 use super::equations::System;
 use super::layout::{Held, HeldPlatform, Unknown};
 use crate::linear::{SPECTRUM_LIMIT, Spectrum, rank};
@@ -204,6 +205,25 @@ impl Mobility {
     /// The number of freedoms, without those that only turn a link about its own line.
     pub fn count(&self) -> usize {
         self.freedoms.motions.len() - self.idle.min(self.freedoms.motions.len())
+    }
+
+    /// Whether the freedoms are finite, tried along one that mixes them all: a shaky structure has
+    /// some that are not.
+    pub fn is_finite(&self, mechanism: &Mechanism) -> bool {
+        const STEP: f64 = 0.05;
+        let mut near = Neighbourhood::new(mechanism);
+        let tangent = near.tangent(self.at.clone());
+        let mut mixed = vec![0.0; self.freedoms.unknowns.len()];
+        for (motion, weight) in tangent.motions.iter().zip(1u8..) {
+            let weight = (1.7 * f64::from(weight)).sin();
+            (mixed.iter_mut().zip(motion)).for_each(|(x, m)| *x += weight * m);
+        }
+        let size = norm(&mixed);
+        if size == 0.0 {
+            return true;
+        }
+        mixed.iter_mut().for_each(|x| *x /= size);
+        near.free_step(&tangent, &mixed, STEP).is_ok()
     }
 
     /// The number of freedoms that only turn a link about its own line.

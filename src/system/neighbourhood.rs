@@ -189,6 +189,26 @@ impl<'a> Neighbourhood<'a> {
         None
     }
 
+    /// The finite step along a motion if there is one: no longer than `distance`, shortened as far
+    /// as needed for it to settle. `Err` has the gap of one that leaves the closures open.
+    pub fn free_step(
+        &mut self,
+        from: &Tangent,
+        direction: &[f64],
+        distance: f64,
+    ) -> Result<Followed, Option<f64>> {
+        /// This gap may be left and the motion still counts as free: rounding. A freedom that is
+        /// infinitesimal to order five only leaves 0.05⁶ = 1.6e-8 times its curvature.
+        const FREE: f64 = 1e-11;
+        const HALVINGS: i32 = 6;
+        let mut lengths = (0..HALVINGS).map(|k| distance * 0.5f64.powi(k));
+        match lengths.find_map(|length| self.follow(from, direction, length)) {
+            Some(step) if step.gap <= FREE => Ok(step),
+            Some(step) => Err(Some(step.gap)),
+            None => Err(None),
+        }
+    }
+
     /// The assembled configuration that Gauss–Newton steps of least length reach from a point, to
     /// rounding; `None` if they go further than `reach` or do not arrive.
     pub fn settle(&mut self, mut at: Configuration<f64>, reach: f64) -> Option<Configuration<f64>> {

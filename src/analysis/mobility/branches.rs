@@ -4,11 +4,7 @@ use rand::Rng;
 
 use super::{Character, MobilitySettings};
 use crate::linear::{norm, orthonormal, remove};
-use crate::system::{Followed, Neighbourhood, Tangent};
-
-/// A finite step may leave this gap and the motion still counts as free: rounding. A freedom that
-/// is infinitesimal to order five only leaves 0.05⁶ = 1.6e-8 times its curvature.
-const FREE: f64 = 1e-11;
+use crate::system::{Neighbourhood, Tangent};
 
 /// A joint that a finite step moves by more than this moves: at a dead point its rate is zero, and
 /// a step of 0.05 moves it to second order.
@@ -74,19 +70,14 @@ pub(super) fn find(
     }
     for _ in 0..settings.directions.max(1) {
         let direction = combination(&tangent.motions, rng);
-        let step = follow(near, tangent, &direction, settings.step);
-        finite.gap = match (&finite.gap, &step) {
-            (Some(gap), Some(step)) => Some(gap.max(step.gap)),
-            _ => None,
-        };
-        match step {
-            Some(step) if step.gap <= FREE => {
-                see(
-                    &mut finite.moved,
-                    &near.system().difference(&tangent.at, &step.at),
-                );
+        match near.free_step(tangent, &direction, settings.step) {
+            Ok(step) => {
+                finite.gap = finite.gap.map(|gap| gap.max(step.gap));
+                let moved = near.system().difference(&tangent.at, &step.at);
+                see(&mut finite.moved, &moved);
             }
-            _ => {
+            Err(gap) => {
+                finite.gap = gap;
                 finite.regular = false;
                 break;
             }
@@ -114,19 +105,8 @@ pub(super) fn is_regular(
 ) -> bool {
     (0..directions).all(|_| {
         let direction = combination(&tangent.motions, rng);
-        follow(near, tangent, &direction, distance).is_some_and(|step| step.gap <= FREE)
+        near.free_step(tangent, &direction, distance).is_ok()
     })
-}
-
-/// A finite step, shortened as far as needed for it to settle.
-fn follow(
-    near: &mut Neighbourhood,
-    tangent: &Tangent,
-    direction: &[f64],
-    distance: f64,
-) -> Option<Followed> {
-    const HALVINGS: i32 = 6;
-    (0..HALVINGS).find_map(|k| near.follow(tangent, direction, distance * 0.5f64.powi(k)))
 }
 
 /// A random unit vector in the span of orthonormal vectors.
