@@ -5,10 +5,13 @@
 mod closing;
 mod count;
 mod displacement;
+mod drive;
 mod equations;
 mod freedom;
 mod gap;
 mod layout;
+mod loops;
+mod motion;
 mod neighbourhood;
 mod question;
 mod search;
@@ -19,10 +22,13 @@ mod value;
 
 pub use closing::{Analysed, Closed, NotClosed, WidestGap, close, fit_platforms};
 pub use count::{Count, check_count};
+pub use drive::{Drive, DriveError};
 pub use equations::{ClosureWrenches, System, Work};
 pub use freedom::{Freedoms, Holdable, Mobility};
 pub use gap::Gap;
 pub use layout::{Held, HeldPlatform, Unknown};
+pub use loops::{LoopPart, MechanismLoop, loops};
+pub use motion::{FrameMotion, FrameMotions, Motion};
 pub use neighbourhood::{Followed, Neighbourhood, Tangent};
 pub use question::{Question, QuestionError};
 pub use search::{Attempt, Search, Searched};

@@ -14,7 +14,7 @@ use rand::SeedableRng;
 use rand_pcg::Pcg64Mcg;
 use serde::Serialize;
 
-use crate::mechanism::{Body, ClosureKind, Mechanism};
+use crate::mechanism::{ClosureKind, Mechanism};
 use crate::solve::Newton;
 use crate::system::{
     Analysed, Neighbourhood, Question, Tangent, Unknown, WidestGap, close, random_configuration,
@@ -279,14 +279,4 @@ fn idle_freedoms(
     let rods = (mechanism.closures().iter()).filter(|c| c.kind == ClosureKind::Distance);
     let rods = rods.map(|rod| IdleFreedom::Rod(rod.name.clone()));
     (spins.iter().map(joints)).chain(rods).collect()
-}
-
-/// The name of a body: `ground`, a platform, or a link by the frame that carries it.
-pub(crate) fn body_name(mechanism: &Mechanism, body: Body) -> String {
-    use crate::mechanism::Frame;
-    mechanism.frame_name(match body {
-        Body::Ground => Frame::Ground,
-        Body::Platform(platform) => Frame::Platform { platform },
-        Body::Link { chain, row } => Frame::Link { chain, row },
-    })
 }

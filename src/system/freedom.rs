@@ -78,6 +78,29 @@ impl Freedoms {
         place.map_or(0.0, |place| motion[place])
     }
 
+    /// The joints and platforms that take part in the free motions, the most mobile first.
+    pub fn moving(&self, mechanism: &Mechanism) -> Vec<String> {
+        let mut shares: Vec<(String, f64)> = Vec::new();
+        for (i, unknown) in self.unknowns.iter().enumerate() {
+            let share: f64 = self
+                .motions
+                .iter()
+                .map(|motion| motion[i] * motion[i])
+                .sum();
+            let name = match *unknown {
+                Unknown::Joint(joint) => &mechanism.joints()[joint].name,
+                Unknown::Twist { platform, .. } => &mechanism.platforms()[platform].name,
+            };
+            match shares.iter_mut().find(|(known, _)| known == name) {
+                Some((_, sum)) => *sum += share,
+                None => shares.push((name.clone(), share)),
+            }
+        }
+        shares.retain(|(_, share)| *share > 1e-6);
+        shares.sort_by(|a, b| b.1.total_cmp(&a.1).then_with(|| a.0.cmp(&b.0)));
+        shares.into_iter().map(|(name, _)| name).collect()
+    }
+
     /// Whether every motion leaves the origin of every frame where it is: then only links turn
     /// about their own lines, as a rod between two balls does.
     pub fn are_idle(&self, mechanism: &Mechanism, at: &Configuration<f64>) -> bool {

@@ -2,7 +2,6 @@
 
 use serde::Serialize;
 
-use super::body_name;
 use super::redundancy::axis_aligned;
 use crate::geometry::Vector3;
 use crate::linear::{norm, remove};
@@ -81,7 +80,7 @@ pub(super) fn spaces(
             })
             .collect();
         TwistSpace {
-            body: body_name(mechanism, body),
+            body: mechanism.body_name(body),
             screws: principal_screws(&twists, length),
         }
     });
