@@ -5,3 +5,4 @@ pub mod assembly;
 pub mod compare;
 pub mod mobility;
 pub mod overview;
+pub mod velocity;

@@ -6,6 +6,7 @@ mod compare;
 mod mobility;
 mod solve;
 mod source;
+mod velocity;
 
 use std::io::{self, IsTerminal, Write};
 use std::process::ExitCode;
@@ -30,6 +31,7 @@ enum Command {
     Solve(solve::Solve),
     Compare(compare::Compare),
     Mobility(mobility::Mobility),
+    Velocity(velocity::Velocity),
 }
 
 /// How an answer is written.
@@ -62,6 +64,7 @@ pub fn run() -> ExitCode {
         Command::Solve(solve) => solve.run(),
         Command::Compare(compare) => compare.run(),
         Command::Mobility(mobility) => mobility.run(),
+        Command::Velocity(velocity) => velocity.run(),
     };
     match answer {
         Ok(answer) => {

@@ -22,3 +22,5 @@ mod quantity;
 pub mod question;
 #[cfg(feature = "cli")]
 pub mod solution;
+#[cfg(feature = "cli")]
+pub mod velocity;

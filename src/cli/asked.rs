@@ -1,10 +1,10 @@
 //! The options that say what is held and where to start.
 
 use clap::Args;
-use linkwork::mechanism::Mechanism;
+use linkwork::mechanism::{Frame, Mechanism};
 use linkwork::output::option::Given;
-use linkwork::output::question::complaint;
-use linkwork::system::{Question, QuestionError};
+use linkwork::output::question::{complaint, driven_complaint, unknown_frame};
+use linkwork::system::{DriveError, Question, QuestionError};
 
 use super::source::Assignment;
 use super::{Refusal, style};
@@ -56,5 +56,24 @@ pub fn refusal(error: &QuestionError, given: Option<Given>) -> Refusal {
     Refusal(match given {
         Some(given) => complaint.render_in(&given, &part, style()),
         None => complaint.render(style()),
+    })
+}
+
+/// What is wrong with a rate, an acceleration or a force.
+pub fn driven(error: &DriveError, given: Given) -> Refusal {
+    let (complaint, part) = driven_complaint(error, given.option);
+    Refusal(complaint.render_in(&given, &part, style()))
+}
+
+/// The frame of that name.
+pub fn frame(mechanism: &Mechanism, name: &str, option: &str) -> Result<Frame, Refusal> {
+    mechanism.frame(name).ok_or_else(|| {
+        let given = Given {
+            option,
+            name,
+            value: None,
+        };
+        let (complaint, part) = unknown_frame(mechanism, name);
+        Refusal(complaint.render_in(&given, &part, style()))
     })
 }

@@ -59,6 +59,14 @@ pub fn check_count(question: &Question) -> Result<Count, QuestionError> {
         .filter(|c| !held.contains(c))
         .map(name)
         .collect();
+    // what depends on itself at a singular configuration only is for the analysis to tell
+    if !free.is_empty()
+        && !hold.is_empty()
+        && Mobility::beside(mechanism, &start)
+            .is_some_and(|beside| beside.independent(mechanism, &held).len() == held.len())
+    {
+        return Ok(count);
+    }
     // what is only infinitesimally free cannot be chosen
     if free.is_empty() && !hold.is_empty() && !mobility.is_finite(mechanism) {
         return Ok(Count {

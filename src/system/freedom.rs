@@ -164,6 +164,14 @@ pub enum Holdable {
 }
 
 impl Holdable {
+    /// Whether its value is an angle, in rad; otherwise a length, in m.
+    pub fn is_angle(self, mechanism: &Mechanism) -> bool {
+        match self {
+            Holdable::Joint(joint) => mechanism.joints()[joint].kind.is_angle(),
+            Holdable::Coordinate(_, coordinate) => coordinate.is_angle(),
+        }
+    }
+
     /// Its name in questions.
     pub fn name(self, mechanism: &Mechanism) -> String {
         match self {
@@ -189,11 +197,21 @@ impl Mobility {
     /// what is lost or gained at a special configuration does not count. `None` if the mechanism
     /// does not assemble near there, or has too many unknowns to tell.
     pub fn near(mechanism: &Mechanism, start: &Configuration<f64>) -> Option<Self> {
+        Mobility::among(mechanism, start, 0..4)
+    }
+
+    /// The same, of configurations beside the start only: where that is special they are not.
+    pub fn beside(mechanism: &Mechanism, start: &Configuration<f64>) -> Option<Self> {
+        Mobility::among(mechanism, start, 1..4)
+    }
+
+    fn among(
+        mechanism: &Mechanism,
+        start: &Configuration<f64>,
+        shakes: std::ops::Range<u8>,
+    ) -> Option<Self> {
         let dimensions = mechanism.dimensions();
-        let all_free = Held {
-            joints: vec![false; mechanism.joints().len()],
-            platforms: vec![HeldPlatform::Free; mechanism.platforms().len()],
-        };
+        let all_free = Held::nothing(mechanism);
         let system = System::new(dimensions, &all_free);
         if system.unknowns().len() > SPECTRUM_LIMIT {
             return None;
@@ -201,7 +219,7 @@ impl Mobility {
         let mut work = system.work();
         let mut fewest: Option<(Freedoms, Configuration<f64>)> = None;
         // the start itself, and three points beside it in directions that have no symmetry
-        for k in 0..4 {
+        for k in shakes {
             let mut at = start.clone();
             for (joint, value) in at.joints.iter_mut().enumerate() {
                 let shake = 0.05 * f64::from(k) * (1.7 * (joint as f64 + 1.0) * f64::from(k)).sin();

@@ -156,6 +156,10 @@ impl Motion {
         for path in &mut self.first_path.joints {
             path.slope = 0.0;
         }
+        for pose in &mut self.first_path.platforms {
+            let parts = pose.orientation.0.iter_mut().chain(&mut pose.position.0);
+            parts.for_each(|part| part.slope = 0.0);
+        }
         self.rates.fill(0.0);
         for (&coordinate, &rate) in self.coordinates.iter().zip(given) {
             match coordinate {
