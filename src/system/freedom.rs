@@ -1,6 +1,7 @@
 use super::Neighbourhood;
 use super::equations::System;
 use super::layout::{Held, HeldPlatform, Unknown};
+use crate::geometry::Vector3;
 use crate::linear::{SPECTRUM_LIMIT, Spectrum, rank};
 use crate::mechanism::{Configuration, Coordinate, Dimensions, Kinematics, Mechanism};
 use crate::number::Dual;
@@ -145,9 +146,9 @@ impl Freedoms {
                 value: 0.0,
                 slope: motion[first + i] * factor,
             };
-            let omega = crate::geometry::Vector3([0, 1, 2].map(|i| rate(i, 1.0)));
+            let omega = Vector3([0, 1, 2].map(|i| rate(i, 1.0)));
             let length = dimensions.characteristic_length;
-            let shift = crate::geometry::Vector3([3, 4, 5].map(|i| rate(i, length)));
+            let shift = Vector3([3, 4, 5].map(|i| rate(i, length)));
             *pose = pose.moved_by(&omega, shift);
         }
         moving
@@ -224,6 +225,14 @@ impl Mobility {
             for (joint, value) in at.joints.iter_mut().enumerate() {
                 let shake = 0.05 * f64::from(k) * (1.7 * (joint as f64 + 1.0) * f64::from(k)).sin();
                 *value += shake * dimensions.joint_scales[joint];
+            }
+            for (platform, pose) in at.platforms.iter_mut().enumerate() {
+                let shake = |i: usize| {
+                    let phase = 2.3 * (6 * platform + i + 1) as f64 * f64::from(k);
+                    0.05 * f64::from(k) * phase.sin()
+                };
+                let shift = [3, 4, 5].map(|i| shake(i) * dimensions.characteristic_length);
+                *pose = pose.moved_by(&Vector3([0, 1, 2].map(shake)), Vector3(shift));
             }
             let mut trial = at.clone();
             let report = Newton::default().solve(&system, &mut at, &mut trial, &mut work);
