@@ -5,4 +5,5 @@ pub mod assembly;
 pub mod compare;
 pub mod mobility;
 pub mod overview;
+pub mod statics;
 pub mod velocity;

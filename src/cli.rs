@@ -6,6 +6,7 @@ mod compare;
 mod mobility;
 mod solve;
 mod source;
+mod statics;
 mod velocity;
 
 use std::io::{self, IsTerminal, Write};
@@ -32,6 +33,7 @@ enum Command {
     Compare(compare::Compare),
     Mobility(mobility::Mobility),
     Velocity(velocity::Velocity),
+    Statics(statics::Statics),
 }
 
 /// How an answer is written.
@@ -65,6 +67,7 @@ pub fn run() -> ExitCode {
         Command::Compare(compare) => compare.run(),
         Command::Mobility(mobility) => mobility.run(),
         Command::Velocity(velocity) => velocity.run(),
+        Command::Statics(statics) => statics.run(),
     };
     match answer {
         Ok(answer) => {

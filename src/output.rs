@@ -23,4 +23,6 @@ pub mod question;
 #[cfg(feature = "cli")]
 pub mod solution;
 #[cfg(feature = "cli")]
+pub mod statics;
+#[cfg(feature = "cli")]
 pub mod velocity;
