@@ -39,6 +39,17 @@ pub fn rank(singular_values: &[f64]) -> usize {
     singular_values.iter().filter(|&&s| s > threshold).count()
 }
 
+/// The numerical rank of a column-major matrix.
+pub fn rank_of(rows: usize, columns: usize, entries: &[f64]) -> usize {
+    if rows == 0 || columns == 0 {
+        return 0;
+    }
+    let matrix = nalgebra::DMatrix::from_column_slice(rows, columns, entries);
+    let mut values: Vec<f64> = matrix.singular_values().iter().copied().collect();
+    values.sort_by(|a, b| b.total_cmp(a));
+    rank(&values)
+}
+
 /// The most columns whose spectrum is computed: it takes a second for so many, and grows as the cube.
 pub const SPECTRUM_LIMIT: usize = 500;
 

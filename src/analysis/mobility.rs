@@ -224,7 +224,7 @@ pub fn mobility(question: &Question, settings: &MobilitySettings) -> Analysed<Mo
         kept: closed.kept,
         gap_after_step: found.gap,
     };
-    report.elsewhere = elsewhere(&mut near, settings, report.mobility, &mut rng);
+    report.elsewhere = elsewhere(&mut near, settings, &report, &mut rng);
     Analysed::Closed(report)
 }
 
@@ -232,7 +232,7 @@ pub fn mobility(question: &Question, settings: &MobilitySettings) -> Analysed<Mo
 fn elsewhere(
     near: &mut Neighbourhood,
     settings: &MobilitySettings,
-    here: usize,
+    here: &MobilityReport,
     rng: &mut Pcg64Mcg,
 ) -> Vec<Elsewhere> {
     let mechanism = near.mechanism();
@@ -242,9 +242,12 @@ fn elsewhere(
         let Some(at) = near.solve(&settings.newton, start) else {
             continue;
         };
+        if here.character == Character::Regular && near.rank(&at) == here.rank {
+            continue;
+        }
         let tangent = near.tangent(at);
         let freedoms = tangent.motions.len();
-        if freedoms == here || found.iter().any(|other| other.mobility == freedoms) {
+        if freedoms == here.mobility || found.iter().any(|other| other.mobility == freedoms) {
             continue;
         }
         // a random start meets a singular point with probability zero, a shaky assembly it may meet

@@ -3,7 +3,7 @@
 use super::closing::Closed;
 use super::{ClosureWrenches, FrameTwists, Held, System, Unknown, Work};
 use crate::description::{ClosureKind, Role};
-use crate::linear::{Decomposition, dot, norm};
+use crate::linear::{Decomposition, dot, norm, rank_of};
 use crate::mechanism::{Configuration, Frame, Mechanism};
 use crate::solve::{Equations, Newton, Stop};
 
@@ -100,6 +100,13 @@ impl<'a> Neighbourhood<'a> {
             jacobian,
             decomposition,
         }
+    }
+
+    /// The rank of the closure equations at a configuration.
+    pub fn rank(&mut self, at: &Configuration<f64>) -> usize {
+        self.system.linearise(at, &mut self.work);
+        let jacobian = self.system.dense_jacobian(&mut self.work);
+        rank_of(self.system.rows(), self.system.unknowns().len(), &jacobian)
     }
 
     /// The wrenches of every closure's rows at a configuration.
