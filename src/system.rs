@@ -21,7 +21,7 @@ mod tracker;
 mod twists;
 mod value;
 
-pub use closing::{Analysed, Closed, NotClosed, WidestGap, close, fit_platforms};
+pub use closing::{Analysed, Closed, NotClosed, WidestGap, close, fit_platforms, too_large};
 pub use count::{Count, check_count};
 pub use drive::{Drive, DriveError};
 pub use equations::{ClosureWrenches, System, Work};

@@ -447,7 +447,7 @@ fn fichters_platform_gains_a_freedom_when_turned_by_ninety_degrees() {
         .unwrap()
         {
             Analysed::Closed(report) => report.gain.map_or(0, |gain| gain.freedoms),
-            Analysed::NotClosed(open) => panic!("{open:?}"),
+            other => panic!("{other:?}"),
         }
     };
     assert_eq!(gain_at(20.0), 0);

@@ -18,6 +18,7 @@ use crate::mechanism::{ClosureKind, Mechanism};
 use crate::solve::Newton;
 use crate::system::{
     Analysed, Neighbourhood, Question, Tangent, Unknown, WidestGap, close, random_configuration,
+    too_large,
 };
 
 pub use loops::LoopCount;
@@ -167,6 +168,9 @@ pub struct Elsewhere {
 /// configuration singular, from the branches that small steps in many directions settle on.
 pub fn mobility(question: &Question, settings: &MobilitySettings) -> Analysed<MobilityReport> {
     let mechanism = question.mechanism();
+    if let Some(unknowns) = too_large(mechanism) {
+        return Analysed::TooLarge { unknowns };
+    }
     let closed = match close(question, &settings.newton, settings.restarts, settings.seed) {
         Ok(closed) => closed,
         Err(open) => return Analysed::NotClosed(open),

@@ -9,7 +9,7 @@ use crate::mechanism::{Configuration, Frame, Mechanism};
 use crate::solve::Newton;
 use crate::system::{
     Analysed, FrameTwists, Holdable, Load, Neighbourhood, Question, QuestionError, Unknown,
-    WidestGap, check_count, close,
+    WidestGap, check_count, close, too_large,
 };
 
 pub use reactions::Reaction;
@@ -104,6 +104,9 @@ pub fn statics(
     settings: &StaticsSettings,
 ) -> Result<Analysed<StaticsReport>, QuestionError> {
     let mechanism = question.mechanism();
+    if let Some(unknowns) = too_large(mechanism) {
+        return Ok(Analysed::TooLarge { unknowns });
+    }
     check_count(question)?;
     let closed = match close(question, &settings.newton, settings.restarts, settings.seed) {
         Ok(closed) => closed,

@@ -9,7 +9,7 @@ use crate::mechanism::{Frame, Mechanism};
 use crate::solve::Newton;
 use crate::system::{
     Analysed, Drive, FrameMotion, FrameMotions, Freedoms, Holdable, Motion, Neighbourhood,
-    Question, QuestionError, WidestGap, check_count, close,
+    Question, QuestionError, WidestGap, check_count, close, too_large,
 };
 
 pub use jacobian::{Axis, InputOutput};
@@ -146,6 +146,9 @@ pub fn velocity(
     settings: &VelocitySettings,
 ) -> Result<Analysed<VelocityReport>, QuestionError> {
     let mechanism = question.mechanism();
+    if let Some(unknowns) = too_large(mechanism) {
+        return Ok(Analysed::TooLarge { unknowns });
+    }
     check_count(question)?;
     let closed = match close(question, &settings.newton, settings.restarts, settings.seed) {
         Ok(closed) => closed,

@@ -2,8 +2,7 @@
 
 use clap::Args;
 use linkwork::analysis::mobility::{MobilitySettings, mobility};
-use linkwork::output::{closing, mobility as output};
-use linkwork::system::Analysed;
+use linkwork::output::{closing as analysed, mobility as output};
 
 use super::asked::Asked;
 use super::source::Source;
@@ -37,16 +36,12 @@ impl Mobility {
             seed: self.seed,
             ..MobilitySettings::default()
         };
-        let (data, yes) = match (mobility(&question, &settings), self.format) {
-            (Analysed::Closed(report), Format::Text) => (output::text(mechanism, &report), true),
-            (Analysed::Closed(report), Format::Json) => (output::json(mechanism, &report), true),
-            (Analysed::NotClosed(open), Format::Text) => {
-                (closing::not_closed_text(mechanism, &open), false)
-            }
-            (Analysed::NotClosed(open), Format::Json) => {
-                (closing::not_closed_json(mechanism, &open), false)
-            }
+        let answer = mobility(&question, &settings);
+        let (data, yes) = match self.format {
+            Format::Text => analysed::text(mechanism, &answer, output::text),
+            Format::Json => analysed::json(mechanism, &answer, output::json),
         };
+        let yes = yes.is_some_and(|_| true);
         Ok(Answer {
             data,
             remarks: loaded.warnings(),

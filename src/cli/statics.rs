@@ -3,8 +3,8 @@
 use clap::Args;
 use linkwork::analysis::statics::{StaticsSettings, statics};
 use linkwork::mechanism::Mechanism;
-use linkwork::output::{closing, statics as output};
-use linkwork::system::{Analysed, Load, LoadError};
+use linkwork::output::{closing as analysed, statics as output};
+use linkwork::system::{Load, LoadError};
 
 use super::asked::{Asked, refusal};
 use super::source::{Assignment, Source};
@@ -57,22 +57,11 @@ impl Statics {
         }
         let report = statics(&question, &load, &StaticsSettings::default())
             .map_err(|error| refusal(&error, None))?;
-        let (data, yes) = match (&report, self.format) {
-            (Analysed::Closed(report), Format::Text) => (
-                output::text(mechanism, report),
-                report.unbalanced.is_empty(),
-            ),
-            (Analysed::Closed(report), Format::Json) => (
-                output::json(mechanism, report),
-                report.unbalanced.is_empty(),
-            ),
-            (Analysed::NotClosed(open), Format::Text) => {
-                (closing::not_closed_text(mechanism, open), false)
-            }
-            (Analysed::NotClosed(open), Format::Json) => {
-                (closing::not_closed_json(mechanism, open), false)
-            }
+        let (data, yes) = match self.format {
+            Format::Text => analysed::text(mechanism, &report, output::text),
+            Format::Json => analysed::json(mechanism, &report, output::json),
         };
+        let yes = yes.is_some_and(|report| report.unbalanced.is_empty());
         Ok(Answer {
             data,
             remarks: loaded.warnings(),

@@ -2,8 +2,8 @@
 
 use clap::Args;
 use linkwork::analysis::velocity::{VelocitySettings, velocity};
-use linkwork::output::{closing, velocity as output};
-use linkwork::system::{Analysed, Drive};
+use linkwork::output::{closing as analysed, velocity as output};
+use linkwork::system::Drive;
 
 use super::asked::{Asked, driven, frame, refusal};
 use super::source::{Assignment, Source};
@@ -62,20 +62,11 @@ impl Velocity {
         };
         let report =
             velocity(&question, &drive, &settings).map_err(|error| refusal(&error, None))?;
-        let (data, yes) = match (&report, self.format) {
-            (Analysed::Closed(report), Format::Text) => {
-                (output::text(mechanism, report), report.gain.is_none())
-            }
-            (Analysed::Closed(report), Format::Json) => {
-                (output::json(mechanism, report), report.gain.is_none())
-            }
-            (Analysed::NotClosed(open), Format::Text) => {
-                (closing::not_closed_text(mechanism, open), false)
-            }
-            (Analysed::NotClosed(open), Format::Json) => {
-                (closing::not_closed_json(mechanism, open), false)
-            }
+        let (data, yes) = match self.format {
+            Format::Text => analysed::text(mechanism, &report, output::text),
+            Format::Json => analysed::json(mechanism, &report, output::json),
         };
+        let yes = yes.is_some_and(|report| report.gain.is_none());
         Ok(Answer {
             data,
             remarks: loaded.warnings(),

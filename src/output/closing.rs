@@ -5,8 +5,9 @@ use serde::Serialize;
 use super::json::document;
 use super::layout::listed;
 use super::quantity::{degrees, quantity};
+use crate::linear::SPECTRUM_LIMIT;
 use crate::mechanism::Mechanism;
-use crate::system::{NotClosed, WidestGap};
+use crate::system::{Analysed, NotClosed, WidestGap};
 
 /// `0.213 m and 4.2°`
 pub(super) fn gap(distance: f64, angle: f64) -> String {
@@ -32,9 +33,57 @@ pub(super) fn given(given: &WidestGap, kept: bool) -> String {
     )
 }
 
-/// Why there is no answer, and what to ask instead.
-pub fn not_closed_text(mechanism: &Mechanism, open: &NotClosed) -> String {
-    format!("{}\n{}\n", mechanism.name(), sentence(open))
+/// The report as `show` writes it, or why there is none and what to ask instead.
+pub fn text<'a, R>(
+    mechanism: &Mechanism,
+    answer: &'a Analysed<R>,
+    show: impl Fn(&Mechanism, &R) -> String,
+) -> (String, Option<&'a R>) {
+    let why = match answer {
+        Analysed::Closed(report) => return (show(mechanism, report), Some(report)),
+        Analysed::NotClosed(open) => sentence(open),
+        Analysed::TooLarge { unknowns } => too_large(*unknowns),
+    };
+    (format!("{}\n{why}\n", mechanism.name()), None)
+}
+
+/// The same as JSON: `closed` and `sentence` where there is no report.
+pub fn json<'a, R>(
+    mechanism: &Mechanism,
+    answer: &'a Analysed<R>,
+    show: impl Fn(&Mechanism, &R) -> String,
+) -> (String, Option<&'a R>) {
+    let json = match answer {
+        Analysed::Closed(report) => return (show(mechanism, report), Some(report)),
+        Analysed::NotClosed(open) => UnansweredJson {
+            closed: Some(false),
+            sentence: sentence(open),
+            left: open.left.as_ref(),
+            held: &open.held,
+        },
+        Analysed::TooLarge { unknowns } => UnansweredJson {
+            closed: None,
+            sentence: too_large(*unknowns),
+            left: None,
+            held: &[],
+        },
+    };
+    (document(mechanism.name(), &json), None)
+}
+
+#[derive(Serialize)]
+struct UnansweredJson<'a> {
+    closed: Option<bool>,
+    sentence: String,
+    left: Option<&'a WidestGap>,
+    held: &'a [String],
+}
+
+fn too_large(unknowns: usize) -> String {
+    format!(
+        "Not analysed: the mechanism has {unknowns} unknowns, and singular values are computed for \
+         up to {SPECTRUM_LIMIT}. Ask about a part of it."
+    )
 }
 
 fn sentence(open: &NotClosed) -> String {
@@ -55,22 +104,4 @@ fn sentence(open: &NotClosed) -> String {
          values with --hold, for another start with --guess, or let a joint be found with --free; \
          `linkwork solve` says more."
     )
-}
-
-/// The same as JSON.
-pub fn not_closed_json(mechanism: &Mechanism, open: &NotClosed) -> String {
-    #[derive(Serialize)]
-    struct NotClosedJson<'a> {
-        closed: bool,
-        sentence: String,
-        left: Option<&'a WidestGap>,
-        held: &'a [String],
-    }
-    let json = NotClosedJson {
-        closed: false,
-        sentence: sentence(open),
-        left: open.left.as_ref(),
-        held: &open.held,
-    };
-    document(mechanism.name(), &json)
 }

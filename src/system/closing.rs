@@ -3,6 +3,7 @@
 use serde::Serialize;
 
 use super::{Gap, Held, HeldPlatform, Question, Search, System};
+use crate::linear::SPECTRUM_LIMIT;
 use crate::mechanism::{Configuration, Mechanism};
 use crate::solve::{Equations, Newton, Stop};
 
@@ -42,6 +43,12 @@ pub enum Analysed<R> {
     Closed(R),
     /// It does not.
     NotClosed(NotClosed),
+    /// It has more unknowns than singular values are computed for
+    /// ([`SPECTRUM_LIMIT`](crate::linear::SPECTRUM_LIMIT)).
+    TooLarge {
+        /// How many it has.
+        unknowns: usize,
+    },
 }
 
 impl<R> Analysed<R> {
@@ -49,7 +56,7 @@ impl<R> Analysed<R> {
     pub fn closed(self) -> Option<R> {
         match self {
             Analysed::Closed(report) => Some(report),
-            Analysed::NotClosed(_) => None,
+            Analysed::NotClosed(_) | Analysed::TooLarge { .. } => None,
         }
     }
 }
@@ -101,6 +108,12 @@ pub fn close(
         left: widest(mechanism, &found.attempt.at),
         held: question.held_names(),
     })
+}
+
+/// The number of unknowns with nothing held, if that is too many for the whole spectrum.
+pub fn too_large(mechanism: &Mechanism) -> Option<usize> {
+    let unknowns = mechanism.joints().len() + 6 * mechanism.platforms().len();
+    (unknowns > SPECTRUM_LIMIT).then_some(unknowns)
 }
 
 /// A pose typed with expressions is exact, and no step can make it better.

@@ -182,7 +182,7 @@ impl<'a> Neighbourhood<'a> {
             let correction = from.decomposition.solve(residual);
             let size = norm(&correction);
             // not even within the distance: the linear picture does not hold so far out
-            if !(size < 10.0 * distance) {
+            if size.is_nan() || size >= 10.0 * distance {
                 return None;
             }
             if size < 1e-14 || (size < 1e-12 && size >= 0.5 * before) {

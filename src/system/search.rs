@@ -156,7 +156,7 @@ impl<'a> Search<'a> {
         }
         for (i, held) in self.held.platforms.iter().enumerate() {
             if *held == HeldPlatform::Pose {
-                at.platforms[i] = start.platforms[i].clone();
+                at.platforms[i] = start.platforms[i];
             }
         }
         fit_platforms(

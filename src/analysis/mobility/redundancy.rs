@@ -68,7 +68,7 @@ pub(super) fn find(near: &mut Neighbourhood, tangent: &Tangent) -> Vec<Redundanc
         };
         let dependent: Vec<Vec<f64>> = (entering.iter())
             .map(|weights| {
-                let mut sum = vec![0.0; 6];
+                let mut sum = [0.0; 6];
                 for (weight, part) in weights.iter().zip(&parts) {
                     for (row, factor) in wrenches.rows.iter().zip(part) {
                         sum.iter_mut()
