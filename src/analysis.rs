@@ -3,4 +3,7 @@
 
 pub mod assembly;
 pub mod compare;
+pub mod mobility;
 pub mod overview;
+pub mod statics;
+pub mod velocity;

@@ -1,9 +1,13 @@
 //! Commands, one file each. Data goes to stdout, problems to stderr.
 
+mod asked;
 mod check;
 mod compare;
+mod mobility;
 mod solve;
 mod source;
+mod statics;
+mod velocity;
 
 use std::io::{self, IsTerminal, Write};
 use std::process::ExitCode;
@@ -27,6 +31,9 @@ enum Command {
     Check(check::Check),
     Solve(solve::Solve),
     Compare(compare::Compare),
+    Mobility(mobility::Mobility),
+    Velocity(velocity::Velocity),
+    Statics(statics::Statics),
 }
 
 /// How an answer is written.
@@ -58,6 +65,9 @@ pub fn run() -> ExitCode {
         Command::Check(check) => check.run(),
         Command::Solve(solve) => solve.run(),
         Command::Compare(compare) => compare.run(),
+        Command::Mobility(mobility) => mobility.run(),
+        Command::Velocity(velocity) => velocity.run(),
+        Command::Statics(statics) => statics.run(),
     };
     match answer {
         Ok(answer) => {

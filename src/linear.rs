@@ -5,6 +5,7 @@
 //! appear in that leg's closures only, and the platforms tie the legs together.
 
 mod bordered;
+mod decomposition;
 mod factorable;
 mod lu;
 mod qr;
@@ -12,6 +13,7 @@ mod qr;
 mod sparse;
 
 pub use bordered::{Block, Bordered};
+pub use decomposition::{Decomposition, complement, dot, norm, orthonormal, remove};
 pub use factorable::{DenseOnly, Factorable, SparseStep};
 pub use qr::Qr;
 #[cfg(feature = "sparse")]
@@ -35,6 +37,17 @@ pub fn rank(singular_values: &[f64]) -> usize {
     let largest = singular_values.first().copied().unwrap_or(0.0);
     let threshold = RANK_TOLERANCE * largest.max(f64::MIN_POSITIVE);
     singular_values.iter().filter(|&&s| s > threshold).count()
+}
+
+/// The numerical rank of a column-major matrix.
+pub fn rank_of(rows: usize, columns: usize, entries: &[f64]) -> usize {
+    if rows == 0 || columns == 0 {
+        return 0;
+    }
+    let matrix = nalgebra::DMatrix::from_column_slice(rows, columns, entries);
+    let mut values: Vec<f64> = matrix.singular_values().iter().copied().collect();
+    values.sort_by(|a, b| b.total_cmp(a));
+    rank(&values)
 }
 
 /// The most columns whose spectrum is computed: it takes a second for so many, and grows as the cube.

@@ -1,6 +1,8 @@
 //! Answers and complaints made visible.
 
 #[cfg(feature = "cli")]
+pub mod closing;
+#[cfg(feature = "cli")]
 pub mod comparison;
 #[cfg(feature = "cli")]
 pub mod diagnostics;
@@ -8,6 +10,8 @@ pub mod diagnostics;
 mod json;
 #[cfg(feature = "cli")]
 mod layout;
+#[cfg(feature = "cli")]
+pub mod mobility;
 #[cfg(feature = "cli")]
 pub mod option;
 #[cfg(feature = "cli")]
@@ -18,3 +22,7 @@ mod quantity;
 pub mod question;
 #[cfg(feature = "cli")]
 pub mod solution;
+#[cfg(feature = "cli")]
+pub mod statics;
+#[cfg(feature = "cli")]
+pub mod velocity;

@@ -2,18 +2,40 @@
 //!
 //! Direct, inverse and mixed kinematics are only different choices of what is held ([`Held`]).
 
+mod closing;
+mod count;
 mod displacement;
+mod drive;
 mod equations;
 mod freedom;
+mod gap;
 mod layout;
+mod load;
+mod loops;
+mod motion;
+mod neighbourhood;
 mod question;
+mod search;
+mod starts;
 mod tracker;
+mod twists;
 mod value;
 mod words;
 
-pub use equations::{System, Work};
+pub use closing::{Analysed, Closed, NotClosed, WidestGap, close, fit, too_large};
+pub use count::{Count, check_count};
+pub use drive::{Drive, DriveError};
+pub use equations::{ClosureWrenches, System, Work};
 pub use freedom::{Freedoms, Holdable, Mobility};
+pub use gap::Gap;
 pub use layout::{Held, HeldPlatform, Unknown};
+pub use load::{Load, LoadError};
+pub use loops::{LoopPart, MechanismLoop, loops};
+pub use motion::{FrameMotion, FrameMotions, Motion};
+pub use neighbourhood::{Followed, Neighbourhood, Tangent};
 pub use question::{Question, QuestionError};
+pub use search::{Attempt, Search, Searched};
+pub use starts::{random_configuration, sampling_range};
 pub use tracker::Tracker;
+pub use twists::{FrameTwists, Twist};
 pub use value::ValueError;

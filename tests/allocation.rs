@@ -4,12 +4,15 @@ use std::alloc::{GlobalAlloc, Layout, System as Heap};
 use std::sync::atomic::{AtomicUsize, Ordering};
 
 use linkwork::geometry::{Axis, Pose, Quaternion, Vector3};
+use linkwork::mechanism::Mechanism;
 use linkwork::mechanism::{
     ChainDimensions, ClosureDimensions, ClosureKind, Configuration, Dimensions, Frame, LinearForm,
     PlatformPose, RowDimensions,
 };
 use linkwork::solve::{Newton, Stop, Warm};
-use linkwork::system::{Held, HeldPlatform, System, Tracker};
+use linkwork::system::{
+    FrameMotions, Held, HeldPlatform, Holdable, Motion, Question, System, Tracker, close,
+};
 
 struct Counting;
 
@@ -72,7 +75,13 @@ fn three_rps() -> Dimensions<f64> {
     }
 }
 
+/// One test: the count is of the whole process.
 #[test]
+fn solves_and_rates_allocate_nothing() {
+    a_solve_allocates_nothing();
+    rates_and_accelerations_of_everything_allocate_nothing();
+}
+
 fn a_solve_allocates_nothing() {
     let held = Held {
         joints: vec![false, true, false, true, false, true],
@@ -107,5 +116,34 @@ fn a_solve_allocates_nothing() {
         }
         assert_eq!(ALLOCATIONS.load(Ordering::Relaxed), before);
         assert!(steps > 0 && renewals > 0);
+    }
+}
+
+fn rates_and_accelerations_of_everything_allocate_nothing() {
+    for name in ["three_rps", "stewart_gough_6ups", "bennett", "delta"] {
+        let folder = concat!(env!("CARGO_MANIFEST_DIR"), "/mechanisms");
+        let mechanism = Mechanism::load(format!("{folder}/{name}.ron")).unwrap();
+        let question = Question::new(&mechanism);
+        let at = close(&question, &Newton::default(), 0, 1)
+            .unwrap()
+            .configuration;
+        let held: Vec<Holdable> = question.held_coordinates();
+        let frames = mechanism.frames();
+        let mut motion = Motion::new(&mechanism, &held);
+        let mut motions = FrameMotions::new(&mechanism, &motion, &frames);
+        let (rates, changes) = (vec![0.3; held.len()], vec![-0.1; held.len()]);
+        let before = ALLOCATIONS.load(Ordering::Relaxed);
+        let mut sum = 0.0;
+        for _ in 0..100 {
+            motion.at(&at);
+            sum += motion.rates(&rates)[0];
+            sum += motion.accelerations(&at, &rates, &changes)[0];
+            motions.place(&mut motion, &at);
+            for i in 0..frames.len() {
+                sum += motions.motion(i).change.velocity.norm();
+            }
+        }
+        assert_eq!(ALLOCATIONS.load(Ordering::Relaxed), before, "{name}");
+        assert!(sum.is_finite() && sum != 0.0);
     }
 }

@@ -8,6 +8,8 @@ use assert_cmd::cargo::CommandCargoExt;
 use serde_json::Value;
 
 const FOUR_BAR: &str = "mechanisms/four_bar.ron";
+/// Files whose point is a singular configuration.
+const SINGULAR: [&str; 3] = ["flat_triangle.ron", "parallelogram.ron", "two_rhombi.ron"];
 const THREE_RPS: &str = "mechanisms/three_rps.ron";
 
 fn linkwork() -> Command {
@@ -65,8 +67,10 @@ fn every_shipped_mechanism_is_checked_solved_and_compared() {
             json(&["check", &file])["linkwork"],
             env!("CARGO_PKG_VERSION")
         );
-        answer(&["solve", &file]);
-        assert_eq!(json(&["solve", &file])["outcome"], "converged", "{file}");
+        answer(&["mobility", &file]);
+        let special = SINGULAR.iter().any(|name| file.ends_with(name));
+        let outcome = if special { "singular" } else { "converged" };
+        assert_eq!(json(&["solve", &file])["outcome"], outcome, "{file}");
         answer(&["compare", &file]);
         assert_eq!(json(&["compare", &file])["agree"], true, "{file}");
     }
@@ -347,4 +351,148 @@ fn help_shows_an_example_of_every_command() {
         );
     }
     assert!(answer(&["--help"]).contains("Exit codes"));
+}
+
+#[test]
+fn mobility_is_written_as_asked() {
+    let bar = json(&["mobility", FOUR_BAR]);
+    let keys: Vec<&String> = bar.as_object().unwrap().keys().take(11).collect();
+    let asked = [
+        "linkwork",
+        "mechanism",
+        "mobility",
+        "kutzbach",
+        "rank",
+        "infinitesimal",
+        "redundant",
+        "idle_joints",
+        "moving_joints",
+        "redundant_constraints",
+        "explanation",
+    ];
+    assert_eq!(keys, asked);
+    let words = &bar["redundant_constraints"][0];
+    assert_eq!(
+        words,
+        "closure `joint3`: force along z, moments about x and y"
+    );
+    assert_eq!(
+        (&bar["mobility"], &bar["redundant"]),
+        (&1.into(), &3.into())
+    );
+    let explanation = bar["explanation"].as_str().unwrap();
+    assert!(
+        explanation.starts_with("The mechanism has 1 freedom."),
+        "{explanation}"
+    );
+}
+
+#[test]
+fn a_mechanism_that_is_not_closed_is_not_analysed_and_the_way_out_is_told() {
+    let asked = [
+        "mobility",
+        FOUR_BAR,
+        "--set",
+        "l2=0.5",
+        "--hold",
+        "theta1=60 deg",
+    ];
+    let output = run(&asked);
+    assert_eq!(output.status.code(), Some(1));
+    let said = stdout(&output);
+    assert!(
+        said.contains("Not assembled") && said.contains("--guess"),
+        "{said}"
+    );
+    assert_eq!(json(&asked)["closed"], false);
+}
+
+#[test]
+fn velocity_and_statics_answer_for_every_shipped_mechanism() {
+    for file in mechanisms() {
+        let special = SINGULAR.iter().any(|name| file.ends_with(name));
+        let velocity = json(&["velocity", &file]);
+        assert_eq!(velocity["gain"].is_null(), !special, "{file}");
+        let statics = json(&["statics", &file]);
+        assert_eq!(
+            statics["balanced"], true,
+            "{file}: no load is always balanced"
+        );
+        if !special {
+            answer(&["velocity", &file]);
+        }
+        answer(&["statics", &file]);
+    }
+}
+
+#[test]
+fn rates_and_forces_are_written_with_names_and_units() {
+    let moving = json(&[
+        "velocity", THREE_RPS, "--rate", "l1=0.1", "--point", "top.S1",
+    ]);
+    assert_eq!(moving["inputs"][0]["name"], "l1");
+    assert_eq!(moving["inputs"][0]["rate"], 0.1);
+    let jacobian = &moving["jacobian"];
+    assert_eq!(jacobian["rows"][0]["name"], "top ωx");
+    assert_eq!(jacobian["rows"][0]["unit"], "rad/s");
+    assert_eq!(jacobian["columns"][2]["unit"], "m/s");
+    assert_eq!(jacobian["entries"].as_array().unwrap().len(), 9);
+    assert_eq!(moving["frames"][1]["name"], "top.S1");
+    let forces = json(&["statics", THREE_RPS, "--wrench", "top=0,0,-100"]);
+    assert_eq!(forces["balanced"], true);
+    assert_eq!(forces["actuators"][0]["unit"], "N");
+    let text = answer(&["statics", FOUR_BAR, "--load", "phi1=2"]);
+    assert!(
+        text.contains("minimum-norm") && text.contains("N·m"),
+        "{text}"
+    );
+}
+
+#[test]
+fn questions_that_make_no_sense_are_told_what_to_ask_instead() {
+    for (asked, told) in [
+        (
+            &["velocity", FOUR_BAR, "--rate", "phi1=2"][..],
+            "--rate theta1=0.1",
+        ),
+        (
+            &["velocity", FOUR_BAR, "--rate", "theta=2"],
+            "did you mean `theta1`?",
+        ),
+        (&["velocity", FOUR_BAR, "--rate", "theta1=1/0"], "no value"),
+        (
+            &["velocity", FOUR_BAR, "--point", "lefd"],
+            "did you mean `left`?",
+        ),
+        (
+            &["velocity", FOUR_BAR, "--free", "theta1"],
+            "--hold theta1=home",
+        ),
+        (&["velocity", FOUR_BAR, "--hold", "phi1=home"], "--free"),
+        (&["statics", FOUR_BAR, "--wrench", "ground=0,0,1"], "left"),
+        (&["statics", FOUR_BAR, "--wrench", "left=0,1"], "Fx,Fy,Fz"),
+        (&["statics", FOUR_BAR, "--wrench", "left=0,1,q"], "q"),
+        (&["statics", FOUR_BAR, "--load", "phi3=1"], "did you mean"),
+        (
+            &["statics", FOUR_BAR, "--free", "theta1"],
+            "--hold theta1=home",
+        ),
+        (
+            &["mobility", FOUR_BAR, "--hold", "theta9=1"],
+            "did you mean `theta1`?",
+        ),
+    ] {
+        let said = refusal(asked);
+        assert!(said.contains(told), "{asked:?}: {said}");
+    }
+    // out of reach
+    for command in ["mobility", "velocity", "statics"] {
+        let output = run(&[command, THREE_RPS, "--hold", "l1=40"]);
+        assert_eq!(output.status.code(), Some(1), "{command}");
+        assert!(
+            stdout(&output).contains("Not assembled with"),
+            "{}",
+            stdout(&output)
+        );
+    }
 }

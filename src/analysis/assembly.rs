@@ -3,17 +3,10 @@
 mod closest;
 mod singular;
 
-use rand::{Rng, SeedableRng};
-use rand_pcg::Pcg64Mcg;
-use serde::Serialize;
-
-use crate::description::{ClosureKind, Role};
-use crate::geometry::{Quaternion, Vector3};
-use crate::mechanism::{Configuration, Coordinate, Joint, JointKind, Mechanism, PlatformPose};
+use crate::mechanism::{Configuration, Mechanism};
 use crate::solve::{Equations, Newton, Report, Stop};
-use crate::system::{
-    Freedoms, Held, HeldPlatform, Holdable, Mobility, Question, QuestionError, System, Work,
-};
+use crate::system::{Attempt, Freedoms, Question, QuestionError, Search, check_count};
+pub use crate::system::{Count, Gap};
 
 /// How to look for an assembled configuration.
 #[derive(Clone, Debug, PartialEq)]
@@ -73,16 +66,6 @@ pub enum Outcome {
     },
 }
 
-/// How far a closure is from being whole.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Gap {
-    /// Distance in m: between the origins, or what a `Distance` differs by, or along the blocked
-    /// directions of a sliding joint.
-    pub distance: f64,
-    /// Angle in rad between the axes, or between the frames where no turn is allowed.
-    pub angle: f64,
-}
-
 /// Where the search for an assembled configuration ended.
 #[derive(Clone, Debug, PartialEq)]
 pub struct AssemblyReport {
@@ -113,15 +96,6 @@ pub struct AssemblyReport {
     pub count: Count,
 }
 
-/// What is held beside what the mechanism allows.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
-pub struct Count {
-    /// Freedoms of the mechanism, if it assembles near the start.
-    pub mobility: Option<usize>,
-    /// Coordinates held.
-    pub held: usize,
-}
-
 /// Finds the assembled configuration near the start of a question.
 ///
 /// Newton's method on the loop closure from the guess; if that fails, or ends outside the limits,
@@ -134,234 +108,34 @@ pub fn assemble(
     settings: &AssemblySettings,
 ) -> Result<AssemblyReport, QuestionError> {
     let count = check_count(question)?;
-    let mut search = Search::new(question, settings);
-    let mut rng = Pcg64Mcg::seed_from_u64(settings.seed);
-    let mut outside: Option<Attempt> = None;
-    let mut closest: Option<Attempt> = None;
-    let mut restarts = 0;
-    for start in 0..=settings.restarts {
-        let at = if start == 0 {
-            search.guess()
-        } else {
-            search.random_start(&mut rng)
-        };
-        restarts = start;
-        let attempt = search.from(at);
-        if attempt.report.stop == Stop::Solved {
-            // another start cannot change where a held joint is
-            let outside_limits = search.outside_limits(&attempt.at);
-            if outside_limits
-                .iter()
-                .all(|&joint| search.held.joints[joint])
-            {
-                return Ok(search.assembled(attempt, restarts, count));
-            }
-            outside.get_or_insert(attempt);
-        } else if closest
-            .as_ref()
-            .is_none_or(|c| attempt.report.size.squares < c.report.size.squares)
-        {
-            closest = Some(attempt);
-        }
-        // an assembled configuration outside limits is worth a few more starts, not all
-        if outside.is_some() && start >= settings.restarts / 4 {
-            break;
-        }
-    }
-    Ok(match (outside, closest) {
-        (Some(attempt), _) => search.assembled(attempt, restarts, count),
-        (None, Some(attempt)) => search.unassembled(attempt, restarts, count),
-        (None, None) => unreachable!("every start is either assembled or not"),
+    let mut search = Search::new(question, &settings.newton);
+    let found = search.run(settings.restarts, settings.seed);
+    let reporter = Reporter {
+        mechanism: question.mechanism(),
+        settings,
+        search,
+        count,
+        restarts: found.restarts,
+    };
+    Ok(if found.assembles() {
+        reporter.assembled(found.attempt)
+    } else {
+        reporter.unassembled(found.attempt)
     })
 }
 
-/// Compares what is held with what the mechanism allows.
-fn check_count(question: &Question) -> Result<Count, QuestionError> {
-    let mechanism = question.mechanism();
-    let held = question.held_coordinates();
-    let start = question.start();
-    let mobility =
-        Mobility::near(mechanism, &start).or_else(|| Mobility::near(mechanism, &mechanism.home()));
-    let Some(mobility) = mobility else {
-        return Ok(Count {
-            mobility: None,
-            held: held.len(),
-        });
-    };
-    let count = Count {
-        mobility: Some(mobility.count()),
-        held: held.len(),
-    };
-    let joints = (0..mechanism.joints().len()).map(Holdable::Joint);
-    let coordinates = (0..mechanism.platforms().len())
-        .flat_map(|platform| Coordinate::ALL.map(|c| Holdable::Coordinate(platform, c)));
-    let (actuated, passive): (Vec<_>, Vec<_>) = joints.partition(|joint| match joint {
-        Holdable::Joint(joint) => mechanism.joints()[*joint].role == Role::Actuated,
-        Holdable::Coordinate(..) => false,
-    });
-    let candidates: Vec<Holdable> = (held.iter().copied())
-        .chain(actuated)
-        .chain(passive)
-        .chain(coordinates)
-        .collect();
-    let chosen = mobility.independent(mechanism, &candidates);
-    let name = |holdable: &Holdable| holdable.name(mechanism);
-    let free: Vec<String> = held
-        .iter()
-        .filter(|h| !chosen.contains(h))
-        .map(name)
-        .collect();
-    let hold: Vec<String> = chosen
-        .iter()
-        .filter(|c| !held.contains(c))
-        .map(name)
-        .collect();
-    let (mobility, held) = (mobility.count(), held.len());
-    match (free.is_empty(), hold.is_empty()) {
-        (true, true) => Ok(count),
-        (false, true) => Err(QuestionError::TooMany {
-            mobility,
-            held,
-            free,
-        }),
-        (true, false) => Err(QuestionError::TooFew {
-            mobility,
-            held,
-            hold,
-        }),
-        (false, false) => Err(QuestionError::Dependent { free, hold }),
-    }
-}
-
-/// One start and where it led.
-struct Attempt {
-    at: Configuration<f64>,
-    report: Report,
-}
-
-struct Search<'a> {
-    question: &'a Question<'a>,
+/// Says what an attempt means.
+struct Reporter<'a> {
     mechanism: &'a Mechanism,
     settings: &'a AssemblySettings,
-    held: Held<f64>,
-    system: System<f64>,
-    work: Work<f64>,
+    search: Search<'a>,
+    count: Count,
+    restarts: usize,
 }
 
-impl<'a> Search<'a> {
-    fn new(question: &'a Question<'a>, settings: &'a AssemblySettings) -> Self {
-        let mechanism = question.mechanism();
-        let held = question.held();
-        let system = question.system();
-        Search {
-            question,
-            mechanism,
-            settings,
-            work: system.work(),
-            system,
-            held,
-        }
-    }
-
-    fn from(&mut self, mut at: Configuration<f64>) -> Attempt {
-        let mut trial = at.clone();
-        let newton = &self.settings.newton;
-        let report = newton.solve(&self.system, &mut at, &mut trial, &mut self.work);
-        Attempt { at, report }
-    }
-
-    /// The start of the question. When it is not home, what has no guess of its own is first
-    /// brought to where it suits the rest best.
-    fn guess(&self) -> Configuration<f64> {
-        let start = self.question.start();
-        if !self.question.differs_from_home() {
-            return start;
-        }
-        let guessed = self.question.guessed_joints();
-        let joints = match guessed.contains(&true) {
-            true => (guessed.iter().zip(&self.held.joints))
-                .map(|(guessed, held)| guessed | held)
-                .collect(),
-            false => vec![true; guessed.len()],
-        };
-        self.fit(start, joints, self.question.guessed_platforms())
-    }
-
-    /// Brings what is not fixed as near to closing as it can come: the formulation decides success
-    /// more than the method, and a platform that fits its legs is a far better guess than one that
-    /// does not.
-    fn fit(
-        &self,
-        start: Configuration<f64>,
-        joints: Vec<bool>,
-        fixed_platforms: &[bool],
-    ) -> Configuration<f64> {
-        let platforms = self.held.platforms.iter().zip(fixed_platforms);
-        let held = Held {
-            joints,
-            platforms: platforms
-                .map(|(held, &fixed)| match fixed {
-                    true => HeldPlatform::Pose,
-                    false => held.clone(),
-                })
-                .collect(),
-        };
-        let system = System::new(self.mechanism.dimensions(), &held);
-        if system.unknowns().is_empty() {
-            return start;
-        }
-        let mut work = system.work();
-        let newton = Newton {
-            max_steps: 20,
-            ..self.settings.newton.clone()
-        };
-        let (mut at, mut trial) = (start.clone(), start);
-        newton.solve(&system, &mut at, &mut trial, &mut work);
-        at
-    }
-
-    fn random_start(&self, rng: &mut Pcg64Mcg) -> Configuration<f64> {
-        let mut at = self.question.start();
-        let length = self.mechanism.characteristic_length();
-        for (i, joint) in self.mechanism.joints().iter().enumerate() {
-            let (low, high) = sampling_range(joint, length);
-            // drawn for held joints too, so that the draws of the others do not depend on the split
-            let value = low + (high - low) * rng.random::<f64>();
-            if !self.held.joints[i] {
-                at.joints[i] = value;
-            }
-        }
-        for (pose, held) in at.platforms.iter_mut().zip(&self.held.platforms) {
-            let mut inside = || 2.0 * rng.random::<f64>() - 1.0;
-            let shift = Vector3([inside(), inside(), inside()]).times(length);
-            let quaternion = Quaternion([inside(), inside(), inside(), inside()]);
-            if *held != HeldPlatform::Pose {
-                *pose = PlatformPose {
-                    orientation: quaternion.normalised(),
-                    position: pose.position + shift,
-                };
-            }
-        }
-        let joints = vec![true; at.joints.len()];
-        self.fit(at, joints, &vec![false; self.held.platforms.len()])
-    }
-
-    fn outside_limits(&self, at: &Configuration<f64>) -> Vec<usize> {
-        let joints = self.mechanism.joints().iter().zip(&at.joints).enumerate();
-        joints
-            .filter(|(_, (joint, value))| !joint.allows(**value))
-            .map(|(i, _)| i)
-            .collect()
-    }
-
-    fn report(
-        &self,
-        attempt: Attempt,
-        outcome: Outcome,
-        restarts: usize,
-        count: Count,
-    ) -> AssemblyReport {
-        let freedoms = Freedoms::at(self.mechanism.dimensions(), &self.held, &attempt.at);
+impl Reporter<'_> {
+    fn report(&self, attempt: Attempt, outcome: Outcome) -> AssemblyReport {
+        let freedoms = Freedoms::at(self.mechanism.dimensions(), self.search.held(), &attempt.at);
         let condition = freedoms.condition();
         AssemblyReport {
             near_singular: attempt.report.stop == Stop::Solved
@@ -369,33 +143,32 @@ impl<'a> Search<'a> {
             condition,
             outcome,
             steps: attempt.report.steps,
-            restarts,
+            restarts: self.restarts,
             seed: self.settings.seed,
             residual: attempt.report.size.largest,
-            gaps: self.gaps(&attempt.at),
+            gaps: Gap::of(self.mechanism, &attempt.at),
             idle: 0,
-            count,
+            count: self.count,
             configuration: attempt.at,
         }
     }
 
-    fn assembled(&mut self, mut attempt: Attempt, restarts: usize, count: Count) -> AssemblyReport {
-        self.normalise_angles(&mut attempt.at);
-        let outside = self.outside_limits(&attempt.at);
-        let freedoms = Freedoms::at(self.mechanism.dimensions(), &self.held, &attempt.at);
+    fn assembled(&self, attempt: Attempt) -> AssemblyReport {
+        let outside = self.search.outside_limits(&attempt.at);
+        let freedoms = Freedoms::at(self.mechanism.dimensions(), self.search.held(), &attempt.at);
         let idle = if freedoms.are_idle(self.mechanism, &attempt.at) {
             freedoms.motions.len()
         } else {
             0
         };
         let outcome = if freedoms.motions.len() > idle {
-            singular::blame(self.mechanism, &self.held, &attempt.at, &freedoms)
+            singular::blame(self.mechanism, self.search.held(), &attempt.at, &freedoms)
         } else if outside.is_empty() {
             Outcome::Converged
         } else {
             Outcome::ConvergedOutsideLimits { joints: outside }
         };
-        let mut report = self.report(attempt, outcome, restarts, count);
+        let mut report = self.report(attempt, outcome);
         if idle > 0 {
             // unknowns that nothing determines have no part in the conditioning of the others
             report.condition = freedoms.condition_of_determined();
@@ -405,10 +178,11 @@ impl<'a> Search<'a> {
         report
     }
 
-    fn unassembled(&mut self, attempt: Attempt, restarts: usize, count: Count) -> AssemblyReport {
+    fn unassembled(&self, attempt: Attempt) -> AssemblyReport {
         let settled = attempt.report.stop == Stop::Minimum;
-        let (at, local_minimum) = closest::approach(&self.system, &attempt.at);
-        let size = self.system.residual(&at, &mut self.work);
+        let (at, local_minimum) = closest::approach(self.search.system(), &attempt.at);
+        let system = self.search.system();
+        let size = system.residual(&at, &mut system.work());
         let attempt = Attempt {
             at,
             report: Report {
@@ -416,9 +190,8 @@ impl<'a> Search<'a> {
                 ..attempt.report
             },
         };
-        let length = self.mechanism.characteristic_length();
-        let gaps = self.gaps(&attempt.at);
-        let width = |gap: &Gap| (gap.distance / length).max(gap.angle);
+        let gaps = Gap::of(self.mechanism, &attempt.at);
+        let width = |gap: &Gap| gap.size(self.mechanism);
         let worst = (0..gaps.len()).fold(0, |worst, i| {
             if width(&gaps[i]) > width(&gaps[worst]) {
                 i
@@ -434,79 +207,6 @@ impl<'a> Search<'a> {
         } else {
             Outcome::GaveUp { worst }
         };
-        self.report(attempt, outcome, restarts, count)
-    }
-
-    /// Passive turns found by a long search come back to (−π, π], or into their limits.
-    fn normalise_angles(&self, at: &mut Configuration<f64>) {
-        let turn = std::f64::consts::TAU;
-        for (i, joint) in self.mechanism.joints().iter().enumerate() {
-            if self.held.joints[i] || joint.kind != JointKind::Revolute || !self.turns_freely(i) {
-                continue;
-            }
-            let middle = joint.limits.map_or(0.0, |(low, high)| 0.5 * (low + high));
-            let value = &mut at.joints[i];
-            *value -= turn * ((*value - middle) / turn).round();
-        }
-    }
-
-    /// Whether a whole turn of the joint leaves every frame where it is: not if the variable turns
-    /// some row by a fraction.
-    fn turns_freely(&self, joint: usize) -> bool {
-        let rows = self
-            .mechanism
-            .dimensions()
-            .chains
-            .iter()
-            .flat_map(|chain| &chain.rows);
-        rows.map(|row| row.turn.coefficient(joint))
-            .all(|c| c == c.round())
-    }
-
-    fn gaps(&self, at: &Configuration<f64>) -> Vec<Gap> {
-        let closures = self.mechanism.closures().iter().enumerate();
-        closures
-            .map(|(i, closure)| {
-                let [a, b] = self.mechanism.poses(closure.frames, at);
-                let g = a.rotation.inverse_rotate(&(b.position - a.position)).0;
-                let relative = a.rotation.transpose() * b.rotation;
-                let between_axes = || {
-                    let z = relative.0[2].0;
-                    z[0].hypot(z[1]).atan2(z[2])
-                };
-                let between_frames = || {
-                    let [w, x, y, z] = Quaternion::from_rotation(&relative).canonical().0;
-                    2.0 * x.hypot(y).hypot(z).atan2(w)
-                };
-                let apart = g[0].hypot(g[1]).hypot(g[2]);
-                let (distance, angle) = match closure.kind {
-                    ClosureKind::Spherical => (apart, 0.0),
-                    ClosureKind::Revolute => (apart, between_axes()),
-                    ClosureKind::Universal => {
-                        (apart, (between_axes() - std::f64::consts::FRAC_PI_2).abs())
-                    }
-                    ClosureKind::Rigid => (apart, between_frames()),
-                    ClosureKind::Prismatic => (g[0].hypot(g[1]), between_frames()),
-                    ClosureKind::Cylindrical => (g[0].hypot(g[1]), between_axes()),
-                    ClosureKind::Planar => (g[2].abs(), between_axes()),
-                    ClosureKind::Distance => {
-                        let dimensions = &self.mechanism.dimensions().closures[i];
-                        let length = dimensions.length + dimensions.extension.at(&at.joints);
-                        ((apart - length.abs()).abs(), 0.0)
-                    }
-                };
-                Gap { distance, angle }
-            })
-            .collect()
-    }
-}
-
-/// Where random values of a joint are drawn from: its limits, or a turn, or a characteristic length
-/// to each side of home.
-fn sampling_range(joint: &Joint, length: f64) -> (f64, f64) {
-    match joint.limits {
-        Some((low, high)) if low.is_finite() && high.is_finite() => (low, high),
-        _ if joint.kind.is_angle() => (-std::f64::consts::PI, std::f64::consts::PI),
-        _ => (joint.home - length, joint.home + length),
+        self.report(attempt, outcome)
     }
 }

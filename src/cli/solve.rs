@@ -2,13 +2,11 @@
 
 use clap::Args;
 use linkwork::analysis::assembly::{AssemblySettings, Outcome, assemble};
-use linkwork::output::option::Given;
-use linkwork::output::question::complaint;
 use linkwork::output::solution;
-use linkwork::system::{Question, QuestionError};
 
-use super::source::{Assignment, Source};
-use super::{Answer, Format, Refusal, style};
+use super::asked::{Asked, refusal};
+use super::source::Source;
+use super::{Answer, Format, Refusal};
 
 /// Find the assembled configuration near a guess.
 ///
@@ -22,15 +20,8 @@ use super::{Answer, Format, Refusal, style};
 pub struct Solve {
     #[command(flatten)]
     source: Source,
-    /// Hold a joint or coordinate at a value, e.g. --hold theta1="60 deg"
-    #[arg(long, value_name = "NAME=VALUE")]
-    hold: Vec<Assignment>,
-    /// Let a joint be solved, e.g. --free l1; `actuated` frees all actuated joints
-    #[arg(long, value_name = "NAME")]
-    free: Vec<String>,
-    /// Start the search at a value, e.g. --guess phi1="-30 deg"
-    #[arg(long, value_name = "NAME=VALUE")]
-    guess: Vec<Assignment>,
+    #[command(flatten)]
+    asked: Asked,
     /// Seed of the random starts made when the guess fails
     #[arg(long, default_value_t = AssemblySettings::default().seed)]
     seed: u64,
@@ -42,7 +33,7 @@ pub struct Solve {
 impl Solve {
     pub fn run(&self) -> Result<Answer, Refusal> {
         let loaded = self.source.load()?;
-        let question = self.question(&loaded.mechanism)?;
+        let question = self.asked.question(&loaded.mechanism)?;
         let settings = AssemblySettings {
             seed: self.seed,
             ..AssemblySettings::default()
@@ -61,41 +52,4 @@ impl Solve {
             yes: report.outcome == Outcome::Converged,
         })
     }
-
-    /// What is freed is freed first, so that `--free actuated --hold l1=1` holds one joint.
-    fn question<'a>(
-        &self,
-        mechanism: &'a linkwork::mechanism::Mechanism,
-    ) -> Result<Question<'a>, Refusal> {
-        let mut question = Question::new(mechanism);
-        for name in &self.free {
-            let given = Given {
-                option: "--free",
-                name,
-                value: None,
-            };
-            question = (question.free(name)).map_err(|error| refusal(&error, Some(given)))?;
-        }
-        for assignment in &self.hold {
-            let Assignment { name, value } = assignment;
-            let given = assignment.given("--hold");
-            question =
-                (question.hold(name, value)).map_err(|error| refusal(&error, Some(given)))?;
-        }
-        for assignment in &self.guess {
-            let Assignment { name, value } = assignment;
-            let given = assignment.given("--guess");
-            question =
-                (question.guess(name, value)).map_err(|error| refusal(&error, Some(given)))?;
-        }
-        Ok(question)
-    }
-}
-
-fn refusal(error: &QuestionError, given: Option<Given>) -> Refusal {
-    let (complaint, part) = complaint(error);
-    Refusal(match given {
-        Some(given) => complaint.render_in(&given, &part, style()),
-        None => complaint.render(style()),
-    })
 }

@@ -116,6 +116,20 @@ impl Mechanism {
         }
     }
 
+    /// The name of a body: `ground`, a platform, or a link by the frame that carries it.
+    pub fn body_name(&self, body: Body) -> String {
+        self.frame_name(self.body_frame(body))
+    }
+
+    /// The frame that carries a body.
+    pub fn body_frame(&self, body: Body) -> Frame {
+        match body {
+            Body::Ground => Frame::Ground,
+            Body::Platform(platform) => Frame::Platform { platform },
+            Body::Link { chain, row } => Frame::Link { chain, row },
+        }
+    }
+
     /// Every frame: ground, the link and tip frames of each chain, the frames of each platform.
     pub fn frames(&self) -> Vec<Frame> {
         let mut frames = vec![Frame::Ground];
@@ -274,6 +288,13 @@ impl Mechanism {
             }
         }
         felt
+    }
+
+    /// The joints that no closure feels: those of open chains.
+    pub fn unfelt_joints(&self) -> std::collections::BTreeSet<usize> {
+        let felt = self.felt_joints();
+        let all = 0..self.joints.len();
+        all.filter(|joint| !felt.contains(joint)).collect()
     }
 
     /// The joints between a frame and the ground or platform that carries it.

@@ -18,6 +18,11 @@ pub(super) fn number(value: f64) -> String {
     }
 }
 
+/// Four decimals at most, for components of directions and points.
+pub(super) fn short(value: f64) -> String {
+    number((value * 1e4).round() / 1e4)
+}
+
 /// An angle in rad, shown in degrees.
 pub(super) fn degrees(radians: f64) -> String {
     format!("{}°", number(radians.to_degrees()))

@@ -2,8 +2,9 @@
 
 use super::option::{Complaint, Part};
 use crate::algebra::Expression;
-use crate::description::{ProblemKind, Scope, listed};
-use crate::system::{QuestionError, ValueError};
+use crate::description::{ProblemKind, Scope, listed, nearest};
+use crate::mechanism::Mechanism;
+use crate::system::{DriveError, QuestionError, ValueError};
 
 /// What is wrong with a question, and with which part of the option that asked it, if one did.
 pub fn complaint(error: &QuestionError) -> (Complaint, Part) {
@@ -42,6 +43,38 @@ pub fn complaint(error: &QuestionError) -> (Complaint, Part) {
             (said(title, "", Some(help)), Part::Name)
         }
     }
+}
+
+/// What is wrong with a rate, an acceleration or a force that an option gives.
+pub fn driven_complaint(error: &DriveError, option: &str) -> (Complaint, Part) {
+    match error {
+        DriveError::Question(error) => complaint(error),
+        DriveError::NotHeld { name, held } => {
+            let title = format!("`{name}` is not held here, so its rate follows from the others");
+            let help = match held.is_empty() {
+                true => format!("hold it: --hold {name}=home"),
+                false => format!(
+                    "give rates of what is held, e.g. {}; or hold `{name}` in place of one of \
+                     them, e.g. --free {} --hold {name}=home",
+                    options(option, held, "=0.1"),
+                    held[0]
+                ),
+            };
+            (said(title, "not held", Some(help)), Part::Name)
+        }
+    }
+}
+
+/// What is wrong with the name of a frame.
+pub fn unknown_frame(mechanism: &Mechanism, name: &str) -> (Complaint, Part) {
+    let frames = mechanism.frames().into_iter();
+    let known: Vec<String> = frames.map(|frame| mechanism.frame_name(frame)).collect();
+    let help = match nearest(name, known.iter().map(String::as_str)) {
+        Some(meant) => format!("did you mean `{meant}`?"),
+        None => format!("the frames are {}", listed(&known)),
+    };
+    let title = format!("`{name}` is not a frame");
+    (said(title, "not known", Some(help)), Part::Name)
 }
 
 fn said(title: String, label: &str, help: Option<String>) -> Complaint {

@@ -6,9 +6,10 @@ pub use json::{FrameJson, GapJson, PlatformJson, SolutionJson, json};
 
 use std::fmt::Write;
 
+use super::closing;
 use super::layout::{align_right, indented, plain};
 use super::quantity::{degrees, number, quantity, size};
-use crate::analysis::assembly::{AssemblyReport, Gap, Outcome};
+use crate::analysis::assembly::{AssemblyReport, Outcome};
 use crate::description::{count, listed};
 use crate::geometry::{Pose, Quaternion, RollPitchYaw};
 use crate::mechanism::{Frame, Mechanism};
@@ -46,7 +47,7 @@ fn is_assembled(outcome: &Outcome) -> bool {
 pub fn sentence(mechanism: &Mechanism, report: &AssemblyReport) -> String {
     let joint = |i: &usize| mechanism.joints()[*i].name.as_str();
     let closure = |i: usize| mechanism.closures()[i].name.as_str();
-    let gap = |i: usize| gap(&report.gaps[i]);
+    let gap = |i: usize| closing::gap(report.gaps[i].distance, report.gaps[i].angle);
     match &report.outcome {
         Outcome::Converged => "Assembled.".into(),
         Outcome::ConvergedOutsideLimits { joints } => {
@@ -95,18 +96,6 @@ pub fn sentence(mechanism: &Mechanism, report: &AssemblyReport) -> String {
                  the best found leaves closure {name} open by {gap}."
             )
         }
-    }
-}
-
-/// `0.213 m and 4.2°`
-fn gap(gap: &Gap) -> String {
-    // what rounding leaves of a gap is none
-    const NONE: f64 = 1e-9;
-    let (distance, angle) = (quantity(gap.distance, false), degrees(gap.angle));
-    match (gap.distance < NONE, gap.angle < NONE) {
-        (_, true) => distance,
-        (true, false) => angle,
-        (false, false) => format!("{distance} and {angle}"),
     }
 }
 

@@ -1,6 +1,6 @@
 use super::layout::Unknown;
 use super::{System, Work};
-use crate::geometry::Vector3;
+use crate::geometry::{Quaternion, Vector3};
 use crate::linear::Factorable;
 use crate::mechanism::Configuration;
 use crate::solve::Equations;
@@ -28,6 +28,37 @@ impl<T: Factorable> System<T> {
             }
         }
         to
+    }
+
+    /// The dimensionless step that leads from one configuration to another:
+    /// `displaced(from, difference(from, to))` is `to`.
+    pub fn difference(&self, from: &Configuration<T>, to: &Configuration<T>) -> Vec<T> {
+        let mut step = vec![T::zero(); self.unknowns().len()];
+        for (i, &unknown) in self.unknowns().iter().enumerate() {
+            match unknown {
+                Unknown::Joint(joint) => {
+                    let change = to.joints[joint] - from.joints[joint];
+                    step[i] = change.scale(1.0 / self.joint_scale(joint));
+                }
+                Unknown::Twist {
+                    platform,
+                    component: 0,
+                } => {
+                    let (from, to) = (&from.platforms[platform], &to.platforms[platform]);
+                    // q_to q_from* = (1 + ω/2)/‖·‖, the Cayley map turned round
+                    let [w, x, y, z] = from.orientation.0;
+                    let back = Quaternion([w, -x, -y, -z]);
+                    let [w, x, y, z] = to.orientation.then_left(&back).0;
+                    let shift = (to.position - from.position).0;
+                    for (k, part) in [x, y, z].into_iter().enumerate() {
+                        step[i + k] = part.scale(2.0) / w;
+                        step[i + 3 + k] = shift[k].scale(1.0 / self.characteristic_length());
+                    }
+                }
+                Unknown::Twist { .. } => {}
+            }
+        }
+        step
     }
 }
 

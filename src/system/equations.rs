@@ -1,3 +1,8 @@
+mod rates;
+mod wrenches;
+
+pub use wrenches::ClosureWrenches;
+
 use super::layout::{Held, HeldPlatform, HoldRow, Layout, Unknown};
 use crate::geometry::Vector3;
 use crate::linear::{Bordered, Factorable};

@@ -1,5 +1,7 @@
+use super::Neighbourhood;
 use super::equations::System;
 use super::layout::{Held, HeldPlatform, Unknown};
+use crate::geometry::Vector3;
 use crate::linear::{SPECTRUM_LIMIT, Spectrum, rank};
 use crate::mechanism::{Configuration, Coordinate, Dimensions, Kinematics, Mechanism};
 use crate::number::Dual;
@@ -77,6 +79,29 @@ impl Freedoms {
         place.map_or(0.0, |place| motion[place])
     }
 
+    /// The joints and platforms that take part in the free motions, the most mobile first.
+    pub fn moving(&self, mechanism: &Mechanism) -> Vec<String> {
+        let mut shares: Vec<(String, f64)> = Vec::new();
+        for (i, unknown) in self.unknowns.iter().enumerate() {
+            let share: f64 = self
+                .motions
+                .iter()
+                .map(|motion| motion[i] * motion[i])
+                .sum();
+            let name = match *unknown {
+                Unknown::Joint(joint) => &mechanism.joints()[joint].name,
+                Unknown::Twist { platform, .. } => &mechanism.platforms()[platform].name,
+            };
+            match shares.iter_mut().find(|(known, _)| known == name) {
+                Some((_, sum)) => *sum += share,
+                None => shares.push((name.clone(), share)),
+            }
+        }
+        shares.retain(|(_, share)| *share > 1e-6);
+        shares.sort_by(|a, b| b.1.total_cmp(&a.1).then_with(|| a.0.cmp(&b.0)));
+        shares.into_iter().map(|(name, _)| name).collect()
+    }
+
     /// Whether every motion leaves the origin of every frame where it is: then only links turn
     /// about their own lines, as a rod between two balls does.
     pub fn are_idle(&self, mechanism: &Mechanism, at: &Configuration<f64>) -> bool {
@@ -121,9 +146,9 @@ impl Freedoms {
                 value: 0.0,
                 slope: motion[first + i] * factor,
             };
-            let omega = crate::geometry::Vector3([0, 1, 2].map(|i| rate(i, 1.0)));
+            let omega = Vector3([0, 1, 2].map(|i| rate(i, 1.0)));
             let length = dimensions.characteristic_length;
-            let shift = crate::geometry::Vector3([3, 4, 5].map(|i| rate(i, length)));
+            let shift = Vector3([3, 4, 5].map(|i| rate(i, length)));
             *pose = pose.moved_by(&omega, shift);
         }
         moving
@@ -140,6 +165,14 @@ pub enum Holdable {
 }
 
 impl Holdable {
+    /// Whether its value is an angle, in rad; otherwise a length, in m.
+    pub fn is_angle(self, mechanism: &Mechanism) -> bool {
+        match self {
+            Holdable::Joint(joint) => mechanism.joints()[joint].kind.is_angle(),
+            Holdable::Coordinate(_, coordinate) => coordinate.is_angle(),
+        }
+    }
+
     /// Its name in questions.
     pub fn name(self, mechanism: &Mechanism) -> String {
         match self {
@@ -165,11 +198,21 @@ impl Mobility {
     /// what is lost or gained at a special configuration does not count. `None` if the mechanism
     /// does not assemble near there, or has too many unknowns to tell.
     pub fn near(mechanism: &Mechanism, start: &Configuration<f64>) -> Option<Self> {
+        Mobility::among(mechanism, start, 0..4)
+    }
+
+    /// The same, of configurations beside the start only: where that is special they are not.
+    pub fn beside(mechanism: &Mechanism, start: &Configuration<f64>) -> Option<Self> {
+        Mobility::among(mechanism, start, 1..4)
+    }
+
+    fn among(
+        mechanism: &Mechanism,
+        start: &Configuration<f64>,
+        shakes: std::ops::Range<u8>,
+    ) -> Option<Self> {
         let dimensions = mechanism.dimensions();
-        let all_free = Held {
-            joints: vec![false; mechanism.joints().len()],
-            platforms: vec![HeldPlatform::Free; mechanism.platforms().len()],
-        };
+        let all_free = Held::nothing(mechanism);
         let system = System::new(dimensions, &all_free);
         if system.unknowns().len() > SPECTRUM_LIMIT {
             return None;
@@ -177,11 +220,19 @@ impl Mobility {
         let mut work = system.work();
         let mut fewest: Option<(Freedoms, Configuration<f64>)> = None;
         // the start itself, and three points beside it in directions that have no symmetry
-        for k in 0..4 {
+        for k in shakes {
             let mut at = start.clone();
             for (joint, value) in at.joints.iter_mut().enumerate() {
                 let shake = 0.05 * f64::from(k) * (1.7 * (joint as f64 + 1.0) * f64::from(k)).sin();
                 *value += shake * dimensions.joint_scales[joint];
+            }
+            for (platform, pose) in at.platforms.iter_mut().enumerate() {
+                let shake = |i: usize| {
+                    let phase = 2.3 * (6 * platform + i + 1) as f64 * f64::from(k);
+                    0.05 * f64::from(k) * phase.sin()
+                };
+                let shift = [3, 4, 5].map(|i| shake(i) * dimensions.characteristic_length);
+                *pose = pose.moved_by(&Vector3([0, 1, 2].map(shake)), Vector3(shift));
             }
             let mut trial = at.clone();
             let report = Newton::default().solve(&system, &mut at, &mut trial, &mut work);
@@ -204,6 +255,25 @@ impl Mobility {
     /// The number of freedoms, without those that only turn a link about its own line.
     pub fn count(&self) -> usize {
         self.freedoms.motions.len() - self.idle.min(self.freedoms.motions.len())
+    }
+
+    /// Whether the freedoms are finite, tried along one that mixes them all: a shaky structure has
+    /// some that are not.
+    pub fn is_finite(&self, mechanism: &Mechanism) -> bool {
+        const STEP: f64 = 0.05;
+        let mut near = Neighbourhood::new(mechanism);
+        let tangent = near.tangent(self.at.clone());
+        let mut mixed = vec![0.0; self.freedoms.unknowns.len()];
+        for (motion, weight) in tangent.motions.iter().zip(1u8..) {
+            let weight = (1.7 * f64::from(weight)).sin();
+            (mixed.iter_mut().zip(motion)).for_each(|(x, m)| *x += weight * m);
+        }
+        let size = norm(&mixed);
+        if size == 0.0 {
+            return true;
+        }
+        mixed.iter_mut().for_each(|x| *x /= size);
+        near.free_step(&tangent, &mixed, STEP).is_ok()
     }
 
     /// The number of freedoms that only turn a link about its own line.

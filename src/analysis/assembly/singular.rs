@@ -65,31 +65,8 @@ pub(super) fn blame(
         }
     }
     Outcome::Singular {
-        moving: moving(mechanism, freedoms),
+        moving: freedoms.moving(mechanism),
         closure: strongest.1,
         powerless: strongest.2,
     }
-}
-
-/// The joints and platforms that take part in the free motions, the most mobile first.
-fn moving(mechanism: &Mechanism, freedoms: &Freedoms) -> Vec<String> {
-    let mut shares: Vec<(String, f64)> = Vec::new();
-    for (i, unknown) in freedoms.unknowns.iter().enumerate() {
-        let share: f64 = freedoms
-            .motions
-            .iter()
-            .map(|motion| motion[i] * motion[i])
-            .sum();
-        let name = match *unknown {
-            Unknown::Joint(joint) => &mechanism.joints()[joint].name,
-            Unknown::Twist { platform, .. } => &mechanism.platforms()[platform].name,
-        };
-        match shares.iter_mut().find(|(known, _)| known == name) {
-            Some((_, sum)) => *sum += share,
-            None => shares.push((name.clone(), share)),
-        }
-    }
-    shares.retain(|(_, share)| *share > 1e-6);
-    shares.sort_by(|a, b| b.1.total_cmp(&a.1).then_with(|| a.0.cmp(&b.0)));
-    shares.into_iter().map(|(name, _)| name).collect()
 }

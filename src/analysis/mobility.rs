@@ -1,0 +1,289 @@
+//! What an assembled mechanism can do: how many freedoms, which joints move, what is redundant.
+//!
+//! Three numbers are told apart. *Kutzbach's count* is unknowns less equations. The *infinitesimal*
+//! mobility is unknowns less the rank of the closure Jacobian. The *finite* mobility is the largest
+//! dimension of the assembled configurations through the one given; it is found by moving a finite
+//! step, never from a rank alone.
+
+mod branches;
+mod loops;
+mod redundancy;
+mod screws;
+
+use rand::SeedableRng;
+use rand_pcg::Pcg64Mcg;
+use serde::Serialize;
+
+use crate::mechanism::{ClosureKind, Mechanism};
+use crate::solve::Newton;
+use crate::system::{
+    Analysed, Neighbourhood, Question, Tangent, Unknown, WidestGap, close, random_configuration,
+    too_large,
+};
+
+pub use loops::LoopCount;
+pub use redundancy::{Redundancy, Wrench};
+pub use screws::{Screw, TwistSpace};
+
+/// How to look for freedoms.
+#[derive(Clone, Debug, PartialEq)]
+pub struct MobilitySettings {
+    /// The iteration that closes the mechanism.
+    pub newton: Newton,
+    /// Random starts within limits after the guess has failed.
+    pub restarts: usize,
+    /// Length of the finite step along a candidate motion, in rad and characteristic lengths. A
+    /// motion that is only infinitesimal to second order leaves a gap of about its square.
+    pub step: f64,
+    /// Directions of motion that are tried; all must be free for the mechanism to be regular.
+    pub directions: usize,
+    /// Length of the steps by which branches are sought where it is not.
+    pub branch_step: f64,
+    /// Steps per infinitesimal freedom by which branches are sought.
+    pub branch_trials: usize,
+    /// Random starts from which assemblies of another mobility are sought.
+    pub elsewhere: usize,
+    /// Seed of all random directions and starts.
+    pub seed: u64,
+}
+
+impl Default for MobilitySettings {
+    fn default() -> Self {
+        MobilitySettings {
+            newton: Newton::default(),
+            restarts: 40,
+            step: 0.05,
+            directions: 3,
+            branch_step: 0.01,
+            branch_trials: 8,
+            elsewhere: 8,
+            seed: 1,
+        }
+    }
+}
+
+/// What an assembled mechanism can do.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct MobilityReport {
+    /// Finite freedoms at the configuration, without idle ones: the largest dimension of a branch.
+    pub mobility: usize,
+    /// Kutzbach's count: joint variables and 6 for each platform less closure equations.
+    pub kutzbach: i64,
+    /// Rank of the closure Jacobian with nothing held.
+    pub rank: usize,
+    /// Infinitesimal freedoms, without idle ones.
+    pub infinitesimal: usize,
+    /// Closure equations that depend on the others.
+    pub redundant: usize,
+    /// Joints that stand still in every finite motion, or move in idle freedoms only.
+    pub idle_joints: Vec<String>,
+    /// Joints that move.
+    pub moving_joints: Vec<String>,
+    /// Joint values of the closed configuration, rad or m.
+    pub joints: Vec<f64>,
+    /// What kind of point of the configuration space this is.
+    pub character: Character,
+    /// The branches through the configuration, if more than the one regular motion.
+    pub branches: Vec<BranchReport>,
+    /// Another mobility that the mechanism has in another assembly.
+    pub elsewhere: Vec<Elsewhere>,
+    /// Joint variables and six for each platform.
+    pub unknowns: usize,
+    /// Closure equations.
+    pub equations: usize,
+    /// Freedoms that only turn a link about its own line.
+    pub idle_freedoms: Vec<IdleFreedom>,
+    /// Kutzbach's count loop by loop.
+    pub loops: Vec<LoopCount>,
+    /// The dependent equations as wrenches.
+    pub redundancies: Vec<Redundancy>,
+    /// Infinitesimal motions of the platforms, or of the links at the closures if there are none.
+    pub twists: Vec<TwistSpace>,
+    /// Ratio of the largest to the smallest singular value that counts, of the dimensionless
+    /// Jacobian.
+    pub condition: f64,
+    /// The characteristic length that makes it dimensionless, in m.
+    pub length: f64,
+    /// The widest gap of the pose given, before it was closed.
+    pub given: Option<WidestGap>,
+    /// Whether joints held by the file kept their values when the mechanism was closed.
+    pub kept: bool,
+    /// What is left of the closure equations after a finite step along the infinitesimal freedoms,
+    /// dimensionless; `None` if the step does not settle.
+    pub gap_after_step: Option<f64>,
+}
+
+/// What kind of point of the configuration space a configuration is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Character {
+    /// No freedom, not even an infinitesimal one.
+    Structure,
+    /// Every infinitesimal freedom is finite.
+    Regular,
+    /// Infinitesimal freedoms, none of them finite.
+    Shaky,
+    /// One branch with fewer freedoms than the infinitesimal ones.
+    Singular,
+    /// Several branches of the same number of freedoms meet.
+    Bifurcation,
+    /// Branches of different numbers of freedoms meet (Wohlhart 1996).
+    Kinematotropic,
+}
+
+/// A freedom that only turns a link about its own line.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+#[serde(rename_all = "snake_case")]
+pub enum IdleFreedom {
+    /// The link turns in its joints, which these are.
+    Joints(Vec<String>),
+    /// The rod of a `Distance` turns in the balls at its ends, which the closure does not model.
+    Rod(String),
+}
+
+/// A branch of assembled configurations through the one given.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct BranchReport {
+    /// Its freedoms.
+    pub mobility: usize,
+    /// Joints that move on it.
+    pub moving_joints: Vec<String>,
+    /// Its motions, beside the meeting point, as for the whole.
+    pub twists: Vec<TwistSpace>,
+}
+
+/// An assembly of another mobility.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Elsewhere {
+    /// Its freedoms.
+    pub mobility: usize,
+    /// Joint values there, rad or m.
+    pub joints: Vec<f64>,
+}
+
+/// Counts the freedoms of a mechanism, closed near the start of a question.
+///
+/// What the question holds only decides which configuration is looked at: all is free then. The
+/// finite mobility follows from a reduction of Lyapunov and Schmidt; where that finds the
+/// configuration singular, from the branches that small steps in many directions settle on.
+pub fn mobility(question: &Question, settings: &MobilitySettings) -> Analysed<MobilityReport> {
+    let mechanism = question.mechanism();
+    if let Some(unknowns) = too_large(mechanism) {
+        return Analysed::TooLarge { unknowns };
+    }
+    let closed = match close(question, &settings.newton, settings.restarts, settings.seed) {
+        Ok(closed) => closed,
+        Err(open) => return Analysed::NotClosed(open),
+    };
+    let mut near = Neighbourhood::new(mechanism);
+    let tangent = near.tangent_at(&closed);
+    let mut rng = Pcg64Mcg::seed_from_u64(settings.seed);
+    let found = branches::find(&mut near, &tangent, settings, &mut rng);
+    let carriers = screws::carriers(mechanism);
+    let (rows, unknowns) = (near.system().rows(), near.system().unknowns().len());
+    let moving = |moved: &[f64]| -> Vec<String> {
+        let unknowns = near.system().unknowns().iter().zip(moved);
+        unknowns
+            .filter_map(|(unknown, &moved)| match *unknown {
+                Unknown::Joint(joint) if moved > branches::MOVED => {
+                    Some(mechanism.joints()[joint].name.clone())
+                }
+                _ => None,
+            })
+            .collect()
+    };
+    let moving_joints = moving(&found.moved);
+    let branches = (found.branches.iter())
+        .map(|branch| BranchReport {
+            mobility: branch.freedoms,
+            moving_joints: moving(&branch.moved),
+            twists: screws::spaces(&near, &carriers, &branch.tangent),
+        })
+        .collect();
+    let redundancies = redundancy::find(&mut near, &tangent);
+    let mut report = MobilityReport {
+        mobility: found.freedoms,
+        kutzbach: unknowns as i64 - rows as i64,
+        rank: tangent.decomposition.rank(),
+        infinitesimal: tangent.motions.len(),
+        redundant: rows - tangent.decomposition.rank(),
+        idle_joints: (mechanism.joints().iter())
+            .map(|joint| joint.name.clone())
+            .filter(|name| !moving_joints.contains(name))
+            .collect(),
+        moving_joints,
+        joints: closed.configuration.joints.clone(),
+        character: found.character(tangent.motions.len()),
+        branches,
+        elsewhere: Vec::new(),
+        unknowns,
+        equations: rows,
+        idle_freedoms: idle_freedoms(mechanism, near.system().unknowns(), &tangent),
+        loops: loops::count(&mut near, &closed.configuration),
+        redundancies,
+        twists: screws::spaces(&near, &carriers, &tangent),
+        condition: tangent.decomposition.condition(),
+        length: mechanism.characteristic_length(),
+        given: closed.given.filter(|gap| gap.size(mechanism) > 1e-9),
+        kept: closed.kept,
+        gap_after_step: found.gap,
+    };
+    report.elsewhere = elsewhere(&mut near, settings, &report, &mut rng);
+    Analysed::Closed(report)
+}
+
+/// Regular assemblies of another mobility than `here`, one for each.
+fn elsewhere(
+    near: &mut Neighbourhood,
+    settings: &MobilitySettings,
+    here: &MobilityReport,
+    rng: &mut Pcg64Mcg,
+) -> Vec<Elsewhere> {
+    let mechanism = near.mechanism();
+    let mut found: Vec<Elsewhere> = Vec::new();
+    for _ in 0..settings.elsewhere {
+        let start = random_configuration(mechanism, &mechanism.home(), rng);
+        let Some(at) = near.solve(&settings.newton, start) else {
+            continue;
+        };
+        if here.character == Character::Regular && near.rank(&at) == here.rank {
+            continue;
+        }
+        let tangent = near.tangent(at);
+        let freedoms = tangent.motions.len();
+        if freedoms == here.mobility || found.iter().any(|other| other.mobility == freedoms) {
+            continue;
+        }
+        // a random start meets a singular point with probability zero, a shaky assembly it may meet
+        if freedoms > 0 && !branches::is_regular(near, &tangent, settings.step, 2, rng) {
+            continue;
+        }
+        found.push(Elsewhere {
+            mobility: freedoms,
+            joints: tangent.at.joints.clone(),
+        });
+    }
+    found
+}
+
+/// The idle freedoms of the model, then one for each rod between two balls.
+fn idle_freedoms(
+    mechanism: &Mechanism,
+    unknowns: &[Unknown],
+    tangent: &Tangent,
+) -> Vec<IdleFreedom> {
+    /// Below this a component of a unit motion is rounding.
+    const ROUNDING: f64 = 1e-6;
+    let spins = redundancy::axis_aligned(&tangent.idle);
+    let joints = |motion: &Vec<f64>| {
+        let turning = (unknowns.iter().zip(motion)).filter(|(_, rate)| rate.abs() > ROUNDING);
+        let names = turning.filter_map(|(unknown, _)| match *unknown {
+            Unknown::Joint(joint) => Some(mechanism.joints()[joint].name.clone()),
+            Unknown::Twist { .. } => None,
+        });
+        IdleFreedom::Joints(names.collect())
+    };
+    let rods = (mechanism.closures().iter()).filter(|c| c.kind == ClosureKind::Distance);
+    let rods = rods.map(|rod| IdleFreedom::Rod(rod.name.clone()));
+    (spins.iter().map(joints)).chain(rods).collect()
+}

@@ -1,0 +1,168 @@
+//! Closure equations that depend on the others, by closure and direction.
+
+use serde::Serialize;
+
+use crate::description::ClosureKind;
+use crate::geometry::Vector3;
+use crate::linear::{complement, norm, orthonormal, remove};
+use crate::system::{Neighbourhood, Tangent};
+
+/// The equations of a closure that follow from those of the closures before it in the file and from
+/// one another.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Redundancy {
+    /// The closure.
+    pub closure: String,
+    /// How many of its equations.
+    pub equations: usize,
+    /// All the equations it has.
+    pub of: usize,
+    /// A basis of the wrenches they resist, in the closure's first frame at the closure's point:
+    /// along axes as far as possible.
+    pub wrenches: Vec<Wrench>,
+    /// The closure is a rod between two balls.
+    pub rod: bool,
+}
+
+/// A wrench in the first frame of a closure.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Wrench {
+    /// Force, without unit.
+    pub force: [f64; 3],
+    /// Moment about the closure's point, in m.
+    pub moment: [f64; 3],
+}
+
+/// What counts as zero in a direction.
+const ALIGNED: f64 = 1e-6;
+
+pub(super) fn find(near: &mut Neighbourhood, tangent: &Tangent) -> Vec<Redundancy> {
+    let mechanism = near.mechanism();
+    let mut dependencies = tangent.decomposition.left_null_space();
+    if dependencies.is_empty() {
+        return vec![];
+    }
+    let all = near.closure_wrenches(&tangent.at);
+    let mut found = Vec::new();
+    // a dependency belongs to the last closure that takes part in it
+    for (closure, wrenches) in mechanism.closures().iter().zip(&all).rev() {
+        let range = wrenches.first_row..wrenches.first_row + wrenches.rows.len();
+        let parts: Vec<Vec<f64>> = (dependencies.iter())
+            .map(|w| w[range.clone()].to_vec())
+            .collect();
+        // combinations of dependencies, by how they enter this closure
+        let columns = range.len();
+        let by_row: Vec<Vec<f64>> = (0..columns)
+            .map(|i| parts.iter().map(|part| part[i]).collect())
+            .collect();
+        let entering = orthonormal(&by_row, ALIGNED);
+        if entering.is_empty() {
+            continue;
+        }
+        let rest = complement(&entering, dependencies.len());
+        let turn = |local: &[f64]| {
+            wrenches
+                .frame
+                .rotation
+                .inverse_rotate(&Vector3([local[0], local[1], local[2]]))
+        };
+        let dependent: Vec<Vec<f64>> = (entering.iter())
+            .map(|weights| {
+                let mut sum = [0.0; 6];
+                for (weight, part) in weights.iter().zip(&parts) {
+                    for (row, factor) in wrenches.rows.iter().zip(part) {
+                        sum.iter_mut()
+                            .zip(row)
+                            .for_each(|(s, r)| *s += weight * factor * r);
+                    }
+                }
+                let (moment, force) = (turn(&sum[..3]), turn(&sum[3..]));
+                [force.0, moment.0].concat()
+            })
+            .collect();
+        found.push(Redundancy {
+            closure: closure.name.clone(),
+            equations: entering.len(),
+            of: columns,
+            wrenches: (axis_aligned(&dependent).into_iter())
+                .map(|w| Wrench {
+                    force: [w[0], w[1], w[2]],
+                    moment: [w[3], w[4], w[5]].map(|m| m * mechanism.characteristic_length()),
+                })
+                .collect(),
+            rod: closure.kind == ClosureKind::Distance,
+        });
+        dependencies = (rest.iter())
+            .map(|weights| {
+                let mut sum = vec![0.0; dependencies[0].len()];
+                for (weight, dependency) in weights.iter().zip(&dependencies) {
+                    sum.iter_mut()
+                        .zip(dependency)
+                        .for_each(|(s, d)| *s += weight * d);
+                }
+                sum
+            })
+            .collect();
+    }
+    found.reverse();
+    found
+}
+
+/// A basis of a space that has unit vectors where it can, and for the rest echelon form.
+pub(super) fn axis_aligned(vectors: &[Vec<f64>]) -> Vec<Vec<f64>> {
+    let space = orthonormal(vectors, ALIGNED);
+    let Some(size) = space.first().map(Vec::len) else {
+        return vec![];
+    };
+    let mut basis: Vec<Vec<f64>> = Vec::new();
+    for i in 0..size {
+        let share: f64 = space.iter().map(|vector| vector[i] * vector[i]).sum();
+        if share > 1.0 - ALIGNED * ALIGNED.sqrt() {
+            let mut unit = vec![0.0; size];
+            unit[i] = 1.0;
+            basis.push(unit);
+        }
+    }
+    let mut rest = space;
+    rest.iter_mut().for_each(|vector| remove(vector, &basis));
+    basis.extend(echelon(orthonormal(&rest, 1e-3)));
+    basis
+}
+
+/// Reduced echelon form with rows scaled to unit length.
+fn echelon(mut rows: Vec<Vec<f64>>) -> Vec<Vec<f64>> {
+    let size = rows.first().map_or(0, Vec::len);
+    let mut done = 0;
+    for column in 0..size {
+        let pivot = (done..rows.len())
+            .max_by(|&i, &j| rows[i][column].abs().total_cmp(&rows[j][column].abs()));
+        let Some(pivot) = pivot.filter(|&pivot| rows[pivot][column].abs() > 1e-3) else {
+            continue;
+        };
+        rows.swap(done, pivot);
+        let scale = rows[done][column];
+        rows[done].iter_mut().for_each(|x| *x /= scale);
+        for i in 0..rows.len() {
+            if i != done {
+                let factor = rows[i][column];
+                let pivot_row = rows[done].clone();
+                rows[i]
+                    .iter_mut()
+                    .zip(&pivot_row)
+                    .for_each(|(x, p)| *x -= factor * p);
+            }
+        }
+        done += 1;
+    }
+    for row in &mut rows {
+        let length = norm(row);
+        row.iter_mut().for_each(|x| {
+            *x = if x.abs() < ALIGNED * length {
+                0.0
+            } else {
+                *x / length
+            }
+        });
+    }
+    rows
+}

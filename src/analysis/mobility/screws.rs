@@ -1,0 +1,189 @@
+//! Spaces of twists as screws with pitch.
+
+use serde::Serialize;
+
+use super::redundancy::axis_aligned;
+use crate::geometry::Vector3;
+use crate::linear::{norm, remove};
+use crate::mechanism::{Body, Frame, Mechanism};
+use crate::system::{Neighbourhood, Tangent};
+
+/// The infinitesimal motions of a body.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct TwistSpace {
+    /// The body: a platform, or a link by its frame.
+    pub body: String,
+    /// A basis: principal screws first, translations after them.
+    pub screws: Vec<Screw>,
+}
+
+/// A twist up to its size, in ground.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Screw {
+    /// Unit vector along the axis, or along the translation.
+    pub direction: [f64; 3],
+    /// The point of the axis nearest to the origin of ground, in m; `None` for a translation.
+    pub point: Option<[f64; 3]>,
+    /// Advance for a rotation by 1 rad, in m/rad; zero for a rotation, `None` for a translation,
+    /// whose pitch is infinite.
+    pub pitch: Option<f64>,
+}
+
+/// What counts as zero in a dimensionless twist.
+const ZERO: f64 = 1e-7;
+
+/// The bodies whose motions are of interest: platforms, or else the links that closures join.
+pub(super) fn carriers(mechanism: &Mechanism) -> Vec<(Body, Frame)> {
+    let platforms = 0..mechanism.platforms().len();
+    let mut carriers: Vec<(Body, Frame)> = platforms
+        .map(|platform| (Body::Platform(platform), Frame::Platform { platform }))
+        .collect();
+    if carriers.is_empty() {
+        let frames = mechanism
+            .closures()
+            .iter()
+            .flat_map(|closure| closure.frames);
+        let tips = (0..mechanism.chains().len()).map(|chain| Frame::Tip { chain });
+        let open = tips.filter(|_| mechanism.closures().is_empty());
+        for frame in frames.chain(open) {
+            let body = mechanism.body(frame);
+            if body != Body::Ground && !carriers.iter().any(|(known, _)| *known == body) {
+                carriers.push((body, frame));
+            }
+        }
+    }
+    carriers
+}
+
+/// The twist spaces of bodies over the motions of a tangent space.
+pub(super) fn spaces(
+    near: &Neighbourhood,
+    carriers: &[(Body, Frame)],
+    tangent: &Tangent,
+) -> Vec<TwistSpace> {
+    let mechanism = near.mechanism();
+    let length = mechanism.characteristic_length();
+    let frames = near.frames();
+    let mut placement = frames.placement();
+    frames.place(&tangent.at, &mut placement);
+    let spaces = carriers.iter().map(|&(body, frame)| {
+        let place = frames
+            .frames()
+            .position(|f| f == frame)
+            .expect("every frame is planned");
+        let origin = frames.origin(place, &placement);
+        let twists: Vec<Vec<f64>> = (tangent.motions.iter())
+            .map(|motion| {
+                let twist = frames.twist(place, &placement, motion);
+                let velocity = (twist.velocity - twist.omega.cross(&origin)).times(1.0 / length);
+                [twist.omega.0, velocity.0].concat()
+            })
+            .collect();
+        TwistSpace {
+            body: mechanism.body_name(body),
+            screws: principal_screws(&twists, length),
+        }
+    });
+    spaces.collect()
+}
+
+/// Principal screws of a space of twists (ω; v/L) at the origin, then its translations.
+///
+/// Twists are made unique by taking the part of v that is orthogonal to the translations; the
+/// pitch ω·v/ω·ω is then a quadratic form on the space of the ω, and its eigenvectors are the
+/// principal screws (Ball 1900; Hunt 1978).
+fn principal_screws(twists: &[Vec<f64>], length: f64) -> Vec<Screw> {
+    let space = axis_aligned(twists);
+    let omegas: Vec<Vec<f64>> = space.iter().map(|t| t[..3].to_vec()).collect();
+    let rotations = axis_aligned(&omegas);
+    let translations: Vec<Vec<f64>> = {
+        // combinations without rotation
+        let columns: Vec<f64> = omegas.concat();
+        let weights = crate::linear::Decomposition::of(3, omegas.len(), &columns).null_space();
+        let sums: Vec<Vec<f64>> = (weights.iter())
+            .map(|weights| {
+                (3..6)
+                    .map(|k| space.iter().zip(weights).map(|(t, w)| t[k] * w).sum())
+                    .collect()
+            })
+            .collect();
+        axis_aligned(&sums)
+    };
+    let translation_basis = crate::linear::orthonormal(&translations, ZERO);
+    let rotation_basis = crate::linear::orthonormal(&rotations, ZERO);
+    let velocities: Vec<Vec<f64>> = (rotation_basis.iter())
+        .map(|omega| {
+            let columns: Vec<f64> = omegas.concat();
+            let weights = crate::linear::Decomposition::of(3, omegas.len(), &columns).solve(omega);
+            let mut velocity: Vec<f64> = (3..6)
+                .map(|k| space.iter().zip(&weights).map(|(t, w)| t[k] * w).sum())
+                .collect();
+            remove(&mut velocity, &translation_basis);
+            velocity
+        })
+        .collect();
+    let mut screws = rotations_of(&rotation_basis, &velocities, length);
+    screws.extend(translations.iter().map(|t| {
+        let unit = Vector3([t[0], t[1], t[2]]).times(1.0 / norm(t));
+        Screw {
+            direction: clean(pointing(unit).0, 1.0),
+            point: None,
+            pitch: None,
+        }
+    }));
+    screws
+}
+
+/// The principal screws that turn, the one of least pitch first.
+fn rotations_of(rotation_basis: &[Vec<f64>], velocities: &[Vec<f64>], length: f64) -> Vec<Screw> {
+    let size = rotation_basis.len();
+    if size == 0 {
+        return Vec::new();
+    }
+    let pitches = nalgebra::DMatrix::from_fn(size, size, |i, j| {
+        let ahead = crate::linear::dot(&rotation_basis[i], &velocities[j]);
+        let back = crate::linear::dot(&rotation_basis[j], &velocities[i]);
+        let pitch = 0.5 * (ahead + back);
+        // equal pitches must not turn the axes
+        if pitch.abs() < ZERO { 0.0 } else { pitch }
+    });
+    let eigen = pitches.symmetric_eigen();
+    let mut screws: Vec<Screw> = (0..size)
+        .map(|k| {
+            let combine = |parts: &[Vec<f64>]| {
+                let mut sum = Vector3::zero();
+                for (j, part) in parts.iter().enumerate() {
+                    let weight = eigen.eigenvectors[(j, k)];
+                    sum += Vector3([part[0], part[1], part[2]]).times(weight);
+                }
+                sum
+            };
+            let (omega, velocity) = (combine(rotation_basis), combine(velocities));
+            let point = omega.cross(&velocity).times(length);
+            let pitch = omega.dot(&velocity) * length;
+            Screw {
+                direction: clean(pointing(omega).0, 1.0),
+                point: Some(clean(point.0, length)),
+                pitch: Some(clean([pitch; 3], length)[0]),
+            }
+        })
+        .collect();
+    screws.sort_by(|a, b| {
+        let pitch = |screw: &Screw| screw.pitch.unwrap_or(f64::INFINITY);
+        pitch(a).abs().total_cmp(&pitch(b).abs())
+    });
+    screws
+}
+
+/// The direction or its opposite, the largest component positive.
+fn pointing(v: Vector3<f64>) -> Vector3<f64> {
+    let largest = v.0.iter().fold(
+        0.0,
+        |m: f64, &x| if x.abs() > m.abs() + 1e-9 { x } else { m },
+    );
+    if largest < 0.0 { -v } else { v }
+}
+
+fn clean(v: [f64; 3], size: f64) -> [f64; 3] {
+    v.map(|x| if x.abs() < 1e-9 * size { 0.0 } else { x })
+}

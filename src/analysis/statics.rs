@@ -1,0 +1,264 @@
+//! What forces hold an assembled mechanism in equilibrium.
+
+mod reactions;
+
+use serde::Serialize;
+
+use crate::linear::{Decomposition, RANK_TOLERANCE, norm};
+use crate::mechanism::{Configuration, Frame, Mechanism};
+use crate::solve::Newton;
+use crate::system::{
+    Analysed, FrameTwists, Holdable, Load, Neighbourhood, Question, QuestionError, Unknown,
+    WidestGap, check_count, close, too_large,
+};
+
+pub use reactions::Reaction;
+
+/// How to look for the assembled configuration.
+#[derive(Clone, Debug, PartialEq)]
+pub struct StaticsSettings {
+    /// The iteration that closes the mechanism.
+    pub newton: Newton,
+    /// Random starts within limits after the guess has failed.
+    pub restarts: usize,
+    /// Seed of the random starts.
+    pub seed: u64,
+}
+
+impl Default for StaticsSettings {
+    fn default() -> Self {
+        StaticsSettings {
+            newton: Newton::default(),
+            restarts: 40,
+            seed: 1,
+        }
+    }
+}
+
+/// The forces in an assembled mechanism at rest without weight or friction. Vectors are in ground,
+/// forces in N, moments in N·m, points in m.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct StaticsReport {
+    /// The wrenches applied.
+    pub loads: Vec<AppliedWrench>,
+    /// The loads on joints.
+    pub joint_loads: Vec<Force>,
+    /// What would move because nothing balances the load; empty in equilibrium. The forces below
+    /// are then those that come nearest.
+    pub unbalanced: Vec<String>,
+    /// What is held, with the force that holds it: along its positive direction.
+    pub actuators: Vec<Force>,
+    /// What each closure passes on.
+    pub closures: Vec<Reaction>,
+    /// What each joint of a chain passes on, its drive included.
+    pub joints: Vec<Reaction>,
+    /// How many independent states of stress need no load: 0 if all forces are determined. What is
+    /// not `unique` is then the choice of least norm of the closure and actuator forces, moments
+    /// and forces times the normalising length taken together.
+    pub self_stresses: usize,
+    /// Ratio of the largest to the smallest singular value that counts, of the equilibrium equations.
+    pub condition: f64,
+    /// The length that makes forces comparable with moments, in m.
+    pub normalising_length: f64,
+    /// The widest gap of the pose given, before it was closed.
+    pub given_gap: Option<WidestGap>,
+    /// Whether what the file holds kept its values when the mechanism was closed.
+    pub kept: bool,
+}
+
+/// A wrench on a frame.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct AppliedWrench {
+    /// The frame.
+    pub frame: String,
+    /// Force at its origin, in N.
+    pub force: [f64; 3],
+    /// Moment, in N·m.
+    pub moment: [f64; 3],
+}
+
+/// A force or moment along a coordinate.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Force {
+    /// The coordinate.
+    pub name: String,
+    /// `N` or `N·m`.
+    pub unit: &'static str,
+    /// How large, along the coordinate.
+    pub force: f64,
+    /// Whether equilibrium determines it.
+    pub unique: bool,
+}
+
+/// Finds the forces that balance a load at the assembled configuration near the start of a question.
+///
+/// By virtual work g + Jᵀλ + Sᵀτ = 0: g are the generalised forces of the load, J the closure
+/// Jacobian with nothing held, S picks the held coordinates. Of many solutions the one of least norm
+/// is taken. Source: Ghosal, Robotics, 2006, §5.9; Hunt, Kinematic Geometry, 1978 on wrenches.
+///
+/// # Errors
+/// If more or less is held than the mechanism has freedoms, or what is held depends on itself.
+pub fn statics(
+    question: &Question,
+    load: &Load,
+    settings: &StaticsSettings,
+) -> Result<Analysed<StaticsReport>, QuestionError> {
+    let mechanism = question.mechanism();
+    if let Some(unknowns) = too_large(mechanism) {
+        return Ok(Analysed::TooLarge { unknowns });
+    }
+    check_count(question)?;
+    let closed = match close(question, &settings.newton, settings.restarts, settings.seed) {
+        Ok(closed) => closed,
+        Err(open) => return Ok(Analysed::NotClosed(open)),
+    };
+    let at = &closed.configuration;
+    let mut near = Neighbourhood::new(mechanism);
+    let tangent = near.tangent(at.clone());
+    let unknowns = near.system().unknowns().to_vec();
+    let rows = near.system().rows();
+    let held = question.held_coordinates();
+
+    // Jᵀ and Sᵀ beside one another, column by column
+    let mut entries = Vec::with_capacity(unknowns.len() * (rows + held.len()));
+    for row in 0..rows {
+        let columns = tangent.jacobian.chunks_exact(rows);
+        entries.extend(columns.map(|column| column[row]));
+    }
+    for &coordinate in &held {
+        entries.extend(direction(mechanism, at, &unknowns, coordinate));
+    }
+    let equations = Decomposition::of(unknowns.len(), rows + held.len(), &entries);
+    let generalised = generalised(mechanism, &near, at, &unknowns, load);
+    let opposite: Vec<f64> = generalised.iter().map(|g| -g).collect();
+    let forces = equations.solve(&opposite);
+    let mut left = generalised.clone();
+    for (column, force) in entries.chunks_exact(unknowns.len().max(1)).zip(&forces) {
+        left.iter_mut()
+            .zip(column)
+            .for_each(|(left, a)| *left += force * a);
+    }
+    let stresses = equations.null_space();
+
+    let scale = |coordinate: Holdable| match coordinate.is_angle(mechanism) {
+        true => 1.0,
+        false => mechanism.characteristic_length(),
+    };
+    let actuators = held.iter().enumerate().map(|(i, &coordinate)| Force {
+        name: coordinate.name(mechanism),
+        unit: coordinate.force_unit(mechanism),
+        force: forces[rows + i] / scale(coordinate),
+        unique: (stresses.iter()).all(|stress| stress[rows + i].abs() <= RANK_TOLERANCE),
+    });
+    let actuators = actuators.collect();
+    let none = Load::default();
+    let found = reactions::of(&mut near, at, load, &forces[..rows]);
+    let changes: Vec<reactions::Reactions> = (stresses.iter())
+        .map(|stress| reactions::of(&mut near, at, &none, &stress[..rows]))
+        .collect();
+    let (closures, joints) = found.marked(&changes, mechanism.characteristic_length());
+    Ok(Analysed::Closed(StaticsReport {
+        loads: (load.wrenches.iter())
+            .map(|&(frame, force, moment)| AppliedWrench {
+                frame: mechanism.frame_name(frame),
+                force,
+                moment,
+            })
+            .collect(),
+        joint_loads: (load.joints.iter())
+            .map(|&(joint, force)| Force {
+                name: mechanism.joints()[joint].name.clone(),
+                unit: Holdable::Joint(joint).force_unit(mechanism),
+                force,
+                unique: true,
+            })
+            .collect(),
+        unbalanced: unbalanced(mechanism, &unknowns, &left, norm(&generalised)),
+        actuators,
+        closures,
+        joints,
+        self_stresses: stresses.len(),
+        condition: equations.condition(),
+        normalising_length: mechanism.characteristic_length(),
+        given_gap: closed.given.filter(|gap| gap.size(mechanism) > 1e-9),
+        kept: closed.kept,
+    }))
+}
+
+/// The rate of a held coordinate for each unknown, dimensionless.
+fn direction(
+    mechanism: &Mechanism,
+    at: &Configuration<f64>,
+    unknowns: &[Unknown],
+    coordinate: Holdable,
+) -> Vec<f64> {
+    let slope = match coordinate {
+        Holdable::Joint(_) => [0.0; 6],
+        Holdable::Coordinate(platform, c) => {
+            let pose = at.platforms[platform].pose();
+            c.row(&pose, c.of(&pose), mechanism.characteristic_length())
+                .1
+        }
+    };
+    let rate = |unknown: &Unknown| match (*unknown, coordinate) {
+        (Unknown::Joint(joint), Holdable::Joint(held)) if joint == held => 1.0,
+        (
+            Unknown::Twist {
+                platform,
+                component,
+            },
+            Holdable::Coordinate(held, _),
+        ) if platform == held => slope[component],
+        _ => 0.0,
+    };
+    unknowns.iter().map(rate).collect()
+}
+
+/// The work of a load for a unit of each unknown, in N·m.
+fn generalised(
+    mechanism: &Mechanism,
+    near: &Neighbourhood,
+    at: &Configuration<f64>,
+    unknowns: &[Unknown],
+    load: &Load,
+) -> Vec<f64> {
+    let frames: Vec<Frame> = load.wrenches.iter().map(|(frame, ..)| *frame).collect();
+    let twists = FrameTwists::new(mechanism.dimensions(), near.system().unknowns(), &frames);
+    let mut placement = twists.placement();
+    twists.place(at, &mut placement);
+    let mut rates = vec![0.0; unknowns.len()];
+    let mut work = vec![0.0; unknowns.len()];
+    for (k, unknown) in unknowns.iter().enumerate() {
+        rates[k] = 1.0;
+        for (i, (_, force, moment)) in load.wrenches.iter().enumerate() {
+            let twist = twists.twist(i, &placement, &rates);
+            let dot = |a: &[f64; 3], b: &[f64; 3]| a.iter().zip(b).map(|(a, b)| a * b).sum::<f64>();
+            work[k] += dot(force, &twist.velocity.0) + dot(moment, &twist.omega.0);
+        }
+        rates[k] = 0.0;
+        if let Unknown::Joint(joint) = *unknown {
+            let loads = load.joints.iter().filter(|(loaded, _)| *loaded == joint);
+            let sum: f64 = loads.map(|(_, force)| force).sum();
+            work[k] += sum * mechanism.dimensions().joint_scales[joint];
+        }
+    }
+    work
+}
+
+/// The joints and platforms that forces without counterpart would move.
+fn unbalanced(mechanism: &Mechanism, unknowns: &[Unknown], left: &[f64], all: f64) -> Vec<String> {
+    let mut names: Vec<String> = Vec::new();
+    for (unknown, force) in unknowns.iter().zip(left) {
+        if force.abs() <= RANK_TOLERANCE * all {
+            continue;
+        }
+        let name = match *unknown {
+            Unknown::Joint(joint) => &mechanism.joints()[joint].name,
+            Unknown::Twist { platform, .. } => &mechanism.platforms()[platform].name,
+        };
+        if !names.contains(name) {
+            names.push(name.clone());
+        }
+    }
+    names
+}

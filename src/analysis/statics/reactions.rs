@@ -1,0 +1,171 @@
+//! What closures and joints pass on from body to body.
+
+use serde::Serialize;
+
+use crate::geometry::Vector3;
+use crate::linear::RANK_TOLERANCE;
+use crate::mechanism::{Body, Configuration, Frame, Mechanism};
+use crate::system::{Load, Neighbourhood};
+
+/// The wrench that one body exerts on another.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Reaction {
+    /// The closure, or the link after the joint.
+    pub name: String,
+    /// The joint variables there.
+    pub variables: Vec<String>,
+    /// The body that exerts it.
+    pub from: String,
+    /// The body it acts on.
+    pub on: String,
+    /// The point it acts at.
+    pub point: [f64; 3],
+    /// Force, in N.
+    pub force: [f64; 3],
+    /// Moment about the point, in N·m.
+    pub moment: [f64; 3],
+    /// For the components of force and moment whether equilibrium determines them.
+    pub unique: [bool; 6],
+}
+
+/// Reactions of closures and of joints.
+pub(super) struct Reactions {
+    closures: Vec<Reaction>,
+    joints: Vec<Reaction>,
+}
+
+/// Force, moment about the origin of ground.
+#[derive(Clone, Copy)]
+struct AtOrigin {
+    force: Vector3<f64>,
+    moment: Vector3<f64>,
+}
+
+impl AtOrigin {
+    fn new(point: Vector3<f64>, force: Vector3<f64>, moment: Vector3<f64>) -> Self {
+        AtOrigin {
+            force,
+            moment: moment + point.cross(&force),
+        }
+    }
+}
+
+/// The reactions for multipliers λ of the closure rows, in N·m.
+///
+/// A closure exerts Σ λ·row on its second body and the opposite on its first. A joint balances all
+/// that acts on the bodies beyond it.
+pub(super) fn of(
+    near: &mut Neighbourhood,
+    at: &Configuration<f64>,
+    load: &Load,
+    multipliers: &[f64],
+) -> Reactions {
+    let mechanism = near.mechanism();
+    let length = mechanism.characteristic_length();
+    let mut acting: Vec<(Body, AtOrigin)> = Vec::new();
+    for &(frame, force, moment) in &load.wrenches {
+        let point = mechanism.poses([frame], at)[0].position;
+        let wrench = AtOrigin::new(point, Vector3(force), Vector3(moment));
+        acting.push((mechanism.body(frame), wrench));
+    }
+    let mut closures = Vec::new();
+    let wrenches = near.closure_wrenches(at);
+    for (closure, wrenches) in mechanism.closures().iter().zip(wrenches) {
+        let (mut force, mut moment) = (Vector3::zero(), Vector3::zero());
+        let factors = &multipliers[wrenches.first_row..];
+        for (row, &factor) in wrenches.rows.iter().zip(factors) {
+            let [a, b, c, x, y, z] = *row;
+            moment += Vector3([a, b, c]).times(factor);
+            force += Vector3([x, y, z]).times(factor / length);
+        }
+        let [first, second] = closure.frames.map(|frame| mechanism.body(frame));
+        let [start, end] = wrenches.points;
+        acting.push((second, AtOrigin::new(end, force, moment)));
+        acting.push((first, AtOrigin::new(start, -force, -moment)));
+        closures.push(Reaction {
+            name: closure.name.clone(),
+            variables: vec![],
+            from: mechanism.body_name(first),
+            on: mechanism.body_name(second),
+            point: end.0,
+            force: force.0,
+            moment: moment.0,
+            unique: [true; 6],
+        });
+    }
+    let bodies = mechanism.bodies();
+    let links = bodies.iter().filter_map(|&body| match body {
+        Body::Link { chain, row } => Some((body, chain, row)),
+        _ => None,
+    });
+    let joints = links.map(|(body, chain, row)| {
+        let frame = Frame::Link { chain, row };
+        let point = mechanism.poses([frame], at)[0].position;
+        let (mut force, mut moment) = (Vector3::zero(), Vector3::zero());
+        for (on, wrench) in &acting {
+            if is_beyond(mechanism, *on, body) {
+                force += -wrench.force;
+                moment += -wrench.moment;
+            }
+        }
+        let inner = parent(mechanism, chain, row);
+        let variables = mechanism.chains()[chain].rows[row - 1].joints();
+        Reaction {
+            name: mechanism.frame_name(frame),
+            variables: (variables.iter())
+                .map(|&joint| mechanism.joints()[joint].name.clone())
+                .collect(),
+            from: mechanism.body_name(inner),
+            on: mechanism.body_name(body),
+            point: point.0,
+            force: force.0,
+            moment: (moment - point.cross(&force)).0,
+            unique: [true; 6],
+        }
+    });
+    Reactions {
+        joints: joints.collect(),
+        closures,
+    }
+}
+
+/// The body that carries the joint of a row.
+fn parent(mechanism: &Mechanism, chain: usize, row: usize) -> Body {
+    mechanism.body(Frame::Link {
+        chain,
+        row: row - 1,
+    })
+}
+
+/// Whether a body is another, or stands on it by way of chains.
+fn is_beyond(mechanism: &Mechanism, mut body: Body, link: Body) -> bool {
+    loop {
+        if body == link {
+            return true;
+        }
+        let Body::Link { chain, row } = body else {
+            return false;
+        };
+        body = parent(mechanism, chain, row);
+    }
+}
+
+impl Reactions {
+    /// Closures and joints, with what changes in states of stress without load marked.
+    pub fn marked(mut self, changes: &[Reactions], length: f64) -> (Vec<Reaction>, Vec<Reaction>) {
+        for change in changes {
+            let (closures, joints) = (&mut self.closures, &mut self.joints);
+            let closures = closures.iter_mut().zip(&change.closures);
+            let joints = joints.iter_mut().zip(&change.joints);
+            for (reaction, change) in closures.chain(joints) {
+                for i in 0..3 {
+                    // a stress of unit norm is one of 1 N·m
+                    let (force, moment) = (change.force[i] * length, change.moment[i]);
+                    reaction.unique[i] &= force.abs() <= RANK_TOLERANCE;
+                    reaction.unique[3 + i] &= moment.abs() <= RANK_TOLERANCE;
+                }
+            }
+        }
+        (self.closures, self.joints)
+    }
+}

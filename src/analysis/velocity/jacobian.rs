@@ -1,0 +1,162 @@
+//! The input–output Jacobian.
+
+use serde::Serialize;
+
+use super::unit;
+use crate::linear::{Decomposition, rank};
+use crate::mechanism::{Configuration, Frame, Mechanism, Role};
+use crate::system::{FrameTwists, Holdable, Motion};
+
+/// Rates of outputs for unit rates of the inputs, one at a time.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct InputOutput {
+    /// The outputs.
+    pub rows: Vec<Axis>,
+    /// The inputs.
+    pub columns: Vec<Axis>,
+    /// Row by row; an entry has the unit of its row over that of its column.
+    pub entries: Vec<Vec<f64>>,
+    /// Its rank, once lengths are divided by the normalising length.
+    pub rank: usize,
+    /// Freedoms lost: inputs, or outputs if they are fewer, less the rank.
+    pub loss: usize,
+    /// Largest over smallest singular value of the normalised Jacobian; `None` (infinite) if some
+    /// freedom is lost.
+    pub condition: Option<f64>,
+    /// Product of its singular values, √det(J Jᵀ) or √det(Jᵀ J) (Yoshikawa 1985).
+    pub manipulability: f64,
+}
+
+/// A row or column.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Axis {
+    /// What it is.
+    pub name: String,
+    /// `rad/s` or `m/s`.
+    pub unit: String,
+}
+
+/// What the inputs drive.
+pub(super) enum Output {
+    /// The twist of a platform.
+    Twist(Frame),
+    /// The velocity of a frame's origin.
+    Point(Frame),
+    /// The rate of a joint.
+    Joint(usize),
+}
+
+/// The outputs of a question: with a platform coordinate held the driven joints that are free, else
+/// the platforms' twists, else the free joints; and always the points asked for.
+pub(super) fn outputs(mechanism: &Mechanism, held: &[Holdable], points: &[Frame]) -> Vec<Output> {
+    let free = |joint: &usize| !held.contains(&Holdable::Joint(*joint));
+    let free: Vec<usize> = (0..mechanism.joints().len()).filter(free).collect();
+    let driven = |joint: &usize| mechanism.joints()[*joint].role == Role::Actuated;
+    let inverse = held.iter().any(|h| matches!(h, Holdable::Coordinate(..)));
+    let platforms = 0..mechanism.platforms().len();
+    let mut outputs: Vec<Output> = if inverse && free.iter().any(driven) {
+        let driven = free.iter().copied().filter(|joint| driven(joint));
+        driven.map(Output::Joint).collect()
+    } else if !inverse && !platforms.is_empty() {
+        platforms
+            .map(|platform| Output::Twist(Frame::Platform { platform }))
+            .collect()
+    } else {
+        free.into_iter().map(Output::Joint).collect()
+    };
+    outputs.extend(points.iter().copied().map(Output::Point));
+    outputs
+}
+
+pub(super) fn input_output(
+    mechanism: &Mechanism,
+    motion: &mut Motion,
+    at: &Configuration<f64>,
+    outputs: &[Output],
+) -> InputOutput {
+    let frames = outputs.iter().filter_map(|output| match output {
+        Output::Twist(frame) | Output::Point(frame) => Some(*frame),
+        Output::Joint(_) => None,
+    });
+    let frames: Vec<Frame> = frames.collect();
+    let twists = FrameTwists::new(mechanism.dimensions(), motion.unknowns(), &frames);
+    let mut placement = twists.placement();
+    twists.place(at, &mut placement);
+    let scales = &mechanism.dimensions().joint_scales;
+    let length = mechanism.characteristic_length();
+
+    let mut rows = Vec::new();
+    // what a row is divided by to have no length in it
+    let mut row_scales = Vec::new();
+    for output in outputs {
+        let (kinds, name): (&[&str], String) = match output {
+            Output::Twist(frame) => (&["ω", "v"], mechanism.frame_name(*frame)),
+            Output::Point(frame) => (&["v"], mechanism.frame_name(*frame)),
+            Output::Joint(joint) => {
+                let joint = &mechanism.joints()[*joint];
+                rows.push(Axis {
+                    name: joint.name.clone(),
+                    unit: format!("{}/s", unit(joint.kind.is_angle())),
+                });
+                row_scales.push(if joint.kind.is_angle() { 1.0 } else { length });
+                continue;
+            }
+        };
+        for &kind in kinds {
+            for axis in ["x", "y", "z"] {
+                rows.push(Axis {
+                    name: format!("{name} {kind}{axis}"),
+                    unit: format!("{}/s", unit(kind == "ω")),
+                });
+                row_scales.push(if kind == "ω" { 1.0 } else { length });
+            }
+        }
+    }
+    let inputs = motion.coordinates().to_vec();
+    let mut columns = Vec::new();
+    let mut entries = vec![Vec::new(); rows.len()];
+    let mut normalised = Vec::new();
+    for (i, input) in inputs.iter().enumerate() {
+        let angle = input.is_angle(mechanism);
+        columns.push(Axis {
+            name: input.name(mechanism),
+            unit: format!("{}/s", unit(angle)),
+        });
+        let mut given = vec![0.0; inputs.len()];
+        given[i] = 1.0;
+        let rates = motion.rates(&given);
+        let mut column = Vec::with_capacity(rows.len());
+        let mut frame = 0;
+        for output in outputs {
+            match output {
+                Output::Joint(joint) => column.push(rates[*joint] * scales[*joint]),
+                Output::Twist(_) | Output::Point(_) => {
+                    let twist = twists.twist(frame, &placement, rates);
+                    if matches!(output, Output::Twist(_)) {
+                        column.extend(twist.omega.0);
+                    }
+                    column.extend(twist.velocity.0);
+                    frame += 1;
+                }
+            }
+        }
+        let scale = if angle { 1.0 } else { length };
+        for ((row, &entry), row_scale) in entries.iter_mut().zip(&column).zip(&row_scales) {
+            row.push(entry);
+            normalised.push(entry * scale / row_scale);
+        }
+    }
+    let smaller = rows.len().min(columns.len());
+    let decomposition = Decomposition::of(rows.len(), columns.len(), &normalised);
+    let values = decomposition.singular_values();
+    let rank = rank(values);
+    InputOutput {
+        loss: smaller - rank,
+        condition: (rank == smaller).then(|| decomposition.condition()),
+        manipulability: values.iter().product(),
+        rank,
+        rows,
+        columns,
+        entries,
+    }
+}

@@ -1,0 +1,79 @@
+//! The options that say what is held and where to start.
+
+use clap::Args;
+use linkwork::mechanism::{Frame, Mechanism};
+use linkwork::output::option::Given;
+use linkwork::output::question::{complaint, driven_complaint, unknown_frame};
+use linkwork::system::{DriveError, Question, QuestionError};
+
+use super::source::Assignment;
+use super::{Refusal, style};
+
+#[derive(Args)]
+pub struct Asked {
+    /// Hold a joint or coordinate at a value, e.g. --hold theta1="60 deg"
+    #[arg(long, value_name = "NAME=VALUE")]
+    hold: Vec<Assignment>,
+    /// Let a joint be solved, e.g. --free l1; `actuated` frees all actuated joints
+    #[arg(long, value_name = "NAME")]
+    free: Vec<String>,
+    /// Start the search at a value, e.g. --guess phi1="-30 deg"
+    #[arg(long, value_name = "NAME=VALUE")]
+    guess: Vec<Assignment>,
+}
+
+impl Asked {
+    /// What is freed is freed first, so that `--free actuated --hold l1=1` holds one joint.
+    pub fn question<'a>(&self, mechanism: &'a Mechanism) -> Result<Question<'a>, Refusal> {
+        let mut question = Question::new(mechanism);
+        for name in &self.free {
+            let given = Given {
+                option: "--free",
+                name,
+                value: None,
+            };
+            question = (question.free(name)).map_err(|error| refusal(&error, Some(given)))?;
+        }
+        for assignment in &self.hold {
+            let Assignment { name, value } = assignment;
+            let given = assignment.given("--hold");
+            question =
+                (question.hold(name, value)).map_err(|error| refusal(&error, Some(given)))?;
+        }
+        for assignment in &self.guess {
+            let Assignment { name, value } = assignment;
+            let given = assignment.given("--guess");
+            question =
+                (question.guess(name, value)).map_err(|error| refusal(&error, Some(given)))?;
+        }
+        Ok(question)
+    }
+}
+
+/// What is wrong with the question, and with the option that asked it, if one did.
+pub fn refusal(error: &QuestionError, given: Option<Given>) -> Refusal {
+    let (complaint, part) = complaint(error);
+    Refusal(match given {
+        Some(given) => complaint.render_in(&given, &part, style()),
+        None => complaint.render(style()),
+    })
+}
+
+/// What is wrong with a rate, an acceleration or a force.
+pub fn driven(error: &DriveError, given: Given) -> Refusal {
+    let (complaint, part) = driven_complaint(error, given.option);
+    Refusal(complaint.render_in(&given, &part, style()))
+}
+
+/// The frame of that name.
+pub fn frame(mechanism: &Mechanism, name: &str, option: &str) -> Result<Frame, Refusal> {
+    mechanism.frame(name).ok_or_else(|| {
+        let given = Given {
+            option,
+            name,
+            value: None,
+        };
+        let (complaint, part) = unknown_frame(mechanism, name);
+        Refusal(complaint.render_in(&given, &part, style()))
+    })
+}

@@ -1,0 +1,51 @@
+//! `linkwork mobility`
+
+use clap::Args;
+use linkwork::analysis::mobility::{MobilitySettings, mobility};
+use linkwork::output::{closing as analysed, mobility as output};
+
+use super::asked::Asked;
+use super::source::Source;
+use super::{Answer, Format, Refusal};
+
+/// Count the freedoms of the assembled mechanism, and say which joints move and what is redundant.
+///
+/// The mechanism is closed first, at the values the options ask for; then everything is free to move. A freedom counts
+/// if a finite step along it closes, not only an infinitesimal one.
+#[derive(Args)]
+#[command(after_help = "Example: linkwork mobility mechanisms/bennett.ron")]
+pub struct Mobility {
+    #[command(flatten)]
+    source: Source,
+    #[command(flatten)]
+    asked: Asked,
+    /// Seed of all random starts and directions
+    #[arg(long, default_value_t = MobilitySettings::default().seed)]
+    seed: u64,
+    /// How to write the answer
+    #[arg(long, value_enum, default_value_t = Format::Text)]
+    format: Format,
+}
+
+impl Mobility {
+    pub fn run(&self) -> Result<Answer, Refusal> {
+        let loaded = self.source.load()?;
+        let mechanism = &loaded.mechanism;
+        let question = self.asked.question(mechanism)?;
+        let settings = MobilitySettings {
+            seed: self.seed,
+            ..MobilitySettings::default()
+        };
+        let answer = mobility(&question, &settings);
+        let (data, yes) = match self.format {
+            Format::Text => analysed::text(mechanism, &answer, output::text),
+            Format::Json => analysed::json(mechanism, &answer, output::json),
+        };
+        let yes = yes.is_some_and(|_| true);
+        Ok(Answer {
+            data,
+            remarks: loaded.warnings(),
+            yes,
+        })
+    }
+}

@@ -1,0 +1,76 @@
+//! `linkwork velocity`
+
+use clap::Args;
+use linkwork::analysis::velocity::{VelocitySettings, velocity};
+use linkwork::output::{closing as analysed, velocity as output};
+use linkwork::system::Drive;
+
+use super::asked::{Asked, driven, frame, refusal};
+use super::source::{Assignment, Source};
+use super::{Answer, Format, Refusal};
+
+/// Find how everything moves when the inputs move: rates, accelerations, Jacobian.
+///
+/// The mechanism is closed first, at the values the options ask for. What is held is driven: rates in m/s or rad/s,
+/// accelerations in m/s² or rad/s²; what is given none stands still.
+#[derive(Args)]
+#[command(after_help = "Examples:\n  \
+    linkwork velocity mechanisms/three_rps.ron --rate l1=0.1\n  \
+    linkwork velocity mechanisms/four_bar.ron --rate theta1=1 --point left")]
+pub struct Velocity {
+    #[command(flatten)]
+    source: Source,
+    #[command(flatten)]
+    asked: Asked,
+    /// Rate of a held joint or coordinate, e.g. --rate l1=0.1
+    #[arg(long, value_name = "NAME=RATE")]
+    rate: Vec<Assignment>,
+    /// Acceleration of a held joint or coordinate, e.g. --acceleration l1=0.02
+    #[arg(long, value_name = "NAME=ACCELERATION")]
+    acceleration: Vec<Assignment>,
+    /// Follow the origin of a frame too, e.g. --point top.S1
+    #[arg(long, value_name = "FRAME")]
+    point: Vec<String>,
+    /// How to write the answer
+    #[arg(long, value_enum, default_value_t = Format::Text)]
+    format: Format,
+}
+
+impl Velocity {
+    pub fn run(&self) -> Result<Answer, Refusal> {
+        let loaded = self.source.load()?;
+        let mechanism = &loaded.mechanism;
+        let question = self.asked.question(mechanism)?;
+        let mut drive = Drive::still(&question);
+        for assignment in &self.rate {
+            let Assignment { name, value } = assignment;
+            drive = (drive.rate(&question, name, value))
+                .map_err(|error| driven(&error, assignment.given("--rate")))?;
+        }
+        for assignment in &self.acceleration {
+            let Assignment { name, value } = assignment;
+            drive = (drive.acceleration(&question, name, value))
+                .map_err(|error| driven(&error, assignment.given("--acceleration")))?;
+        }
+        let points = self
+            .point
+            .iter()
+            .map(|name| frame(mechanism, name, "--point"));
+        let settings = VelocitySettings {
+            points: points.collect::<Result<_, _>>()?,
+            ..VelocitySettings::default()
+        };
+        let report =
+            velocity(&question, &drive, &settings).map_err(|error| refusal(&error, None))?;
+        let (data, yes) = match self.format {
+            Format::Text => analysed::text(mechanism, &report, output::text),
+            Format::Json => analysed::json(mechanism, &report, output::json),
+        };
+        let yes = yes.is_some_and(|report| report.gain.is_none());
+        Ok(Answer {
+            data,
+            remarks: loaded.warnings(),
+            yes,
+        })
+    }
+}

@@ -1,0 +1,190 @@
+use super::rank;
+
+/// The singular value decomposition A = U·Σ·Vᵀ of a dense matrix, cut at the rank tolerance.
+///
+/// Source: Golub and Van Loan, §2.4 and §5.5.
+#[derive(Clone, Debug)]
+pub struct Decomposition {
+    rows: usize,
+    columns: usize,
+    values: Vec<f64>,
+    left: Vec<Vec<f64>>,
+    right: Vec<Vec<f64>>,
+}
+
+impl Decomposition {
+    /// Decomposes a column-major matrix.
+    pub fn of(rows: usize, columns: usize, entries: &[f64]) -> Self {
+        if rows == 0 || columns == 0 {
+            return Decomposition {
+                rows,
+                columns,
+                values: vec![],
+                left: vec![],
+                right: vec![],
+            };
+        }
+        let svd = nalgebra::DMatrix::from_column_slice(rows, columns, entries).svd(true, true);
+        let values: Vec<f64> = svd.singular_values.iter().copied().collect();
+        let rank = rank(&values);
+        let (u, v) = (svd.u.expect("asked for"), svd.v_t.expect("asked for"));
+        Decomposition {
+            rows,
+            columns,
+            left: (0..rank)
+                .map(|i| u.column(i).iter().copied().collect())
+                .collect(),
+            right: (0..rank)
+                .map(|i| v.row(i).iter().copied().collect())
+                .collect(),
+            values,
+        }
+    }
+
+    /// The numerical rank.
+    pub fn rank(&self) -> usize {
+        self.left.len()
+    }
+
+    /// Singular values, largest first.
+    pub fn singular_values(&self) -> &[f64] {
+        &self.values
+    }
+
+    /// Ratio of the largest to the smallest singular value that counts; 1 if none does.
+    pub fn condition(&self) -> f64 {
+        match self.rank() {
+            0 => 1.0,
+            rank => self.values[0] / self.values[rank - 1],
+        }
+    }
+
+    /// A⁺b: of the vectors nearest to a solution of A x = b the shortest.
+    pub fn solve(&self, b: &[f64]) -> Vec<f64> {
+        let mut x = vec![0.0; self.columns];
+        for ((u, v), value) in self.left.iter().zip(&self.right).zip(&self.values) {
+            add(&mut x, dot(u, b) / value, v);
+        }
+        x
+    }
+
+    /// (Aᵀ)⁺b: of the vectors nearest to a solution of Aᵀ x = b the shortest.
+    pub fn solve_transposed(&self, b: &[f64]) -> Vec<f64> {
+        let mut x = vec![0.0; self.rows];
+        for ((u, v), value) in self.left.iter().zip(&self.right).zip(&self.values) {
+            add(&mut x, dot(v, b) / value, u);
+        }
+        x
+    }
+
+    /// Orthonormal basis of the vectors with A x = 0.
+    pub fn null_space(&self) -> Vec<Vec<f64>> {
+        complement(&self.right, self.columns)
+    }
+
+    /// Orthonormal basis of the vectors with xᵀ A = 0.
+    pub fn left_null_space(&self) -> Vec<Vec<f64>> {
+        complement(&self.left, self.rows)
+    }
+}
+
+/// a·b.
+pub fn dot(a: &[f64], b: &[f64]) -> f64 {
+    a.iter().zip(b).map(|(a, b)| a * b).sum()
+}
+
+/// √(a·a).
+pub fn norm(a: &[f64]) -> f64 {
+    dot(a, a).sqrt()
+}
+
+fn add(x: &mut [f64], factor: f64, y: &[f64]) {
+    x.iter_mut().zip(y).for_each(|(x, y)| *x += factor * y);
+}
+
+/// Orthonormal basis of what the given vectors span, leaving out what is within the tolerance of
+/// depending on the others.
+pub fn orthonormal(vectors: &[Vec<f64>], tolerance: f64) -> Vec<Vec<f64>> {
+    let mut left: Vec<Vec<f64>> = vectors.to_vec();
+    let mut basis: Vec<Vec<f64>> = Vec::new();
+    while let Some(best) =
+        (0..left.len()).max_by(|&i, &j| norm(&left[i]).total_cmp(&norm(&left[j])))
+    {
+        let mut next = left.swap_remove(best);
+        let before = norm(&next);
+        if before <= tolerance {
+            break;
+        }
+        // once more, for what cancellation left of the others
+        remove(&mut next, &basis);
+        let length = norm(&next);
+        next.iter_mut().for_each(|x| *x /= length);
+        for other in &mut left {
+            remove(other, std::slice::from_ref(&next));
+        }
+        basis.push(next);
+    }
+    basis
+}
+
+/// Orthonormal basis of all that is orthogonal to orthonormal vectors of `size` components.
+pub fn complement(basis: &[Vec<f64>], size: usize) -> Vec<Vec<f64>> {
+    let mut known: Vec<Vec<f64>> = basis.to_vec();
+    let mut missing: Vec<Vec<f64>> = Vec::new();
+    for _ in basis.len()..size {
+        // the unit vector that the known ones explain worst
+        let unexplained = |i: usize| {
+            1.0 - known
+                .iter()
+                .map(|vector| vector[i] * vector[i])
+                .sum::<f64>()
+        };
+        let best = (0..size)
+            .max_by(|&i, &j| unexplained(i).total_cmp(&unexplained(j)))
+            .expect("size > 0");
+        let mut next = vec![0.0; size];
+        next[best] = 1.0;
+        remove(&mut next, &known);
+        remove(&mut next, &known);
+        let length = norm(&next);
+        next.iter_mut().for_each(|x| *x /= length);
+        known.push(next.clone());
+        missing.push(next);
+    }
+    missing
+}
+
+/// What is left of a vector without its components along orthonormal ones.
+pub fn remove(vector: &mut [f64], basis: &[Vec<f64>]) {
+    for direction in basis {
+        let along = dot(vector, direction);
+        add(vector, -along, direction);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_matrix_of_rank_two_has_both_null_spaces_and_the_shortest_solution() {
+        // columns (1,0,1,0), (0,1,0,1), their sum
+        let a = [1.0, 0.0, 1.0, 0.0, 0.0, 1.0, 0.0, 1.0, 1.0, 1.0, 1.0, 1.0];
+        let decomposition = Decomposition::of(4, 3, &a);
+        assert_eq!(decomposition.rank(), 2);
+        let null = decomposition.null_space();
+        assert_eq!((null.len(), decomposition.left_null_space().len()), (1, 2));
+        assert!((null[0][0] - null[0][1]).abs() < 1e-14 && (null[0][0] + null[0][2]).abs() < 1e-14);
+        for w in decomposition.left_null_space() {
+            for column in a.chunks_exact(4) {
+                assert!(dot(&w, column).abs() < 1e-14);
+            }
+        }
+        let x = decomposition.solve(&[1.0, 2.0, 1.0, 2.0]);
+        assert!(
+            (x[0] - 0.0).abs() < 1e-14 && (x[1] - 1.0).abs() < 1e-14,
+            "{x:?}"
+        );
+        assert!((x[2] - 1.0).abs() < 1e-14);
+    }
+}

@@ -1,0 +1,107 @@
+//! Words about closing a mechanism before it is analysed.
+
+use serde::Serialize;
+
+use super::json::document;
+use super::quantity::{degrees, quantity};
+use crate::description::listed;
+use crate::linear::SPECTRUM_LIMIT;
+use crate::mechanism::Mechanism;
+use crate::system::{Analysed, NotClosed, WidestGap};
+
+/// `0.213 m and 4.2°`
+pub(super) fn gap(distance: f64, angle: f64) -> String {
+    // what rounding leaves of a gap is none
+    const NONE: f64 = 1e-9;
+    match (distance < NONE, angle < NONE) {
+        (_, true) => quantity(distance, false),
+        (true, false) => degrees(angle),
+        (false, false) => format!("{} and {}", quantity(distance, false), degrees(angle)),
+    }
+}
+
+/// How far the pose given was off.
+pub(super) fn given(given: &WidestGap, kept: bool) -> String {
+    let free = match kept {
+        true => "",
+        false => ", which moved what the file holds too",
+    };
+    format!(
+        "The pose given was not closed: closure `{}` gaped by {}; it was closed first{free}.",
+        given.closure,
+        gap(given.distance, given.angle)
+    )
+}
+
+/// The report as `show` writes it, or why there is none and what to ask instead.
+pub fn text<'a, R>(
+    mechanism: &Mechanism,
+    answer: &'a Analysed<R>,
+    show: impl Fn(&Mechanism, &R) -> String,
+) -> (String, Option<&'a R>) {
+    let why = match answer {
+        Analysed::Closed(report) => return (show(mechanism, report), Some(report)),
+        Analysed::NotClosed(open) => sentence(open),
+        Analysed::TooLarge { unknowns } => too_large(*unknowns),
+    };
+    (format!("{}\n{why}\n", mechanism.name()), None)
+}
+
+/// The same as JSON: `closed` and `sentence` where there is no report.
+pub fn json<'a, R>(
+    mechanism: &Mechanism,
+    answer: &'a Analysed<R>,
+    show: impl Fn(&Mechanism, &R) -> String,
+) -> (String, Option<&'a R>) {
+    let json = match answer {
+        Analysed::Closed(report) => return (show(mechanism, report), Some(report)),
+        Analysed::NotClosed(open) => UnansweredJson {
+            closed: Some(false),
+            sentence: sentence(open),
+            left: open.left.as_ref(),
+            held: &open.held,
+        },
+        Analysed::TooLarge { unknowns } => UnansweredJson {
+            closed: None,
+            sentence: too_large(*unknowns),
+            left: None,
+            held: &[],
+        },
+    };
+    (document(mechanism.name(), &json), None)
+}
+
+#[derive(Serialize)]
+struct UnansweredJson<'a> {
+    closed: Option<bool>,
+    sentence: String,
+    left: Option<&'a WidestGap>,
+    held: &'a [String],
+}
+
+fn too_large(unknowns: usize) -> String {
+    format!(
+        "Not analysed: the mechanism has {unknowns} unknowns, and singular values are computed for \
+         up to {SPECTRUM_LIMIT}. Ask about a part of it."
+    )
+}
+
+fn sentence(open: &NotClosed) -> String {
+    let held = match open.held.is_empty() {
+        true => String::new(),
+        false => format!(" with {} held", listed(&open.held)),
+    };
+    let left = match &open.left {
+        Some(left) => format!(
+            ": at the closest approach closure {} gapes by {}",
+            left.closure,
+            gap(left.distance, left.angle)
+        ),
+        None => String::new(),
+    };
+    format!(
+        "Not assembled{held}{left}. Only an assembled mechanism can be analysed: ask for other \
+         values with --hold, for another start with --guess, or let a joint be found with --free; \
+         `linkwork solve` says more."
+    )
+}

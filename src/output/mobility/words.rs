@@ -1,0 +1,202 @@
+//! What a mechanism can do, in sentences.
+
+use crate::analysis::mobility::{
+    Character, Elsewhere, IdleFreedom, MobilityReport, Redundancy, Wrench,
+};
+use crate::description::count;
+use crate::description::listed;
+use crate::mechanism::Mechanism;
+use crate::output::closing;
+use crate::output::quantity::quantity;
+
+/// The answer: how many freedoms, and why that is not what counting says.
+pub(super) fn explanation(mechanism: &Mechanism, report: &MobilityReport) -> String {
+    let mut sentences = vec![mobility(report), counted(report)];
+    if !report.redundancies.is_empty() {
+        let redundant: Vec<String> = report.redundancies.iter().map(redundancy).collect();
+        let verb = match report.redundant {
+            1 => "is",
+            _ => "are",
+        };
+        sentences.push(format!("Redundant {verb}: {}.", redundant.join("; ")));
+    }
+    match &report.idle_freedoms[..] {
+        [] => {}
+        [one] => sentences.push(format!("Not counted: 1 idle freedom, {}.", idle(one))),
+        many => sentences.push(format!(
+            "Not counted: {} idle freedoms, each a spin of a link about its own line.",
+            many.len()
+        )),
+    }
+    if report.mobility > 0 && !report.idle_joints.is_empty() {
+        let stand = match report.idle_joints.len() {
+            1 => "stands",
+            _ => "stand",
+        };
+        sentences.push(format!("{} {stand} still.", listed(&report.idle_joints)));
+    }
+    sentences.extend((report.elsewhere.iter()).map(|other| elsewhere(mechanism, other)));
+    sentences.extend((report.given.as_ref()).map(|gap| closing::given(gap, report.kept)));
+    sentences.join(" ")
+}
+
+fn freedoms(number: usize) -> String {
+    match number {
+        0 => "no freedom".into(),
+        _ => count(number, "freedom"),
+    }
+}
+
+/// The answer in one sentence.
+pub(super) fn mobility(report: &MobilityReport) -> String {
+    let MobilityReport {
+        mobility,
+        infinitesimal,
+        ..
+    } = report;
+    match report.character {
+        Character::Structure => "A structure: nothing can move, not even infinitesimally.".into(),
+        Character::Regular => format!("The mechanism has {}.", freedoms(*mobility)),
+        Character::Shaky => {
+            let gap = match report.gap_after_step {
+                Some(gap) => format!("a finite step leaves the closures open by {gap:.1e}"),
+                None => "no finite step closes".into(),
+            };
+            format!(
+                "Shaky: it has {} to first order, none of them finite ({gap}), so it cannot move.",
+                freedoms(*infinitesimal)
+            )
+        }
+        Character::Singular => format!(
+            "The mechanism has {} at this singular configuration, where {infinitesimal} are \
+             infinitesimal.",
+            freedoms(*mobility)
+        ),
+        Character::Bifurcation => format!(
+            "Bifurcation: {} of {} each meet here, where {infinitesimal} freedoms are \
+             infinitesimal; the motion can pass from one to the other.",
+            branches(report.branches.len()),
+            freedoms(*mobility)
+        ),
+        Character::Kinematotropic => {
+            let branches = report.branches.iter();
+            let each: Vec<String> = branches.map(|branch| branch.mobility.to_string()).collect();
+            format!(
+                "Kinematotropic: branches of {} freedoms meet here, where {infinitesimal} are \
+                 infinitesimal, so the mobility depends on the branch.",
+                listed(&each)
+            )
+        }
+    }
+}
+
+fn branches(number: usize) -> String {
+    format!("{number} branches")
+}
+
+fn counted(report: &MobilityReport) -> String {
+    let MobilityReport {
+        kutzbach,
+        unknowns,
+        equations,
+        rank,
+        ..
+    } = report;
+    if *equations == 0 {
+        return format!("Nothing is closed: all {unknowns} joint variables are free.");
+    }
+    let independent = match report.redundant {
+        0 => "all of them independent".into(),
+        redundant => format!("{redundant} of them redundant"),
+    };
+    let equations_said = match equations {
+        1 => "the closure equation has".into(),
+        _ => format!("the {equations} closure equations have"),
+    };
+    format!(
+        "Kutzbach counts {unknowns} − {equations} = {kutzbach}; {equations_said} rank {rank}, \
+         {independent}."
+    )
+}
+
+/// What an idle freedom is.
+pub(super) fn idle(freedom: &IdleFreedom) -> String {
+    match freedom {
+        IdleFreedom::Joints(joints) => {
+            format!("a link spins about its own line in {}", listed(joints))
+        }
+        IdleFreedom::Rod(rod) => format!("rod {rod} spins about its own line"),
+    }
+}
+
+/// Where the mechanism has another mobility.
+pub(super) fn elsewhere(mechanism: &Mechanism, other: &Elsewhere) -> String {
+    let joints = mechanism.joints().iter().zip(&other.joints);
+    let joints = joints.map(|(joint, &value)| {
+        format!(
+            "{} = {}",
+            joint.name,
+            quantity(value, joint.kind.is_angle())
+        )
+    });
+    format!(
+        "The mobility depends on the assembly: near {} the mechanism has {}.",
+        listed(&joints.collect::<Vec<_>>()),
+        freedoms(other.mobility),
+    )
+}
+
+/// ``closure `pin`: force along z, moments about x and y``
+pub(super) fn redundancy(redundancy: &Redundancy) -> String {
+    let closure = format!("closure `{}`: ", redundancy.closure);
+    if redundancy.rod {
+        return closure + "force along the rod";
+    }
+    let words = [
+        ("force along", "forces along"),
+        ("moment about", "moments about"),
+    ];
+    let mut parts = Vec::new();
+    for (part, (one, many)) in words.into_iter().enumerate() {
+        let wrenches = redundancy.wrenches.iter().filter_map(axis);
+        let axes: Vec<&str> = (wrenches.filter(|(kind, _)| *kind == part))
+            .map(|(_, axis)| ["x", "y", "z"][axis])
+            .collect();
+        match axes[..] {
+            [] => {}
+            [axis] => parts.push(format!("{one} {axis}")),
+            _ => parts.push(format!("{many} {}", listed(&axes))),
+        }
+    }
+    let others = redundancy.wrenches.iter().filter(|w| axis(w).is_none());
+    parts.extend(others.map(general));
+    closure + &parts.join(", ")
+}
+
+/// `(0, 2)` for a force along z, `(1, 0)` for a moment about x.
+fn axis(wrench: &Wrench) -> Option<(usize, usize)> {
+    let parts = [wrench.force, wrench.moment];
+    let places = (0..6).map(|i| (i / 3, i % 3));
+    let nonzero: Vec<(usize, usize)> = places.filter(|&(part, i)| parts[part][i] != 0.0).collect();
+    match nonzero[..] {
+        [one] => Some(one),
+        _ => None,
+    }
+}
+
+fn general(wrench: &Wrench) -> String {
+    let size = |v: &[f64; 3]| v.iter().map(|x| x * x).sum::<f64>().sqrt();
+    let triple = |v: &[f64; 3], length: f64| {
+        let parts = v.map(|x| crate::output::quantity::short(x / length));
+        format!("({})", parts.join(", "))
+    };
+    let (force, moment) = (size(&wrench.force), size(&wrench.moment));
+    if force == 0.0 {
+        return format!("moment about {}", triple(&wrench.moment, moment));
+    }
+    let along = format!("force along {}", triple(&wrench.force, force));
+    match moment < 1e-9 * force {
+        true => along,
+        false => format!("{along} with moment {} m", triple(&wrench.moment, force)),
+    }
+}

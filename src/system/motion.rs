@@ -1,0 +1,370 @@
+//! Rates and accelerations of everything for those of what is held.
+
+use super::{FrameTwists, Held, HeldPlatform, Holdable, System, Twist, Unknown, Work};
+use crate::geometry::Vector3;
+use crate::mechanism::{Configuration, Coordinate, Frame, Mechanism, Placement};
+use crate::number::{Dual, Number};
+use crate::solve::Equations;
+
+/// A number with first and second derivative along a path: 1, ε₁, ε₂, ε₁ε₂.
+type Second = Dual<Dual<f64>>;
+
+/// Solves the derivatives of the closure equations r(x, h) = 0 for given rates of the held
+/// coordinates h. Built once; nothing allocates afterwards.
+///
+/// ṙ = J ẋ + H ḣ = 0 gives ẋ = −J⁺ H ḣ, and r̈ = 0 gives ẍ = −J⁺ γ, where γ is r̈ along the path that
+/// has these rates and no acceleration but that of h. H ḣ and γ are the derivatives of the same
+/// residuals over dual numbers.
+///
+/// Rates are dimensionless in the order of [`Motion::unknowns`]: rad and characteristic lengths.
+/// At a singular configuration they are one choice of many; see [`Motion::held`] with
+/// [`Freedoms`](super::Freedoms).
+#[derive(Clone, Debug)]
+pub struct Motion {
+    coordinates: Vec<Holdable>,
+    held: Held<f64>,
+    system: System<f64>,
+    work: Work<f64>,
+    first: System<Dual<f64>>,
+    first_work: Work<Dual<f64>>,
+    second: System<Second>,
+    second_work: Work<Second>,
+    /// For each row of the real equations that of the others, which may be ordered otherwise.
+    rows: Vec<usize>,
+    length: f64,
+    scales: Vec<f64>,
+    unknowns: Vec<Unknown>,
+    first_path: Configuration<Dual<f64>>,
+    second_path: Configuration<Second>,
+    right: Vec<f64>,
+    rates: Vec<f64>,
+    accelerations: Vec<f64>,
+}
+
+impl Motion {
+    /// For a choice of what is held.
+    pub fn new(mechanism: &Mechanism, coordinates: &[Holdable]) -> Self {
+        let dimensions = mechanism.dimensions();
+        let mut held = Held::nothing(mechanism);
+        for &coordinate in coordinates {
+            match coordinate {
+                Holdable::Joint(joint) => held.joints[joint] = true,
+                Holdable::Coordinate(platform, coordinate) => {
+                    let part = &mut held.platforms[platform];
+                    match part {
+                        HeldPlatform::Partly { coordinates, .. } => {
+                            coordinates.push((coordinate, 0.0));
+                        }
+                        _ => {
+                            *part = HeldPlatform::Partly {
+                                coordinates: vec![(coordinate, 0.0)],
+                                orientation: None,
+                            };
+                        }
+                    }
+                }
+            }
+        }
+        let system = System::new(dimensions, &held);
+        let first = System::new(
+            &dimensions.map(&mut Dual::constant),
+            &lifted(&held, &Dual::constant),
+        );
+        let lift = |x| Dual::constant(Dual::constant(x));
+        let second = System::new(&dimensions.map(&mut { lift }), &lifted(&held, &lift));
+        let closures = system.closure_rows().zip(first.closure_rows());
+        let mut rows: Vec<usize> = vec![0; system.rows()];
+        let mut next = 0;
+        for (here, there) in closures {
+            next = next.max(here.end);
+            here.zip(there).for_each(|(h, t)| rows[h] = t);
+        }
+        (next..system.rows()).for_each(|row| rows[row] = row);
+        let joints = (0..mechanism.joints().len()).map(Unknown::Joint);
+        let platforms = (0..mechanism.platforms().len()).flat_map(|platform| {
+            (0..6).map(move |component| Unknown::Twist {
+                platform,
+                component,
+            })
+        });
+        let unknowns: Vec<Unknown> = joints.chain(platforms).collect();
+        let home = mechanism.home();
+        Motion {
+            coordinates: coordinates.to_vec(),
+            work: system.work(),
+            first_work: first.work(),
+            second_work: second.work(),
+            right: vec![0.0; system.rows()],
+            rates: vec![0.0; unknowns.len()],
+            accelerations: vec![0.0; unknowns.len()],
+            first_path: home.map(Dual::constant),
+            second_path: home.map(lift),
+            length: dimensions.characteristic_length,
+            scales: dimensions.joint_scales.clone(),
+            held,
+            system,
+            first,
+            second,
+            rows,
+            unknowns,
+        }
+    }
+
+    /// What is held, every platform coordinate for itself.
+    pub fn held(&self) -> &Held<f64> {
+        &self.held
+    }
+
+    /// The held coordinates.
+    pub fn coordinates(&self) -> &[Holdable] {
+        &self.coordinates
+    }
+
+    /// All joints, then six twist components of each platform.
+    pub fn unknowns(&self) -> &[Unknown] {
+        &self.unknowns
+    }
+
+    /// Factorises at an assembled configuration, for the calls of [`Motion::rates`] and
+    /// [`Motion::accelerations`] that follow.
+    pub fn at(&mut self, at: &Configuration<f64>) {
+        self.system.linearise(at, &mut self.work);
+        self.system.factorise(0.0, &mut self.work);
+        let path = self.first_path.joints.iter_mut().zip(&at.joints);
+        path.for_each(|(path, &x)| path.value = x);
+        let path = self.second_path.joints.iter_mut().zip(&at.joints);
+        path.for_each(|(path, &x)| path.value.value = x);
+        for (platform, pose) in at.platforms.iter().enumerate() {
+            let (first, second) = (
+                &mut self.first_path.platforms[platform],
+                &mut self.second_path.platforms[platform],
+            );
+            for i in 0..4 {
+                first.orientation.0[i] = Dual::constant(pose.orientation.0[i]);
+                second.orientation.0[i] = Dual::constant(first.orientation.0[i]);
+            }
+            for i in 0..3 {
+                first.position.0[i] = Dual::constant(pose.position.0[i]);
+                second.position.0[i] = Dual::constant(first.position.0[i]);
+            }
+        }
+    }
+
+    /// Rates of everything for rates of the held coordinates in their order, in m and rad per unit
+    /// of time.
+    pub fn rates(&mut self, given: &[f64]) -> &[f64] {
+        for path in &mut self.first_path.joints {
+            path.slope = 0.0;
+        }
+        for pose in &mut self.first_path.platforms {
+            let parts = pose.orientation.0.iter_mut().chain(&mut pose.position.0);
+            parts.for_each(|part| part.slope = 0.0);
+        }
+        self.rates.fill(0.0);
+        for (&coordinate, &rate) in self.coordinates.iter().zip(given) {
+            match coordinate {
+                Holdable::Joint(joint) => {
+                    self.first_path.joints[joint].slope = rate;
+                    self.rates[joint] = rate / self.scales[joint];
+                }
+                Holdable::Coordinate(platform, c) => {
+                    let pose = self.first_path.platforms[platform].pose();
+                    let target = Dual {
+                        value: c.of(&pose).value,
+                        slope: rate,
+                    };
+                    self.first.set_target(platform, c, target);
+                }
+            }
+        }
+        self.first.residual(&self.first_path, &mut self.first_work);
+        let derivative = self.first.residual_of(&self.first_work);
+        for (right, &row) in self.right.iter_mut().zip(&self.rows) {
+            *right = derivative[row].slope;
+        }
+        self.system.step_for(&self.right, &mut self.work);
+        let step = self.system.step_of(&self.work);
+        scatter(self.system.unknowns(), step, &self.scales, &mut self.rates);
+        &self.rates
+    }
+
+    /// The largest rate, dimensionless, at which a closure would open with the rates last computed:
+    /// nothing but rounding unless the held coordinates cannot move so.
+    pub fn mismatch(&mut self, at: &Configuration<f64>) -> f64 {
+        self.follow_rates(at);
+        self.first.residual(&self.first_path, &mut self.first_work);
+        let rows = self.first.residual_of(&self.first_work);
+        rows.iter()
+            .fold(0.0, |most: f64, row| most.max(row.slope.abs()))
+    }
+
+    fn follow_rates(&mut self, at: &Configuration<f64>) {
+        for (joint, path) in self.first_path.joints.iter_mut().enumerate() {
+            path.slope = self.rates[joint] * self.scales[joint];
+        }
+        for (platform, pose) in at.platforms.iter().enumerate() {
+            let first = self.scales.len() + 6 * platform;
+            let component = |k: usize, factor: f64| Dual {
+                value: 0.0,
+                slope: self.rates[first + k] * factor,
+            };
+            let omega = Vector3([0, 1, 2].map(|k| component(k, 1.0)));
+            let shift = Vector3([3, 4, 5].map(|k| component(k, self.length)));
+            let still = crate::mechanism::PlatformPose {
+                orientation: crate::geometry::Quaternion(pose.orientation.0.map(Dual::constant)),
+                position: Vector3(pose.position.0.map(Dual::constant)),
+            };
+            self.first_path.platforms[platform] = still.moved_by(&omega, shift);
+        }
+    }
+
+    /// Accelerations of everything for the rates last computed and accelerations of the held
+    /// coordinates, in m and rad per unit of time squared. `rates` are those given before.
+    pub fn accelerations(
+        &mut self,
+        at: &Configuration<f64>,
+        rates: &[f64],
+        given: &[f64],
+    ) -> &[f64] {
+        // t as a number with derivatives: the path is x ⊕ t ẋ + t²/2 ḧ
+        let time = |rate: f64| Dual {
+            value: Dual {
+                value: 0.0,
+                slope: rate,
+            },
+            slope: Dual::constant(rate),
+        };
+        for (joint, path) in self.second_path.joints.iter_mut().enumerate() {
+            *path = time(self.rates[joint] * self.scales[joint])
+                + Second::constant(Dual::constant(at.joints[joint]));
+        }
+        for (platform, pose) in at.platforms.iter().enumerate() {
+            let first = self.scales.len() + 6 * platform;
+            let omega = Vector3([0, 1, 2].map(|k| time(self.rates[first + k])));
+            let shift = Vector3([3, 4, 5].map(|k| time(self.rates[first + k] * self.length)));
+            let lift = |x: f64| Second::constant(Dual::constant(x));
+            let still = crate::mechanism::PlatformPose {
+                orientation: crate::geometry::Quaternion(pose.orientation.0.map(lift)),
+                position: Vector3(pose.position.0.map(lift)),
+            };
+            self.second_path.platforms[platform] = still.moved_by(&omega, shift);
+        }
+        self.accelerations.fill(0.0);
+        let asked = self.coordinates.iter().zip(rates).zip(given);
+        for ((&coordinate, &rate), &acceleration) in asked {
+            match coordinate {
+                Holdable::Joint(joint) => {
+                    self.second_path.joints[joint].slope.slope = acceleration;
+                    self.accelerations[joint] = acceleration / self.scales[joint];
+                }
+                Holdable::Coordinate(platform, c) => {
+                    let mut target = time(rate);
+                    target.value.value = c.of(&at.platforms[platform].pose());
+                    target.slope.slope = acceleration;
+                    self.second.set_target(platform, c, target);
+                }
+            }
+        }
+        self.second
+            .residual(&self.second_path, &mut self.second_work);
+        let derivative = self.second.residual_of(&self.second_work);
+        for (right, &row) in self.right.iter_mut().zip(&self.rows) {
+            *right = derivative[row].slope.slope;
+        }
+        self.system.step_for(&self.right, &mut self.work);
+        let step = self.system.step_of(&self.work);
+        let all = &mut self.accelerations;
+        scatter(self.system.unknowns(), step, &self.scales, all);
+        &self.accelerations
+    }
+}
+
+/// Puts the steps of free unknowns to their places among all.
+fn scatter(free: &[Unknown], step: &[f64], scales: &[f64], all: &mut [f64]) {
+    for (unknown, &step) in free.iter().zip(step) {
+        match *unknown {
+            Unknown::Joint(joint) => all[joint] = step,
+            Unknown::Twist {
+                platform,
+                component,
+            } => all[scales.len() + 6 * platform + component] = step,
+        }
+    }
+}
+
+fn lifted<T: Number>(held: &Held<f64>, lift: &impl Fn(f64) -> T) -> Held<T> {
+    let platforms = held.platforms.iter().map(|part| match part {
+        HeldPlatform::Free => HeldPlatform::Free,
+        HeldPlatform::Pose => HeldPlatform::Pose,
+        HeldPlatform::Partly { coordinates, .. } => HeldPlatform::Partly {
+            coordinates: (coordinates.iter())
+                .map(|&(coordinate, value): &(Coordinate, f64)| (coordinate, lift(value)))
+                .collect(),
+            orientation: None,
+        },
+    });
+    Held {
+        joints: held.joints.clone(),
+        platforms: platforms.collect(),
+    }
+}
+
+/// How frames move: positions, twists and their rates of change.
+#[derive(Clone, Debug)]
+pub struct FrameMotions {
+    twists: FrameTwists<Dual<f64>>,
+    placement: Placement<Dual<f64>>,
+    rates: Vec<Dual<f64>>,
+}
+
+/// The motion of a frame in ground, to second order.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct FrameMotion {
+    /// Where its origin is, in m.
+    pub position: Vector3<f64>,
+    /// Its twist.
+    pub twist: Twist<f64>,
+    /// Angular acceleration, and acceleration of the origin.
+    pub change: Twist<f64>,
+}
+
+impl FrameMotions {
+    /// For frames of a mechanism.
+    pub fn new(mechanism: &Mechanism, motion: &Motion, frames: &[Frame]) -> Self {
+        let dimensions = mechanism.dimensions().map(&mut Dual::constant);
+        let twists = FrameTwists::new(&dimensions, motion.unknowns(), frames);
+        FrameMotions {
+            placement: twists.placement(),
+            rates: vec![Dual::constant(0.0); motion.unknowns().len()],
+            twists,
+        }
+    }
+
+    /// Places the frames for the rates and accelerations last computed. Nothing allocates.
+    pub fn place(&mut self, motion: &mut Motion, at: &Configuration<f64>) {
+        motion.follow_rates(at);
+        self.twists.place(&motion.first_path, &mut self.placement);
+        let both = motion.rates.iter().zip(&motion.accelerations);
+        for (rate, (&value, &slope)) in self.rates.iter_mut().zip(both) {
+            *rate = Dual { value, slope };
+        }
+    }
+
+    /// The motion of frame `i` of those asked for. Nothing allocates.
+    pub fn motion(&self, i: usize) -> FrameMotion {
+        let twist = self.twists.twist(i, &self.placement, &self.rates);
+        let value = |v: Vector3<Dual<f64>>| Vector3(v.0.map(|x| x.value));
+        let slope = |v: Vector3<Dual<f64>>| Vector3(v.0.map(|x| x.slope));
+        FrameMotion {
+            position: value(self.twists.origin(i, &self.placement)),
+            twist: Twist {
+                omega: value(twist.omega),
+                velocity: value(twist.velocity),
+            },
+            change: Twist {
+                omega: slope(twist.omega),
+                velocity: slope(twist.velocity),
+            },
+        }
+    }
+}

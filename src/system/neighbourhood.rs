@@ -1,0 +1,270 @@
+//! What a mechanism with nothing held can do near an assembled configuration.
+
+use super::closing::Closed;
+use super::{ClosureWrenches, FrameTwists, Held, System, Unknown, Work};
+use crate::description::{ClosureKind, Role};
+use crate::linear::{Decomposition, dot, norm, rank_of};
+use crate::mechanism::{Configuration, Frame, Mechanism};
+use crate::solve::{Equations, Newton, Stop};
+
+/// A mechanism with nothing held, to be looked at near assembled configurations.
+#[derive(Clone, Debug)]
+pub struct Neighbourhood<'a> {
+    mechanism: &'a Mechanism,
+    system: System<f64>,
+    work: Work<f64>,
+    frames: FrameTwists<f64>,
+}
+
+/// The closure equations linearised at an assembled configuration: J ξ = 0.
+#[derive(Clone, Debug)]
+pub struct Tangent {
+    /// The configuration.
+    pub at: Configuration<f64>,
+    /// The Jacobian J, column-major and dimensionless, with nothing held.
+    pub jacobian: Vec<f64>,
+    /// Its decomposition.
+    pub decomposition: Decomposition,
+    /// Orthonormal basis of the infinitesimal motions ξ that are more than idle.
+    pub motions: Vec<Vec<f64>>,
+    /// Orthonormal basis of the idle ones: links turn about their own lines and nothing else moves.
+    pub idle: Vec<Vec<f64>>,
+}
+
+/// Where a finite step along an infinitesimal motion leads.
+#[derive(Clone, Debug)]
+pub struct Followed {
+    /// The configuration at which every equation is met that the Jacobian sees.
+    pub at: Configuration<f64>,
+    /// What is left of the others, dimensionless: zero if the motion is finite.
+    pub gap: f64,
+}
+
+impl<'a> Neighbourhood<'a> {
+    /// Prepares a mechanism.
+    pub fn new(mechanism: &'a Mechanism) -> Self {
+        let system = System::new(mechanism.dimensions(), &Held::nothing(mechanism));
+        let frames = mechanism.frames();
+        Neighbourhood {
+            mechanism,
+            work: system.work(),
+            frames: FrameTwists::new(mechanism.dimensions(), system.unknowns(), &frames),
+            system,
+        }
+    }
+
+    /// The closure equations with nothing held.
+    pub fn system(&self) -> &System<f64> {
+        &self.system
+    }
+
+    /// The mechanism.
+    pub fn mechanism(&self) -> &'a Mechanism {
+        self.mechanism
+    }
+
+    /// Twists of every frame of the mechanism.
+    pub fn frames(&self) -> &FrameTwists<f64> {
+        &self.frames
+    }
+
+    /// Linearises at a closed configuration.
+    pub fn tangent_at(&mut self, closed: &Closed) -> Tangent {
+        self.tangent(closed.configuration.clone())
+    }
+
+    /// Linearises at an assembled configuration.
+    pub fn tangent(&mut self, at: Configuration<f64>) -> Tangent {
+        self.system.linearise(&at, &mut self.work);
+        let jacobian = self.system.dense_jacobian(&mut self.work);
+        let columns = self.system.unknowns().len();
+        let decomposition = Decomposition::of(self.system.rows(), columns, &jacobian);
+        let all = decomposition.null_space();
+        let felt = self.felt(&at, &all);
+        let split = Decomposition::of(felt.len() / all.len().max(1), all.len(), &felt);
+        let combine = |weights: &Vec<f64>| -> Vec<f64> {
+            let along = |i: usize| all.iter().zip(weights).map(|(m, w)| m[i] * w).sum();
+            (0..columns).map(along).collect()
+        };
+        let idle = split.null_space();
+        let motions = crate::linear::complement(&idle, all.len());
+        Tangent {
+            idle: idle.iter().map(combine).collect(),
+            // without idle ones the basis stays as sparse as it came
+            motions: if idle.is_empty() {
+                all
+            } else {
+                motions.iter().map(combine).collect()
+            },
+            at,
+            jacobian,
+            decomposition,
+        }
+    }
+
+    /// The rank of the closure equations at a configuration.
+    pub fn rank(&mut self, at: &Configuration<f64>) -> usize {
+        self.system.linearise(at, &mut self.work);
+        let jacobian = self.system.dense_jacobian(&mut self.work);
+        rank_of(self.system.rows(), self.system.unknowns().len(), &jacobian)
+    }
+
+    /// The wrenches of every closure's rows at a configuration.
+    pub fn closure_wrenches(&mut self, at: &Configuration<f64>) -> Vec<ClosureWrenches<f64>> {
+        self.system.residual(at, &mut self.work);
+        self.system.closure_wrenches(at, &self.work)
+    }
+
+    /// The assembled configuration that Newton's method reaches from a start, if it does.
+    pub fn solve(
+        &mut self,
+        newton: &Newton,
+        mut at: Configuration<f64>,
+    ) -> Option<Configuration<f64>> {
+        let mut trial = at.clone();
+        let report = newton.solve(&self.system, &mut at, &mut trial, &mut self.work);
+        (report.stop == Stop::Solved).then_some(at)
+    }
+
+    /// For each motion a column of all that idle freedoms leave at rest: origins of frames,
+    /// platforms, driven joints, links that end in something else than a ball, joints that no
+    /// closure feels.
+    fn felt(&self, at: &Configuration<f64>, motions: &[Vec<f64>]) -> Vec<f64> {
+        let mechanism = self.mechanism;
+        let mut placement = self.frames.placement();
+        self.frames.place(at, &mut placement);
+        let scale = 1.0 / mechanism.characteristic_length();
+        let frames: Vec<Frame> = self.frames.frames().collect();
+        let turning: Vec<usize> = (mechanism.closures().iter())
+            .filter(|closure| {
+                !matches!(closure.kind, ClosureKind::Spherical | ClosureKind::Distance)
+            })
+            .flat_map(|closure| closure.frames)
+            .filter_map(|frame| frames.iter().position(|f| *f == frame))
+            .collect();
+        let unfelt = mechanism.unfelt_joints();
+        let mut felt = Vec::new();
+        for motion in motions {
+            for i in 0..frames.len() {
+                let twist = self.frames.twist(i, &placement, motion);
+                felt.extend(twist.velocity.times(scale).0);
+            }
+            for &i in &turning {
+                felt.extend(self.frames.twist(i, &placement, motion).omega.0);
+            }
+            for (unknown, &rate) in self.system.unknowns().iter().zip(motion) {
+                match *unknown {
+                    Unknown::Joint(joint)
+                        if mechanism.joints()[joint].role == Role::Passive
+                            && !unfelt.contains(&joint) => {}
+                    _ => felt.push(rate),
+                }
+            }
+        }
+        felt
+    }
+
+    /// Moves a distance along a motion and back onto the equations that the Jacobian sees.
+    ///
+    /// With P = J⁺ fixed, x ← x ⊖ P r(x) solves the part of r in the range of J for given motion
+    /// components: the reduction of Lyapunov and Schmidt. What is left of r is a function of the
+    /// motion components alone, and a freedom is finite where it vanishes identically. `None` if
+    /// the iteration does not settle.
+    /// Source: Golubitsky and Schaeffer, Singularities and Groups in Bifurcation Theory I, 1985.
+    pub fn follow(&mut self, from: &Tangent, direction: &[f64], distance: f64) -> Option<Followed> {
+        const STEPS: usize = 60;
+        let step: Vec<f64> = direction.iter().map(|x| x * distance).collect();
+        let mut at = self.system.displaced(&from.at, &step);
+        let mut before = f64::INFINITY;
+        for _ in 0..STEPS {
+            self.system.residual(&at, &mut self.work);
+            let residual = self.system.residual_of(&self.work);
+            let correction = from.decomposition.solve(residual);
+            let size = norm(&correction);
+            // not even within the distance: the linear picture does not hold so far out
+            if size.is_nan() || size >= 10.0 * distance {
+                return None;
+            }
+            if size < 1e-14 || (size < 1e-12 && size >= 0.5 * before) {
+                let gap = norm(residual);
+                return Some(Followed { at, gap });
+            }
+            before = size;
+            let back: Vec<f64> = correction.iter().map(|x| -x).collect();
+            at = self.system.displaced(&at, &back);
+        }
+        None
+    }
+
+    /// The finite step along a motion if there is one: no longer than `distance`, shortened as far
+    /// as needed for it to settle. `Err` has the gap of one that leaves the closures open.
+    pub fn free_step(
+        &mut self,
+        from: &Tangent,
+        direction: &[f64],
+        distance: f64,
+    ) -> Result<Followed, Option<f64>> {
+        /// This gap may be left and the motion still counts as free: rounding. A freedom that is
+        /// infinitesimal to order five only leaves 0.05⁶ = 1.6e-8 times its curvature.
+        const FREE: f64 = 1e-11;
+        const HALVINGS: i32 = 6;
+        let mut lengths = (0..HALVINGS).map(|k| distance * 0.5f64.powi(k));
+        match lengths.find_map(|length| self.follow(from, direction, length)) {
+            Some(step) if step.gap <= FREE => Ok(step),
+            Some(step) => Err(Some(step.gap)),
+            None => Err(None),
+        }
+    }
+
+    /// The assembled configuration that Gauss–Newton steps of least length reach from a point, to
+    /// rounding; `None` if they go further than `reach` or do not arrive.
+    pub fn settle(&mut self, mut at: Configuration<f64>, reach: f64) -> Option<Configuration<f64>> {
+        const STEPS: usize = 60;
+        const TOLERANCE: f64 = 1e-12;
+        let start = at.clone();
+        let mut best: Option<(f64, Configuration<f64>)> = None;
+        let mut stale = 0;
+        for _ in 0..STEPS {
+            let size = self.system.linearise(&at, &mut self.work).largest;
+            if best.as_ref().is_none_or(|(least, _)| size < 0.5 * least) {
+                best = Some((size, at.clone()));
+                stale = 0;
+            } else {
+                stale += 1;
+            }
+            if size == 0.0 || (stale > 2 && best.as_ref().is_some_and(|b| b.0 <= TOLERANCE)) {
+                break;
+            }
+            let jacobian = self.system.dense_jacobian(&mut self.work);
+            let (rows, columns) = (self.system.rows(), self.system.unknowns().len());
+            let decomposition = Decomposition::of(rows, columns, &jacobian);
+            let mut back = decomposition.solve(self.system.residual_of(&self.work));
+            let longest = norm(&back);
+            let factor = (reach / longest).min(1.0);
+            back.iter_mut().for_each(|x| *x *= -factor);
+            at = self.system.displaced(&at, &back);
+            if norm(&self.system.difference(&start, &at)) > 10.0 * reach {
+                return None;
+            }
+        }
+        let (size, at) = best?;
+        (size <= TOLERANCE).then_some(at)
+    }
+}
+
+impl Tangent {
+    /// How many unknowns there are.
+    pub fn columns(&self) -> usize {
+        match (self.motions.first(), self.idle.first()) {
+            (Some(motion), _) | (None, Some(motion)) => motion.len(),
+            (None, None) => self.decomposition.rank(),
+        }
+    }
+
+    /// How far a unit vector is from being a motion: the sine of the angle between them.
+    pub fn misses(&self, direction: &[f64]) -> f64 {
+        let along = self.motions.iter().chain(&self.idle);
+        let squares: f64 = along.map(|motion| dot(motion, direction).powi(2)).sum();
+        (1.0 - squares).max(0.0).sqrt()
+    }
+}

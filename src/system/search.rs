@@ -1,0 +1,216 @@
+//! The search for an assembled configuration: from the guess, then from random starts.
+
+use rand::SeedableRng;
+use rand_pcg::Pcg64Mcg;
+
+use super::{Held, HeldPlatform, Question, System, Work, fit, random_configuration};
+use crate::mechanism::{Configuration, JointKind, Mechanism};
+use crate::solve::{Newton, Report, Stop};
+
+/// One start and where it led.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Attempt {
+    /// Where the iteration ended.
+    pub at: Configuration<f64>,
+    /// How it ended.
+    pub report: Report,
+}
+
+/// How a search ended.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Searched {
+    /// The attempt that assembles, or the one that came closest.
+    pub attempt: Attempt,
+    /// Random starts made after the guess.
+    pub restarts: usize,
+}
+
+impl Searched {
+    /// Whether the mechanism assembles there.
+    pub fn assembles(&self) -> bool {
+        self.attempt.report.stop == Stop::Solved
+    }
+}
+
+/// Looks for the assembled configuration a question asks for. Every analysis that begins with one
+/// looks here, so that all are about the same.
+pub struct Search<'a> {
+    question: &'a Question<'a>,
+    mechanism: &'a Mechanism,
+    newton: &'a Newton,
+    held: Held<f64>,
+    system: System<f64>,
+    work: Work<f64>,
+}
+
+impl<'a> Search<'a> {
+    /// For a question.
+    pub fn new(question: &'a Question<'a>, newton: &'a Newton) -> Self {
+        let mechanism = question.mechanism();
+        let held = question.held();
+        let system = System::new(mechanism.dimensions(), &held);
+        Search {
+            question,
+            mechanism,
+            newton,
+            work: system.work(),
+            system,
+            held,
+        }
+    }
+
+    /// What is held.
+    pub fn held(&self) -> &Held<f64> {
+        &self.held
+    }
+
+    /// The equations that are solved.
+    pub fn system(&self) -> &System<f64> {
+        &self.system
+    }
+
+    /// Newton's method from the guess; if that fails, or ends outside the limits, from seeded
+    /// random starts within the limits.
+    pub fn run(&mut self, restarts: usize, seed: u64) -> Searched {
+        let mut rng = Pcg64Mcg::seed_from_u64(seed);
+        let guess = self.guess();
+        let mut best = self.from(guess);
+        if self.settles(&best) {
+            let attempt = self.normalised(best);
+            return Searched {
+                attempt,
+                restarts: 0,
+            };
+        }
+        let mut made = 0;
+        for start in 1..=restarts {
+            let assembled = best.report.stop == Stop::Solved;
+            // an assembled configuration outside limits is worth a few more starts, not all
+            if assembled && start > restarts / 4 {
+                break;
+            }
+            made = start;
+            let at = self.random_start(&mut rng);
+            let attempt = self.from(at);
+            if self.settles(&attempt) {
+                best = attempt;
+                break;
+            }
+            let solved = attempt.report.stop == Stop::Solved;
+            let closer = attempt.report.size.squares < best.report.size.squares;
+            if !assembled && (solved || closer) {
+                best = attempt;
+            }
+        }
+        let attempt = self.normalised(best);
+        Searched {
+            attempt,
+            restarts: made,
+        }
+    }
+
+    /// Whether another start cannot do better: it cannot change where a held joint is.
+    fn settles(&self, attempt: &Attempt) -> bool {
+        attempt.report.stop == Stop::Solved
+            && (self.outside_limits(&attempt.at).iter()).all(|&joint| self.held.joints[joint])
+    }
+
+    fn normalised(&self, mut attempt: Attempt) -> Attempt {
+        if attempt.report.stop == Stop::Solved {
+            self.normalise_angles(&mut attempt.at);
+        }
+        attempt
+    }
+
+    fn from(&mut self, mut at: Configuration<f64>) -> Attempt {
+        let mut trial = at.clone();
+        let report = self
+            .newton
+            .solve(&self.system, &mut at, &mut trial, &mut self.work);
+        Attempt { at, report }
+    }
+
+    /// The start of the question. When it is not home, what has no guess of its own is first
+    /// brought to where it suits the rest best.
+    fn guess(&self) -> Configuration<f64> {
+        let start = self.question.start();
+        if !self.question.differs_from_home() {
+            return start;
+        }
+        let guessed = self.question.guessed_joints();
+        let joints = match guessed.contains(&true) {
+            true => (guessed.iter().zip(&self.held.joints))
+                .map(|(guessed, held)| guessed | held)
+                .collect(),
+            false => vec![true; guessed.len()],
+        };
+        self.fit(start, joints, self.question.guessed_platforms())
+    }
+
+    fn fit(
+        &self,
+        start: Configuration<f64>,
+        joints: Vec<bool>,
+        platforms: &[bool],
+    ) -> Configuration<f64> {
+        fit(
+            self.mechanism,
+            &self.held,
+            self.newton,
+            start,
+            joints,
+            platforms,
+        )
+    }
+
+    fn random_start(&self, rng: &mut Pcg64Mcg) -> Configuration<f64> {
+        let start = self.question.start();
+        // drawn for what is held too, so that the draws of the rest do not depend on the split
+        let mut at = random_configuration(self.mechanism, &start, rng);
+        for (i, _) in self.held.joints.iter().enumerate().filter(|(_, h)| **h) {
+            at.joints[i] = start.joints[i];
+        }
+        for (i, held) in self.held.platforms.iter().enumerate() {
+            if *held == HeldPlatform::Pose {
+                at.platforms[i] = start.platforms[i];
+            }
+        }
+        let joints = vec![true; at.joints.len()];
+        self.fit(at, joints, &vec![false; self.held.platforms.len()])
+    }
+
+    /// The joints that are outside their limits.
+    pub fn outside_limits(&self, at: &Configuration<f64>) -> Vec<usize> {
+        let joints = self.mechanism.joints().iter().zip(&at.joints).enumerate();
+        joints
+            .filter(|(_, (joint, value))| !joint.allows(**value))
+            .map(|(i, _)| i)
+            .collect()
+    }
+
+    /// Passive turns found by a long search come back to (−π, π], or into their limits.
+    fn normalise_angles(&self, at: &mut Configuration<f64>) {
+        let turn = std::f64::consts::TAU;
+        for (i, joint) in self.mechanism.joints().iter().enumerate() {
+            if self.held.joints[i] || joint.kind != JointKind::Revolute || !self.turns_freely(i) {
+                continue;
+            }
+            let middle = joint.limits.map_or(0.0, |(low, high)| 0.5 * (low + high));
+            let value = &mut at.joints[i];
+            *value -= turn * ((*value - middle) / turn).round();
+        }
+    }
+
+    /// Whether a whole turn of the joint leaves every frame where it is: not if the variable turns
+    /// some row by a fraction.
+    fn turns_freely(&self, joint: usize) -> bool {
+        let rows = self
+            .mechanism
+            .dimensions()
+            .chains
+            .iter()
+            .flat_map(|chain| &chain.rows);
+        rows.map(|row| row.turn.coefficient(joint))
+            .all(|c| c == c.round())
+    }
+}

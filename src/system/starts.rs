@@ -1,0 +1,40 @@
+//! Random configurations to start a search from.
+
+use rand::Rng;
+
+use crate::geometry::{Quaternion, Vector3};
+use crate::mechanism::{Configuration, Joint, Mechanism, PlatformPose};
+
+/// Where random values of a joint are drawn from: its limits, or a turn, or a characteristic length
+/// to each side of home.
+pub fn sampling_range(joint: &Joint, length: f64) -> (f64, f64) {
+    match joint.limits {
+        Some((low, high)) if low.is_finite() && high.is_finite() => (low, high),
+        _ if joint.kind.is_angle() => (-std::f64::consts::PI, std::f64::consts::PI),
+        _ => (joint.home - length, joint.home + length),
+    }
+}
+
+/// A random value for every joint and a random pose for every platform, around the one given.
+pub fn random_configuration(
+    mechanism: &Mechanism,
+    around: &Configuration<f64>,
+    rng: &mut impl Rng,
+) -> Configuration<f64> {
+    let length = mechanism.characteristic_length();
+    let mut at = around.clone();
+    for (joint, value) in mechanism.joints().iter().zip(&mut at.joints) {
+        let (low, high) = sampling_range(joint, length);
+        *value = low + (high - low) * rng.random::<f64>();
+    }
+    for pose in &mut at.platforms {
+        let mut inside = || 2.0 * rng.random::<f64>() - 1.0;
+        let shift = Vector3([inside(), inside(), inside()]).times(length);
+        let quaternion = Quaternion([inside(), inside(), inside(), inside()]);
+        *pose = PlatformPose {
+            orientation: quaternion.normalised(),
+            position: pose.position + shift,
+        };
+    }
+    at
+}

@@ -1,0 +1,472 @@
+//! Rates and accelerations against differences of solved configurations and against formulas.
+
+use std::f64::consts::{FRAC_PI_2, PI};
+use std::path::Path;
+
+use linkwork::analysis::assembly::{AssemblyReport, AssemblySettings, Outcome, assemble};
+use linkwork::analysis::velocity::{VelocityReport, VelocitySettings, velocity};
+use linkwork::geometry::Vector3;
+use linkwork::mechanism::{Frame, Mechanism};
+use linkwork::system::{Analysed, Drive, DriveError, Question};
+
+fn folder() -> std::path::PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("mechanisms")
+}
+
+fn load(name: &str) -> Mechanism {
+    Mechanism::load(folder().join(format!("{name}.ron"))).unwrap()
+}
+
+fn every_mechanism() -> Vec<Mechanism> {
+    let files = folder().read_dir().unwrap();
+    let mut paths: Vec<_> = files.map(|file| file.unwrap().path()).collect();
+    paths.sort();
+    paths
+        .into_iter()
+        .map(|path| Mechanism::load(path).unwrap())
+        .collect()
+}
+
+fn all_frames(mechanism: &Mechanism) -> VelocitySettings {
+    VelocitySettings {
+        points: mechanism.frames(),
+        ..VelocitySettings::default()
+    }
+}
+
+fn report(question: &Question, drive: &Drive) -> VelocityReport {
+    let settings = all_frames(question.mechanism());
+    let answer = velocity(question, drive, &settings).unwrap();
+    answer.closed().expect("closes")
+}
+
+/// The question asked again at other values of what is held, from the solution before.
+fn solved<'a>(
+    mechanism: &'a Mechanism,
+    held: &[(String, f64)],
+    guess: &AssemblyReport,
+) -> Option<(Question<'a>, AssemblyReport)> {
+    let mut question = Question::new(mechanism).free("actuated").unwrap();
+    for (joint, value) in mechanism.joints().iter().zip(&guess.configuration.joints) {
+        question = question.guess(&joint.name, &format!("{value:?}")).unwrap();
+    }
+    for (name, value) in held {
+        question = question.hold(name, &format!("{value:?}")).unwrap();
+    }
+    let report = assemble(&question, &AssemblySettings::default()).ok()?;
+    (report.outcome == Outcome::Converged).then_some((question, report))
+}
+
+const STEP: f64 = 1e-4;
+
+#[test]
+fn rates_and_accelerations_are_those_of_solved_configurations() {
+    let mut compared = 0;
+    for mechanism in every_mechanism() {
+        let home = Question::new(&mechanism);
+        let Ok(start) = assemble(&home, &AssemblySettings::default()) else {
+            continue;
+        };
+        if start.outcome != Outcome::Converged {
+            continue;
+        }
+        let names = home.held_names();
+        let rate = |i: usize| 0.3 + 0.1 * i as f64;
+        let change = |i: usize| 0.2 - 0.15 * i as f64;
+        let at = |t: f64| -> Vec<(String, f64)> {
+            let values = names.iter().enumerate();
+            let values = values.map(|(i, name)| {
+                let joint = mechanism.joint(name).unwrap();
+                let value = start.configuration.joints[joint];
+                (name.clone(), value + rate(i) * t + 0.5 * change(i) * t * t)
+            });
+            values.collect()
+        };
+        let mut drive = Drive::still(&home);
+        drive.rates = (0..names.len()).map(rate).collect();
+        drive.accelerations = (0..names.len()).map(change).collect();
+        let found = report(&home, &drive);
+        let times = [-STEP, 0.0, STEP].map(|t| solved(&mechanism, &at(t), &start));
+        let [Some((_, before)), Some((_, now)), Some((_, after))] = times else {
+            panic!("{} is not followed", mechanism.name())
+        };
+        let length = mechanism.characteristic_length();
+        let name = mechanism.name();
+        for (i, joint) in found.joints.iter().enumerate() {
+            let [a, b, c] = [&before, &now, &after].map(|report| report.configuration.joints[i]);
+            // a leg that spins freely is where the solver leaves it
+            let scale = if joint.unit == "rad" { 1.0 } else { length };
+            let rate = (c - a) / (2.0 * STEP * scale);
+            let change = (c - 2.0 * b + a) / (STEP * STEP * scale);
+            let rough = 1e-5 * (1.0 + rate.abs() + change.abs());
+            let error = joint.rate.unwrap() / scale - rate;
+            assert!(error.abs() < rough, "{name} {}: {error:e}", joint.name);
+            let error = joint.acceleration.unwrap() / scale - change;
+            assert!(
+                error.abs() < 10.0 * rough,
+                "{name} {}: {error:e}",
+                joint.name
+            );
+            compared += 1;
+        }
+        for frame in &found.frames {
+            let place = |report: &AssemblyReport| {
+                mechanism.pose(&frame.name, &report.configuration).unwrap()
+            };
+            let [a, b, c] = [&before, &now, &after].map(place);
+            let velocity = (c.position - a.position).times(0.5 / STEP);
+            let change = c.position + a.position - b.position.times(2.0);
+            let change = change.times(1.0 / (STEP * STEP));
+            // vee of the skew part of the relative rotation: 2 sin of the angle
+            let turn = |from: &linkwork::geometry::Pose<f64>,
+                        to: &linkwork::geometry::Pose<f64>| {
+                let mut twice = Vector3([0.0; 3]);
+                for k in 0..3 {
+                    twice += from.rotation.0[k].cross(&to.rotation.0[k]);
+                }
+                twice.times(0.5)
+            };
+            let omega = turn(&a, &c).times(0.5 / STEP);
+            let alpha = (turn(&b, &c) - turn(&a, &b)).times(1.0 / (STEP * STEP));
+            for (exact, rough, scale) in [
+                (frame.velocity, velocity, length),
+                (frame.angular_velocity, omega, 1.0),
+                (frame.acceleration, change, length),
+                (frame.angular_acceleration, alpha, 1.0),
+            ] {
+                let size = scale + rough.norm();
+                let error = (Vector3(exact) - rough).norm();
+                assert!(
+                    error < 1e-4 * size,
+                    "{name} {}: {exact:?} {rough:?}",
+                    frame.name
+                );
+            }
+        }
+        assert!(
+            found.mismatch.unwrap() < 1e-12,
+            "{name}: {:?}",
+            found.mismatch
+        );
+    }
+    assert!(compared > 150, "{compared}");
+}
+
+#[test]
+fn a_platform_can_be_driven_and_the_legs_follow_inversely() {
+    let mechanism = load("stewart_gough_6sps");
+    let direct = Question::new(&mechanism);
+    let forward = report(&direct, &Drive::still(&direct)).jacobian.unwrap();
+    let inverse = direct
+        .clone()
+        .free("actuated")
+        .unwrap()
+        .hold("top", "home")
+        .unwrap();
+    let backward = velocity(
+        &inverse,
+        &Drive::still(&inverse),
+        &VelocitySettings::default(),
+    );
+    let backward = backward.unwrap().closed().unwrap().jacobian.unwrap();
+    let columns: Vec<&str> = backward.columns.iter().map(|c| c.name.as_str()).collect();
+    assert_eq!(
+        columns,
+        [
+            "top.x",
+            "top.y",
+            "top.z",
+            "top.roll",
+            "top.pitch",
+            "top.yaw"
+        ]
+    );
+    // at the identity the rates of roll, pitch and yaw are ω; rows of the direct one begin with ω
+    for i in 0..6 {
+        for j in 0..6 {
+            let product: f64 = (0..6)
+                .map(|k| backward.entries[i][k] * forward.entries[(k + 3) % 6][j])
+                .sum();
+            let expected = f64::from(u8::from(i == j));
+            assert!((product - expected).abs() < 1e-10, "{i} {j}: {product}");
+        }
+    }
+}
+
+#[test]
+fn a_leg_of_a_stewart_platform_lengthens_by_the_velocity_along_it() {
+    // l̇ = u·(v + ω × b) with u along the leg (Merlet, Parallel Robots, §2.2)
+    let mechanism = load("stewart_gough_6sps");
+    let question = Question::new(&mechanism).free("actuated").unwrap();
+    let mut question = question
+        .hold("top", "[Tz(0.95), Rx(5 deg), Ry(-8 deg), Rz(12 deg)]")
+        .unwrap();
+    question = question.guess("l1", "home").unwrap();
+    let mut drive = Drive::still(&question);
+    drive.rates = vec![0.1, -0.2, 0.3, 0.15, -0.1, 0.25];
+    let found = report(&question, &drive);
+    let top = found.frames.iter().find(|f| f.name == "top").unwrap();
+    let (v, omega) = (Vector3(top.velocity), Vector3(top.angular_velocity));
+    assert!((v - Vector3([0.1, -0.2, 0.3])).norm() < 1e-12);
+    let mut at = mechanism.home();
+    at.joints = found.joints.iter().map(|joint| joint.value).collect();
+    at.platforms = question.start().platforms;
+    for (i, closure) in mechanism.closures().iter().enumerate() {
+        let [a, b] = mechanism
+            .poses(closure.frames, &at)
+            .map(|pose| pose.position);
+        let along = (b - a).times(1.0 / (b - a).norm());
+        // whichever end is on the platform
+        let moves = |p: Vector3<f64>| v + omega.cross(&(p - Vector3(top.position)));
+        let on_top = |k: usize| mechanism.carrier(closure.frames[k]).is_some();
+        let rate = match on_top(1) {
+            true => along.dot(&moves(b)),
+            false => -along.dot(&moves(a)),
+        };
+        let leg = found
+            .joints
+            .iter()
+            .find(|j| j.name == format!("l{}", i + 1))
+            .unwrap();
+        assert!((leg.rate.unwrap() - rate).abs() < 1e-12, "{}", leg.name);
+    }
+}
+
+#[test]
+fn a_slider_crank_has_the_transmission_angle_of_its_triangle() {
+    let mechanism = load("slider_crank");
+    let question = Question::new(&mechanism);
+    let found = report(&question, &Drive::still(&question));
+    let [angle] = &found.transmission[..] else {
+        panic!("{:?}", found.transmission)
+    };
+    assert!((angle.transmission_angle + angle.pressure_angle - FRAC_PI_2).abs() < 1e-12);
+    // the coupler's direction is the sum of crank and coupler angles; the slide is along a fixed line
+    let centre = |a: &str, b: &str| {
+        let found = found.centres.iter();
+        let mut found =
+            found.filter(|c| c.bodies.contains(&a.into()) && c.bodies.contains(&b.into()));
+        found.next().unwrap().clone()
+    };
+    let bodies = mechanism.bodies();
+    let ground = mechanism.body_name(bodies[0]);
+    let slider = found
+        .centres
+        .iter()
+        .find(|c| c.at_infinity.is_some())
+        .unwrap();
+    assert!(slider.bodies.contains(&ground), "{slider:?}");
+    let other = slider.bodies.iter().find(|b| **b != ground).unwrap();
+    let across = Vector3(centre(&ground, other).at_infinity.unwrap());
+    let pins: Vec<Vector3<f64>> = (found.centres.iter())
+        .filter(|c| !c.bodies.contains(&ground))
+        .filter_map(|c| c.point.map(Vector3))
+        .collect();
+    // pins of the coupler: beside the crank and beside the slider
+    let coupler = pins.iter().flat_map(|a| pins.iter().map(move |b| *b - *a));
+    let coupler = coupler
+        .max_by(|a, b| a.norm().total_cmp(&b.norm()))
+        .unwrap();
+    let sine = (coupler.dot(&across) / coupler.norm()).abs();
+    assert!(
+        (sine.asin() - angle.pressure_angle).abs() < 1e-9 || pins.len() != 2,
+        "{angle:?}"
+    );
+}
+
+#[test]
+fn a_four_bar_has_the_transmission_angle_of_the_cosine_rule() {
+    // cos μ = (b² + c² − a² − d² + 2 a d cos θ)/(2 b c), with the lengths of the file
+    let mechanism = load("four_bar");
+    let length = |name: &str| {
+        let found = mechanism.parameters().iter().find(|p| p.name == name);
+        found.unwrap().value
+    };
+    let [d, a, b, c] = ["l0", "l1", "l2", "l3"].map(length);
+    for theta in [20.0, 60.0, 110.0, 250.0f64] {
+        let question = Question::new(&mechanism);
+        let question = question.hold("theta1", &format!("{theta} deg")).unwrap();
+        let found = report(&question, &Drive::still(&question));
+        let [angle] = &found.transmission[..] else {
+            panic!("{:?}", found.transmission)
+        };
+        let square = a * a + d * d - 2.0 * a * d * theta.to_radians().cos();
+        let cosine = (b * b + c * c - square) / (2.0 * b * c);
+        let expected = cosine.acos().min(PI - cosine.acos());
+        assert!(
+            (angle.transmission_angle - expected).abs() < 1e-9,
+            "{theta}: {angle:?}"
+        );
+    }
+}
+
+#[test]
+fn three_bodies_have_their_instant_centres_on_one_line() {
+    // Aronhold 1872, Kennedy 1886
+    for name in [
+        "four_bar",
+        "slider_crank",
+        "watt_six_bar",
+        "stephenson_six_bar",
+    ] {
+        let mechanism = load(name);
+        let question = Question::new(&mechanism);
+        let found = report(&question, &Drive::still(&question));
+        let bodies: Vec<String> = mechanism
+            .bodies()
+            .into_iter()
+            .map(|b| mechanism.body_name(b))
+            .collect();
+        let centre = |a: usize, b: usize| {
+            let pair = [bodies[a].clone(), bodies[b].clone()];
+            found
+                .centres
+                .iter()
+                .find(|c| c.bodies == pair)
+                .and_then(|c| c.point)
+        };
+        let mut lines = 0;
+        for i in 0..bodies.len() {
+            for j in i + 1..bodies.len() {
+                for k in j + 1..bodies.len() {
+                    let (Some(p), Some(q), Some(r)) = (centre(i, j), centre(j, k), centre(i, k))
+                    else {
+                        continue;
+                    };
+                    let [p, q, r] = [p, q, r].map(Vector3);
+                    let area = (q - p).cross(&(r - p)).norm();
+                    let size = (q - p).norm().max((r - p).norm()).max((r - q).norm());
+                    assert!(area < 1e-8 * size * size, "{name}: {p:?} {q:?} {r:?}");
+                    lines += 1;
+                }
+            }
+        }
+        // one of the slider crank's centres is at infinity
+        assert!(lines >= 2, "{name}: {lines}");
+    }
+}
+
+#[test]
+fn spatial_mechanisms_have_no_instant_centres_and_no_transmission_angles() {
+    for name in ["bennett", "schatz", "rssr", "spherical_four_bar"] {
+        let mechanism = load(name);
+        let question = Question::new(&mechanism);
+        let found = report(&question, &Drive::still(&question));
+        assert!(
+            found.centres.is_empty() && found.transmission.is_empty(),
+            "{name}"
+        );
+    }
+}
+
+#[test]
+fn a_stretched_arm_loses_a_freedom_and_says_so() {
+    // Ghosal: at full stretch det J = l1 l2 sin θ2 = 0
+    let mechanism = load("planar_2r");
+    let joints: Vec<String> = mechanism.joints().iter().map(|j| j.name.clone()).collect();
+    let at = |elbow: &str| {
+        let question = Question::new(&mechanism);
+        let question = question.hold(&joints[0], "30 deg").unwrap();
+        let question = question.hold(&joints[1], elbow).unwrap();
+        let settings = VelocitySettings {
+            points: vec![Frame::Tip { chain: 0 }],
+            ..VelocitySettings::default()
+        };
+        let found = velocity(&question, &Drive::still(&question), &settings).unwrap();
+        let jacobian = found.closed().unwrap().jacobian.unwrap();
+        // the velocity of the tip alone
+        let rows = jacobian.rows.len();
+        let [x, y] = [rows - 3, rows - 2].map(|row| jacobian.entries[row].clone());
+        x[0] * y[1] - x[1] * y[0]
+    };
+    let length = |name: &str| {
+        mechanism
+            .parameters()
+            .iter()
+            .find(|p| p.name == name)
+            .unwrap()
+            .value
+    };
+    let expected = length("a1") * length("a2") * 0.7f64.sin();
+    assert!((at("0.7") - expected).abs() < 1e-12);
+    assert!(at("0").abs() < 1e-12);
+}
+
+#[test]
+fn a_singular_configuration_gains_freedoms_and_its_rates_are_not_made_up() {
+    // crank and coupler of a four-bar in one line with the coupler driven: dead point of the rocker
+    let mechanism = load("parallelogram");
+    let question = Question::new(&mechanism);
+    let found = report(&question, &Drive::still(&question));
+    let gain = found.gain.unwrap();
+    assert_eq!(gain.freedoms, 1);
+    assert!(gain.moving.contains(&"phi1".to_owned()), "{gain:?}");
+    assert!(found.jacobian.is_none() && found.frames.is_empty());
+    assert!(found.joints.iter().all(|joint| joint.rate.is_none()));
+}
+
+#[test]
+fn fichters_platform_gains_a_freedom_when_turned_by_ninety_degrees() {
+    let text = std::fs::read_to_string(folder().join("stewart_gough_6sps.ron")).unwrap();
+    // a semi-regular hexagon: base radius 1, top radius 1/2, pairs at ±10 and 60 ∓ 10 deg
+    let mut text = text;
+    for i in 1..=6 {
+        let pair = 120.0 * f64::from((i - 1) / 2);
+        let side = if i % 2 == 1 { -1.0 } else { 1.0 };
+        let base: f64 = pair + 10.0 * side;
+        let top: f64 = pair + 50.0 * side;
+        for (letter, radius, angle) in [("a", 1.0, base), ("b", 0.5, top)] {
+            let (sin, cos) = angle.to_radians().sin_cos();
+            for (axis, value) in [("x", radius * cos), ("y", radius * sin), ("z", 0.0)] {
+                let key = format!("\"{letter}{i}{axis}\": ");
+                let start = text.find(&key).unwrap() + key.len();
+                let end = start + text[start..].find([',', '\n']).unwrap();
+                text.replace_range(start..end, &format!("{value:?}"));
+            }
+        }
+    }
+    let description = linkwork::description::Description::read(&text).unwrap();
+    let mechanism = Mechanism::new(&description).unwrap();
+    let gain_at = |yaw: f64| {
+        let inverse = Question::new(&mechanism).free("actuated").unwrap();
+        let inverse = inverse
+            .hold("top", &format!("[Tz(0.9), Rz({yaw} deg)]"))
+            .unwrap();
+        let legs = assemble(&inverse, &AssemblySettings::default()).unwrap();
+        let mut direct = Question::new(&mechanism);
+        let pose = format!("[Tz(0.9), Rz({yaw} deg)]");
+        direct = direct.guess("top", &pose).unwrap();
+        for (joint, value) in mechanism.joints().iter().zip(&legs.configuration.joints) {
+            direct = direct.hold(&joint.name, &format!("{value:?}")).unwrap();
+        }
+        match velocity(
+            &direct,
+            &Drive::still(&direct),
+            &VelocitySettings::default(),
+        )
+        .unwrap()
+        {
+            Analysed::Closed(report) => report.gain.map_or(0, |gain| gain.freedoms),
+            other => panic!("{other:?}"),
+        }
+    };
+    assert_eq!(gain_at(20.0), 0);
+    assert_eq!(gain_at(90.0), 1);
+}
+
+#[test]
+fn rates_of_what_is_not_held_are_refused() {
+    let mechanism = load("three_rps");
+    let question = Question::new(&mechanism);
+    let refused = Drive::still(&question).rate(&question, "phi1", "1");
+    let Err(DriveError::NotHeld { held, .. }) = refused else {
+        panic!("{refused:?}")
+    };
+    assert_eq!(held, ["l1", "l2", "l3"]);
+    assert!(Drive::still(&question).rate(&question, "l1", "0.1").is_ok());
+    assert!(
+        Drive::still(&question)
+            .rate(&question, "l1", "1/0")
+            .is_err()
+    );
+}
