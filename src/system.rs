@@ -22,7 +22,7 @@ mod twists;
 mod value;
 
 pub use closing::{Analysed, Closed, NotClosed, WidestGap, close, fit_platforms, too_large};
-pub use count::{Count, check_count};
+pub use count::{Count, check_angles, check_count};
 pub use drive::{Drive, DriveError};
 pub use equations::{ClosureWrenches, System, Work};
 pub use freedom::{Freedoms, Holdable, Mobility};

@@ -9,7 +9,7 @@ use crate::mechanism::{Configuration, Frame, Mechanism};
 use crate::solve::Newton;
 use crate::system::{
     Analysed, FrameTwists, Holdable, Load, Neighbourhood, Question, QuestionError, Unknown,
-    WidestGap, check_count, close, too_large,
+    WidestGap, check_angles, check_count, close, too_large,
 };
 
 pub use reactions::Reaction;
@@ -97,7 +97,8 @@ pub struct Force {
 /// is taken. Source: Ghosal, Robotics, 2006, §5.9; Hunt, Kinematic Geometry, 1978 on wrenches.
 ///
 /// # Errors
-/// If more or less is held than the mechanism has freedoms, or what is held depends on itself.
+/// If more or less is held than the mechanism has freedoms, if what is held depends on itself, or if
+/// an angle is held of a platform pitched by ±90°.
 pub fn statics(
     question: &Question,
     load: &Load,
@@ -113,6 +114,7 @@ pub fn statics(
         Err(open) => return Ok(Analysed::NotClosed(open)),
     };
     let at = &closed.configuration;
+    check_angles(question, at)?;
     let mut near = Neighbourhood::new(mechanism);
     let tangent = near.tangent(at.clone());
     let unknowns = near.system().unknowns().to_vec();
