@@ -178,7 +178,7 @@ pub fn mobility(question: &Question, settings: &MobilitySettings) -> Analysed<Mo
         Err(open) => return Analysed::NotClosed(open),
     };
     let mut near = Neighbourhood::new(mechanism);
-    let tangent = near.tangent_at(&closed);
+    let tangent = near.tangent(closed.configuration.clone());
     let mut rng = Pcg64Mcg::seed_from_u64(settings.seed);
     let found = branches::find(&mut near, &tangent, settings, &mut rng);
     let carriers = screws::carriers(mechanism);
