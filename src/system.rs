@@ -23,7 +23,7 @@ mod value;
 mod words;
 
 pub use closing::{Analysed, Closed, NotClosed, WidestGap, close, fit, too_large};
-pub use count::{Count, check_count};
+pub use count::{Count, check_angles, check_count};
 pub use drive::{Drive, DriveError};
 pub use equations::{ClosureWrenches, System, Work};
 pub use freedom::{Freedoms, Holdable, Mobility};

@@ -10,6 +10,7 @@ use serde_json::Value;
 const FOUR_BAR: &str = "mechanisms/four_bar.ron";
 /// Files whose point is a singular configuration.
 const SINGULAR: [&str; 3] = ["flat_triangle.ron", "parallelogram.ron", "two_rhombi.ron"];
+const SIX_SPS: &str = "mechanisms/stewart_gough_6sps.ron";
 const THREE_RPS: &str = "mechanisms/three_rps.ron";
 
 fn linkwork() -> Command {
@@ -469,6 +470,21 @@ fn questions_that_make_no_sense_are_told_what_to_ask_instead() {
             "--hold theta1=home",
         ),
         (&["velocity", FOUR_BAR, "--hold", "phi1=home"], "--free"),
+        (
+            &["velocity", FOUR_BAR, "--rate", "theta1=1e200"],
+            "too large",
+        ),
+        (
+            &[
+                "velocity",
+                SIX_SPS,
+                "--free",
+                "actuated",
+                "--hold",
+                "top=[Tz(0.9), Ry(90 deg)]",
+            ],
+            "roll and yaw",
+        ),
         (&["statics", FOUR_BAR, "--wrench", "ground=0,0,1"], "left"),
         (&["statics", FOUR_BAR, "--wrench", "left=0,1"], "Fx,Fy,Fz"),
         (&["statics", FOUR_BAR, "--wrench", "left=0,1,q"], "q"),

@@ -253,9 +253,7 @@ fn what_a_planar_loop_cannot_tell_is_marked_and_what_it_can_is_not() {
 }
 
 #[test]
-fn three_hinges_of_a_plate_share_a_load_across_it_evenly_by_least_norm() {
-    // the plate's three parallel cranks carry a force across the plane: equal hinges far from the
-    // loaded point cannot all carry nothing, and the sum is the load
+fn a_force_across_a_plate_reaches_its_hinges_whole_but_in_shares_that_are_chosen() {
     let mechanism = load("three_parallel_cranks");
     let question = Question::new(&mechanism);
     let load = Load::default()
@@ -270,6 +268,47 @@ fn three_hinges_of_a_plate_share_a_load_across_it_evenly_by_least_norm() {
     assert!((sum - 30.0).abs() < 1e-9, "{sum}");
     assert!(found.closures.iter().all(|reaction| !reaction.unique[2]));
     assert!(found.actuators[0].force.abs() < 1e-9);
+}
+
+#[test]
+fn a_load_in_the_plane_leaves_nothing_across_it_by_least_norm() {
+    let mechanism = load("four_bar");
+    let question = Question::new(&mechanism);
+    let load = Load::default()
+        .wrench(&question, "left", "3, -5, 0")
+        .unwrap();
+    let found = report(&question, &load);
+    let [closure] = &found.closures[..] else {
+        panic!("one closure")
+    };
+    assert!(closure.force[2].abs() < 1e-12 && closure.moment.iter().all(|m| m.abs() < 1e-12));
+}
+
+#[test]
+fn the_least_norm_is_the_same_wherever_the_loop_is_broken() {
+    // the same force across the plane at hinge 3, on the coupler
+    let least = |name: &str, coupler: &str| {
+        let mechanism = load(name);
+        let question = Question::new(&mechanism);
+        let load = Load::default()
+            .wrench(&question, coupler, "1, 2, 10")
+            .unwrap();
+        let found = report(&question, &load);
+        let all = found.closures.iter().chain(&found.joints);
+        let square = |v: [f64; 3]| v.iter().map(|x| x * x).sum::<f64>();
+        let length = found.normalising_length;
+        let sum: f64 = all
+            .map(|r| square(r.force) * length * length + square(r.moment))
+            .sum();
+        // both ways to the ground carry some of it
+        let across = found.closures[0].force[2].abs();
+        assert!(across > 0.1 && across < 10.0, "{name}: {across}");
+        (sum, length)
+    };
+    let (cut3, length) = least("four_bar", "left");
+    let (cut2, other) = least("four_bar_cut2", "right.2");
+    assert!((length - other).abs() < 1e-12);
+    assert!((cut3 - cut2).abs() < 1e-9 * cut3, "{cut3} {cut2}");
 }
 
 #[test]

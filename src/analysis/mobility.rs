@@ -41,7 +41,7 @@ pub struct MobilitySettings {
     pub branch_step: f64,
     /// Steps per infinitesimal freedom by which branches are sought.
     pub branch_trials: usize,
-    /// Random starts from which assemblies of another mobility are sought.
+    /// Random starts from which assemblies of another mobility are sought; none in large mechanisms.
     pub elsewhere: usize,
     /// Seed of all random directions and starts.
     pub seed: u64,
@@ -87,6 +87,8 @@ pub struct MobilityReport {
     pub branches: Vec<BranchReport>,
     /// Another mobility that the mechanism has in another assembly.
     pub elsewhere: Vec<Elsewhere>,
+    /// Random starts from which one was sought.
+    pub elsewhere_starts: usize,
     /// Joint variables and six for each platform.
     pub unknowns: usize,
     /// Closure equations.
@@ -176,7 +178,7 @@ pub fn mobility(question: &Question, settings: &MobilitySettings) -> Analysed<Mo
         Err(open) => return Analysed::NotClosed(open),
     };
     let mut near = Neighbourhood::new(mechanism);
-    let tangent = near.tangent_at(&closed);
+    let tangent = near.tangent(closed.configuration.clone());
     let mut rng = Pcg64Mcg::seed_from_u64(settings.seed);
     let found = branches::find(&mut near, &tangent, settings, &mut rng);
     let carriers = screws::carriers(mechanism);
@@ -216,6 +218,11 @@ pub fn mobility(question: &Question, settings: &MobilitySettings) -> Analysed<Mo
         character: found.character(tangent.motions.len()),
         branches,
         elsewhere: Vec::new(),
+        elsewhere_starts: if unknowns > ELSEWHERE_LIMIT {
+            0
+        } else {
+            settings.elsewhere
+        },
         unknowns,
         equations: rows,
         idle_freedoms: idle_freedoms(mechanism, near.system().unknowns(), &tangent),
@@ -232,6 +239,10 @@ pub fn mobility(question: &Question, settings: &MobilitySettings) -> Analysed<Mo
     Analysed::Closed(report)
 }
 
+/// Beyond so many unknowns no assemblies of another mobility are sought: each start would take long
+/// and hardly one would close.
+const ELSEWHERE_LIMIT: usize = 100;
+
 /// Regular assemblies of another mobility than `here`, one for each.
 fn elsewhere(
     near: &mut Neighbourhood,
@@ -241,7 +252,7 @@ fn elsewhere(
 ) -> Vec<Elsewhere> {
     let mechanism = near.mechanism();
     let mut found: Vec<Elsewhere> = Vec::new();
-    for _ in 0..settings.elsewhere {
+    for _ in 0..here.elsewhere_starts {
         let start = random_configuration(mechanism, &mechanism.home(), rng);
         let Some(at) = near.solve(&settings.newton, start) else {
             continue;

@@ -9,7 +9,7 @@ use crate::mechanism::{Configuration, Frame, Mechanism};
 use crate::solve::Newton;
 use crate::system::{
     Analysed, FrameTwists, Holdable, Load, Neighbourhood, Question, QuestionError, Unknown,
-    WidestGap, check_count, close, too_large,
+    WidestGap, check_angles, check_count, close, too_large,
 };
 
 pub use reactions::Reaction;
@@ -53,8 +53,8 @@ pub struct StaticsReport {
     /// What each joint of a chain passes on, its drive included.
     pub joints: Vec<Reaction>,
     /// How many independent states of stress need no load: 0 if all forces are determined. What is
-    /// not `unique` is then the choice of least norm of the closure and actuator forces, moments
-    /// and forces times the normalising length taken together.
+    /// not `unique` is then the choice of least norm of what all closures and joints pass on,
+    /// moments and forces times the normalising length taken together: wherever loops are broken.
     pub self_stresses: usize,
     /// Ratio of the largest to the smallest singular value that counts, of the equilibrium equations.
     pub condition: f64,
@@ -93,11 +93,12 @@ pub struct Force {
 /// Finds the forces that balance a load at the assembled configuration near the start of a question.
 ///
 /// By virtual work g + Jᵀλ + Sᵀτ = 0: g are the generalised forces of the load, J the closure
-/// Jacobian with nothing held, S picks the held coordinates. Of many solutions the one of least norm
-/// is taken. Source: Ghosal, Robotics, 2006, §5.9; Hunt, Kinematic Geometry, 1978 on wrenches.
+/// Jacobian with nothing held, S picks the held coordinates. Of many solutions the one is
+/// taken that loads closures and joints least, by the sum of squares. Source: Ghosal, Robotics, 2006, §5.9; Hunt, Kinematic Geometry, 1978 on wrenches.
 ///
 /// # Errors
-/// If more or less is held than the mechanism has freedoms, or what is held depends on itself.
+/// If more or less is held than the mechanism has freedoms, if what is held depends on itself, or if
+/// an angle is held of a platform pitched by ±90°.
 pub fn statics(
     question: &Question,
     load: &Load,
@@ -113,6 +114,7 @@ pub fn statics(
         Err(open) => return Ok(Analysed::NotClosed(open)),
     };
     let at = &closed.configuration;
+    check_angles(question, at)?;
     let mut near = Neighbourhood::new(mechanism);
     let tangent = near.tangent(at.clone());
     let unknowns = near.system().unknowns().to_vec();
@@ -131,7 +133,7 @@ pub fn statics(
     let equations = Decomposition::of(unknowns.len(), rows + held.len(), &entries);
     let generalised = generalised(mechanism, &near, at, &unknowns, load);
     let opposite: Vec<f64> = generalised.iter().map(|g| -g).collect();
-    let forces = equations.solve(&opposite);
+    let mut forces = equations.solve(&opposite);
     let mut left = generalised.clone();
     for (column, force) in entries.chunks_exact(unknowns.len().max(1)).zip(&forces) {
         left.iter_mut()
@@ -139,6 +141,19 @@ pub fn statics(
             .for_each(|(left, a)| *left += force * a);
     }
     let stresses = equations.null_space();
+    let none = Load::default();
+    let changes: Vec<reactions::Reactions> = (stresses.iter())
+        .map(|stress| reactions::of(&mut near, at, &none, &stress[..rows]))
+        .collect();
+    let length = mechanism.characteristic_length();
+    let found = reactions::of(&mut near, at, load, &forces[..rows]);
+    for (share, stress) in found.least(&changes, length).iter().zip(&stresses) {
+        forces
+            .iter_mut()
+            .zip(stress)
+            .for_each(|(x, s)| *x += share * s);
+    }
+    let found = reactions::of(&mut near, at, load, &forces[..rows]);
 
     let scale = |coordinate: Holdable| match coordinate.is_angle(mechanism) {
         true => 1.0,
@@ -151,12 +166,7 @@ pub fn statics(
         unique: (stresses.iter()).all(|stress| stress[rows + i].abs() <= RANK_TOLERANCE),
     });
     let actuators = actuators.collect();
-    let none = Load::default();
-    let found = reactions::of(&mut near, at, load, &forces[..rows]);
-    let changes: Vec<reactions::Reactions> = (stresses.iter())
-        .map(|stress| reactions::of(&mut near, at, &none, &stress[..rows]))
-        .collect();
-    let (closures, joints) = found.marked(&changes, mechanism.characteristic_length());
+    let (closures, joints) = found.marked(&changes, length);
     Ok(Analysed::Closed(StaticsReport {
         loads: (load.wrenches.iter())
             .map(|&(frame, force, moment)| AppliedWrench {

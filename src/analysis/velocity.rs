@@ -9,7 +9,7 @@ use crate::mechanism::{Frame, Mechanism};
 use crate::solve::Newton;
 use crate::system::{
     Analysed, Drive, FrameMotion, FrameMotions, Freedoms, Holdable, Motion, Neighbourhood,
-    Question, QuestionError, WidestGap, check_count, close, too_large,
+    Question, QuestionError, WidestGap, check_angles, check_count, close, too_large,
 };
 
 pub use jacobian::{Axis, InputOutput};
@@ -139,7 +139,8 @@ fn unit(is_angle: bool) -> &'static str {
 /// Source: Ghosal, Robotics, 2006, §5.3 and §5.5; J. M. Selig, Geometric Fundamentals of Robotics.
 ///
 /// # Errors
-/// If more or less is held than the mechanism has freedoms, or what is held depends on itself.
+/// If more or less is held than the mechanism has freedoms, if what is held depends on itself, or if
+/// an angle is held of a platform pitched by ±90°.
 pub fn velocity(
     question: &Question,
     drive: &Drive,
@@ -155,6 +156,7 @@ pub fn velocity(
         Err(open) => return Ok(Analysed::NotClosed(open)),
     };
     let at = &closed.configuration;
+    check_angles(question, at)?;
     let mut motion = Motion::new(mechanism, &drive.coordinates);
     let mut near = Neighbourhood::new(mechanism);
     let idle = near.tangent(at.clone()).idle.len();

@@ -68,15 +68,6 @@ impl Decomposition {
         x
     }
 
-    /// (Aᵀ)⁺b: of the vectors nearest to a solution of Aᵀ x = b the shortest.
-    pub fn solve_transposed(&self, b: &[f64]) -> Vec<f64> {
-        let mut x = vec![0.0; self.rows];
-        for ((u, v), value) in self.left.iter().zip(&self.right).zip(&self.values) {
-            add(&mut x, dot(v, b) / value, u);
-        }
-        x
-    }
-
     /// Orthonormal basis of the vectors with A x = 0.
     pub fn null_space(&self) -> Vec<Vec<f64>> {
         complement(&self.right, self.columns)

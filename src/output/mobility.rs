@@ -47,6 +47,8 @@ pub struct MobilityJson<'a> {
     pub branches: &'a [BranchReport],
     /// Assemblies of another mobility.
     pub elsewhere: Vec<ElsewhereJson>,
+    /// Random starts from which they were sought.
+    pub elsewhere_starts: usize,
     /// Joint variables and six for each platform.
     pub unknowns: usize,
     /// Closure equations.
@@ -109,6 +111,7 @@ impl<'a> MobilityJson<'a> {
                     joints: joint_map(mechanism, &other.joints),
                 })
                 .collect(),
+            elsewhere_starts: report.elsewhere_starts,
             unknowns: report.unknowns,
             equations: report.equations,
             idle_freedoms: &report.idle_freedoms,

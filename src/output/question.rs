@@ -33,6 +33,13 @@ pub fn complaint(error: &QuestionError) -> (Complaint, Part) {
             );
             (said(title, "", Some(help)), Part::Name)
         }
+        QuestionError::AnglesLocked { platform } => {
+            let help = format!(
+                "hold joints instead of `{platform}`, its whole pose, or describe `{platform}` by a frame that is \
+                 turned"
+            );
+            (said(title, "", Some(help)), Part::Name)
+        }
         QuestionError::Dependent { free, hold } => {
             let help = format!(
                 "{}; then hold {}, e.g. {}",
@@ -49,6 +56,10 @@ pub fn complaint(error: &QuestionError) -> (Complaint, Part) {
 pub fn driven_complaint(error: &DriveError, option: &str) -> (Complaint, Part) {
     match error {
         DriveError::Question(error) => complaint(error),
+        DriveError::TooLarge { limit } => {
+            let title = format!("the value is too large: squares beyond {limit:e} overflow");
+            (said(title, "", None), Part::WholeValue)
+        }
         DriveError::NotHeld { name, held } => {
             let title = format!("`{name}` is not held here, so its rate follows from the others");
             let help = match held.is_empty() {

@@ -166,8 +166,8 @@ pub fn complaint(mechanism: &Mechanism, error: &LoadError, option: &str) -> (Com
         }
         LoadError::UnknownFrame { name } => return unknown_frame(mechanism, name),
         LoadError::OnGround { name, instead } => (
-            format!("`{name}` is fixed to the ground, which carries any wrench"),
-            "does not move",
+            format!("`{name}` does not move: the ground carries any wrench"),
+            "on the ground",
             Some(format!(
                 "load a body that moves, such as {}",
                 listed(instead)

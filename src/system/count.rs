@@ -4,7 +4,8 @@ use serde::Serialize;
 
 use super::{Holdable, Mobility, Question, QuestionError};
 use crate::description::Role;
-use crate::mechanism::Coordinate;
+use crate::linear::RANK_TOLERANCE;
+use crate::mechanism::{Configuration, Coordinate};
 
 /// What is held beside what the mechanism allows.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
@@ -89,4 +90,28 @@ pub fn check_count(question: &Question) -> Result<Count, QuestionError> {
         }),
         (false, false) => Err(QuestionError::Dependent { free, hold }),
     }
+}
+
+/// Whether the rates of the held coordinates make sense at a configuration.
+///
+/// # Errors
+/// If an angle is held of a platform whose pitch is ±90°, where roll and yaw turn about one axis.
+pub fn check_angles(question: &Question, at: &Configuration<f64>) -> Result<(), QuestionError> {
+    let mechanism = question.mechanism();
+    for coordinate in question.held_coordinates() {
+        let Holdable::Coordinate(platform, coordinate) = coordinate else {
+            continue;
+        };
+        let pose = at.platforms[platform].pose();
+        let length = mechanism.characteristic_length();
+        let (_, slope) = coordinate.row(&pose, coordinate.of(&pose), length);
+        let steepest = slope.iter().fold(0.0, |most: f64, x| most.max(x.abs()));
+        let finite = slope.iter().all(|x| x.is_finite());
+        if !finite || steepest > 1.0 / RANK_TOLERANCE {
+            return Err(QuestionError::AnglesLocked {
+                platform: mechanism.platforms()[platform].name.clone(),
+            });
+        }
+    }
+    Ok(())
 }

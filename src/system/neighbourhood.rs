@@ -1,6 +1,5 @@
 //! What a mechanism with nothing held can do near an assembled configuration.
 
-use super::closing::Closed;
 use super::{ClosureWrenches, FrameTwists, Held, System, Unknown, Work};
 use crate::description::{ClosureKind, Role};
 use crate::linear::{Decomposition, dot, norm, rank_of};
@@ -66,11 +65,6 @@ impl<'a> Neighbourhood<'a> {
     /// Twists of every frame of the mechanism.
     pub fn frames(&self) -> &FrameTwists<f64> {
         &self.frames
-    }
-
-    /// Linearises at a closed configuration.
-    pub fn tangent_at(&mut self, closed: &Closed) -> Tangent {
-        self.tangent(closed.configuration.clone())
     }
 
     /// Linearises at an assembled configuration.

@@ -67,6 +67,11 @@ pub enum QuestionError {
         /// Coordinates which, held too, leave a question that has an answer.
         hold: Vec<String>,
     },
+    /// Roll, pitch and yaw of a platform do not tell its motion where it is pitched by ±90°.
+    AnglesLocked {
+        /// The platform.
+        platform: String,
+    },
     /// The right number is held, but what is held depends on itself and something else is free.
     Dependent {
         /// Held coordinates to free.

@@ -31,6 +31,9 @@ impl QuestionError {
                 freedoms(*mobility),
                 are(*held)
             ),
+            QuestionError::AnglesLocked { platform } => format!(
+                "roll and yaw of `{platform}` turn about the same axis here, for its pitch is ±90°"
+            ),
             QuestionError::Dependent { free, hold } => format!(
                 "the number held is right, but {} cannot be chosen beside the others, and {} {} \
                  undetermined",

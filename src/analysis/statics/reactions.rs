@@ -3,7 +3,7 @@
 use serde::Serialize;
 
 use crate::geometry::Vector3;
-use crate::linear::RANK_TOLERANCE;
+use crate::linear::{Decomposition, RANK_TOLERANCE};
 use crate::mechanism::{Body, Configuration, Frame, Mechanism};
 use crate::system::{Load, Neighbourhood};
 
@@ -151,6 +151,22 @@ fn is_beyond(mechanism: &Mechanism, mut body: Body, link: Body) -> bool {
 }
 
 impl Reactions {
+    /// How much of each state of stress to add for the least sum of squares, moments and forces
+    /// times `length`, over all closures and joints.
+    pub fn least(&self, stresses: &[Reactions], length: f64) -> Vec<f64> {
+        let columns: Vec<f64> = stresses.iter().flat_map(|s| s.stacked(length)).collect();
+        let opposite: Vec<f64> = self.stacked(length).map(|x| -x).collect();
+        Decomposition::of(opposite.len(), stresses.len(), &columns).solve(&opposite)
+    }
+
+    fn stacked(&self, length: f64) -> impl Iterator<Item = f64> {
+        let reactions = self.closures.iter().chain(&self.joints);
+        reactions.flat_map(move |reaction| {
+            let force = reaction.force.map(|f| f * length);
+            force.into_iter().chain(reaction.moment)
+        })
+    }
+
     /// Closures and joints, with what changes in states of stress without load marked.
     pub fn marked(mut self, changes: &[Reactions], length: f64) -> (Vec<Reaction>, Vec<Reaction>) {
         for change in changes {
