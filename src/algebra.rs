@@ -11,7 +11,7 @@ mod parser;
 mod vocabulary;
 
 pub use affine::{Affine, NonAffine};
-pub use evaluation::{EvaluationError, EvaluationErrorKind};
+pub use evaluation::{EvaluationError, EvaluationErrorKind, LARGEST};
 pub use parser::{MAX_HEIGHT, MAX_NESTING, ParseError, ParseErrorKind};
 pub use vocabulary::{Constant, Function, Unit, is_name, is_reserved};
 

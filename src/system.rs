@@ -20,6 +20,7 @@ mod starts;
 mod tracker;
 mod twists;
 mod value;
+mod way;
 mod words;
 
 pub use closing::{Analysed, Closed, NotClosed, WidestGap, close, fit, too_large};

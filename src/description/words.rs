@@ -4,6 +4,7 @@ mod expression;
 mod parts;
 mod syntax;
 
+use crate::algebra::EvaluationErrorKind;
 use std::fmt::{self, Display, Formatter};
 
 use super::*;
@@ -126,6 +127,7 @@ impl ProblemKind {
             NoSuchLink { rows, .. } => format!("the last link is {rows}"),
             JointNotAllowed { .. } => "a joint variable".into(),
             NotAffine => "not affine".into(),
+            NoValue(EvaluationErrorKind::TooLarge(_)) => "too large".into(),
             NoValue(_) => "has no value".into(),
             EmptyClosedForm => "no formula".into(),
             UnfeltJoint { .. } => "moves no closure".into(),

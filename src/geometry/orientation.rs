@@ -130,6 +130,12 @@ impl<T: Number> RollPitchYaw<T> {
         }
     }
 
+    /// Whether the pitch is ±90° but for rounding, where roll and yaw turn about the same line.
+    pub fn is_locked(rotation: &Rotation<T>) -> bool {
+        let n = rotation.0[0].0;
+        (n[0].real()).hypot(n[1].real()) < 1e-6
+    }
+
     /// Rz(yaw)·Ry(pitch)·Rx(roll).
     pub fn rotation(&self) -> Rotation<T> {
         Rotation::about(Axis::Z, self.yaw.sin_cos())

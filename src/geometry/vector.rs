@@ -6,6 +6,13 @@ use crate::number::Number;
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Vector3<T>(pub [T; 3]);
 
+impl<T: Copy> Vector3<T> {
+    /// The vector of what each component becomes.
+    pub fn map<U>(&self, change: impl Fn(T) -> U) -> Vector3<U> {
+        Vector3(self.0.map(change))
+    }
+}
+
 impl<T: Number> Vector3<T> {
     /// The vector (x, y, z).
     #[inline(always)]

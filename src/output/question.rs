@@ -56,10 +56,6 @@ pub fn complaint(error: &QuestionError) -> (Complaint, Part) {
 pub fn driven_complaint(error: &DriveError, option: &str) -> (Complaint, Part) {
     match error {
         DriveError::Question(error) => complaint(error),
-        DriveError::TooLarge { limit } => {
-            let title = format!("the value is too large: squares beyond {limit:e} overflow");
-            (said(title, "", None), Part::WholeValue)
-        }
         DriveError::NotHeld { name, held } => {
             let title = format!("`{name}` is not held here, so its rate follows from the others");
             let help = match held.is_empty() {

@@ -1,22 +1,39 @@
-use argmin::core::{CostFunction, Error, Executor, Gradient, State};
+use std::cell::{Cell, RefCell};
+
+use argmin::core::{CostFunction, Error, Executor, Gradient};
 use argmin::solver::linesearch::MoreThuenteLineSearch;
 use argmin::solver::quasinewton::LBFGS;
 
-/// A smooth function of several variables with its gradient.
-struct Smooth<C, G> {
+/// A smooth function of several variables with its gradient, and the lowest point seen.
+struct Smooth<'a, C, G> {
     cost: C,
     gradient: G,
+    lowest: &'a RefCell<(f64, Vec<f64>)>,
+    evaluations: Cell<usize>,
 }
 
-impl<C: Fn(&[f64]) -> f64, G> CostFunction for Smooth<C, G> {
+/// A line search that meets values without order may never end; a walk of a hundred steps takes a
+/// few hundred evaluations.
+const MOST_EVALUATIONS: usize = 2000;
+
+impl<C: Fn(&[f64]) -> f64, G> CostFunction for Smooth<'_, C, G> {
     type Param = Vec<f64>;
     type Output = f64;
     fn cost(&self, x: &Vec<f64>) -> Result<f64, Error> {
-        Ok((self.cost)(x))
+        let cost = (self.cost)(x);
+        self.evaluations.set(self.evaluations.get() + 1);
+        if !cost.is_finite() || self.evaluations.get() > MOST_EVALUATIONS {
+            return Err(Error::msg("the walk ends where it stands"));
+        }
+        let mut lowest = self.lowest.borrow_mut();
+        if cost < lowest.0 {
+            *lowest = (cost, x.clone());
+        }
+        Ok(cost)
     }
 }
 
-impl<C, G: Fn(&[f64]) -> Vec<f64>> Gradient for Smooth<C, G> {
+impl<C, G: Fn(&[f64]) -> Vec<f64>> Gradient for Smooth<'_, C, G> {
     type Param = Vec<f64>;
     type Gradient = Vec<f64>;
     fn gradient(&self, x: &Vec<f64>) -> Result<Vec<f64>, Error> {
@@ -28,7 +45,7 @@ impl<C, G: Fn(&[f64]) -> Vec<f64>> Gradient for Smooth<C, G> {
 /// search of Moré and Thuente (argmin).
 ///
 /// Where a residual does not vanish Gauss–Newton converges slowly or not at all, because it leaves
-/// the curvature of the equations out; a quasi-Newton method learns it. Returns the best point
+/// the curvature of the equations out; a quasi-Newton method learns it. Returns the lowest point
 /// reached; `start` if the search cannot move.
 pub fn walk_down(
     start: Vec<f64>,
@@ -38,27 +55,37 @@ pub fn walk_down(
     // enough pairs for the couple of dozen unknowns a mechanism has
     const HISTORY: usize = 10;
     const STEPS: u64 = 100;
-    let problem = Smooth { cost, gradient };
+    let lowest = RefCell::new((f64::INFINITY, start.clone()));
+    let problem = Smooth {
+        cost,
+        gradient,
+        lowest: &lowest,
+        evaluations: Cell::new(0),
+    };
     let solver = LBFGS::new(MoreThuenteLineSearch::new(), HISTORY)
         .with_tolerance_grad(1e-13)
         .and_then(|solver| solver.with_tolerance_cost(0.0));
     let Ok(solver) = solver else {
         return start;
     };
-    let first = start.clone();
     let run = Executor::new(problem, solver)
-        .configure(|state| state.param(first).max_iters(STEPS))
+        .configure(|state| state.param(start).max_iters(STEPS))
         .run();
-    match run {
-        Ok(result) => result.state().get_best_param().cloned().unwrap_or(start),
-        // a line search that cannot gain any more ends with an error: then it has arrived
-        Err(_) => start,
-    }
+    // a line search that cannot gain any more ends with an error: then it has arrived
+    drop(run);
+    lowest.into_inner().1
 }
 
 #[cfg(test)]
 mod tests {
     use super::walk_down;
+
+    #[test]
+    fn ends_where_the_function_has_no_value() {
+        let cost = |x: &[f64]| if x[0] > 0.5 { f64::NAN } else { -x[0] };
+        let x = walk_down(vec![0.0], cost, |_| vec![-1.0]);
+        assert!((0.0..=0.5).contains(&x[0]), "{x:?}");
+    }
 
     #[test]
     fn finds_the_bottom_of_a_bent_valley() {

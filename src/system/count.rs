@@ -2,8 +2,9 @@
 
 use serde::Serialize;
 
-use super::{Holdable, Mobility, Question, QuestionError};
+use super::{HeldPlatform, Holdable, Mobility, Question, QuestionError};
 use crate::description::Role;
+use crate::geometry::RollPitchYaw;
 use crate::linear::RANK_TOLERANCE;
 use crate::mechanism::{Configuration, Coordinate};
 
@@ -24,6 +25,7 @@ pub fn check_count(question: &Question) -> Result<Count, QuestionError> {
     let mechanism = question.mechanism();
     let held = question.held_coordinates();
     let start = question.start();
+    check_locked(question, &start)?;
     let mobility =
         Mobility::near(mechanism, &start).or_else(|| Mobility::near(mechanism, &mechanism.home()));
     let Some(mobility) = mobility else {
@@ -90,6 +92,24 @@ pub fn check_count(question: &Question) -> Result<Count, QuestionError> {
         }),
         (false, false) => Err(QuestionError::Dependent { free, hold }),
     }
+}
+
+/// Single angles of a platform that is pitched by ±90° cannot be held; a whole orientation can.
+fn check_locked(question: &Question, start: &Configuration<f64>) -> Result<(), QuestionError> {
+    let mechanism = question.mechanism();
+    let held = question.held();
+    for (i, held) in held.platforms.iter().enumerate() {
+        let HeldPlatform::Partly { coordinates, .. } = held else {
+            continue;
+        };
+        let pitched = coordinates.iter().any(|(c, _)| *c == Coordinate::Pitch);
+        if pitched && RollPitchYaw::is_locked(&start.platforms[i].pose().rotation) {
+            return Err(QuestionError::AnglesLocked {
+                platform: mechanism.platforms()[i].name.clone(),
+            });
+        }
+    }
+    Ok(())
 }
 
 /// Whether the rates of the held coordinates make sense at a configuration.

@@ -63,13 +63,29 @@ impl<T: Factorable> System<T> {
 }
 
 impl System<f64> {
-    /// The gradient Jᵀr of half the sum of squares of the rows, and that half sum.
-    pub fn slope(&self, at: &Configuration<f64>, work: &mut Work<f64>) -> (Vec<f64>, f64) {
-        let size = self.linearise(at, work);
+    /// Half the sum of squares of the rows, ½(Σ r² + Σ (w h + m)²), with its gradient: closure rows
+    /// r, and rows h of held platform coordinates with the weight w and the multipliers m by which
+    /// they are kept (method of multipliers, Hestenes 1969).
+    pub fn slope(
+        &self,
+        at: &Configuration<f64>,
+        weight: f64,
+        multipliers: &[f64],
+        work: &mut Work<f64>,
+    ) -> (Vec<f64>, f64) {
+        self.linearise(at, work);
         let jacobian = self.dense_jacobian(work);
-        let residual = self.residual_of(work);
+        let mut rows = self.residual_of(work).to_vec();
+        let held = self.hold_rows();
+        // scaled once for the square and once more for the derivative of the row
+        let mut pull = rows.clone();
+        for (i, multiplier) in held.zip(multipliers) {
+            rows[i] = weight * rows[i] + multiplier;
+            pull[i] = weight * rows[i];
+        }
         let columns = jacobian.chunks_exact(self.rows().max(1));
-        let gradient = columns.map(|column| column.iter().zip(residual).map(|(a, b)| a * b).sum());
-        (gradient.collect(), 0.5 * size.squares)
+        let gradient = columns.map(|column| column.iter().zip(&pull).map(|(a, b)| a * b).sum());
+        let squares: f64 = rows.iter().map(|row| row * row).sum();
+        (gradient.collect(), 0.5 * squares)
     }
 }

@@ -22,11 +22,6 @@ pub struct Drive {
 pub enum DriveError {
     /// The name or the value is wrong.
     Question(QuestionError),
-    /// The value is so large that its square overflows.
-    TooLarge {
-        /// The largest value.
-        limit: f64,
-    },
     /// The coordinate is not held, so that its rate follows.
     NotHeld {
         /// The coordinate.
@@ -104,20 +99,14 @@ impl Drive {
     }
 }
 
-/// The value of an expression over the parameters, which must be finite.
+/// The value of an expression over the parameters.
 pub(super) fn number(question: &Question, name: &str, text: &str) -> Result<f64, DriveError> {
-    /// Products of two such values with any length are still numbers.
-    const LIMIT: f64 = 1e100;
     let value = value::number(question.mechanism(), text);
-    let value = value.map_err(|error: ValueError| {
+    value.map_err(|error: ValueError| {
         DriveError::Question(QuestionError::Value {
             name: name.into(),
             text: text.into(),
             error,
         })
-    })?;
-    match value.abs() <= LIMIT {
-        true => Ok(value),
-        false => Err(DriveError::TooLarge { limit: LIMIT }),
-    }
+    })
 }

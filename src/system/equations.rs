@@ -178,6 +178,11 @@ impl<T: Factorable> System<T> {
         &work.residual
     }
 
+    /// The rows of platform coordinates held at values, after those of the closures.
+    pub fn hold_rows(&self) -> std::ops::Range<usize> {
+        self.rows() - self.empty.extra_rows()..self.rows()
+    }
+
     /// The Jacobian last evaluated, dense and column-major, rows × unknowns.
     pub fn dense_jacobian(&self, work: &mut Work<T>) -> Vec<T> {
         let rows = self.rows();

@@ -1,7 +1,7 @@
 use super::Neighbourhood;
 use super::equations::System;
 use super::layout::{Held, HeldPlatform, Unknown};
-use crate::geometry::Vector3;
+use crate::geometry::{RollPitchYaw, Vector3};
 use crate::linear::{SPECTRUM_LIMIT, Spectrum, rank};
 use crate::mechanism::{Configuration, Coordinate, Dimensions, Kinematics, Mechanism};
 use crate::number::Dual;
@@ -102,22 +102,39 @@ impl Freedoms {
         shares.into_iter().map(|(name, _)| name).collect()
     }
 
-    /// Whether every motion leaves the origin of every frame where it is: then only links turn
-    /// about their own lines, as a rod between two balls does.
+    /// Whether every motion only turns links about their own lines, as it does a rod between two
+    /// balls: the origin of every frame stays where it is, and frames that turn together have
+    /// origins apart. (A wrist or a platform that turns about one point goes somewhere else.)
     pub fn are_idle(&self, mechanism: &Mechanism, at: &Configuration<f64>) -> bool {
+        let dimensions = mechanism.dimensions().map(&mut Dual::constant);
+        let frames = mechanism.frames();
+        let kinematics = Kinematics::new(&dimensions, frames.iter().copied());
+        let mut placement = kinematics.placement();
+        let small = 1e-6 * mechanism.characteristic_length();
         self.motions.iter().all(|motion| {
             let moving = self.carried_along(mechanism, at, motion);
-            let dimensions = mechanism.dimensions().map(&mut Dual::constant);
-            let frames = mechanism.frames();
-            let kinematics = Kinematics::new(&dimensions, frames.iter().copied());
-            let mut placement = kinematics.placement();
             kinematics.place(&moving, &mut placement);
-            frames.iter().all(|&frame| {
-                let pose = kinematics.pose(frame, &placement);
-                pose.is_some_and(|pose| {
-                    let speed = pose.position.0.iter().map(|x| x.slope.abs());
-                    speed.fold(0.0, f64::max) < 1e-6 * mechanism.characteristic_length()
-                })
+            let mut turning: Vec<(Vector3<f64>, Vector3<f64>)> = Vec::new();
+            for &frame in &frames {
+                let Some(pose) = kinematics.pose(frame, &placement) else {
+                    return false;
+                };
+                if pose.position.map(|x| x.slope).norm() >= small {
+                    return false;
+                }
+                // ω = ½ Σ rᵢ × ṙᵢ
+                let halves = pose
+                    .rotation
+                    .0
+                    .map(|r| r.map(|x| x.value).cross(&r.map(|x| x.slope)));
+                let omega = (halves[0] + halves[1] + halves[2]).times(0.5);
+                if omega.norm() >= 1e-6 {
+                    turning.push((omega, pose.position.map(|x| x.value)));
+                }
+            }
+            turning.iter().enumerate().any(|(i, (omega, origin))| {
+                let mut others = turning[..i].iter();
+                others.any(|(w, o)| (*w - *omega).norm() < 1e-6 && (*o - *origin).norm() > small)
             })
         })
     }
@@ -320,7 +337,15 @@ impl Mobility {
             Holdable::Coordinate(platform, coordinate) => {
                 let length = mechanism.characteristic_length();
                 let pose = self.at.platforms[platform].pose();
-                let (_, slope) = coordinate.row(&pose, coordinate.of(&pose), length);
+                let slope = match coordinate {
+                    // roll and yaw turn about the same line there: only whole orientations are
+                    // held, by three angles as good as any
+                    _ if coordinate.is_angle() && RollPitchYaw::is_locked(&pose.rotation) => {
+                        let axis = coordinate as usize - Coordinate::Roll as usize;
+                        std::array::from_fn(|i| f64::from(u8::from(i == axis)))
+                    }
+                    _ => coordinate.row(&pose, coordinate.of(&pose), length).1,
+                };
                 let first = Unknown::Twist {
                     platform,
                     component: 0,

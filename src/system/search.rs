@@ -35,11 +35,11 @@ impl Searched {
 /// Looks for the assembled configuration a question asks for. Every analysis that begins with one
 /// looks here, so that all are about the same.
 pub struct Search<'a> {
-    question: &'a Question<'a>,
-    mechanism: &'a Mechanism,
-    newton: &'a Newton,
-    held: Held<f64>,
-    system: System<f64>,
+    pub(super) question: &'a Question<'a>,
+    pub(super) mechanism: &'a Mechanism,
+    pub(super) newton: &'a Newton,
+    pub(super) held: Held<f64>,
+    pub(super) system: System<f64>,
     work: Work<f64>,
 }
 
@@ -69,12 +69,27 @@ impl<'a> Search<'a> {
         &self.system
     }
 
-    /// Newton's method from the guess; if that fails, or ends outside the limits, from seeded
-    /// random starts within the limits.
+    /// Moves the mechanism from home to what is held, or starts from the guess if there is one; if
+    /// that fails, or ends outside the limits, starts from the guess and then from seeded random
+    /// starts within the limits.
     pub fn run(&mut self, restarts: usize, seed: u64) -> Searched {
         let mut rng = Pcg64Mcg::seed_from_u64(seed);
-        let guess = self.guess();
-        let mut best = self.from(guess);
+        let guesses = [
+            self.question.guessed_joints(),
+            self.question.guessed_platforms(),
+        ];
+        let guessed = guesses.concat().contains(&true);
+        let moved = match self.question.differs_from_home() && !guessed {
+            true => self.moved_from_home(),
+            false => None,
+        };
+        let mut best = match moved.filter(|attempt| self.settles(attempt)) {
+            Some(attempt) => attempt,
+            None => {
+                let guess = self.guess();
+                self.from(guess)
+            }
+        };
         if self.settles(&best) {
             let attempt = self.normalised(best);
             return Searched {

@@ -3,37 +3,40 @@
 use std::cell::RefCell;
 
 use crate::mechanism::Configuration;
-use crate::solve::walk_down;
-use crate::system::System;
+use crate::solve::{Equations, walk_down};
+use crate::system::{System, Work};
 
-/// Comes as close to assembled as possible near a configuration, and tells whether no small motion
-/// comes closer: the gradient of the squared gaps vanishes and their curvature is nowhere negative.
+/// The weight of held coordinates, and how exactly they are kept in the end (rad, characteristic
+/// lengths).
+const WEIGHT: f64 = 10.0;
+const KEPT: f64 = 1e-10;
+
+/// Comes as close to assembled as possible near a configuration, with what is held kept, and tells
+/// whether no small motion comes closer: the gradient of the squared gaps vanishes and their
+/// curvature is nowhere negative.
 pub(super) fn approach(
     system: &System<f64>,
     start: &Configuration<f64>,
 ) -> (Configuration<f64>, bool) {
     let unknowns = system.unknowns().len();
     let work = RefCell::new(system.work());
-    let slope = |at: &Configuration<f64>| system.slope(at, &mut work.borrow_mut());
+    let held = system.hold_rows();
+    let mut multipliers = vec![0.0; held.len()];
     let mut at = start.clone();
-    // the gradient is that of the point itself only at step zero, so walk in short rounds
-    for _ in 0..5 {
-        let from = at.clone();
-        let step = walk_down(
-            vec![0.0; unknowns],
-            |step| slope(&system.displaced(&from, step)).1,
-            |step| slope(&system.displaced(&from, step)).0,
-        );
-        let next = system.displaced(&from, &step);
-        let (before, after) = (slope(&at).1, slope(&next).1);
-        if after >= before {
+    for _ in 0..50 {
+        at = walk(system, at, &multipliers, &work);
+        let mut work = work.borrow_mut();
+        system.residual(&at, &mut work);
+        let left = &system.residual_of(&work)[held.clone()];
+        if left.iter().all(|row| row.abs() <= KEPT) {
             break;
         }
-        at = next;
-        if before - after < 1e-14 * before {
-            break;
+        for (multiplier, row) in multipliers.iter_mut().zip(left) {
+            *multiplier += WEIGHT * row;
         }
     }
+    let slope =
+        |at: &Configuration<f64>| system.slope(at, WEIGHT, &multipliers, &mut work.borrow_mut());
     let (gradient, squares) = slope(&at);
     let steepest = gradient.iter().fold(0.0, |m: f64, g| m.max(g.abs()));
     if steepest > 1e-6 * squares.sqrt() {
@@ -56,4 +59,36 @@ pub(super) fn approach(
     let eigenvalues = symmetric.symmetric_eigenvalues();
     let largest = eigenvalues.iter().fold(0.0, |m: f64, e| m.max(e.abs()));
     (at, unknowns == 0 || eigenvalues.min() >= -1e-6 * largest)
+}
+
+/// Walks down to where the weighted squares no longer fall.
+fn walk(
+    system: &System<f64>,
+    start: Configuration<f64>,
+    multipliers: &[f64],
+    work: &RefCell<Work<f64>>,
+) -> Configuration<f64> {
+    let unknowns = system.unknowns().len();
+    let slope =
+        |at: &Configuration<f64>| system.slope(at, WEIGHT, multipliers, &mut work.borrow_mut());
+    let mut at = start;
+    // the gradient is that of the point itself only at step zero, so walk in short rounds
+    for _ in 0..5 {
+        let from = at.clone();
+        let step = walk_down(
+            vec![0.0; unknowns],
+            |step| slope(&system.displaced(&from, step)).1,
+            |step| slope(&system.displaced(&from, step)).0,
+        );
+        let next = system.displaced(&from, &step);
+        let (before, after) = (slope(&at).1, slope(&next).1);
+        if after >= before {
+            break;
+        }
+        at = next;
+        if before - after < 1e-14 * before {
+            break;
+        }
+    }
+    at
 }

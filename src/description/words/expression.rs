@@ -3,7 +3,7 @@
 use super::syntax::shown;
 use super::{count, nearest, quoted};
 use crate::algebra::{
-    EvaluationErrorKind, Function, MAX_HEIGHT, MAX_NESTING, ParseErrorKind, Unit,
+    EvaluationErrorKind, Function, LARGEST, MAX_HEIGHT, MAX_NESTING, ParseErrorKind, Unit,
 };
 
 pub(super) fn title(error: &ParseErrorKind) -> String {
@@ -113,6 +113,9 @@ pub(super) fn no_value(error: &EvaluationErrorKind) -> String {
         LogarithmOfNonPositive(x) => format!("the logarithm of {x} is not a real number"),
         OutOfRange(function, x) => format!("`{}` of {x} is not a real number", function.word()),
         PowerOfNegative(x) => format!("a power of {x} that is not whole is not a real number"),
+        TooLarge(x) => {
+            format!("the value {x:e} is too large: nothing beyond {LARGEST:e} is analysed")
+        }
         NotFinite => "the value is not finite".into(),
     }
 }
