@@ -2,6 +2,7 @@
 //! broken at chosen joints and put back together by closures.
 
 pub mod algebra;
+pub mod analysis;
 pub mod description;
 pub mod geometry;
 pub mod linear;

@@ -3,9 +3,11 @@
 //! Nothing here knows joints: a problem offers its residual, a least-squares step and a way to move
 //! along it ([`Equations`]), and is told where and why the iteration stopped ([`Stop`]).
 
+mod homotopy;
 mod newton;
 mod warm;
 
+pub use homotopy::{Arrival, Homotopy, Stages, Track, Tracker};
 pub use newton::{Newton, Report, Stop};
 pub use warm::{Warm, WarmReport};
 

@@ -1,3 +1,5 @@
+mod rates;
+
 use super::layout::{Held, HeldPlatform, HoldRow, Layout, Unknown};
 use crate::geometry::Vector3;
 use crate::linear::Bordered;
