@@ -3,10 +3,12 @@
 //! Nothing here knows joints: a problem offers its residual, a least-squares step and a way to move
 //! along it ([`Equations`]), and is told where and why the iteration stopped ([`Stop`]).
 
+mod endgame;
 mod homotopy;
 mod newton;
 mod warm;
 
+pub use endgame::{Ending, Turning, ending};
 pub use homotopy::{Arrival, Homotopy, Stages, Track, Tracker};
 pub use newton::{Newton, Report, Stop};
 pub use warm::{Warm, WarmReport};

@@ -4,6 +4,7 @@
 //! ([`GenericSolutions`]) and then carried, as many paths as solutions, to any inputs that are asked
 //! for ([`AssemblySolver::at`]).
 
+mod carry;
 mod coordinates;
 mod family;
 mod generic;

@@ -373,3 +373,21 @@ impl Homotopy for Way<'_> {
         self.system.residual(&self.at, &mut self.work).largest
     }
 }
+
+impl crate::solve::Turning for Way<'_> {
+    fn apart(&self, x: &[C], y: &[C]) -> (f64, bool) {
+        let c = &self.family.coordinates;
+        let mut turned = false;
+        let mut largest = 0.0f64;
+        for (k, (x, y)) in x.iter().zip(y).enumerate() {
+            let mut gap = x - y;
+            if c.free_joints.get(k).is_some_and(|&j| c.periodic[j]) {
+                let turns = (gap.re / std::f64::consts::TAU).round();
+                turned |= turns != 0.0;
+                gap.re -= std::f64::consts::TAU * turns;
+            }
+            largest = largest.max(gap.norm());
+        }
+        (largest, turned)
+    }
+}

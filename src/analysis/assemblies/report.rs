@@ -1,0 +1,199 @@
+//! What is said about the assemblies of a mechanism.
+
+use serde::ser::SerializeMap;
+use serde::{Serialize, Serializer};
+
+/// Values by name, in the order of the mechanism file; serialised as a map.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Named<T>(pub Vec<(String, T)>);
+
+impl<T> Named<T> {
+    /// The value of that name.
+    pub fn get(&self, name: &str) -> Option<&T> {
+        let mut found = self.0.iter().filter(|(n, _)| n == name);
+        found.next().map(|(_, value)| value)
+    }
+}
+
+impl<T: Serialize> Serialize for Named<T> {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        let mut map = serializer.serialize_map(Some(self.0.len()))?;
+        for (name, value) in &self.0 {
+            map.serialize_entry(name, value)?;
+        }
+        map.end()
+    }
+}
+
+/// The pose of a platform in ground.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct PoseReport {
+    /// Position of its origin in m.
+    pub position: [f64; 3],
+    /// Unit quaternion, scalar first, its first component that is not zero positive.
+    pub quaternion: [f64; 4],
+    /// Roll, pitch and yaw in rad.
+    pub roll_pitch_yaw: [f64; 3],
+}
+
+/// One assembled configuration.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Assembly {
+    /// Its number, from 1.
+    pub mode: usize,
+    /// Joint values in rad or m.
+    pub joints: Named<f64>,
+    /// Platform poses.
+    pub platforms: Named<PoseReport>,
+    /// Quotient of the largest and the smallest singular value of the dimensionless closure
+    /// Jacobian; `null` where the smallest is zero.
+    pub condition: Option<f64>,
+    /// Sign of the determinant of the closure Jacobian on its independent rows: assemblies of
+    /// opposite signs lie on different sides of a singularity. 0 where solutions meet.
+    pub determinant_sign: i8,
+    /// How many solutions meet here: 1, or 2 at a dead point.
+    pub multiplicity: usize,
+    /// Whether an interval test has proved that a box of `radius` holds exactly one solution.
+    pub certified: bool,
+    /// Half the side of that box in the dimensionless unknowns, rad or characteristic lengths.
+    pub radius: Option<f64>,
+    /// Why the assembly is not certified.
+    pub uncertified_because: Option<String>,
+    /// Whether all joints are within their limits.
+    pub within_limits: bool,
+    /// Numbers of the other assemblies with the same pose of every platform.
+    pub shares_platform_pose_with: Vec<usize>,
+}
+
+/// How many solutions a structure is known to have, and who showed it.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize)]
+pub struct KnownBound {
+    /// The largest number of isolated complex solutions.
+    pub count: usize,
+    /// The structure.
+    pub structure: &'static str,
+    /// Where it is shown.
+    pub source: &'static str,
+}
+
+/// How near the mechanism comes to being assembled, where it cannot be.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct ClosestApproach {
+    /// Size of the gap at each closure, dimensionless.
+    pub gaps: Named<f64>,
+    /// The closure that gapes most.
+    pub worst: String,
+    /// Joint values there, rad or m.
+    pub joints: Named<f64>,
+    /// Platform poses there.
+    pub platforms: Named<PoseReport>,
+}
+
+/// How the question fits the mechanism.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Fit {
+    /// As many inputs are held as the mechanism has freedoms: a finite number of assemblies.
+    Finite,
+    /// So many freedoms are left; the assemblies listed are samples.
+    FreedomLeft(usize),
+    /// More inputs are held than can be chosen freely; what is listed was found by starting from
+    /// many guesses and need not be complete.
+    TooManyHeld,
+}
+
+/// All assemblies for the inputs asked.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct AssembliesReport {
+    /// The real assemblies in the order of their numbers.
+    pub assemblies: Vec<Assembly>,
+    /// Complex assemblies that are not real, if they were asked for: unknown joints and platforms
+    /// as pairs of real and imaginary part.
+    pub complex_assemblies: Vec<ComplexAssembly>,
+    /// Finite complex solutions, counted with multiplicity, the real ones among them.
+    pub complex: usize,
+    /// Real assemblies, each once.
+    pub real: usize,
+    /// Solutions of the generic member that go to infinity for these inputs.
+    pub at_infinity: usize,
+    /// Points where solutions meet, real or complex, each once.
+    pub singular: usize,
+    /// Paths whose end could not be decided. Anything but 0 means that the list may be incomplete.
+    pub lost: usize,
+    /// Paths that had to be followed again with greater care.
+    pub retried: usize,
+    /// Isolated complex solutions of the generic member.
+    pub generic: usize,
+    /// Known bound for the structure.
+    pub bound: Option<KnownBound>,
+    /// How the question fits the mechanism.
+    pub fit: Fit,
+    /// Newton seeds tried at the generic member.
+    pub seeds: usize,
+    /// Seeds since the last discovery.
+    pub quiet_seeds: usize,
+    /// Monodromy loops at the generic member.
+    pub loops: usize,
+    /// Loops since the last discovery.
+    pub quiet_loops: usize,
+    /// The random seed.
+    pub seed: u64,
+    /// How complete the list is and why.
+    pub complete: String,
+    /// Which closure rows the certificates and determinants use, if not all.
+    pub independent_rows: Option<(usize, usize)>,
+    /// Where there is no real assembly: the best that can be done.
+    pub closest: Option<ClosestApproach>,
+}
+
+/// A complex solution that is not real.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct ComplexAssembly {
+    /// Joint values as (real, imaginary), rad or m.
+    pub joints: Named<[f64; 2]>,
+    /// Positions (3, m) and quaternions (4) of the platforms.
+    pub platforms: Named<Vec<[f64; 2]>>,
+    /// How many solutions meet here.
+    pub multiplicity: usize,
+}
+
+fn counted(n: usize, noun: &str) -> String {
+    format!("{n} {noun}{}", if n == 1 { "" } else { "s" })
+}
+
+impl AssembliesReport {
+    /// How complete the list is and why, in a sentence.
+    pub(super) fn completeness(&self) -> String {
+        match self.fit {
+            Fit::FreedomLeft(freedom) => {
+                return format!(
+                    "{} left: the assemblies are not finite in number, and those listed are samples; hold {freedom} more",
+                    counted(freedom, "freedom"),
+                );
+            }
+            Fit::TooManyHeld => {
+                return "more inputs are held than can be chosen freely; \
+                        the list comes from many starts and may be incomplete"
+                    .into();
+            }
+            Fit::Finite => {}
+        }
+        let mut sentence = format!(
+            "{} found; {} and {} found no more",
+            self.generic,
+            counted(self.quiet_loops, "loop"),
+            counted(self.quiet_seeds, "seed"),
+        );
+        sentence += &match &self.bound {
+            Some(b) if b.count == self.generic => {
+                format!("; equals the known bound of {} for this structure", b.count)
+            }
+            Some(b) => format!("; the known bound for this structure is {}", b.count),
+            None => "; no bound is known for this structure".into(),
+        };
+        if self.lost > 0 {
+            sentence += &format!("; {} could not be decided", counted(self.lost, "path"));
+        }
+        sentence
+    }
+}
