@@ -1,5 +1,6 @@
 //! From the ends of the paths to the report.
 
+use super::Wanted;
 use super::bound::known_bound;
 use super::carry::{End, Ends};
 use super::certificate::{Certificate, Certifier, independent_rows};
@@ -31,7 +32,7 @@ struct Found {
 
 impl Question<'_> {
     /// The report for the ends of all paths.
-    pub fn answer(&self, generic: &GenericSolutions, ends: &Ends, certify: bool, all_complex: bool) -> AssembliesReport {
+    pub fn answer(&self, generic: &GenericSolutions, ends: &Ends, wanted: Wanted) -> AssembliesReport {
         let mut work = self.system.work();
         let grouped = self.grouped(&ends.ends);
         let mut found: Vec<Found> = Vec::new();
@@ -43,7 +44,7 @@ impl Question<'_> {
                     point,
                     multiplicity: *multiplicity,
                 }),
-                None if all_complex => complex_assemblies.push(self.complex(x, *multiplicity)),
+                None if wanted.all_complex => complex_assemblies.push(self.complex(x, *multiplicity)),
                 None => {}
             }
         }
@@ -56,7 +57,7 @@ impl Question<'_> {
         report.singular = grouped.iter().filter(|(.., singular)| *singular).count();
         report.retried = ends.retries;
         report.complex_assemblies = complex_assemblies;
-        self.describe(&mut report, found, certify, &mut work);
+        self.describe(&mut report, found, wanted.certificates, &mut work);
         if report.assemblies.is_empty() {
             report.closest = self.closest(&starts, &mut work);
         }
@@ -65,7 +66,7 @@ impl Question<'_> {
     }
 
     /// Samples of assemblies that are not finite in number, or what many starts found.
-    pub fn sampled(&self, generic: &GenericSolutions, fit: Fit, points: Vec<Configuration<f64>>, certify: bool) -> AssembliesReport {
+    pub fn sampled(&self, generic: &GenericSolutions, fit: Fit, points: Vec<Configuration<f64>>, wanted: Wanted) -> AssembliesReport {
         let mut report = self.empty(generic);
         let mut work = self.system.work();
         let mut found: Vec<Found> = Vec::new();
@@ -80,7 +81,7 @@ impl Question<'_> {
             }
         }
         found.sort_by(|a, b| order(&a.key, &b.key));
-        let certify = certify && fit == Fit::TooManyHeld;
+        let certify = wanted.certificates && fit == Fit::TooManyHeld;
         report.fit = fit;
         report.complex = found.len();
         self.describe(&mut report, found, certify, &mut work);

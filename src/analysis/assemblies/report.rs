@@ -3,6 +3,9 @@
 use serde::ser::SerializeMap;
 use serde::{Serialize, Serializer};
 
+use crate::geometry::{Quaternion, Vector3};
+use crate::mechanism::Configuration;
+
 /// Values by name, in the order of the mechanism file; serialised as a map.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Named<T>(pub Vec<(String, T)>);
@@ -63,6 +66,21 @@ pub struct Assembly {
     pub within_limits: bool,
     /// Numbers of the other assemblies with the same pose of every platform.
     pub shares_platform_pose_with: Vec<usize>,
+}
+
+impl Assembly {
+    /// The assembly as a configuration.
+    pub fn configuration(&self, like: &Configuration<f64>) -> Configuration<f64> {
+        let mut at = like.clone();
+        for (value, (_, joint)) in at.joints.iter_mut().zip(&self.joints.0) {
+            *value = *joint;
+        }
+        for (pose, (_, platform)) in at.platforms.iter_mut().zip(&self.platforms.0) {
+            pose.orientation = Quaternion(platform.quaternion);
+            pose.position = Vector3(platform.position);
+        }
+        at
+    }
 }
 
 /// How many solutions a structure is known to have, and who showed it.
