@@ -1,3 +1,7 @@
-//! What can be asked about a mechanism. No analysis prints, and none uses another.
+//! Analyses: each one function, one settings struct and one report. They print nothing and do not
+//! use one another.
 
 pub mod assemblies;
+pub mod assembly;
+pub mod compare;
+pub mod overview;

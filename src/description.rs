@@ -6,20 +6,24 @@
 
 mod brackets;
 mod checks;
+mod expectation;
 mod lines;
 mod load;
 mod parts;
 mod piece;
 mod problem;
 mod reader;
+mod replacement;
 mod suggestion;
 mod words;
 mod write;
 
+pub use expectation::*;
 pub use lines::Lines;
 pub use load::{FileError, LoadError, MAX_BYTES, load};
 pub use parts::*;
 pub use problem::*;
+pub use replacement::ReplacementError;
 pub use suggestion::nearest;
 pub use words::count;
 

@@ -5,11 +5,17 @@
 //! appear in that leg's closures only, and the platforms tie the legs together.
 
 mod bordered;
+mod factorable;
 mod lu;
 mod qr;
+#[cfg(feature = "sparse")]
+mod sparse;
 
 pub use bordered::{Block, Bordered};
+pub use factorable::{DenseOnly, Factorable, SparseStep};
 pub use qr::Qr;
+#[cfg(feature = "sparse")]
+pub use sparse::SparseNormal;
 
 /// The one rank tolerance of the program: a direction counts as lost when it is this small beside
 /// the largest one.
@@ -19,40 +25,57 @@ pub use qr::Qr;
 /// 1e-7, and the Jacobian cannot be known better than that.
 pub const RANK_TOLERANCE: f64 = 1e-7;
 
-/// Singular values of a column-major matrix, largest first.
-pub fn singular_values(rows: usize, columns: usize, entries: &[f64]) -> Vec<f64> {
-    if rows == 0 || columns == 0 {
-        return Vec::new();
-    }
-    let matrix = nalgebra::DMatrix::from_column_slice(rows, columns, entries);
-    let mut values: Vec<f64> = matrix.singular_values().iter().copied().collect();
-    values.sort_by(|a, b| b.total_cmp(a));
-    values
-}
+/// The most unknowns that are factorised together as a dense matrix: beyond it the cubic growth of
+/// dense factors costs more than the bookkeeping of sparse ones (a row of 30 four-bars steps 15 times
+/// faster with sparse ones).
+pub const DENSE_LIMIT: usize = 30;
 
-/// How many singular values count beside the largest, and beside 1, the natural size of a
-/// dimensionless Jacobian.
+/// How many singular values, largest first, count beside the largest.
 pub fn rank(singular_values: &[f64]) -> usize {
     let largest = singular_values.first().copied().unwrap_or(0.0);
     let threshold = RANK_TOLERANCE * largest.max(f64::MIN_POSITIVE);
     singular_values.iter().filter(|&&s| s > threshold).count()
 }
 
-/// Orthonormal basis of the directions that a column-major matrix maps to zero, one `Vec` each.
-pub fn null_space(rows: usize, columns: usize, entries: &[f64]) -> Vec<Vec<f64>> {
-    // rows of zeros make the factor V square, so that it spans the null space too
-    let tall = rows.max(columns);
-    let mut matrix = nalgebra::DMatrix::zeros(tall, columns);
-    for (j, column) in entries.chunks_exact(rows.max(1)).take(columns).enumerate() {
-        if rows > 0 {
-            matrix.view_mut((0, j), (rows, 1)).copy_from_slice(column);
+/// The most columns whose spectrum is computed: it takes a second for so many, and grows as the cube.
+pub const SPECTRUM_LIMIT: usize = 500;
+
+/// Singular values of a column-major matrix, largest first, one for each column, and an orthonormal
+/// basis of the directions that it maps to zero.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Spectrum {
+    /// The singular values; zero where there are fewer rows than columns.
+    pub values: Vec<f64>,
+    /// The null space, one vector each.
+    pub null_space: Vec<Vec<f64>>,
+}
+
+impl Spectrum {
+    /// Of a matrix of the given size.
+    pub fn of(rows: usize, columns: usize, entries: &[f64]) -> Self {
+        if columns == 0 {
+            return Spectrum {
+                values: Vec::new(),
+                null_space: Vec::new(),
+            };
+        }
+        // rows of zeros make the factor V square, so that it spans the null space too
+        let tall = rows.max(columns);
+        let mut matrix = nalgebra::DMatrix::zeros(tall, columns);
+        for (j, column) in entries.chunks_exact(rows.max(1)).take(columns).enumerate() {
+            if rows > 0 {
+                matrix.view_mut((0, j), (rows, 1)).copy_from_slice(column);
+            }
+        }
+        let svd = matrix.svd(false, true);
+        let values: Vec<f64> = svd.singular_values.iter().copied().collect();
+        let v_transposed = svd.v_t.expect("V was asked for");
+        let null = rank(&values)..columns;
+        Spectrum {
+            null_space: null
+                .map(|i| v_transposed.row(i).iter().copied().collect())
+                .collect(),
+            values,
         }
     }
-    let svd = matrix.svd(false, true);
-    let largest = svd.singular_values.max();
-    let v_transposed = svd.v_t.expect("V was asked for");
-    (0..columns)
-        .filter(|&i| svd.singular_values[i] <= RANK_TOLERANCE * largest)
-        .map(|i| v_transposed.row(i).iter().copied().collect())
-        .collect()
 }

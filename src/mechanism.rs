@@ -27,7 +27,7 @@ pub use model::{
 
 use crate::description::Problem;
 
-pub(crate) use closure::{Closure, Side};
+pub(crate) use closure::{Closure, Side, needs};
 pub(crate) use coordinate::orientation_rows;
 pub(crate) use kinematics::Mover;
 

@@ -96,6 +96,9 @@ pub trait Number:
 }
 
 /// A number with a conjugate and a size: what orthogonal factorisations need beyond [`Number`].
+///
+/// A dual has the size of its value, so that everything solved over duals takes the same way as over
+/// its inner number and carries derivatives along.
 pub trait Field: Number {
     /// Complex conjugate; the number itself for reals.
     fn conjugate(self) -> Self;

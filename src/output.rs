@@ -1,4 +1,20 @@
 //! Answers and complaints made visible.
 
 #[cfg(feature = "cli")]
+pub mod comparison;
+#[cfg(feature = "cli")]
 pub mod diagnostics;
+#[cfg(feature = "cli")]
+mod json;
+#[cfg(feature = "cli")]
+mod layout;
+#[cfg(feature = "cli")]
+pub mod option;
+#[cfg(feature = "cli")]
+pub mod overview;
+#[cfg(feature = "cli")]
+mod quantity;
+#[cfg(feature = "cli")]
+pub mod question;
+#[cfg(feature = "cli")]
+pub mod solution;

@@ -5,16 +5,20 @@
 
 mod endgame;
 mod homotopy;
+mod minimum;
 mod newton;
 mod warm;
 
 pub use endgame::{Ending, Turning, ending};
 pub use homotopy::{Arrival, Homotopy, Stages, Track, Tracker};
+pub use minimum::walk_down;
 pub use newton::{Newton, Report, Stop};
-pub use warm::{Warm, WarmReport};
+pub use warm::{Trail, Warm, WarmReport};
 
 /// Equations r(x) = 0 on a manifold, with a least-squares step at a point.
 pub trait Equations {
+    /// The number of a row or an unknown.
+    type Number: crate::number::Field;
     /// A point of the manifold.
     type Point;
     /// Storage for residual, factors and step, so that no iteration allocates.
@@ -26,8 +30,11 @@ pub trait Equations {
     fn linearise(&self, at: &Self::Point, work: &mut Self::Work) -> Size;
     /// Factorises the Jacobian last evaluated, with rows √λ·I added.
     fn factorise(&self, damping: f64, work: &mut Self::Work);
-    /// The step −J⁺r for the residual last evaluated; returns its largest component.
+    /// The step −J⁺r for the residual last evaluated; returns its largest component, which
+    /// is infinite where a component is not finite.
     fn step(&self, work: &mut Self::Work) -> f64;
+    /// The last step in tangent coordinates, to be read or to be replaced by another move.
+    fn step_mut<'a>(&self, work: &'a mut Self::Work) -> &'a mut [Self::Number];
     /// Moves along a fraction of the last step: from ⊕ fraction·step.
     fn advance(&self, from: &Self::Point, fraction: f64, work: &Self::Work, to: &mut Self::Point);
 }

@@ -2,8 +2,17 @@
 //!
 //! Direct, inverse and mixed kinematics are only different choices of what is held ([`Held`]).
 
+mod displacement;
 mod equations;
+mod freedom;
 mod layout;
+mod question;
+mod tracker;
+mod value;
 
 pub use equations::{System, Work};
+pub use freedom::{Freedoms, Holdable, Mobility};
 pub use layout::{Held, HeldPlatform, Unknown};
+pub use question::{Question, QuestionError};
+pub use tracker::Tracker;
+pub use value::ValueError;

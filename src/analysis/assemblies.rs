@@ -24,7 +24,8 @@ mod threads;
 pub use follow::{Fold, Followed};
 pub use generic::GenericSolutions;
 pub use report::{
-    AssembliesReport, Assembly, ClosestApproach, ComplexAssembly, Fit, KnownBound, Named, PoseReport,
+    AssembliesReport, Assembly, ClosestApproach, ComplexAssembly, Fit, KnownBound, Named,
+    PoseReport,
 };
 
 use rand::SeedableRng;
@@ -40,7 +41,7 @@ use family::{Family, Member};
 
 /// How hard to search.
 #[derive(Clone, Debug, PartialEq)]
-pub struct AssemblySettings {
+pub struct AssembliesSettings {
     /// The random seed. It decides the way to the answer, not the answer.
     pub seed: u64,
     /// Seeds that must meet only known solutions before the search ends.
@@ -55,9 +56,9 @@ pub struct AssemblySettings {
     pub most_loops: usize,
 }
 
-impl Default for AssemblySettings {
+impl Default for AssembliesSettings {
     fn default() -> Self {
-        AssemblySettings {
+        AssembliesSettings {
             seed: 1,
             quiet_seeds: 150,
             quiet_loops: 6,
@@ -79,7 +80,10 @@ pub struct Wanted {
 
 impl Default for Wanted {
     fn default() -> Self {
-        Wanted { certificates: true, all_complex: false }
+        Wanted {
+            certificates: true,
+            all_complex: false,
+        }
     }
 }
 
@@ -98,7 +102,10 @@ impl std::fmt::Display for AssembliesError {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         match self {
             AssembliesError::NoValue => {
-                write!(f, "an expression has no value near the mechanism's own dimensions")
+                write!(
+                    f,
+                    "an expression has no value near the mechanism's own dimensions"
+                )
             }
             AssembliesError::StoredForAnotherQuestion => write!(
                 f,
@@ -106,7 +113,10 @@ impl std::fmt::Display for AssembliesError {
             ),
             AssembliesError::NoSuchMode(0) => write!(f, "there is no assembly at the home inputs"),
             AssembliesError::NoSuchMode(n) => {
-                write!(f, "there is no such mode: the home inputs have modes 1 to {n}")
+                write!(
+                    f,
+                    "there is no such mode: the home inputs have modes 1 to {n}"
+                )
             }
         }
     }
@@ -132,7 +142,7 @@ impl AssemblySolver {
     pub fn new(
         mechanism: &Mechanism,
         held: &Held<f64>,
-        settings: &AssemblySettings,
+        settings: &AssembliesSettings,
     ) -> Result<Self, AssembliesError> {
         let family = Family::new(mechanism, held);
         let generic = generic::search(&family, question(mechanism, &family), settings);
@@ -156,11 +166,20 @@ impl AssemblySolver {
         }
     }
 
-    fn with(mechanism: &Mechanism, held: &Held<f64>, family: Family, generic: GenericSolutions) -> Self {
+    fn with(
+        mechanism: &Mechanism,
+        held: &Held<f64>,
+        family: Family,
+        generic: GenericSolutions,
+    ) -> Self {
         AssemblySolver {
             mechanism: mechanism.clone(),
             held: held.clone(),
-            solutions: generic.solutions.iter().map(|x| generic::numbers(x)).collect(),
+            solutions: generic
+                .solutions
+                .iter()
+                .map(|x| generic::numbers(x))
+                .collect(),
             family,
             generic,
         }
@@ -215,7 +234,12 @@ impl AssemblySolver {
             parameters: self.family.parameters.clone(),
             inputs: inputs.into_iter().map(C::from_f64).collect(),
         };
-        carry::carry(&self.family, &self.generic.member(), &asked, &self.solutions)
+        carry::carry(
+            &self.family,
+            &self.generic.member(),
+            &asked,
+            &self.solutions,
+        )
     }
 
     /// Assembled configurations reached by Newton's method from the asked configuration and from
@@ -257,29 +281,59 @@ impl AssemblySolver {
     ///
     /// # Errors
     /// If the home inputs have no such mode.
-    pub fn follow(&self, mode: usize, asked: &Configuration<f64>, held: &Held<f64>) -> Result<Followed, AssembliesError> {
+    pub fn follow(
+        &self,
+        mode: usize,
+        asked: &Configuration<f64>,
+        held: &Held<f64>,
+    ) -> Result<Followed, AssembliesError> {
         let home = self.mechanism.home();
         let held_home = held_at_home(&self.mechanism, held);
-        let modes = self.at_targets(&home, &held_home, Wanted { certificates: false, all_complex: false });
+        let modes = self.at_targets(
+            &home,
+            &held_home,
+            Wanted {
+                certificates: false,
+                all_complex: false,
+            },
+        );
         let found = modes.assemblies.iter().find(|a| a.mode == mode);
         let assembly = found.ok_or(AssembliesError::NoSuchMode(modes.real))?;
         let start = assembly.configuration(&home);
-        follow::follow(&self.mechanism, &self.family, (&start, &held_home), (asked, held))
-            .ok_or(AssembliesError::NoValue)
+        follow::follow(
+            &self.mechanism,
+            &self.family,
+            (&start, &held_home),
+            (asked, held),
+        )
+        .ok_or(AssembliesError::NoValue)
     }
 }
 
 /// The same coordinates held, at the values they have at home.
 fn held_at_home(mechanism: &Mechanism, held: &Held<f64>) -> Held<f64> {
     let home = mechanism.home();
-    let platforms = held.platforms.iter().zip(&home.platforms).map(|(held, pose)| match held {
-        HeldPlatform::Partly { coordinates, orientation } => HeldPlatform::Partly {
-            coordinates: coordinates.iter().map(|(c, _)| (*c, c.of(&pose.pose()))).collect(),
-            orientation: orientation.map(|_| pose.pose().rotation),
-        },
-        other => other.clone(),
-    });
-    Held { joints: held.joints.clone(), platforms: platforms.collect() }
+    let platforms = held
+        .platforms
+        .iter()
+        .zip(&home.platforms)
+        .map(|(held, pose)| match held {
+            HeldPlatform::Partly {
+                coordinates,
+                orientation,
+            } => HeldPlatform::Partly {
+                coordinates: coordinates
+                    .iter()
+                    .map(|(c, _)| (*c, c.of(&pose.pose())))
+                    .collect(),
+                orientation: orientation.map(|_| pose.pose().rotation),
+            },
+            other => other.clone(),
+        });
+    Held {
+        joints: held.joints.clone(),
+        platforms: platforms.collect(),
+    }
 }
 
 /// What stored solutions belong to.

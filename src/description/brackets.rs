@@ -123,10 +123,8 @@ mod tests {
 
     #[test]
     fn brackets_in_strings_comments_and_characters_do_not_count() {
-        assert_eq!(
-            at(r##"( "[\"(" r#"("("# '(' '\'' // {
-            /* ( /* [ */ */"##),
-            Some((0, 65))
-        );
+        let text = r##"( "[\"(" r#"("("# '(' '\'' // {
+            /* ( /* [ */ */"##;
+        assert_eq!(at(text), Some((0, text.len())));
     }
 }

@@ -38,7 +38,7 @@ pub(super) fn check(description: &Description, problems: &mut Vec<Problem>) {
         .map(|(noun, name)| (name.value.as_str(), (*noun, name.span.clone())))
         .collect();
     for closed_form in &description.closed_forms {
-        check_closed_form(closed_form, &quantities, problems);
+        check_locals(&closed_form.value, &quantities, problems);
     }
 }
 
@@ -124,7 +124,20 @@ fn check_distinct(names: &[(Noun, &Spanned<String>)], problems: &mut Vec<Problem
 
 /// One problem for all chains: one line in the file mends them all.
 fn check_conventions(description: &Description, problems: &mut Vec<Problem>) {
-    if description.convention.is_some() {
+    // A convention that could not be read was not forgotten.
+    let unreadable = |problem: &Problem| {
+        matches!(
+            problem.kind,
+            ProblemKind::UnknownWord {
+                expected: Expected::Convention,
+                ..
+            } | ProblemKind::WrongType {
+                expected: Expected::Convention,
+                ..
+            }
+        )
+    };
+    if description.convention.is_some() || problems.iter().any(unreadable) {
         return;
     }
     let mut chains = description
@@ -142,39 +155,11 @@ fn check_conventions(description: &Description, problems: &mut Vec<Problem>) {
     }
 }
 
-fn check_closed_form(
-    Named { name, value: form }: &Named<ClosedFormDescription>,
+fn check_locals(
+    form: &ClosedFormDescription,
     quantities: &HashMap<&str, (Noun, Range<usize>)>,
     problems: &mut Vec<Problem>,
 ) {
-    let pose = form.position.is_some()
-        || form.rotation.is_some()
-        || form.transform.is_some()
-        || !form.entries.is_empty();
-    let identity = form.identity.is_some() || !form.identities.is_empty();
-    // A formula with a problem inside is missing here, but it was not forgotten.
-    let forgotten = problems
-        .iter()
-        .all(|problem| problem.span.start < name.span.start);
-    match (pose, identity) {
-        (true, true) => {
-            problems.push(
-                ProblemKind::MixedClosedForm {
-                    name: name.value.clone(),
-                }
-                .at(name.span.clone()),
-            );
-        }
-        (false, false) if forgotten => {
-            problems.push(
-                ProblemKind::EmptyClosedForm {
-                    name: name.value.clone(),
-                }
-                .at(name.span.clone()),
-            );
-        }
-        _ => {}
-    }
     for Named { name, .. } in &form.locals {
         check_quantity(Noun::LocalName, name, problems);
         if let Some((noun, span)) = quantities.get(name.value.as_str()) {

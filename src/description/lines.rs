@@ -18,10 +18,12 @@ impl<'a> Lines<'a> {
 
     /// Line and column of the byte `offset`, both counted from 1, the column in characters.
     pub fn position(&self, offset: usize) -> (usize, usize) {
-        let offset = self.text.floor_char_boundary(offset.min(self.text.len()));
         let line = self.starts.partition_point(|&start| start <= offset);
-        let column = self.text[self.starts[line - 1]..offset].chars().count() + 1;
-        (line, column)
+        let before = self.text[self.starts[line - 1]..]
+            .char_indices()
+            .map(|(i, c)| i + c.len_utf8());
+        let within = offset - self.starts[line - 1];
+        (line, before.take_while(|&end| end <= within).count() + 1)
     }
 
     /// The byte offset of a line and a column.

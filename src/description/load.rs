@@ -91,33 +91,6 @@ fn read_text(path: &Path) -> Result<String, LoadError> {
     })
 }
 
-impl Display for LoadError {
-    fn fmt(&self, f: &mut Formatter) -> fmt::Result {
-        match self {
-            Self::Unreadable { path, error } => {
-                write!(f, "{}: cannot be read: {error}", path.display())
-            }
-            Self::NotText { path, offset } => {
-                write!(
-                    f,
-                    "{}: not a text file in UTF-8: byte {offset} does not belong to any character",
-                    path.display()
-                )
-            }
-            Self::TooLarge { path, bytes } => {
-                let size =
-                    bytes.map_or_else(|| "more".to_owned(), |bytes| format!("{bytes} bytes"));
-                write!(
-                    f,
-                    "{}: too large: {size}, where at most {MAX_BYTES} bytes are read",
-                    path.display()
-                )
-            }
-            Self::Wrong(error) => error.fmt(f),
-        }
-    }
-}
-
 impl std::error::Error for LoadError {
     fn source(&self) -> Option<&(dyn std::error::Error + 'static)> {
         match self {

@@ -4,17 +4,12 @@
 
 mod closed_form;
 mod leaves;
+mod shapes;
+mod syntax;
 
-use std::collections::HashMap;
-use std::ops::Range;
-
-use ron::Error;
-use serde::Deserialize;
-use serde::de::IgnoredAny;
-
-use super::brackets::unclosed;
 use super::piece::{Piece, Shape};
 use super::*;
+use shapes::Fields;
 
 /// The description as far as it could be read, and what is wrong with the text.
 pub(super) fn read(text: &str) -> (Option<Description>, Vec<Problem>) {
@@ -33,71 +28,18 @@ pub(super) fn read(text: &str) -> (Option<Description>, Vec<Problem>) {
     let mut reader = Reader {
         problems: Vec::new(),
     };
-    let description = match check_syntax(text, start) {
+    let description = match syntax::check(text, start) {
         Ok(begin) => reader.mechanism(Piece::new(&text[begin..], begin)),
         Err(problem) => {
-            reader.problems.push(problem);
+            reader.problems.push(*problem);
             None
         }
     };
     (description, reader.problems)
 }
 
-/// Where the value begins, if the text from `start` on is one RON value.
-fn check_syntax(text: &str, start: usize) -> Result<usize, Problem> {
-    let body = &text[start..];
-    let result = ron::Deserializer::from_str(body).and_then(|mut deserializer| {
-        let begin = text.len() - deserializer.remainder().len();
-        let read = IgnoredAny::deserialize(&mut deserializer).and_then(|_| deserializer.end());
-        read.map_err(|error| deserializer.span_error(error))?;
-        Ok(begin)
-    });
-    result.map_err(|error| {
-        if body.trim().is_empty() {
-            return ProblemKind::Empty.at(0..text.len());
-        }
-        let end = error.span.end;
-        let offset = start + Lines::new(body).offset(end.line, end.col);
-        syntax_problem(text, offset, error.code)
-    })
-}
-
-fn syntax_problem(text: &str, offset: usize, error: Error) -> Problem {
-    let after_end = text.trim_end().len();
-    let width = text[offset..].chars().next().map_or(0, char::len_utf8);
-    let mut span = offset..offset + width;
-    if offset >= after_end {
-        span = after_end..after_end;
-    }
-    if error == Error::ExceededRecursionLimit {
-        return ProblemKind::TooDeep.at(span);
-    }
-    let problem = ProblemKind::Syntax(error).at(span);
-    match unclosed(text) {
-        Some(bracket)
-            if bracket.missed_at >= offset.min(after_end) && bracket.open.start < offset =>
-        {
-            problem.with(bracket.open, Note::StillOpen)
-        }
-        _ => problem,
-    }
-}
-
 struct Reader {
     problems: Vec<Problem>,
-}
-
-/// The fields of a structure that are not taken yet.
-struct Fields<'a> {
-    structure: Structure,
-    span: Range<usize>,
-    pieces: HashMap<&'a str, Piece<'a>>,
-}
-
-impl<'a> Fields<'a> {
-    fn take(&mut self, field: &str) -> Option<Piece<'a>> {
-        self.pieces.remove(field)
-    }
 }
 
 impl Reader {
@@ -174,8 +116,8 @@ impl Reader {
             role,
             home: self.entry_or_zero(&mut fields, "home"),
             limits: fields.take("limits").and_then(|piece| {
-                let [low, high] = self.tuple(piece, Expected::Limits)?;
-                Some((self.entry(low)?, self.entry(high)?))
+                let limits = self.tuple(piece, Expected::Limits)?;
+                self.entries(limits).map(|[low, high]| (low, high))
             }),
             span: fields.span,
         })
@@ -256,222 +198,5 @@ impl Reader {
             },
             span: piece.span(),
         })
-    }
-
-    /// What stands in the parentheses behind a word.
-    fn content<'a, const N: usize>(
-        &mut self,
-        whole: Piece,
-        content: Option<Piece<'a>>,
-        expected: Expected,
-    ) -> Option<[Piece<'a>; N]> {
-        match content {
-            Some(content) => self.tuple(content, expected),
-            None => {
-                self.problems.push(
-                    ProblemKind::WrongLength {
-                        of: expected,
-                        expected: N,
-                        found: 0,
-                    }
-                    .at(whole.span()),
-                );
-                None
-            }
-        }
-    }
-
-    /// Named fields in parentheses, with or without the name of the structure before them.
-    fn fields<'a>(&mut self, piece: Piece<'a>, structure: Structure) -> Option<Fields<'a>> {
-        let expected = Expected::Fields(structure);
-        let content = match piece.shape() {
-            Shape::Word { word, content } if word == structure.word() => content,
-            Shape::Word { word, .. } => {
-                self.unknown_word(piece, expected, word, vec![structure.word()]);
-                return None;
-            }
-            _ => Some(piece),
-        };
-        let mut fields = Fields {
-            structure,
-            span: piece.span(),
-            pieces: HashMap::new(),
-        };
-        let Some(content) = content else {
-            return Some(fields);
-        };
-        let found = match content.shape() {
-            Shape::Fields => content.fields(),
-            Shape::Tuple if content.elements().is_ok_and(|elements| elements.is_empty()) => {
-                Ok(Vec::new())
-            }
-            _ => {
-                self.wrong_type(content, expected);
-                return None;
-            }
-        };
-        let mut first: HashMap<&str, Range<usize>> = HashMap::new();
-        for (name, value) in self.split(content, found)? {
-            if let Some(first) = first.get(name.value) {
-                let problem = ProblemKind::DuplicateField {
-                    field: name.value.to_owned(),
-                }
-                .at(name.span);
-                self.problems
-                    .push(problem.with(first.clone(), Note::FirstHere(Noun::Field)));
-                continue;
-            }
-            first.insert(name.value, name.span.clone());
-            if structure.fields().contains(&name.value) {
-                fields.pieces.insert(name.value, value);
-            } else {
-                let field = name.value.to_owned();
-                let suggestion =
-                    nearest(&field, structure.fields().iter().copied()).map(str::to_owned);
-                self.problems.push(
-                    ProblemKind::UnknownField {
-                        structure,
-                        field,
-                        suggestion,
-                    }
-                    .at(name.span),
-                );
-            }
-        }
-        Some(fields)
-    }
-
-    fn require<'a>(&mut self, fields: &mut Fields<'a>, field: &'static str) -> Option<Piece<'a>> {
-        let piece = fields.take(field);
-        if piece.is_none() {
-            // The whole structure would be underlined otherwise.
-            let span = fields.span.start..fields.span.start + 1;
-            self.problems.push(
-                ProblemKind::MissingField {
-                    structure: fields.structure,
-                    field,
-                }
-                .at(span),
-            );
-        }
-        piece
-    }
-
-    /// A map from names to things, in the order of the file.
-    fn named<'a, T>(
-        &mut self,
-        fields: &mut Fields<'a>,
-        field: &str,
-        noun: Noun,
-        read: impl Fn(&mut Self, Piece<'a>) -> Option<T>,
-    ) -> Vec<Named<T>> {
-        let Some(piece) = fields.take(field) else {
-            return Vec::new();
-        };
-        let Shape::Map = piece.shape() else {
-            self.wrong_type(piece, Expected::MapOf(noun));
-            return Vec::new();
-        };
-        let mut first: HashMap<String, Range<usize>> = HashMap::new();
-        let mut named = Vec::new();
-        for (key, value) in self.split(piece, piece.pairs()).unwrap_or_default() {
-            let name = self.text(key, Expected::NameOf(noun));
-            // What a name stands for is read even if the name is wrong, to find what else is.
-            let value = read(self, value);
-            let Some(name) = name else { continue };
-            if let Some(first) = first.get(&name.value) {
-                let problem = ProblemKind::DuplicateName {
-                    noun,
-                    name: name.value,
-                }
-                .at(name.span);
-                self.problems
-                    .push(problem.with(first.clone(), Note::FirstHere(noun)));
-                continue;
-            }
-            first.insert(name.value.clone(), name.span.clone());
-            named.extend(value.map(|value| Named { name, value }));
-        }
-        named
-    }
-
-    fn list<'a, T>(
-        &mut self,
-        piece: Piece<'a>,
-        expected: Expected,
-        read: impl Fn(&mut Self, Piece<'a>) -> Option<T>,
-    ) -> Vec<T> {
-        let Shape::List = piece.shape() else {
-            self.wrong_type(piece, expected);
-            return Vec::new();
-        };
-        let elements = self.split(piece, piece.elements()).unwrap_or_default();
-        elements
-            .into_iter()
-            .filter_map(|element| read(self, element))
-            .collect()
-    }
-
-    fn tuple<'a, const N: usize>(
-        &mut self,
-        piece: Piece<'a>,
-        of: Expected,
-    ) -> Option<[Piece<'a>; N]> {
-        let Shape::Tuple = piece.shape() else {
-            self.wrong_type(piece, of);
-            return None;
-        };
-        let elements = self.split(piece, piece.elements())?;
-        let found = elements.len();
-        let tuple = elements.try_into().ok();
-        if tuple.is_none() {
-            self.problems.push(
-                ProblemKind::WrongLength {
-                    of,
-                    expected: N,
-                    found,
-                }
-                .at(piece.span()),
-            );
-        }
-        tuple
-    }
-
-    fn wrong_type(&mut self, piece: Piece, expected: Expected) {
-        self.problems.push(
-            ProblemKind::WrongType {
-                expected,
-                found: piece.found(),
-            }
-            .at(piece.span()),
-        );
-    }
-
-    fn unknown_word(
-        &mut self,
-        piece: Piece,
-        expected: Expected,
-        word: &str,
-        known: Vec<&'static str>,
-    ) {
-        let suggestion = nearest(word, known.iter().copied()).map(str::to_owned);
-        let start = piece.span().start;
-        let kind = ProblemKind::UnknownWord {
-            expected,
-            word: word.to_owned(),
-            suggestion,
-            known,
-        };
-        self.problems.push(kind.at(start..start + word.len()));
-    }
-
-    /// Notes what `ron` refuses in a piece that it had let pass before.
-    fn split<T>(&mut self, piece: Piece, result: Result<T, Error>) -> Option<T> {
-        result
-            .map_err(|error| {
-                self.problems
-                    .push(ProblemKind::Syntax(error).at(piece.span()))
-            })
-            .ok()
     }
 }

@@ -17,7 +17,7 @@ impl ProblemKind {
             }
             Empty => "the file is empty".into(),
             TooDeep => "brackets are nested too deeply for a mechanism file".into(),
-            Syntax(error) => syntax::title(error),
+            Syntax { error, found } => syntax::title(error, *found),
             LaterVersion(version) => {
                 format!("the file has version {version}: it is written for a later linkwork")
             }
@@ -44,17 +44,15 @@ impl ProblemKind {
             NotFinite => "the number is not finite".into(),
             NotAName { noun, name } => format!("`{name}` cannot be the name of {noun}"),
             ReservedName { noun, name } => {
-                format!("`{name}` is reserved and cannot be the name of {noun}")
+                format!("`{name}` is reserved and cannot be used for {noun}")
             }
             DottedName { noun, name } => format!("the name `{name}` of {noun} contains a dot"),
             EmptyName { noun } => format!("the name of {noun} is empty"),
             NoConvention { chain } => {
                 format!("nothing says which convention the rows of chain `{chain}` follow")
             }
-            EmptyClosedForm { name } => format!("the closed form `{name}` gives no formula"),
-            MixedClosedForm { name } => {
-                format!("the closed form `{name}` gives both a pose and an identity")
-            }
+            EmptyClosedForm => "the closed form gives no formula".into(),
+            MixedClosedForm => "the closed form gives both a pose and an identity".into(),
             UnknownMatrixEntry { name } => {
                 format!("`{name}` is not an entry of a rotation or a position")
             }
@@ -111,7 +109,7 @@ impl ProblemKind {
     pub fn label(&self) -> String {
         use ProblemKind::*;
         match self {
-            Syntax(error) => syntax::label(error).into(),
+            Syntax { error, found } => syntax::label(error, *found).into(),
             WrongType { expected, .. } => format!("must be {expected}"),
             WrongLength { found, .. } => {
                 format!("there {} {found}", if *found == 1 { "is" } else { "are" })
@@ -128,7 +126,7 @@ impl ProblemKind {
             JointNotAllowed { .. } => "a joint variable".into(),
             NotAffine => "not affine".into(),
             NoValue(_) => "has no value".into(),
-            EmptyClosedForm { .. } => "no formula".into(),
+            EmptyClosedForm => "no formula".into(),
             UnfeltJoint { .. } => "moves no closure".into(),
             UnusedJoint { .. } | UnusedParameter { .. } | UnusedPlatform { .. } => {
                 "not used".into()
@@ -143,7 +141,7 @@ impl ProblemKind {
         use ProblemKind::*;
         let help = match self {
             TooDeep => "lists of rows and transforms need no further brackets".into(),
-            Syntax(error) => return syntax::help(error).map(str::to_owned),
+            Syntax { error, found } => return syntax::help(error, *found).map(str::to_owned),
             Empty => format!("begin with `Mechanism(version: {VERSION}, name: \"…\", …)`"),
             LaterVersion(_) => format!("this program reads version {VERSION}"),
             NotAVersion(_) => format!("write `version: {VERSION}`"),
@@ -152,7 +150,7 @@ impl ProblemKind {
             | UnknownField { suggestion: Some(meant), .. }
             | UnknownName { suggestion: Some(meant), .. }
             | UnknownFrame { suggestion: Some(meant), .. } => format!("did you mean `{meant}`?"),
-            UnknownWord { known, .. } => format!("possible here: {}", listed(known)),
+            UnknownWord { known, .. } if known.len() > 2 => format!("possible here: {}", listed(known)),
             UnknownField { structure, .. } => format!("its fields are {}", listed(structure.fields())),
             UnknownFrame { .. } => {
                 "a frame is `ground`, a chain, `chain.k`, a platform, or `platform.frame`".into()
@@ -170,10 +168,10 @@ impl ProblemKind {
             NoConvention { .. } => {
                 "write `convention: Modified` or `convention: Standard` in the file, or in each chain".into()
             }
-            EmptyClosedForm { .. } => {
+            EmptyClosedForm => {
                 "give `position`, `rotation`, `transform` or `entries`, or else `identity` or `identities`".into()
             }
-            MixedClosedForm { .. } => "write two closed forms".into(),
+            MixedClosedForm => "write two closed forms".into(),
             UnknownMatrixEntry { .. } => "entries are r11 to r33, px, py and pz".into(),
             JointNotAllowed { .. } => "only parameters, numbers and constants can be used here".into(),
             NotAffine => "only theta, d and distances may contain joints, as in `\"pi/2 - 2*phi1\"`".into(),
@@ -187,6 +185,33 @@ impl ProblemKind {
             _ => return None,
         };
         Some(help)
+    }
+}
+
+impl Display for LoadError {
+    fn fmt(&self, f: &mut Formatter) -> fmt::Result {
+        match self {
+            Self::Unreadable { path, error } => {
+                write!(f, "{}: cannot be read: {error}", path.display())
+            }
+            Self::NotText { path, offset } => {
+                write!(
+                    f,
+                    "{}: not a text file in UTF-8: byte {offset} does not belong to any character",
+                    path.display()
+                )
+            }
+            Self::TooLarge { path, bytes } => {
+                let size =
+                    bytes.map_or_else(|| "more".to_owned(), |bytes| format!("{bytes} bytes"));
+                write!(
+                    f,
+                    "{}: too large: {size}, where at most {MAX_BYTES} bytes are read",
+                    path.display()
+                )
+            }
+            Self::Wrong(error) => error.fmt(f),
+        }
     }
 }
 

@@ -15,6 +15,15 @@ pub enum Axis {
 }
 
 impl Axis {
+    /// `x`, `y` or `z`.
+    pub fn letter(self) -> char {
+        match self {
+            Axis::X => 'x',
+            Axis::Y => 'y',
+            Axis::Z => 'z',
+        }
+    }
+
     /// The axis and the two that follow it in right-handed order, as indices.
     pub(super) fn cyclic(self) -> (usize, usize, usize) {
         let i = self as usize;

@@ -1,5 +1,6 @@
 use super::Qr;
 use super::lu::Lu;
+use super::{DENSE_LIMIT, Factorable, SparseStep};
 use crate::number::Field;
 
 /// Where one block of rows stands: its own unknowns, and the shared ones it touches.
@@ -20,7 +21,7 @@ pub struct Block {
 /// factors are orthogonal the result is the least-squares step of the whole, rank deficient or not.
 /// With damping λ > 0, rows √λ·I are added (Levenberg 1944).
 #[derive(Clone, Debug)]
-pub struct Bordered<T> {
+pub struct Bordered<T: Factorable> {
     unknowns: usize,
     rows: usize,
     blocks: Vec<Factor<T>>,
@@ -33,6 +34,7 @@ pub struct Bordered<T> {
     border_rhs: Vec<T>,
     border_x: Vec<T>,
     damped: bool,
+    sparse: Option<T::Sparse>,
 }
 
 /// Elimination without exchange of columns can hide a loss of rank behind pivots that are merely
@@ -50,12 +52,14 @@ struct Factor<T> {
     x: Vec<T>,
 }
 
-impl<T: Field> Bordered<T> {
+impl<T: Factorable> Bordered<T> {
     /// A matrix of the given blocks, and below them `extra_rows` rows over the shared unknowns.
     pub fn new(unknowns: usize, blocks: Vec<Block>, extra_rows: usize, shared: Vec<usize>) -> Self {
         let place = |unknown: &usize| {
             (shared.iter().position(|s| s == unknown)).expect("blocks share only shared unknowns")
         };
+        let sparse = (T::Sparse::AVAILABLE && shared.len() > DENSE_LIMIT)
+            .then(|| T::Sparse::new(unknowns, &blocks, extra_rows));
         let blocks: Vec<Factor<T>> = blocks
             .into_iter()
             .map(|layout| {
@@ -72,6 +76,22 @@ impl<T: Field> Bordered<T> {
             .collect();
         let rows: usize = blocks.iter().map(|b| b.layout.rows).sum::<usize>() + extra_rows;
         let most = rows + unknowns;
+        if sparse.is_some() {
+            return Bordered {
+                unknowns,
+                rows,
+                blocks,
+                extra_rows,
+                border: Qr::new(0, 0, 0),
+                square_border: Lu::new(0),
+                square: false,
+                border_rhs: vec![T::zero(); unknowns],
+                border_x: vec![T::zero(); unknowns],
+                shared,
+                damped: false,
+                sparse,
+            };
+        }
         Bordered {
             unknowns,
             rows,
@@ -84,6 +104,7 @@ impl<T: Field> Bordered<T> {
             border_x: vec![T::zero(); shared.len()],
             shared,
             damped: false,
+            sparse: None,
         }
     }
 
@@ -116,6 +137,16 @@ impl<T: Field> Bordered<T> {
     /// Factorises the blocks as filled in and then the border; `extra` holds the extra rows, one
     /// after another over the shared unknowns.
     pub fn factorise(&mut self, extra: &[T], damping: f64) {
+        if let Some(sparse) = &mut self.sparse {
+            sparse.factorise(
+                self.blocks
+                    .iter()
+                    .map(|block| (&block.layout, block.matrix.as_slice())),
+                extra,
+                damping,
+            );
+            return;
+        }
         self.damped = damping > 0.0;
         let root = T::from_f64(damping.sqrt());
         let mut border_rows = self.extra_rows;
@@ -169,24 +200,36 @@ impl<T: Field> Bordered<T> {
     /// The step −J⁺r for the residual `r` in the order of the rows, written to `x` in the order of
     /// the unknowns. May be called again with other residuals for the same factors.
     pub fn solve(&mut self, r: &[T], x: &mut [T]) {
+        if let Some(sparse) = &self.sparse {
+            let blocks = || {
+                self.blocks
+                    .iter()
+                    .map(|block| (&block.layout, block.matrix.as_slice()))
+            };
+            sparse.step(blocks, r, x);
+            return;
+        }
         let mut row = 0;
         let mut border_row = 0;
         for block in &mut self.blocks {
             let rows = block.layout.rows;
-            for (b, &r) in block.rhs.iter_mut().zip(&r[row..row + rows]) {
-                *b = -r;
+            let r = &r[row..row + rows];
+            row += rows;
+            // without own unknowns there is nothing to rotate: the rows stand in the border
+            if block.layout.own.is_empty() {
+                negate(r, &mut self.border_rhs[border_row..]);
+                border_row += rows;
+                continue;
             }
+            negate(r, &mut block.rhs);
             let total = block.qr.rows();
             block.rhs[rows..total].fill(T::zero());
             block.qr.rotate(&mut block.rhs);
             let left = &block.rhs[block.qr.rank()..total];
             self.border_rhs[border_row..border_row + left.len()].copy_from_slice(left);
-            row += rows;
             border_row += left.len();
         }
-        for (b, &r) in (self.border_rhs[border_row..].iter_mut()).zip(&r[row..]) {
-            *b = -r;
-        }
+        negate(&r[row..], &mut self.border_rhs[border_row..]);
         border_row += self.extra_rows;
         let border_total = self.border.rows();
         self.border_rhs[border_row..border_total].fill(T::zero());
@@ -201,12 +244,12 @@ impl<T: Field> Bordered<T> {
         for (&unknown, &value) in self.shared.iter().zip(&self.border_x) {
             x[unknown] = value;
         }
-        for block in &mut self.blocks {
-            let rank = block.qr.rank();
-            for (j, &place) in block.border_places.iter().enumerate() {
-                let value = self.border_x[place];
-                for (b, c) in block.rhs[..rank].iter_mut().zip(block.qr.carried(j)) {
-                    *b -= value * *c;
+        let with_own = |block: &&mut Factor<T>| !block.layout.own.is_empty();
+        for block in self.blocks.iter_mut().filter(with_own) {
+            // row by row: there are few of them, often one, and more shared unknowns
+            for (k, b) in block.rhs[..block.qr.rank()].iter_mut().enumerate() {
+                for (carried, &place) in block.qr.all_carried().zip(&block.border_places) {
+                    *b -= self.border_x[place] * carried[k];
                 }
             }
             block.qr.back_substitute(&mut block.rhs, &mut block.x);
@@ -230,6 +273,14 @@ impl<T: Field> Bordered<T> {
     /// The blocks' layout, in order.
     pub fn blocks(&self) -> impl ExactSizeIterator<Item = &Block> {
         self.blocks.iter().map(|b| &b.layout)
+    }
+}
+
+/// to ← −r, as far as `r` goes.
+#[inline(always)]
+fn negate<T: Field>(r: &[T], to: &mut [T]) {
+    for (to, &r) in to.iter_mut().zip(r) {
+        *to = -r;
     }
 }
 

@@ -77,6 +77,13 @@ impl<T: Field> Qr<T> {
         self.column(self.pivots + j)
     }
 
+    /// All carried columns in order.
+    #[inline(always)]
+    pub(super) fn all_carried(&self) -> impl Iterator<Item = &[T]> {
+        let used = &self.entries[..self.rows * self.columns];
+        used[self.pivots * self.rows..].chunks_exact(self.rows.max(1))
+    }
+
     /// Factorises in place. A pivot below the rank tolerance times `reference` (or times the
     /// largest pivot, if that is larger) ends it. Returns the largest pivot.
     pub fn factorise(&mut self, reference: f64) -> f64 {
@@ -147,7 +154,7 @@ impl<T: Field> Qr<T> {
             v[0].scale(1.0 / size)
         };
         let diagonal = -phase.scale(norm);
-        v[0] = v[0] - diagonal;
+        v[0] -= diagonal;
         let scale = 1.0 / (norm * (norm + size));
         for column in right.chunks_exact_mut(rows) {
             reflect_one(v, scale, &mut column[k..]);
@@ -161,16 +168,28 @@ impl<T: Field> Qr<T> {
     /// b ← Qᴴ b for a further right-hand side of `rows` entries.
     #[inline]
     pub fn rotate(&self, b: &mut [T]) {
-        for k in 0..self.rank {
-            let tail = &self.column(k)[k + 1..];
-            let head = self.heads[k];
-            let (first, rest) = b[k..self.rows].split_first_mut().expect("k < rows");
-            let mut sum = head.conjugate() * *first;
+        // the same sizes as in `factorise`, at full rank
+        match (self.rows, self.rank) {
+            (3, 1) => self.rotate_sized(3, 1, b),
+            (3, 2) => self.rotate_sized(3, 2, b),
+            (5, 2) => self.rotate_sized(5, 2, b),
+            (rows, rank) => self.rotate_sized(rows, rank, b),
+        }
+    }
+
+    #[inline(always)]
+    fn rotate_sized(&self, rows: usize, rank: usize, b: &mut [T]) {
+        let (heads, scales) = (&self.heads[..rank], &self.scales[..rank]);
+        let (entries, b) = (&self.entries[..rows * rank], &mut b[..rows]);
+        for k in 0..rank {
+            let tail = &entries[k * rows + k + 1..(k + 1) * rows];
+            let (first, rest) = b[k..].split_first_mut().expect("k < rows");
+            let mut sum = heads[k].conjugate() * *first;
             for (v, x) in tail.iter().zip(&*rest) {
                 sum += v.conjugate() * *x;
             }
-            let sum = sum.scale(self.scales[k]);
-            *first -= sum * head;
+            let sum = sum.scale(scales[k]);
+            *first -= sum * heads[k];
             for (v, x) in tail.iter().zip(rest) {
                 *x -= sum * *v;
             }

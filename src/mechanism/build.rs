@@ -1,6 +1,7 @@
 //! From a well-formed description to a meaningful mechanism, or to all that is wrong with it.
 
 use std::collections::HashMap;
+use std::path::Path;
 
 use super::model::{
     Chain, ClosedForm, Closure, FixedStep, Formula, Given, Joint, JointKind, Parameter, Platform,
@@ -10,7 +11,7 @@ use super::names::{Names, definition_order};
 use super::{Frame, Mechanism, inspect};
 use crate::algebra::Affine;
 use crate::description::{self, Description, Displacement, Entry, MatrixEntry, Named, Note, Noun};
-use crate::description::{Problem, ProblemKind, Scope, Severity};
+use crate::description::{FileError, LoadError, Problem, ProblemKind, Scope, Severity};
 use crate::geometry::{Axis, Pose};
 
 /// Collects problems while parts are resolved; a part with a problem is left out.
@@ -21,6 +22,21 @@ pub(super) struct Builder<'a> {
 }
 
 impl Mechanism {
+    /// Reads a mechanism file.
+    ///
+    /// # Errors
+    /// If the file cannot be read, or with everything that is wrong with it.
+    pub fn load(path: impl AsRef<Path>) -> Result<Self, LoadError> {
+        let (text, description) = description::load(&path)?;
+        Mechanism::new(&description).map_err(|problems| {
+            LoadError::Wrong(FileError {
+                path: path.as_ref().to_owned(),
+                text,
+                problems,
+            })
+        })
+    }
+
     /// Resolves every name and evaluates every dimension of a description.
     ///
     /// All problems are found at once, with their places in the file.
@@ -85,12 +101,15 @@ impl Builder<'_> {
         scope: Scope,
         locals: &HashMap<&str, usize>,
     ) -> Option<Formula> {
-        let resolved = (entry.expression)
-            .try_resolve(|name, span| self.names.symbol(name, span, scope, locals));
+        let resolved = (entry.expression).try_resolve(|name, span| {
+            let symbol = self.names.symbol(name, scope, locals);
+            symbol.map_err(|kind| Box::new(kind.at(span.clone())))
+        });
         match resolved {
             Ok(formula) => Some(formula),
             Err(problems) => {
-                self.problems.extend(problems);
+                self.problems
+                    .extend(problems.into_iter().map(|problem| *problem));
                 None
             }
         }
@@ -259,8 +278,8 @@ impl Builder<'_> {
     }
 
     fn frame(&mut self, name: &description::Spanned<String>) -> Frame {
-        self.names.frame(name).unwrap_or_else(|problem| {
-            self.problems.push(problem);
+        self.names.frame(&name.value).unwrap_or_else(|kind| {
+            self.problems.push(kind.at(name.span.clone()));
             Frame::Ground
         })
     }

@@ -20,7 +20,7 @@
 use super::ClosureKind;
 use super::configuration::Configuration;
 use super::dimensions::{ClosureDimensions, Dimensions, LinearForm};
-use super::kinematics::{Kinematics, Mover, Placement, Slot};
+use super::kinematics::{Kinematics, Mover, Need, Placement, Slot};
 use crate::geometry::{Pose, Vector3};
 use crate::number::Number;
 
@@ -63,6 +63,18 @@ pub(crate) struct Rows<T> {
     /// Where the velocity of side A and side B is taken.
     points: [Vector3<T>; 2],
     inverse_length: f64,
+}
+
+/// How much of the poses of its two frames the rows of a closure are made from.
+pub(crate) fn needs(kind: ClosureKind) -> [Need; 2] {
+    match kind {
+        ClosureKind::Spherical | ClosureKind::Distance => [Need::Position; 2],
+        ClosureKind::Universal => [Need::Axis; 2],
+        ClosureKind::Revolute | ClosureKind::Cylindrical | ClosureKind::Planar => {
+            [Need::Pose, Need::Axis]
+        }
+        ClosureKind::Prismatic | ClosureKind::Rigid => [Need::Pose; 2],
+    }
 }
 
 impl<T: Number> Closure<T> {
@@ -138,12 +150,16 @@ impl<T: Number> Closure<T> {
                 rows.distance(&gap, self.length(at));
                 out[0] = rows.residual[0];
             }
-            _ => out.copy_from_slice(&self.rows(placement, at).residual[..out.len()]),
+            _ => {
+                // taken out whole, so that the wrenches nobody reads are not computed
+                let residual = self.rows(placement, at).residual;
+                out.copy_from_slice(&residual[..out.len()]);
+            }
         }
     }
 
     /// Residuals and wrenches.
-    #[inline]
+    #[inline(always)]
     pub(crate) fn rows(&self, placement: &Placement<T>, at: &Configuration<T>) -> Rows<T> {
         let [a, b] = self.frames(placement);
         let gap = b.position - a.position;
@@ -216,6 +232,7 @@ impl<T: Number> Rows<T> {
         self.moment_count += 1;
     }
 
+    #[inline(always)]
     fn perpendicular(&mut self, a: &Pose<T>, b: &Pose<T>) {
         let (az, bz) = (a.rotation.0[2], b.rotation.0[2]);
         self.moment(az.dot(&bz), bz.cross(&az));
@@ -233,6 +250,7 @@ impl<T: Number> Rows<T> {
         }
     }
 
+    #[inline(always)]
     fn orientation(&mut self, a: &Pose<T>, b: &Pose<T>) {
         let (a, b) = (&a.rotation.0, &b.rotation.0);
         let trace = a[0].dot(&b[0]) + a[1].dot(&b[1]) + a[2].dot(&b[2]);
@@ -246,6 +264,7 @@ impl<T: Number> Rows<T> {
         }
     }
 
+    #[inline(always)]
     fn offsets(&mut self, gap: &Vector3<T>, axes: &[Vector3<T>]) {
         for axis in axes {
             let row = self.next_row();
@@ -304,10 +323,10 @@ impl<T: Number> Rows<T> {
         let mut next = rows.iter_mut();
         let force_row = |row: &mut [T; 6], force: &Vector3<T>| {
             let moment = arm.cross(force);
-            for i in 0..3 {
-                row[i] = moment.0[i].scale(sign);
-                row[3 + i] = force.0[i].scale(sign * length);
-            }
+            let twist = moment.0.map(|m| m.scale(sign));
+            let shift = force.0.map(|f| f.scale(sign * length));
+            row[..3].copy_from_slice(&twist);
+            row[3..].copy_from_slice(&shift);
         };
         if self.point {
             for (i, row) in next.by_ref().take(3).enumerate() {
@@ -318,9 +337,7 @@ impl<T: Number> Rows<T> {
             }
         }
         for (moment, row) in self.moments[..self.moment_count].iter().zip(next.by_ref()) {
-            for i in 0..3 {
-                row[i] = moment.0[i].scale(sign);
-            }
+            row[..3].copy_from_slice(&moment.0.map(|m| m.scale(sign)));
         }
         for (force, row) in self.forces[..self.force_count].iter().zip(next) {
             force_row(row, force);
@@ -332,5 +349,94 @@ impl<T: Number> Rows<T> {
     #[inline(always)]
     pub(crate) fn velocity_point(&self, side: Side) -> &Vector3<T> {
         &self.points[side as usize]
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::geometry::{Axis, Quaternion};
+    use crate::mechanism::{ChainDimensions, Frame, PlatformPose, RowDimensions};
+
+    #[test]
+    fn frames_placed_as_far_as_needed_give_the_rows_of_frames_placed_in_full() {
+        let twist = Pose::rotation(Axis::X, 0.7) * Pose::translation(Vector3([0.3, -0.2, 0.5]));
+        let row = |turn: &[usize], slide: &[usize]| RowDimensions {
+            before: twist,
+            turn: LinearForm(turn.iter().map(|&j| (j, 0.9)).collect()),
+            slide: LinearForm(slide.iter().map(|&j| (j, 1.1)).collect()),
+            after: Pose::identity(),
+        };
+        let mut dimensions = Dimensions {
+            characteristic_length: 1.5,
+            joint_scales: vec![1.0, 1.5, 1.0, 1.0],
+            chains: [Pose::identity(), twist]
+                .map(|tip| ChainDimensions {
+                    on: Frame::Ground,
+                    base: twist,
+                    rows: vec![row(&[0], &[]), row(&[], &[1]), row(&[2], &[3])],
+                    tip,
+                })
+                .to_vec(),
+            platforms: vec![vec![twist * twist]],
+            closures: vec![],
+        };
+        let at = Configuration {
+            joints: vec![0.4, -0.3, 0.8, 0.2],
+            platforms: vec![PlatformPose {
+                orientation: Quaternion([0.8, 0.0, 0.6, 0.0]),
+                position: Vector3([0.1, 0.2, 0.3]),
+            }],
+        };
+        let on_platform = Frame::OnPlatform {
+            platform: 0,
+            frame: 0,
+        };
+        let tips = [0, 1].map(|chain| Frame::Tip { chain });
+        use ClosureKind::*;
+        for kind in [
+            Spherical,
+            Revolute,
+            Prismatic,
+            Universal,
+            Cylindrical,
+            Planar,
+            Rigid,
+            Distance,
+        ] {
+            for frames in [tips, [tips[0], on_platform], [on_platform, tips[1]]] {
+                dimensions.closures = vec![ClosureDimensions {
+                    kind,
+                    frames,
+                    length: 0.5,
+                    extension: LinearForm(vec![]),
+                }];
+                let evaluate = |kinematics: Kinematics<f64>| {
+                    let closure = Closure::new(&dimensions, &dimensions.closures[0], &kinematics);
+                    let mut placement = kinematics.placement();
+                    kinematics.place(&at, &mut placement);
+                    let rows = closure.rows(&placement, &at);
+                    let mut columns = vec![rows.residual];
+                    for (side, movers) in [Side::A, Side::B].into_iter().zip(&closure.movers) {
+                        for mover in movers {
+                            let (omega, v) = placement.twist(mover, rows.velocity_point(side));
+                            let mut column = [0.0; MOST_ROWS];
+                            rows.rates(side, &omega, &v, &mut column);
+                            columns.push(column);
+                        }
+                    }
+                    let mut residual = [0.0; MOST_ROWS];
+                    closure.residual(&placement, &at, &mut residual[..kind.equations()]);
+                    assert_eq!(residual, rows.residual);
+                    columns
+                };
+                let needs = frames.into_iter().zip(needs(kind));
+                assert_eq!(
+                    evaluate(Kinematics::needing(&dimensions, needs)),
+                    evaluate(Kinematics::new(&dimensions, frames)),
+                    "{kind:?}"
+                );
+            }
+        }
     }
 }

@@ -94,6 +94,52 @@ pub struct Dimensions<T> {
 }
 
 impl<T> Dimensions<T> {
+    /// The same dimensions over another number, as constants.
+    pub fn map<U>(&self, mut lift: impl FnMut(T) -> U) -> Dimensions<U>
+    where
+        T: Number,
+    {
+        let lift: &mut dyn FnMut(T) -> U = &mut lift;
+        let form = |form: &LinearForm<T>, lift: &mut dyn FnMut(T) -> U| {
+            LinearForm(
+                form.0
+                    .iter()
+                    .map(|&(joint, factor)| (joint, lift(factor)))
+                    .collect(),
+            )
+        };
+        Dimensions {
+            characteristic_length: self.characteristic_length,
+            joint_scales: self.joint_scales.clone(),
+            chains: (self.chains.iter())
+                .map(|chain| ChainDimensions {
+                    on: chain.on,
+                    base: chain.base.map(&mut *lift),
+                    rows: (chain.rows.iter())
+                        .map(|row| RowDimensions {
+                            before: row.before.map(&mut *lift),
+                            turn: form(&row.turn, lift),
+                            slide: form(&row.slide, lift),
+                            after: row.after.map(&mut *lift),
+                        })
+                        .collect(),
+                    tip: chain.tip.map(&mut *lift),
+                })
+                .collect(),
+            platforms: (self.platforms.iter())
+                .map(|frames| frames.iter().map(|frame| frame.map(&mut *lift)).collect())
+                .collect(),
+            closures: (self.closures.iter())
+                .map(|closure| ClosureDimensions {
+                    kind: closure.kind,
+                    frames: closure.frames,
+                    length: lift(closure.length),
+                    extension: form(&closure.extension, lift),
+                })
+                .collect(),
+        }
+    }
+
     /// The dimensions of a mechanism that has nothing.
     pub(super) fn empty() -> Self {
         Dimensions {

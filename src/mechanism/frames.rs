@@ -149,6 +149,12 @@ impl Mechanism {
         relative_to.inverse() * of
     }
 
+    /// Ground from the frame of that name, positions in m; `None` if there is no such frame.
+    pub fn pose(&self, frame: &str, at: &Configuration<f64>) -> Option<Pose<f64>> {
+        let frame = self.frame(frame)?;
+        Some(self.transform(Frame::Ground, frame, at))
+    }
+
     /// Ground from each of the given frames.
     pub fn poses<const N: usize>(
         &self,
@@ -190,6 +196,16 @@ impl Mechanism {
                 };
             }
             frame = *on;
+        }
+    }
+
+    /// The platform that carries a frame; `None` if it stands on the ground. Joint values alone fix
+    /// where a frame is on its carrier.
+    pub fn carrier(&self, frame: Frame) -> Option<usize> {
+        match frame {
+            Frame::Ground => None,
+            Frame::Platform { platform } | Frame::OnPlatform { platform, .. } => Some(platform),
+            Frame::Link { chain, .. } | Frame::Tip { chain } => self.carrier(self.chains[chain].on),
         }
     }
 

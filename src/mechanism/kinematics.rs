@@ -31,6 +31,7 @@ struct Step<T> {
     shape: Shape,
     /// Fixed to ground.
     still: bool,
+    need: Need,
     turn: LinearForm<T>,
     slide: LinearForm<T>,
 }
@@ -38,9 +39,22 @@ struct Step<T> {
 /// What a fixed displacement consists of, so that products with ones and zeros are left out.
 #[derive(Clone, Copy, Debug, PartialEq)]
 enum Shape {
+    /// The parent is ground, and the displacement is the pose.
+    Grounded,
     Nothing,
     Translation,
     General,
+}
+
+/// How much of a frame's pose anyone asks for; the rest is not computed.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub(crate) enum Need {
+    /// Its origin.
+    Position,
+    /// Its origin and its z axis, which is all that a joint's own motion is measured by.
+    Axis,
+    /// All of it.
+    Pose,
 }
 
 /// The poses of all slots at one configuration: ground from frame.
@@ -63,18 +77,28 @@ pub struct Mover<T> {
 impl<T: Number> Kinematics<T> {
     /// A plan that places the given frames and what they stand on, nothing else.
     pub fn new(dimensions: &Dimensions<T>, frames: impl IntoIterator<Item = Frame>) -> Self {
+        Kinematics::needing(dimensions, frames.into_iter().map(|f| (f, Need::Pose)))
+    }
+
+    /// The same, of whose frames no more is placed than is needed.
+    pub(crate) fn needing(
+        dimensions: &Dimensions<T>,
+        frames: impl IntoIterator<Item = (Frame, Need)>,
+    ) -> Self {
         let mut plan = Kinematics {
             platforms: dimensions.platforms.len(),
             steps: Vec::new(),
             frames: Vec::new(),
             moving: BTreeMap::new(),
         };
-        for frame in frames {
-            if plan.slot(frame).is_none() {
+        for (frame, need) in frames {
+            let slot = plan.slot(frame).unwrap_or_else(|| {
                 let (parent, fixed) = plan.resolve(dimensions, frame);
                 let slot = plan.fixed_slot(parent, fixed);
                 plan.frames.push((frame, slot));
-            }
+                slot
+            });
+            plan.demand(slot, need);
         }
         plan
     }
@@ -105,19 +129,31 @@ impl<T: Number> Kinematics<T> {
         slide: LinearForm<T>,
     ) -> Slot {
         let moves = !turn.0.is_empty() || !slide.0.is_empty();
-        let parent_still = match parent.checked_sub(1 + self.platforms) {
-            Some(step) => self.steps[step].still,
-            None => parent == 0,
+        self.demand(parent, Need::Pose);
+        let still_parent = match parent.checked_sub(1 + self.platforms) {
+            Some(step) => (self.steps[step].still).then(|| self.steps[step].fixed),
+            None => (parent == 0).then(Pose::identity),
+        };
+        let (parent, fixed, shape) = match still_parent {
+            Some(pose) => (0, pose * fixed, Shape::Grounded),
+            None => (parent, fixed, Shape::of(&fixed)),
         };
         self.steps.push(Step {
             parent,
-            shape: Shape::of(&fixed),
-            still: parent_still && !moves,
+            shape,
+            still: still_parent.is_some() && !moves,
+            need: if moves { Need::Axis } else { Need::Position },
             fixed,
             turn,
             slide,
         });
         self.platforms + self.steps.len()
+    }
+
+    fn demand(&mut self, slot: Slot, need: Need) {
+        if let Some(step) = slot.checked_sub(1 + self.platforms) {
+            self.steps[step].need = self.steps[step].need.max(need);
+        }
     }
 
     /// The slot a frame is fixed to and its displacement there.
@@ -170,7 +206,7 @@ impl<T: Number> Kinematics<T> {
     pub fn placement(&self) -> Placement<T> {
         let mut poses = vec![Pose::identity(); 1 + self.platforms + self.steps.len()];
         for (i, step) in self.steps.iter().enumerate().filter(|(_, step)| step.still) {
-            poses[1 + self.platforms + i] = poses[step.parent] * step.fixed;
+            poses[1 + self.platforms + i] = step.fixed;
         }
         Placement(poses)
     }
@@ -186,23 +222,35 @@ impl<T: Number> Kinematics<T> {
             if step.still {
                 continue;
             }
-            let parent = &poses[step.parent];
-            let mut pose = match step.shape {
-                Shape::Nothing => *parent,
-                Shape::Translation => Pose {
-                    rotation: parent.rotation,
-                    position: *parent * step.fixed.position,
-                },
-                Shape::General => *parent * step.fixed,
-            };
+            let (placed, rest) = poses.split_at_mut(1 + self.platforms + i);
+            let (parent, pose) = (&placed[step.parent], &mut rest[0]);
+            match step.shape {
+                Shape::Grounded => *pose = step.fixed,
+                Shape::Nothing => *pose = *parent,
+                Shape::Translation => {
+                    pose.position = *parent * step.fixed.position;
+                    if step.need > Need::Position {
+                        pose.rotation = parent.rotation;
+                    }
+                }
+                Shape::General => {
+                    pose.position = *parent * step.fixed.position;
+                    let fixed = &step.fixed.rotation;
+                    match step.need {
+                        Need::Position => {}
+                        Need::Axis => pose.rotation.0[2] = parent.rotation * fixed.0[2],
+                        Need::Pose => pose.rotation = parent.rotation * *fixed,
+                    }
+                }
+            }
             if !step.slide.0.is_empty() {
                 pose.position += pose.rotation.0[2].times(step.slide.at(&at.joints));
             }
-            if !step.turn.0.is_empty() {
+            // a turn leaves origin and axis where they are
+            if !step.turn.0.is_empty() && step.need == Need::Pose {
                 let sin_cos = step.turn.at(&at.joints).sin_cos();
                 pose.rotation = pose.rotation.turned_about_z(sin_cos);
             }
-            poses[1 + self.platforms + i] = pose;
         }
     }
 

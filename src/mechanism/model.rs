@@ -56,6 +56,15 @@ pub struct Joint {
 }
 
 impl JointKind {
+    /// What it is called.
+    pub fn word(self) -> &'static str {
+        match self {
+            JointKind::Revolute => "revolute",
+            JointKind::Prismatic => "prismatic",
+            JointKind::Helical => "helical",
+        }
+    }
+
     /// Whether the variable is an angle (rad); otherwise a length (m).
     pub fn is_angle(self) -> bool {
         self != JointKind::Prismatic

@@ -1,13 +1,10 @@
 //! What the names of a description stand for.
 
 use std::collections::HashMap;
-use std::ops::Range;
 
 use super::Frame;
 use super::model::Symbol;
-use crate::description::{
-    Description, GROUND, Named, Problem, ProblemKind, Scope, Spanned, nearest,
-};
+use crate::description::{Description, GROUND, Named, ProblemKind, Scope, nearest};
 
 /// The names that expressions and frame references of a file may use.
 pub(super) struct Names<'a> {
@@ -38,10 +35,9 @@ impl<'a> Names<'a> {
     pub fn symbol(
         &self,
         name: &str,
-        span: &Range<usize>,
         scope: Scope,
         locals: &HashMap<&str, usize>,
-    ) -> Result<Symbol, Problem> {
+    ) -> Result<Symbol, ProblemKind> {
         if let Some(&local) = locals.get(name) {
             return Ok(Symbol::Local(local));
         }
@@ -50,8 +46,7 @@ impl<'a> Names<'a> {
         }
         match (self.joints.get(name), scope) {
             (Some(_), Scope::Parameters) => {
-                let kind = ProblemKind::JointNotAllowed { name: name.into() };
-                return Err(kind.at(span.clone()));
+                return Err(ProblemKind::JointNotAllowed { name: name.into() });
             }
             (Some(&joint), _) => return Ok(Symbol::Joint(joint)),
             (None, _) => {}
@@ -64,21 +59,15 @@ impl<'a> Names<'a> {
         // hash maps have no order, and of two equally near names the same must always be suggested
         candidates.sort_unstable();
         let suggestion = nearest(name, candidates).map(str::to_owned);
-        let kind = ProblemKind::UnknownName {
+        Err(ProblemKind::UnknownName {
             name: name.into(),
             suggestion,
             scope,
-        };
-        Err(kind.at(span.clone()))
+        })
     }
 
     /// The frame of a name such as `leg1`, `leg1.2`, `top` or `top.S1`.
-    pub fn frame(&self, name: &Spanned<String>) -> Result<Frame, Problem> {
-        self.find_frame(&name.value)
-            .map_err(|kind| kind.at(name.span.clone()))
-    }
-
-    fn find_frame(&self, name: &str) -> Result<Frame, ProblemKind> {
+    pub fn frame(&self, name: &str) -> Result<Frame, ProblemKind> {
         if name == GROUND {
             return Ok(Frame::Ground);
         }

@@ -1,6 +1,6 @@
 use std::ops::{Add, AddAssign, Div, Mul, MulAssign, Neg, Sub, SubAssign};
 
-use super::Number;
+use super::{Field, Number};
 
 /// A value with its derivative along one direction: a + a′ε with ε² = 0 (Clifford 1873).
 ///
@@ -157,5 +157,17 @@ impl<T: Number> Number for Dual<T> {
             value: self.value.scale(factor),
             slope: self.slope.scale(factor),
         }
+    }
+}
+
+impl<T: Field> Field for Dual<T> {
+    fn conjugate(self) -> Self {
+        Dual {
+            value: self.value.conjugate(),
+            slope: self.slope.conjugate(),
+        }
+    }
+    fn norm_squared(self) -> f64 {
+        self.value.norm_squared()
     }
 }

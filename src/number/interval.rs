@@ -320,7 +320,8 @@ mod tests {
 
     /// A cheap reproducible sequence in [0, 1).
     fn sequence(k: u64) -> f64 {
-        let x = (k.wrapping_mul(0x9E37_79B9_7F4A_7C15) ^ (k << 7)).wrapping_mul(0xBF58_476D_1CE4_E5B9);
+        let x =
+            (k.wrapping_mul(0x9E37_79B9_7F4A_7C15) ^ (k << 7)).wrapping_mul(0xBF58_476D_1CE4_E5B9);
         (x >> 11) as f64 / (1u64 << 53) as f64
     }
 
@@ -364,13 +365,25 @@ mod tests {
 
     #[test]
     fn a_sine_over_its_peak_reaches_one_and_beside_it_does_not() {
-        let over = Interval { low: 1.0, high: 2.0 };
+        let over = Interval {
+            low: 1.0,
+            high: 2.0,
+        };
         assert_eq!(over.sin_cos().0.high, 1.0);
-        let beside = Interval { low: 1.0, high: 1.5 };
+        let beside = Interval {
+            low: 1.0,
+            high: 1.5,
+        };
         assert!(beside.sin_cos().0.high < 0.9976);
-        let trough = Interval { low: 4.0, high: 5.0 };
+        let trough = Interval {
+            low: 4.0,
+            high: 5.0,
+        };
         assert_eq!(trough.sin_cos().0.low, -1.0);
-        let half_turn = Interval { low: 3.0, high: 3.3 };
+        let half_turn = Interval {
+            low: 3.0,
+            high: 3.3,
+        };
         assert_eq!(half_turn.sin_cos().1.low, -1.0);
     }
 

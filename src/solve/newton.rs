@@ -134,7 +134,9 @@ impl Newton {
         }
     }
 
-    /// Quadratic convergence makes one more step worth its price: the residual falls to rounding.
+    /// Steps on for as long as they pay: at a regular solution one more brings the residual down to
+    /// rounding, at a double one, where convergence is linear, a dozen more tell it from a regular
+    /// solution with a poor condition.
     fn polish<E: Equations>(
         &self,
         equations: &E,
@@ -144,18 +146,28 @@ impl Newton {
         steps: usize,
         size: Size,
     ) -> Report {
-        equations.factorise(0.0, work);
-        let longest = equations.step(work);
-        if longest.is_finite() && longest < 1e-3 {
+        const MOST: usize = 20;
+        let (mut steps, mut size) = (steps, size);
+        for _ in 0..MOST {
+            if size.largest == 0.0 {
+                break;
+            }
+            equations.factorise(0.0, work);
+            let longest = equations.step(work);
+            // a long step so near a solution only slides along a freedom
+            if longest >= 1e-3 {
+                break;
+            }
             equations.advance(point, 1.0, work, trial);
             let next = equations.residual(trial, work);
-            if next.largest < size.largest {
-                std::mem::swap(point, trial);
-                equations.linearise(point, work);
-                return report(Stop::Solved, steps + 1, next);
+            if next.largest >= 0.5 * size.largest {
+                break;
             }
-            equations.linearise(point, work);
+            std::mem::swap(point, trial);
+            size = equations.linearise(point, work);
+            steps += 1;
         }
+        equations.linearise(point, work);
         report(Stop::Solved, steps, size)
     }
 }

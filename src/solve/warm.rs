@@ -1,17 +1,26 @@
 use super::Equations;
+use crate::number::{Field, Number};
 
-/// Newton's method from a guess that is nearly right, as when following a motion: one Jacobian
-/// serves all steps for as long as each gains enough digits (Shamanskii 1967).
+/// Newton's method for following a motion: each point starts from the ones before it.
 ///
-/// After a first step that leaves an error e₁, a step with the same factors leaves about e₀e₁.
+/// Neighbouring points have nearly the same Jacobian, so its factors are kept from step to step and
+/// from point to point, and renewed only when a step with them gains too little (Shamanskii 1967).
+/// The start is extrapolated from the latest moves (see [`Trail`]).
 #[derive(Clone, Debug, PartialEq)]
 pub struct Warm {
     /// A point is a solution when no dimensionless row exceeds this.
     pub tolerance: f64,
     /// Steps after which to give up.
     pub max_steps: usize,
-    /// A step must multiply the residual by less than this, or the Jacobian is renewed.
+    /// A step must multiply the residual by less than this, or the Jacobian is renewed. Renewing
+    /// costs as much as one to three steps: at three digits a step, a solve takes one more step than
+    /// Newton's and a Jacobian serves some twenty-five solves of a finely divided motion.
     pub contraction: f64,
+    /// The longest step in any unknown, in rad or characteristic lengths. A longer one means that
+    /// the guess was not nearly right, and that another branch may be nearer than the one followed.
+    pub longest_step: f64,
+    /// The highest order of extrapolation, at most 3; 0 starts from the last solution.
+    pub extrapolation: usize,
 }
 
 impl Default for Warm {
@@ -20,6 +29,8 @@ impl Default for Warm {
             tolerance: 1e-12,
             max_steps: 20,
             contraction: 1e-3,
+            longest_step: 0.5,
+            extrapolation: ORDERS - 1,
         }
     }
 }
@@ -27,51 +38,171 @@ impl Default for Warm {
 /// What a warm solve came to.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct WarmReport {
-    /// Whether the residual is below the tolerance.
+    /// Whether the residual at the point returned is below the tolerance.
     pub solved: bool,
     /// Steps taken.
     pub steps: usize,
-    /// The largest residual row at the end, dimensionless.
+    /// How often the Jacobian was evaluated and factorised.
+    pub renewals: usize,
+    /// The largest residual row at the last point tried, dimensionless.
     pub residual: f64,
 }
 
+/// Orders of extrapolation: none, constant moves, moves that change linearly, quadratically.
+const ORDERS: usize = 4;
+
+/// What following a motion remembers: whether factors of a Jacobian are at hand, and the backward
+/// differences m, ∇m, ∇²m, ∇³m of the latest moves m from solution to solution.
+///
+/// Extrapolation of order p adds the first p of them, and would have missed the latest move by
+/// ∇ᵖm. So the order with the smallest ∇ᵖm is the one to use: a smooth motion earns a high one, a
+/// jump or noise leads back to none.
+#[derive(Clone, Debug)]
+pub struct Trail<P, T> {
+    next: P,
+    spare: P,
+    moved: Vec<T>,
+    differences: Vec<[T; ORDERS]>,
+    order: usize,
+    factorised: bool,
+}
+
+impl<P: Clone, T: Field> Trail<P, T> {
+    /// A trail without a past. `point` serves as storage.
+    pub fn new(point: &P, unknowns: usize) -> Self {
+        Trail {
+            next: point.clone(),
+            spare: point.clone(),
+            moved: vec![T::zero(); unknowns],
+            differences: vec![[T::zero(); ORDERS]; unknowns],
+            order: 0,
+            factorised: false,
+        }
+    }
+}
+
+impl<P, T: Field> Trail<P, T> {
+    /// Forgets the past, as before a jump.
+    pub fn forget(&mut self) {
+        self.differences.fill([T::zero(); ORDERS]);
+        self.order = 0;
+        self.factorised = false;
+    }
+
+    /// Takes in the latest move.
+    fn learn(&mut self) {
+        let mut errors = [0.0; ORDERS];
+        for (differences, &moved) in self.differences.iter_mut().zip(&self.moved) {
+            let mut latest = moved;
+            for (difference, error) in differences.iter_mut().zip(&mut errors) {
+                *error += latest.norm_squared();
+                (*difference, latest) = (latest, latest - *difference);
+            }
+        }
+        let better = |best, order| {
+            if errors[order] < errors[best] {
+                order
+            } else {
+                best
+            }
+        };
+        self.order = (1..ORDERS).fold(0, better);
+    }
+}
+
 impl Warm {
-    /// Iterates from `point`. `trial` is storage. On failure `point` is where it got to.
+    /// Moves `point`, a solution for other held values, to the solution for those it holds now.
+    ///
+    /// On failure `point` is left as it was, a start for [`Newton`](super::Newton), and the past
+    /// is forgotten. Nothing allocates.
     #[inline]
     pub fn solve<E: Equations>(
         &self,
         equations: &E,
         point: &mut E::Point,
-        trial: &mut E::Point,
+        trail: &mut Trail<E::Point, E::Number>,
         work: &mut E::Work,
     ) -> WarmReport {
-        let mut residual = equations.linearise(point, work).largest;
-        let mut fresh = false;
-        for steps in 0..self.max_steps {
-            if residual <= self.tolerance {
-                return WarmReport {
-                    solved: true,
-                    steps,
-                    residual,
-                };
-            }
-            if !fresh {
-                equations.factorise(0.0, work);
-            }
-            equations.step(work);
-            equations.advance(point, 1.0, work, trial);
-            std::mem::swap(point, trial);
-            let next = equations.residual(point, work).largest;
-            fresh = next <= self.contraction * residual || next <= self.tolerance;
-            residual = next;
-            if !fresh {
-                equations.linearise(point, work);
-            }
+        let order = trail.order.min(self.extrapolation);
+        let mut report = self.attempt(equations, point, order, trail, work);
+        if !report.solved && order > 0 {
+            trail.factorised = false;
+            let again = self.attempt(equations, point, 0, trail, work);
+            report = WarmReport {
+                steps: report.steps + again.steps,
+                renewals: report.renewals + again.renewals,
+                ..again
+            };
         }
-        WarmReport {
-            solved: residual <= self.tolerance,
-            steps: self.max_steps,
-            residual,
+        if report.solved {
+            std::mem::swap(point, &mut trail.next);
+            trail.learn();
+        } else {
+            trail.forget();
+        }
+        report
+    }
+
+    #[inline]
+    fn attempt<E: Equations>(
+        &self,
+        equations: &E,
+        point: &E::Point,
+        order: usize,
+        trail: &mut Trail<E::Point, E::Number>,
+        work: &mut E::Work,
+    ) -> WarmReport {
+        // a guess worth having leaves less to do than it did
+        let mut longest_step = self.longest_step;
+        if order > 0 {
+            let mut longest = 0.0f64;
+            for (moved, differences) in trail.moved.iter_mut().zip(&trail.differences) {
+                *moved = differences[..order]
+                    .iter()
+                    .fold(E::Number::zero(), |sum, &d| sum + d);
+                longest = longest.max(moved.norm_squared());
+            }
+            longest_step = longest_step.min(longest.sqrt());
+        } else {
+            trail.moved.fill(E::Number::zero());
+        }
+        equations.step_mut(work).copy_from_slice(&trail.moved);
+        equations.advance(point, 1.0, work, &mut trail.next);
+        let mut report = WarmReport {
+            solved: false,
+            steps: 0,
+            renewals: 0,
+            residual: equations.residual(&trail.next, work).largest,
+        };
+        loop {
+            // also false for a residual that is not a number
+            report.solved = report.residual <= self.tolerance;
+            if report.solved || report.steps == self.max_steps {
+                return report;
+            }
+            let fresh = !trail.factorised;
+            if fresh {
+                equations.linearise(&trail.next, work);
+                equations.factorise(0.0, work);
+                trail.factorised = true;
+                report.renewals += 1;
+            }
+            let longest = equations.step(work);
+            report.steps += 1;
+            equations.advance(&trail.next, 1.0, work, &mut trail.spare);
+            let residual = equations.residual(&trail.spare, work).largest;
+            let acceptable = longest <= longest_step && residual < report.residual;
+            let gained = residual <= (self.contraction * report.residual).max(self.tolerance);
+            trail.factorised = acceptable && gained;
+            if acceptable {
+                std::mem::swap(&mut trail.next, &mut trail.spare);
+                for (moved, &step) in trail.moved.iter_mut().zip(&*equations.step_mut(work)) {
+                    *moved += step;
+                }
+                report.residual = residual;
+            } else if fresh {
+                return report;
+            }
         }
     }
 }

@@ -2,9 +2,9 @@ mod rates;
 
 use super::layout::{Held, HeldPlatform, HoldRow, Layout, Unknown};
 use crate::geometry::Vector3;
-use crate::linear::Bordered;
+use crate::linear::{Bordered, Factorable};
 use crate::mechanism::{
-    Closure, Configuration, Dimensions, Kinematics, Mover, Placement, Side, orientation_rows,
+    Closure, Configuration, Dimensions, Kinematics, Mover, Placement, Side, needs, orientation_rows,
 };
 use crate::number::Field;
 use crate::solve::{Equations, Size};
@@ -14,7 +14,7 @@ use crate::solve::{Equations, Size};
 /// Rows and unknowns are dimensionless. A point is a [`Configuration`]; held joints and poses keep
 /// the values it has.
 #[derive(Clone, Debug)]
-pub struct System<T> {
+pub struct System<T: Factorable> {
     kinematics: Kinematics<T>,
     closures: Vec<Closure<T>>,
     plans: Vec<ClosurePlan<T>>,
@@ -42,7 +42,7 @@ struct ClosurePlan<T> {
 
 /// Storage of a [`System`]: nothing in it outlives the question it was made for.
 #[derive(Clone, Debug)]
-pub struct Work<T> {
+pub struct Work<T: Factorable> {
     placement: Placement<T>,
     residual: Vec<T>,
     jacobian: Bordered<T>,
@@ -50,14 +50,14 @@ pub struct Work<T> {
     step: Vec<T>,
 }
 
-impl<T: Field> System<T> {
+impl<T: Factorable> System<T> {
     /// The equations for a choice of what is held.
     pub fn new(dimensions: &Dimensions<T>, held: &Held<T>) -> Self {
         let frames = dimensions
             .closures
             .iter()
-            .flat_map(|closure| closure.frames);
-        let kinematics = Kinematics::new(dimensions, frames);
+            .flat_map(|closure| closure.frames.into_iter().zip(needs(closure.kind)));
+        let kinematics = Kinematics::needing(dimensions, frames);
         let closures: Vec<Closure<T>> = (dimensions.closures.iter())
             .map(|closure| Closure::new(dimensions, closure, &kinematics))
             .collect();
@@ -132,6 +132,16 @@ impl<T: Field> System<T> {
     /// The unknowns in the order of the Jacobian's columns.
     pub fn unknowns(&self) -> &[Unknown] {
         &self.unknowns
+    }
+
+    /// The natural size of a joint's variable: 1 rad, or the characteristic length in m.
+    pub fn joint_scale(&self, joint: usize) -> f64 {
+        self.joint_scales[joint]
+    }
+
+    /// The length in m that makes rows and unknowns dimensionless.
+    pub fn characteristic_length(&self) -> f64 {
+        self.length
     }
 
     /// For each closure the range of its rows.
@@ -285,7 +295,8 @@ fn hold_rows<T: Field>(held: &Held<T>) -> Vec<HoldRow<T>> {
     rows
 }
 
-impl<T: Field> Equations for System<T> {
+impl<T: Factorable> Equations for System<T> {
+    type Number = T;
     type Point = Configuration<T>;
     type Work = Work<T>;
 
@@ -312,15 +323,12 @@ impl<T: Field> Equations for System<T> {
     #[inline]
     fn step(&self, work: &mut Work<T>) -> f64 {
         work.jacobian.solve(&work.residual, &mut work.step);
-        let largest = work
-            .step
-            .iter()
-            .fold(0.0, |m: f64, x| m.max(x.norm_squared()));
-        if work.step.iter().all(|x| x.is_finite()) {
-            largest.sqrt()
-        } else {
-            f64::NAN
-        }
+        Size::of(&work.step).largest
+    }
+
+    #[inline]
+    fn step_mut<'a>(&self, work: &'a mut Work<T>) -> &'a mut [T] {
+        &mut work.step
     }
 
     #[inline]

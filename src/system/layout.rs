@@ -1,5 +1,5 @@
 use crate::geometry::Rotation;
-use crate::linear::Block;
+use crate::linear::{Block, DENSE_LIMIT, Factorable, SparseStep};
 use crate::mechanism::{Closure, Coordinate};
 use crate::number::Number;
 
@@ -69,7 +69,7 @@ pub(super) struct Layout {
 
 impl Layout {
     /// Closures that share a free joint variable form a block; platforms tie the blocks together.
-    pub fn new<T: Number>(closures: &[Closure<T>], held: &Held<T>) -> Self {
+    pub fn new<T: Factorable>(closures: &[Closure<T>], held: &Held<T>) -> Self {
         let mut unknowns: Vec<Unknown> = Vec::new();
         let mut joint_unknown = vec![None; held.joints.len()];
         for (joint, _) in held.joints.iter().enumerate().filter(|(_, held)| !**held) {
@@ -89,6 +89,9 @@ impl Layout {
             }
         }
 
+        if T::Sparse::AVAILABLE && unknowns.len() > DENSE_LIMIT {
+            return Layout::of_single_closures(closures, unknowns, &joint_unknown, &first_twist);
+        }
         let mut owner: Vec<usize> = (0..closures.len()).collect();
         let mut felt_by: Vec<Option<usize>> = vec![None; joints];
         for (c, closure) in closures.iter().enumerate() {
@@ -138,6 +141,37 @@ impl Layout {
             unknowns,
             blocks,
             places,
+        }
+    }
+
+    /// A block for every closure, all unknowns shared: the pattern of a sparse matrix.
+    fn of_single_closures<T: Number>(
+        closures: &[Closure<T>],
+        unknowns: Vec<Unknown>,
+        joint_unknown: &[Option<usize>],
+        first_twist: &[Option<usize>],
+    ) -> Self {
+        let blocks = closures.iter().map(|closure| {
+            let joints = closure.joints().into_iter();
+            let mut shared: Vec<usize> = joints.filter_map(|joint| joint_unknown[joint]).collect();
+            for platform in closure.platforms.iter().flatten() {
+                if let Some(first) = first_twist[*platform]
+                    && !shared.contains(&first)
+                {
+                    shared.extend(first..first + 6);
+                }
+            }
+            Block {
+                rows: closure.kind.equations(),
+                own: Vec::new(),
+                shared,
+            }
+        });
+        Layout {
+            blocks: blocks.collect(),
+            places: (0..closures.len()).map(|block| (block, 0)).collect(),
+            shared: (0..unknowns.len()).collect(),
+            unknowns,
         }
     }
 

@@ -8,7 +8,7 @@ use super::coordinates::{C, Coordinates};
 use super::generic::GenericSolutions;
 use super::real::{key, named_joints, named_poses, order, real_solution};
 use super::report::{AssembliesReport, Assembly, ClosestApproach, ComplexAssembly, Fit, Named};
-use crate::linear::singular_values;
+use crate::linear::Spectrum;
 use crate::mechanism::{Configuration, Mechanism};
 use crate::number::Number;
 use crate::solve::{Equations, Newton};
@@ -32,26 +32,43 @@ struct Found {
 
 impl Question<'_> {
     /// The report for the ends of all paths.
-    pub fn answer(&self, generic: &GenericSolutions, ends: &Ends, wanted: Wanted) -> AssembliesReport {
+    pub fn answer(
+        &self,
+        generic: &GenericSolutions,
+        ends: &Ends,
+        wanted: Wanted,
+    ) -> AssembliesReport {
         let mut work = self.system.work();
         let grouped = self.grouped(&ends.ends);
         let mut found: Vec<Found> = Vec::new();
         let mut complex_assemblies = Vec::new();
         for (x, multiplicity, singular) in &grouped {
-            match real_solution(x, *singular, self.coordinates, &self.system, &mut work, self.asked) {
+            match real_solution(
+                x,
+                *singular,
+                self.coordinates,
+                &self.system,
+                &mut work,
+                self.asked,
+            ) {
                 Some(point) => found.push(Found {
                     key: key(&point, self.coordinates),
                     point,
                     multiplicity: *multiplicity,
                 }),
-                None if wanted.all_complex => complex_assemblies.push(self.complex(x, *multiplicity)),
+                None if wanted.all_complex => {
+                    complex_assemblies.push(self.complex(x, *multiplicity))
+                }
                 None => {}
             }
         }
         found.sort_by(|a, b| order(&a.key, &b.key));
         let starts: Vec<&Vec<C>> = grouped.iter().map(|(x, ..)| x).collect();
         let mut report = self.empty(generic);
-        report.complex = grouped.iter().map(|(_, multiplicity, _)| multiplicity).sum();
+        report.complex = grouped
+            .iter()
+            .map(|(_, multiplicity, _)| multiplicity)
+            .sum();
         report.at_infinity = ends.ends.iter().filter(|e| **e == End::Infinite).count();
         report.lost = ends.ends.iter().filter(|e| **e == End::Lost).count();
         report.singular = grouped.iter().filter(|(.., singular)| *singular).count();
@@ -66,18 +83,35 @@ impl Question<'_> {
     }
 
     /// Samples of assemblies that are not finite in number, or what many starts found.
-    pub fn sampled(&self, generic: &GenericSolutions, fit: Fit, points: Vec<Configuration<f64>>, wanted: Wanted) -> AssembliesReport {
+    pub fn sampled(
+        &self,
+        generic: &GenericSolutions,
+        fit: Fit,
+        points: Vec<Configuration<f64>>,
+        wanted: Wanted,
+    ) -> AssembliesReport {
         let mut report = self.empty(generic);
         let mut work = self.system.work();
         let mut found: Vec<Found> = Vec::new();
         for point in points {
             let x = self.coordinates.flatten(&point.map(C::from_f64));
-            let Some(point) = real_solution(&x, false, self.coordinates, &self.system, &mut work, self.asked) else {
+            let Some(point) = real_solution(
+                &x,
+                false,
+                self.coordinates,
+                &self.system,
+                &mut work,
+                self.asked,
+            ) else {
                 continue;
             };
             let key = key(&point, self.coordinates);
             if !found.iter().any(|f| self.same(&f.point, &point)) {
-                found.push(Found { point, key, multiplicity: 1 });
+                found.push(Found {
+                    point,
+                    key,
+                    multiplicity: 1,
+                });
             }
         }
         found.sort_by(|a, b| order(&a.key, &b.key));
@@ -135,7 +169,10 @@ impl Question<'_> {
                 true => self.coordinates.difference(x, y) < 1e-5,
                 false => self.coordinates.same(x, y),
             };
-            match groups.iter_mut().find(|(y, _, s)| *s == singular && near(y)) {
+            match groups
+                .iter_mut()
+                .find(|(y, _, s)| *s == singular && near(y))
+            {
                 Some(group) => group.1 += 1,
                 None => groups.push((x.clone(), 1, singular)),
             }
@@ -161,7 +198,13 @@ impl Question<'_> {
     }
 
     /// Numbers, conditions, determinants and certificates.
-    fn describe(&self, report: &mut AssembliesReport, found: Vec<Found>, certify: bool, work: &mut Work<f64>) {
+    fn describe(
+        &self,
+        report: &mut AssembliesReport,
+        found: Vec<Found>,
+        certify: bool,
+        work: &mut Work<f64>,
+    ) {
         let (rows, columns) = (self.system.rows(), self.system.unknowns().len());
         let jacobians: Vec<Vec<f64>> = (found.iter())
             .map(|f| {
@@ -182,10 +225,12 @@ impl Question<'_> {
             false => None,
         };
         for (k, (f, dense)) in found.iter().zip(&jacobians).enumerate() {
-            let values = singular_values(rows, columns, dense);
+            let values = Spectrum::of(rows, columns, dense).values;
             let (first, last) = (values.first().copied(), values.last().copied());
             let condition = match (first, last) {
-                (Some(a), Some(b)) if rows >= columns && b > 1e-12 * a && f.multiplicity == 1 => Some(a / b),
+                (Some(a), Some(b)) if rows >= columns && b > 1e-12 * a && f.multiplicity == 1 => {
+                    Some(a / b)
+                }
                 (None, _) => Some(1.0),
                 _ => None,
             };
@@ -195,11 +240,15 @@ impl Question<'_> {
             };
             // half the way to the next assembly keeps the boxes apart
             let others = found.iter().enumerate().filter(|(i, _)| *i != k);
-            let gap = others.map(|(_, o)| gap(self.coordinates, &f.point, &o.point)).fold(f64::INFINITY, f64::min);
+            let gap = others
+                .map(|(_, o)| gap(self.coordinates, &f.point, &o.point))
+                .fold(f64::INFINITY, f64::min);
             let certificate = match (&mut certifier, f.multiplicity) {
                 (_, 2..) => Certificate::Failed("singular: solutions meet here"),
                 (Some(certifier), _) => certifier.certify(&f.point, (0.49 * gap).min(0.01)),
-                (None, _) if certify => Certificate::Failed("singular: too few independent closure rows"),
+                (None, _) if certify => {
+                    Certificate::Failed("singular: too few independent closure rows")
+                }
                 (None, _) => Certificate::Failed("not asked for"),
             };
             let joints = self.mechanism.joints().iter().zip(&f.point.joints);
@@ -219,7 +268,9 @@ impl Question<'_> {
                     Certificate::Unique(_) => None,
                     Certificate::Failed(reason) => Some(reason.into()),
                 },
-                within_limits: joints.into_iter().all(|(joint, value)| joint.allows(*value)),
+                within_limits: joints
+                    .into_iter()
+                    .all(|(joint, value)| joint.allows(*value)),
                 shares_platform_pose_with: (0..found.len())
                     .filter(|&i| i != k && shares_pose(self.coordinates, &f.key, &found[i].key))
                     .map(|i| i + 1)
@@ -250,7 +301,9 @@ impl Question<'_> {
             let report = newton.solve(&self.system, &mut point, &mut trial, work);
             // ties are settled by the order of starts; a clearly smaller gap wins
             if report.size.squares.is_finite()
-                && best.as_ref().is_none_or(|(least, _)| report.size.squares < least * (1.0 - 1e-6))
+                && best
+                    .as_ref()
+                    .is_none_or(|(least, _)| report.size.squares < least * (1.0 - 1e-6))
             {
                 best = Some((report.size.squares, point));
             }
@@ -258,7 +311,10 @@ impl Question<'_> {
         let (_, point) = best?;
         self.system.residual(&point, work);
         let residual = self.system.residual_of(work);
-        let gaps = self.system.closure_rows().map(|rows| residual[rows].iter().map(|x| x * x).sum::<f64>().sqrt());
+        let gaps = self
+            .system
+            .closure_rows()
+            .map(|rows| residual[rows].iter().map(|x| x * x).sum::<f64>().sqrt());
         let names = self.mechanism.closures().iter().map(|c| c.name.clone());
         let gaps: Vec<(String, f64)> = names.zip(gaps).collect();
         let worst = gaps.iter().max_by(|a, b| a.1.total_cmp(&b.1))?.0.clone();

@@ -42,7 +42,12 @@ struct Followed {
 ///
 /// A path that is lost, or two that end at the same regular solution (one has jumped), are followed
 /// again with greater care, and if that does not help all of them another way round.
-pub(super) fn carry(family: &Family, from: &Member, to: &Member, solutions: &[Vec<C>]) -> Option<Ends> {
+pub(super) fn carry(
+    family: &Family,
+    from: &Member,
+    to: &Member,
+    solutions: &[Vec<C>],
+) -> Option<Ends> {
     let way = family.way(from, to)?;
     let mut best: Option<Ends> = None;
     let mut retries = 0;
@@ -67,14 +72,22 @@ pub(super) fn carry(family: &Family, from: &Member, to: &Member, solutions: &[Ve
     best
 }
 
-fn straight(way: &Way<'_>, solutions: &[Vec<C>], bend: f64, care: f64, retries: &mut usize) -> Ends {
+fn straight(
+    way: &Way<'_>,
+    solutions: &[Vec<C>],
+    bend: f64,
+    care: f64,
+    retries: &mut usize,
+) -> Ends {
     let coordinates = &way.family.coordinates;
     let careful = |level: i32| match care * 0.1f64.powi(level) {
         1.0 => Tracker::default(),
         factor => Tracker::default().tightened(factor),
     };
     let tracker = careful(0);
-    let followed = threads::each(solutions.len(), way, |way, i| follow(way, &tracker, bend, &solutions[i]));
+    let followed = threads::each(solutions.len(), way, |way, i| {
+        follow(way, &tracker, bend, &solutions[i])
+    });
     let (mut steps, mut evaluations) = (0, 0);
     for f in &followed {
         steps += f.steps;
@@ -88,7 +101,9 @@ fn straight(way: &Way<'_>, solutions: &[Vec<C>], bend: f64, care: f64, retries: 
         }
         *retries += again.len();
         let tracker = careful(level);
-        let followed = threads::each(again.len(), way, |way, k| follow(way, &tracker, bend, &solutions[again[k]]));
+        let followed = threads::each(again.len(), way, |way, k| {
+            follow(way, &tracker, bend, &solutions[again[k]])
+        });
         for (i, f) in again.into_iter().zip(followed) {
             steps += f.steps;
             evaluations += f.evaluations;
@@ -105,7 +120,12 @@ fn straight(way: &Way<'_>, solutions: &[Vec<C>], bend: f64, care: f64, retries: 
             }
         }
     }
-    Ends { ends, steps, evaluations, retries: 0 }
+    Ends {
+        ends,
+        steps,
+        evaluations,
+        retries: 0,
+    }
 }
 
 /// Paths that were lost, and those that share a regular end.
@@ -119,7 +139,9 @@ fn doubtful(ends: &[End], same: impl Fn(&[C], &[C]) -> bool) -> Vec<usize> {
             (0..ends.len()).any(|j| j != i && regular(j).is_some_and(|y| same(x, y)))
         })
     };
-    (0..ends.len()).filter(|&i| ends[i] == End::Lost || shared(i)).collect()
+    (0..ends.len())
+        .filter(|&i| ends[i] == End::Lost || shared(i))
+        .collect()
 }
 
 fn follow(way: &mut Way<'_>, tracker: &Tracker, bend: f64, from: &[C]) -> Followed {
@@ -161,7 +183,11 @@ fn follow(way: &mut Way<'_>, tracker: &Tracker, bend: f64, from: &[C]) -> Follow
             Arrival::Stuck(_) => End::Lost,
         }
     });
-    Followed { end, steps, evaluations }
+    Followed {
+        end,
+        steps,
+        evaluations,
+    }
 }
 
 fn arrived(way: &mut Way<'_>, arrival: Arrival, x: &[C]) -> Option<End> {

@@ -36,20 +36,35 @@ impl Certifier {
     /// enclosure.
     pub fn new(mechanism: &Mechanism, held: &Held<f64>, rows: &[usize]) -> Option<Self> {
         let own = mechanism.independent_parameters().into_iter();
-        let own: Vec<Interval> = own.map(|i| Interval::point(mechanism.parameters()[i].value)).collect();
-        let mut dimensions = mechanism.dimensions_over(&mechanism.parameters_from(&own).ok()?).ok()?;
+        let own: Vec<Interval> = own
+            .map(|i| Interval::point(mechanism.parameters()[i].value))
+            .collect();
+        let mut dimensions = mechanism
+            .dimensions_over(&mechanism.parameters_from(&own).ok()?)
+            .ok()?;
         let real = mechanism.dimensions();
         dimensions.characteristic_length = real.characteristic_length;
         dimensions.joint_scales.clone_from(&real.joint_scales);
         let platforms = held.platforms.iter().map(|held| match held {
             HeldPlatform::Free => HeldPlatform::Free,
             HeldPlatform::Pose => HeldPlatform::Pose,
-            HeldPlatform::Partly { coordinates, orientation } => HeldPlatform::Partly {
-                coordinates: coordinates.iter().map(|(c, x)| (*c, Interval::point(*x))).collect(),
-                orientation: orientation.map(|r| crate::geometry::Rotation(r.0.map(|v| Vector3(v.0.map(Interval::point))))),
+            HeldPlatform::Partly {
+                coordinates,
+                orientation,
+            } => HeldPlatform::Partly {
+                coordinates: coordinates
+                    .iter()
+                    .map(|(c, x)| (*c, Interval::point(*x)))
+                    .collect(),
+                orientation: orientation.map(|r| {
+                    crate::geometry::Rotation(r.0.map(|v| Vector3(v.0.map(Interval::point))))
+                }),
             },
         });
-        let held = Held { joints: held.joints.clone(), platforms: platforms.collect() };
+        let held = Held {
+            joints: held.joints.clone(),
+            platforms: platforms.collect(),
+        };
         let system = System::new(&dimensions, &held);
         if rows.len() != system.unknowns().len() {
             return None;
@@ -79,13 +94,18 @@ impl Certifier {
             return Certificate::Failed("singular: solutions meet here");
         };
         let times = |i: usize, column: &dyn Fn(usize) -> Interval| {
-            (0..n).fold(Interval::point(0.0), |sum, k| sum + Interval::point(inverse[(i, k)]) * column(k))
+            (0..n).fold(Interval::point(0.0), |sum, k| {
+                sum + Interval::point(inverse[(i, k)]) * column(k)
+            })
         };
         let offset: Vec<Interval> = (0..n).map(|i| -times(i, &|k| residual[k])).collect();
         let away = offset.iter().map(|x| x.magnitude()).fold(0.0, f64::max);
         let mut radius = largest;
         while radius > 2.0 * away.max(1e-15) {
-            let y = Interval { low: -radius, high: radius };
+            let y = Interval {
+                low: -radius,
+                high: radius,
+            };
             let boxed = self.boxed(at, y);
             if let Some((_, jacobian)) = self.evaluate(&boxed, &vec![y; n]) {
                 let inside = (0..n).all(|i| {
@@ -103,7 +123,9 @@ impl Certifier {
             }
             radius /= 4.0;
         }
-        Certificate::Failed("near-singular: no box is small enough to hold one solution and large enough for rounding")
+        Certificate::Failed(
+            "near-singular: no box is small enough to hold one solution and large enough for rounding",
+        )
     }
 
     /// All configurations whose chart coordinates are within `y`.
@@ -112,7 +134,10 @@ impl Certifier {
         for unknown in self.system.unknowns() {
             match *unknown {
                 Unknown::Joint(j) => boxed.joints[j] += y * Interval::point(self.scales[j]),
-                Unknown::Twist { platform, component: 0 } => {
+                Unknown::Twist {
+                    platform,
+                    component: 0,
+                } => {
                     let pose = &boxed.platforms[platform];
                     let shift = y * Interval::point(self.length);
                     boxed.platforms[platform] = PlatformPose {
@@ -130,7 +155,11 @@ impl Certifier {
     ///
     /// The chart is the Cayley map of ω. Its derivative turns dω into the rotation rate
     /// (dω + ω/2 × dω)/(1 + ω·ω/4).
-    fn evaluate(&mut self, at: &Configuration<Interval>, y: &[Interval]) -> Option<(Vec<Interval>, Vec<Interval>)> {
+    fn evaluate(
+        &mut self,
+        at: &Configuration<Interval>,
+        y: &[Interval],
+    ) -> Option<(Vec<Interval>, Vec<Interval>)> {
         let mut at = at.clone();
         for platform in &mut at.platforms {
             // enclosures of the unit quaternion; f64 components are unit to rounding only
@@ -140,7 +169,11 @@ impl Certifier {
         self.system.linearise(&at, &mut self.work);
         let all = self.system.rows();
         let dense = self.system.dense_jacobian(&mut self.work);
-        let residual: Vec<Interval> = self.rows.iter().map(|&r| self.system.residual_of(&self.work)[r]).collect();
+        let residual: Vec<Interval> = self
+            .rows
+            .iter()
+            .map(|&r| self.system.residual_of(&self.work)[r])
+            .collect();
         let n = self.rows.len();
         let mut chosen: Vec<Interval> = Vec::with_capacity(n * n);
         for j in 0..n {
@@ -155,7 +188,9 @@ impl Certifier {
             if c == Vector3::zero() {
                 continue;
             }
-            let factor = Interval::point(1.0) / (Interval::point(1.0) + c.0.iter().fold(Interval::point(0.0), |s, x| s + square(*x)));
+            let factor = Interval::point(1.0)
+                / (Interval::point(1.0)
+                    + c.0.iter().fold(Interval::point(0.0), |s, x| s + square(*x)));
             for r in 0..n {
                 let row = Vector3([0, 1, 2].map(|i| chosen[(j + i) * n + r]));
                 for i in 0..3 {

@@ -57,13 +57,21 @@ pub(super) fn follow(
     let mut x = c.flatten(&from.0.map(C::from_f64));
     let whole = (C::from_f64(0.0), C::from_f64(1.0));
     // real inputs keep every number real, so no step can leave the real branch unnoticed
-    let tracker = Tracker { shortest: 1e-12, max_steps: 20_000, ..Tracker::default().tightened(0.05) };
+    let tracker = Tracker {
+        shortest: 1e-12,
+        max_steps: 20_000,
+        ..Tracker::default().tightened(0.05)
+    };
     let track = tracker.track(&mut way, whole, &mut x, &mut Stages::new(c.count()));
     let done = match track.arrival {
         Arrival::There => 1.0,
         Arrival::Stuck(at) | Arrival::Diverged(at) => at,
     };
-    let inputs: Vec<f64> = start.iter().zip(&end).map(|(a, b)| a + done * (b - a)).collect();
+    let inputs: Vec<f64> = start
+        .iter()
+        .zip(&end)
+        .map(|(a, b)| a + done * (b - a))
+        .collect();
     if track.arrival == Arrival::There && polish(&mut way, whole.1, &mut x) {
         let system = System::new(mechanism.dimensions(), to.1);
         let point = real_solution(&x, false, c, &system, &mut system.work(), to.0);
@@ -77,7 +85,12 @@ pub(super) fn follow(
     let joints = mechanism.joints().iter().map(|j| j.name.clone());
     Some(Followed::Fold(Fold {
         fraction: done,
-        inputs: Named(input_names(mechanism, family).into_iter().zip(inputs).collect()),
+        inputs: Named(
+            input_names(mechanism, family)
+                .into_iter()
+                .zip(inputs)
+                .collect(),
+        ),
         joints: Named(joints.zip(last.joints.iter().map(|z| z.re)).collect()),
     }))
 }
@@ -87,14 +100,26 @@ fn input_names(mechanism: &Mechanism, family: &Family) -> Vec<String> {
     const QUATERNION: [&str; 4] = ["qw", "qx", "qy", "qz"];
     let c = &family.coordinates;
     let platform = |p: usize| &mechanism.platforms()[p].name;
-    let mut names: Vec<String> = c.held_joints.iter().map(|&j| mechanism.joints()[j].name.clone()).collect();
+    let mut names: Vec<String> = c
+        .held_joints
+        .iter()
+        .map(|&j| mechanism.joints()[j].name.clone())
+        .collect();
     for &p in &c.held_poses {
         let parts = QUATERNION.iter().chain(&["x", "y", "z"]);
         names.extend(parts.map(|part| format!("{}.{part}", platform(p))));
     }
-    names.extend(c.targets.iter().map(|&(p, coordinate)| format!("{}.{}", platform(p), coordinate.name())));
+    names.extend(
+        c.targets
+            .iter()
+            .map(|&(p, coordinate)| format!("{}.{}", platform(p), coordinate.name())),
+    );
     for &p in &c.orientations {
-        names.extend(QUATERNION.iter().map(|part| format!("{}.{part}", platform(p))));
+        names.extend(
+            QUATERNION
+                .iter()
+                .map(|part| format!("{}.{part}", platform(p))),
+        );
     }
     names
 }

@@ -12,7 +12,7 @@ use serde::{Deserialize, Serialize};
 
 use super::coordinates::{C, size};
 use super::family::{Family, Member, Way};
-use super::{AssemblySettings, threads};
+use super::{AssembliesSettings, threads};
 use crate::number::Number;
 use crate::solve::{Arrival, Homotopy, Newton, Stages, Stop, Tracker};
 
@@ -76,7 +76,7 @@ fn generator(seed: u64, stream: u64) -> Pcg64 {
 
 struct Search<'a> {
     family: &'a Family,
-    settings: &'a AssemblySettings,
+    settings: &'a AssembliesSettings,
     base: Member,
     found: Vec<Vec<C>>,
     freedom: Option<usize>,
@@ -97,7 +97,7 @@ enum Seed {
 pub(super) fn search(
     family: &Family,
     question: String,
-    settings: &AssemblySettings,
+    settings: &AssembliesSettings,
 ) -> Option<GenericSolutions> {
     let mut rng = generator(settings.seed, 0);
     let inputs = family.random_inputs(&mut rng);

@@ -68,7 +68,10 @@ fn tidied(mut point: Configuration<f64>, coordinates: &Coordinates) -> Configura
 /// What solutions are numbered by: unknown joints in the order of the file, then position and
 /// quaternion of each platform.
 pub(super) fn key(point: &Configuration<f64>, coordinates: &Coordinates) -> Vec<f64> {
-    let joints = coordinates.free_joints.iter().map(|&j| point.joints[j] / coordinates.joint_scales[j]);
+    let joints = coordinates
+        .free_joints
+        .iter()
+        .map(|&j| point.joints[j] / coordinates.joint_scales[j]);
     let poses = coordinates.free_platforms.iter().flat_map(|&p| {
         let pose = &point.platforms[p];
         (pose.position.0.map(|x| x / coordinates.length).into_iter()).chain(pose.orientation.0)
@@ -91,7 +94,8 @@ pub(super) fn named_joints(mechanism: &Mechanism, point: &Configuration<f64>) ->
 pub(super) fn named_poses(mechanism: &Mechanism, point: &Configuration<f64>) -> Named<PoseReport> {
     let names = mechanism.platforms().iter().map(|p| p.name.clone());
     let poses = point.platforms.iter().map(|pose| {
-        let RollPitchYaw { roll, pitch, yaw } = RollPitchYaw::from_rotation(&pose.orientation.rotation());
+        let RollPitchYaw { roll, pitch, yaw } =
+            RollPitchYaw::from_rotation(&pose.orientation.rotation());
         PoseReport {
             position: pose.position.0,
             quaternion: pose.orientation.0,

@@ -6,10 +6,19 @@ impl Reader {
     pub(super) fn closed_form(&mut self, piece: Piece) -> Option<ClosedFormDescription> {
         let mut fields = self.fields(piece, Structure::ClosedForm)?;
         // Reading takes the fields out, so what kind of formula it is must be asked first.
-        let gives = |names: &[&str]| names.iter().any(|name| fields.pieces.contains_key(name));
-        let pose = gives(&["position", "rotation", "transform", "entries"]);
-        if pose && !gives(&["of"]) {
+        let pose = fields.gives(&["position", "rotation", "transform", "entries"]);
+        let identity = fields.gives(&["identity", "identities"]);
+        if pose && !fields.gives(&["of"]) {
             self.require(&mut fields, "of");
+        }
+        match (pose, identity) {
+            (true, true) => self
+                .problems
+                .push(ProblemKind::MixedClosedForm.at(fields.head())),
+            (false, false) => self
+                .problems
+                .push(ProblemKind::EmptyClosedForm.at(fields.head())),
+            _ => {}
         }
         Some(ClosedFormDescription {
             of: self.optional_text(&mut fields, "of", Expected::Frame),

@@ -1,5 +1,6 @@
 //! Words for what is wrong with an expression.
 
+use super::syntax::shown;
 use super::{count, listed, nearest};
 use crate::algebra::{
     EvaluationErrorKind, Function, MAX_HEIGHT, MAX_NESTING, ParseErrorKind, Unit,
@@ -11,7 +12,7 @@ pub(super) fn title(error: &ParseErrorKind) -> String {
         Empty => "the expression is empty".into(),
         UnexpectedCharacter(c) => format!(
             "the character `{}` has no meaning in an expression",
-            c.escape_debug()
+            shown(*c)
         ),
         ExpectedOperand => "a number, a name or `(` must stand here".into(),
         MissingOperator => "an operator is missing between two values".into(),

@@ -2,64 +2,94 @@
 
 use ron::Error;
 
-pub(super) fn title(error: &Error) -> String {
-    match error {
-        Error::Eof => "the file ends in the middle of something".into(),
-        Error::ExpectedComma => "a comma or a closing bracket is missing".into(),
-        Error::ExpectedStructLikeEnd | Error::ExpectedOptionEnd => {
-            "a comma or a closing `)` is missing".into()
+/// `found` is the character at which reading stopped.
+pub(super) fn title(error: &Error, found: Option<char>) -> String {
+    let title = match (error, found) {
+        (Error::Eof, _) => "the file ends in the middle of something",
+        (Error::ExpectedComma, Some('=')) | (Error::ExpectedMapColon, _) => "a colon is missing",
+        (Error::ExpectedComma, _) => "a comma or a closing bracket is missing",
+        (Error::ExpectedIdentifier, Some(')' | ']' | '}')) => "a closing bracket is missing",
+        (Error::UnexpectedChar(')' | ']' | '}'), _) => "a value or a closing bracket is missing",
+        (Error::ExpectedStructLikeEnd | Error::ExpectedOptionEnd, _) => {
+            "a comma or a closing `)` is missing"
         }
-        Error::ExpectedArrayEnd => "a comma or a closing `]` is missing".into(),
-        Error::ExpectedMapEnd => "a comma or a closing `}` is missing".into(),
-        Error::ExpectedMapColon => "a colon is missing".into(),
-        Error::ExpectedIdentifier => "the name of a field must stand here".into(),
-        Error::ExpectedStringEnd => "a text is not closed by `\"`".into(),
-        Error::InvalidEscape(_) => "a text contains `\\` followed by something unknown".into(),
-        Error::UnclosedBlockComment => "a comment is not closed by `*/`".into(),
-        Error::UnexpectedChar(c) => {
-            format!("the character `{}` must not stand here", c.escape_debug())
+        (Error::ExpectedArrayEnd, _) => "a comma or a closing `]` is missing",
+        (Error::ExpectedMapEnd, _) => "a comma or a closing `}` is missing",
+        (Error::ExpectedIdentifier, _) => "the name of a field must stand here",
+        (Error::ExpectedStringEnd, _) => "a text is not closed by `\"`",
+        (Error::InvalidEscape(_), _) => "a text contains `\\` followed by something unknown",
+        (Error::UnclosedBlockComment, _) => "a comment is not closed by `*/`",
+        (Error::TrailingCharacters, Some(')' | ']' | '}')) => "a bracket closes nothing",
+        (Error::TrailingCharacters, _) => "something follows the end of the mechanism",
+        (Error::ExpectedAttribute | Error::ExpectedAttributeEnd, _) => {
+            "this is not a RON attribute"
         }
-        Error::TrailingCharacters => "something follows the end of the mechanism".into(),
-        Error::SuggestRawIdentifier(name) => format!("`{name}` is not the name of a field"),
-        Error::NoSuchExtension(name) => format!("there is no RON extension `{name}`"),
-        Error::ExpectedAttribute | Error::ExpectedAttributeEnd => {
-            "this is not a RON attribute".into()
+        (Error::IntegerOutOfBounds, _) => "the number is too large",
+        (Error::UnexpectedChar(c), _) => {
+            return format!("the character `{}` must not stand here", shown(*c));
         }
-        Error::IntegerOutOfBounds => "the number is too large".into(),
-        other => format!("this is not RON: {}", first_lower(&other.to_string())),
+        (Error::SuggestRawIdentifier(name), _) => {
+            return format!("`{name}` is not the name of a field");
+        }
+        (Error::NoSuchExtension(name), _) => return format!("there is no RON extension `{name}`"),
+        (other, _) => return format!("this is not RON: {}", first_lower(&other.to_string())),
+    };
+    title.to_owned()
+}
+
+/// A character as it can be printed.
+pub(super) fn shown(c: char) -> String {
+    match c.is_control() {
+        true => c.escape_default().to_string(),
+        false => c.to_string(),
     }
 }
 
 fn first_lower(text: &str) -> String {
     let mut characters = text.chars();
-    characters.next().map_or_else(String::new, |first| {
-        first.to_lowercase().chain(characters).collect()
-    })
+    let first = characters.next();
+    first
+        .into_iter()
+        .flat_map(char::to_lowercase)
+        .chain(characters)
+        .collect()
 }
 
-pub(super) fn label(error: &Error) -> &'static str {
-    match error {
-        Error::Eof => "more must follow",
-        Error::ExpectedComma
-        | Error::ExpectedStructLikeEnd
-        | Error::ExpectedOptionEnd
-        | Error::ExpectedArrayEnd
-        | Error::ExpectedMapEnd
-        | Error::ExpectedMapColon => "missing before this",
-        Error::TrailingCharacters => "not part of it",
+pub(super) fn label(error: &Error, found: Option<char>) -> &'static str {
+    match (error, found) {
+        (Error::Eof, _) => "more must follow",
+        (Error::ExpectedComma, Some('=')) => "not a colon",
+        (Error::ExpectedIdentifier, Some(')' | ']' | '}'))
+        | (Error::UnexpectedChar(')' | ']' | '}'), _) => "missing before this",
+        (
+            Error::ExpectedComma
+            | Error::ExpectedStructLikeEnd
+            | Error::ExpectedOptionEnd
+            | Error::ExpectedArrayEnd
+            | Error::ExpectedMapEnd
+            | Error::ExpectedMapColon,
+            _,
+        ) => "missing before this",
+        (Error::TrailingCharacters, Some(')' | ']' | '}')) => "one too many",
+        (Error::TrailingCharacters, _) => "not part of it",
+        (Error::ExpectedStringEnd, _) => "opened here",
         _ => "",
     }
 }
 
-pub(super) fn help(error: &Error) -> Option<&'static str> {
-    match error {
-        Error::UnexpectedChar('#') => Some("a comment begins with `//`"),
-        Error::UnexpectedChar('=') | Error::ExpectedMapColon => Some("write `name: value`"),
-        Error::UnexpectedChar('“' | '”' | '„' | '‘' | '’') => {
+pub(super) fn help(error: &Error, found: Option<char>) -> Option<&'static str> {
+    match (error, found) {
+        (Error::UnexpectedChar('#') | Error::ExpectedAttribute, _) => {
+            Some("a comment begins with `//`")
+        }
+        (Error::ExpectedComma | Error::UnexpectedChar('='), Some('='))
+        | (Error::ExpectedMapColon, _) => Some("write `name: value`"),
+        (Error::UnexpectedChar('“' | '”' | '„' | '‘' | '’'), _) => {
             Some("write the straight quotes of the keyboard, `\"`")
         }
-        Error::InvalidEscape(_) => Some("write `\\\\` for a backslash"),
-        Error::TrailingCharacters => Some("a file holds one `Mechanism(…)`"),
+        (Error::InvalidEscape(_), _) => Some("write `\\\\` for a backslash"),
+        (Error::TrailingCharacters, Some(')' | ']' | '}')) => None,
+        (Error::TrailingCharacters, _) => Some("a file holds one `Mechanism(…)`"),
         _ => None,
     }
 }

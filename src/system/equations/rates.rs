@@ -2,12 +2,11 @@
 
 use super::{System, Work};
 use crate::geometry::Rotation;
-use crate::linear::Qr;
-use crate::number::Field;
+use crate::linear::{Factorable, Qr};
 use crate::solve::Equations;
 use crate::system::layout::HoldRow;
 
-impl<T: Field> System<T> {
+impl<T: Factorable> System<T> {
     /// The step last computed, in the order of the unknowns, dimensionless.
     pub fn step_of<'a>(&self, work: &'a Work<T>) -> &'a [T] {
         &work.step

@@ -1,0 +1,95 @@
+//! Who is to blame for a singular configuration.
+
+use super::Outcome;
+use crate::linear::Spectrum;
+use crate::mechanism::{Configuration, Mechanism};
+use crate::solve::Equations;
+use crate::system::{Freedoms, Held, HeldPlatform, System, Unknown};
+
+/// Names what moves though the inputs are held, the closure whose equations depend on the others
+/// there, and the held joints that cannot drive the mechanism.
+///
+/// With J over the free and H over the held unknowns, w with wᵀJ = 0 and wᵀH ≠ 0 is a combination
+/// of closure rows that only the inputs enter: it belongs to a closure, and the inputs in it are
+/// locked. Combinations with wᵀH = 0 as well are the redundancy of an overconstrained mechanism.
+pub(super) fn blame(
+    mechanism: &Mechanism,
+    held: &Held<f64>,
+    at: &Configuration<f64>,
+    freedoms: &Freedoms,
+) -> Outcome {
+    let dimensions = mechanism.dimensions();
+    let all_free = Held {
+        joints: vec![false; held.joints.len()],
+        platforms: vec![HeldPlatform::Free; held.platforms.len()],
+    };
+    let system = System::new(dimensions, &all_free);
+    let mut work = system.work();
+    system.linearise(at, &mut work);
+    let jacobian = system.dense_jacobian(&mut work);
+    let rows = system.rows();
+    let (mut free, mut inputs) = (Vec::new(), Vec::new());
+    for (unknown, column) in system
+        .unknowns()
+        .iter()
+        .zip(jacobian.chunks_exact(rows.max(1)))
+    {
+        let is_held = match *unknown {
+            Unknown::Joint(joint) => held.joints[joint],
+            Unknown::Twist { platform, .. } => held.platforms[platform] == HeldPlatform::Pose,
+        };
+        match (is_held, *unknown) {
+            (false, _) => free.push(column),
+            (true, Unknown::Joint(joint)) => inputs.push((joint, column)),
+            (true, Unknown::Twist { .. }) => {}
+        }
+    }
+    let transposed: Vec<f64> = (0..rows)
+        .flat_map(|i| free.iter().map(move |c| c[i]))
+        .collect();
+    let mut strongest = (0.0, 0, Vec::new());
+    for w in Spectrum::of(free.len(), rows, &transposed).null_space {
+        let drive = |column: &[f64]| -> f64 { column.iter().zip(&w).map(|(a, b)| a * b).sum() };
+        let drives: Vec<(usize, f64)> = inputs.iter().map(|(j, c)| (*j, drive(c).abs())).collect();
+        let most = drives.iter().fold(0.0, |m: f64, (_, d)| m.max(*d));
+        if most >= strongest.0 {
+            let share =
+                |range: std::ops::Range<usize>| -> f64 { w[range].iter().map(|x| x * x).sum() };
+            let shares: Vec<f64> = system.closure_rows().map(share).collect();
+            let closure =
+                (0..shares.len()).fold(0, |b, i| if shares[i] > shares[b] { i } else { b });
+            let powerless = drives
+                .iter()
+                .filter(|(_, d)| most > 1e-6 && *d > 0.1 * most);
+            strongest = (most, closure, powerless.map(|(joint, _)| *joint).collect());
+        }
+    }
+    Outcome::Singular {
+        moving: moving(mechanism, freedoms),
+        closure: strongest.1,
+        powerless: strongest.2,
+    }
+}
+
+/// The joints and platforms that take part in the free motions, the most mobile first.
+fn moving(mechanism: &Mechanism, freedoms: &Freedoms) -> Vec<String> {
+    let mut shares: Vec<(String, f64)> = Vec::new();
+    for (i, unknown) in freedoms.unknowns.iter().enumerate() {
+        let share: f64 = freedoms
+            .motions
+            .iter()
+            .map(|motion| motion[i] * motion[i])
+            .sum();
+        let name = match *unknown {
+            Unknown::Joint(joint) => &mechanism.joints()[joint].name,
+            Unknown::Twist { platform, .. } => &mechanism.platforms()[platform].name,
+        };
+        match shares.iter_mut().find(|(known, _)| known == name) {
+            Some((_, sum)) => *sum += share,
+            None => shares.push((name.clone(), share)),
+        }
+    }
+    shares.retain(|(_, share)| *share > 1e-6);
+    shares.sort_by(|a, b| b.1.total_cmp(&a.1).then_with(|| a.0.cmp(&b.0)));
+    shares.into_iter().map(|(name, _)| name).collect()
+}

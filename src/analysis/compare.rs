@@ -1,0 +1,329 @@
+//! The closed forms of a mechanism checked against its chains.
+
+mod formula;
+mod samples;
+
+use rand::SeedableRng;
+use rand_pcg::Pcg64Mcg;
+use serde::{Serialize, Serializer};
+
+use crate::geometry::Pose;
+use crate::mechanism::{ClosedForm, Configuration, Given, MatrixEntry, Mechanism};
+use formula::{Evaluated, Values};
+use samples::Samples;
+
+/// How to compare.
+#[derive(Clone, Debug, PartialEq)]
+pub struct CompareSettings {
+    /// Random joint values to try beside the home configuration.
+    pub samples: usize,
+    /// Seed of the random joint values.
+    pub seed: u64,
+    /// A difference beside the size of what is compared above which a form disagrees. Formulas of a
+    /// page and products of ten matrices differ by some 1e-15; solved configurations carry a
+    /// residual of 1e-12 at most.
+    pub tolerance: f64,
+}
+
+impl Default for CompareSettings {
+    fn default() -> Self {
+        CompareSettings {
+            samples: 100,
+            seed: 1,
+            tolerance: 1e-9,
+        }
+    }
+}
+
+/// What became of the closed forms of a mechanism.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct CompareReport {
+    /// Whether every form agrees.
+    pub agree: bool,
+    /// The forms, in the order of the file.
+    pub closed_forms: Vec<FormReport>,
+    /// Whether the mechanism assembles from its home configuration.
+    pub home_assembles: bool,
+    /// Random inputs at which the mechanism did not assemble; forms that need an assembled
+    /// configuration were not tried there.
+    pub not_assembled: usize,
+    /// Seed of the random joint values.
+    pub seed: u64,
+    /// A difference beside the size of what is compared above which a form disagrees.
+    pub tolerance: f64,
+}
+
+/// What became of one closed form.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct FormReport {
+    /// Its name.
+    pub name: String,
+    /// Whether it agrees; false also if it could not be tried.
+    pub agree: bool,
+    /// What can be said of it.
+    pub verdict: Verdict,
+    /// The largest difference of any component: m, or without unit.
+    pub max_difference: f64,
+    /// Configurations at which it was evaluated.
+    pub samples: usize,
+    /// Where it is printed.
+    pub source: Option<String>,
+    /// Its entries or identities.
+    pub components: Vec<ComponentReport>,
+    /// The joint values at which its worst component differs most, rad or m; empty if there was no
+    /// sample.
+    #[serde(serialize_with = "as_map")]
+    pub worst: Vec<(String, f64)>,
+}
+
+/// What can be said of a closed form.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Verdict {
+    /// It agrees at every sample.
+    Agrees,
+    /// It disagrees at some sample.
+    Disagrees,
+    /// It has no value at any sample, or no sample assembles.
+    NotTried,
+}
+
+/// What became of one entry of a pose or one identity.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct ComponentReport {
+    /// `px`, `r11`, … or the name of the identity.
+    pub name: String,
+    /// What kind of quantity it is.
+    pub quantity: Quantity,
+    /// Whether it agrees at every sample at which it has a value, and has one somewhere.
+    pub agree: bool,
+    /// The largest difference: m, or without unit.
+    pub max_difference: f64,
+    /// The largest difference beside the size of what is compared, which decides.
+    pub relative: f64,
+    /// Samples at which it has a value.
+    pub samples: usize,
+    /// Samples at which it has none, as when it divides by zero.
+    pub without_value: usize,
+    /// The sample with the largest difference.
+    pub worst: Option<WorstSample>,
+}
+
+/// The sample at which a component differs most.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct WorstSample {
+    /// Joint values, rad or m.
+    #[serde(serialize_with = "as_map")]
+    pub joints: Vec<(String, f64)>,
+    /// What the closed form gives.
+    pub closed_form: f64,
+    /// What the chains give; zero for an identity.
+    pub chains: f64,
+}
+
+/// What kind of quantity a component is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Quantity {
+    /// A coordinate of a position, in m.
+    Position,
+    /// An entry of a rotation matrix.
+    Rotation,
+    /// An identity, in whatever unit it is written.
+    Identity,
+}
+
+fn as_map<S: Serializer>(values: &[(String, f64)], serializer: S) -> Result<S::Ok, S::Error> {
+    serializer.collect_map(values.iter().map(|(name, value)| (name, value)))
+}
+
+/// Checks every closed form of a mechanism against its chains.
+///
+/// Entries of poses are checked at random joint values within limits and at the home configuration;
+/// identities, and poses that depend on where a platform is, at the configurations the mechanism
+/// assembles to when the actuated joints are given random values.
+pub fn compare(mechanism: &Mechanism, settings: &CompareSettings) -> CompareReport {
+    let mut rng = Pcg64Mcg::seed_from_u64(settings.seed);
+    let forms = mechanism.closed_forms();
+    let needs_assembly = forms.iter().any(|form| must_be_assembled(mechanism, form));
+    let samples = Samples::new(mechanism, settings.samples, needs_assembly, &mut rng);
+    let closed_forms: Vec<FormReport> = forms
+        .iter()
+        .map(|form| check(mechanism, form, &samples, settings.tolerance))
+        .collect();
+    CompareReport {
+        agree: closed_forms.iter().all(|form| form.agree),
+        closed_forms,
+        home_assembles: samples.home_assembles,
+        not_assembled: samples.not_assembled,
+        seed: settings.seed,
+        tolerance: settings.tolerance,
+    }
+}
+
+/// Whether a form holds only where the closures are whole: joint values then fix the platforms.
+fn must_be_assembled(mechanism: &Mechanism, form: &ClosedForm) -> bool {
+    match form.gives {
+        Given::Identities(_) => true,
+        Given::Pose {
+            of, relative_to, ..
+        } => mechanism.carrier(of) != mechanism.carrier(relative_to),
+    }
+}
+
+/// One component while it is being checked.
+struct Check {
+    report: ComponentReport,
+    /// The sample of `report.worst`.
+    worst: Option<usize>,
+}
+
+impl Check {
+    fn new(name: String, quantity: Quantity) -> Self {
+        Check {
+            report: ComponentReport {
+                name,
+                quantity,
+                agree: false,
+                max_difference: 0.0,
+                relative: 0.0,
+                samples: 0,
+                without_value: 0,
+                worst: None,
+            },
+            worst: None,
+        }
+    }
+
+    /// Takes note of what form and chains give at a sample, and the size it is compared with.
+    fn add(&mut self, sample: usize, closed_form: f64, chains: f64, size: f64) {
+        let difference = (closed_form - chains).abs();
+        let relative = if difference == 0.0 {
+            0.0
+        } else {
+            difference / size
+        };
+        let report = &mut self.report;
+        report.samples += 1;
+        report.relative = report.relative.max(relative);
+        if self.worst.is_none() || difference > report.max_difference {
+            report.max_difference = difference;
+            self.worst = Some(sample);
+            report.worst = Some(WorstSample {
+                joints: Vec::new(),
+                closed_form,
+                chains,
+            });
+        }
+    }
+}
+
+fn check(
+    mechanism: &Mechanism,
+    form: &ClosedForm,
+    samples: &Samples,
+    tolerance: f64,
+) -> FormReport {
+    let configurations = match must_be_assembled(mechanism, form) {
+        true => &samples.assembled,
+        false => &samples.anywhere,
+    };
+    let checks = match &form.gives {
+        Given::Pose {
+            of,
+            relative_to,
+            entries,
+        } => {
+            let transform = |at: &Configuration<f64>| mechanism.transform(*relative_to, *of, at);
+            let mut checks: Vec<Check> = (entries.iter())
+                .map(|(entry, _)| Check::new(entry.to_string(), quantity(*entry)))
+                .collect();
+            for (sample, at) in configurations.iter().enumerate() {
+                let values = Values::new(mechanism, form, &at.joints);
+                let pose = transform(at);
+                for (check, (entry, formula)) in checks.iter_mut().zip(entries) {
+                    let Ok(given) = values.of(formula) else {
+                        check.report.without_value += 1;
+                        continue;
+                    };
+                    let (found, natural) = entry_of(*entry, &pose, mechanism);
+                    let size = natural.max(given.abs()).max(found.abs());
+                    check.add(sample, given, found, size);
+                }
+            }
+            checks
+        }
+        Given::Identities(identities) => {
+            let mut checks: Vec<Check> = (identities.iter())
+                .map(|(name, _)| Check::new(name.clone(), Quantity::Identity))
+                .collect();
+            for (sample, at) in configurations.iter().enumerate() {
+                for (check, (_, formula)) in checks.iter_mut().zip(identities) {
+                    match Evaluated::new(mechanism, form, formula, &at.joints) {
+                        Ok(Evaluated { value, size }) => check.add(sample, value, 0.0, size),
+                        Err(_) => check.report.without_value += 1,
+                    }
+                }
+            }
+            checks
+        }
+    };
+    report(mechanism, form, checks, configurations, tolerance)
+}
+
+fn quantity(entry: MatrixEntry) -> Quantity {
+    match entry {
+        MatrixEntry::Position(_) => Quantity::Position,
+        MatrixEntry::Rotation(..) => Quantity::Rotation,
+    }
+}
+
+/// An entry of a pose and its natural size: the characteristic length, or 1.
+fn entry_of(entry: MatrixEntry, pose: &Pose<f64>, mechanism: &Mechanism) -> (f64, f64) {
+    match entry {
+        MatrixEntry::Position(i) => (pose.position.0[i], mechanism.characteristic_length()),
+        MatrixEntry::Rotation(i, j) => (pose.rotation.0[j].0[i], 1.0),
+    }
+}
+
+fn report(
+    mechanism: &Mechanism,
+    form: &ClosedForm,
+    mut checks: Vec<Check>,
+    configurations: &[Configuration<f64>],
+    tolerance: f64,
+) -> FormReport {
+    for check in &mut checks {
+        let Some(worst) = &mut check.report.worst else {
+            continue;
+        };
+        check.report.agree = check.report.relative <= tolerance;
+        let names = mechanism.joints().iter().map(|joint| joint.name.clone());
+        let values = check.worst.map(|sample| &configurations[sample].joints);
+        worst.joints = names.zip(values.into_iter().flatten().copied()).collect();
+    }
+    let components: Vec<ComponentReport> = checks.into_iter().map(|check| check.report).collect();
+    let disagrees = (components.iter()).any(|c| !c.agree && c.samples > 0);
+    let verdict = match components.iter().all(|component| component.agree) {
+        _ if disagrees => Verdict::Disagrees,
+        true if !components.is_empty() => Verdict::Agrees,
+        _ => Verdict::NotTried,
+    };
+    let worst = (components.iter())
+        .filter(|component| component.samples > 0)
+        .reduce(|a, b| if b.relative > a.relative { b } else { a })
+        .and_then(|component| component.worst.as_ref());
+    FormReport {
+        name: form.name.clone(),
+        agree: verdict == Verdict::Agrees,
+        verdict,
+        max_difference: (components.iter()).fold(0.0, |m, c| c.max_difference.max(m)),
+        samples: components.iter().map(|c| c.samples).max().unwrap_or(0),
+        source: form.source.clone(),
+        worst: worst.map_or(Vec::new(), |worst| worst.joints.clone()),
+        components,
+    }
+}
+
+#[cfg(test)]
+mod tests;

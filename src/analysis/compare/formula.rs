@@ -1,0 +1,84 @@
+//! The values of a closed form's formulas.
+
+use crate::algebra::{EvaluationError, Node, Operator};
+use crate::mechanism::{ClosedForm, Formula, Mechanism, Symbol};
+use crate::number::{Dual, Number};
+
+/// What the names in a closed form stand for at some joint values.
+pub(super) struct Values<'a, T> {
+    mechanism: &'a Mechanism,
+    joints: &'a [T],
+    locals: Vec<Result<T, EvaluationError>>,
+}
+
+impl<'a, T: Number> Values<'a, T> {
+    pub fn new(mechanism: &'a Mechanism, form: &ClosedForm, joints: &'a [T]) -> Self {
+        let mut values = Values {
+            mechanism,
+            joints,
+            locals: Vec::with_capacity(form.locals.len()),
+        };
+        for (_, formula) in &form.locals {
+            let value = values.of(formula);
+            values.locals.push(value);
+        }
+        values
+    }
+
+    /// The value of a formula. A local name without a value is to blame only where it is used.
+    pub fn of(&self, formula: &Formula) -> Result<T, EvaluationError> {
+        for (symbol, _) in formula.names() {
+            if let Symbol::Local(local) = *symbol {
+                self.locals[local].clone()?;
+            }
+        }
+        formula.evaluate(&|symbol| match *symbol {
+            Symbol::Parameter(i) => T::from_f64(self.mechanism.parameters()[i].value),
+            Symbol::Joint(i) => self.joints[i],
+            Symbol::Local(i) => (self.locals[i].clone()).unwrap_or(T::from_f64(f64::NAN)),
+        })
+    }
+}
+
+/// The value of an identity and the size it is to be compared with.
+pub(super) struct Evaluated {
+    pub value: f64,
+    /// The absolute terms of the sum together with the change for a joint motion of natural size,
+    /// Σ |∂f/∂qⱼ| sⱼ: a value of ε times that is an error of ε in a joint.
+    pub size: f64,
+}
+
+impl Evaluated {
+    pub fn new(
+        mechanism: &Mechanism,
+        form: &ClosedForm,
+        identity: &Formula,
+        joints: &[f64],
+    ) -> Result<Self, EvaluationError> {
+        let values = Values::new(mechanism, form, joints);
+        let value = values.of(identity)?;
+        let mut size = terms(&values, identity)?;
+        let mut moving: Vec<Dual<f64>> = joints.iter().map(|&x| Dual::constant(x)).collect();
+        let scales = &mechanism.dimensions().joint_scales;
+        for (joint, scale) in scales.iter().enumerate() {
+            moving[joint].slope = *scale;
+            // a slope that is not finite says nothing
+            if let Ok(moved) = Values::new(mechanism, form, &moving).of(identity) {
+                size += moved.slope.abs();
+            }
+            moving[joint].slope = 0.0;
+        }
+        Ok(Evaluated { value, size })
+    }
+}
+
+/// The sum of the absolute values of the terms an expression adds up.
+fn terms(values: &Values<f64>, formula: &Formula) -> Result<f64, EvaluationError> {
+    match &formula.node {
+        Node::Binary(Operator::Add | Operator::Subtract, x, y) => {
+            Ok(terms(values, x)? + terms(values, y)?)
+        }
+        Node::Negate(x) => terms(values, x),
+        _ => Ok(values.of(formula)?.abs()),
+    }
+}

@@ -1,0 +1,137 @@
+//! The independent loops of a mechanism.
+
+use serde::Serialize;
+
+use crate::mechanism::{Body, Frame, Mechanism};
+
+/// A loop, from a body round to the same body.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Loop {
+    /// The closure that closes it: no earlier closure and no chain does.
+    pub closed_by: String,
+    /// What one passes going round, beginning and ending at the same body.
+    pub steps: Vec<LoopStep>,
+}
+
+/// A part of a loop.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "lowercase")]
+pub enum LoopStep {
+    /// The ground.
+    Ground,
+    /// A platform.
+    Platform(String),
+    /// Joints of a chain.
+    Chain(String),
+    /// A closure.
+    Closure(String),
+}
+
+/// What joins two bodies.
+#[derive(Clone, Copy, PartialEq)]
+enum Link {
+    /// The moving row of a chain of that index.
+    Chain(usize),
+    /// The closure of that index.
+    Closure(usize),
+}
+
+/// The fundamental loops of the graph of bodies over a spanning tree of chains and first closures: each closure that
+/// joins bodies already joined closes one loop, and no loop is a combination of the others.
+pub(super) fn loops(mechanism: &Mechanism) -> Vec<Loop> {
+    let bodies = mechanism.bodies();
+    let index = |body: Body| bodies.binary_search(&body).unwrap_or(0);
+    let mut tree: Vec<Vec<(usize, Link)>> = vec![Vec::new(); bodies.len()];
+    let join = |tree: &mut Vec<Vec<(usize, Link)>>, a: usize, b: usize, link: Link| {
+        tree[a].push((b, link));
+        tree[b].push((a, link));
+    };
+    for (chain, part) in mechanism.chains().iter().enumerate() {
+        let mut below = index(mechanism.body(part.on));
+        for (i, row) in part.rows.iter().enumerate() {
+            if !row.joints().is_empty() {
+                let body = index(mechanism.body(Frame::Link { chain, row: i + 1 }));
+                join(&mut tree, below, body, Link::Chain(chain));
+                below = body;
+            }
+        }
+    }
+    let mut loops = Vec::new();
+    for (i, closure) in mechanism.closures().iter().enumerate() {
+        let [from, to] = closure.frames.map(|frame| index(mechanism.body(frame)));
+        match path(&tree, from, to) {
+            None => join(&mut tree, from, to, Link::Closure(i)),
+            Some(way) => loops.push(Loop {
+                closed_by: closure.name.clone(),
+                steps: walk(mechanism, &bodies, from, way, Link::Closure(i)),
+            }),
+        }
+    }
+    loops
+}
+
+/// The way in the tree from one body to another: each body with what leads to it.
+fn path(tree: &[Vec<(usize, Link)>], from: usize, to: usize) -> Option<Vec<(usize, Link)>> {
+    let mut reached: Vec<Option<(usize, Link)>> = vec![None; tree.len()];
+    let mut waiting = vec![from];
+    while let Some(at) = waiting.pop() {
+        if at == to {
+            let mut way = Vec::new();
+            let mut at = to;
+            while at != from {
+                let (before, link) = reached[at]?;
+                way.push((at, link));
+                at = before;
+            }
+            way.reverse();
+            return Some(way);
+        }
+        for &(next, link) in &tree[at] {
+            if next != from && reached[next].is_none() {
+                reached[next] = Some((at, link));
+                waiting.push(next);
+            }
+        }
+    }
+    None
+}
+
+/// The names along a loop; links between joints of one chain have none. Begins at ground or a platform if the loop
+/// passes there.
+fn walk(
+    mechanism: &Mechanism,
+    bodies: &[Body],
+    from: usize,
+    way: Vec<(usize, Link)>,
+    closing: Link,
+) -> Vec<LoopStep> {
+    // round the loop as (body, what leads on from it)
+    let mut around: Vec<(usize, Link)> = Vec::new();
+    let mut at = from;
+    for (next, link) in way {
+        around.push((at, link));
+        at = next;
+    }
+    around.push((at, closing));
+    // ground sorts first, platforms next
+    let first = (0..around.len()).min_by_key(|&i| around[i].0).unwrap_or(0);
+    around.rotate_left(first);
+    let body_step = |body: usize| match bodies[body] {
+        Body::Ground => Some(LoopStep::Ground),
+        Body::Platform(i) => Some(LoopStep::Platform(mechanism.platforms()[i].name.clone())),
+        Body::Link { .. } => None,
+    };
+    let mut steps: Vec<LoopStep> = Vec::new();
+    for &(body, link) in &around {
+        steps.extend(body_step(body));
+        let step = match link {
+            Link::Chain(i) => LoopStep::Chain(mechanism.chains()[i].name.clone()),
+            Link::Closure(i) => LoopStep::Closure(mechanism.closures()[i].name.clone()),
+        };
+        if steps.last() != Some(&step) {
+            steps.push(step);
+        }
+    }
+    steps.extend(body_step(around[0].0));
+    steps
+}

@@ -1,0 +1,105 @@
+//! Commands, one file each. Data goes to stdout, problems to stderr.
+
+mod check;
+mod compare;
+mod solve;
+mod source;
+
+use std::io::{self, IsTerminal, Write};
+use std::process::ExitCode;
+
+use clap::{Parser, Subcommand, ValueEnum};
+use linkwork::output::diagnostics::Style;
+
+/// Analyses parallel and closed-chain mechanisms described as Denavit–Hartenberg chains.
+#[derive(Parser)]
+#[command(version, after_help = EXIT_CODES)]
+struct Arguments {
+    #[command(subcommand)]
+    command: Command,
+}
+
+const EXIT_CODES: &str =
+    "Exit codes: 0 answered yes, 1 answered no, 2 wrong file, question or machine.";
+
+#[derive(Subcommand)]
+enum Command {
+    Check(check::Check),
+    Solve(solve::Solve),
+    Compare(compare::Compare),
+}
+
+/// How an answer is written.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+enum Format {
+    /// To be read by people.
+    Text,
+    /// To be read by programs: metres and radians with all digits.
+    Json,
+}
+
+/// What a command has to say.
+struct Answer {
+    /// What was asked for.
+    data: String,
+    /// What is odd about it.
+    remarks: String,
+    /// Whether the answer is yes, or at least not no.
+    yes: bool,
+}
+
+/// Why a command has no answer, ready to be read.
+struct Refusal(String);
+
+/// Does what the command line asks for.
+pub fn run() -> ExitCode {
+    let arguments = Arguments::parse();
+    let answer = match &arguments.command {
+        Command::Check(check) => check.run(),
+        Command::Solve(solve) => solve.run(),
+        Command::Compare(compare) => compare.run(),
+    };
+    match answer {
+        Ok(answer) => {
+            say(&answer.remarks);
+            match write(&answer.data) {
+                Ok(()) if answer.yes => ExitCode::SUCCESS,
+                Ok(()) => ExitCode::from(1),
+                Err(error) => {
+                    say(&format!("error: the answer cannot be written: {error}\n"));
+                    ExitCode::from(2)
+                }
+            }
+        }
+        Err(Refusal(problems)) => {
+            say(&problems);
+            ExitCode::from(2)
+        }
+    }
+}
+
+/// Writes to stdout. A reader who has seen enough, as `head` does, is no error.
+fn write(data: &str) -> io::Result<()> {
+    let mut stdout = io::stdout().lock();
+    match stdout
+        .write_all(data.as_bytes())
+        .and_then(|()| stdout.flush())
+    {
+        Err(error) if error.kind() == io::ErrorKind::BrokenPipe => Ok(()),
+        result => result,
+    }
+}
+
+/// Writes to stderr; if nobody listens there is nobody to tell.
+fn say(text: &str) {
+    let _ = io::stderr().lock().write_all(text.as_bytes());
+}
+
+/// Colours on a terminal, unless the user wants none (<https://no-color.org>).
+fn style() -> Style {
+    let unwanted = std::env::var_os("NO_COLOR").is_some_and(|value| !value.is_empty());
+    match io::stderr().is_terminal() && !unwanted {
+        true => Style::Coloured,
+        false => Style::Plain,
+    }
+}

@@ -1,0 +1,101 @@
+//! `linkwork solve`
+
+use clap::Args;
+use linkwork::analysis::assembly::{AssemblySettings, Outcome, assemble};
+use linkwork::output::option::Given;
+use linkwork::output::question::complaint;
+use linkwork::output::solution;
+use linkwork::system::{Question, QuestionError};
+
+use super::source::{Assignment, Source};
+use super::{Answer, Format, Refusal, style};
+
+/// Find the assembled configuration near a guess.
+///
+/// The actuated joints are held at home and the rest is solved, unless --hold and --free say otherwise. What is held is
+/// a joint, a coordinate of a platform (top.x, top.y, top.z, top.roll, top.pitch, top.yaw) or a whole platform. Values
+/// are expressions as in the file, or `home`; a platform takes a list of displacements.
+#[derive(Args)]
+#[command(after_help = "Examples:\n  \
+    linkwork solve mechanisms/four_bar.ron --hold theta1=\"60 deg\"\n  \
+    linkwork solve mechanisms/three_rps.ron --free actuated --hold top.z=0.5 --hold top.roll=0 --hold top.pitch=0")]
+pub struct Solve {
+    #[command(flatten)]
+    source: Source,
+    /// Hold a joint or coordinate at a value, e.g. --hold theta1="60 deg"
+    #[arg(long, value_name = "NAME=VALUE")]
+    hold: Vec<Assignment>,
+    /// Let a joint be solved, e.g. --free l1; `actuated` frees all actuated joints
+    #[arg(long, value_name = "NAME")]
+    free: Vec<String>,
+    /// Start the search at a value, e.g. --guess phi1="-30 deg"
+    #[arg(long, value_name = "NAME=VALUE")]
+    guess: Vec<Assignment>,
+    /// Seed of the random starts made when the guess fails
+    #[arg(long, default_value_t = AssemblySettings::default().seed)]
+    seed: u64,
+    /// How to write the answer
+    #[arg(long, value_enum, default_value_t = Format::Text)]
+    format: Format,
+}
+
+impl Solve {
+    pub fn run(&self) -> Result<Answer, Refusal> {
+        let loaded = self.source.load()?;
+        let question = self.question(&loaded.mechanism)?;
+        let settings = AssemblySettings {
+            seed: self.seed,
+            ..AssemblySettings::default()
+        };
+        let report = assemble(&question, &settings).map_err(|error| refusal(&error, None))?;
+        let warnings = solution::warnings(&report);
+        let warnings = warnings
+            .iter()
+            .map(|warning| format!("warning: {warning}\n"));
+        Ok(Answer {
+            data: match self.format {
+                Format::Text => solution::text(&question, &report),
+                Format::Json => solution::json(&question, &report),
+            },
+            remarks: loaded.warnings() + &warnings.collect::<String>(),
+            yes: report.outcome == Outcome::Converged,
+        })
+    }
+
+    /// What is freed is freed first, so that `--free actuated --hold l1=1` holds one joint.
+    fn question<'a>(
+        &self,
+        mechanism: &'a linkwork::mechanism::Mechanism,
+    ) -> Result<Question<'a>, Refusal> {
+        let mut question = Question::new(mechanism);
+        for name in &self.free {
+            let given = Given {
+                option: "--free",
+                name,
+                value: None,
+            };
+            question = (question.free(name)).map_err(|error| refusal(&error, Some(given)))?;
+        }
+        for assignment in &self.hold {
+            let Assignment { name, value } = assignment;
+            let given = assignment.given("--hold");
+            question =
+                (question.hold(name, value)).map_err(|error| refusal(&error, Some(given)))?;
+        }
+        for assignment in &self.guess {
+            let Assignment { name, value } = assignment;
+            let given = assignment.given("--guess");
+            question =
+                (question.guess(name, value)).map_err(|error| refusal(&error, Some(given)))?;
+        }
+        Ok(question)
+    }
+}
+
+fn refusal(error: &QuestionError, given: Option<Given>) -> Refusal {
+    let (complaint, part) = complaint(error);
+    Refusal(match given {
+        Some(given) => complaint.render_in(&given, &part, style()),
+        None => complaint.render(style()),
+    })
+}

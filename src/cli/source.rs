@@ -1,0 +1,155 @@
+//! The mechanism file a command works on.
+
+use std::path::PathBuf;
+use std::str::FromStr;
+
+use clap::Args;
+use linkwork::description::{self, FileError, LoadError, Problem};
+use linkwork::mechanism::Mechanism;
+use linkwork::output::diagnostics;
+use linkwork::output::option::{Complaint, Given, Part, replacement};
+
+use super::{Refusal, style};
+
+#[derive(Args)]
+pub struct Source {
+    /// The mechanism file.
+    file: PathBuf,
+    /// Give a parameter another value, an expression as in the file, e.g. --set l2="3.5 m"
+    #[arg(long, value_name = "NAME=VALUE")]
+    set: Vec<Assignment>,
+}
+
+/// `NAME=VALUE`
+#[derive(Clone, Debug)]
+pub struct Assignment {
+    pub name: String,
+    pub value: String,
+}
+
+impl FromStr for Assignment {
+    type Err = String;
+
+    fn from_str(text: &str) -> Result<Self, String> {
+        match text.split_once('=') {
+            Some((name, value)) if !name.trim().is_empty() => Ok(Assignment {
+                name: name.trim().into(),
+                value: value.into(),
+            }),
+            _ => Err("write NAME=VALUE".into()),
+        }
+    }
+}
+
+impl Assignment {
+    /// The option as it was given.
+    pub fn given<'a>(&'a self, option: &'a str) -> Given<'a> {
+        Given {
+            option,
+            name: &self.name,
+            value: Some(&self.value),
+        }
+    }
+}
+
+/// A mechanism and the file it comes from.
+pub struct Loaded {
+    path: PathBuf,
+    text: String,
+    pub mechanism: Mechanism,
+}
+
+impl Source {
+    /// Reads the file, or says everything that is wrong with it or with `--set`.
+    pub fn load(&self) -> Result<Loaded, Refusal> {
+        let (text, mut description) = description::load(&self.file).map_err(|error| {
+            Refusal(match error {
+                LoadError::Wrong(error) => diagnostics::render(&error, style()),
+                other => format!("error: {other}\n"),
+            })
+        })?;
+        let mut refused = Vec::new();
+        for assignment in &self.set {
+            let Assignment { name, value } = assignment;
+            match description.clone().with_parameter(name, value) {
+                Ok(changed) => description = changed,
+                Err(error) => {
+                    let given = assignment.given("--set");
+                    refused.push(replacement(&error, &given, style()));
+                }
+            }
+        }
+        if !refused.is_empty() {
+            return Err(Refusal(refused.join("\n")));
+        }
+        match Mechanism::new(&description) {
+            Ok(mechanism) => Ok(Loaded {
+                path: self.file.clone(),
+                text,
+                mechanism,
+            }),
+            Err(problems) => Err(Refusal(self.wrong(text, problems, &description))),
+        }
+    }
+
+    /// Problems of values that stand in options are shown there, the others in the file.
+    fn wrong(
+        &self,
+        text: String,
+        problems: Vec<Problem>,
+        description: &description::Description,
+    ) -> String {
+        let option_of = |problem: &Problem| {
+            let parameters = description.parameters.iter();
+            let mut replaced = parameters.filter(|named| named.value.span == problem.span);
+            let name = &replaced.next()?.name.value;
+            self.set.iter().rfind(|assignment| assignment.name == *name)
+        };
+        let mut shown = Vec::new();
+        let mut in_file = Vec::new();
+        for problem in problems {
+            match option_of(&problem) {
+                Some(assignment) => {
+                    let given = assignment.given("--set");
+                    let complaint = Complaint::of(&problem);
+                    shown.push(complaint.render_in(&given, &Part::WholeValue, style()));
+                }
+                None => in_file.push(problem),
+            }
+        }
+        if !in_file.is_empty() {
+            let path = self.file.clone();
+            let error = FileError {
+                path,
+                text,
+                problems: in_file,
+            };
+            let mut rendered = diagnostics::render(&error, style());
+            if !self.set.is_empty() {
+                let set = self.set.iter();
+                let set: Vec<String> = set
+                    .map(|s| format!("--set {}={}", s.name, s.value))
+                    .collect();
+                rendered += &format!("note: read with {}\n", set.join(" "));
+            }
+            shown.push(rendered);
+        }
+        shown.join("\n")
+    }
+}
+
+impl Loaded {
+    /// The warnings about the file; empty if there are none.
+    pub fn warnings(&self) -> String {
+        let problems = self.mechanism.warnings().to_vec();
+        if problems.is_empty() {
+            return String::new();
+        }
+        let error = FileError {
+            path: self.path.clone(),
+            text: self.text.clone(),
+            problems,
+        };
+        diagnostics::render(&error, style())
+    }
+}

@@ -1,0 +1,137 @@
+//! What may stand where in a mechanism file.
+
+use super::Noun;
+
+/// The groups of named fields in a file.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+#[allow(missing_docs)]
+pub enum Structure {
+    Mechanism,
+    Passive,
+    Actuated,
+    Chain,
+    Row,
+    Platform,
+    ClosedForm,
+}
+
+/// What must stand at a place of the file.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub enum Expected {
+    /// The fields of a structure.
+    Fields(Structure),
+    /// The number of the file format.
+    Version,
+    /// Any text.
+    Text,
+    /// A name, as the key of a map.
+    NameOf(Noun),
+    /// The name of a frame.
+    Frame,
+    /// A number or an expression.
+    Entry,
+    /// A map from names to things.
+    MapOf(Noun),
+    /// A list of rows.
+    Rows,
+    /// A list of displacements.
+    Transform,
+    /// `Tx(…)` and its like.
+    Displacement,
+    /// One of the displacements, with this many entries.
+    DisplacementEntries(&'static str),
+    /// Passive or actuated.
+    Joint,
+    /// A lowest and a highest value.
+    Limits,
+    /// Modified or standard.
+    Convention,
+    /// `Spherical(…)` and its like.
+    Closure,
+    /// The frames of a closure, for a distance with the length.
+    ClosureFrames(&'static str),
+    /// Three entries.
+    Vector,
+    /// Rows of a rotation matrix.
+    RotationRows,
+    /// One row of a rotation matrix.
+    RotationRow,
+    /// Three or four rows of a transform.
+    TransformRows,
+    /// One row of a transform.
+    TransformRow,
+}
+
+/// What stands at a place of the file instead.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub enum Found {
+    /// A number.
+    Number,
+    /// A string.
+    Text,
+    /// A character in apostrophes.
+    Character,
+    /// A byte string.
+    Bytes,
+    /// `[…]`
+    List,
+    /// `{…}`
+    Map,
+    /// `(…, …)`
+    Tuple,
+    /// `(name: …)`
+    Fields,
+    /// A word by itself, such as `true`.
+    Word(String),
+    /// A word followed by parentheses.
+    Call(String),
+}
+
+impl Structure {
+    /// How it is named in a file.
+    pub fn word(self) -> &'static str {
+        match self {
+            Self::Mechanism => "Mechanism",
+            Self::Passive => "Passive",
+            Self::Actuated => "Actuated",
+            Self::Chain => "Chain",
+            Self::Row => "Row",
+            Self::Platform => "Platform",
+            Self::ClosedForm => "ClosedForm",
+        }
+    }
+
+    /// The fields it may have.
+    pub fn fields(self) -> &'static [&'static str] {
+        match self {
+            Self::Mechanism => &[
+                "version",
+                "name",
+                "source",
+                "convention",
+                "parameters",
+                "joints",
+                "chains",
+                "platforms",
+                "closures",
+                "closed_forms",
+            ],
+            Self::Passive | Self::Actuated => &["home", "limits"],
+            Self::Chain => &["on", "convention", "base", "rows", "tip"],
+            Self::Row => &["alpha", "a", "d", "theta"],
+            Self::Platform => &["home", "frames"],
+            Self::ClosedForm => &[
+                "of",
+                "in",
+                "where",
+                "source",
+                "position",
+                "rotation",
+                "transform",
+                "entries",
+                "identity",
+                "identities",
+            ],
+        }
+    }
+}

@@ -1,0 +1,263 @@
+//! Structures, maps, lists and tuples of whatever the reader asks for.
+
+use std::collections::HashMap;
+use std::ops::Range;
+
+use super::*;
+
+/// The fields of a structure that are not taken yet.
+pub(super) struct Fields<'a> {
+    pub structure: Structure,
+    pub span: Range<usize>,
+    pieces: HashMap<&'a str, Piece<'a>>,
+    /// Fields that are there under a misspelt name: they must not be called missing too.
+    misspelt: Vec<&'static str>,
+}
+
+impl<'a> Fields<'a> {
+    pub(super) fn take(&mut self, field: &str) -> Option<Piece<'a>> {
+        self.pieces.remove(field)
+    }
+
+    /// Whether one of some fields is there, rightly spelt or not.
+    pub(super) fn gives(&self, fields: &[&str]) -> bool {
+        fields
+            .iter()
+            .any(|field| self.pieces.contains_key(field) || self.misspelt.contains(field))
+    }
+
+    /// Where to point at something that is missing: all of a structure would be too much to underline.
+    pub(super) fn head(&self) -> Range<usize> {
+        self.span.start..self.span.start + 1
+    }
+}
+
+impl Reader {
+    /// What stands in the parentheses behind a word.
+    pub(super) fn content<'a, const N: usize>(
+        &mut self,
+        whole: Piece,
+        content: Option<Piece<'a>>,
+        expected: Expected,
+    ) -> Option<[Piece<'a>; N]> {
+        match content {
+            Some(content) => self.tuple(content, expected),
+            None => {
+                self.problems.push(
+                    ProblemKind::WrongLength {
+                        of: expected,
+                        expected: N,
+                        found: 0,
+                    }
+                    .at(whole.span()),
+                );
+                None
+            }
+        }
+    }
+
+    /// Named fields in parentheses, with or without the name of the structure before them.
+    pub(super) fn fields<'a>(
+        &mut self,
+        piece: Piece<'a>,
+        structure: Structure,
+    ) -> Option<Fields<'a>> {
+        let expected = Expected::Fields(structure);
+        let content = match piece.shape() {
+            Shape::Word { word, content } if word == structure.word() => content,
+            Shape::Word { word, .. } => {
+                self.unknown_word(piece, expected, word, vec![structure.word()]);
+                return None;
+            }
+            _ => Some(piece),
+        };
+        let mut fields = Fields {
+            structure,
+            span: piece.span(),
+            pieces: HashMap::new(),
+            misspelt: Vec::new(),
+        };
+        let Some(content) = content else {
+            return Some(fields);
+        };
+        let found = match content.shape() {
+            Shape::Fields => content.fields(),
+            Shape::Tuple if content.elements().is_ok_and(|elements| elements.is_empty()) => {
+                Ok(Vec::new())
+            }
+            _ => {
+                self.wrong_type(content, expected);
+                return None;
+            }
+        };
+        let mut first: HashMap<&str, Range<usize>> = HashMap::new();
+        for (name, value) in self.split(content, found)? {
+            if let Some(first) = first.get(name.value) {
+                let problem = ProblemKind::DuplicateField {
+                    field: name.value.to_owned(),
+                }
+                .at(name.span);
+                self.problems
+                    .push(problem.with(first.clone(), Note::FirstHere(Noun::Field)));
+                continue;
+            }
+            first.insert(name.value, name.span.clone());
+            if structure.fields().contains(&name.value) {
+                fields.pieces.insert(name.value, value);
+            } else {
+                let field = name.value.to_owned();
+                let meant = nearest(&field, structure.fields().iter().copied());
+                fields.misspelt.extend(meant);
+                let suggestion = meant.map(str::to_owned);
+                self.problems.push(
+                    ProblemKind::UnknownField {
+                        structure,
+                        field,
+                        suggestion,
+                    }
+                    .at(name.span),
+                );
+            }
+        }
+        Some(fields)
+    }
+
+    pub(super) fn require<'a>(
+        &mut self,
+        fields: &mut Fields<'a>,
+        field: &'static str,
+    ) -> Option<Piece<'a>> {
+        let piece = fields.take(field);
+        if piece.is_none() && !fields.misspelt.contains(&field) {
+            let kind = ProblemKind::MissingField {
+                structure: fields.structure,
+                field,
+            };
+            self.problems.push(kind.at(fields.head()));
+        }
+        piece
+    }
+
+    /// A map from names to things, in the order of the file.
+    pub(super) fn named<'a, T>(
+        &mut self,
+        fields: &mut Fields<'a>,
+        field: &str,
+        noun: Noun,
+        read: impl Fn(&mut Self, Piece<'a>) -> Option<T>,
+    ) -> Vec<Named<T>> {
+        let Some(piece) = fields.take(field) else {
+            return Vec::new();
+        };
+        let Shape::Map = piece.shape() else {
+            self.wrong_type(piece, Expected::MapOf(noun));
+            return Vec::new();
+        };
+        let mut first: HashMap<String, Range<usize>> = HashMap::new();
+        let mut named = Vec::new();
+        for (key, value) in self.split(piece, piece.pairs()).unwrap_or_default() {
+            let name = self.text(key, Expected::NameOf(noun));
+            // What a name stands for is read even if the name is wrong, to find what else is.
+            let value = read(self, value);
+            let Some(name) = name else { continue };
+            if let Some(first) = first.get(&name.value) {
+                let problem = ProblemKind::DuplicateName {
+                    noun,
+                    name: name.value,
+                }
+                .at(name.span);
+                self.problems
+                    .push(problem.with(first.clone(), Note::FirstHere(noun)));
+                continue;
+            }
+            first.insert(name.value.clone(), name.span.clone());
+            named.extend(value.map(|value| Named { name, value }));
+        }
+        named
+    }
+
+    pub(super) fn list<'a, T>(
+        &mut self,
+        piece: Piece<'a>,
+        expected: Expected,
+        read: impl Fn(&mut Self, Piece<'a>) -> Option<T>,
+    ) -> Vec<T> {
+        let Shape::List = piece.shape() else {
+            self.wrong_type(piece, expected);
+            return Vec::new();
+        };
+        let elements = self.split(piece, piece.elements()).unwrap_or_default();
+        elements
+            .into_iter()
+            .filter_map(|element| read(self, element))
+            .collect()
+    }
+
+    pub(super) fn tuple<'a, const N: usize>(
+        &mut self,
+        piece: Piece<'a>,
+        of: Expected,
+    ) -> Option<[Piece<'a>; N]> {
+        let Shape::Tuple = piece.shape() else {
+            self.wrong_type(piece, of);
+            return None;
+        };
+        let elements = self.split(piece, piece.elements())?;
+        let found = elements.len();
+        let tuple = elements.try_into().ok();
+        if tuple.is_none() {
+            self.problems.push(
+                ProblemKind::WrongLength {
+                    of,
+                    expected: N,
+                    found,
+                }
+                .at(piece.span()),
+            );
+        }
+        tuple
+    }
+
+    pub(super) fn wrong_type(&mut self, piece: Piece, expected: Expected) {
+        self.problems.push(
+            ProblemKind::WrongType {
+                expected,
+                found: piece.found(),
+            }
+            .at(piece.span()),
+        );
+    }
+
+    pub(super) fn unknown_word(
+        &mut self,
+        piece: Piece,
+        expected: Expected,
+        word: &str,
+        known: Vec<&'static str>,
+    ) {
+        let suggestion = nearest(word, known.iter().copied()).map(str::to_owned);
+        let start = piece.span().start;
+        let kind = ProblemKind::UnknownWord {
+            expected,
+            word: word.to_owned(),
+            suggestion,
+            known,
+        };
+        self.problems.push(kind.at(start..start + word.len()));
+    }
+
+    /// Notes what `ron` refuses in a piece that it had let pass before.
+    pub(super) fn split<T>(&mut self, piece: Piece, result: Result<T, ron::Error>) -> Option<T> {
+        result
+            .map_err(|error| {
+                self.problems.push(
+                    ProblemKind::Syntax {
+                        error: Box::new(error),
+                        found: None,
+                    }
+                    .at(piece.span()),
+                )
+            })
+            .ok()
+    }
+}

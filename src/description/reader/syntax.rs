@@ -1,0 +1,57 @@
+//! Whether a text is RON at all.
+
+use ron::Error;
+use serde::Deserialize;
+use serde::de::IgnoredAny;
+
+use crate::description::brackets::unclosed;
+use crate::description::{Lines, Note, Problem, ProblemKind};
+
+/// Where the value begins, if the text from `start` on is one RON value.
+pub(super) fn check(text: &str, start: usize) -> Result<usize, Box<Problem>> {
+    let body = &text[start..];
+    let mut begin = start;
+    let result = ron::Deserializer::from_str(body).and_then(|mut deserializer| {
+        begin = text.len() - deserializer.remainder().len();
+        let read = IgnoredAny::deserialize(&mut deserializer).and_then(|_| deserializer.end());
+        read.map_err(|error| deserializer.span_error(error))
+    });
+    match result {
+        Ok(()) => Ok(begin),
+        Err(_) if text[begin..].trim().is_empty() => {
+            Err(Box::new(ProblemKind::Empty.at(0..text.len())))
+        }
+        Err(error) => {
+            let end = error.span.end;
+            let offset = start + Lines::new(body).offset(end.line, end.col);
+            Err(Box::new(problem(text, offset, error.code)))
+        }
+    }
+}
+
+/// What to say of an error that `ron` met at `offset`.
+fn problem(text: &str, offset: usize, error: Error) -> Problem {
+    let found = text[offset..].chars().next();
+    let end = text.trim_end().len();
+    let span = match error {
+        // These are met behind what is wrong.
+        Error::InvalidEscape(_) => text[..offset].rfind('\\').unwrap_or(offset)..offset,
+        Error::ExpectedStringEnd => text[..offset].rfind('"').unwrap_or(offset)..offset,
+        _ if offset >= end => end..end,
+        _ => offset..offset + found.map_or(0, char::len_utf8),
+    };
+    if error == Error::ExceededRecursionLimit {
+        return ProblemKind::TooDeep.at(span);
+    }
+    let problem = ProblemKind::Syntax {
+        error: Box::new(error),
+        found,
+    }
+    .at(span);
+    match unclosed(text) {
+        Some(bracket) if bracket.missed_at >= offset.min(end) && bracket.open.start < offset => {
+            problem.with(bracket.open, Note::StillOpen)
+        }
+        _ => problem,
+    }
+}

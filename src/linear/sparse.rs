@@ -1,0 +1,228 @@
+use faer::linalg::solvers::Solve;
+use faer::sparse::linalg::solvers::{Llt, SymbolicLlt};
+use faer::sparse::{Argsort, Pair, SparseColMat, SymbolicSparseColMat};
+use faer::traits::ComplexField;
+use faer::{Mat, Side};
+
+use super::{Block, SparseStep};
+use crate::number::Field;
+
+/// Least squares min ‖J x + r‖ for a large J in which every block of rows touches few unknowns.
+///
+/// Solves the normal equations (JᴴJ + λ) x = −Jᴴr by a sparse Cholesky factorisation, whose pattern
+/// is analysed once, and corrects x by the residual that is left, because normal equations square
+/// the condition number. (Sparse orthogonal factors fill in along chains of loops.)
+#[derive(Clone, Debug)]
+pub struct SparseNormal<T> {
+    size: usize,
+    pattern: SymbolicSparseColMat<usize>,
+    order: Argsort<usize>,
+    analysis: SymbolicLlt<usize>,
+    factors: Option<Llt<usize, T>>,
+    values: Vec<T>,
+    extra: Vec<T>,
+    damping: f64,
+}
+
+impl Block {
+    /// The unknowns of the block's columns, in their order.
+    pub(super) fn columns(&self) -> impl Iterator<Item = usize> + Clone + '_ {
+        self.own.iter().chain(&self.shared).copied()
+    }
+}
+
+impl<T: Field + ComplexField> SparseStep<T> for SparseNormal<T> {
+    const AVAILABLE: bool = true;
+
+    fn new(size: usize, blocks: &[Block], extra_rows: usize) -> Self {
+        let mut pairs: Vec<Pair<usize, usize>> = Vec::new();
+        for block in blocks {
+            pairs.extend(lower(block.columns()).map(|(row, col)| Pair { row, col }));
+        }
+        if extra_rows > 0 {
+            pairs.extend(lower(0..size).map(|(row, col)| Pair { row, col }));
+        }
+        pairs.extend((0..size).map(|i| Pair { row: i, col: i }));
+        let (pattern, order) = SymbolicSparseColMat::try_new_from_indices(size, size, &pairs)
+            .expect("every index is below the size");
+        let analysis = SymbolicLlt::try_new(pattern.as_ref(), Side::Lower)
+            .expect("there is memory for the pattern of the factors");
+        SparseNormal {
+            size,
+            values: Vec::with_capacity(pairs.len()),
+            extra: Vec::new(),
+            damping: 0.0,
+            pattern,
+            order,
+            analysis,
+            factors: None,
+        }
+    }
+
+    /// JᴴJ + λ = L·Lᴴ.
+    fn factorise<'a>(
+        &mut self,
+        blocks: impl Iterator<Item = (&'a Block, &'a [T])>,
+        extra: &[T],
+        damping: f64,
+    ) where
+        T: 'a,
+    {
+        self.values.clear();
+        self.extra = extra.to_vec();
+        self.damping = damping;
+        for (block, entries) in blocks {
+            let column = |j: usize| &entries[j * block.rows..(j + 1) * block.rows];
+            let places = lower_places(block.columns());
+            self.values
+                .extend(places.map(|(i, j)| inner(column(i), column(j))));
+        }
+        if !extra.is_empty() {
+            let size = self.size;
+            let product = |i: usize, j: usize| {
+                let rows = extra.chunks_exact(size);
+                rows.fold(T::zero(), |sum, row| sum + row[i].conjugate() * row[j])
+            };
+            self.values
+                .extend(lower(0..size).map(|(i, j)| product(i, j)));
+        }
+        let largest = self.values.iter().fold(1.0, |m: f64, x| m.max(x.real()));
+        // a freedom that is left makes JᴴJ singular; the least addition that lets the factorisation
+        // through keeps the step short along it
+        let mut floor = damping;
+        loop {
+            let filled = self.values.len();
+            self.values.resize(filled + self.size, T::from_f64(floor));
+            let matrix =
+                SparseColMat::new_from_argsort(self.pattern.clone(), &self.order, &self.values);
+            self.values.truncate(filled);
+            self.factors = matrix.ok().and_then(|matrix| {
+                Llt::try_new_with_symbolic(self.analysis.clone(), matrix.as_ref(), Side::Lower).ok()
+            });
+            if self.factors.is_some() || floor > largest {
+                return;
+            }
+            floor = (floor * 100.0).max(1e-15 * largest);
+        }
+    }
+
+    /// Zero if the entries were not finite.
+    fn step<'a, I>(&self, blocks: impl Fn() -> I, r: &[T], x: &mut [T])
+    where
+        T: 'a,
+        I: Iterator<Item = (&'a Block, &'a [T])>,
+    {
+        // two corrections bring the error of the normal equations down to that of J itself
+        const CORRECTIONS: usize = 2;
+        x.fill(T::zero());
+        let Some(factors) = &self.factors else {
+            return;
+        };
+        for _ in 0..=CORRECTIONS {
+            let mut slope = Mat::<T>::zeros(self.size, 1);
+            let mut row = 0;
+            for (block, entries) in blocks() {
+                let mut left = r[row..row + block.rows].to_vec();
+                let columns = || block.columns().zip(entries.chunks_exact(block.rows.max(1)));
+                for (unknown, column) in columns() {
+                    for (left, entry) in left.iter_mut().zip(column) {
+                        *left += *entry * x[unknown];
+                    }
+                }
+                for (unknown, column) in columns() {
+                    slope[(unknown, 0)] -= inner(column, &left);
+                }
+                row += block.rows;
+            }
+            for (entries, &r) in self.extra.chunks_exact(self.size).zip(&r[row..]) {
+                let left = (entries.iter().zip(&*x)).fold(r, |sum, (a, x)| sum + *a * *x);
+                for (i, entry) in entries.iter().enumerate() {
+                    slope[(i, 0)] -= entry.conjugate() * left;
+                }
+            }
+            for (i, x) in x.iter().enumerate() {
+                slope[(i, 0)] -= x.scale(self.damping);
+            }
+            factors.solve_in_place(slope.as_mut());
+            for (i, x) in x.iter_mut().enumerate() {
+                *x += slope[(i, 0)];
+            }
+        }
+    }
+}
+
+/// Places (i, j) of two columns whose product stands on or below the diagonal.
+fn lower_places(
+    columns: impl Iterator<Item = usize> + Clone,
+) -> impl Iterator<Item = (usize, usize)> {
+    let other = columns.clone();
+    columns.enumerate().flat_map(move |(j, col)| {
+        let rows = other
+            .clone()
+            .enumerate()
+            .filter(move |&(_, row)| row >= col);
+        rows.map(move |(i, _)| (i, j))
+    })
+}
+
+/// The same as unknowns (row, column).
+fn lower(columns: impl Iterator<Item = usize> + Clone) -> impl Iterator<Item = (usize, usize)> {
+    let other = columns.clone();
+    columns.flat_map(move |col| {
+        let rows = other.clone().filter(move |&row| row >= col);
+        rows.map(move |row| (row, col))
+    })
+}
+
+fn inner<T: Field>(a: &[T], b: &[T]) -> T {
+    let products = a.iter().zip(b).map(|(a, b)| a.conjugate() * *b);
+    products.fold(T::zero(), |sum, product| sum + product)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_sparse_step_is_the_least_squares_step_with_and_without_damping() {
+        // a chain: block k of three rows touches unknowns k and k + 1
+        let size = 8;
+        let blocks: Vec<Block> = (0..size - 1)
+            .map(|k| Block {
+                rows: 3,
+                own: vec![],
+                shared: vec![k, k + 1],
+            })
+            .collect();
+        let entry = |k: usize| ((k * 29 + 7) % 13) as f64 / 5.0 - 1.1;
+        let entries: Vec<Vec<f64>> = (0..size - 1)
+            .map(|k| (0..6).map(|i| entry(6 * k + i)).collect())
+            .collect();
+        let extra: Vec<f64> = (0..size).map(|k| entry(100 + k)).collect();
+        let rows = 3 * (size - 1) + 1;
+        let mut dense = nalgebra::DMatrix::zeros(rows, size);
+        for (k, entries) in entries.iter().enumerate() {
+            for (i, &value) in entries.iter().enumerate() {
+                dense[(3 * k + i % 3, k + i / 3)] = value;
+            }
+        }
+        for (j, &value) in extra.iter().enumerate() {
+            dense[(rows - 1, j)] = value;
+        }
+        let r: Vec<f64> = (0..rows).map(|k| entry(200 + k)).collect();
+        for damping in [0.0, 0.3] {
+            let mut sparse = SparseNormal::new(size, &blocks, 1);
+            let all = || blocks.iter().zip(&entries).map(|(b, e)| (b, e.as_slice()));
+            sparse.factorise(all(), &extra, damping);
+            let mut x = vec![0.0; size];
+            sparse.step(all, &r, &mut x);
+            let rhs = -(dense.transpose() * nalgebra::DVector::from_row_slice(&r));
+            let normal =
+                dense.transpose() * &dense + nalgebra::DMatrix::identity(size, size) * damping;
+            let expected = normal.lu().solve(&rhs).expect("full rank");
+            for k in 0..size {
+                assert!((x[k] - expected[k]).abs() < 1e-10, "{x:?} {expected}");
+            }
+        }
+    }
+}

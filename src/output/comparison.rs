@@ -1,0 +1,187 @@
+//! A comparison of closed forms with the chains, as text and as JSON.
+
+use comfy_table::{CellAlignment, Table, presets};
+
+use super::json::document;
+use crate::analysis::compare::{
+    CompareReport, ComponentReport, FormReport, Quantity, Verdict, WorstSample,
+};
+use crate::description::count;
+use crate::mechanism::Mechanism;
+
+/// The report as a table of forms, what is wrong with each that disagrees, and one sentence.
+pub fn text(mechanism: &Mechanism, report: &CompareReport) -> String {
+    let name = mechanism.name();
+    if report.closed_forms.is_empty() {
+        return format!("{name}: the file has no closed forms to compare.\n");
+    }
+    let mut text = format!(
+        "{name}: closed forms beside the chains\n\n{}\n",
+        table(report)
+    );
+    for form in &report.closed_forms {
+        for component in &form.components {
+            text += &remark(mechanism, form, component);
+        }
+    }
+    if report.not_assembled > 0 {
+        text += &format!(
+            "\nNo assembled configuration was found at {}; they were left out.\n",
+            count(report.not_assembled, "random input")
+        );
+    }
+    if !report.home_assembles {
+        text += "\nThe mechanism does not assemble from its home configuration.\n";
+    }
+    text + &format!("\n{}\n", sentence(report))
+}
+
+fn table(report: &CompareReport) -> String {
+    let mut table = Table::new();
+    table.load_style(presets::NOTHING);
+    table.set_header([
+        "form",
+        "components",
+        "samples",
+        "largest difference",
+        "verdict",
+        "source",
+    ]);
+    for form in &report.closed_forms {
+        table.add_row([
+            form.name.clone(),
+            form.components.len().to_string(),
+            form.samples.to_string(),
+            largest(form),
+            verdict(form.verdict).to_owned(),
+            form.source.clone().unwrap_or_default(),
+        ]);
+    }
+    for column in [1, 2] {
+        if let Some(column) = table.column_mut(column) {
+            column.set_cell_alignment(CellAlignment::Right);
+        }
+    }
+    table.trim_fmt()
+}
+
+/// The largest difference, with the unit of the component it was found in.
+fn largest(form: &FormReport) -> String {
+    let tried = form.components.iter().filter(|c| c.samples > 0);
+    let widest = tried.reduce(|a, b| match b.max_difference > a.max_difference {
+        true => b,
+        false => a,
+    });
+    widest.map_or("-".into(), |component| {
+        let unit = unit(component.quantity);
+        match component.max_difference {
+            0.0 => format!("0{unit}"),
+            difference => format!("{difference:.1e}{unit}"),
+        }
+    })
+}
+
+fn unit(quantity: Quantity) -> &'static str {
+    match quantity {
+        Quantity::Position => " m",
+        Quantity::Rotation | Quantity::Identity => "",
+    }
+}
+
+fn verdict(verdict: Verdict) -> &'static str {
+    match verdict {
+        Verdict::Agrees => "agrees",
+        Verdict::Disagrees => "disagrees",
+        Verdict::NotTried => "not tried",
+    }
+}
+
+/// What is to be said of a component that does not simply agree; nothing of others.
+fn remark(mechanism: &Mechanism, form: &FormReport, component: &ComponentReport) -> String {
+    let ComponentReport {
+        name,
+        quantity,
+        samples,
+        without_value,
+        max_difference,
+        ..
+    } = component;
+    let form = &form.name;
+    if *samples == 0 {
+        return match without_value {
+            0 => {
+                format!("\n{form}, {name}: not tried, for no assembled configuration was found.\n")
+            }
+            _ => format!("\n{form}, {name}: has no value at any of {without_value} samples.\n"),
+        };
+    }
+    let mut text = String::new();
+    if let Some(worst) = component.worst.as_ref().filter(|_| !component.agree) {
+        let unit = unit(*quantity);
+        text += &format!("\n{form}, {name}: differs by up to {max_difference:.6}{unit}.\n");
+        text += &match quantity {
+            Quantity::Identity => format!("  it is {:.6}, not zero, ", worst.closed_form),
+            _ => format!(
+                "  the form gives {:.6}{unit}, the chains {:.6}{unit}, ",
+                worst.closed_form, worst.chains
+            ),
+        };
+        text += &format!("at {}\n", joint_values(mechanism, worst));
+    }
+    if *without_value > 0 {
+        let of = samples + without_value;
+        text += &format!("\n{form}, {name}: has no value at {without_value} of {of} samples.\n");
+    }
+    text
+}
+
+/// `theta1 = 30 deg, l1 = 0.6 m`
+fn joint_values(mechanism: &Mechanism, worst: &WorstSample) -> String {
+    let values = worst.joints.iter().zip(mechanism.joints());
+    let values = values.map(|((name, value), joint)| match joint.kind.is_angle() {
+        true => format!("{name} = {:.4} deg", value.to_degrees()),
+        false => format!("{name} = {value:.6} m"),
+    });
+    values.collect::<Vec<_>>().join(", ")
+}
+
+fn sentence(report: &CompareReport) -> String {
+    let forms = &report.closed_forms;
+    let having = |verdict: Verdict| forms.iter().filter(|form| form.verdict == verdict).count();
+    let (disagree, untried) = (having(Verdict::Disagrees), having(Verdict::NotTried));
+    let seed = report.seed;
+    match (disagree, untried, forms.len()) {
+        (0, 0, 1) => format!("The closed form agrees with the chains (seed {seed})."),
+        (0, 0, 2) => format!("Both closed forms agree with the chains (seed {seed})."),
+        (0, 0, all) => format!("All {all} closed forms agree with the chains (seed {seed})."),
+        (0, untried, all) => {
+            format!(
+                "{untried} of {} could not be tried (seed {seed}).",
+                count(all, "closed form")
+            )
+        }
+        (disagree, 0, all) => format!(
+            "{disagree} of {} {} with the chains (seed {seed}).",
+            count(all, "closed form"),
+            if disagree == 1 {
+                "disagrees"
+            } else {
+                "disagree"
+            },
+        ),
+        (disagree, untried, all) => format!(
+            "{disagree} of {} {} with the chains, {untried} could not be tried (seed {seed}).",
+            count(all, "closed form"),
+            if disagree == 1 {
+                "disagrees"
+            } else {
+                "disagree"
+            },
+        ),
+    }
+}
+
+/// The report as JSON, with the mechanism's name and the program's version.
+pub fn json(mechanism: &Mechanism, report: &CompareReport) -> String {
+    document(mechanism.name(), report)
+}

@@ -1,0 +1,62 @@
+//! Numbers as people read them; JSON keeps every digit instead.
+
+/// Six decimals without trailing zeros; the exponent form for what these cannot show.
+pub(super) fn number(value: f64) -> String {
+    let size = value.abs();
+    if value.is_nan() || (size != 0.0 && !(1e-4..1e7).contains(&size)) {
+        // what is left of a zero after rounding is a zero
+        return match size < 1e-12 {
+            true => "0".into(),
+            false => format!("{value:.4e}"),
+        };
+    }
+    let text = format!("{value:.6}");
+    let text = text.trim_end_matches('0').trim_end_matches('.');
+    match text {
+        "-0" => "0".into(),
+        text => text.into(),
+    }
+}
+
+/// An angle in rad, shown in degrees.
+pub(super) fn degrees(radians: f64) -> String {
+    format!("{}°", number(radians.to_degrees()))
+}
+
+/// A value of a joint or coordinate with its unit: degrees or metres.
+pub(super) fn quantity(value: f64, is_angle: bool) -> String {
+    match is_angle {
+        true => degrees(value),
+        false => format!("{} m", number(value)),
+    }
+}
+
+/// A number whose size alone matters.
+pub(super) fn size(value: f64) -> String {
+    match value {
+        0.0 => "0".into(),
+        _ if !value.is_finite() => "infinite".into(),
+        _ if (0.1..1e4).contains(&value.abs()) => format!("{value:.1}"),
+        _ => format!("{value:.1e}"),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn numbers_are_as_short_as_six_decimals_allow() {
+        assert_eq!(number(0.5), "0.5");
+        assert_eq!(number(-1e-17), "0");
+        assert_eq!(number(2.0 / 3.0), "0.666667");
+        assert_eq!(number(0.000_012_5), "1.2500e-5");
+        assert_eq!(number(120.0), "120");
+        assert_eq!(degrees(std::f64::consts::FRAC_PI_2), "90°");
+        assert_eq!(
+            [1.23e-16, 0.0, 31.66, 2.5e7].map(size),
+            ["1.2e-16", "0", "31.7", "2.5e7"]
+        );
+        assert_eq!(quantity(-0.25, false), "-0.25 m");
+    }
+}

@@ -1,0 +1,353 @@
+use super::freedom::Holdable;
+use super::layout::{Held, HeldPlatform};
+use super::value::{self, ValueError};
+use crate::description::{Role, nearest};
+use crate::geometry::{Pose, RollPitchYaw};
+use crate::mechanism::{Configuration, Coordinate, Mechanism, PlatformPose};
+
+/// What is asked of a mechanism: which coordinates are held at which values, and where to start.
+///
+/// A fresh question holds the actuated joints at home and starts at the home configuration. Joints
+/// are named as in the file, platform coordinates `top.x`, `top.y`, `top.z` (m) and `top.roll`,
+/// `top.pitch`, `top.yaw` (rad, see [`RollPitchYaw`]), a whole pose by the platform's name.
+#[derive(Clone, Debug)]
+pub struct Question<'a> {
+    mechanism: &'a Mechanism,
+    joints: Vec<bool>,
+    /// Joints held by the asker rather than by the file.
+    asked: Vec<bool>,
+    coordinates: Vec<[Option<f64>; 6]>,
+    start: Configuration<f64>,
+    guessed: Vec<bool>,
+    changed: bool,
+    split_changed: bool,
+}
+
+/// Why a question cannot be put.
+#[derive(Clone, Debug, PartialEq)]
+pub enum QuestionError {
+    /// No joint, platform or platform coordinate has the name.
+    UnknownName {
+        /// The name.
+        name: String,
+        /// The name that was probably meant.
+        suggestion: Option<String>,
+    },
+    /// The value is no number, expression or pose.
+    Value {
+        /// What the value was for.
+        name: String,
+        /// The value as given.
+        text: String,
+        /// What is wrong with it.
+        error: ValueError,
+    },
+    /// Only joints can be freed.
+    NotAJoint {
+        /// The name.
+        name: String,
+    },
+    /// More is held than the mechanism has freedoms.
+    TooMany {
+        /// Freedoms of the mechanism.
+        mobility: usize,
+        /// Coordinates held.
+        held: usize,
+        /// Coordinates which, freed, leave a question that has an answer.
+        free: Vec<String>,
+    },
+    /// Less is held than the mechanism has freedoms.
+    TooFew {
+        /// Freedoms of the mechanism.
+        mobility: usize,
+        /// Coordinates held.
+        held: usize,
+        /// Coordinates which, held too, leave a question that has an answer.
+        hold: Vec<String>,
+    },
+    /// The right number is held, but what is held depends on itself and something else is free.
+    Dependent {
+        /// Held coordinates to free.
+        free: Vec<String>,
+        /// Coordinates to hold instead.
+        hold: Vec<String>,
+    },
+}
+
+impl<'a> Question<'a> {
+    /// The file's own question: actuated joints held at home, all else to be found.
+    pub fn new(mechanism: &'a Mechanism) -> Self {
+        let platforms = mechanism.platforms().len();
+        Question {
+            joints: (mechanism.joints().iter())
+                .map(|joint| joint.role == Role::Actuated)
+                .collect(),
+            asked: vec![false; mechanism.joints().len()],
+            coordinates: vec![[None; 6]; platforms],
+            start: mechanism.home(),
+            guessed: vec![false; platforms],
+            changed: false,
+            split_changed: false,
+            mechanism,
+        }
+    }
+
+    /// Holds a joint, a platform coordinate or a whole pose.
+    ///
+    /// `value` is a number or an expression over the file's parameters such as `60 deg`, for a pose
+    /// a list such as `[Tz(0.5), Rx(10 deg)]`, or `home` for the value in the file.
+    pub fn hold(mut self, name: &str, value: &str) -> Result<Self, QuestionError> {
+        match self.target(name)? {
+            Target::Joint(joint) => {
+                let value = self.number(name, value, self.mechanism.joints()[joint].home)?;
+                self.split_changed |= !self.joints[joint];
+                self.joints[joint] = true;
+                self.asked[joint] = true;
+                self.start.joints[joint] = value;
+            }
+            Target::Coordinate(platform, coordinate) => {
+                let home = coordinate.of(&self.mechanism.platforms()[platform].home);
+                let value = self.number(name, value, home)?;
+                self.coordinates[platform][coordinate as usize] = Some(value);
+                self.split_changed = true;
+            }
+            Target::Pose(platform) => {
+                let pose = self.pose(name, value, platform)?;
+                for coordinate in Coordinate::ALL {
+                    let value = coordinate.of(&pose);
+                    self.coordinates[platform][coordinate as usize] = Some(value);
+                }
+                self.start.platforms[platform] = PlatformPose::from_pose(&pose);
+                self.guessed[platform] = true;
+                self.split_changed = true;
+            }
+        }
+        self.changed = true;
+        Ok(self)
+    }
+
+    /// Lets a joint be found, actuated or not; `actuated` frees every actuated joint.
+    pub fn free(mut self, name: &str) -> Result<Self, QuestionError> {
+        if name == "actuated" && self.mechanism.joint(name).is_none() {
+            for (held, joint) in self.joints.iter_mut().zip(self.mechanism.joints()) {
+                *held &= joint.role != Role::Actuated;
+            }
+        } else {
+            match self.target(name)? {
+                Target::Joint(joint) => self.joints[joint] = false,
+                _ => return Err(QuestionError::NotAJoint { name: name.into() }),
+            }
+        }
+        self.split_changed = true;
+        Ok(self)
+    }
+
+    /// Starts the search at another value of a joint, a platform coordinate or a whole pose.
+    pub fn guess(mut self, name: &str, value: &str) -> Result<Self, QuestionError> {
+        match self.target(name)? {
+            Target::Joint(joint) => {
+                let value = self.number(name, value, self.mechanism.joints()[joint].home)?;
+                if !self.joints[joint] {
+                    self.start.joints[joint] = value;
+                    self.changed = true;
+                }
+            }
+            Target::Coordinate(platform, coordinate) => {
+                let home = coordinate.of(&self.mechanism.platforms()[platform].home);
+                let value = self.number(name, value, home)?;
+                let pose = with_coordinates(
+                    &self.start.platforms[platform].pose(),
+                    [(coordinate, value)],
+                );
+                self.start.platforms[platform] = PlatformPose::from_pose(&pose);
+                self.guessed[platform] = true;
+            }
+            Target::Pose(platform) => {
+                let pose = self.pose(name, value, platform)?;
+                self.start.platforms[platform] = PlatformPose::from_pose(&pose);
+                self.guessed[platform] = true;
+            }
+        }
+        Ok(self)
+    }
+
+    /// The mechanism that is asked about.
+    pub fn mechanism(&self) -> &'a Mechanism {
+        self.mechanism
+    }
+
+    /// What is held, in the form the solver takes.
+    pub fn held(&self) -> Held<f64> {
+        let platforms = self.coordinates.iter().map(|values| {
+            let given: Vec<(Coordinate, f64)> = (Coordinate::ALL.into_iter().zip(values))
+                .filter_map(|(coordinate, value)| Some((coordinate, (*value)?)))
+                .collect();
+            let angles = given.iter().filter(|(c, _)| c.is_angle()).count();
+            match given.len() {
+                0 => HeldPlatform::Free,
+                6 => HeldPlatform::Pose,
+                // three angles at once are an orientation, which has no gimbal lock
+                _ if angles == 3 => HeldPlatform::Partly {
+                    orientation: Some(
+                        with_coordinates(&Pose::identity(), given.iter().copied()).rotation,
+                    ),
+                    coordinates: given.into_iter().filter(|(c, _)| !c.is_angle()).collect(),
+                },
+                _ => HeldPlatform::Partly {
+                    coordinates: given,
+                    orientation: None,
+                },
+            }
+        });
+        Held {
+            joints: self.joints.clone(),
+            platforms: platforms.collect(),
+        }
+    }
+
+    /// Where the search starts: guesses, held values and for the rest the home configuration.
+    pub fn start(&self) -> Configuration<f64> {
+        let mut start = self.start.clone();
+        for (platform, values) in start.platforms.iter_mut().zip(&self.coordinates) {
+            let given = Coordinate::ALL.into_iter().zip(values);
+            let given = given.filter_map(|(coordinate, value)| Some((coordinate, (*value)?)));
+            if values.iter().any(Option::is_some) {
+                *platform = PlatformPose::from_pose(&with_coordinates(&platform.pose(), given));
+            }
+        }
+        start
+    }
+
+    /// For each platform whether its starting pose was given with the question.
+    pub fn guessed(&self) -> &[bool] {
+        &self.guessed
+    }
+
+    /// Whether joints start elsewhere than at home.
+    pub fn differs_from_home(&self) -> bool {
+        self.changed
+    }
+
+    /// Whether something else is held than the file's actuated joints.
+    pub fn split_changed(&self) -> bool {
+        self.split_changed
+    }
+
+    /// The held coordinates, those asked for before the joints that are held only because the file
+    /// says so.
+    pub fn held_coordinates(&self) -> Vec<Holdable> {
+        let platforms = self.coordinates.iter().enumerate();
+        let coordinates = platforms.flat_map(|(platform, values)| {
+            let held = Coordinate::ALL.into_iter().zip(values);
+            let held = held.filter(|(_, value)| value.is_some());
+            held.map(move |(c, _)| Holdable::Coordinate(platform, c))
+        });
+        let held = (0..self.joints.len()).filter(|&joint| self.joints[joint]);
+        let (asked, by_file): (Vec<usize>, Vec<usize>) = held.partition(|&joint| self.asked[joint]);
+        let joints = |joints: Vec<usize>| joints.into_iter().map(Holdable::Joint);
+        (joints(asked).chain(coordinates).chain(joints(by_file))).collect()
+    }
+
+    /// The names of the held coordinates.
+    pub fn held_names(&self) -> Vec<String> {
+        let joints = self.mechanism.joints().iter().zip(&self.joints);
+        let joints = joints
+            .filter(|(_, held)| **held)
+            .map(|(joint, _)| joint.name.clone());
+        let platforms = self.mechanism.platforms().iter().zip(&self.coordinates);
+        let coordinates = platforms.flat_map(|(platform, values)| {
+            let held = Coordinate::ALL
+                .into_iter()
+                .zip(values)
+                .filter(|(_, v)| v.is_some());
+            held.map(|(c, _)| format!("{}.{}", platform.name, c.name()))
+        });
+        joints.chain(coordinates).collect()
+    }
+
+    fn number(&self, name: &str, text: &str, home: f64) -> Result<f64, QuestionError> {
+        if text.trim() == "home" {
+            return Ok(home);
+        }
+        value::number(self.mechanism, text).map_err(|error| QuestionError::Value {
+            name: name.into(),
+            text: text.into(),
+            error,
+        })
+    }
+
+    fn pose(&self, name: &str, text: &str, platform: usize) -> Result<Pose<f64>, QuestionError> {
+        if text.trim() == "home" {
+            return Ok(self.mechanism.platforms()[platform].home);
+        }
+        value::pose(self.mechanism, text).map_err(|error| QuestionError::Value {
+            name: name.into(),
+            text: text.into(),
+            error,
+        })
+    }
+
+    fn target(&self, name: &str) -> Result<Target, QuestionError> {
+        if let Some(joint) = self.mechanism.joint(name) {
+            return Ok(Target::Joint(joint));
+        }
+        if let Some(platform) = self.mechanism.platform(name) {
+            return Ok(Target::Pose(platform));
+        }
+        if let Some((platform, coordinate)) = name.rsplit_once('.')
+            && let (Some(platform), Some(coordinate)) = (
+                self.mechanism.platform(platform),
+                Coordinate::by_name(coordinate),
+            )
+        {
+            return Ok(Target::Coordinate(platform, coordinate));
+        }
+        let joints = self
+            .mechanism
+            .joints()
+            .iter()
+            .map(|joint| joint.name.clone());
+        let platforms = self.mechanism.platforms().iter().flat_map(|platform| {
+            let coordinates = Coordinate::ALL.map(|c| format!("{}.{}", platform.name, c.name()));
+            [platform.name.clone()].into_iter().chain(coordinates)
+        });
+        let known: Vec<String> = joints.chain(platforms).collect();
+        Err(QuestionError::UnknownName {
+            name: name.into(),
+            suggestion: nearest(name, known.iter().map(String::as_str)).map(str::to_owned),
+        })
+    }
+}
+
+enum Target {
+    Joint(usize),
+    Coordinate(usize, Coordinate),
+    Pose(usize),
+}
+
+/// The pose with some coordinates exchanged.
+fn with_coordinates(
+    pose: &Pose<f64>,
+    values: impl IntoIterator<Item = (Coordinate, f64)>,
+) -> Pose<f64> {
+    let mut angles = RollPitchYaw::from_rotation(&pose.rotation);
+    let mut position = pose.position;
+    let mut turned = false;
+    for (coordinate, value) in values {
+        turned |= coordinate.is_angle();
+        match coordinate {
+            Coordinate::X | Coordinate::Y | Coordinate::Z => {
+                position.0[coordinate as usize] = value
+            }
+            Coordinate::Roll => angles.roll = value,
+            Coordinate::Pitch => angles.pitch = value,
+            Coordinate::Yaw => angles.yaw = value,
+        }
+    }
+    let rotation = if turned {
+        angles.rotation()
+    } else {
+        pose.rotation
+    };
+    Pose { rotation, position }
+}

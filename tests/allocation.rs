@@ -1,0 +1,111 @@
+//! Following a motion allocates nothing once the tracker is built.
+
+use std::alloc::{GlobalAlloc, Layout, System as Heap};
+use std::sync::atomic::{AtomicUsize, Ordering};
+
+use linkwork::geometry::{Axis, Pose, Quaternion, Vector3};
+use linkwork::mechanism::{
+    ChainDimensions, ClosureDimensions, ClosureKind, Configuration, Dimensions, Frame, LinearForm,
+    PlatformPose, RowDimensions,
+};
+use linkwork::solve::{Newton, Stop, Warm};
+use linkwork::system::{Held, HeldPlatform, System, Tracker};
+
+struct Counting;
+
+static ALLOCATIONS: AtomicUsize = AtomicUsize::new(0);
+
+// SAFETY: every call goes to the system's allocator unchanged
+unsafe impl GlobalAlloc for Counting {
+    unsafe fn alloc(&self, layout: Layout) -> *mut u8 {
+        ALLOCATIONS.fetch_add(1, Ordering::Relaxed);
+        unsafe { Heap.alloc(layout) }
+    }
+    unsafe fn dealloc(&self, pointer: *mut u8, layout: Layout) {
+        unsafe { Heap.dealloc(pointer, layout) }
+    }
+}
+
+#[global_allocator]
+static HEAP: Counting = Counting;
+
+/// The 3-RPS manipulator: three legs of a turn and a slide, ball joints on a platform.
+fn three_rps() -> Dimensions<f64> {
+    let turned = |axis, degrees: f64| Pose::rotation(axis, degrees.to_radians());
+    let along_x = |x| Pose::translation(Vector3([x, 0.0, 0.0]));
+    let row = |before, turn: &[usize], slide: &[usize]| RowDimensions {
+        before,
+        turn: LinearForm(turn.iter().map(|&joint| (joint, 1.0)).collect()),
+        slide: LinearForm(slide.iter().map(|&joint| (joint, 1.0)).collect()),
+        after: Pose::identity(),
+    };
+    let places = (0..3).map(|i| turned(Axis::Z, 120.0 * f64::from(i)));
+    Dimensions {
+        characteristic_length: 1.0,
+        joint_scales: vec![1.0; 6],
+        chains: (places.clone().enumerate())
+            .map(|(i, place)| ChainDimensions {
+                on: Frame::Ground,
+                base: place * along_x(1.0) * turned(Axis::X, 90.0),
+                rows: vec![
+                    row(Pose::identity(), &[2 * i], &[]),
+                    row(turned(Axis::X, -90.0), &[], &[2 * i + 1]),
+                ],
+                tip: Pose::identity(),
+            })
+            .collect(),
+        platforms: vec![places.map(|place| place * along_x(0.5)).collect()],
+        closures: (0..3)
+            .map(|i| ClosureDimensions {
+                kind: ClosureKind::Spherical,
+                frames: [
+                    Frame::Tip { chain: i },
+                    Frame::OnPlatform {
+                        platform: 0,
+                        frame: i,
+                    },
+                ],
+                length: 0.0,
+                extension: LinearForm(vec![]),
+            })
+            .collect(),
+    }
+}
+
+#[test]
+fn a_solve_allocates_nothing() {
+    let held = Held {
+        joints: vec![false, true, false, true, false, true],
+        platforms: vec![HeldPlatform::Free],
+    };
+    let start = Configuration {
+        joints: vec![0.67, 0.8, 0.67, 0.9, 0.67, 0.73],
+        platforms: vec![PlatformPose {
+            orientation: Quaternion::identity(),
+            position: Vector3([0.0, 0.0, 0.6]),
+        }],
+    };
+    for extrapolation in [0, 3] {
+        let system = System::new(&three_rps(), &held);
+        let mut tracker = Tracker::new(system, start.clone()).with(Warm {
+            extrapolation,
+            ..Warm::default()
+        });
+        assert_eq!(tracker.recover(&Newton::default()).stop, Stop::Solved);
+        let before = ALLOCATIONS.load(Ordering::Relaxed);
+        let (mut steps, mut renewals) = (0, 0);
+        for k in 0..1000 {
+            let report = tracker.solve(|held| {
+                for (leg, phase) in [0.0, 1.7, 3.9].into_iter().enumerate() {
+                    let wave = (f64::from(k) * 0.01 + phase).sin();
+                    held.joints[2 * leg + 1] = 0.8 + 0.1 * wave;
+                }
+            });
+            assert!(report.solved && report.residual <= 1e-12, "{k}: {report:?}");
+            steps += report.steps;
+            renewals += report.renewals;
+        }
+        assert_eq!(ALLOCATIONS.load(Ordering::Relaxed), before);
+        assert!(steps > 0 && renewals > 0);
+    }
+}

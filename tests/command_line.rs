@@ -1,0 +1,334 @@
+//! The command line as its users meet it: answers, problems, exit codes.
+#![cfg(feature = "cli")]
+
+use std::path::Path;
+use std::process::{Command, Output, Stdio};
+
+use assert_cmd::cargo::CommandCargoExt;
+use serde_json::Value;
+
+const FOUR_BAR: &str = "mechanisms/four_bar.ron";
+const THREE_RPS: &str = "mechanisms/three_rps.ron";
+
+fn linkwork() -> Command {
+    let mut command = Command::cargo_bin("linkwork").unwrap();
+    command.current_dir(env!("CARGO_MANIFEST_DIR"));
+    command
+}
+
+fn run(arguments: &[&str]) -> Output {
+    linkwork().args(arguments).output().unwrap()
+}
+
+fn stdout(output: &Output) -> String {
+    String::from_utf8(output.stdout.clone()).unwrap()
+}
+
+fn stderr(output: &Output) -> String {
+    String::from_utf8(output.stderr.clone()).unwrap()
+}
+
+/// The answer, which must be a yes.
+fn answer(arguments: &[&str]) -> String {
+    let output = run(arguments);
+    assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
+    stdout(&output)
+}
+
+/// What is said of a wrong file or question; nothing else may be printed.
+fn refusal(arguments: &[&str]) -> String {
+    let output = run(arguments);
+    assert_eq!(output.status.code(), Some(2), "{}", stdout(&output));
+    assert_eq!(stdout(&output), "", "data on stdout");
+    stderr(&output)
+}
+
+fn json(arguments: &[&str]) -> Value {
+    let output = run(&[arguments, &["--format", "json"]].concat());
+    serde_json::from_slice(&output.stdout).expect("JSON")
+}
+
+fn mechanisms() -> Vec<String> {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("mechanisms");
+    let names = folder.read_dir().unwrap();
+    let names = names.map(|entry| entry.unwrap().file_name().into_string().unwrap());
+    let mut names: Vec<String> = names.map(|name| format!("mechanisms/{name}")).collect();
+    names.sort();
+    names
+}
+
+#[test]
+fn every_shipped_mechanism_is_checked_and_solved() {
+    for file in mechanisms() {
+        answer(&["check", &file]);
+        assert_eq!(
+            json(&["check", &file])["linkwork"],
+            env!("CARGO_PKG_VERSION")
+        );
+        answer(&["solve", &file]);
+        assert_eq!(json(&["solve", &file])["outcome"], "converged", "{file}");
+    }
+}
+
+#[test]
+fn a_four_bar_is_described() {
+    insta::assert_snapshot!(answer(&["check", FOUR_BAR]));
+}
+
+#[test]
+fn a_platform_is_described() {
+    insta::assert_snapshot!(answer(&["check", THREE_RPS]));
+}
+
+#[test]
+fn a_standard_table_is_drawn_in_its_own_order() {
+    insta::assert_snapshot!(answer(&["check", "mechanisms/bennett.ron"]));
+}
+
+#[test]
+fn an_assembled_platform_is_described() {
+    insta::assert_snapshot!(answer(&["solve", THREE_RPS]));
+}
+
+#[test]
+fn what_cannot_be_assembled_is_answered_no() {
+    let output = run(&["solve", FOUR_BAR, "--set", "l2=0.5"]);
+    assert_eq!(output.status.code(), Some(1), "{}", stderr(&output));
+    let text = stdout(&output);
+    let sentence = "Cannot be assembled with these inputs: at the closest approach closure joint3 gapes by 0.08";
+    assert!(text.contains(sentence), "{text}");
+    let json = json(&["solve", FOUR_BAR, "--set", "l2=0.5"]);
+    assert_eq!(json["outcome"], "cannot_be_assembled");
+    assert_eq!(json["worst"], "joint3");
+    assert!(json["gaps"]["joint3"]["distance"].as_f64().unwrap() > 0.08);
+}
+
+#[test]
+fn what_is_outside_limits_is_answered_no() {
+    let output = run(&["solve", THREE_RPS, "--hold", "l1=1.25"]);
+    let json = json(&["solve", THREE_RPS, "--hold", "l1=1.25"]);
+    assert_eq!(output.status.code(), Some(1));
+    assert_eq!(json["outcome"], "converged_outside_limits");
+    assert_eq!(json["outside_limits"], serde_json::json!(["l1"]));
+}
+
+#[test]
+fn json_has_the_promised_keys_and_every_digit() {
+    let json = json(&["solve", THREE_RPS]);
+    for key in [
+        "linkwork",
+        "mechanism",
+        "outcome",
+        "steps",
+        "residual",
+        "condition",
+        "warnings",
+    ] {
+        assert!(!json[key].is_null(), "{key}");
+    }
+    assert_eq!(json["joints"]["l1"].as_f64(), Some(2.0 / 3.0));
+    let top = &json["platforms"]["top"];
+    assert_eq!(top["position"].as_array().unwrap().len(), 3);
+    assert_eq!(top["quaternion"].as_array().unwrap().len(), 4);
+    let rotation = &json["frames"]["leg1"]["rotation"];
+    assert_eq!(rotation[2].as_array().unwrap().len(), 3);
+}
+
+#[test]
+fn an_infinite_condition_number_is_null() {
+    let json = json(&["solve", FOUR_BAR, "--set", "l2=0.5"]);
+    assert!(json["condition"].is_null(), "{}", json["condition"]);
+}
+
+#[test]
+fn values_are_expressions_over_the_parameters() {
+    let json = json(&[
+        "solve",
+        FOUR_BAR,
+        "--set",
+        "l2=l1 + 2",
+        "--set",
+        "l0=5000 mm",
+        "--hold",
+        "theta1=pi/l2",
+    ]);
+    assert_eq!(
+        json["joints"]["theta1"].as_f64(),
+        Some(std::f64::consts::PI / 3.0)
+    );
+    assert_eq!(json["outcome"], "converged");
+}
+
+#[test]
+fn a_guess_chooses_the_other_assembly() {
+    let value = |json: Value| json["joints"]["phi1"].as_f64().unwrap();
+    assert!(value(json(&["solve", FOUR_BAR])) > 0.0);
+    assert!(value(json(&["solve", FOUR_BAR, "--guess", "phi1=-90 deg"])) < 0.0);
+}
+
+#[test]
+fn inverse_kinematics_holds_the_platform() {
+    let arguments = [
+        "solve",
+        THREE_RPS,
+        "--free",
+        "actuated",
+        "--hold",
+        "top.z=0.5",
+        "--hold",
+        "top.roll=0",
+        "--hold",
+        "top.pitch=0",
+    ];
+    let json = json(&arguments);
+    assert_eq!(json["outcome"], "converged");
+    assert!((json["platforms"]["top"]["position"][2].as_f64().unwrap() - 0.5).abs() < 1e-12);
+}
+
+#[test]
+fn wrong_values_of_options_are_underlined() {
+    let mut said = String::new();
+    for options in [
+        &["--set", "l1=2*"][..],
+        &["--set", "l9=2"],
+        &["--set", "l1=theta1 + lo"],
+        &["--set", "l1=1/(l0 - 5)"],
+        &["--set", "l1=l2", "--set", "l2=l1"],
+        &["--hold", "tehta1=1"],
+        &["--hold", "theta1=60 dge"],
+        &["--hold", "theta1=lo + 1"],
+        &["--hold", "theta1=1/0"],
+        &["--guess", "joint3=0"],
+        &["--free", "phi"],
+    ] {
+        said += &refusal(&[&["solve", FOUR_BAR], options].concat());
+        said += "\n";
+    }
+    for options in [&["--hold", "top=[Tz(1), Rw(2)]"][..], &["--free", "top"]] {
+        said += &refusal(&[&["solve", THREE_RPS], options].concat());
+        said += "\n";
+    }
+    insta::assert_snapshot!(said);
+}
+
+#[test]
+fn a_wrong_count_says_what_would_do() {
+    let mut said = String::new();
+    for options in [
+        &["--hold", "phi2=0"][..],
+        &["--free", "theta1"],
+        &["--free", "theta1", "--free", "phi1"],
+    ] {
+        said += &refusal(&[&["solve", FOUR_BAR], options].concat());
+        said += "\n";
+    }
+    for options in [
+        &["--hold", "top.z=0.5", "--hold", "top.x=0"][..],
+        &["--free", "l1", "--free", "l3"],
+        &["--free", "actuated", "--hold", "top=home"],
+    ] {
+        said += &refusal(&[&["solve", THREE_RPS], options].concat());
+        said += "\n";
+    }
+    insta::assert_snapshot!(said);
+}
+
+#[test]
+fn wrong_command_lines_are_refused() {
+    for arguments in [
+        &["solv", FOUR_BAR][..],
+        &["check"],
+        &["check", FOUR_BAR, "--format", "xml"],
+        &["check", FOUR_BAR, "--set", "l1"],
+        &["check", FOUR_BAR, "--set", "=1"],
+        &["check", FOUR_BAR, "--hold", "theta1=1"],
+        &["solve", FOUR_BAR, "--seed", "-1"],
+        &["solve", FOUR_BAR, THREE_RPS],
+    ] {
+        refusal(arguments);
+    }
+}
+
+#[test]
+fn files_that_cannot_be_read_are_refused() {
+    assert!(
+        refusal(&["check", "mechanisms/no_such_file.ron"])
+            .contains("no_such_file.ron: cannot be read")
+    );
+    assert!(refusal(&["check", "mechanisms"]).contains("mechanisms: cannot be read"));
+    assert!(refusal(&["solve", "mechanisms/no_such_file.ron"]).contains("cannot be read"));
+}
+
+#[test]
+fn a_wrong_file_is_answered_with_all_its_problems() {
+    for command in ["check", "solve"] {
+        let said = refusal(&[command, "tests/wrong/unknown_frames.ron"]);
+        assert!(said.contains("did you mean `ground`?"), "{said}");
+        assert!(
+            said.contains("problems in tests/wrong/unknown_frames.ron"),
+            "{said}"
+        );
+    }
+}
+
+#[test]
+fn warnings_do_not_change_the_answer() {
+    let output = run(&["check", "mechanisms/four_bar_cut1.ron"]);
+    assert_eq!(output.status.code(), Some(0));
+    assert!(stdout(&output).starts_with("4-bar"));
+    let said = stderr(&output);
+    assert!(
+        said.starts_with("warning: row 3 of chain `links`"),
+        "{said}"
+    );
+    assert!(
+        said.ends_with("1 warning in mechanisms/four_bar_cut1.ron\n"),
+        "{said}"
+    );
+}
+
+#[test]
+fn a_reader_who_leaves_early_is_no_error() {
+    for arguments in [
+        &["check", THREE_RPS][..],
+        &["solve", THREE_RPS],
+        &["--help"],
+    ] {
+        let mut child = linkwork()
+            .args(arguments)
+            .stdout(Stdio::piped())
+            .stderr(Stdio::piped())
+            .spawn()
+            .unwrap();
+        drop(child.stdout.take());
+        let output = child.wait_with_output().unwrap();
+        assert_eq!(stderr(&output), "");
+        assert_eq!(output.status.code(), Some(0));
+    }
+}
+
+#[test]
+fn a_full_disk_is_reported() {
+    let Ok(full) = std::fs::File::create("/dev/full") else {
+        return;
+    };
+    let output = linkwork()
+        .args(["check", FOUR_BAR])
+        .stdout(full)
+        .output()
+        .unwrap();
+    assert_eq!(output.status.code(), Some(2));
+    assert!(stderr(&output).contains("cannot be written"));
+}
+
+#[test]
+fn help_shows_an_example_of_every_command() {
+    for command in ["check", "solve"] {
+        let help = answer(&[command, "--help"]);
+        assert!(
+            help.contains(&format!("linkwork {command} mechanisms/")),
+            "{help}"
+        );
+    }
+    assert!(answer(&["--help"]).contains("Exit codes"));
+}
