@@ -1,7 +1,10 @@
 //! Commands, one file each. Data goes to stdout, problems to stderr.
 
+mod assemblies;
 mod check;
 mod compare;
+mod held;
+mod search;
 mod solve;
 mod source;
 
@@ -26,6 +29,7 @@ const EXIT_CODES: &str =
 enum Command {
     Check(check::Check),
     Solve(solve::Solve),
+    Assemblies(assemblies::Assemblies),
     Compare(compare::Compare),
 }
 
@@ -57,6 +61,7 @@ pub fn run() -> ExitCode {
     let answer = match &arguments.command {
         Command::Check(check) => check.run(),
         Command::Solve(solve) => solve.run(),
+        Command::Assemblies(assemblies) => assemblies.run(),
         Command::Compare(compare) => compare.run(),
     };
     match answer {

@@ -2,6 +2,7 @@
 //!
 //! Direct, inverse and mixed kinematics are only different choices of what is held ([`Held`]).
 
+mod count;
 mod displacement;
 mod equations;
 mod freedom;
@@ -10,6 +11,7 @@ mod question;
 mod tracker;
 mod value;
 
+pub use count::Count;
 pub use equations::{System, Work};
 pub use freedom::{Freedoms, Holdable, Mobility};
 pub use layout::{Held, HeldPlatform, Unknown};

@@ -22,10 +22,9 @@ mod report;
 mod threads;
 
 pub use follow::{Fold, Followed};
-pub use generic::GenericSolutions;
+pub use generic::{GenericSolutions, Progress, StoredError};
 pub use report::{
-    AssembliesReport, Assembly, ClosestApproach, ComplexAssembly, Fit, KnownBound, Named,
-    PoseReport,
+    AssembliesReport, Assembly, ClosestApproach, ComplexAssembly, Fit, Named, PoseReport,
 };
 
 use rand::SeedableRng;
@@ -144,8 +143,21 @@ impl AssemblySolver {
         held: &Held<f64>,
         settings: &AssembliesSettings,
     ) -> Result<Self, AssembliesError> {
+        Self::watched(mechanism, held, settings, &|_| {})
+    }
+
+    /// The same, telling how far it is again and again.
+    ///
+    /// # Errors
+    /// If a dimension has no value near the mechanism's own.
+    pub fn watched(
+        mechanism: &Mechanism,
+        held: &Held<f64>,
+        settings: &AssembliesSettings,
+        watch: &dyn Fn(Progress),
+    ) -> Result<Self, AssembliesError> {
         let family = Family::new(mechanism, held);
-        let generic = generic::search(&family, question(mechanism, &family), settings);
+        let generic = generic::search(&family, question(mechanism, &family), settings, watch);
         let generic = generic.ok_or(AssembliesError::NoValue)?;
         Ok(Self::with(mechanism, held, family, generic))
     }
@@ -160,7 +172,11 @@ impl AssemblySolver {
         stored: GenericSolutions,
     ) -> Result<Self, AssembliesError> {
         let family = Family::new(mechanism, held);
-        match stored.question == question(mechanism, &family) {
+        let fits = |count: usize, stored: &[[f64; 2]]| stored.len() == count;
+        let sizes = fits(family.parameters.len(), &stored.parameters)
+            && fits(family.coordinates.input_count(), &stored.inputs)
+            && (stored.solutions.iter()).all(|x| fits(family.coordinates.count(), x));
+        match sizes && stored.question == question(mechanism, &family) {
             true => Ok(Self::with(mechanism, held, family, stored)),
             false => Err(AssembliesError::StoredForAnotherQuestion),
         }
@@ -336,21 +352,22 @@ fn held_at_home(mechanism: &Mechanism, held: &Held<f64>) -> Held<f64> {
     }
 }
 
-/// What stored solutions belong to.
+/// What stored solutions belong to: names to be read by people, and a mark of all dimensions.
 fn question(mechanism: &Mechanism, family: &Family) -> String {
     let c = &family.coordinates;
-    let joints: Vec<&str> = mechanism.joints().iter().map(|j| j.name.as_str()).collect();
-    let parameters: Vec<String> = (mechanism.parameters().iter())
-        .map(|p| format!("{}={:?}", p.name, p.value))
-        .collect();
-    format!(
-        "{}; joints {}; {}; held joints {:?}, poses {:?}, coordinates {:?}, orientations {:?}",
-        mechanism.name(),
-        joints.join(" "),
-        parameters.join(" "),
+    let all = format!(
+        "{:?} {:?} {:?} {:?} {:?} {:?} {:?}",
+        mechanism.dimensions(),
+        mechanism.home(),
+        mechanism.parameters(),
         c.held_joints,
         c.held_poses,
         c.targets,
         c.orientations,
-    )
+    );
+    // FNV-1a (Fowler, Noll and Vo 1991)
+    let mark = all.bytes().fold(0xcbf2_9ce4_8422_2325_u64, |mark, byte| {
+        (mark ^ u64::from(byte)).wrapping_mul(0x0000_0100_0000_01b3)
+    });
+    format!("{} {mark:016x}", mechanism.name())
 }

@@ -5,15 +5,12 @@ mod singular;
 
 use rand::{Rng, SeedableRng};
 use rand_pcg::Pcg64Mcg;
-use serde::Serialize;
 
-use crate::description::{ClosureKind, Role};
+use crate::description::ClosureKind;
 use crate::geometry::{Quaternion, Vector3};
-use crate::mechanism::{Configuration, Coordinate, Joint, JointKind, Mechanism, PlatformPose};
+use crate::mechanism::{Configuration, Joint, JointKind, Mechanism, PlatformPose};
 use crate::solve::{Equations, Newton, Report, Stop};
-use crate::system::{
-    Freedoms, Held, HeldPlatform, Holdable, Mobility, Question, QuestionError, System, Work,
-};
+use crate::system::{Count, Freedoms, Held, HeldPlatform, Question, QuestionError, System, Work};
 
 /// How to look for an assembled configuration.
 #[derive(Clone, Debug, PartialEq)]
@@ -113,15 +110,6 @@ pub struct AssemblyReport {
     pub count: Count,
 }
 
-/// What is held beside what the mechanism allows.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
-pub struct Count {
-    /// Freedoms of the mechanism, if it assembles near the start.
-    pub mobility: Option<usize>,
-    /// Coordinates held.
-    pub held: usize,
-}
-
 /// Finds the assembled configuration near the start of a question.
 ///
 /// Newton's method on the loop closure from the guess; if that fails, or ends outside the limits,
@@ -133,7 +121,7 @@ pub fn assemble(
     question: &Question,
     settings: &AssemblySettings,
 ) -> Result<AssemblyReport, QuestionError> {
-    let count = check_count(question)?;
+    let count = question.count()?;
     let mut search = Search::new(question, settings);
     let mut rng = Pcg64Mcg::seed_from_u64(settings.seed);
     let mut outside: Option<Attempt> = None;
@@ -173,64 +161,6 @@ pub fn assemble(
         (None, Some(attempt)) => search.unassembled(attempt, restarts, count),
         (None, None) => unreachable!("every start is either assembled or not"),
     })
-}
-
-/// Compares what is held with what the mechanism allows.
-fn check_count(question: &Question) -> Result<Count, QuestionError> {
-    let mechanism = question.mechanism();
-    let held = question.held_coordinates();
-    let start = question.start();
-    let mobility =
-        Mobility::near(mechanism, &start).or_else(|| Mobility::near(mechanism, &mechanism.home()));
-    let Some(mobility) = mobility else {
-        return Ok(Count {
-            mobility: None,
-            held: held.len(),
-        });
-    };
-    let count = Count {
-        mobility: Some(mobility.count()),
-        held: held.len(),
-    };
-    let joints = (0..mechanism.joints().len()).map(Holdable::Joint);
-    let coordinates = (0..mechanism.platforms().len())
-        .flat_map(|platform| Coordinate::ALL.map(|c| Holdable::Coordinate(platform, c)));
-    let (actuated, passive): (Vec<_>, Vec<_>) = joints.partition(|joint| match joint {
-        Holdable::Joint(joint) => mechanism.joints()[*joint].role == Role::Actuated,
-        Holdable::Coordinate(..) => false,
-    });
-    let candidates: Vec<Holdable> = (held.iter().copied())
-        .chain(actuated)
-        .chain(passive)
-        .chain(coordinates)
-        .collect();
-    let chosen = mobility.independent(mechanism, &candidates);
-    let name = |holdable: &Holdable| holdable.name(mechanism);
-    let free: Vec<String> = held
-        .iter()
-        .filter(|h| !chosen.contains(h))
-        .map(name)
-        .collect();
-    let hold: Vec<String> = chosen
-        .iter()
-        .filter(|c| !held.contains(c))
-        .map(name)
-        .collect();
-    let (mobility, held) = (mobility.count(), held.len());
-    match (free.is_empty(), hold.is_empty()) {
-        (true, true) => Ok(count),
-        (false, true) => Err(QuestionError::TooMany {
-            mobility,
-            held,
-            free,
-        }),
-        (true, false) => Err(QuestionError::TooFew {
-            mobility,
-            held,
-            hold,
-        }),
-        (false, false) => Err(QuestionError::Dependent { free, hold }),
-    }
 }
 
 /// One start and where it led.

@@ -2,13 +2,13 @@
 
 use clap::Args;
 use linkwork::analysis::assembly::{AssemblySettings, Outcome, assemble};
-use linkwork::output::option::Given;
-use linkwork::output::question::complaint;
+use linkwork::mechanism::Mechanism;
 use linkwork::output::solution;
-use linkwork::system::{Question, QuestionError};
+use linkwork::system::Question;
 
+use super::held::{Split, refusal};
 use super::source::{Assignment, Source};
-use super::{Answer, Format, Refusal, style};
+use super::{Answer, Format, Refusal};
 
 /// Find the assembled configuration near a guess.
 ///
@@ -22,12 +22,8 @@ use super::{Answer, Format, Refusal, style};
 pub struct Solve {
     #[command(flatten)]
     source: Source,
-    /// Hold a joint or coordinate at a value, e.g. --hold theta1="60 deg"
-    #[arg(long, value_name = "NAME=VALUE")]
-    hold: Vec<Assignment>,
-    /// Let a joint be solved, e.g. --free l1; `actuated` frees all actuated joints
-    #[arg(long, value_name = "NAME")]
-    free: Vec<String>,
+    #[command(flatten)]
+    split: Split,
     /// Start the search at a value, e.g. --guess phi1="-30 deg"
     #[arg(long, value_name = "NAME=VALUE")]
     guess: Vec<Assignment>,
@@ -62,26 +58,8 @@ impl Solve {
         })
     }
 
-    /// What is freed is freed first, so that `--free actuated --hold l1=1` holds one joint.
-    fn question<'a>(
-        &self,
-        mechanism: &'a linkwork::mechanism::Mechanism,
-    ) -> Result<Question<'a>, Refusal> {
-        let mut question = Question::new(mechanism);
-        for name in &self.free {
-            let given = Given {
-                option: "--free",
-                name,
-                value: None,
-            };
-            question = (question.free(name)).map_err(|error| refusal(&error, Some(given)))?;
-        }
-        for assignment in &self.hold {
-            let Assignment { name, value } = assignment;
-            let given = assignment.given("--hold");
-            question =
-                (question.hold(name, value)).map_err(|error| refusal(&error, Some(given)))?;
-        }
+    fn question<'a>(&self, mechanism: &'a Mechanism) -> Result<Question<'a>, Refusal> {
+        let mut question = self.split.question(mechanism)?;
         for assignment in &self.guess {
             let Assignment { name, value } = assignment;
             let given = assignment.given("--guess");
@@ -90,12 +68,4 @@ impl Solve {
         }
         Ok(question)
     }
-}
-
-fn refusal(error: &QuestionError, given: Option<Given>) -> Refusal {
-    let (complaint, part) = complaint(error);
-    Refusal(match given {
-        Some(given) => complaint.render_in(&given, &part, style()),
-        None => complaint.render(style()),
-    })
 }

@@ -73,6 +73,8 @@ impl Question<'_> {
         report.lost = ends.ends.iter().filter(|e| **e == End::Lost).count();
         report.singular = grouped.iter().filter(|(.., singular)| *singular).count();
         report.retried = ends.retries;
+        report.steps = ends.steps;
+        report.evaluations = ends.evaluations;
         report.complex_assemblies = complex_assemblies;
         self.describe(&mut report, found, wanted.certificates, &mut work);
         if report.assemblies.is_empty() {
@@ -132,6 +134,7 @@ impl Question<'_> {
     }
 
     fn empty(&self, generic: &GenericSolutions) -> AssembliesReport {
+        let bound = known_bound(self.mechanism, self.held);
         AssembliesReport {
             assemblies: Vec::new(),
             complex_assemblies: Vec::new(),
@@ -142,7 +145,10 @@ impl Question<'_> {
             lost: 0,
             retried: 0,
             generic: generic.count(),
-            bound: known_bound(self.mechanism, self.held),
+            bound: bound.as_ref().map(|b| b.count),
+            bound_source: bound.map(|b| format!("{}: {}", b.structure, b.source)),
+            steps: 0,
+            evaluations: 0,
             fit: Fit::Finite,
             seeds: generic.seeds,
             quiet_seeds: generic.quiet_seeds,

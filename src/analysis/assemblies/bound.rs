@@ -1,8 +1,14 @@
 //! Structures whose number of solutions is known.
 
-use super::report::KnownBound;
 use crate::mechanism::{ClosureKind, Frame, JointKind, Mechanism};
 use crate::system::{Held, HeldPlatform};
+
+/// The largest number of isolated complex solutions that a structure has.
+pub(super) struct KnownBound {
+    pub count: usize,
+    pub structure: &'static str,
+    pub source: &'static str,
+}
 
 /// The known bound for a question, if its structure is recognised.
 pub(super) fn known_bound(mechanism: &Mechanism, held: &Held<f64>) -> Option<KnownBound> {

@@ -54,6 +54,30 @@ pub(super) fn numbers(x: &[[f64; 2]]) -> Vec<C> {
 }
 
 impl GenericSolutions {
+    /// From what [`GenericSolutions::to_text`] wrote.
+    ///
+    /// # Errors
+    /// If it is something else.
+    pub fn from_text(text: &str) -> Result<Self, StoredError> {
+        let stored: Self = ron::from_str(text).map_err(|e| StoredError(e.to_string()))?;
+        let sizes = stored
+            .solutions
+            .windows(2)
+            .all(|w| w[0].len() == w[1].len());
+        let numbers = (stored.solutions.iter().flatten())
+            .chain(&stored.parameters)
+            .chain(&stored.inputs);
+        match sizes && numbers.flatten().all(|x| x.is_finite()) {
+            true => Ok(stored),
+            false => Err(StoredError("numbers are missing".into())),
+        }
+    }
+
+    /// All digits, as RON.
+    pub fn to_text(&self) -> String {
+        ron::to_string(self).expect("lists of numbers have a RON form")
+    }
+
     /// How many isolated complex solutions a generic member has.
     pub fn count(&self) -> usize {
         self.solutions.len()
@@ -74,7 +98,31 @@ fn generator(seed: u64, stream: u64) -> Pcg64 {
     )
 }
 
+/// What is wrong with stored solutions.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct StoredError(String);
+
+impl std::fmt::Display for StoredError {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.write_str(&self.0)
+    }
+}
+
+impl std::error::Error for StoredError {}
+
+/// How far a search is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Progress {
+    /// Generic solutions found.
+    pub found: usize,
+    /// Newton seeds tried.
+    pub seeds: usize,
+    /// Monodromy loops gone.
+    pub loops: usize,
+}
+
 struct Search<'a> {
+    watch: &'a dyn Fn(Progress),
     family: &'a Family,
     settings: &'a AssembliesSettings,
     base: Member,
@@ -98,6 +146,7 @@ pub(super) fn search(
     family: &Family,
     question: String,
     settings: &AssembliesSettings,
+    watch: &dyn Fn(Progress),
 ) -> Option<GenericSolutions> {
     let mut rng = generator(settings.seed, 0);
     let inputs = family.random_inputs(&mut rng);
@@ -107,6 +156,7 @@ pub(super) fn search(
         false => family.parameters.clone(),
     };
     let mut search = Search {
+        watch,
         family,
         settings,
         base: Member { parameters, inputs },
@@ -145,6 +195,7 @@ impl Search<'_> {
             let known = self.found.len();
             while self.quiet_seeds < self.settings.quiet_seeds {
                 self.sow(&still);
+                self.tell();
                 let enough = self.loops == 0 && !self.found.is_empty();
                 let hopeless = self.found.is_empty() && self.seeds >= self.settings.hopeless_seeds;
                 if enough || hopeless || self.seeds >= self.settings.most_seeds {
@@ -159,6 +210,7 @@ impl Search<'_> {
                 && self.loops < self.settings.most_loops
             {
                 self.spread();
+                self.tell();
             }
             self.quiet_seeds = 0;
         }
@@ -171,6 +223,14 @@ impl Search<'_> {
             self.found.push(x);
         }
         new
+    }
+
+    fn tell(&self) {
+        (self.watch)(Progress {
+            found: self.found.len(),
+            seeds: self.seeds,
+            loops: self.loops,
+        });
     }
 
     /// A batch of Newton iterations from random complex points.

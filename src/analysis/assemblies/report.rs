@@ -3,6 +3,7 @@
 use serde::ser::SerializeMap;
 use serde::{Serialize, Serializer};
 
+use crate::description::count;
 use crate::geometry::{Quaternion, Vector3};
 use crate::mechanism::Configuration;
 
@@ -83,17 +84,6 @@ impl Assembly {
     }
 }
 
-/// How many solutions a structure is known to have, and who showed it.
-#[derive(Clone, Debug, PartialEq, Eq, Serialize)]
-pub struct KnownBound {
-    /// The largest number of isolated complex solutions.
-    pub count: usize,
-    /// The structure.
-    pub structure: &'static str,
-    /// Where it is shown.
-    pub source: &'static str,
-}
-
 /// How near the mechanism comes to being assembled, where it cannot be.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct ClosestApproach {
@@ -140,10 +130,16 @@ pub struct AssembliesReport {
     pub lost: usize,
     /// Paths that had to be followed again with greater care.
     pub retried: usize,
+    /// Steps along all paths, the last time each was followed.
+    pub steps: usize,
+    /// Jacobians evaluated for them.
+    pub evaluations: usize,
     /// Isolated complex solutions of the generic member.
     pub generic: usize,
-    /// Known bound for the structure.
-    pub bound: Option<KnownBound>,
+    /// The largest number of isolated complex solutions that the structure is known to have.
+    pub bound: Option<usize>,
+    /// Which structure that is, and where the bound is shown.
+    pub bound_source: Option<String>,
     /// How the question fits the mechanism.
     pub fit: Fit,
     /// Newton seeds tried at the generic member.
@@ -175,10 +171,6 @@ pub struct ComplexAssembly {
     pub multiplicity: usize,
 }
 
-fn counted(n: usize, noun: &str) -> String {
-    format!("{n} {noun}{}", if n == 1 { "" } else { "s" })
-}
-
 impl AssembliesReport {
     /// How complete the list is and why, in a sentence.
     pub(super) fn completeness(&self) -> String {
@@ -186,7 +178,7 @@ impl AssembliesReport {
             Fit::FreedomLeft(freedom) => {
                 return format!(
                     "{} left: the assemblies are not finite in number, and those listed are samples; hold {freedom} more",
-                    counted(freedom, "freedom"),
+                    count(freedom, "freedom"),
                 );
             }
             Fit::TooManyHeld => {
@@ -197,20 +189,20 @@ impl AssembliesReport {
             Fit::Finite => {}
         }
         let mut sentence = format!(
-            "{} found; {} and {} found no more",
+            "{} found; {} and {} found no more; ",
             self.generic,
-            counted(self.quiet_loops, "loop"),
-            counted(self.quiet_seeds, "seed"),
+            count(self.quiet_loops, "loop"),
+            count(self.quiet_seeds, "seed"),
         );
-        sentence += &match &self.bound {
-            Some(b) if b.count == self.generic => {
-                format!("; equals the known bound of {} for this structure", b.count)
+        sentence += &match self.bound {
+            Some(bound) if bound == self.generic => {
+                format!("equals the known bound of {bound} for this structure")
             }
-            Some(b) => format!("; the known bound for this structure is {}", b.count),
-            None => "; no bound is known for this structure".into(),
+            Some(bound) => format!("the known bound for this structure is {bound}"),
+            None => "no bound is known for this structure".into(),
         };
         if self.lost > 0 {
-            sentence += &format!("; {} could not be decided", counted(self.lost, "path"));
+            sentence += &format!("; {} could not be decided", count(self.lost, "path"));
         }
         sentence
     }
