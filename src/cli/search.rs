@@ -15,7 +15,7 @@ use super::{Refusal, say};
 
 #[derive(Args)]
 pub struct Search {
-    /// Seed of the random search: it decides the way to the answer, not the answer
+    /// Seed of random starts: it decides the way to the answer, not the answer
     #[arg(long, default_value_t = AssembliesSettings::default().seed)]
     pub seed: u64,
     /// Keep the generic solutions in a file; if it has those of this question, nothing is searched

@@ -2,16 +2,18 @@
 
 use std::fmt::Write;
 
+use comfy_table::{Table, presets};
+use serde::Serialize;
+
 use super::json::document;
 use super::layout::{align_right, indented, listed};
 use super::quantity::{degrees, number, quantity, size};
 use crate::analysis::assemblies::{
-    AssembliesReport, Assembly, ClosestApproach, ComplexAssembly, Fit, Fold, Followed, Progress,
+    AssembliesReport, Assembly, ClosestApproach, ComplexAssembly, Fit, Fold, Progress,
 };
 use crate::description::count;
-use crate::mechanism::Mechanism;
+use crate::mechanism::{Coordinate, Mechanism};
 use crate::system::{HeldPlatform, Question};
-use comfy_table::{Table, presets};
 
 /// Columns of joint values that stand beside each other.
 const ABREAST: usize = 8;
@@ -311,4 +313,57 @@ pub fn progress(now: &Progress) -> String {
 /// The report as JSON: lengths in m, angles in rad, every number with all its digits.
 pub fn json(question: &Question, report: &AssembliesReport) -> String {
     document(question.mechanism().name(), report)
+}
+
+/// Where a mode ceases to exist, as text.
+pub fn fold_text(question: &Question, mode: usize, fold: &Fold) -> String {
+    let mechanism = question.mechanism();
+    let part = number(100.0 * fold.fraction);
+    let mut text = format!(
+        "{}\nMode {mode} ceases to exist on the way from home, {part} % of the way: there it meets another mode.\n",
+        mechanism.name()
+    );
+    for (name, value) in &fold.inputs.0 {
+        let _ = writeln!(text, "  {name} = {}", input(mechanism, name, *value));
+    }
+    text += "\nJoints there\n";
+    for ((name, value), joint) in fold.joints.0.iter().zip(mechanism.joints()) {
+        let _ = writeln!(
+            text,
+            "  {name} = {}",
+            quantity(*value, joint.kind.is_angle())
+        );
+    }
+    text
+}
+
+/// An input with its unit: joints and platform coordinates by name, parts of quaternions without.
+fn input(mechanism: &Mechanism, name: &str, value: f64) -> String {
+    if let Some(joint) = mechanism.joint(name) {
+        return quantity(value, mechanism.joints()[joint].kind.is_angle());
+    }
+    let coordinate = name
+        .rsplit_once('.')
+        .and_then(|(_, c)| Coordinate::by_name(c));
+    coordinate.map_or(number(value), |c| quantity(value, c.is_angle()))
+}
+
+/// Where a mode ceases to exist, as JSON: m and rad.
+pub fn fold_json(question: &Question, mode: usize, fold: &Fold) -> String {
+    #[derive(Serialize)]
+    struct FoldJson<'a> {
+        outcome: &'static str,
+        mode: usize,
+        #[serde(flatten)]
+        fold: &'a Fold,
+    }
+    let outcome = "mode_ceases";
+    document(
+        question.mechanism().name(),
+        &FoldJson {
+            outcome,
+            mode,
+            fold,
+        },
+    )
 }

@@ -31,7 +31,10 @@ pub enum Ending {
     /// Out of all bounds.
     Infinite,
     /// It could not be decided.
-    Undecided,
+    Undecided {
+        /// The nearest point that was reached.
+        x: Vec<C>,
+    },
 }
 
 /// Points sampled on one turn of the circle.
@@ -79,7 +82,7 @@ pub fn ending<H: Turning>(
         }
         radius = smaller;
     }
-    Ending::Undecided
+    Ending::Undecided { x: at }
 }
 
 /// Samples on the circle until the solution returns, and whether angles gained turns.

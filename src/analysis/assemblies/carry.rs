@@ -29,6 +29,9 @@ pub(super) struct Ends {
 
 /// Beside the largest pivot a smaller one than this means that solutions meet.
 const SINGULAR: f64 = 1e-6;
+/// Solutions larger than this count as infinite: rounding errors of ε in the dimensions bring a
+/// solution that is m-fold at infinity back to ε^(−1/m), some 1e4 for m = 4.
+const FAR: f64 = 1e3;
 /// Where the endgame starts, as distance from the end of the way.
 const NEAR_END: f64 = 0.03;
 
@@ -193,10 +196,17 @@ fn follow(way: &mut Way<'_>, tracker: &Tracker, bend: f64, from: &[C]) -> Follow
 fn arrived(way: &mut Way<'_>, arrival: Arrival, x: &[C]) -> Option<End> {
     let end = C::from_f64(1.0);
     let mut x = x.to_vec();
-    if arrival != Arrival::There || size(&x) > 1e4 || !polish(way, end, &mut x) {
+    if arrival != Arrival::There || size(&x) > FAR || !polish(way, end, &mut x) {
         return None;
     }
-    (way.regularity(end, &x) > SINGULAR).then_some(End::Regular(x))
+    is_regular(way, &x).then_some(End::Regular(x))
+}
+
+/// Pivots of solutions far out are small beside the largest as the inverse square of their size,
+/// without others being near.
+fn is_regular(way: &mut Way<'_>, x: &[C]) -> bool {
+    let out = (size(x) / 30.0).max(1.0);
+    way.regularity(C::from_f64(1.0), x) > SINGULAR / (out * out)
 }
 
 fn go_round(way: &mut Way<'_>, tracker: &Tracker, x: &[C], stages: &mut Stages) -> End {
@@ -205,13 +215,19 @@ fn go_round(way: &mut Way<'_>, tracker: &Tracker, x: &[C], stages: &mut Stages) 
             way.family.coordinates.settle(&mut x);
             let end = C::from_f64(1.0);
             let mut refined = x.clone();
-            let near = |way: &Way<'_>, y: &[C]| way.family.coordinates.difference(&x, y) < 1e-6;
+            let near = |way: &Way<'_>, y: &[C]| {
+                way.family.coordinates.difference(&x, y) < 1e-6 * size(y).max(1.0)
+            };
             if winding == 1
                 && polish(way, end, &mut refined)
                 && near(way, &refined)
-                && way.regularity(end, &refined) > SINGULAR
+                && is_regular(way, &refined)
+                && size(&refined) <= FAR
             {
                 return End::Regular(refined);
+            }
+            if size(&x) > FAR {
+                return End::Infinite;
             }
             match way.residual(end, &x) < 1e-6 {
                 true => End::Singular(x),
@@ -219,6 +235,7 @@ fn go_round(way: &mut Way<'_>, tracker: &Tracker, x: &[C], stages: &mut Stages) 
             }
         }
         Ending::Infinite => End::Infinite,
-        Ending::Undecided => End::Lost,
+        Ending::Undecided { x } if size(&x) > FAR => End::Infinite,
+        Ending::Undecided { .. } => End::Lost,
     }
 }

@@ -351,8 +351,11 @@ impl Homotopy for Way<'_> {
         }
         let step = self.system.step_of(&self.work);
         let joints = self.family.coordinates.free_joints.len();
+        // in squares: roots are taken once
+        let mut largest = 0.0f64;
         for (x, step) in x[..joints].iter_mut().zip(step) {
             *x += *step;
+            largest = largest.max(step.norm_sqr());
         }
         for (x, twist) in x[joints..]
             .chunks_exact_mut(7)
@@ -360,12 +363,24 @@ impl Homotopy for Way<'_> {
         {
             let q = Quaternion([x[0], x[1], x[2], x[3]]);
             let turned = q.turned_by(&Vector3([twist[0], twist[1], twist[2]]));
-            x[..4].copy_from_slice(&turned.0);
+            let (mut moved, mut size) = (0.0f64, 1.0f64);
+            for (x, to) in x[..4].iter_mut().zip(turned.0) {
+                moved = moved.max(4.0 * (to - *x).norm_sqr());
+                size = size.max(to.norm_sqr());
+                *x = to;
+            }
+            // complex rotations and positions have no bound: on the way to infinity only what a
+            // step is beside them counts
+            largest = largest.max(moved / size);
+            let (mut moved, mut size) = (0.0f64, 1.0f64);
             for (x, shift) in x[4..].iter_mut().zip(&twist[3..]) {
                 *x += *shift;
+                moved = moved.max(shift.norm_sqr());
+                size = size.max(x.norm_sqr());
             }
+            largest = largest.max(moved / size);
         }
-        longest
+        largest.sqrt()
     }
 
     fn residual(&mut self, s: C, x: &[C]) -> f64 {

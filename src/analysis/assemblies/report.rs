@@ -122,7 +122,8 @@ pub struct AssembliesReport {
     pub complex: usize,
     /// Real assemblies, each once.
     pub real: usize,
-    /// Solutions of the generic member that go to infinity for these inputs.
+    /// Solutions of the generic member that go to infinity for these inputs, or beyond 1000
+    /// characteristic lengths: so far out, rounding of the dimensions decides where they are.
     pub at_infinity: usize,
     /// Points where solutions meet, real or complex, each once.
     pub singular: usize,

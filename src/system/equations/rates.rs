@@ -32,9 +32,28 @@ impl<T: Factorable> System<T> {
     /// The largest and the smallest pivot of a full orthogonal factorisation of the Jacobian last
     /// evaluated: their quotient tells how near it is to losing rank. The smallest is zero when
     /// there are more unknowns than rows.
+    ///
+    /// Rows and columns longer than 1 are shortened first: complex rotations and positions have no
+    /// bound, and a solution far out is not near a singularity because of that.
     pub fn pivots(&self, work: &mut Work<T>) -> (f64, f64) {
         let (rows, columns) = (self.rows(), self.unknowns().len());
-        let dense = self.dense_jacobian(work);
+        let mut dense = self.dense_jacobian(work);
+        for r in 0..rows {
+            let squares: f64 = (0..columns)
+                .map(|j| dense[j * rows + r].norm_squared())
+                .sum();
+            if squares > 1.0 {
+                let factor = 1.0 / squares.sqrt();
+                (0..columns).for_each(|j| dense[j * rows + r] = dense[j * rows + r].scale(factor));
+            }
+        }
+        for column in dense.chunks_exact_mut(rows.max(1)) {
+            let squares: f64 = column.iter().map(|x| x.norm_squared()).sum();
+            if squares > 1.0 {
+                let factor = 1.0 / squares.sqrt();
+                column.iter_mut().for_each(|x| *x = x.scale(factor));
+            }
+        }
         let mut qr = Qr::new(rows, columns, 0);
         qr.reset(rows);
         for j in 0..columns {
