@@ -6,11 +6,12 @@ mod singular;
 use rand::{Rng, SeedableRng};
 use rand_pcg::Pcg64Mcg;
 
-use crate::description::ClosureKind;
 use crate::geometry::{Quaternion, Vector3};
 use crate::mechanism::{Configuration, Joint, JointKind, Mechanism, PlatformPose};
 use crate::solve::{Equations, Newton, Report, Stop};
-use crate::system::{Count, Freedoms, Held, HeldPlatform, Question, QuestionError, System, Work};
+use crate::system::{
+    Count, Freedoms, Gap, Held, HeldPlatform, Question, QuestionError, System, Work, gaps,
+};
 
 /// How to look for an assembled configuration.
 #[derive(Clone, Debug, PartialEq)]
@@ -68,16 +69,6 @@ pub enum Outcome {
         /// Index of the closure with the widest gap.
         worst: usize,
     },
-}
-
-/// How far a closure is from being whole.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Gap {
-    /// Distance in m: between the origins, or what a `Distance` differs by, or along the blocked
-    /// directions of a sliding joint.
-    pub distance: f64,
-    /// Angle in rad between the axes, or between the frames where no turn is allowed.
-    pub angle: f64,
 }
 
 /// Where the search for an assembled configuration ended.
@@ -293,7 +284,7 @@ impl<'a> Search<'a> {
             restarts,
             seed: self.settings.seed,
             residual: attempt.report.size.largest,
-            gaps: self.gaps(&attempt.at),
+            gaps: gaps(self.mechanism, &attempt.at),
             idle: 0,
             count,
             configuration: attempt.at,
@@ -338,7 +329,7 @@ impl<'a> Search<'a> {
             },
         };
         let length = self.mechanism.characteristic_length();
-        let gaps = self.gaps(&attempt.at);
+        let gaps = gaps(self.mechanism, &attempt.at);
         let width = |gap: &Gap| (gap.distance / length).max(gap.angle);
         let worst = (0..gaps.len()).fold(0, |worst, i| {
             if width(&gaps[i]) > width(&gaps[worst]) {
@@ -382,43 +373,6 @@ impl<'a> Search<'a> {
             .flat_map(|chain| &chain.rows);
         rows.map(|row| row.turn.coefficient(joint))
             .all(|c| c == c.round())
-    }
-
-    fn gaps(&self, at: &Configuration<f64>) -> Vec<Gap> {
-        let closures = self.mechanism.closures().iter().enumerate();
-        closures
-            .map(|(i, closure)| {
-                let [a, b] = self.mechanism.poses(closure.frames, at);
-                let g = a.rotation.inverse_rotate(&(b.position - a.position)).0;
-                let relative = a.rotation.transpose() * b.rotation;
-                let between_axes = || {
-                    let z = relative.0[2].0;
-                    z[0].hypot(z[1]).atan2(z[2])
-                };
-                let between_frames = || {
-                    let [w, x, y, z] = Quaternion::from_rotation(&relative).canonical().0;
-                    2.0 * x.hypot(y).hypot(z).atan2(w)
-                };
-                let apart = g[0].hypot(g[1]).hypot(g[2]);
-                let (distance, angle) = match closure.kind {
-                    ClosureKind::Spherical => (apart, 0.0),
-                    ClosureKind::Revolute => (apart, between_axes()),
-                    ClosureKind::Universal => {
-                        (apart, (between_axes() - std::f64::consts::FRAC_PI_2).abs())
-                    }
-                    ClosureKind::Rigid => (apart, between_frames()),
-                    ClosureKind::Prismatic => (g[0].hypot(g[1]), between_frames()),
-                    ClosureKind::Cylindrical => (g[0].hypot(g[1]), between_axes()),
-                    ClosureKind::Planar => (g[2].abs(), between_axes()),
-                    ClosureKind::Distance => {
-                        let dimensions = &self.mechanism.dimensions().closures[i];
-                        let length = dimensions.length + dimensions.extension.at(&at.joints);
-                        ((apart - length.abs()).abs(), 0.0)
-                    }
-                };
-                Gap { distance, angle }
-            })
-            .collect()
     }
 }
 

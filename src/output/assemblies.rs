@@ -8,6 +8,7 @@ use serde::Serialize;
 use super::json::document;
 use super::layout::{align_right, indented, listed};
 use super::quantity::{degrees, number, quantity, size};
+use super::solution;
 use crate::analysis::assemblies::{
     AssembliesReport, Assembly, ClosestApproach, ComplexAssembly, Fit, Fold, Progress,
 };
@@ -25,7 +26,7 @@ pub fn text(question: &Question, report: &AssembliesReport) -> String {
         "{}\n{}\n{}",
         mechanism.name(),
         sentence(report),
-        indented(&accounting(report))
+        indented(&accounting(mechanism, report))
     )];
     if !report.assemblies.is_empty() {
         sections.push(overview(report));
@@ -63,7 +64,7 @@ pub fn sentence(report: &AssembliesReport) -> String {
     }
 }
 
-fn accounting(report: &AssembliesReport) -> String {
+fn accounting(mechanism: &Mechanism, report: &AssembliesReport) -> String {
     let mut text = String::new();
     if report.fit == Fit::Finite {
         let doubles: Vec<String> = (report.assemblies.iter().filter(|a| a.multiplicity > 1))
@@ -95,6 +96,13 @@ fn accounting(report: &AssembliesReport) -> String {
     let _ = writeln!(text, "complete: {}", report.complete);
     if let Some(source) = &report.bound_source {
         let _ = writeln!(text, "bound for {source}");
+    }
+    if report.assemblies.iter().any(|a| a.certified) {
+        let length = quantity(mechanism.characteristic_length(), false);
+        let _ = writeln!(
+            text,
+            "radii of certificates in rad and, for lengths, in units of {length}"
+        );
     }
     if let Some((used, all)) = report.independent_rows {
         let _ = writeln!(
@@ -286,9 +294,9 @@ fn complex_number(re: f64, im: f64) -> String {
 }
 
 fn nearest(mechanism: &Mechanism, closest: &ClosestApproach) -> String {
-    let mut text = format!("Closest approach\n  closure {} gapes most\n", closest.worst);
+    let mut text = format!("Closest approach: closure {} gapes most\n", closest.worst);
     for (name, gap) in &closest.gaps.0 {
-        let _ = writeln!(text, "  {name}: {}", number(*gap));
+        let _ = writeln!(text, "  {name}: {}", solution::gap(gap));
     }
     for ((name, value), joint) in closest.joints.0.iter().zip(mechanism.joints()) {
         let _ = writeln!(

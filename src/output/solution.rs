@@ -8,11 +8,11 @@ use std::fmt::Write;
 
 use super::layout::{align_right, indented, listed, plain};
 use super::quantity::{degrees, number, quantity, size};
-use crate::analysis::assembly::{AssemblyReport, Gap, Outcome};
+use crate::analysis::assembly::{AssemblyReport, Outcome};
 use crate::description::count;
 use crate::geometry::{Pose, Quaternion, RollPitchYaw};
 use crate::mechanism::{Frame, Mechanism};
-use crate::system::Question;
+use crate::system::{Gap, Question};
 
 /// The report as text.
 pub fn text(question: &Question, report: &AssemblyReport) -> String {
@@ -99,7 +99,7 @@ pub fn sentence(mechanism: &Mechanism, report: &AssemblyReport) -> String {
 }
 
 /// `0.213 m and 4.2°`
-fn gap(gap: &Gap) -> String {
+pub(super) fn gap(gap: &Gap) -> String {
     // what rounding leaves of a gap is none
     const NONE: f64 = 1e-9;
     let (distance, angle) = (quantity(gap.distance, false), degrees(gap.angle));

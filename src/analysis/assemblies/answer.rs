@@ -12,7 +12,7 @@ use crate::linear::Spectrum;
 use crate::mechanism::{Configuration, Mechanism};
 use crate::number::Number;
 use crate::solve::{Equations, Newton};
-use crate::system::{Held, System, Work};
+use crate::system::{Gap, Held, System, Work, gaps};
 
 /// The question in real numbers.
 pub(super) struct Question<'a> {
@@ -255,6 +255,9 @@ impl Question<'_> {
                 (None, _) if certify => {
                     Certificate::Failed("singular: too few independent closure rows")
                 }
+                (None, _) if matches!(report.fit, Fit::FreedomLeft(_)) => {
+                    Certificate::Failed("not isolated: other assemblies are arbitrarily near")
+                }
                 (None, _) => Certificate::Failed("not asked for"),
             };
             let joints = self.mechanism.joints().iter().zip(&f.point.joints);
@@ -315,15 +318,15 @@ impl Question<'_> {
             }
         }
         let (_, point) = best?;
-        self.system.residual(&point, work);
-        let residual = self.system.residual_of(work);
-        let gaps = self
-            .system
-            .closure_rows()
-            .map(|rows| residual[rows].iter().map(|x| x * x).sum::<f64>().sqrt());
+        let gaps = gaps(self.mechanism, &point);
+        let length = self.mechanism.characteristic_length();
+        let width = |gap: &Gap| (gap.distance / length).max(gap.angle);
         let names = self.mechanism.closures().iter().map(|c| c.name.clone());
-        let gaps: Vec<(String, f64)> = names.zip(gaps).collect();
-        let worst = gaps.iter().max_by(|a, b| a.1.total_cmp(&b.1))?.0.clone();
+        let gaps: Vec<(String, Gap)> = names.zip(gaps).collect();
+        let worst = gaps
+            .iter()
+            .max_by(|a, b| width(&a.1).total_cmp(&width(&b.1)))?;
+        let worst = worst.0.clone();
         Some(ClosestApproach {
             gaps: Named(gaps),
             worst,

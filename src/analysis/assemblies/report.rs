@@ -6,6 +6,7 @@ use serde::{Serialize, Serializer};
 use crate::description::count;
 use crate::geometry::{Quaternion, Vector3};
 use crate::mechanism::Configuration;
+use crate::system::Gap;
 
 /// Values by name, in the order of the mechanism file; serialised as a map.
 #[derive(Clone, Debug, PartialEq)]
@@ -87,8 +88,8 @@ impl Assembly {
 /// How near the mechanism comes to being assembled, where it cannot be.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct ClosestApproach {
-    /// Size of the gap at each closure, dimensionless.
-    pub gaps: Named<f64>,
+    /// How far each closure is from being whole.
+    pub gaps: Named<Gap>,
     /// The closure that gapes most.
     pub worst: String,
     /// Joint values there, rad or m.

@@ -1,0 +1,53 @@
+use serde::Serialize;
+
+use crate::description::ClosureKind;
+use crate::geometry::Quaternion;
+use crate::mechanism::{Configuration, Mechanism};
+
+/// How far a closure is from being whole.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct Gap {
+    /// Distance in m: between the origins, or what a `Distance` differs by, or along the blocked
+    /// directions of a sliding joint.
+    pub distance: f64,
+    /// Angle in rad between the axes, or between the frames where no turn is allowed.
+    pub angle: f64,
+}
+
+/// For each closure how far it is from being whole.
+pub fn gaps(mechanism: &Mechanism, at: &Configuration<f64>) -> Vec<Gap> {
+    let closures = mechanism.closures().iter().enumerate();
+    closures
+        .map(|(i, closure)| {
+            let [a, b] = mechanism.poses(closure.frames, at);
+            let g = a.rotation.inverse_rotate(&(b.position - a.position)).0;
+            let relative = a.rotation.transpose() * b.rotation;
+            let between_axes = || {
+                let z = relative.0[2].0;
+                z[0].hypot(z[1]).atan2(z[2])
+            };
+            let between_frames = || {
+                let [w, x, y, z] = Quaternion::from_rotation(&relative).canonical().0;
+                2.0 * x.hypot(y).hypot(z).atan2(w)
+            };
+            let apart = g[0].hypot(g[1]).hypot(g[2]);
+            let (distance, angle) = match closure.kind {
+                ClosureKind::Spherical => (apart, 0.0),
+                ClosureKind::Revolute => (apart, between_axes()),
+                ClosureKind::Universal => {
+                    (apart, (between_axes() - std::f64::consts::FRAC_PI_2).abs())
+                }
+                ClosureKind::Rigid => (apart, between_frames()),
+                ClosureKind::Prismatic => (g[0].hypot(g[1]), between_frames()),
+                ClosureKind::Cylindrical => (g[0].hypot(g[1]), between_axes()),
+                ClosureKind::Planar => (g[2].abs(), between_axes()),
+                ClosureKind::Distance => {
+                    let dimensions = &mechanism.dimensions().closures[i];
+                    let length = dimensions.length + dimensions.extension.at(&at.joints);
+                    ((apart - length.abs()).abs(), 0.0)
+                }
+            };
+            Gap { distance, angle }
+        })
+        .collect()
+}
