@@ -45,7 +45,8 @@ pub struct AssembliesSettings {
     pub seed: u64,
     /// Seeds that must meet only known solutions before the search ends.
     pub quiet_seeds: usize,
-    /// Loops in a row that must bring nothing new before the search ends.
+    /// Loops in a row that must bring nothing new before the search ends; three times as many
+    /// where a known bound is not reached, two where it is.
     pub quiet_loops: usize,
     /// Seeds after which a search that found nothing gives up.
     pub hopeless_seeds: usize,
@@ -60,7 +61,7 @@ impl Default for AssembliesSettings {
         AssembliesSettings {
             seed: 1,
             quiet_seeds: 150,
-            quiet_loops: 6,
+            quiet_loops: 10,
             hopeless_seeds: 600,
             most_seeds: 5000,
             most_loops: 200,
@@ -157,7 +158,14 @@ impl AssemblySolver {
         watch: &dyn Fn(Progress),
     ) -> Result<Self, AssembliesError> {
         let family = Family::new(mechanism, held);
-        let generic = generic::search(&family, question(mechanism, &family), settings, watch);
+        let bound = bound::known_bound(mechanism, held).map(|b| b.count);
+        let generic = generic::search(
+            &family,
+            question(mechanism, &family),
+            bound,
+            settings,
+            watch,
+        );
         let generic = generic.ok_or(AssembliesError::NoValue)?;
         Ok(Self::with(mechanism, held, family, generic))
     }
@@ -227,21 +235,25 @@ impl AssemblySolver {
             system: System::new(self.mechanism.dimensions(), held),
         };
         let fit = match (self.solutions.is_empty(), self.generic.freedom) {
-            (false, _) => Fit::Finite,
+            (false, 0) => Fit::Finite,
             (true, 0) => Fit::TooManyHeld,
-            (true, freedom) => Fit::FreedomLeft(freedom),
+            (_, freedom) => Fit::FreedomLeft(freedom),
         };
-        let ends = match fit {
-            Fit::Finite => self.carried(asked, held),
-            _ => None,
+        let ends = match self.solutions.is_empty() {
+            true => None,
+            false => self.carried(asked, held),
         };
-        match ends {
-            Some(ends) => question.answer(&self.generic, &ends, wanted),
-            None => {
-                let points = self.from_many_starts(&question.system, asked, fit.clone());
-                question.sampled(&self.generic, fit, points, wanted)
-            }
-        }
+        let starts = match fit {
+            Fit::Finite if ends.is_some() => Vec::new(),
+            _ => self.from_many_starts(&question.system, asked, fit.clone()),
+        };
+        question.answer(
+            &self.generic,
+            fit,
+            &ends.unwrap_or_default(),
+            starts,
+            wanted,
+        )
     }
 
     fn carried(&self, asked: &Configuration<f64>, held: &Held<f64>) -> Option<carry::Ends> {

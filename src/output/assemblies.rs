@@ -135,6 +135,7 @@ fn overview(report: &AssembliesReport) -> String {
     for a in &report.assemblies {
         let certificate = match (a.radius, a.multiplicity) {
             (Some(radius), _) => format!("unique within {radius:.1e}"),
+            (None, 0) => "none: a sample".into(),
             (None, 1) => "none".into(),
             (None, n) => format!("none: {}", times(n)),
         };

@@ -43,6 +43,9 @@ const SAMPLES: usize = 8;
 const MOST_TURNS: usize = 8;
 /// A term with a negative power counts from here, beside the size of the solution.
 const GROWING: f64 = 1e-3;
+/// Circles in a row on which it must grow: one circle may hold another meeting point beside the
+/// centre, which looks the same until a smaller circle leaves it out.
+const IN_A_ROW: usize = 3;
 
 /// Goes round s = 1 on ever smaller circles from a point `x` at s = 1 − `radius`.
 pub fn ending<H: Turning>(
@@ -54,22 +57,22 @@ pub fn ending<H: Turning>(
 ) -> Ending {
     let mut at = x.to_vec();
     let mut before: Option<(Vec<C>, f64)> = None;
+    let mut growing = 0;
     for _ in 0..12 {
         if let Some((samples, turned)) = circle(h, tracker, &at, radius, stages) {
             let winding = samples.len() / SAMPLES;
-            if turned {
-                return Ending::Infinite;
-            }
             let mean = coefficient(&samples, winding, 0);
             let scale = 1.0 + norm(&mean);
             let negative = (1..=3).map(|k| norm(&coefficient(&samples, winding, k)));
             let negative = negative.fold(0.0, f64::max);
             if let Some((previous, was)) = &before {
-                if negative > GROWING * scale && negative > 1.05 * was {
+                let outwards = turned || (negative > GROWING * scale && negative > 1.05 * was);
+                growing = if outwards { growing + 1 } else { 0 };
+                if growing == IN_A_ROW {
                     return Ending::Infinite;
                 }
                 let gap: Vec<C> = mean.iter().zip(previous).map(|(a, b)| a - b).collect();
-                if negative < 1e-7 * scale && norm(&gap) < 1e-8 * scale {
+                if !turned && negative < 1e-7 * scale && norm(&gap) < 1e-8 * scale {
                     return Ending::Finite { x: mean, winding };
                 }
             }

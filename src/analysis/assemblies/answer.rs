@@ -31,45 +31,75 @@ struct Found {
 }
 
 impl Question<'_> {
-    /// The report for the ends of all paths.
+    /// The report for the ends of all paths, and for points that Newton's method reached from many
+    /// starts where paths are not the whole answer.
     pub fn answer(
         &self,
         generic: &GenericSolutions,
+        fit: Fit,
         ends: &Ends,
+        starts: Vec<Configuration<f64>>,
         wanted: Wanted,
     ) -> AssembliesReport {
         let mut work = self.system.work();
         let grouped = self.grouped(&ends.ends);
         let mut found: Vec<Found> = Vec::new();
         let mut complex_assemblies = Vec::new();
-        for (x, multiplicity, singular) in &grouped {
-            match real_solution(
+        let real = |x: &[C], singular: bool, work: &mut Work<f64>| {
+            real_solution(
                 x,
-                *singular,
+                singular,
                 self.coordinates,
                 &self.system,
-                &mut work,
+                work,
                 self.asked,
-            ) {
+            )
+        };
+        for (x, multiplicity, singular) in &grouped {
+            match real(x, *singular, &mut work) {
                 Some(point) => found.push(Found {
                     key: key(&point, self.coordinates),
                     point,
                     multiplicity: *multiplicity,
                 }),
                 None if wanted.all_complex => {
-                    complex_assemblies.push(self.complex(x, *multiplicity))
+                    complex_assemblies.push(self.complex(x, *multiplicity));
                 }
                 None => {}
             }
         }
-        found.sort_by(|a, b| order(&a.key, &b.key));
-        let starts: Vec<&Vec<C>> = grouped.iter().map(|(x, ..)| x).collect();
+        let multiplicity = usize::from(fit == Fit::TooManyHeld);
+        for point in starts {
+            let x = self.coordinates.flatten(&point.map(C::from_f64));
+            if let Some(point) = real(&x, false, &mut work)
+                && !found.iter().any(|f| self.same(&f.point, &point))
+            {
+                let key = key(&point, self.coordinates);
+                found.push(Found {
+                    point,
+                    key,
+                    multiplicity,
+                });
+            }
+        }
+        // what is isolated comes first
+        found.sort_by(|a, b| {
+            let sample = |f: &Found| f.multiplicity == 0;
+            sample(a)
+                .cmp(&sample(b))
+                .then_with(|| order(&a.key, &b.key))
+        });
         let mut report = self.empty(generic);
-        report.complex = grouped
-            .iter()
-            .map(|(_, multiplicity, _)| multiplicity)
-            .sum();
-        report.at_infinity = ends.ends.iter().filter(|e| **e == End::Infinite).count();
+        let infinite = |e: &&End| **e == End::Infinite;
+        report.complex = match fit {
+            Fit::TooManyHeld => found.len(),
+            _ => grouped
+                .iter()
+                .map(|(_, multiplicity, _)| multiplicity)
+                .sum(),
+        };
+        report.fit = fit;
+        report.at_infinity = ends.ends.iter().filter(infinite).count();
         report.lost = ends.ends.iter().filter(|e| **e == End::Lost).count();
         report.singular = grouped.iter().filter(|(.., singular)| *singular).count();
         report.retried = ends.retries;
@@ -78,51 +108,8 @@ impl Question<'_> {
         report.complex_assemblies = complex_assemblies;
         self.describe(&mut report, found, wanted.certificates, &mut work);
         if report.assemblies.is_empty() {
+            let starts: Vec<&Vec<C>> = grouped.iter().map(|(x, ..)| x).collect();
             report.closest = self.closest(&starts, &mut work);
-        }
-        report.complete = report.completeness();
-        report
-    }
-
-    /// Samples of assemblies that are not finite in number, or what many starts found.
-    pub fn sampled(
-        &self,
-        generic: &GenericSolutions,
-        fit: Fit,
-        points: Vec<Configuration<f64>>,
-        wanted: Wanted,
-    ) -> AssembliesReport {
-        let mut report = self.empty(generic);
-        let mut work = self.system.work();
-        let mut found: Vec<Found> = Vec::new();
-        for point in points {
-            let x = self.coordinates.flatten(&point.map(C::from_f64));
-            let Some(point) = real_solution(
-                &x,
-                false,
-                self.coordinates,
-                &self.system,
-                &mut work,
-                self.asked,
-            ) else {
-                continue;
-            };
-            let key = key(&point, self.coordinates);
-            if !found.iter().any(|f| self.same(&f.point, &point)) {
-                found.push(Found {
-                    point,
-                    key,
-                    multiplicity: 1,
-                });
-            }
-        }
-        found.sort_by(|a, b| order(&a.key, &b.key));
-        let certify = wanted.certificates && fit == Fit::TooManyHeld;
-        report.fit = fit;
-        report.complex = found.len();
-        self.describe(&mut report, found, certify, &mut work);
-        if report.assemblies.is_empty() {
-            report.closest = self.closest(&[], &mut work);
         }
         report.complete = report.completeness();
         report
@@ -250,13 +237,13 @@ impl Question<'_> {
                 .map(|(_, o)| gap(self.coordinates, &f.point, &o.point))
                 .fold(f64::INFINITY, f64::min);
             let certificate = match (&mut certifier, f.multiplicity) {
+                (_, 0) => {
+                    Certificate::Failed("one of infinitely many: others are arbitrarily near")
+                }
                 (_, 2..) => Certificate::Failed("singular: solutions meet here"),
                 (Some(certifier), _) => certifier.certify(&f.point, (0.49 * gap).min(0.01)),
                 (None, _) if certify => {
                     Certificate::Failed("singular: too few independent closure rows")
-                }
-                (None, _) if matches!(report.fit, Fit::FreedomLeft(_)) => {
-                    Certificate::Failed("not isolated: other assemblies are arbitrarily near")
                 }
                 (None, _) => Certificate::Failed("not asked for"),
             };

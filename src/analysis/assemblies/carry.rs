@@ -19,7 +19,7 @@ pub(super) enum End {
 }
 
 /// Ends of all paths, and how often they had to be followed.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Default)]
 pub(super) struct Ends {
     pub ends: Vec<End>,
     pub steps: usize,

@@ -85,15 +85,20 @@ impl Family {
         moved.collect()
     }
 
-    /// Random complex inputs: angles anywhere, lengths about those at home.
-    pub fn random_inputs(&self, rng: &mut Pcg64) -> Vec<C> {
+    /// Random complex inputs: angles anywhere, lengths about those at home. `reach` says how far
+    /// out: 1 for the neighbourhood of home.
+    pub fn random_inputs(&self, rng: &mut Pcg64, reach: f64) -> Vec<C> {
         let c = &self.coordinates;
         let about = |length: f64, rng: &mut Pcg64| {
-            let size = 0.5 * length.abs().max(0.3 * c.length);
+            let size = 0.5 * reach * length.abs().max(0.3 * c.length);
             C::from_f64(length) + complex(rng) * size
         };
-        let angle =
-            |rng: &mut Pcg64| C::new(std::f64::consts::PI * uniform(rng), 0.7 * uniform(rng));
+        let angle = |rng: &mut Pcg64| {
+            C::new(
+                std::f64::consts::PI * uniform(rng),
+                0.7 * reach.sqrt() * uniform(rng),
+            )
+        };
         let mut inputs = Vec::with_capacity(c.input_count());
         for &j in &c.held_joints {
             inputs.push(match self.mechanism.joints()[j].kind.is_angle() {
@@ -137,6 +142,13 @@ impl Family {
                 .map(|x| C::from_f64(x / c.length));
             x.extend(home.map(|x| x + complex(rng)));
         }
+        x
+    }
+
+    /// A point beside another one, some hundredths away in every coordinate.
+    pub fn shaken(&self, x: &[C], rng: &mut Pcg64) -> Vec<C> {
+        let mut x: Vec<C> = x.iter().map(|x| x + complex(rng) * 0.03).collect();
+        self.coordinates.settle(&mut x);
         x
     }
 

@@ -29,7 +29,8 @@ pub struct GenericSolutions {
     pub(super) parameters: Vec<[f64; 2]>,
     pub(super) inputs: Vec<[f64; 2]>,
     pub(super) solutions: Vec<Vec<[f64; 2]>>,
-    /// Freedom left when the inputs are held, if no isolated solution exists.
+    /// Freedom left when the inputs are held: the least dimension of a set of solutions that was
+    /// met, 0 if there was none. There may be isolated solutions beside it.
     pub freedom: usize,
     /// Newton seeds tried.
     pub seeds: usize,
@@ -123,6 +124,7 @@ pub struct Progress {
 
 struct Search<'a> {
     watch: &'a dyn Fn(Progress),
+    bound: Option<usize>,
     family: &'a Family,
     settings: &'a AssembliesSettings,
     base: Member,
@@ -145,11 +147,12 @@ enum Seed {
 pub(super) fn search(
     family: &Family,
     question: String,
+    bound: Option<usize>,
     settings: &AssembliesSettings,
     watch: &dyn Fn(Progress),
 ) -> Option<GenericSolutions> {
     let mut rng = generator(settings.seed, 0);
-    let inputs = family.random_inputs(&mut rng);
+    let inputs = family.random_inputs(&mut rng, 1.0);
     // without inputs to vary, the dimensions themselves make the family
     let parameters = match inputs.is_empty() {
         true => family.random_parameters(&mut rng),
@@ -157,6 +160,7 @@ pub(super) fn search(
     };
     let mut search = Search {
         watch,
+        bound,
         family,
         settings,
         base: Member { parameters, inputs },
@@ -174,11 +178,7 @@ pub(super) fn search(
         parameters: pairs(&search.base.parameters),
         inputs: pairs(&search.base.inputs),
         solutions: search.found.iter().map(|x| pairs(x)).collect(),
-        freedom: if search.found.is_empty() {
-            search.freedom.unwrap_or(0)
-        } else {
-            0
-        },
+        freedom: search.freedom.unwrap_or(0),
         seeds: search.seeds,
         not_isolated: search.not_isolated,
         loops: search.loops,
@@ -202,17 +202,26 @@ impl Search<'_> {
                     break;
                 }
             }
-            if self.found.is_empty() || (self.loops > 0 && self.found.len() == known) {
+            let complete = self.bound == Some(self.found.len());
+            let quiet = self.loops > 0 && self.found.len() == known;
+            if self.found.is_empty() || quiet || (complete && self.loops > 0) {
                 return Some(());
             }
             self.quiet_loops = 0;
-            while self.quiet_loops < self.settings.quiet_loops
-                && self.loops < self.settings.most_loops
-            {
+            while self.quiet_loops < self.loops_wanted() && self.loops < self.settings.most_loops {
                 self.spread();
                 self.tell();
             }
             self.quiet_seeds = 0;
+        }
+    }
+
+    /// Loops that must bring nothing new: few where the known bound is reached, more where it is not.
+    fn loops_wanted(&self) -> usize {
+        match self.bound {
+            Some(bound) if bound == self.found.len() => 2,
+            Some(_) => 3 * self.settings.quiet_loops,
+            None => self.settings.quiet_loops,
         }
     }
 
@@ -265,8 +274,10 @@ impl Search<'_> {
         // every fourth loop changes dimensions too: at special dimensions the inputs alone may not
         // exchange all solutions
         let resize = self.loops % 4 == 0 || self.base.inputs.is_empty();
+        // small loops go round few of the places where solutions meet
+        let reach = [1.0, 2.0, 4.0][self.loops % 3];
         let mut member = || Member {
-            inputs: self.family.random_inputs(&mut rng),
+            inputs: self.family.random_inputs(&mut rng, reach),
             parameters: match resize {
                 true => self.family.random_parameters(&mut rng),
                 false => self.base.parameters.clone(),
@@ -342,5 +353,15 @@ fn sow_one(way: &mut Way<'_>, rng: &mut Pcg64) -> Seed {
     if way.regularity(zero, &x) > REGULAR {
         return Seed::Isolated(x);
     }
-    Seed::Free(way.freedom(zero, &x, 1e-5))
+    // Newton's method from beside a set of solutions ends elsewhere on it, but from beside solutions
+    // that coincide at the same point again
+    way.linearise(zero, &way.family.shaken(&x, rng));
+    let mut beside = way.at.clone();
+    let report = newton.solve(&way.system, &mut beside, &mut trial, &mut way.work);
+    let beside = way.family.coordinates.flatten(&beside);
+    let apart = way.family.coordinates.difference(&x, &beside);
+    match report.stop == Stop::Solved && apart > 1e-3 && apart < 1.0 {
+        true => Seed::Free(way.freedom(zero, &x, 1e-5)),
+        false => Seed::Nothing,
+    }
 }

@@ -56,7 +56,7 @@ pub struct Assembly {
     /// Sign of the determinant of the closure Jacobian on its independent rows: assemblies of
     /// opposite signs lie on different sides of a singularity. 0 where solutions meet.
     pub determinant_sign: i8,
-    /// How many solutions meet here: 1, or 2 at a dead point.
+    /// How many solutions meet here: 1, or 2 at a dead point; 0 for a sample of infinitely many.
     pub multiplicity: usize,
     /// Whether an interval test has proved that a box of `radius` holds exactly one solution.
     pub certified: bool,
@@ -178,8 +178,18 @@ impl AssembliesReport {
     pub(super) fn completeness(&self) -> String {
         match self.fit {
             Fit::FreedomLeft(freedom) => {
+                let isolated = match self.generic {
+                    0 => String::new(),
+                    n => format!(
+                        "; beside them {} found",
+                        match n {
+                            1 => "1 isolated one was".into(),
+                            n => format!("{n} isolated ones were"),
+                        }
+                    ),
+                };
                 return format!(
-                    "{} left: the assemblies are not finite in number, and those listed are samples; hold {freedom} more",
+                    "{} left: the assemblies are not finite in number and those listed are samples{isolated}; hold {freedom} more for a finite list",
                     count(freedom, "freedom"),
                 );
             }
@@ -190,12 +200,15 @@ impl AssembliesReport {
             }
             Fit::Finite => {}
         }
-        let mut sentence = format!(
-            "{} found; {} and {} found no more; ",
-            self.generic,
-            count(self.quiet_loops, "loop"),
-            count(self.quiet_seeds, "seed"),
-        );
+        let quiet = match self.quiet_seeds {
+            0 => count(self.quiet_loops, "loop"),
+            seeds => format!(
+                "{} and {}",
+                count(self.quiet_loops, "loop"),
+                count(seeds, "seed")
+            ),
+        };
+        let mut sentence = format!("{} found; {quiet} found no more; ", self.generic);
         sentence += &match self.bound {
             Some(bound) if bound == self.generic => {
                 format!("equals the known bound of {bound} for this structure")
