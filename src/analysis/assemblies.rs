@@ -245,7 +245,7 @@ impl AssemblySolver {
         };
         let starts = match fit {
             Fit::Finite if ends.is_some() => Vec::new(),
-            _ => self.from_many_starts(&question.system, asked, fit.clone()),
+            _ => self.newton_from_many_starts(&question.system, asked, fit.clone()),
         };
         question.answer(
             &self.generic,
@@ -272,7 +272,7 @@ impl AssemblySolver {
 
     /// Assembled configurations reached by Newton's method from the asked configuration and from
     /// random ones.
-    fn from_many_starts(
+    fn newton_from_many_starts(
         &self,
         system: &System<f64>,
         asked: &Configuration<f64>,

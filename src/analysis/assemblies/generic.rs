@@ -193,6 +193,9 @@ impl Search<'_> {
         let still = self.family.way(&self.base, &self.base)?;
         loop {
             let known = self.found.len();
+            if self.loops > 0 && self.bound == Some(known) {
+                return Some(());
+            }
             while self.quiet_seeds < self.settings.quiet_seeds {
                 self.sow(&still);
                 self.tell();
@@ -202,26 +205,36 @@ impl Search<'_> {
                     break;
                 }
             }
-            let complete = self.bound == Some(self.found.len());
             let quiet = self.loops > 0 && self.found.len() == known;
-            if self.found.is_empty() || quiet || (complete && self.loops > 0) {
+            let short = self.bound.is_some_and(|bound| self.found.len() < bound);
+            if self.found.is_empty() || (quiet && !short) {
                 return Some(());
             }
             self.quiet_loops = 0;
-            while self.quiet_loops < self.loops_wanted() && self.loops < self.settings.most_loops {
+            // below a known bound the end is doubted once
+            let wanted = match quiet {
+                true => 3 * self.settings.quiet_loops,
+                false => self.settings.quiet_loops,
+            };
+            let before = self.found.len();
+            while self.quiet_loops < self.enough_loops(wanted)
+                && self.loops < self.settings.most_loops
+            {
                 self.spread();
                 self.tell();
+            }
+            if quiet && self.found.len() == before {
+                return Some(());
             }
             self.quiet_seeds = 0;
         }
     }
 
-    /// Loops that must bring nothing new: few where the known bound is reached, more where it is not.
-    fn loops_wanted(&self) -> usize {
-        match self.bound {
-            Some(bound) if bound == self.found.len() => 2,
-            Some(_) => 3 * self.settings.quiet_loops,
-            None => self.settings.quiet_loops,
+    /// Where the known bound is reached, two loops that bring nothing are enough.
+    fn enough_loops(&self, wanted: usize) -> usize {
+        match self.bound == Some(self.found.len()) {
+            true => wanted.min(2),
+            false => wanted,
         }
     }
 
@@ -273,7 +286,7 @@ impl Search<'_> {
         let mut rng = generator(self.settings.seed, (self.loops as u64) << 1);
         // every fourth loop changes dimensions too: at special dimensions the inputs alone may not
         // exchange all solutions
-        let resize = self.loops % 4 == 0 || self.base.inputs.is_empty();
+        let resize = self.loops.is_multiple_of(4) || self.base.inputs.is_empty();
         // small loops go round few of the places where solutions meet
         let reach = [1.0, 2.0, 4.0][self.loops % 3];
         let mut member = || Member {
@@ -347,7 +360,7 @@ fn sow_one(way: &mut Way<'_>, rng: &mut Pcg64) -> Seed {
         return Seed::Nothing;
     }
     let x = way.family.coordinates.flatten(&point);
-    if !(size(&x) < 1e3) {
+    if size(&x).is_nan() || size(&x) > 1e3 {
         return Seed::Nothing;
     }
     if way.regularity(zero, &x) > REGULAR {
