@@ -1,6 +1,7 @@
 //! Analyses: each one function, one settings struct and one report. They print nothing and do not
 //! use one another.
 
+pub mod assemblies;
 pub mod assembly;
 pub mod compare;
 pub mod mobility;

@@ -1,9 +1,11 @@
 //! Commands, one file each. Data goes to stdout, problems to stderr.
 
 mod asked;
+mod assemblies;
 mod check;
 mod compare;
 mod mobility;
+mod search;
 mod solve;
 mod source;
 mod statics;
@@ -30,6 +32,7 @@ const EXIT_CODES: &str =
 enum Command {
     Check(check::Check),
     Solve(solve::Solve),
+    Assemblies(assemblies::Assemblies),
     Compare(compare::Compare),
     Mobility(mobility::Mobility),
     Velocity(velocity::Velocity),
@@ -64,6 +67,7 @@ pub fn run() -> ExitCode {
     let answer = match &arguments.command {
         Command::Check(check) => check.run(),
         Command::Solve(solve) => solve.run(),
+        Command::Assemblies(assemblies) => assemblies.run(),
         Command::Compare(compare) => compare.run(),
         Command::Mobility(mobility) => mobility.run(),
         Command::Velocity(velocity) => velocity.run(),

@@ -11,6 +11,7 @@ mod kinematics;
 mod lift;
 mod model;
 mod names;
+mod parameters;
 
 pub use configuration::{Configuration, PlatformPose};
 pub use coordinate::Coordinate;

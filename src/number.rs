@@ -5,6 +5,7 @@
 
 mod complex;
 mod dual;
+mod interval;
 mod real;
 mod trigonometry;
 
@@ -12,6 +13,7 @@ use std::fmt::Debug;
 use std::ops::{Add, AddAssign, Div, Mul, MulAssign, Neg, Sub, SubAssign};
 
 pub use dual::Dual;
+pub use interval::Interval;
 pub use num_complex::Complex;
 
 /// A number the kinematics can be evaluated over.

@@ -1,6 +1,8 @@
 //! Answers and complaints made visible.
 
 #[cfg(feature = "cli")]
+pub mod assemblies;
+#[cfg(feature = "cli")]
 pub mod closing;
 #[cfg(feature = "cli")]
 pub mod comparison;

@@ -3,10 +3,14 @@
 //! Nothing here knows joints: a problem offers its residual, a least-squares step and a way to move
 //! along it ([`Equations`]), and is told where and why the iteration stopped ([`Stop`]).
 
+mod endgame;
+mod homotopy;
 mod minimum;
 mod newton;
 mod warm;
 
+pub use endgame::{Ending, Turning, ending};
+pub use homotopy::{Arrival, Homotopy, Stages, Track, Tracker};
 pub use minimum::walk_down;
 pub use newton::{Newton, Report, Stop};
 pub use warm::{Trail, Warm, WarmReport};

@@ -282,7 +282,7 @@ fn files_that_cannot_be_read_are_refused() {
 
 #[test]
 fn a_wrong_file_is_answered_with_all_its_problems() {
-    for command in ["check", "solve", "compare"] {
+    for command in ["check", "solve", "assemblies", "compare"] {
         let said = refusal(&[command, "tests/wrong/unknown_frames.ron"]);
         assert!(said.contains("did you mean `ground`?"), "{said}");
         assert!(
@@ -344,7 +344,7 @@ fn a_full_disk_is_reported() {
 
 #[test]
 fn help_shows_an_example_of_every_command() {
-    for command in ["check", "solve", "compare"] {
+    for command in ["check", "solve", "assemblies", "compare"] {
         let help = answer(&[command, "--help"]);
         assert!(
             help.contains(&format!("linkwork {command} mechanisms/")),
@@ -511,4 +511,71 @@ fn questions_that_make_no_sense_are_told_what_to_ask_instead() {
             stdout(&output)
         );
     }
+}
+
+#[test]
+fn all_assemblies_are_listed_with_their_accounting() {
+    let json = json(&["assemblies", THREE_RPS]);
+    for (key, value) in [
+        ("complex", 16),
+        ("real", 8),
+        ("lost", 0),
+        ("at_infinity", 0),
+        ("bound", 16),
+    ] {
+        assert_eq!(json[key], value, "{key}");
+    }
+    assert_eq!(json["seed"], 1);
+    let first = &json["assemblies"][0];
+    assert_eq!(first["mode"], 1);
+    assert_eq!(first["certified"], true);
+    assert!(first["radius"].as_f64().unwrap() > 0.0);
+    assert!(first["joints"]["phi1"].is_f64() && first["platforms"]["top"].is_object());
+    let text = answer(&["assemblies", THREE_RPS]);
+    assert!(text.contains("8 real of 16 complex"), "{text}");
+    assert!(
+        text.contains("equals the known bound of 16 for this structure"),
+        "{text}"
+    );
+}
+
+#[test]
+fn the_number_of_threads_does_not_show() {
+    let with_threads = |threads: &str| {
+        let mut command = linkwork();
+        command.args(["assemblies", THREE_RPS, "--format", "json"]);
+        command
+            .env("RAYON_NUM_THREADS", threads)
+            .output()
+            .unwrap()
+            .stdout
+    };
+    assert_eq!(with_threads("1"), with_threads("3"));
+}
+
+#[test]
+fn inputs_out_of_reach_are_a_no_with_a_closest_approach() {
+    let output = run(&["assemblies", THREE_RPS, "--hold", "l1=3"]);
+    assert_eq!(output.status.code(), Some(1));
+    assert!(stdout(&output).contains("0 real of 16 complex"));
+    assert!(stdout(&output).contains("Closest approach: closure S1 gapes most"));
+    let folded = run(&["solve", THREE_RPS, "--mode", "1", "--hold", "l1=3"]);
+    assert_eq!(folded.status.code(), Some(1));
+    assert!(stdout(&folded).contains("Mode 1 ceases to exist"));
+    assert!(refusal(&["solve", THREE_RPS, "--mode", "9"]).contains("modes 1 to 8"));
+    assert!(refusal(&["assemblies", FOUR_BAR, "--hold", "phi1=1"]).contains("1 too many"));
+}
+
+#[test]
+fn stored_solutions_are_used_again_and_a_wrong_store_is_refused() {
+    let folder = tempfile::tempdir().unwrap();
+    let store = folder.path().join("store");
+    let store = store.to_str().unwrap();
+    let arguments = ["assemblies", THREE_RPS, "--store", store];
+    assert_eq!(answer(&arguments), answer(&arguments));
+    let other = run(&["assemblies", FOUR_BAR, "--store", store]);
+    assert_eq!(other.status.code(), Some(0));
+    assert!(stderr(&other).contains("another question"));
+    std::fs::write(store, "nonsense").unwrap();
+    assert!(refusal(&arguments).contains("does not hold stored solutions"));
 }

@@ -10,19 +10,16 @@ use super::source::Assignment;
 use super::{Refusal, style};
 
 #[derive(Args)]
-pub struct Asked {
+pub struct Split {
     /// Hold a joint or coordinate at a value, e.g. --hold theta1="60 deg"
     #[arg(long, value_name = "NAME=VALUE")]
     hold: Vec<Assignment>,
     /// Let a joint be solved, e.g. --free l1; `actuated` frees all actuated joints
     #[arg(long, value_name = "NAME")]
     free: Vec<String>,
-    /// Start the search at a value, e.g. --guess phi1="-30 deg"
-    #[arg(long, value_name = "NAME=VALUE")]
-    guess: Vec<Assignment>,
 }
 
-impl Asked {
+impl Split {
     /// What is freed is freed first, so that `--free actuated --hold l1=1` holds one joint.
     pub fn question<'a>(&self, mechanism: &'a Mechanism) -> Result<Question<'a>, Refusal> {
         let mut question = Question::new(mechanism);
@@ -40,6 +37,23 @@ impl Asked {
             question =
                 (question.hold(name, value)).map_err(|error| refusal(&error, Some(given)))?;
         }
+        Ok(question)
+    }
+}
+
+#[derive(Args)]
+pub struct Asked {
+    #[command(flatten)]
+    split: Split,
+    /// Start the search at a value, e.g. --guess phi1="-30 deg"
+    #[arg(long, value_name = "NAME=VALUE")]
+    guess: Vec<Assignment>,
+}
+
+impl Asked {
+    /// The split, with guesses for what is free.
+    pub fn question<'a>(&self, mechanism: &'a Mechanism) -> Result<Question<'a>, Refusal> {
+        let mut question = self.split.question(mechanism)?;
         for assignment in &self.guess {
             let Assignment { name, value } = assignment;
             let given = assignment.given("--guess");

@@ -1,10 +1,13 @@
 //! `linkwork solve`
 
 use clap::Args;
+use linkwork::analysis::assemblies::Followed;
 use linkwork::analysis::assembly::{AssemblySettings, Outcome, assemble};
-use linkwork::output::solution;
+use linkwork::output::{assemblies, solution};
+use linkwork::system::check_count;
 
 use super::asked::{Asked, refusal};
+use super::search::Search;
 use super::source::Source;
 use super::{Answer, Format, Refusal};
 
@@ -16,15 +19,18 @@ use super::{Answer, Format, Refusal};
 #[derive(Args)]
 #[command(after_help = "Examples:\n  \
     linkwork solve mechanisms/four_bar.ron --hold theta1=\"60 deg\"\n  \
+    linkwork solve mechanisms/four_bar.ron --mode 2 --hold theta1=\"60 deg\"\n  \
     linkwork solve mechanisms/three_rps.ron --free actuated --hold top.z=0.5 --hold top.roll=0 --hold top.pitch=0")]
 pub struct Solve {
     #[command(flatten)]
     source: Source,
     #[command(flatten)]
     asked: Asked,
-    /// Seed of the random starts made when the guess fails
-    #[arg(long, default_value_t = AssemblySettings::default().seed)]
-    seed: u64,
+    /// Assemble this mode of the home configuration, numbered as `assemblies` lists it there, followed to what is held
+    #[arg(long, value_name = "NUMBER", conflicts_with = "guess")]
+    mode: Option<usize>,
+    #[command(flatten)]
+    search: Search,
     /// How to write the answer
     #[arg(long, value_enum, default_value_t = Format::Text)]
     format: Format,
@@ -34,10 +40,31 @@ impl Solve {
     pub fn run(&self) -> Result<Answer, Refusal> {
         let loaded = self.source.load()?;
         let question = self.asked.question(&loaded.mechanism)?;
-        let settings = AssemblySettings {
-            seed: self.seed,
+        let mut settings = AssemblySettings {
+            seed: self.search.seed,
             ..AssemblySettings::default()
         };
+        let mut question = question;
+        if let Some(mode) = self.mode {
+            check_count(&question).map_err(|error| refusal(&error, None))?;
+            let solver = self.search.solver(&question)?;
+            let followed = solver.follow(mode, &question.start(), &question.held());
+            match followed.map_err(|error| Refusal(format!("error: {error}\n")))? {
+                Followed::Arrived(at) => question = question.near(&at),
+                Followed::Fold(fold) => {
+                    return Ok(Answer {
+                        data: match self.format {
+                            Format::Text => assemblies::fold_text(&question, mode, &fold),
+                            Format::Json => assemblies::fold_json(&question, mode, &fold),
+                        },
+                        remarks: loaded.warnings(),
+                        yes: false,
+                    });
+                }
+            }
+            // another start could end in another mode
+            settings.restarts = 0;
+        }
         let report = assemble(&question, &settings).map_err(|error| refusal(&error, None))?;
         let warnings = solution::warnings(&report);
         let warnings = warnings

@@ -1,7 +1,7 @@
 use std::fmt::Debug;
 
 use super::Block;
-use crate::number::{Complex, Dual, Field};
+use crate::number::{Complex, Dual, Field, Interval};
 
 /// A number for which least-squares steps can be computed, with its way to do so when the matrix is
 /// large and sparse.
@@ -79,5 +79,9 @@ mod real_and_complex {
 }
 
 impl<T: Field> Factorable for Dual<T> {
+    type Sparse = DenseOnly;
+}
+
+impl Factorable for Interval {
     type Sparse = DenseOnly;
 }

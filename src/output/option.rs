@@ -78,7 +78,16 @@ impl Complaint {
 
     /// The complaint about the options as a whole.
     pub fn render(&self, style: Style) -> String {
-        let title = Level::ERROR.primary_title(self.title.as_str());
+        self.at_level(Level::ERROR, style)
+    }
+
+    /// The same as a warning, where there is an answer all the same.
+    pub fn render_warning(&self, style: Style) -> String {
+        self.at_level(Level::WARNING, style)
+    }
+
+    fn at_level(&self, level: Level<'static>, style: Style) -> String {
+        let title = level.primary_title(self.title.as_str());
         let group = match &self.help {
             Some(help) => title.element(Level::HELP.message(help.as_str())),
             None => annotate_snippets::Group::with_title(title),

@@ -180,6 +180,19 @@ impl<'a> Question<'a> {
         Ok(self)
     }
 
+    /// Starts the search at a whole configuration; what is held stays where it is held.
+    pub fn near(mut self, at: &Configuration<f64>) -> Self {
+        for (joint, value) in at.joints.iter().enumerate() {
+            if !self.joints[joint] {
+                self.start.joints[joint] = *value;
+            }
+        }
+        self.start.platforms.clone_from(&at.platforms);
+        self.guessed_joints.fill(true);
+        self.guessed_platforms.fill(true);
+        self
+    }
+
     /// The mechanism that is asked about.
     pub fn mechanism(&self) -> &'a Mechanism {
         self.mechanism

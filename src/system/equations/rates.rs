@@ -1,8 +1,10 @@
 //! What following a solution along a change of the inputs needs beyond Newton's method.
 
 use super::{System, Work};
-use crate::linear::Factorable;
+use crate::geometry::Rotation;
+use crate::linear::{Factorable, Qr};
 use crate::solve::Equations;
+use crate::system::layout::HoldRow;
 
 impl<T: Factorable> System<T> {
     /// The step last computed, in the order of the unknowns, dimensionless.
@@ -14,5 +16,72 @@ impl<T: Factorable> System<T> {
     pub fn step_for(&self, residual: &[T], work: &mut Work<T>) -> f64 {
         work.residual.copy_from_slice(residual);
         self.step(work)
+    }
+
+    /// Asks for another held orientation of a platform.
+    pub fn set_orientation(&mut self, platform: usize, wanted: Rotation<T>) {
+        for hold in &mut self.holds {
+            if let HoldRow::Orientation(p, target) = hold
+                && *p == platform
+            {
+                *target = wanted;
+            }
+        }
+    }
+
+    /// The largest and the smallest pivot of a full orthogonal factorisation of the Jacobian last
+    /// evaluated: their quotient tells how near it is to losing rank. The smallest is zero when
+    /// there are more unknowns than rows.
+    ///
+    /// Rows and columns longer than 1 are shortened first: complex rotations and positions have no
+    /// bound, and a solution far out is not near a singularity because of that.
+    pub fn pivots(&self, work: &mut Work<T>) -> (f64, f64) {
+        let (rows, columns) = (self.rows(), self.unknowns().len());
+        let mut dense = self.dense_jacobian(work);
+        for r in 0..rows {
+            let squares: f64 = (0..columns)
+                .map(|j| dense[j * rows + r].norm_squared())
+                .sum();
+            if squares > 1.0 {
+                let factor = 1.0 / squares.sqrt();
+                (0..columns).for_each(|j| dense[j * rows + r] = dense[j * rows + r].scale(factor));
+            }
+        }
+        for column in dense.chunks_exact_mut(rows.max(1)) {
+            let squares: f64 = column.iter().map(|x| x.norm_squared()).sum();
+            if squares > 1.0 {
+                let factor = 1.0 / squares.sqrt();
+                column.iter_mut().for_each(|x| *x = x.scale(factor));
+            }
+        }
+        let mut qr = Qr::new(rows, columns, 0);
+        qr.reset(rows);
+        for j in 0..columns {
+            (qr.column_mut(j)).copy_from_slice(&dense[j * rows..(j + 1) * rows]);
+        }
+        qr.factorise(0.0);
+        let size = |k: usize| qr.column(k)[k].norm_squared().sqrt();
+        match (columns, qr.rank()) {
+            (0, _) => (1.0, 1.0),
+            (n, rank) if rank == n => (size(0), size(n - 1)),
+            (_, 0) => (0.0, 0.0),
+            _ => (size(0), 0.0),
+        }
+    }
+
+    /// How many independent directions the Jacobian last evaluated maps to nothing, with a
+    /// direction counting as lost when its pivot is this small beside the largest.
+    pub fn nullity(&self, tolerance: f64, work: &mut Work<T>) -> usize {
+        let (rows, columns) = (self.rows(), self.unknowns().len());
+        let dense = self.dense_jacobian(work);
+        let mut qr = Qr::new(rows, columns, 0);
+        qr.reset(rows);
+        for j in 0..columns {
+            (qr.column_mut(j)).copy_from_slice(&dense[j * rows..(j + 1) * rows]);
+        }
+        qr.factorise(0.0);
+        let size = |k: usize| qr.column(k)[k].norm_squared().sqrt();
+        let rank = (0..qr.rank()).filter(|&k| size(k) > tolerance * size(0));
+        columns - rank.count()
     }
 }

@@ -1,0 +1,385 @@
+//! Every assembled configuration for held inputs, each with a certificate.
+//!
+//! The mechanism's inputs are made complex and generic; there all solutions are found once
+//! ([`GenericSolutions`]) and then carried, as many paths as solutions, to any inputs that are asked
+//! for ([`AssemblySolver::at`]).
+//!
+//! Assemblies are numbered by their unknown coordinates at the inputs asked: ascending by the first
+//! unknown joint of the file, then the second and so on, then by position and quaternion of the
+//! platforms; angles lie in (−π, π]. Nothing random enters. A mode keeps its name when it is
+//! followed from home ([`AssemblySolver::follow`]).
+
+mod answer;
+mod bound;
+mod carry;
+mod certificate;
+mod coordinates;
+mod family;
+mod follow;
+mod generic;
+mod real;
+mod report;
+mod threads;
+
+pub use follow::{Fold, Followed};
+pub use generic::{GenericSolutions, Progress, StoredError};
+pub use report::{
+    AssembliesReport, Assembly, ClosestApproach, ComplexAssembly, Fit, Named, PoseReport,
+};
+
+use rand::SeedableRng;
+use rand_pcg::Pcg64;
+
+use crate::mechanism::{Configuration, Mechanism};
+use crate::number::Number;
+use crate::solve::{Newton, Stop};
+use crate::system::{Held, HeldPlatform, System};
+use answer::Question;
+use coordinates::C;
+use family::{Family, Member};
+
+/// How hard to search.
+#[derive(Clone, Debug, PartialEq)]
+pub struct AssembliesSettings {
+    /// The random seed. It decides the way to the answer, not the answer.
+    pub seed: u64,
+    /// Seeds that must meet only known solutions before the search ends.
+    pub quiet_seeds: usize,
+    /// Loops in a row that must bring nothing new before the search ends; three times as many
+    /// where a known bound is not reached, two where it is.
+    pub quiet_loops: usize,
+    /// Seeds after which a search that found nothing gives up.
+    pub hopeless_seeds: usize,
+    /// Seeds never exceeded.
+    pub most_seeds: usize,
+    /// Loops never exceeded.
+    pub most_loops: usize,
+}
+
+impl Default for AssembliesSettings {
+    fn default() -> Self {
+        AssembliesSettings {
+            seed: 1,
+            quiet_seeds: 150,
+            quiet_loops: 10,
+            hopeless_seeds: 600,
+            most_seeds: 5000,
+            most_loops: 200,
+        }
+    }
+}
+
+/// What to work out for each question besides the solutions.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Wanted {
+    /// Interval certificates.
+    pub certificates: bool,
+    /// The complex solutions that are not real.
+    pub all_complex: bool,
+}
+
+impl Default for Wanted {
+    fn default() -> Self {
+        Wanted {
+            certificates: true,
+            all_complex: false,
+        }
+    }
+}
+
+/// Why a question cannot be put.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum AssembliesError {
+    /// An expression has no value near the mechanism's own dimensions.
+    NoValue,
+    /// The stored solutions belong to other dimensions or to another choice of inputs.
+    StoredForAnotherQuestion,
+    /// No assembly has that number; there are this many.
+    NoSuchMode(usize),
+}
+
+impl std::fmt::Display for AssembliesError {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        match self {
+            AssembliesError::NoValue => {
+                write!(
+                    f,
+                    "an expression has no value near the mechanism's own dimensions"
+                )
+            }
+            AssembliesError::StoredForAnotherQuestion => write!(
+                f,
+                "the stored solutions belong to other dimensions or to another choice of inputs"
+            ),
+            AssembliesError::NoSuchMode(0) => write!(f, "there is no assembly at the home inputs"),
+            AssembliesError::NoSuchMode(n) => {
+                write!(
+                    f,
+                    "there is no such mode: the home inputs have modes 1 to {n}"
+                )
+            }
+        }
+    }
+}
+
+impl std::error::Error for AssembliesError {}
+
+/// All generic solutions of one mechanism for one choice of inputs, ready for many values of them.
+#[derive(Clone, Debug)]
+pub struct AssemblySolver {
+    mechanism: Mechanism,
+    held: Held<f64>,
+    family: Family,
+    generic: GenericSolutions,
+    solutions: Vec<Vec<C>>,
+}
+
+impl AssemblySolver {
+    /// Finds the generic solutions. Only which coordinates `held` holds matters, not their values.
+    ///
+    /// # Errors
+    /// If a dimension has no value near the mechanism's own.
+    pub fn new(
+        mechanism: &Mechanism,
+        held: &Held<f64>,
+        settings: &AssembliesSettings,
+    ) -> Result<Self, AssembliesError> {
+        Self::watched(mechanism, held, settings, &|_| {})
+    }
+
+    /// The same, telling how far it is again and again.
+    ///
+    /// # Errors
+    /// If a dimension has no value near the mechanism's own.
+    pub fn watched(
+        mechanism: &Mechanism,
+        held: &Held<f64>,
+        settings: &AssembliesSettings,
+        watch: &dyn Fn(Progress),
+    ) -> Result<Self, AssembliesError> {
+        let family = Family::new(mechanism, held);
+        let bound = bound::known_bound(mechanism, held).map(|b| b.count);
+        let generic = generic::search(
+            &family,
+            question(mechanism, &family),
+            bound,
+            settings,
+            watch,
+        );
+        let generic = generic.ok_or(AssembliesError::NoValue)?;
+        Ok(Self::with(mechanism, held, family, generic))
+    }
+
+    /// From stored generic solutions, without a search.
+    ///
+    /// # Errors
+    /// If they were stored for other dimensions or for another choice of inputs.
+    pub fn from_stored(
+        mechanism: &Mechanism,
+        held: &Held<f64>,
+        stored: GenericSolutions,
+    ) -> Result<Self, AssembliesError> {
+        let family = Family::new(mechanism, held);
+        let fits = |count: usize, stored: &[[f64; 2]]| stored.len() == count;
+        let sizes = fits(family.parameters.len(), &stored.parameters)
+            && fits(family.coordinates.input_count(), &stored.inputs)
+            && (stored.solutions.iter()).all(|x| fits(family.coordinates.count(), x));
+        match sizes && stored.question == question(mechanism, &family) {
+            true => Ok(Self::with(mechanism, held, family, stored)),
+            false => Err(AssembliesError::StoredForAnotherQuestion),
+        }
+    }
+
+    fn with(
+        mechanism: &Mechanism,
+        held: &Held<f64>,
+        family: Family,
+        generic: GenericSolutions,
+    ) -> Self {
+        AssemblySolver {
+            mechanism: mechanism.clone(),
+            held: held.clone(),
+            solutions: generic
+                .solutions
+                .iter()
+                .map(|x| generic::numbers(x))
+                .collect(),
+            family,
+            generic,
+        }
+    }
+
+    /// The generic solutions, for storing.
+    pub fn generic(&self) -> &GenericSolutions {
+        &self.generic
+    }
+
+    /// All assemblies for the values that `asked` has for held joints and poses; held platform
+    /// coordinates have the values the solver was made with.
+    pub fn at(&self, asked: &Configuration<f64>, wanted: Wanted) -> AssembliesReport {
+        self.at_targets(asked, &self.held, wanted)
+    }
+
+    /// All assemblies, with other values of held platform coordinates.
+    pub fn at_targets(
+        &self,
+        asked: &Configuration<f64>,
+        held: &Held<f64>,
+        wanted: Wanted,
+    ) -> AssembliesReport {
+        let question = Question {
+            mechanism: &self.mechanism,
+            coordinates: &self.family.coordinates,
+            held,
+            asked,
+            system: System::new(self.mechanism.dimensions(), held),
+        };
+        let fit = match (self.solutions.is_empty(), self.generic.freedom) {
+            (false, 0) => Fit::Finite,
+            (true, 0) => Fit::TooManyHeld,
+            (_, freedom) => Fit::FreedomLeft(freedom),
+        };
+        let ends = match self.solutions.is_empty() {
+            true => None,
+            false => self.carried(asked, held),
+        };
+        let starts = match fit {
+            Fit::Finite if ends.is_some() => Vec::new(),
+            _ => self.newton_from_many_starts(&question.system, asked, fit.clone()),
+        };
+        question.answer(
+            &self.generic,
+            fit,
+            &ends.unwrap_or_default(),
+            starts,
+            wanted,
+        )
+    }
+
+    fn carried(&self, asked: &Configuration<f64>, held: &Held<f64>) -> Option<carry::Ends> {
+        let inputs = self.family.coordinates.inputs(asked, held);
+        let asked = Member {
+            parameters: self.family.parameters.clone(),
+            inputs: inputs.into_iter().map(C::from_f64).collect(),
+        };
+        carry::carry(
+            &self.family,
+            &self.generic.member(),
+            &asked,
+            &self.solutions,
+        )
+    }
+
+    /// Assembled configurations reached by Newton's method from the asked configuration and from
+    /// random ones.
+    fn newton_from_many_starts(
+        &self,
+        system: &System<f64>,
+        asked: &Configuration<f64>,
+        fit: Fit,
+    ) -> Vec<Configuration<f64>> {
+        let (starts, enough) = match fit {
+            Fit::FreedomLeft(_) => (40, 6),
+            _ => (400, usize::MAX),
+        };
+        let storage = (system.work(), asked.clone());
+        let points = threads::each(starts, &storage, |(work, trial), i| {
+            let mut point = asked.clone();
+            if i > 0 {
+                let mut rng = Pcg64::seed_from_u64(i as u64);
+                let x = self.family.random_point(&mut rng);
+                let mut lifted = asked.map(C::from_f64);
+                self.family.coordinates.unflatten(&x, &mut lifted);
+                for &j in &self.family.coordinates.free_joints {
+                    point.joints[j] = lifted.joints[j].re;
+                }
+                for &p in &self.family.coordinates.free_platforms {
+                    point.platforms[p].position.0 = lifted.platforms[p].position.0.map(|z| z.re);
+                    let q = lifted.platforms[p].orientation.0.map(|z| z.re);
+                    point.platforms[p].orientation = crate::geometry::Quaternion(q).normalised();
+                }
+            }
+            let report = Newton::default().solve(system, &mut point, trial, work);
+            (report.stop == Stop::Solved).then_some(point)
+        });
+        points.into_iter().flatten().take(enough).collect()
+    }
+
+    /// Follows mode `mode` of the home configuration to the inputs of `asked`.
+    ///
+    /// # Errors
+    /// If the home inputs have no such mode.
+    pub fn follow(
+        &self,
+        mode: usize,
+        asked: &Configuration<f64>,
+        held: &Held<f64>,
+    ) -> Result<Followed, AssembliesError> {
+        let home = self.mechanism.home();
+        let held_home = held_at_home(&self.mechanism, held);
+        let modes = self.at_targets(
+            &home,
+            &held_home,
+            Wanted {
+                certificates: false,
+                all_complex: false,
+            },
+        );
+        let found = modes.assemblies.iter().find(|a| a.mode == mode);
+        let assembly = found.ok_or(AssembliesError::NoSuchMode(modes.real))?;
+        let start = assembly.configuration(&home);
+        follow::follow(
+            &self.mechanism,
+            &self.family,
+            (&start, &held_home),
+            (asked, held),
+        )
+        .ok_or(AssembliesError::NoValue)
+    }
+}
+
+/// The same coordinates held, at the values they have at home.
+fn held_at_home(mechanism: &Mechanism, held: &Held<f64>) -> Held<f64> {
+    let home = mechanism.home();
+    let platforms = held
+        .platforms
+        .iter()
+        .zip(&home.platforms)
+        .map(|(held, pose)| match held {
+            HeldPlatform::Partly {
+                coordinates,
+                orientation,
+            } => HeldPlatform::Partly {
+                coordinates: coordinates
+                    .iter()
+                    .map(|(c, _)| (*c, c.of(&pose.pose())))
+                    .collect(),
+                orientation: orientation.map(|_| pose.pose().rotation),
+            },
+            other => other.clone(),
+        });
+    Held {
+        joints: held.joints.clone(),
+        platforms: platforms.collect(),
+    }
+}
+
+/// What stored solutions belong to: names to be read by people, and a mark of all dimensions.
+fn question(mechanism: &Mechanism, family: &Family) -> String {
+    let c = &family.coordinates;
+    let all = format!(
+        "{:?} {:?} {:?} {:?} {:?} {:?} {:?}",
+        mechanism.dimensions(),
+        mechanism.home(),
+        mechanism.parameters(),
+        c.held_joints,
+        c.held_poses,
+        c.targets,
+        c.orientations,
+    );
+    // FNV-1a (Fowler, Noll and Vo 1991)
+    let mark = all.bytes().fold(0xcbf2_9ce4_8422_2325_u64, |mark, byte| {
+        (mark ^ u64::from(byte)).wrapping_mul(0x0000_0100_0000_01b3)
+    });
+    format!("{} {mark:016x}", mechanism.name())
+}

@@ -1,0 +1,211 @@
+//! Configurations as flat complex coordinates, and when two of them are the same.
+
+use std::f64::consts::TAU;
+
+use crate::geometry::{Quaternion, Vector3};
+use crate::mechanism::{Configuration, Mechanism, PlatformPose};
+use crate::number::{Complex, Number};
+use crate::system::{Held, HeldPlatform};
+
+pub(super) type C = Complex<f64>;
+
+/// Which coordinates are unknown and which are given, and how they stand in flat vectors.
+///
+/// Flat unknowns are dimensionless: free joints over their scale, then for each platform to be found
+/// a quaternion and a position over the characteristic length. Flat inputs keep their units: held
+/// joints, then quaternion and position of each held pose, single platform coordinates, quaternions
+/// of held orientations.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct Coordinates {
+    pub free_joints: Vec<usize>,
+    pub free_platforms: Vec<usize>,
+    pub held_joints: Vec<usize>,
+    pub held_poses: Vec<usize>,
+    pub targets: Vec<(usize, crate::mechanism::Coordinate)>,
+    pub orientations: Vec<usize>,
+    pub joint_scales: Vec<f64>,
+    pub length: f64,
+    /// For each joint whether its variable counts modulo a turn.
+    pub periodic: Vec<bool>,
+}
+
+impl Coordinates {
+    pub fn new<T: Number>(mechanism: &Mechanism, held: &Held<T>) -> Self {
+        let which = |wanted: bool| {
+            let joints = held.joints.iter().enumerate();
+            joints
+                .filter(move |(_, held)| **held == wanted)
+                .map(|(i, _)| i)
+                .collect()
+        };
+        let platforms = || held.platforms.iter().enumerate();
+        let mut targets = Vec::new();
+        let mut orientations = Vec::new();
+        for (p, held) in platforms() {
+            if let HeldPlatform::Partly {
+                coordinates,
+                orientation,
+            } = held
+            {
+                targets.extend(coordinates.iter().map(|(c, _)| (p, *c)));
+                orientations.extend(orientation.map(|_| p));
+            }
+        }
+        let dimensions = mechanism.dimensions();
+        Coordinates {
+            free_joints: which(false),
+            held_joints: which(true),
+            free_platforms: platforms()
+                .filter(|(_, h)| **h != HeldPlatform::Pose)
+                .map(|(i, _)| i)
+                .collect(),
+            held_poses: platforms()
+                .filter(|(_, h)| **h == HeldPlatform::Pose)
+                .map(|(i, _)| i)
+                .collect(),
+            targets,
+            orientations,
+            joint_scales: dimensions.joint_scales.clone(),
+            length: dimensions.characteristic_length,
+            periodic: (0..mechanism.joints().len())
+                .map(|j| periodic(mechanism, j))
+                .collect(),
+        }
+    }
+
+    /// Number of flat unknowns.
+    pub fn count(&self) -> usize {
+        self.free_joints.len() + 7 * self.free_platforms.len()
+    }
+
+    /// Number of flat inputs.
+    pub fn input_count(&self) -> usize {
+        self.held_joints.len()
+            + 7 * self.held_poses.len()
+            + self.targets.len()
+            + 4 * self.orientations.len()
+    }
+
+    pub fn flatten(&self, at: &Configuration<C>) -> Vec<C> {
+        let joints = self
+            .free_joints
+            .iter()
+            .map(|&j| at.joints[j] / self.joint_scales[j]);
+        let poses = self.free_platforms.iter().flat_map(|&p| {
+            let pose = &at.platforms[p];
+            let position = pose.position.0.map(|x| x / self.length);
+            pose.orientation.0.into_iter().chain(position)
+        });
+        joints.chain(poses).collect()
+    }
+
+    /// Writes the unknowns into a configuration; what is held in it stays.
+    #[inline]
+    pub fn unflatten(&self, x: &[C], at: &mut Configuration<C>) {
+        let (joints, poses) = x.split_at(self.free_joints.len());
+        for (&j, x) in self.free_joints.iter().zip(joints) {
+            at.joints[j] = *x * self.joint_scales[j];
+        }
+        for (&p, x) in self.free_platforms.iter().zip(poses.chunks_exact(7)) {
+            at.platforms[p] = PlatformPose {
+                orientation: Quaternion([x[0], x[1], x[2], x[3]]),
+                position: Vector3([x[4], x[5], x[6]].map(|x| x * self.length)),
+            };
+        }
+    }
+
+    #[inline]
+    pub fn settle(&self, x: &mut [C]) {
+        for pose in x[self.free_joints.len()..].chunks_exact_mut(7) {
+            let unit = Quaternion([pose[0], pose[1], pose[2], pose[3]]).normalised();
+            pose[..4].copy_from_slice(&unit.0);
+        }
+    }
+
+    /// The inputs of a question: what a configuration holds, and what is asked of platforms.
+    pub fn inputs<T: Number>(&self, at: &Configuration<T>, held: &Held<T>) -> Vec<T> {
+        let mut inputs: Vec<T> = self.held_joints.iter().map(|&j| at.joints[j]).collect();
+        for &p in &self.held_poses {
+            inputs.extend(at.platforms[p].orientation.0);
+            inputs.extend(at.platforms[p].position.0);
+        }
+        let partly = held.platforms.iter().filter_map(|held| match held {
+            HeldPlatform::Partly {
+                coordinates,
+                orientation,
+            } => Some((coordinates, orientation)),
+            _ => None,
+        });
+        for (coordinates, _) in partly.clone() {
+            inputs.extend(coordinates.iter().map(|(_, value)| *value));
+        }
+        for rotation in partly.filter_map(|(_, orientation)| orientation.as_ref()) {
+            inputs.extend(Quaternion::from_rotation(rotation).0);
+        }
+        inputs
+    }
+
+    /// Where the quaternions stand among the inputs.
+    pub fn input_quaternions(&self) -> impl Iterator<Item = usize> + use<> {
+        let first = self.held_joints.len();
+        let poses = self.held_poses.len();
+        let orientations = first + 7 * poses + self.targets.len();
+        let count = self.orientations.len();
+        (0..poses)
+            .map(move |i| first + 7 * i)
+            .chain((0..count).map(move |i| orientations + 4 * i))
+    }
+
+    /// The largest difference of two solutions: angles modulo a turn, q and −q alike. This is the
+    /// one test of sameness.
+    pub fn difference(&self, x: &[C], y: &[C]) -> f64 {
+        let joints = self.free_joints.len();
+        let mut largest = 0.0f64;
+        for (k, &j) in self.free_joints.iter().enumerate() {
+            let mut gap = x[k] - y[k];
+            if self.periodic[j] {
+                gap.re -= TAU * (gap.re / TAU).round();
+            }
+            largest = largest.max(gap.norm());
+        }
+        for (x, y) in x[joints..].chunks_exact(7).zip(y[joints..].chunks_exact(7)) {
+            let distance = |sign: f64| {
+                let gaps = x[..4]
+                    .iter()
+                    .zip(&y[..4])
+                    .map(|(x, y)| (*x - *y * sign).norm());
+                gaps.fold(0.0, f64::max)
+            };
+            largest = largest.max(distance(1.0).min(distance(-1.0)));
+            for (x, y) in x[4..].iter().zip(&y[4..]) {
+                largest = largest.max((*x - *y).norm());
+            }
+        }
+        largest
+    }
+
+    /// Whether two solutions are the same: their difference is small beside their size.
+    pub fn same(&self, x: &[C], y: &[C]) -> bool {
+        self.difference(x, y) <= 1e-6 * (1.0 + size(x))
+    }
+}
+
+/// The largest coordinate.
+pub(super) fn size(x: &[C]) -> f64 {
+    x.iter().map(|z| z.norm_sqr()).fold(0.0, f64::max).sqrt()
+}
+
+/// Whether a turn more of a joint changes nothing: it only turns, and in whole multiples.
+fn periodic(mechanism: &Mechanism, joint: usize) -> bool {
+    let dimensions = mechanism.dimensions();
+    let slides = dimensions
+        .closures
+        .iter()
+        .any(|c| c.extension.coefficient(joint) != 0.0);
+    let mut rows = dimensions.chains.iter().flat_map(|chain| &chain.rows);
+    !slides
+        && rows.all(|row| {
+            let turn = row.turn.coefficient(joint);
+            turn == turn.round() && row.slide.coefficient(joint) == 0.0
+        })
+}

@@ -1,0 +1,125 @@
+//! Keeping a mode's name: a real assembly followed continuously from inputs to other inputs.
+
+use serde::Serialize;
+
+use super::coordinates::C;
+use super::family::{Family, Member};
+use super::generic::polish;
+use super::real::real_solution;
+use super::report::Named;
+use crate::mechanism::{Configuration, Mechanism};
+use crate::number::Number;
+use crate::solve::{Arrival, Stages, Tracker};
+use crate::system::{Held, System};
+
+/// Where a mode went when its inputs changed.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Followed {
+    /// It is assembled at the asked inputs.
+    Arrived(Configuration<f64>),
+    /// It ceased to exist on the way: there it meets another mode, and beyond neither is real.
+    Fold(Fold),
+}
+
+/// Where a mode ceases to exist.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Fold {
+    /// The part of the way that was gone, from 0 to 1.
+    pub fraction: f64,
+    /// The inputs there: joints in rad or m, platform coordinates as `platform.x`.
+    pub inputs: Named<f64>,
+    /// Joint values at the last assembled configuration, rad or m.
+    pub joints: Named<f64>,
+}
+
+/// Follows an assembled configuration along the straight way between two sets of inputs.
+pub(super) fn follow(
+    mechanism: &Mechanism,
+    family: &Family,
+    from: (&Configuration<f64>, &Held<f64>),
+    to: (&Configuration<f64>, &Held<f64>),
+) -> Option<Followed> {
+    let c = &family.coordinates;
+    let start = c.inputs(from.0, from.1);
+    let mut end = c.inputs(to.0, to.1);
+    for q in c.input_quaternions() {
+        // of q and −q the one on this side: the short way round
+        let along: f64 = (0..4).map(|i| start[q + i] * end[q + i]).sum();
+        if along < 0.0 {
+            end[q..q + 4].iter_mut().for_each(|x| *x = -*x);
+        }
+    }
+    let member = |inputs: &[f64]| Member {
+        parameters: family.parameters.clone(),
+        inputs: inputs.iter().map(|x| C::from_f64(*x)).collect(),
+    };
+    let mut way = family.way(&member(&start), &member(&end))?;
+    let mut x = c.flatten(&from.0.map(C::from_f64));
+    let whole = (C::from_f64(0.0), C::from_f64(1.0));
+    // real inputs keep every number real, so no step can leave the real branch unnoticed
+    let tracker = Tracker {
+        shortest: 1e-12,
+        max_steps: 20_000,
+        ..Tracker::default().tightened(0.05)
+    };
+    let track = tracker.track(&mut way, whole, &mut x, &mut Stages::new(c.count()));
+    let done = match track.arrival {
+        Arrival::There => 1.0,
+        Arrival::Stuck(at) | Arrival::Diverged(at) => at,
+    };
+    let inputs: Vec<f64> = start
+        .iter()
+        .zip(&end)
+        .map(|(a, b)| a + done * (b - a))
+        .collect();
+    if track.arrival == Arrival::There && polish(&mut way, whole.1, &mut x) {
+        let system = System::new(mechanism.dimensions(), to.1);
+        let point = real_solution(&x, false, c, &system, &mut system.work(), to.0);
+        return point.map(Followed::Arrived);
+    }
+    let mut last = from.0.map(C::from_f64);
+    c.unflatten(&x, &mut last);
+    for (&j, value) in c.held_joints.iter().zip(&inputs) {
+        last.joints[j] = C::from_f64(*value);
+    }
+    let joints = mechanism.joints().iter().map(|j| j.name.clone());
+    Some(Followed::Fold(Fold {
+        fraction: done,
+        inputs: Named(
+            input_names(mechanism, family)
+                .into_iter()
+                .zip(inputs)
+                .collect(),
+        ),
+        joints: Named(joints.zip(last.joints.iter().map(|z| z.re)).collect()),
+    }))
+}
+
+/// Names of the flat inputs.
+fn input_names(mechanism: &Mechanism, family: &Family) -> Vec<String> {
+    const QUATERNION: [&str; 4] = ["qw", "qx", "qy", "qz"];
+    let c = &family.coordinates;
+    let platform = |p: usize| &mechanism.platforms()[p].name;
+    let mut names: Vec<String> = c
+        .held_joints
+        .iter()
+        .map(|&j| mechanism.joints()[j].name.clone())
+        .collect();
+    for &p in &c.held_poses {
+        let parts = QUATERNION.iter().chain(&["x", "y", "z"]);
+        names.extend(parts.map(|part| format!("{}.{part}", platform(p))));
+    }
+    names.extend(
+        c.targets
+            .iter()
+            .map(|&(p, coordinate)| format!("{}.{}", platform(p), coordinate.name())),
+    );
+    for &p in &c.orientations {
+        names.extend(
+            QUATERNION
+                .iter()
+                .map(|part| format!("{}.{part}", platform(p))),
+        );
+    }
+    names
+}

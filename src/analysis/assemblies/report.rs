@@ -1,0 +1,224 @@
+//! What is said about the assemblies of a mechanism.
+
+use serde::ser::SerializeMap;
+use serde::{Serialize, Serializer};
+
+use crate::description::count;
+use crate::geometry::{Quaternion, Vector3};
+use crate::mechanism::Configuration;
+use crate::system::Gap;
+
+/// Values by name, in the order of the mechanism file; serialised as a map.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Named<T>(pub Vec<(String, T)>);
+
+impl<T> Named<T> {
+    /// The value of that name.
+    pub fn get(&self, name: &str) -> Option<&T> {
+        let mut found = self.0.iter().filter(|(n, _)| n == name);
+        found.next().map(|(_, value)| value)
+    }
+}
+
+impl<T: Serialize> Serialize for Named<T> {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        let mut map = serializer.serialize_map(Some(self.0.len()))?;
+        for (name, value) in &self.0 {
+            map.serialize_entry(name, value)?;
+        }
+        map.end()
+    }
+}
+
+/// The pose of a platform in ground.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct PoseReport {
+    /// Position of its origin in m.
+    pub position: [f64; 3],
+    /// Unit quaternion, scalar first, its first component that is not zero positive.
+    pub quaternion: [f64; 4],
+    /// Roll, pitch and yaw in rad.
+    pub roll_pitch_yaw: [f64; 3],
+}
+
+/// One assembled configuration.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Assembly {
+    /// Its number, from 1.
+    pub mode: usize,
+    /// Joint values in rad or m.
+    pub joints: Named<f64>,
+    /// Platform poses.
+    pub platforms: Named<PoseReport>,
+    /// Quotient of the largest and the smallest singular value of the dimensionless closure
+    /// Jacobian; `null` where the smallest is zero.
+    pub condition: Option<f64>,
+    /// Sign of the determinant of the closure Jacobian on its independent rows: assemblies of
+    /// opposite signs lie on different sides of a singularity. 0 where solutions meet.
+    pub determinant_sign: i8,
+    /// How many solutions meet here: 1, or 2 at a dead point; 0 for a sample of infinitely many.
+    pub multiplicity: usize,
+    /// Whether an interval test has proved that a box of `radius` holds exactly one solution.
+    pub certified: bool,
+    /// Half the side of that box in the dimensionless unknowns, rad or characteristic lengths.
+    pub radius: Option<f64>,
+    /// Why the assembly is not certified.
+    pub uncertified_because: Option<String>,
+    /// Whether all joints are within their limits.
+    pub within_limits: bool,
+    /// Numbers of the other assemblies with the same pose of every platform.
+    pub shares_platform_pose_with: Vec<usize>,
+}
+
+impl Assembly {
+    /// The assembly as a configuration.
+    pub fn configuration(&self, like: &Configuration<f64>) -> Configuration<f64> {
+        let mut at = like.clone();
+        for (value, (_, joint)) in at.joints.iter_mut().zip(&self.joints.0) {
+            *value = *joint;
+        }
+        for (pose, (_, platform)) in at.platforms.iter_mut().zip(&self.platforms.0) {
+            pose.orientation = Quaternion(platform.quaternion);
+            pose.position = Vector3(platform.position);
+        }
+        at
+    }
+}
+
+/// How near the mechanism comes to being assembled, where it cannot be.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct ClosestApproach {
+    /// How far each closure is from being whole.
+    pub gaps: Named<Gap>,
+    /// The closure that gapes most.
+    pub worst: String,
+    /// Joint values there, rad or m.
+    pub joints: Named<f64>,
+    /// Platform poses there.
+    pub platforms: Named<PoseReport>,
+}
+
+/// How the question fits the mechanism.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Fit {
+    /// As many inputs are held as the mechanism has freedoms: a finite number of assemblies.
+    Finite,
+    /// So many freedoms are left; the assemblies listed are samples.
+    FreedomLeft(usize),
+    /// More inputs are held than can be chosen freely; what is listed was found by starting from
+    /// many guesses and need not be complete.
+    TooManyHeld,
+}
+
+/// All assemblies for the inputs asked.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct AssembliesReport {
+    /// The real assemblies in the order of their numbers.
+    pub assemblies: Vec<Assembly>,
+    /// Complex assemblies that are not real, if they were asked for: unknown joints and platforms
+    /// as pairs of real and imaginary part.
+    pub complex_assemblies: Vec<ComplexAssembly>,
+    /// Finite complex solutions, counted with multiplicity, the real ones among them.
+    pub complex: usize,
+    /// Real assemblies, each once.
+    pub real: usize,
+    /// Solutions of the generic member that go to infinity for these inputs, or beyond 1000
+    /// characteristic lengths: so far out, rounding of the dimensions decides where they are.
+    pub at_infinity: usize,
+    /// Points where solutions meet, real or complex, each once.
+    pub singular: usize,
+    /// Paths whose end could not be decided. Anything but 0 means that the list may be incomplete.
+    pub lost: usize,
+    /// Paths that had to be followed again with greater care.
+    pub retried: usize,
+    /// Steps along all paths, the last time each was followed.
+    pub steps: usize,
+    /// Jacobians evaluated for them.
+    pub evaluations: usize,
+    /// Isolated complex solutions of the generic member.
+    pub generic: usize,
+    /// The largest number of isolated complex solutions that the structure is known to have.
+    pub bound: Option<usize>,
+    /// Which structure that is, and where the bound is shown.
+    pub bound_source: Option<String>,
+    /// How the question fits the mechanism.
+    pub fit: Fit,
+    /// Newton seeds tried at the generic member.
+    pub seeds: usize,
+    /// Seeds since the last discovery.
+    pub quiet_seeds: usize,
+    /// Monodromy loops at the generic member.
+    pub loops: usize,
+    /// Loops since the last discovery.
+    pub quiet_loops: usize,
+    /// The random seed.
+    pub seed: u64,
+    /// How complete the list is and why.
+    pub complete: String,
+    /// Which closure rows the certificates and determinants use, if not all.
+    pub independent_rows: Option<(usize, usize)>,
+    /// Where there is no real assembly: the best that can be done.
+    pub closest: Option<ClosestApproach>,
+}
+
+/// A complex solution that is not real.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct ComplexAssembly {
+    /// Joint values as (real, imaginary), rad or m.
+    pub joints: Named<[f64; 2]>,
+    /// Positions (3, m) and quaternions (4) of the platforms.
+    pub platforms: Named<Vec<[f64; 2]>>,
+    /// How many solutions meet here.
+    pub multiplicity: usize,
+}
+
+impl AssembliesReport {
+    /// How complete the list is and why, in a sentence.
+    pub(super) fn completeness(&self) -> String {
+        match self.fit {
+            Fit::FreedomLeft(freedom) => {
+                let isolated = match self.generic {
+                    0 => String::new(),
+                    n => format!(
+                        "; beside them {} found",
+                        match n {
+                            1 => "1 isolated one was".into(),
+                            n => format!("{n} isolated ones were"),
+                        }
+                    ),
+                };
+                return format!(
+                    "{} left: the assemblies are not finite in number and those listed are samples{isolated}; hold {freedom} more for a finite list",
+                    count(freedom, "freedom"),
+                );
+            }
+            Fit::TooManyHeld => {
+                return "more inputs are held than can be chosen freely; \
+                        the list comes from many starts and may be incomplete"
+                    .into();
+            }
+            Fit::Finite => {}
+        }
+        let quiet = match self.quiet_seeds {
+            0 => count(self.quiet_loops, "loop"),
+            seeds => format!(
+                "{} and {}",
+                count(self.quiet_loops, "loop"),
+                count(seeds, "seed")
+            ),
+        };
+        let mut sentence = format!("{} found; {quiet} found no more; ", self.generic);
+        sentence += &match self.bound {
+            Some(bound) if bound == self.generic => {
+                format!("equals the known bound of {bound} for this structure")
+            }
+            Some(bound) => format!("the known bound for this structure is {bound}"),
+            None => "no bound is known for this structure".into(),
+        };
+        if self.lost > 0 {
+            sentence += &format!("; {} could not be decided", count(self.lost, "path"));
+        }
+        sentence
+    }
+}

@@ -1,0 +1,66 @@
+//! `linkwork assemblies`
+
+use clap::Args;
+use linkwork::analysis::assemblies::Wanted;
+use linkwork::output::assemblies;
+use linkwork::output::question::complaint;
+use linkwork::system::{QuestionError, check_count};
+
+use super::asked::{Split, refusal};
+use super::search::Search;
+use super::source::Source;
+use super::{Answer, Format, Refusal, style};
+
+/// List all assembled configurations for held inputs, numbered, each with a certificate.
+///
+/// The actuated joints are held at home and the rest is solved, unless --hold and --free say otherwise, as for
+/// `solve`. The list says how complete it is: how many complex solutions there are, how they were searched for, and
+/// whether a bound is known. Exit code 1 means that there is no real assembly, or that the list may be incomplete.
+#[derive(Args)]
+#[command(after_help = "Examples:\n  \
+    linkwork assemblies mechanisms/four_bar.ron --hold theta1=\"60 deg\"\n  \
+    linkwork assemblies mechanisms/stewart_gough_6sps.ron --store stewart.store --hold l1=1.1")]
+pub struct Assemblies {
+    #[command(flatten)]
+    source: Source,
+    #[command(flatten)]
+    split: Split,
+    /// List the complex solutions that are not real too
+    #[arg(long)]
+    all_complex: bool,
+    #[command(flatten)]
+    search: Search,
+    /// How to write the answer
+    #[arg(long, value_enum, default_value_t = Format::Text)]
+    format: Format,
+}
+
+impl Assemblies {
+    pub fn run(&self) -> Result<Answer, Refusal> {
+        let loaded = self.source.load()?;
+        let question = self.split.question(&loaded.mechanism)?;
+        let mut remarks = loaded.warnings();
+        match check_count(&question) {
+            Ok(_) => {}
+            // samples answer it, but what is missing is said too
+            Err(error @ QuestionError::TooFew { .. }) => {
+                remarks += &complaint(&error).0.render_warning(style());
+            }
+            Err(error) => return Err(refusal(&error, None)),
+        }
+        let solver = self.search.solver(&question)?;
+        let wanted = Wanted {
+            certificates: true,
+            all_complex: self.all_complex,
+        };
+        let report = solver.at_targets(&question.start(), &question.held(), wanted);
+        Ok(Answer {
+            data: match self.format {
+                Format::Text => assemblies::text(&question, &report),
+                Format::Json => assemblies::json(&question, &report),
+            },
+            remarks,
+            yes: report.real > 0 && report.lost == 0,
+        })
+    }
+}

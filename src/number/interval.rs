@@ -1,0 +1,405 @@
+use std::f64::consts::{FRAC_PI_2, PI};
+use std::ops::{Add, AddAssign, Div, Mul, MulAssign, Neg, Sub, SubAssign};
+
+use super::{Field, Number};
+
+/// All reals from `low` to `high`; every operation rounds outwards, so that the true result of the
+/// same operation on any reals in the operands is inside (Moore 1966).
+///
+/// Sums and products with exact zeros and ones stay exact: what is structurally zero stays zero.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Interval {
+    /// The lower end.
+    pub low: f64,
+    /// The upper end.
+    pub high: f64,
+}
+
+const WHOLE: Interval = Interval {
+    low: f64::NEG_INFINITY,
+    high: f64::INFINITY,
+};
+
+/// The elementary functions of `pxfm` are within half a unit in the last place; two are granted.
+fn outward(low: f64, high: f64) -> Interval {
+    if low.is_nan() || high.is_nan() {
+        return WHOLE;
+    }
+    Interval {
+        low: low.next_down().next_down(),
+        high: high.next_up().next_up(),
+    }
+}
+
+/// The correctly rounded ends of a sum, product, quotient or root, moved by one unit.
+fn rounded(low: f64, high: f64) -> Interval {
+    if low.is_nan() || high.is_nan() {
+        return WHOLE;
+    }
+    Interval {
+        low: low.next_down(),
+        high: high.next_up(),
+    }
+}
+
+impl Interval {
+    /// The single real `x`.
+    pub fn point(x: f64) -> Self {
+        Interval { low: x, high: x }
+    }
+
+    /// All reals within `radius` of `centre`.
+    pub fn around(centre: f64, radius: f64) -> Self {
+        rounded(centre - radius, centre + radius)
+    }
+
+    /// The largest absolute value inside.
+    pub fn magnitude(self) -> f64 {
+        self.low.abs().max(self.high.abs())
+    }
+
+    /// Whether a real is inside.
+    pub fn contains(self, x: f64) -> bool {
+        self.low <= x && x <= self.high
+    }
+
+    /// The distance of the ends.
+    pub fn width(self) -> f64 {
+        self.high - self.low
+    }
+
+    fn is(self, x: f64) -> bool {
+        self.low == x && self.high == x
+    }
+
+    /// π enclosed: the f64 nearest to it lies below.
+    fn pi() -> Self {
+        Interval {
+            low: PI,
+            high: PI.next_up(),
+        }
+    }
+
+    /// Whether some (k + `phase`)·π with whole k of the wanted parity may be inside.
+    fn meets(self, phase: f64, odd: bool) -> bool {
+        let margin = 1e-12 * (1.0 + self.magnitude());
+        let offset = if odd { 1.0 } else { 0.0 };
+        // k even: x = (2j + phase)π
+        let first = ((self.low - margin) / PI - phase - offset) / 2.0;
+        let last = ((self.high + margin) / PI - phase - offset) / 2.0;
+        last.floor() >= first.ceil()
+    }
+}
+
+impl Add for Interval {
+    type Output = Self;
+    fn add(self, other: Self) -> Self {
+        if self.is(0.0) {
+            return other;
+        }
+        if other.is(0.0) {
+            return self;
+        }
+        rounded(self.low + other.low, self.high + other.high)
+    }
+}
+
+impl Neg for Interval {
+    type Output = Self;
+    fn neg(self) -> Self {
+        Interval {
+            low: -self.high,
+            high: -self.low,
+        }
+    }
+}
+
+impl Sub for Interval {
+    type Output = Self;
+    fn sub(self, other: Self) -> Self {
+        self + -other
+    }
+}
+
+impl Mul for Interval {
+    type Output = Self;
+    fn mul(self, other: Self) -> Self {
+        if self.is(0.0) || other.is(0.0) {
+            return Interval::point(0.0);
+        }
+        if self.is(1.0) {
+            return other;
+        }
+        if other.is(1.0) {
+            return self;
+        }
+        if self.is(-1.0) {
+            return -other;
+        }
+        if other.is(-1.0) {
+            return -self;
+        }
+        let products = [
+            self.low * other.low,
+            self.low * other.high,
+            self.high * other.low,
+            self.high * other.high,
+        ];
+        if products.iter().any(|p| p.is_nan()) {
+            return WHOLE;
+        }
+        let low = products.iter().copied().fold(f64::INFINITY, f64::min);
+        let high = products.iter().copied().fold(f64::NEG_INFINITY, f64::max);
+        rounded(low, high)
+    }
+}
+
+impl Div for Interval {
+    type Output = Self;
+    fn div(self, other: Self) -> Self {
+        if other.is(1.0) {
+            return self;
+        }
+        if other.contains(0.0) {
+            return WHOLE;
+        }
+        if self.is(0.0) {
+            return self;
+        }
+        let quotients = [
+            self.low / other.low,
+            self.low / other.high,
+            self.high / other.low,
+            self.high / other.high,
+        ];
+        if quotients.iter().any(|q| q.is_nan()) {
+            return WHOLE;
+        }
+        let low = quotients.iter().copied().fold(f64::INFINITY, f64::min);
+        let high = quotients.iter().copied().fold(f64::NEG_INFINITY, f64::max);
+        rounded(low, high)
+    }
+}
+
+impl AddAssign for Interval {
+    fn add_assign(&mut self, other: Self) {
+        *self = *self + other;
+    }
+}
+
+impl SubAssign for Interval {
+    fn sub_assign(&mut self, other: Self) {
+        *self = *self - other;
+    }
+}
+
+impl MulAssign for Interval {
+    fn mul_assign(&mut self, other: Self) {
+        *self = *self * other;
+    }
+}
+
+impl Number for Interval {
+    fn from_f64(x: f64) -> Self {
+        Interval::point(x)
+    }
+    /// The middle.
+    fn real(self) -> f64 {
+        if self.low == self.high {
+            self.low
+        } else {
+            0.5 * self.low + 0.5 * self.high
+        }
+    }
+    fn sin_cos(self) -> (Self, Self) {
+        if self.is(0.0) {
+            return (Interval::point(0.0), Interval::point(1.0));
+        }
+        let unit = Interval {
+            low: -1.0,
+            high: 1.0,
+        };
+        // beyond this the places of the extremes are no longer known to the margin
+        if !(self.width() < 6.0 && self.magnitude() < 1e9) {
+            return (unit, unit);
+        }
+        let (low, high) = (pxfm::f_sincos(self.low), pxfm::f_sincos(self.high));
+        let enclose = |a: f64, b: f64, peak: bool, trough: bool| {
+            let ends = outward(a.min(b), a.max(b));
+            Interval {
+                low: if trough { -1.0 } else { ends.low.max(-1.0) },
+                high: if peak { 1.0 } else { ends.high.min(1.0) },
+            }
+        };
+        (
+            enclose(low.0, high.0, self.meets(0.5, false), self.meets(0.5, true)),
+            enclose(low.1, high.1, self.meets(0.0, false), self.meets(0.0, true)),
+        )
+    }
+    fn sqrt(self) -> Self {
+        if self.is(0.0) || self.is(1.0) {
+            return self;
+        }
+        if self.low < 0.0 {
+            return WHOLE;
+        }
+        let root = rounded(self.low.sqrt(), self.high.sqrt());
+        Interval {
+            low: root.low.max(0.0),
+            ..root
+        }
+    }
+    fn asin(self) -> Self {
+        outward(pxfm::f_asin(self.low), pxfm::f_asin(self.high))
+    }
+    fn acos(self) -> Self {
+        outward(pxfm::f_acos(self.high), pxfm::f_acos(self.low))
+    }
+    fn atan(self) -> Self {
+        if self.is(0.0) {
+            return self;
+        }
+        outward(pxfm::f_atan(self.low), pxfm::f_atan(self.high))
+    }
+    fn atan2(self, x: Self) -> Self {
+        let half_pi = Interval {
+            low: FRAC_PI_2,
+            high: FRAC_PI_2.next_up(),
+        };
+        if x.low > 0.0 {
+            (self / x).atan()
+        } else if self.low > 0.0 {
+            half_pi - (x / self).atan()
+        } else if self.high < 0.0 {
+            -half_pi - (x / self).atan()
+        } else {
+            let pi = Interval::pi().high;
+            Interval { low: -pi, high: pi }
+        }
+    }
+    fn exp(self) -> Self {
+        outward(pxfm::f_exp(self.low), pxfm::f_exp(self.high))
+    }
+    fn ln(self) -> Self {
+        if self.low <= 0.0 {
+            return WHOLE;
+        }
+        outward(pxfm::f_log(self.low), pxfm::f_log(self.high))
+    }
+    fn abs(self) -> Self {
+        if self.low >= 0.0 {
+            self
+        } else if self.high <= 0.0 {
+            -self
+        } else {
+            Interval {
+                low: 0.0,
+                high: self.magnitude(),
+            }
+        }
+    }
+    fn is_finite(self) -> bool {
+        self.low.is_finite() && self.high.is_finite()
+    }
+}
+
+impl Field for Interval {
+    fn conjugate(self) -> Self {
+        self
+    }
+    /// The largest square inside, for measuring sizes.
+    fn norm_squared(self) -> f64 {
+        let m = self.magnitude();
+        (m * m).next_up()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A cheap reproducible sequence in [0, 1).
+    fn sequence(k: u64) -> f64 {
+        let x =
+            (k.wrapping_mul(0x9E37_79B9_7F4A_7C15) ^ (k << 7)).wrapping_mul(0xBF58_476D_1CE4_E5B9);
+        (x >> 11) as f64 / (1u64 << 53) as f64
+    }
+
+    #[test]
+    fn one_third_is_between_its_neighbours_and_three_thirds_hold_one() {
+        let third = Interval::point(1.0) / Interval::point(3.0);
+        assert!(third.low < third.high);
+        assert!((third + third + third).contains(1.0));
+        assert!((third * Interval::point(3.0)).contains(1.0));
+    }
+
+    #[test]
+    fn a_tenth_added_ten_times_holds_the_sum_of_the_exact_binary_tenths() {
+        // 0.1 in binary is 3602879701896397/2⁵⁵; ten of them are 1 + 2⁻⁵³ + …, not an f64
+        let tenth = Interval::point(0.1);
+        let sum = (0..9).fold(tenth, |sum, _| sum + tenth);
+        assert!(sum.low <= 1.0 && sum.high > 1.0);
+        assert!(sum.width() < 1e-14);
+    }
+
+    #[test]
+    fn images_of_points_inside_are_inside_the_image() {
+        for k in 0..20_000 {
+            let centre = 20.0 * sequence(3 * k) - 10.0;
+            let radius = 4.0 * sequence(3 * k + 1).powi(6);
+            let x = Interval::around(centre, radius);
+            let inside = centre + radius * (2.0 * sequence(3 * k + 2) - 1.0);
+            let (sin, cos) = x.sin_cos();
+            let (s, c) = (pxfm::f_sin(inside), pxfm::f_cos(inside));
+            assert!(sin.contains(s) && cos.contains(c), "{x:?} {inside}");
+            assert!(x.atan().contains(pxfm::f_atan(inside)));
+            assert!((x * x).contains(inside * inside));
+            assert!(x.abs().contains(inside.abs()));
+            assert!(x.exp().contains(pxfm::f_exp(inside)));
+            let y = Interval::around(3.0 * sequence(k), 0.1);
+            assert!(x.atan2(y).contains(pxfm::f_atan2(inside, y.real())));
+            let (one, width) = (sin * sin + cos * cos, x.width());
+            assert!(one.contains(1.0) && one.width() < 4.0 * width + 1e-14);
+        }
+    }
+
+    #[test]
+    fn a_sine_over_its_peak_reaches_one_and_beside_it_does_not() {
+        let over = Interval {
+            low: 1.0,
+            high: 2.0,
+        };
+        assert_eq!(over.sin_cos().0.high, 1.0);
+        let beside = Interval {
+            low: 1.0,
+            high: 1.5,
+        };
+        assert!(beside.sin_cos().0.high < 0.9976);
+        let trough = Interval {
+            low: 4.0,
+            high: 5.0,
+        };
+        assert_eq!(trough.sin_cos().0.low, -1.0);
+        let half_turn = Interval {
+            low: 3.0,
+            high: 3.3,
+        };
+        assert_eq!(half_turn.sin_cos().1.low, -1.0);
+    }
+
+    #[test]
+    fn what_has_no_value_is_the_whole_line() {
+        let around_zero = Interval::around(0.0, 1.0);
+        assert!(!(Interval::point(1.0) / around_zero).is_finite());
+        assert!(!around_zero.sqrt().is_finite());
+        assert!(!around_zero.ln().is_finite());
+    }
+
+    #[test]
+    fn structural_zeros_and_ones_stay_exact() {
+        let x = Interval::point(0.1) + Interval::point(0.2);
+        assert_eq!(x * Interval::point(0.0), Interval::point(0.0));
+        assert_eq!(x * Interval::point(1.0), x);
+        assert_eq!(x + Interval::point(0.0), x);
+    }
+}

@@ -1,0 +1,140 @@
+//! Where a solution goes when its way ends at a singularity or at infinity.
+//!
+//! Near s = 1 a solution is a series in (1 − s)^{1/w}. Going w times round s = 1 on a circle closes
+//! it; the mean over the circle is the value at the centre (Morgan, Sommese and Wampler 1991, the
+//! Cauchy endgame). Negative powers, or an angle that gains whole turns on the circle (a logarithm),
+//! mean that the end is at infinity.
+
+use std::f64::consts::TAU;
+
+use super::homotopy::{Arrival, Homotopy, Stages, Tracker};
+use crate::number::Complex;
+
+type C = Complex<f64>;
+
+/// A homotopy whose coordinates may be angles.
+pub trait Turning: Homotopy {
+    /// The largest difference of two points, angles modulo a turn, and whether turns were dropped.
+    fn apart(&self, x: &[C], y: &[C]) -> (f64, bool);
+}
+
+/// Where a solution goes as s → 1.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Ending {
+    /// To a finite point, shared by `winding` solutions that exchange places round it.
+    Finite {
+        /// The point.
+        x: Vec<C>,
+        /// How often s must go round until the solution returns.
+        winding: usize,
+    },
+    /// Out of all bounds.
+    Infinite,
+    /// It could not be decided.
+    Undecided {
+        /// The nearest point that was reached.
+        x: Vec<C>,
+    },
+}
+
+/// Points sampled on one turn of the circle.
+const SAMPLES: usize = 8;
+/// The most turns waited for.
+const MOST_TURNS: usize = 8;
+/// A term with a negative power counts from here, beside the size of the solution.
+const GROWING: f64 = 1e-3;
+/// Circles in a row on which it must grow: one circle may hold another meeting point beside the
+/// centre, which looks the same until a smaller circle leaves it out.
+const IN_A_ROW: usize = 3;
+
+/// Goes round s = 1 on ever smaller circles from a point `x` at s = 1 − `radius`.
+pub fn ending<H: Turning>(
+    h: &mut H,
+    tracker: &Tracker,
+    x: &[C],
+    mut radius: f64,
+    stages: &mut Stages,
+) -> Ending {
+    let mut at = x.to_vec();
+    let mut before: Option<(Vec<C>, f64)> = None;
+    let mut growing = 0;
+    for _ in 0..12 {
+        if let Some((samples, turned)) = circle(h, tracker, &at, radius, stages) {
+            let winding = samples.len() / SAMPLES;
+            let mean = coefficient(&samples, winding, 0);
+            let scale = 1.0 + norm(&mean);
+            let negative = (1..=3).map(|k| norm(&coefficient(&samples, winding, k)));
+            let negative = negative.fold(0.0, f64::max);
+            if let Some((previous, was)) = &before {
+                let outwards = turned || (negative > GROWING * scale && negative > 1.05 * was);
+                growing = if outwards { growing + 1 } else { 0 };
+                if growing == IN_A_ROW {
+                    return Ending::Infinite;
+                }
+                let gap: Vec<C> = mean.iter().zip(previous).map(|(a, b)| a - b).collect();
+                if !turned && negative < 1e-7 * scale && norm(&gap) < 1e-8 * scale {
+                    return Ending::Finite { x: mean, winding };
+                }
+            }
+            before = Some((mean, negative));
+        }
+        let smaller = radius / 6.0;
+        let way = (C::new(1.0 - radius, 0.0), C::new(1.0 - smaller, 0.0));
+        if tracker.track(h, way, &mut at, stages).arrival != Arrival::There {
+            break;
+        }
+        radius = smaller;
+    }
+    Ending::Undecided { x: at }
+}
+
+/// Samples on the circle until the solution returns, and whether angles gained turns.
+fn circle<H: Turning>(
+    h: &mut H,
+    tracker: &Tracker,
+    start: &[C],
+    radius: f64,
+    stages: &mut Stages,
+) -> Option<(Vec<Vec<C>>, bool)> {
+    let mut x = start.to_vec();
+    let mut samples = Vec::new();
+    let place = |k: usize| {
+        let phi = TAU * k as f64 / SAMPLES as f64;
+        C::new(1.0 - radius * phi.cos(), -radius * phi.sin())
+    };
+    for turn in 1..=MOST_TURNS {
+        for k in 0..SAMPLES {
+            samples.push(x.clone());
+            let way = (place(k), place((k + 1) % SAMPLES));
+            if tracker.track(h, way, &mut x, stages).arrival != Arrival::There {
+                return None;
+            }
+        }
+        let (apart, turned) = h.apart(&x, start);
+        // solutions on the circle are at least some root of the radius apart
+        if apart < 1e-7 * (1.0 + norm(start)) {
+            return Some((samples, turned));
+        }
+        if turn == MOST_TURNS {
+            return None;
+        }
+    }
+    None
+}
+
+/// The term of power −k/w, times its size on the circle.
+fn coefficient(samples: &[Vec<C>], winding: usize, k: usize) -> Vec<C> {
+    let mut sum = vec![C::new(0.0, 0.0); samples[0].len()];
+    for (j, sample) in samples.iter().enumerate() {
+        let phi = TAU * (j * k) as f64 / (SAMPLES * winding) as f64;
+        let factor = C::new(phi.cos(), phi.sin()) / samples.len() as f64;
+        for (sum, x) in sum.iter_mut().zip(sample) {
+            *sum += factor * x;
+        }
+    }
+    sum
+}
+
+fn norm(x: &[C]) -> f64 {
+    x.iter().map(|z| z.norm_sqr()).fold(0.0, f64::max).sqrt()
+}
