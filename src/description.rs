@@ -38,52 +38,82 @@ pub struct Draft {
     pub description: Description,
     /// What is wrong with the form of the file, in the order of the text.
     pub problems: Vec<Problem>,
-    /// Names whose definitions have one of these problems.
-    broken: HashSet<String>,
+    /// Names whose definitions have one of these problems: what they stand for is not known.
+    pub doubtful: HashSet<String>,
 }
 
 impl Draft {
     /// Reads the text of a mechanism file as far as possible; nothing of a text without any structure.
     pub fn read(text: &str) -> Result<Self, Vec<Problem>> {
-        let (description, mut problems, mut broken) = reader::read(text);
+        let (description, mut problems, mut doubtful) = reader::read(text);
         if let Some(description) = &description {
             checks::check(description, &mut problems);
         }
         let names = problems.iter().filter_map(|problem| match &problem.kind {
-            ProblemKind::NotAName { name, .. } | ProblemKind::DottedName { name, .. } => {
-                Some(name.clone())
-            }
+            ProblemKind::NotAName { name, .. }
+            | ProblemKind::DottedName { name, .. }
+            | ProblemKind::DuplicateName { name, .. } => Some(name.clone()),
             _ => None,
         });
-        broken.extend(names);
+        doubtful.extend(names);
         problems.sort_by_key(|problem| (problem.span.start, problem.span.end));
         match description {
             Some(description) => Ok(Draft {
                 description,
                 problems,
-                broken,
+                doubtful,
             }),
             None => Err(problems),
         }
     }
 
     /// Whether a problem with the meaning may be there only because a part could not be read: a name whose
-    /// definition, or all definitions of its kind, have a problem of form.
+    /// definition, or the map that holds it, has a problem of form.
     pub fn explains(&self, problem: &Problem) -> bool {
-        let file = &self.description;
+        let doubtful = |name: &str| self.doubtful.contains(name);
         match &problem.kind {
             ProblemKind::UnknownName { name, .. } => {
-                self.broken.contains(name) || file.parameters.is_empty() || file.joints.is_empty()
+                let nouns = [Noun::Parameter, Noun::Joint, Noun::LocalName];
+                doubtful(name) || nouns.into_iter().any(|noun| self.lost(noun))
             }
             ProblemKind::UnknownFrame { name, .. } => {
-                let parts = name.split('.').chain([name.as_str()]);
-                parts.into_iter().any(|part| self.broken.contains(part))
-                    || (file.chains.is_empty() && file.platforms.is_empty())
+                let mut parts = name.split('.').chain([name.as_str()]);
+                let nouns = [Noun::Chain, Noun::Platform];
+                parts.any(doubtful) || nouns.into_iter().any(|noun| self.lost(noun))
             }
-            ProblemKind::NoSuchLink { chain, .. } => self.broken.contains(chain),
+            // unreadable rows are counted; only where none are may there be more
+            ProblemKind::NoSuchLink { chain, rows, .. } => {
+                doubtful(chain) && (*rows == 0 || self.is_double(chain))
+            }
+            ProblemKind::DefinitionCycle { names, .. } | ProblemKind::ChainCycle { names } => {
+                names.iter().any(|name| self.is_double(name))
+            }
             ProblemKind::NothingToAnalyse => true,
             _ => false,
         }
+    }
+
+    fn is_double(&self, wanted: &str) -> bool {
+        let double = |problem: &Problem| match &problem.kind {
+            ProblemKind::DuplicateName { name, .. } => name == wanted,
+            _ => false,
+        };
+        self.problems.iter().any(double)
+    }
+
+    /// Whether there may be names of a kind that were not read.
+    fn lost(&self, noun: Noun) -> bool {
+        self.problems.iter().any(|problem| match &problem.kind {
+            ProblemKind::WrongType { expected, .. } => {
+                *expected == Expected::MapOf(noun) || *expected == Expected::NameOf(noun)
+            }
+            ProblemKind::UnknownField { structure, .. } => match noun {
+                Noun::LocalName => *structure == Structure::ClosedForm,
+                _ => *structure == Structure::Mechanism,
+            },
+            ProblemKind::DuplicateField { .. } | ProblemKind::Syntax { .. } => true,
+            _ => false,
+        })
     }
 }
 
