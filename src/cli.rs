@@ -4,6 +4,7 @@ mod asked;
 mod check;
 mod compare;
 mod mobility;
+mod progress;
 mod solve;
 mod source;
 mod statics;
@@ -23,8 +24,8 @@ struct Arguments {
     command: Command,
 }
 
-const EXIT_CODES: &str =
-    "Exit codes: 0 answered yes, 1 answered no, 2 wrong file, question or machine.";
+const EXIT_CODES: &str = "Exit codes: 0 answered yes, 1 answered no, 2 wrong file, question or machine.\n\
+     Answers go to stdout, as text or JSON; with exit code 2 there is none, and stderr says why, always as text.";
 
 #[derive(Subcommand)]
 enum Command {

@@ -74,12 +74,13 @@ impl Draft {
         match &problem.kind {
             ProblemKind::UnknownName { name, .. } => {
                 let nouns = [Noun::Parameter, Noun::Joint, Noun::LocalName];
-                doubtful(name) || nouns.into_iter().any(|noun| self.lost(noun))
+                doubtful(name) || nouns.into_iter().any(|noun| self.lost(noun, name))
             }
             ProblemKind::UnknownFrame { name, .. } => {
+                let owner = name.split('.').next().unwrap_or(name);
                 let mut parts = name.split('.').chain([name.as_str()]);
                 let nouns = [Noun::Chain, Noun::Platform];
-                parts.any(doubtful) || nouns.into_iter().any(|noun| self.lost(noun))
+                parts.any(doubtful) || nouns.into_iter().any(|noun| self.lost(noun, owner))
             }
             // unreadable rows are counted; only where none are may there be more
             ProblemKind::NoSuchLink { chain, rows, .. } => {
@@ -101,12 +102,13 @@ impl Draft {
         self.problems.iter().any(double)
     }
 
-    /// Whether there may be names of a kind that were not read.
-    fn lost(&self, noun: Noun) -> bool {
+    /// Whether a name of a kind may have been given where it was not read.
+    fn lost(&self, noun: Noun, wanted: &str) -> bool {
         self.problems.iter().any(|problem| match &problem.kind {
-            ProblemKind::WrongType { expected, .. } => {
-                *expected == Expected::MapOf(noun) || *expected == Expected::NameOf(noun)
-            }
+            ProblemKind::WrongType { expected, found } => match found {
+                Found::Word(word) if *expected == Expected::NameOf(noun) => word == wanted,
+                _ => *expected == Expected::MapOf(noun),
+            },
             ProblemKind::UnknownField { structure, .. } => match noun {
                 Noun::LocalName => *structure == Structure::ClosedForm,
                 _ => *structure == Structure::Mechanism,

@@ -108,10 +108,7 @@ impl Mechanism {
         Mechanism::build(description, &HashSet::new())
     }
 
-    fn build(
-        description: &Description,
-        doubtful: &HashSet<String>,
-    ) -> Result<Self, Vec<Problem>> {
+    fn build(description: &Description, doubtful: &HashSet<String>) -> Result<Self, Vec<Problem>> {
         let mut builder = Builder {
             names: Names::new(description),
             problems: Vec::new(),

@@ -67,8 +67,8 @@ impl Builder<'_> {
             identities.extend(formula.map(|formula| (name.value.clone(), formula)));
         }
         let of = form.of.as_ref().map(|frame| self.frame(frame));
-        let relative_to = (form.relative_to.as_ref())
-            .map_or(Some(Frame::Ground), |frame| self.frame(frame));
+        let relative_to =
+            (form.relative_to.as_ref()).map_or(Some(Frame::Ground), |frame| self.frame(frame));
 
         let (order, complete) = self.order(Noun::LocalName, &form.locals, &indices);
         let formulas: Vec<Formula> = formulas.into_iter().collect::<Option<_>>()?;
