@@ -209,7 +209,16 @@ impl Builder<'_> {
             Ok(value) => Some(value),
             Err(error) => {
                 let problem = ProblemKind::NoValue(error.kind).at(error.span);
-                self.problems.push(problem);
+                // a divisor stands in the constant and in every coefficient of an entry
+                let known = self
+                    .problems
+                    .iter()
+                    .rev()
+                    .take(8)
+                    .any(|last| *last == problem);
+                if !known {
+                    self.problems.push(problem);
+                }
                 None
             }
         }

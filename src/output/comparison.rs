@@ -3,7 +3,7 @@
 use comfy_table::{CellAlignment, Table, presets};
 
 use super::json::document;
-use super::quantity::size;
+use super::quantity::{number, size};
 use crate::analysis::compare::{
     CompareReport, ComponentReport, FormReport, Quantity, Verdict, WorstSample,
 };
@@ -75,7 +75,12 @@ fn largest(form: &FormReport) -> String {
         let tried = form.components.iter();
         let tried = tried.filter(|c| c.samples > 0 && c.quantity == quantity);
         let largest = tried.map(|c| c.max_difference).reduce(f64::max)?;
-        Some(format!("{}{}", size(largest), unit(quantity)))
+        let place = if quantity == Quantity::Rotation {
+            " in R"
+        } else {
+            ""
+        };
+        Some(format!("{}{}{place}", size(largest), unit(quantity)))
     };
     let parts: Vec<String> = QUANTITIES.into_iter().filter_map(of).collect();
     match parts.is_empty() {
@@ -93,14 +98,14 @@ fn units(report: &CompareReport) -> String {
     };
     let mut said = Vec::new();
     if tried(Quantity::Rotation) {
-        said.push("of rotation entries have no unit");
+        said.push("in R, of rotation entries, have no unit");
     }
     if tried(Quantity::Identity) {
         said.push("of identities have the unit of their formula");
     }
     match said.is_empty() {
         true => String::new(),
-        false => format!("\nDifferences {}.\n", said.join(", ")),
+        false => format!("\nDifferences {}.\n", said.join("; those ")),
     }
 }
 
@@ -143,7 +148,7 @@ fn remark(mechanism: &Mechanism, form: &FormReport, component: &ComponentReport)
         let unit = unit(*quantity);
         text += &format!(
             "\n{form}, {name}: differs by up to {}{unit}.\n",
-            size(*max_difference)
+            number(*max_difference)
         );
         text += &match quantity {
             Quantity::Identity => format!("  it is {:.6}, not zero, ", worst.closed_form),

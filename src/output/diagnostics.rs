@@ -9,7 +9,7 @@ use annotate_snippets::{AnnotationKind, Group, Level, Renderer, Snippet};
 use crate::description::{FileError, Lines, Problem, Severity, count};
 
 /// Of longer lines only a part is shown: nobody could read them, and laying them out takes long.
-const MAX_WIDTH: usize = 400;
+const MAX_WIDTH: usize = 2000;
 
 /// How many characters of a cut line are shown before the offending text, and from its beginning on.
 const BEFORE: usize = 40;
@@ -200,38 +200,29 @@ mod tests {
     fn of_a_long_line_the_part_around_the_offending_text_is_shown() {
         let many: String = (0..200).map(|i| format!("\"θ{i}\": {i}, ")).collect();
         let text = format!(
-            r#"Mechanism(version: 1, name: "x", parameters: {{ {many}"r": "1 + nothing", {many} }})"#
+            r#"Mechanism(version: 1, name: "x", parameters: {{ {many}"t": "1 + nothing", "u": 1, "v": 2, "w": "a text longer than what is shown" }})"#
         );
-        let text = text
-            .replacen("\"θ0\"", "\"s\"", 1)
-            .replace("\"r\"", "\"t\"");
         let shown = shown(&text);
         let lines: Vec<&str> = shown.lines().collect();
-        let at = lines
-            .iter()
-            .position(|line| line.contains("1 + nothing"))
-            .unwrap();
+        let at = (lines.iter().position(|line| line.contains("1 + nothing"))).unwrap();
         assert!(
-            lines[at].contains("…\"θ196\": 196, ") || lines[at].contains('…'),
+            lines[at].contains("| …") && lines[at].ends_with('…'),
             "{shown}"
         );
-        assert!(lines[at].chars().count() < 120);
-        let (column, end) = (
-            lines[at].find("nothing").unwrap(),
-            lines[at + 1].rfind("not known"),
-        );
-        let before = lines[at][..column].chars().count();
-        let underscore = lines[at + 1].find("^^^^^^^").unwrap();
-        assert_eq!(underscore, before, "{shown}");
-        assert!(
-            end.is_some() && shown.contains("= note: at x.ron:1:"),
+        assert!(lines[at].chars().count() < 120, "{shown}");
+        let before = lines[at].find("nothing").unwrap();
+        let column = lines[at][..before].chars().count();
+        assert_eq!(
+            lines[at + 1].find("^^^^^^^ not known"),
+            Some(column),
             "{shown}"
         );
+        assert!(shown.contains("= note: at x.ron:1:"), "{shown}");
     }
 
     #[test]
     fn text_that_begins_or_ends_with_a_long_line_is_not_cut_there() {
-        let text = format!("Mechanismus(version: 1, name: \"{}\")", "x".repeat(500));
+        let text = format!("Mechanismus(version: 1, name: \"{}\")", "x".repeat(2500));
         let shown = shown(&text);
         assert!(shown.contains("1 | Mechanismus(version"), "{shown}");
         assert!(shown.contains("xxx…"), "{shown}");
@@ -241,6 +232,6 @@ mod tests {
     fn a_file_of_white_space_is_named_and_nothing_of_it_drawn() {
         let shown = shown("   \n\n \n");
         assert!(shown.contains("the file is empty") && shown.contains("= note: in x.ron"));
-        assert!(!shown.contains('^') && !shown.contains('|'), "{shown}");
+        assert!(!shown.contains('^') && !shown.contains("1 |"), "{shown}");
     }
 }

@@ -25,7 +25,7 @@ pub fn complaint(error: &QuestionError) -> (Complaint, Part) {
         }
         QuestionError::Value { text, error, .. } => value(text, error),
         QuestionError::Contradiction { first, second } => {
-            let [first, second] = [first, second].map(|demand| option(demand));
+            let [first, second] = [first, second].map(option);
             let title = format!("{first} and {second} contradict one another");
             let help = Some("give only one of them".to_owned());
             (said(title, "", help), Part::Name)
