@@ -42,7 +42,7 @@ enum Command {
 enum Format {
     /// To be read by people.
     Text,
-    /// To be read by programs: metres and radians with all digits.
+    /// To be read by programs: metres and radians with all digits. Where there is no answer, stderr says why as text.
     Json,
 }
 

@@ -40,6 +40,10 @@ pub struct Draft {
     pub problems: Vec<Problem>,
     /// Names whose definitions have one of these problems: what they stand for is not known.
     pub doubtful: HashSet<String>,
+    /// Names given twice.
+    double: HashSet<String>,
+    /// Kinds of names of which some may have been given where they were not read.
+    lost: HashSet<Noun>,
 }
 
 impl Draft {
@@ -49,19 +53,35 @@ impl Draft {
         if let Some(description) = &description {
             checks::check(description, &mut problems);
         }
-        let names = problems.iter().filter_map(|problem| match &problem.kind {
-            ProblemKind::NotAName { name, .. }
-            | ProblemKind::DottedName { name, .. }
-            | ProblemKind::DuplicateName { name, .. } => Some(name.clone()),
-            _ => None,
-        });
-        doubtful.extend(names);
+        let mut double = HashSet::new();
+        let mut lost = HashSet::new();
+        for problem in &problems {
+            match &problem.kind {
+                ProblemKind::NotAName { name, .. } | ProblemKind::DottedName { name, .. } => {
+                    doubtful.insert(name.clone());
+                }
+                ProblemKind::DuplicateName { name, .. } => {
+                    doubtful.insert(name.clone());
+                    double.insert(name.clone());
+                }
+                // a name without its quotes
+                ProblemKind::WrongType {
+                    expected: Expected::NameOf(_),
+                    found: Found::Word(word),
+                } => {
+                    doubtful.insert(word.clone());
+                }
+                kind => lost.extend(may_hide(kind)),
+            }
+        }
         problems.sort_by_key(|problem| (problem.span.start, problem.span.end));
         match description {
             Some(description) => Ok(Draft {
                 description,
                 problems,
                 doubtful,
+                double,
+                lost,
             }),
             None => Err(problems),
         }
@@ -74,48 +94,43 @@ impl Draft {
         match &problem.kind {
             ProblemKind::UnknownName { name, .. } => {
                 let nouns = [Noun::Parameter, Noun::Joint, Noun::LocalName];
-                doubtful(name) || nouns.into_iter().any(|noun| self.lost(noun, name))
+                doubtful(name) || nouns.iter().any(|noun| self.lost.contains(noun))
             }
             ProblemKind::UnknownFrame { name, .. } => {
-                let owner = name.split('.').next().unwrap_or(name);
                 let mut parts = name.split('.').chain([name.as_str()]);
                 let nouns = [Noun::Chain, Noun::Platform];
-                parts.any(doubtful) || nouns.into_iter().any(|noun| self.lost(noun, owner))
+                parts.any(doubtful) || nouns.iter().any(|noun| self.lost.contains(noun))
             }
             // unreadable rows are counted; only where none are may there be more
             ProblemKind::NoSuchLink { chain, rows, .. } => {
-                doubtful(chain) && (*rows == 0 || self.is_double(chain))
+                doubtful(chain) && (*rows == 0 || self.double.contains(chain))
             }
             ProblemKind::DefinitionCycle { names, .. } | ProblemKind::ChainCycle { names } => {
-                names.iter().any(|name| self.is_double(name))
+                names.iter().any(|name| self.double.contains(name))
             }
             ProblemKind::NothingToAnalyse => true,
             _ => false,
         }
     }
+}
 
-    fn is_double(&self, wanted: &str) -> bool {
-        let double = |problem: &Problem| match &problem.kind {
-            ProblemKind::DuplicateName { name, .. } => name == wanted,
-            _ => false,
-        };
-        self.problems.iter().any(double)
-    }
-
-    /// Whether a name of a kind may have been given where it was not read.
-    fn lost(&self, noun: Noun, wanted: &str) -> bool {
-        self.problems.iter().any(|problem| match &problem.kind {
-            ProblemKind::WrongType { expected, found } => match found {
-                Found::Word(word) if *expected == Expected::NameOf(noun) => word == wanted,
-                _ => *expected == Expected::MapOf(noun),
-            },
-            ProblemKind::UnknownField { structure, .. } => match noun {
-                Noun::LocalName => *structure == Structure::ClosedForm,
-                _ => *structure == Structure::Mechanism,
-            },
-            ProblemKind::DuplicateField { .. } | ProblemKind::Syntax { .. } => true,
-            _ => false,
-        })
+/// The kinds of names that a problem of form may have kept from being read.
+fn may_hide(kind: &ProblemKind) -> Vec<Noun> {
+    const MAPS: [Noun; 4] = [Noun::Parameter, Noun::Joint, Noun::Chain, Noun::Platform];
+    match kind {
+        ProblemKind::WrongType {
+            expected: Expected::MapOf(noun),
+            ..
+        } => vec![*noun],
+        ProblemKind::UnknownField { structure, .. } => match structure {
+            Structure::Mechanism => MAPS.to_vec(),
+            Structure::ClosedForm => vec![Noun::LocalName],
+            _ => Vec::new(),
+        },
+        ProblemKind::DuplicateField { .. } | ProblemKind::Syntax { .. } => {
+            [&MAPS[..], &[Noun::LocalName]].concat()
+        }
+        _ => Vec::new(),
     }
 }
 

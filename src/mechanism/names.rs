@@ -163,7 +163,7 @@ pub(super) fn definition_order(uses: &[Vec<usize>]) -> Order {
                         }
                         Mark::Open => {
                             // the search goes on as if the cycle were mended
-                            let first = path.iter().position(|&(d, _)| d == used).unwrap_or(0);
+                            let first = path.iter().rposition(|&(d, _)| d == used).unwrap_or(0);
                             let cycle: Vec<usize> = path.drain(first..).map(|(d, _)| d).collect();
                             cycle.iter().for_each(|&d| marks[d] = Mark::Done);
                             cycles.push(cycle);
