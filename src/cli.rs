@@ -5,6 +5,7 @@ mod assemblies;
 mod check;
 mod compare;
 mod mobility;
+mod progress;
 mod search;
 mod solve;
 mod source;
@@ -25,8 +26,8 @@ struct Arguments {
     command: Command,
 }
 
-const EXIT_CODES: &str =
-    "Exit codes: 0 answered yes, 1 answered no, 2 wrong file, question or machine.";
+const EXIT_CODES: &str = "Exit codes: 0 answered yes, 1 answered no, 2 wrong file, question or machine.\n\
+     Answers go to stdout, as text or JSON; with exit code 2 there is none, and stderr says why, always as text.";
 
 #[derive(Subcommand)]
 enum Command {
@@ -44,7 +45,7 @@ enum Command {
 enum Format {
     /// To be read by people.
     Text,
-    /// To be read by programs: metres and radians with all digits.
+    /// To be read by programs: metres and radians with all digits. Where there is no answer, stderr says why as text.
     Json,
 }
 

@@ -38,52 +38,99 @@ pub struct Draft {
     pub description: Description,
     /// What is wrong with the form of the file, in the order of the text.
     pub problems: Vec<Problem>,
-    /// Names whose definitions have one of these problems.
-    broken: HashSet<String>,
+    /// Names whose definitions have one of these problems: what they stand for is not known.
+    pub doubtful: HashSet<String>,
+    /// Names given twice.
+    double: HashSet<String>,
+    /// Kinds of names of which some may have been given where they were not read.
+    lost: HashSet<Noun>,
 }
 
 impl Draft {
     /// Reads the text of a mechanism file as far as possible; nothing of a text without any structure.
     pub fn read(text: &str) -> Result<Self, Vec<Problem>> {
-        let (description, mut problems, mut broken) = reader::read(text);
+        let (description, mut problems, mut doubtful) = reader::read(text);
         if let Some(description) = &description {
             checks::check(description, &mut problems);
         }
-        let names = problems.iter().filter_map(|problem| match &problem.kind {
-            ProblemKind::NotAName { name, .. } | ProblemKind::DottedName { name, .. } => {
-                Some(name.clone())
+        let mut double = HashSet::new();
+        let mut lost = HashSet::new();
+        for problem in &problems {
+            match &problem.kind {
+                ProblemKind::NotAName { name, .. } | ProblemKind::DottedName { name, .. } => {
+                    doubtful.insert(name.clone());
+                }
+                ProblemKind::DuplicateName { name, .. } => {
+                    doubtful.insert(name.clone());
+                    double.insert(name.clone());
+                }
+                // a name without its quotes
+                ProblemKind::WrongType {
+                    expected: Expected::NameOf(_),
+                    found: Found::Word(word),
+                } => {
+                    doubtful.insert(word.clone());
+                }
+                kind => lost.extend(may_hide(kind)),
             }
-            _ => None,
-        });
-        broken.extend(names);
+        }
         problems.sort_by_key(|problem| (problem.span.start, problem.span.end));
         match description {
             Some(description) => Ok(Draft {
                 description,
                 problems,
-                broken,
+                doubtful,
+                double,
+                lost,
             }),
             None => Err(problems),
         }
     }
 
     /// Whether a problem with the meaning may be there only because a part could not be read: a name whose
-    /// definition, or all definitions of its kind, have a problem of form.
+    /// definition, or the map that holds it, has a problem of form.
     pub fn explains(&self, problem: &Problem) -> bool {
-        let file = &self.description;
+        let doubtful = |name: &str| self.doubtful.contains(name);
         match &problem.kind {
             ProblemKind::UnknownName { name, .. } => {
-                self.broken.contains(name) || file.parameters.is_empty() || file.joints.is_empty()
+                let nouns = [Noun::Parameter, Noun::Joint, Noun::LocalName];
+                doubtful(name) || nouns.iter().any(|noun| self.lost.contains(noun))
             }
             ProblemKind::UnknownFrame { name, .. } => {
-                let parts = name.split('.').chain([name.as_str()]);
-                parts.into_iter().any(|part| self.broken.contains(part))
-                    || (file.chains.is_empty() && file.platforms.is_empty())
+                let mut parts = name.split('.').chain([name.as_str()]);
+                let nouns = [Noun::Chain, Noun::Platform];
+                parts.any(doubtful) || nouns.iter().any(|noun| self.lost.contains(noun))
             }
-            ProblemKind::NoSuchLink { chain, .. } => self.broken.contains(chain),
+            // unreadable rows are counted; only where none are may there be more
+            ProblemKind::NoSuchLink { chain, rows, .. } => {
+                doubtful(chain) && (*rows == 0 || self.double.contains(chain))
+            }
+            ProblemKind::DefinitionCycle { names, .. } | ProblemKind::ChainCycle { names } => {
+                names.iter().any(|name| self.double.contains(name))
+            }
             ProblemKind::NothingToAnalyse => true,
             _ => false,
         }
+    }
+}
+
+/// The kinds of names that a problem of form may have kept from being read.
+fn may_hide(kind: &ProblemKind) -> Vec<Noun> {
+    const MAPS: [Noun; 4] = [Noun::Parameter, Noun::Joint, Noun::Chain, Noun::Platform];
+    match kind {
+        ProblemKind::WrongType {
+            expected: Expected::MapOf(noun),
+            ..
+        } => vec![*noun],
+        ProblemKind::UnknownField { structure, .. } => match structure {
+            Structure::Mechanism => MAPS.to_vec(),
+            Structure::ClosedForm => vec![Noun::LocalName],
+            _ => Vec::new(),
+        },
+        ProblemKind::DuplicateField { .. } | ProblemKind::Syntax { .. } => {
+            [&MAPS[..], &[Noun::LocalName]].concat()
+        }
+        _ => Vec::new(),
     }
 }
 

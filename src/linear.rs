@@ -82,7 +82,7 @@ impl Spectrum {
         }
         let svd = matrix.svd(false, true);
         let values: Vec<f64> = svd.singular_values.iter().copied().collect();
-        let v_transposed = svd.v_t.expect("V was asked for");
+        let v_transposed = svd.v_t.expect("the decomposition was asked to compute V");
         let null = rank(&values)..columns;
         Spectrum {
             null_space: null

@@ -4,6 +4,7 @@
 
 mod closing;
 mod count;
+mod demand;
 mod displacement;
 mod drive;
 mod equations;
@@ -25,6 +26,7 @@ mod words;
 
 pub use closing::{Analysed, Closed, NotClosed, WidestGap, close, fit, too_large};
 pub use count::{Count, check_angles, check_count};
+pub use demand::{Demand, Verb};
 pub use drive::{Drive, DriveError};
 pub use equations::{ClosureWrenches, System, Work};
 pub use freedom::{Freedoms, Holdable, Mobility};

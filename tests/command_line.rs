@@ -579,3 +579,76 @@ fn stored_solutions_are_used_again_and_a_wrong_store_is_refused() {
     std::fs::write(store, "nonsense").unwrap();
     assert!(refusal(&arguments).contains("does not hold stored solutions"));
 }
+
+#[test]
+fn options_that_contradict_one_another_are_refused() {
+    let platform = |more: &[&str]| refusal(&[&["solve", THREE_RPS], more].concat());
+    for (options, named) in [
+        (
+            &["--hold", "l1=0.7", "--hold", "l1=0.8"][..],
+            "`--hold l1=0.7` and `--hold l1=0.8`",
+        ),
+        (
+            &["--hold", "l1=0.7", "--free", "l1"],
+            "`--free l1` and `--hold l1=0.7`",
+        ),
+        (
+            &["--guess", "phi1=1", "--guess", "phi1=2"],
+            "`--guess phi1=1` and `--guess phi1=2`",
+        ),
+        (
+            &["--hold", "top=[Tz(0.5)]", "--hold", "top.z=0.5"],
+            "`--hold 'top=[Tz(0.5)]'` and `--hold top.z=0.5`",
+        ),
+        (
+            &["--set", "a=2", "--set", "a=3"],
+            "`--set a=2` and `--set a=3`",
+        ),
+    ] {
+        let said = platform(options);
+        let wanted = format!("error: {named} contradict one another");
+        assert!(said.contains(&wanted), "{said}");
+    }
+    answer(&[
+        "solve", THREE_RPS, "--free", "actuated", "--hold", "l1=0.7", "--hold", "l2=0.7", "--hold",
+        "l3=0.7",
+    ]);
+}
+
+#[test]
+fn what_is_held_too_much_is_named_for_whole_poses_too() {
+    let said = refusal(&[
+        "solve",
+        THREE_RPS,
+        "--free",
+        "actuated",
+        "--hold",
+        "top=[Tz(0.5)]",
+    ]);
+    assert!(said.contains("do not hold top."), "{said}");
+}
+
+#[test]
+fn a_joint_used_nowhere_is_neither_hinge_nor_slide() {
+    let file = tempfile::NamedTempFile::new().unwrap();
+    let text = r#"Mechanism(version: 1, name: "arm", convention: Modified,
+        joints: { "q": Actuated(), "idle": Passive(home: 0.5) },
+        chains: { "c": Chain(rows: [(theta: "q")]) })"#;
+    std::fs::write(&file, text).unwrap();
+    let path = file.path().to_str().unwrap();
+    let shown = answer(&["check", path]);
+    let line = shown
+        .lines()
+        .find(|line| line.trim().starts_with("idle"))
+        .unwrap();
+    let words: Vec<&str> = line.split_whitespace().collect();
+    assert_eq!(words, ["idle", "unused", "passive", "0.5", "none"]);
+    let joints = &json(&["check", path])["joints"];
+    assert_eq!(joints[0]["unit"], "rad");
+    assert!(joints[1]["unit"].is_null());
+    let said = stderr(&run(&["check", path]));
+    assert!(
+        said.contains("uses the joint `idle`") && !said.contains("feels"),
+        "{said}"
+    );
+}

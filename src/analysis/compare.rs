@@ -3,8 +3,6 @@
 mod formula;
 mod samples;
 
-use rand::SeedableRng;
-use rand_pcg::Pcg64Mcg;
 use serde::{Serialize, Serializer};
 
 use crate::geometry::Pose;
@@ -143,19 +141,51 @@ fn as_map<S: Serializer>(values: &[(String, f64)], serializer: S) -> Result<S::O
 /// identities, and poses that depend on where a platform is, at the configurations the mechanism
 /// assembles to when the actuated joints are given random values.
 pub fn compare(mechanism: &Mechanism, settings: &CompareSettings) -> CompareReport {
-    let mut rng = Pcg64Mcg::seed_from_u64(settings.seed);
-    let forms = mechanism.closed_forms();
-    let needs_assembly = forms.iter().any(|form| must_be_assembled(mechanism, form));
-    let samples = Samples::new(mechanism, settings.samples, needs_assembly, &mut rng);
+    compare_watched(mechanism, settings, &mut |_| {})
+}
+
+/// The same, telling `watch` after every sample which part of the work is done, from 0 to 1.
+pub fn compare_watched(
+    mechanism: &Mechanism,
+    settings: &CompareSettings,
+    watch: &mut dyn FnMut(f64),
+) -> CompareReport {
+    let mut forms: Vec<Checked> = mechanism.closed_forms().iter().map(Checked::new).collect();
+    let (mut closed, mut open): (Vec<&mut Checked>, Vec<&mut Checked>) =
+        (forms.iter_mut()).partition(|checked| must_be_assembled(mechanism, checked.form));
+    let mut samples = Samples::new(mechanism, settings.samples, settings.seed);
+    let passes = 1 + usize::from(!closed.is_empty());
+    let total = (settings.samples.saturating_add(1) as f64) * passes as f64;
+    let mut done = 0.0;
+    samples.anywhere(&mut |at| {
+        open.iter_mut()
+            .for_each(|checked| checked.add(mechanism, at));
+        done += 1.0;
+        watch(f64::min(done / total, 1.0));
+    });
+    let mut not_assembled = 0;
+    if !closed.is_empty() {
+        samples.assembled(settings.seed, &mut |found| {
+            match found {
+                Some(at) => closed
+                    .iter_mut()
+                    .for_each(|checked| checked.add(mechanism, at)),
+                None => not_assembled += 1,
+            }
+            done += 1.0;
+            watch(f64::min(done / total, 1.0));
+        });
+    }
+    let home_assembles = samples.home_assembles();
     let closed_forms: Vec<FormReport> = forms
-        .iter()
-        .map(|form| check(mechanism, form, &samples, settings.tolerance))
+        .into_iter()
+        .map(|checked| checked.report(mechanism, settings.tolerance))
         .collect();
     CompareReport {
         agree: closed_forms.iter().all(|form| form.agree),
         closed_forms,
-        home_assembles: samples.home_assembles,
-        not_assembled: samples.not_assembled,
+        home_assembles,
+        not_assembled,
         seed: settings.seed,
         tolerance: settings.tolerance,
     }
@@ -174,8 +204,8 @@ fn must_be_assembled(mechanism: &Mechanism, form: &ClosedForm) -> bool {
 /// One component while it is being checked.
 struct Check {
     report: ComponentReport,
-    /// The sample of `report.worst`.
-    worst: Option<usize>,
+    /// The joint values of `report.worst`.
+    worst: Vec<f64>,
 }
 
 impl Check {
@@ -191,12 +221,12 @@ impl Check {
                 without_value: 0,
                 worst: None,
             },
-            worst: None,
+            worst: Vec::new(),
         }
     }
 
     /// Takes note of what form and chains give at a sample, and the size it is compared with.
-    fn add(&mut self, sample: usize, closed_form: f64, chains: f64, size: f64) {
+    fn add(&mut self, joints: &[f64], closed_form: f64, chains: f64, size: f64) {
         let difference = (closed_form - chains).abs();
         let relative = if difference == 0.0 {
             0.0
@@ -206,9 +236,9 @@ impl Check {
         let report = &mut self.report;
         report.samples += 1;
         report.relative = report.relative.max(relative);
-        if self.worst.is_none() || difference > report.max_difference {
+        if report.worst.is_none() || difference > report.max_difference {
             report.max_difference = difference;
-            self.worst = Some(sample);
+            self.worst = joints.to_vec();
             report.worst = Some(WorstSample {
                 joints: Vec::new(),
                 closed_form,
@@ -218,57 +248,60 @@ impl Check {
     }
 }
 
-fn check(
-    mechanism: &Mechanism,
-    form: &ClosedForm,
-    samples: &Samples,
-    tolerance: f64,
-) -> FormReport {
-    let configurations = match must_be_assembled(mechanism, form) {
-        true => &samples.assembled,
-        false => &samples.anywhere,
-    };
-    let checks = match &form.gives {
-        Given::Pose {
-            of,
-            relative_to,
-            entries,
-        } => {
-            let transform = |at: &Configuration<f64>| mechanism.transform(*relative_to, *of, at);
-            let mut checks: Vec<Check> = (entries.iter())
+/// One closed form while it is being checked.
+struct Checked<'a> {
+    form: &'a ClosedForm,
+    checks: Vec<Check>,
+}
+
+impl<'a> Checked<'a> {
+    fn new(form: &'a ClosedForm) -> Self {
+        let checks = match &form.gives {
+            Given::Pose { entries, .. } => (entries.iter())
                 .map(|(entry, _)| Check::new(entry.to_string(), quantity(*entry)))
-                .collect();
-            for (sample, at) in configurations.iter().enumerate() {
-                let values = Values::new(mechanism, form, &at.joints);
-                let pose = transform(at);
-                for (check, (entry, formula)) in checks.iter_mut().zip(entries) {
+                .collect(),
+            Given::Identities(identities) => (identities.iter())
+                .map(|(name, _)| Check::new(name.clone(), Quantity::Identity))
+                .collect(),
+        };
+        Checked { form, checks }
+    }
+
+    /// Compares every component at a configuration.
+    fn add(&mut self, mechanism: &Mechanism, at: &Configuration<f64>) {
+        let (form, joints) = (self.form, &at.joints);
+        match &form.gives {
+            Given::Pose {
+                of,
+                relative_to,
+                entries,
+            } => {
+                let values = Values::new(mechanism, form, joints);
+                let pose = mechanism.transform(*relative_to, *of, at);
+                for (check, (entry, formula)) in self.checks.iter_mut().zip(entries) {
                     let Ok(given) = values.of(formula) else {
                         check.report.without_value += 1;
                         continue;
                     };
                     let (found, natural) = entry_of(*entry, &pose, mechanism);
                     let size = natural.max(given.abs()).max(found.abs());
-                    check.add(sample, given, found, size);
+                    check.add(joints, given, found, size);
                 }
             }
-            checks
-        }
-        Given::Identities(identities) => {
-            let mut checks: Vec<Check> = (identities.iter())
-                .map(|(name, _)| Check::new(name.clone(), Quantity::Identity))
-                .collect();
-            for (sample, at) in configurations.iter().enumerate() {
-                for (check, (_, formula)) in checks.iter_mut().zip(identities) {
-                    match Evaluated::new(mechanism, form, formula, &at.joints) {
-                        Ok(Evaluated { value, size }) => check.add(sample, value, 0.0, size),
+            Given::Identities(identities) => {
+                for (check, (_, formula)) in self.checks.iter_mut().zip(identities) {
+                    match Evaluated::new(mechanism, form, formula, joints) {
+                        Ok(Evaluated { value, size }) => check.add(joints, value, 0.0, size),
                         Err(_) => check.report.without_value += 1,
                     }
                 }
             }
-            checks
         }
-    };
-    report(mechanism, form, checks, configurations, tolerance)
+    }
+
+    fn report(self, mechanism: &Mechanism, tolerance: f64) -> FormReport {
+        report(mechanism, self.form, self.checks, tolerance)
+    }
 }
 
 fn quantity(entry: MatrixEntry) -> Quantity {
@@ -290,7 +323,6 @@ fn report(
     mechanism: &Mechanism,
     form: &ClosedForm,
     mut checks: Vec<Check>,
-    configurations: &[Configuration<f64>],
     tolerance: f64,
 ) -> FormReport {
     for check in &mut checks {
@@ -299,8 +331,7 @@ fn report(
         };
         check.report.agree = check.report.relative <= tolerance;
         let names = mechanism.joints().iter().map(|joint| joint.name.clone());
-        let values = check.worst.map(|sample| &configurations[sample].joints);
-        worst.joints = names.zip(values.into_iter().flatten().copied()).collect();
+        worst.joints = names.zip(check.worst.iter().copied()).collect();
     }
     let components: Vec<ComponentReport> = checks.into_iter().map(|check| check.report).collect();
     let disagrees = (components.iter()).any(|c| !c.agree && c.samples > 0);

@@ -3,6 +3,8 @@
 mod count;
 mod loops;
 
+use std::collections::HashSet;
+
 use serde::Serialize;
 
 pub use count::{MobilityCount, PlanarCount};
@@ -58,12 +60,12 @@ pub struct ParameterOverview {
 pub struct JointOverview {
     /// Its name.
     pub name: String,
-    /// `revolute`, `prismatic` or `helical`.
+    /// `revolute`, `prismatic` or `helical`; `unused` if it stands nowhere.
     pub kind: &'static str,
     /// `Actuated` or `Passive`.
     pub role: &'static str,
-    /// Unit of its values: `rad` or `m`.
-    pub unit: &'static str,
+    /// Unit of its values: `rad` or `m`; none if it is unused.
+    pub unit: Option<&'static str>,
     /// Its value in the home configuration.
     pub home: f64,
     /// Lowest and highest value.
@@ -177,7 +179,7 @@ pub fn overview(mechanism: &Mechanism) -> Overview {
                 value: parameter.value,
             })
             .collect(),
-        joints: mechanism.joints().iter().map(joint).collect(),
+        joints: joints(mechanism),
         chains: (mechanism.chains().iter())
             .map(|part| chain(mechanism, part))
             .collect(),
@@ -216,12 +218,29 @@ pub fn overview(mechanism: &Mechanism) -> Overview {
     }
 }
 
-fn joint(joint: &Joint) -> JointOverview {
+fn joints(mechanism: &Mechanism) -> Vec<JointOverview> {
+    let rows = mechanism.chains().iter().flat_map(|chain| &chain.rows);
+    let lengths = mechanism
+        .closures()
+        .iter()
+        .filter_map(|c| c.length.as_ref());
+    let entries = rows.flat_map(|row| [&row.d, &row.theta]).chain(lengths);
+    let used: HashSet<Symbol> = entries
+        .flat_map(|entry| entry.terms.iter().map(|(symbol, _)| *symbol))
+        .collect();
+    let joints = mechanism.joints().iter().enumerate();
+    joints
+        .map(|(i, part)| joint(part, used.contains(&Symbol::Joint(i))))
+        .collect()
+}
+
+fn joint(joint: &Joint, used: bool) -> JointOverview {
+    let unit = if joint.kind.is_angle() { "rad" } else { "m" };
     JointOverview {
         name: joint.name.clone(),
-        kind: joint.kind.word(),
+        kind: if used { joint.kind.word() } else { "unused" },
         role: joint.role.word(),
-        unit: if joint.kind.is_angle() { "rad" } else { "m" },
+        unit: used.then_some(unit),
         home: joint.home,
         limits: joint.limits,
     }

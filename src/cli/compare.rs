@@ -1,9 +1,10 @@
 //! `linkwork compare`
 
 use clap::Args;
-use linkwork::analysis::compare::{CompareSettings, compare};
+use linkwork::analysis::compare::{CompareSettings, compare_watched};
 use linkwork::output::comparison;
 
+use super::progress::Progress;
 use super::source::Source;
 use super::{Answer, Format, Refusal};
 
@@ -35,7 +36,10 @@ impl Compare {
             seed: self.seed,
             ..CompareSettings::default()
         };
-        let report = compare(&loaded.mechanism, &settings);
+        let mut progress = Progress::new();
+        let mut watch = |part: f64| progress.show(part);
+        let report = compare_watched(&loaded.mechanism, &settings, &mut watch);
+        progress.clear();
         Ok(Answer {
             data: match self.format {
                 Format::Text => comparison::text(&loaded.mechanism, &report),

@@ -52,6 +52,30 @@ impl Assignment {
     }
 }
 
+/// Refuses an option that gives two values to one name.
+pub fn once(option: &str, given: &[Assignment]) -> Result<(), Refusal> {
+    for (i, second) in given.iter().enumerate() {
+        if let Some(first) = given[..i].iter().find(|first| first.name == second.name) {
+            let written = |a: &Assignment| format!("`{option} {}={}`", a.name, a.value);
+            let complaint = Complaint {
+                title: format!(
+                    "{} and {} contradict one another",
+                    written(first),
+                    written(second)
+                ),
+                label: String::new(),
+                help: Some("give only one of them".into()),
+            };
+            return Err(Refusal(complaint.render_in(
+                &second.given(option),
+                &Part::Name,
+                style(),
+            )));
+        }
+    }
+    Ok(())
+}
+
 /// A mechanism and the file it comes from.
 pub struct Loaded {
     path: PathBuf,
@@ -68,6 +92,7 @@ impl Source {
                 other => format!("error: {other}\n"),
             })
         })?;
+        once("--set", &self.set)?;
         let mut refused = Vec::new();
         for assignment in &self.set {
             let Assignment { name, value } = assignment;

@@ -6,7 +6,7 @@ use linkwork::output::{closing as analysed, velocity as output};
 use linkwork::system::Drive;
 
 use super::asked::{Asked, driven, frame, refusal};
-use super::source::{Assignment, Source};
+use super::source::{Assignment, Source, once};
 use super::{Answer, Format, Refusal};
 
 /// Find how everything moves when the inputs move: rates, accelerations, Jacobian.
@@ -41,6 +41,8 @@ impl Velocity {
         let loaded = self.source.load()?;
         let mechanism = &loaded.mechanism;
         let question = self.asked.question(mechanism)?;
+        once("--rate", &self.rate)?;
+        once("--acceleration", &self.acceleration)?;
         let mut drive = Drive::still(&question);
         for assignment in &self.rate {
             let Assignment { name, value } = assignment;

@@ -145,7 +145,18 @@ impl Reader {
     }
 
     fn row(&mut self, piece: Piece) -> Option<Row> {
-        let mut fields = self.fields(piece, Structure::Row)?;
+        let Some(mut fields) = self.fields(piece, Structure::Row) else {
+            // it still counts, so that the links behind it keep their numbers
+            let [alpha, a, d, theta] = std::array::from_fn(|_| Entry::absent());
+            let span = piece.span();
+            return Some(Row {
+                alpha,
+                a,
+                d,
+                theta,
+                span,
+            });
+        };
         Some(Row {
             alpha: self.entry_or_zero(&mut fields, "alpha"),
             a: self.entry_or_zero(&mut fields, "a"),

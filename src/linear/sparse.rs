@@ -44,9 +44,9 @@ impl<T: Field + ComplexField> SparseStep<T> for SparseNormal<T> {
         }
         pairs.extend((0..size).map(|i| Pair { row: i, col: i }));
         let (pattern, order) = SymbolicSparseColMat::try_new_from_indices(size, size, &pairs)
-            .expect("every index is below the size");
+            .expect("rows and columns are unknowns, all below the size");
         let analysis = SymbolicLlt::try_new(pattern.as_ref(), Side::Lower)
-            .expect("there is memory for the pattern of the factors");
+            .expect("the pattern is square and its indices fit; only memory could lack");
         SparseNormal {
             size,
             values: Vec::with_capacity(pairs.len()),

@@ -1,12 +1,13 @@
 //! From a well-formed description to a meaningful mechanism, or to all that is wrong with it.
 
 mod closed_form;
+mod closures;
 mod parameters;
 
-use std::collections::HashMap;
+use std::collections::{HashMap, HashSet};
 use std::path::Path;
 
-use super::model::{Chain, Closure, FixedStep, Formula, Joint, JointKind, Platform, Row, Symbol};
+use super::model::{Chain, FixedStep, Formula, Joint, JointKind, Platform, Row, Symbol};
 use super::names::{Names, definition_order};
 use super::{Frame, Mechanism, inspect};
 use crate::algebra::Affine;
@@ -14,13 +15,41 @@ use crate::description::{self, Description, Displacement, Draft, Entry, Named, N
 use crate::description::{FileError, LoadError, Problem, ProblemKind, Scope, Severity};
 use crate::geometry::{Axis, Pose};
 
+/// A chain as far as it could be resolved.
+struct Draughted {
+    name: String,
+    doubtful: bool,
+    on: Option<Frame>,
+    /// Whether it stands, by way of others, on itself.
+    in_ring: bool,
+    convention: description::Convention,
+    base: Vec<FixedStep>,
+    rows: Vec<Option<Row>>,
+    tip: Vec<FixedStep>,
+}
+
+impl Draughted {
+    /// The chain, if all of it could be resolved.
+    fn finished(self) -> Option<Chain> {
+        Some(Chain {
+            name: self.name,
+            on: self.on?,
+            convention: self.convention,
+            base: self.base,
+            rows: self.rows.into_iter().collect::<Option<_>>()?,
+            tip: self.tip,
+        })
+    }
+}
+
 /// Collects problems while parts are resolved; a part with a problem is left out.
 pub(super) struct Builder<'a> {
     pub names: Names<'a>,
     pub problems: Vec<Problem>,
+    /// The values of the parameters; NaN where one is not known.
     pub values: Vec<f64>,
-    /// Whether all parameters have values: without, every dimension would be wrong for the same reason again.
-    values_known: bool,
+    /// Names that may stand for something else than they seem to; what uses them is not judged.
+    doubtful: &'a HashSet<String>,
 }
 
 impl Mechanism {
@@ -61,7 +90,7 @@ impl Mechanism {
             Err(problems) => return problems,
         };
         let mut problems = draft.problems.clone();
-        if let Err(found) = Mechanism::new(&draft.description) {
+        if let Err(found) = Mechanism::build(&draft.description, &draft.doubtful) {
             // warnings of a file that is only partly read may be wrong
             let error = |problem: &Problem| problem.severity() == Severity::Error;
             let new = |problem: &Problem| error(problem) && !draft.explains(problem);
@@ -76,25 +105,32 @@ impl Mechanism {
     ///
     /// All problems are found at once, with their places in the file.
     pub fn new(description: &Description) -> Result<Self, Vec<Problem>> {
+        Mechanism::build(description, &HashSet::new())
+    }
+
+    fn build(description: &Description, doubtful: &HashSet<String>) -> Result<Self, Vec<Problem>> {
         let mut builder = Builder {
             names: Names::new(description),
             problems: Vec::new(),
             values: vec![f64::NAN; description.parameters.len()],
-            values_known: true,
+            doubtful,
         };
         let parameters = builder.parameters(description);
-        builder.values_known = parameters.is_some() && builder.problems.is_empty();
         let joints = builder.joints(description);
         let chains = builder.chains(description);
         let platforms = builder.platforms(description);
-        let closures = builder.closures(description);
+        let closures = builder.closures(description, &chains);
         let closed_forms = builder.closed_forms(description);
+        if description.chains.is_empty() && description.platforms.is_empty() {
+            let problem = ProblemKind::NothingToAnalyse.at(description.name.span.clone());
+            builder.problems.push(problem);
+        }
         let mut mechanism = Mechanism {
             name: description.name.value.clone(),
             source: description.source.as_ref().map(|s| s.value.clone()),
-            parameters: parameters.unwrap_or_default(),
+            parameters,
             joints,
-            chains,
+            chains: chains.into_iter().filter_map(Draughted::finished).collect(),
             platforms,
             closures,
             closed_forms,
@@ -155,9 +191,13 @@ impl Builder<'_> {
         Some((formula, value))
     }
 
-    /// The value of a formula over parameters.
+    /// The value of a formula over parameters; NaN if that of a parameter in it is not known.
     fn value(&mut self, formula: &Formula) -> Option<f64> {
-        if !self.values_known {
+        let unknown = |symbol: &Symbol| match *symbol {
+            Symbol::Parameter(i) => self.values[i].is_nan(),
+            Symbol::Joint(_) | Symbol::Local(_) => false,
+        };
+        if formula.names().any(|(symbol, _)| unknown(symbol)) {
             return Some(f64::NAN);
         }
         let values = &self.values;
@@ -169,7 +209,16 @@ impl Builder<'_> {
             Ok(value) => Some(value),
             Err(error) => {
                 let problem = ProblemKind::NoValue(error.kind).at(error.span);
-                self.problems.push(problem);
+                // a divisor stands in the constant and in every coefficient of an entry
+                let known = self
+                    .problems
+                    .iter()
+                    .rev()
+                    .take(8)
+                    .any(|last| *last == problem);
+                if !known {
+                    self.problems.push(problem);
+                }
                 None
             }
         }
@@ -180,11 +229,11 @@ impl Builder<'_> {
         let formula = self.formula(entry, Scope::ParametersAndJoints, &HashMap::new())?;
         match formula.affine(|symbol| matches!(symbol, Symbol::Joint(_))) {
             Ok(affine) => {
-                self.value(&affine.constant)?;
-                for (_, coefficient) in &affine.terms {
-                    self.value(coefficient)?;
-                }
-                Some(affine)
+                let coefficients = affine.terms.iter().map(|(_, coefficient)| coefficient);
+                let parts: Vec<Option<f64>> = (coefficients.chain([&affine.constant]))
+                    .map(|part| self.value(part))
+                    .collect();
+                parts.iter().all(Option::is_some).then_some(affine)
             }
             Err(refusal) => {
                 self.problems.push(ProblemKind::NotAffine.at(refusal.span));
@@ -252,60 +301,65 @@ impl Builder<'_> {
         steps
     }
 
-    fn frame(&mut self, name: &description::Spanned<String>) -> Frame {
-        self.names.frame(&name.value).unwrap_or_else(|kind| {
-            self.problems.push(kind.at(name.span.clone()));
-            Frame::Ground
-        })
+    fn frame(&mut self, name: &description::Spanned<String>) -> Option<Frame> {
+        let found = self.names.frame(&name.value);
+        found
+            .map_err(|kind| self.problems.push(kind.at(name.span.clone())))
+            .ok()
     }
 
-    fn chains(&mut self, description: &Description) -> Vec<Chain> {
+    fn chains(&mut self, description: &Description) -> Vec<Draughted> {
         let mut chains = Vec::new();
         for Named { name, value } in &description.chains {
             let convention = value
                 .convention
                 .as_ref()
                 .or(description.convention.as_ref());
-            let on = value.on.as_ref().map_or(Frame::Ground, |on| self.frame(on));
+            let on = match &value.on {
+                Some(on) => self.frame(on),
+                None => Some(Frame::Ground),
+            };
             let base = self.fixed(&value.base);
             let mut rows = Vec::new();
             for row in &value.rows {
                 let (alpha, a) = (self.constant(&row.alpha), self.constant(&row.a));
                 let (d, theta) = (self.affine(&row.d), self.affine(&row.theta));
-                if let (Some((alpha, _)), Some((a, _)), Some(d), Some(theta)) = (alpha, a, d, theta)
-                {
-                    let entries = [&row.alpha, &row.a, &row.d, &row.theta];
-                    rows.push(Row {
-                        alpha,
-                        a,
-                        d,
-                        theta,
+                let entries = [&row.alpha, &row.a, &row.d, &row.theta];
+                let whole = || {
+                    Some(Row {
+                        alpha: alpha?.0,
+                        a: a?.0,
+                        d: d?,
+                        theta: theta?,
                         written: entries.map(|entry| entry.expression.to_string()),
-                    });
-                }
+                    })
+                };
+                rows.push(whole());
             }
-            chains.push(Chain {
+            chains.push(Draughted {
+                doubtful: self.doubtful.contains(&name.value),
                 name: name.value.clone(),
                 on,
                 convention: convention.map_or(description::Convention::Modified, |c| c.value),
                 base,
                 rows,
                 tip: self.fixed(&value.tip),
+                in_ring: false,
             });
         }
-        self.check_mounting(description, &chains);
+        self.check_mounting(description, &mut chains);
         chains
     }
 
     /// Chains may stand on one another, but not in a ring.
-    fn check_mounting(&mut self, description: &Description, chains: &[Chain]) {
+    fn check_mounting(&mut self, description: &Description, chains: &mut [Draughted]) {
         let uses: Vec<Vec<usize>> = (chains.iter())
             .map(|chain| match chain.on {
-                Frame::Tip { chain } | Frame::Link { chain, .. } => vec![chain],
+                Some(Frame::Tip { chain } | Frame::Link { chain, .. }) => vec![chain],
                 _ => vec![],
             })
             .collect();
-        if let Err(cycle) = definition_order(&uses) {
+        for cycle in definition_order(&uses).cycles {
             let names = cycle.iter().map(|&i| chains[i].name.clone()).collect();
             let place = |i: usize| {
                 let chain = &description.chains[i];
@@ -319,6 +373,7 @@ impl Builder<'_> {
             let rest = cycle[1..].iter().map(|&i| place(i));
             let problem = rest.fold(problem, |problem, span| problem.with(span, Note::ThenHere));
             self.problems.push(problem);
+            cycle.iter().for_each(|&i| chains[i].in_ring = true);
         }
     }
 
@@ -339,18 +394,5 @@ impl Builder<'_> {
             });
         }
         platforms
-    }
-
-    fn closures(&mut self, description: &Description) -> Vec<Closure> {
-        let mut closures = Vec::new();
-        for Named { name, value } in &description.closures {
-            closures.push(Closure {
-                name: name.value.clone(),
-                kind: value.kind,
-                frames: [0, 1].map(|i| self.frame(&value.frames[i])),
-                length: value.length.as_ref().and_then(|length| self.affine(length)),
-            });
-        }
-        closures
     }
 }

@@ -84,7 +84,8 @@ impl<T: Number> Closure<T> {
         kinematics: &Kinematics<T>,
     ) -> Self {
         let slots = closure.frames.map(|frame| {
-            (kinematics.slot(frame)).expect("the plan was made for the closures' frames")
+            (kinematics.slot(frame))
+                .expect("the kinematics was planned for the frames of all closures")
         });
         let sides = slots.map(|slot| kinematics.movers(slot, &dimensions.joint_scales));
         let platforms = [sides[0].1, sides[1].1];

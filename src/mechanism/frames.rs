@@ -181,7 +181,7 @@ impl Mechanism {
         frames.map(|frame| {
             *kinematics
                 .pose(frame, &placement)
-                .expect("the plan was made for it")
+                .expect("the kinematics was planned for these frames")
         })
     }
 

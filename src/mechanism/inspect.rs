@@ -1,35 +1,16 @@
-//! What is wrong or odd about a mechanism whose names are all resolved.
+//! What is odd about a mechanism that makes sense.
 
 use std::collections::HashSet;
 
-use super::model::{Closure, FixedStep, Formula, Given, Symbol};
+use super::model::{FixedStep, Formula, Given, Symbol};
 use super::{Frame, Mechanism};
-use crate::description::{ClosureKind, Description, Problem, ProblemKind};
+use crate::description::{Description, Problem, ProblemKind};
 
 pub(super) fn inspect(
     mechanism: &Mechanism,
     description: &Description,
     problems: &mut Vec<Problem>,
 ) {
-    if mechanism.chains.is_empty() && mechanism.platforms.is_empty() {
-        problems.push(ProblemKind::NothingToAnalyse.at(description.name.span.clone()));
-    }
-    for (closure, described) in mechanism.closures.iter().zip(&description.closures) {
-        let [a, b] = closure.frames.map(|frame| mechanism.body(frame));
-        if a == b {
-            let kind = ProblemKind::SameBody {
-                closure: closure.name.clone(),
-            };
-            let [first, second] = &described.value.frames;
-            problems.push(kind.at(first.span.start..second.span.end));
-        }
-        inspect_length(
-            mechanism,
-            closure,
-            described.value.length.as_ref(),
-            problems,
-        );
-    }
     for (joint, described) in mechanism.joints.iter().zip(&description.joints) {
         if let Some((low, high)) = joint.limits
             && !joint.allows(joint.home)
@@ -57,29 +38,6 @@ pub(super) fn inspect(
         }
     }
     unused(mechanism, description, problems);
-}
-
-/// A distance that no joint changes has a sign and a size that can be judged now.
-fn inspect_length(
-    mechanism: &Mechanism,
-    closure: &Closure,
-    described: Option<&crate::description::Entry>,
-    problems: &mut Vec<Problem>,
-) {
-    if let (ClosureKind::Distance, Some(length), Some(entry)) =
-        (closure.kind, &closure.length, described)
-        && length.is_constant()
-    {
-        let length = mechanism.constant(&length.constant);
-        if length < 0.0 {
-            problems.push(ProblemKind::NegativeDistance { length }.at(entry.span.clone()));
-        } else if length == 0.0 {
-            let kind = ProblemKind::ZeroDistance {
-                closure: closure.name.clone(),
-            };
-            problems.push(kind.at(entry.span.clone()));
-        }
-    }
 }
 
 fn unused(mechanism: &Mechanism, description: &Description, problems: &mut Vec<Problem>) {

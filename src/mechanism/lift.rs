@@ -13,7 +13,7 @@ use crate::number::Number;
 fn value<T: Number>(formula: &Formula, parameters: &[T]) -> Result<T, EvaluationError> {
     formula.evaluate(&|symbol| match *symbol {
         Symbol::Parameter(i) => parameters[i],
-        Symbol::Joint(_) | Symbol::Local(_) => unreachable!("resolved over parameters only"),
+        Symbol::Joint(_) | Symbol::Local(_) => unreachable!("a dimension is resolved in the scope of parameters, where joints and local names are refused"),
     })
 }
 
@@ -24,7 +24,7 @@ fn linear_form<T: Number>(
     let mut terms = Vec::with_capacity(affine.terms.len());
     for (symbol, coefficient) in &affine.terms {
         let Symbol::Joint(joint) = *symbol else {
-            unreachable!("an entry is affine in joint variables");
+            unreachable!("the terms of an entry were split off for joint variables only");
         };
         let coefficient = value(coefficient, parameters)?;
         if coefficient != T::zero() {

@@ -124,10 +124,17 @@ impl<'a> Names<'a> {
     }
 }
 
-/// The order in which definitions can be evaluated, each after those it uses; or the first cycle.
-///
-/// `uses[i]` are the definitions that definition `i` uses.
-pub(super) fn definition_order(uses: &[Vec<usize>]) -> Result<Vec<usize>, Vec<usize>> {
+/// Definitions in the order in which they can be evaluated, and those that never can.
+#[derive(Debug, PartialEq)]
+pub(super) struct Order {
+    /// Each after those it uses; what is in a cycle is left out.
+    pub order: Vec<usize>,
+    /// The cycles found, no two of which share a definition.
+    pub cycles: Vec<Vec<usize>>,
+}
+
+/// Puts definitions in order; `uses[i]` are those that definition `i` uses.
+pub(super) fn definition_order(uses: &[Vec<usize>]) -> Order {
     #[derive(Clone, Copy, PartialEq)]
     enum Mark {
         New,
@@ -136,6 +143,7 @@ pub(super) fn definition_order(uses: &[Vec<usize>]) -> Result<Vec<usize>, Vec<us
     }
     let mut marks = vec![Mark::New; uses.len()];
     let mut order = Vec::with_capacity(uses.len());
+    let mut cycles = Vec::new();
     for start in 0..uses.len() {
         // depth first, with a stack of its own: a file may hold thousands of definitions in a row
         let mut path: Vec<(usize, usize)> = Vec::new();
@@ -154,8 +162,11 @@ pub(super) fn definition_order(uses: &[Vec<usize>]) -> Result<Vec<usize>, Vec<us
                             path.push((used, 0));
                         }
                         Mark::Open => {
-                            let names = path.iter().map(|&(definition, _)| definition);
-                            return Err(names.skip_while(|&d| d != used).collect());
+                            // the search goes on as if the cycle were mended
+                            let first = path.iter().rposition(|&(d, _)| d == used).unwrap_or(0);
+                            let cycle: Vec<usize> = path.drain(first..).map(|(d, _)| d).collect();
+                            cycle.iter().for_each(|&d| marks[d] = Mark::Done);
+                            cycles.push(cycle);
                         }
                     }
                 }
@@ -167,27 +178,33 @@ pub(super) fn definition_order(uses: &[Vec<usize>]) -> Result<Vec<usize>, Vec<us
             }
         }
     }
-    Ok(order)
+    Order { order, cycles }
 }
 
 #[cfg(test)]
 mod tests {
-    use super::definition_order;
+    use super::{Order, definition_order};
+
+    fn ordered(uses: &[&[usize]]) -> Order {
+        definition_order(&uses.iter().map(|uses| uses.to_vec()).collect::<Vec<_>>())
+    }
 
     #[test]
     fn definitions_come_after_those_they_use() {
-        assert_eq!(
-            definition_order(&[vec![2], vec![], vec![1]]),
-            Ok(vec![1, 2, 0])
-        );
+        let found = ordered(&[&[2], &[], &[1]]);
+        assert_eq!((found.order, found.cycles), (vec![1, 2, 0], vec![]));
     }
 
     #[test]
     fn a_cycle_is_returned_in_its_order() {
-        assert_eq!(
-            definition_order(&[vec![1], vec![2, 3], vec![], vec![1]]),
-            Err(vec![1, 3])
-        );
-        assert_eq!(definition_order(&[vec![0]]), Err(vec![0]));
+        assert_eq!(ordered(&[&[1], &[2, 3], &[], &[1]]).cycles, [vec![1, 3]]);
+        assert_eq!(ordered(&[&[0]]).cycles, [vec![0]]);
+    }
+
+    #[test]
+    fn every_cycle_apart_from_the_others_is_found_and_the_rest_is_ordered() {
+        let found = ordered(&[&[1], &[0, 2], &[3], &[2], &[5, 0], &[]]);
+        assert_eq!(found.cycles, [vec![0, 1], vec![2, 3]]);
+        assert_eq!(found.order, [5, 4]);
     }
 }

@@ -3,6 +3,7 @@
 use comfy_table::{CellAlignment, Table, presets};
 
 use super::json::document;
+use super::quantity::{number, size};
 use crate::analysis::compare::{
     CompareReport, ComponentReport, FormReport, Quantity, Verdict, WorstSample,
 };
@@ -19,6 +20,7 @@ pub fn text(mechanism: &Mechanism, report: &CompareReport) -> String {
         "{name}: closed forms beside the chains\n\n{}\n",
         table(report)
     );
+    text += &units(report);
     for form in &report.closed_forms {
         for component in &form.components {
             text += &remark(mechanism, form, component);
@@ -65,20 +67,46 @@ fn table(report: &CompareReport) -> String {
     table.trim_fmt()
 }
 
-/// The largest difference, with the unit of the component it was found in.
+const QUANTITIES: [Quantity; 3] = [Quantity::Position, Quantity::Rotation, Quantity::Identity];
+
+/// The largest difference of each kind of component, for they have different units.
 fn largest(form: &FormReport) -> String {
-    let tried = form.components.iter().filter(|c| c.samples > 0);
-    let widest = tried.reduce(|a, b| match b.max_difference > a.max_difference {
-        true => b,
-        false => a,
-    });
-    widest.map_or("-".into(), |component| {
-        let unit = unit(component.quantity);
-        match component.max_difference {
-            0.0 => format!("0{unit}"),
-            difference => format!("{difference:.1e}{unit}"),
-        }
-    })
+    let of = |quantity: Quantity| {
+        let tried = form.components.iter();
+        let tried = tried.filter(|c| c.samples > 0 && c.quantity == quantity);
+        let largest = tried.map(|c| c.max_difference).reduce(f64::max)?;
+        let place = if quantity == Quantity::Rotation {
+            " in R"
+        } else {
+            ""
+        };
+        Some(format!("{}{}{place}", size(largest), unit(quantity)))
+    };
+    let parts: Vec<String> = QUANTITIES.into_iter().filter_map(of).collect();
+    match parts.is_empty() {
+        true => "-".into(),
+        false => parts.join(", "),
+    }
+}
+
+/// What the numbers without unit mean, if there are any.
+fn units(report: &CompareReport) -> String {
+    let tried = |quantity| {
+        let components = report.closed_forms.iter().flat_map(|form| &form.components);
+        let mut tried = components.filter(|component| component.samples > 0);
+        tried.any(|component| component.quantity == quantity)
+    };
+    let mut said = Vec::new();
+    if tried(Quantity::Rotation) {
+        said.push("in R, of rotation entries, have no unit");
+    }
+    if tried(Quantity::Identity) {
+        said.push("of identities have the unit of their formula");
+    }
+    match said.is_empty() {
+        true => String::new(),
+        false => format!("\nDifferences {}.\n", said.join("; those ")),
+    }
 }
 
 fn unit(quantity: Quantity) -> &'static str {
@@ -118,7 +146,10 @@ fn remark(mechanism: &Mechanism, form: &FormReport, component: &ComponentReport)
     let mut text = String::new();
     if let Some(worst) = component.worst.as_ref().filter(|_| !component.agree) {
         let unit = unit(*quantity);
-        text += &format!("\n{form}, {name}: differs by up to {max_difference:.6}{unit}.\n");
+        text += &format!(
+            "\n{form}, {name}: differs by up to {}{unit}.\n",
+            number(*max_difference)
+        );
         text += &match quantity {
             Quantity::Identity => format!("  it is {:.6}, not zero, ", worst.closed_form),
             _ => format!(

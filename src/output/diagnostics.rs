@@ -8,8 +8,12 @@ use annotate_snippets::{AnnotationKind, Group, Level, Renderer, Snippet};
 
 use crate::description::{FileError, Lines, Problem, Severity, count};
 
-/// Longer lines are not shown: nobody could read them, and laying them out takes long.
+/// Of longer lines only a part is shown: nobody could read them, and laying them out takes long.
 const MAX_WIDTH: usize = 2000;
+
+/// How many characters of a cut line are shown before the offending text, and from its beginning on.
+const BEFORE: usize = 40;
+const FROM: usize = 60;
 
 /// Whether to use colours.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -65,6 +69,11 @@ fn summary(error: &FileError, hidden: usize) -> String {
     format!("{what} in {}{hidden}", error.path.display())
 }
 
+fn label(problem: &Problem) -> Option<Cow<'static, str>> {
+    let label = Some(problem.kind.label());
+    label.filter(|label| !label.is_empty()).map(Cow::Owned)
+}
+
 struct Page<'a> {
     path: String,
     text: &'a str,
@@ -80,9 +89,21 @@ impl Page<'_> {
         let title = level.primary_title(problem.kind.title());
         let mut group = match self.excerpt(problem) {
             Some(excerpt) => title.element(excerpt),
+            None if self.text.trim().is_empty() => {
+                title.element(Level::NOTE.message(format!("in {}", self.path)))
+            }
             None => {
-                let (line, column) = self.lines.position(problem.span.start);
-                title.element(Level::NOTE.message(format!("at {}:{line}:{column}", self.path)))
+                let at = |what: &str, span: &Range<usize>| {
+                    let (line, column) = self.lines.position(span.start);
+                    Level::NOTE.message(format!("{what}at {}:{line}:{column}", self.path))
+                };
+                let group = title
+                    .element(self.cut(problem))
+                    .element(at("", &problem.span));
+                let related = problem.related.iter();
+                related.fold(group, |group, (span, note)| {
+                    group.element(at(&format!("{}: ", note.label()), span))
+                })
             }
         };
         if let Some(help) = problem.kind.help() {
@@ -101,16 +122,16 @@ impl Page<'_> {
         let last = places().map(|span| self.lines.position(span.end).0).max()?;
         let window = self.lines.start(first)..self.lines.start(last + 1);
         let source = &self.text[window.clone()];
+        if source.trim().is_empty() {
+            return None;
+        }
         if places().any(|span| self.width_at(span) > MAX_WIDTH) {
             return None;
         }
         let within = |span: &Range<usize>| span.start - window.start..span.end - window.start;
-        let label = Some(problem.kind.label())
-            .filter(|label| !label.is_empty())
-            .map(Cow::Owned);
         let main = AnnotationKind::Primary
             .span(within(&problem.span))
-            .label(label);
+            .label(label(problem));
         let related = problem.related.iter().map(|(span, note)| {
             AnnotationKind::Context
                 .span(within(span))
@@ -122,6 +143,35 @@ impl Page<'_> {
         Some(snippet.annotation(main).annotations(related))
     }
 
+    /// What stands around the beginning of the offending text, if its line is too long to be shown. The columns are not
+    /// those of the file, so that the place has to be said beside it.
+    fn cut(&self, problem: &Problem) -> Snippet<'_, annotate_snippets::Annotation<'_>> {
+        let line = self.lines.position(problem.span.start).0;
+        let window = self.lines.start(line)..self.lines.start(line + 1);
+        let start = problem.span.start.clamp(window.start, window.end);
+        let end = problem.span.end.clamp(start, window.end);
+        let (head, tail) = (
+            &self.text[window.start..start],
+            &self.text[start..window.end],
+        );
+        let (head, tail) = (head.trim_start(), tail.trim_end());
+        let skipped = head.chars().count().saturating_sub(BEFORE);
+        let mut source: String = head.chars().skip(skipped).collect();
+        if skipped > 0 {
+            source.insert(0, '…');
+        }
+        let from = source.len();
+        source.extend(tail.chars().take(FROM));
+        let to = source.len().min(from + end - start);
+        if tail.chars().nth(FROM).is_some() {
+            source.push('…');
+        }
+        let annotation = AnnotationKind::Primary.span(from..to).label(label(problem));
+        Snippet::source(source)
+            .line_start(line)
+            .annotation(annotation)
+    }
+
     /// The bytes of all lines that a place touches.
     fn width_at(&self, span: &Range<usize>) -> usize {
         let (first, last) = (
@@ -129,5 +179,59 @@ impl Page<'_> {
             self.lines.position(span.end).0,
         );
         self.lines.start(last + 1) - self.lines.start(first)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::mechanism::Mechanism;
+
+    fn shown(text: &str) -> String {
+        let error = FileError {
+            path: "x.ron".into(),
+            text: text.into(),
+            problems: Mechanism::problems(text),
+        };
+        render(&error, Style::Plain)
+    }
+
+    #[test]
+    fn of_a_long_line_the_part_around_the_offending_text_is_shown() {
+        let many: String = (0..200).map(|i| format!("\"θ{i}\": {i}, ")).collect();
+        let text = format!(
+            r#"Mechanism(version: 1, name: "x", parameters: {{ {many}"t": "1 + nothing", "u": 1, "v": 2, "w": "a text longer than what is shown" }})"#
+        );
+        let shown = shown(&text);
+        let lines: Vec<&str> = shown.lines().collect();
+        let at = (lines.iter().position(|line| line.contains("1 + nothing"))).unwrap();
+        assert!(
+            lines[at].contains("| …") && lines[at].ends_with('…'),
+            "{shown}"
+        );
+        assert!(lines[at].chars().count() < 120, "{shown}");
+        let before = lines[at].find("nothing").unwrap();
+        let column = lines[at][..before].chars().count();
+        assert_eq!(
+            lines[at + 1].find("^^^^^^^ not known"),
+            Some(column),
+            "{shown}"
+        );
+        assert!(shown.contains("= note: at x.ron:1:"), "{shown}");
+    }
+
+    #[test]
+    fn text_that_begins_or_ends_with_a_long_line_is_not_cut_there() {
+        let text = format!("Mechanismus(version: 1, name: \"{}\")", "x".repeat(2500));
+        let shown = shown(&text);
+        assert!(shown.contains("1 | Mechanismus(version"), "{shown}");
+        assert!(shown.contains("xxx…"), "{shown}");
+    }
+
+    #[test]
+    fn a_file_of_white_space_is_named_and_nothing_of_it_drawn() {
+        let shown = shown("   \n\n \n");
+        assert!(shown.contains("the file is empty") && shown.contains("= note: in x.ron"));
+        assert!(!shown.contains('^') && !shown.contains("1 |"), "{shown}");
     }
 }

@@ -10,7 +10,8 @@ pub(super) fn document(mechanism: &str, report: &impl Serialize) -> String {
     let mut object = Map::new();
     object.insert("linkwork".into(), env!("CARGO_PKG_VERSION").into());
     object.insert("mechanism".into(), mechanism.into());
-    let report = serde_json::to_value(report).expect("reports have only text keys");
+    let report = serde_json::to_value(report)
+        .expect("the keys of every map in a report are texts, which alone could fail");
     if let Value::Object(report) = report {
         object.extend(report);
     }

@@ -62,7 +62,10 @@ fn parameters(overview: &Overview) -> String {
 fn joints(overview: &Overview) -> String {
     let mut table = plain(["name", "kind", "role", "home", "limits"]);
     for joint in &overview.joints {
-        let shown = |value| quantity(value, joint.unit == "rad");
+        let shown = |value| match joint.unit {
+            Some(unit) => quantity(value, unit == "rad"),
+            None => number(value),
+        };
         let limits = joint.limits.map_or("none".to_owned(), |(low, high)| {
             format!("{} to {}", shown(low), shown(high))
         });

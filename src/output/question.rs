@@ -4,7 +4,7 @@ use super::option::{Complaint, Part};
 use crate::algebra::Expression;
 use crate::description::{ProblemKind, Scope, listed, nearest};
 use crate::mechanism::Mechanism;
-use crate::system::{DriveError, QuestionError, ValueError};
+use crate::system::{Demand, DriveError, QuestionError, ValueError};
 
 /// What is wrong with a question, and with which part of the option that asked it, if one did.
 pub fn complaint(error: &QuestionError) -> (Complaint, Part) {
@@ -24,6 +24,12 @@ pub fn complaint(error: &QuestionError) -> (Complaint, Part) {
             (said(title, "not a joint", Some(help)), Part::Name)
         }
         QuestionError::Value { text, error, .. } => value(text, error),
+        QuestionError::Contradiction { first, second } => {
+            let [first, second] = [first, second].map(option);
+            let title = format!("{first} and {second} contradict one another");
+            let help = Some("give only one of them".to_owned());
+            (said(title, "", help), Part::Name)
+        }
         QuestionError::TooMany { free, .. } => (said(title, "", Some(release(free))), Part::Name),
         QuestionError::TooFew { hold, .. } => {
             let help = format!(
@@ -92,7 +98,8 @@ fn said(title: String, label: &str, help: Option<String>) -> Complaint {
     }
 }
 
-/// How to stop holding coordinates: joints are freed, platform coordinates are held only by an option.
+/// How to stop holding coordinates: joints are freed, platform coordinates are held only by an option,
+/// of their own or of the whole platform.
 fn release(held: &[String]) -> String {
     let (coordinates, joints): (Vec<String>, Vec<String>) =
         held.iter().cloned().partition(|name| name.contains('.'));
@@ -102,9 +109,18 @@ fn release(held: &[String]) -> String {
         ways.push(format!("free {}: {free}", listed(&joints)));
     }
     if !coordinates.is_empty() {
-        ways.push(format!("leave out --hold {}", listed(&coordinates)));
+        ways.push(format!("do not hold {}", listed(&coordinates)));
     }
     ways.join(" and ")
+}
+
+/// The option that makes a demand: `--hold l1=0.7`.
+fn option(demand: &Demand) -> String {
+    let Demand { verb, name, value } = demand;
+    let value = value
+        .as_ref()
+        .map_or(String::new(), |value| format!("={value}"));
+    format!("`--{} {}`", verb.word(), quoted(&format!("{name}{value}")))
 }
 
 /// `--free l1 --free l2`

@@ -127,7 +127,11 @@ fn heading(mechanism: &Mechanism, report: &AssemblyReport) -> String {
     text.push('\n');
     if report.idle > 0 {
         let idle = count(report.idle, "freedom");
-        let _ = writeln!(text, "  {idle} that only turn links about their own lines");
+        let turn = if report.idle == 1 { "turns" } else { "turn" };
+        let _ = writeln!(
+            text,
+            "  {idle} that only {turn} links about their own lines"
+        );
     }
     text
 }

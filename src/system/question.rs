@@ -1,3 +1,4 @@
+use super::demand::{Demand, Target, Verb};
 use super::equations::System;
 use super::freedom::Holdable;
 use super::layout::{Held, HeldPlatform};
@@ -23,6 +24,8 @@ pub struct Question<'a> {
     guessed_platforms: Vec<bool>,
     changed: bool,
     split_changed: bool,
+    /// What was demanded by name so far.
+    demands: Vec<(Target, Demand)>,
 }
 
 /// Why a question cannot be put.
@@ -43,6 +46,13 @@ pub enum QuestionError {
         text: String,
         /// What is wrong with it.
         error: ValueError,
+    },
+    /// The same joint or coordinate is held or guessed twice, or held and freed.
+    Contradiction {
+        /// What was demanded first.
+        first: Demand,
+        /// What was demanded then.
+        second: Demand,
     },
     /// Only joints can be freed.
     NotAJoint {
@@ -96,6 +106,7 @@ impl<'a> Question<'a> {
             guessed_platforms: vec![false; platforms],
             changed: false,
             split_changed: false,
+            demands: Vec::new(),
             mechanism,
         }
     }
@@ -105,7 +116,7 @@ impl<'a> Question<'a> {
     /// `value` is a number or an expression over the file's parameters such as `60 deg`, for a pose
     /// a list such as `[Tz(0.5), Rx(10 deg)]`, or `home` for the value in the file.
     pub fn hold(mut self, name: &str, value: &str) -> Result<Self, QuestionError> {
-        match self.target(name)? {
+        match self.demand(Verb::Hold, name, Some(value))? {
             Target::Joint(joint) => {
                 let value = self.number(name, value, self.mechanism.joints()[joint].home)?;
                 self.split_changed |= !self.joints[joint];
@@ -141,7 +152,7 @@ impl<'a> Question<'a> {
                 *held &= joint.role != Role::Actuated;
             }
         } else {
-            match self.target(name)? {
+            match self.demand(Verb::Free, name, None)? {
                 Target::Joint(joint) => self.joints[joint] = false,
                 _ => return Err(QuestionError::NotAJoint { name: name.into() }),
             }
@@ -152,7 +163,7 @@ impl<'a> Question<'a> {
 
     /// Starts the search at another value of a joint, a platform coordinate or a whole pose.
     pub fn guess(mut self, name: &str, value: &str) -> Result<Self, QuestionError> {
-        match self.target(name)? {
+        match self.demand(Verb::Guess, name, Some(value))? {
             Target::Joint(joint) => {
                 let value = self.number(name, value, self.mechanism.joints()[joint].home)?;
                 if !self.joints[joint] {
@@ -297,6 +308,29 @@ impl<'a> Question<'a> {
         joints.chain(coordinates).collect()
     }
 
+    /// What a name stands for, unless something else was demanded of it before.
+    fn demand(
+        &mut self,
+        verb: Verb,
+        name: &str,
+        value: Option<&str>,
+    ) -> Result<Target, QuestionError> {
+        let target = self.target(name)?;
+        let second = Demand {
+            verb,
+            name: name.into(),
+            value: value.map(str::to_owned),
+        };
+        let mut demands = self.demands.iter();
+        let clash = demands.find(|(of, first)| of.meets(target) && first.verb.clashes(verb));
+        if let Some((_, first)) = clash {
+            let first = first.clone();
+            return Err(QuestionError::Contradiction { first, second });
+        }
+        self.demands.push((target, second));
+        Ok(target)
+    }
+
     fn number(&self, name: &str, text: &str, home: f64) -> Result<f64, QuestionError> {
         if text.trim() == "home" {
             return Ok(home);
@@ -349,12 +383,6 @@ impl<'a> Question<'a> {
             suggestion: nearest(name, known.iter().map(String::as_str)).map(str::to_owned),
         })
     }
-}
-
-enum Target {
-    Joint(usize),
-    Coordinate(usize, Coordinate),
-    Pose(usize),
 }
 
 /// The pose with some coordinates exchanged.

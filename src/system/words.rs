@@ -3,7 +3,7 @@
 use std::error::Error;
 use std::fmt::{self, Display, Formatter};
 
-use super::{QuestionError, ValueError};
+use super::{Demand, QuestionError, ValueError, Verb};
 use crate::description::{ProblemKind, Scope, count, listed};
 
 impl QuestionError {
@@ -15,6 +15,9 @@ impl QuestionError {
             }
             QuestionError::NotAJoint { name } => {
                 format!("`{name}` is not a joint, and only joints are held by themselves")
+            }
+            QuestionError::Contradiction { first, second } => {
+                format!("{first} and {second} contradict one another")
             }
             QuestionError::Value { name, text, error } => {
                 format!("`{text}` cannot be the value of `{name}`: {error}")
@@ -64,6 +67,27 @@ impl Display for QuestionError {
 }
 
 impl Error for QuestionError {}
+
+impl Verb {
+    /// What it is called.
+    pub fn word(self) -> &'static str {
+        match self {
+            Verb::Hold => "hold",
+            Verb::Free => "free",
+            Verb::Guess => "guess",
+        }
+    }
+}
+
+impl Display for Demand {
+    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
+        let Demand { verb, name, value } = self;
+        match value {
+            Some(value) => write!(f, "`{} {name}={value}`", verb.word()),
+            None => write!(f, "`{} {name}`", verb.word()),
+        }
+    }
+}
 
 impl Display for ValueError {
     fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {

@@ -2,61 +2,68 @@
 
 use std::f64::consts::PI;
 
-use rand::Rng;
+use rand::{Rng, SeedableRng};
+use rand_pcg::Pcg64Mcg;
 
 use crate::mechanism::{Configuration, Joint, Mechanism, Role};
 use crate::solve::{Newton, Stop};
 use crate::system::{Held, HeldPlatform, System, Work};
 
-/// The configurations, home first.
-pub(super) struct Samples {
-    /// At random values of all joints; platforms stay at home.
-    pub anywhere: Vec<Configuration<f64>>,
-    /// Assembled, at random values of the actuated joints.
-    pub assembled: Vec<Configuration<f64>>,
-    /// Random inputs at which the mechanism did not assemble.
-    pub not_assembled: usize,
-    /// Whether the home configuration assembles.
-    pub home_assembles: bool,
+/// How many assembled configurations are remembered to start from: with more of them none is much nearer, but looking
+/// for the nearest takes longer.
+const REMEMBERED: usize = 1000;
+
+/// Configurations to compare at, made one after the other so that any number of them takes no memory.
+pub(super) struct Samples<'a> {
+    mechanism: &'a Mechanism,
+    count: usize,
+    rng: Pcg64Mcg,
+    solver: Solver,
+    solved_home: Option<Configuration<f64>>,
 }
 
-impl Samples {
-    pub fn new(mechanism: &Mechanism, count: usize, assemble: bool, rng: &mut impl Rng) -> Self {
-        let home = mechanism.home();
-        let mut anywhere = vec![home.clone()];
-        for _ in 0..count {
-            let mut at = home.clone();
-            for (value, joint) in at.joints.iter_mut().zip(mechanism.joints()) {
-                *value = random_value(mechanism, joint, rng);
-            }
-            anywhere.push(at);
-        }
+impl<'a> Samples<'a> {
+    pub fn new(mechanism: &'a Mechanism, count: usize, seed: u64) -> Self {
         let mut solver = Solver::new(mechanism);
-        let solved_home = solver.solve(&home, &home.joints);
-        let home_assembles = solved_home.is_some();
-        anywhere.extend(solved_home.clone());
-        let mut samples = Samples {
-            anywhere,
-            assembled: solved_home.into_iter().collect(),
-            not_assembled: 0,
-            home_assembles,
-        };
-        if assemble {
-            samples.assemble(mechanism, &mut solver, rng);
+        let home = mechanism.home();
+        Samples {
+            mechanism,
+            count,
+            rng: Pcg64Mcg::seed_from_u64(seed),
+            solved_home: solver.solve(&home, &home.joints),
+            solver,
         }
-        samples
     }
 
-    /// Solves for the held values of every sample, each time from the nearest configuration so far.
-    fn assemble(&mut self, mechanism: &Mechanism, solver: &mut Solver, rng: &mut impl Rng) {
-        let home = mechanism.home();
-        let random = self.anywhere[1..].iter().map(|at| at.joints.clone());
-        let mut targets: Vec<Vec<f64>> = random.collect();
-        if self.home_assembles {
-            targets.pop();
+    /// Whether the home configuration assembles.
+    pub fn home_assembles(&self) -> bool {
+        self.solved_home.is_some()
+    }
+
+    /// Visits home and random values of all joints, with platforms at home; then the solved home.
+    pub fn anywhere(&mut self, visit: &mut dyn FnMut(&Configuration<f64>)) {
+        let mut at = self.mechanism.home();
+        visit(&at);
+        for _ in 0..self.count {
+            scatter(self.mechanism, &mut at, &mut self.rng);
+            visit(&at);
         }
-        for mut target in targets {
-            let nearest = (self.assembled.iter())
+        self.solved_home.iter().for_each(visit);
+    }
+
+    /// Visits the solved home and then assembled configurations at the same random values of the actuated joints, each
+    /// found from the nearest one remembered; `None` where none was found.
+    pub fn assembled(&mut self, seed: u64, visit: &mut dyn FnMut(Option<&Configuration<f64>>)) {
+        let home = self.mechanism.home();
+        let mut known: Vec<Configuration<f64>> = self.solved_home.iter().cloned().collect();
+        known.iter().for_each(|at| visit(Some(at)));
+        let mut again = Pcg64Mcg::seed_from_u64(seed);
+        let mut random = home.clone();
+        let solver = &mut self.solver;
+        for _ in 0..self.count {
+            scatter(self.mechanism, &mut random, &mut again);
+            let mut target = random.joints.clone();
+            let nearest = (known.iter())
                 .min_by(|a, b| {
                     let distance = |at: &&Configuration<f64>| solver.distance(&at.joints, &target);
                     distance(a).total_cmp(&distance(b))
@@ -65,14 +72,20 @@ impl Samples {
             if !solver.drives {
                 // nothing is held: a shaken start ends somewhere else
                 for (value, near) in target.iter_mut().zip(&nearest.joints) {
-                    *value = near + 0.3 * rng.random_range(-1.0..=1.0) * (*value - near);
+                    *value = near + 0.3 * self.rng.random_range(-1.0..=1.0) * (*value - near);
                 }
             }
-            match solver.approach(nearest, &target) {
-                Some(at) => self.assembled.push(at),
-                None => self.not_assembled += 1,
-            }
+            let found = solver.approach(nearest, &target);
+            visit(found.as_ref());
+            known.extend(found.filter(|_| known.len() < REMEMBERED));
         }
+    }
+}
+
+/// Gives every joint a random value.
+fn scatter(mechanism: &Mechanism, at: &mut Configuration<f64>, rng: &mut Pcg64Mcg) {
+    for (value, joint) in at.joints.iter_mut().zip(mechanism.joints()) {
+        *value = random_value(mechanism, joint, rng);
     }
 }
 

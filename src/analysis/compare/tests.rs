@@ -120,3 +120,17 @@ fn the_same_seed_gives_the_same_report() {
         compare(&mechanism, &settings)
     );
 }
+
+#[test]
+fn more_samples_than_are_remembered_go_on_from_those() {
+    let mechanism = mechanism(r#""loop": (identity: "l1*sin(t) + l2*sin(t + p) - l3*sin(q)"),"#);
+    let settings = CompareSettings {
+        samples: 1500,
+        ..CompareSettings::default()
+    };
+    let mut parts = Vec::new();
+    let report = compare_watched(&mechanism, &settings, &mut |part| parts.push(part));
+    assert!(report.agree);
+    assert_eq!(report.closed_forms[0].samples + report.not_assembled, 1501);
+    assert!(parts.is_sorted() && parts.len() > 3000 && *parts.last().unwrap() == 1.0);
+}

@@ -67,21 +67,14 @@ impl Builder<'_> {
             identities.extend(formula.map(|formula| (name.value.clone(), formula)));
         }
         let of = form.of.as_ref().map(|frame| self.frame(frame));
-        let relative_to = form
-            .relative_to
-            .as_ref()
-            .map_or(Frame::Ground, |frame| self.frame(frame));
+        let relative_to =
+            (form.relative_to.as_ref()).map_or(Some(Frame::Ground), |frame| self.frame(frame));
 
+        let (order, complete) = self.order(Noun::LocalName, &form.locals, &indices);
         let formulas: Vec<Formula> = formulas.into_iter().collect::<Option<_>>()?;
-        let order = self.order(
-            Noun::LocalName,
-            &form.locals,
-            &formulas,
-            |symbol| match symbol {
-                Symbol::Local(i) => Some(i),
-                _ => None,
-            },
-        )?;
+        if !complete {
+            return None;
+        }
         // the locals are stored in the order of evaluation, so their indices change
         let mut place = vec![0; order.len()];
         for (new, &old) in order.iter().enumerate() {
@@ -94,7 +87,7 @@ impl Builder<'_> {
                     other => other,
                 })
             });
-            renumbered.expect("no error is possible")
+            renumbered.expect("a symbol is exchanged for another, none refused")
         };
         let locals = order
             .iter()
@@ -102,8 +95,8 @@ impl Builder<'_> {
         let locals = locals.collect();
         let gives = match of {
             Some(of) => Given::Pose {
-                of,
-                relative_to,
+                of: of?,
+                relative_to: relative_to?,
                 entries: entries.iter().map(|(e, f)| (*e, renumber(f))).collect(),
             },
             None => Given::Identities(

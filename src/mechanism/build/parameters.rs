@@ -2,70 +2,69 @@
 
 use std::collections::HashMap;
 
-use super::super::model::{Formula, Parameter, Symbol};
+use super::super::model::{Formula, Parameter};
 use super::super::names::definition_order;
 use super::Builder;
 use crate::description::{Description, Entry, Named, Note, Noun, ProblemKind, Scope};
 
 impl Builder<'_> {
-    pub(super) fn parameters(&mut self, description: &Description) -> Option<Vec<Parameter>> {
+    /// The parameters that are well defined, with their values where these are known.
+    pub(super) fn parameters(&mut self, description: &Description) -> Vec<Parameter> {
         let entries = &description.parameters;
         let none = HashMap::new();
         let formulas: Vec<Option<Formula>> = (entries.iter())
             .map(|named| self.formula(&named.value, Scope::Parameters, &none))
             .collect();
-        let formulas: Vec<Formula> = formulas.into_iter().collect::<Option<_>>()?;
-        let order = self.order(Noun::Parameter, entries, &formulas, |symbol| match symbol {
-            Symbol::Parameter(i) => Some(i),
-            _ => None,
-        })?;
-        for i in order {
-            // a parameter without a value makes those defined through it fail for the same reason
-            self.values[i] = self.value(&formulas[i])?;
+        let indices = self.names.parameters.clone();
+        for i in self.order(Noun::Parameter, entries, &indices).0 {
+            if self.doubtful.contains(&entries[i].name.value) {
+                continue;
+            }
+            // NaN is the value of what is not known, here and in all that is defined through it
+            let value = formulas[i].as_ref().and_then(|formula| self.value(formula));
+            self.values[i] = value.unwrap_or(f64::NAN);
         }
         let parts = entries.iter().zip(formulas).zip(&self.values);
-        Some(
-            parts
-                .map(|((named, definition), &value)| Parameter {
+        parts
+            .filter_map(|((named, definition), &value)| {
+                Some(Parameter {
                     name: named.name.value.clone(),
-                    definition,
+                    definition: definition?,
                     value,
                 })
-                .collect(),
-        )
+            })
+            .collect()
     }
 
-    /// The order in which definitions can be evaluated, or `None` with the cycle recorded.
+    /// The order in which definitions can be evaluated, and whether that is all of them; the cycles
+    /// are recorded.
     pub(super) fn order(
         &mut self,
         noun: Noun,
         entries: &[Named<Entry>],
-        formulas: &[Formula],
-        definition: impl Fn(Symbol) -> Option<usize>,
-    ) -> Option<Vec<usize>> {
-        let uses: Vec<Vec<usize>> = (formulas.iter())
-            .map(|formula| {
-                formula
-                    .names()
-                    .filter_map(|(symbol, _)| definition(*symbol))
+        indices: &HashMap<&str, usize>,
+    ) -> (Vec<usize>, bool) {
+        // by the names as written: a definition with an unknown name may be in a cycle too
+        let uses: Vec<Vec<usize>> = (entries.iter())
+            .map(|named| {
+                let names = named.value.expression.names();
+                names
+                    .filter_map(|(name, _)| indices.get(name.as_str()).copied())
                     .collect()
             })
             .collect();
-        match definition_order(&uses) {
-            Ok(order) => Some(order),
-            Err(cycle) => {
-                let names = cycle
-                    .iter()
-                    .map(|&i| entries[i].name.value.clone())
-                    .collect();
-                let kind = ProblemKind::DefinitionCycle { noun, names };
-                let problem = kind.at(entries[cycle[0]].name.span.clone());
-                let rest = cycle[1..].iter().map(|&i| entries[i].name.span.clone());
-                let problem =
-                    rest.fold(problem, |problem, span| problem.with(span, Note::ThenHere));
-                self.problems.push(problem);
-                None
-            }
+        let found = definition_order(&uses);
+        for cycle in &found.cycles {
+            let names = cycle
+                .iter()
+                .map(|&i| entries[i].name.value.clone())
+                .collect();
+            let kind = ProblemKind::DefinitionCycle { noun, names };
+            let problem = kind.at(entries[cycle[0]].name.span.clone());
+            let rest = cycle[1..].iter().map(|&i| entries[i].name.span.clone());
+            let problem = rest.fold(problem, |problem, span| problem.with(span, Note::ThenHere));
+            self.problems.push(problem);
         }
+        (found.order, found.cycles.is_empty())
     }
 }

@@ -1,0 +1,110 @@
+//! The closures of a description, each judged as far as what it joins is known.
+
+use super::super::model::{Closure, Row};
+use super::super::{Body, Frame};
+use super::{Builder, Draughted};
+use crate::description::{ClosureDescription, ClosureKind, Description, Entry, Named, ProblemKind};
+
+impl Builder<'_> {
+    pub(super) fn closures(
+        &mut self,
+        description: &Description,
+        chains: &[Draughted],
+    ) -> Vec<Closure> {
+        let mut closures = Vec::new();
+        for Named { name, value } in &description.closures {
+            let frames = [0, 1].map(|i| self.frame(&value.frames[i]));
+            let length = (value.length.as_ref()).map(|entry| (entry, self.affine(entry)));
+            if let [Some(a), Some(b)] = frames {
+                self.check_bodies(&name.value, value, [a, b], chains);
+                closures.push(Closure {
+                    name: name.value.clone(),
+                    kind: value.kind,
+                    frames: [a, b],
+                    length: length.as_ref().and_then(|(_, affine)| affine.clone()),
+                });
+            }
+            if let (ClosureKind::Distance, Some((entry, Some(affine)))) = (value.kind, length)
+                && affine.is_constant()
+                && let Some(length) = self.value(&affine.constant)
+            {
+                self.check_length(&name.value, entry, length);
+            }
+        }
+        closures
+    }
+
+    fn check_bodies(
+        &mut self,
+        name: &str,
+        described: &ClosureDescription,
+        frames: [Frame; 2],
+        chains: &[Draughted],
+    ) {
+        let [a, b] = frames;
+        let bodies = frames.map(|frame| self.body(frame, chains));
+        if a == b || (bodies[0].is_some() && bodies[0] == bodies[1]) {
+            let kind = ProblemKind::SameBody {
+                closure: name.into(),
+            };
+            let [first, second] = &described.frames;
+            let span = first.span.start..second.span.end;
+            self.problems.push(kind.at(span));
+        }
+    }
+
+    /// A distance that no joint changes has a sign and a size that can be judged now.
+    fn check_length(&mut self, closure: &str, entry: &Entry, length: f64) {
+        let kind = if length < 0.0 {
+            ProblemKind::NegativeDistance { length }
+        } else if length == 0.0 {
+            ProblemKind::ZeroDistance {
+                closure: closure.into(),
+            }
+        } else {
+            return;
+        };
+        self.problems.push(kind.at(entry.span.clone()));
+    }
+
+    /// The body that a frame is fixed to, or `None` if that depends on what is wrong with the file.
+    fn body(&self, frame: Frame, chains: &[Draughted]) -> Option<Body> {
+        let mut frame = frame;
+        loop {
+            let (chain, rows) = match frame {
+                Frame::Ground => return Some(Body::Ground),
+                Frame::Platform { platform } | Frame::OnPlatform { platform, .. } => {
+                    return Some(Body::Platform(platform));
+                }
+                Frame::Link { chain, row } => (chain, row),
+                Frame::Tip { chain } => (chain, chains[chain].rows.len()),
+            };
+            let part = &chains[chain];
+            if part.doubtful {
+                return None;
+            }
+            for (i, row) in part.rows[..rows].iter().enumerate().rev() {
+                let row = row.as_ref()?;
+                if !row.joints().is_empty() {
+                    return Some(Body::Link { chain, row: i + 1 });
+                }
+                if self.may_move(row) {
+                    return None;
+                }
+            }
+            if part.in_ring {
+                return None;
+            }
+            frame = part.on?;
+        }
+    }
+
+    /// Whether a name in the row may be that of a joint after all.
+    fn may_move(&self, row: &Row) -> bool {
+        let [_, _, d, theta] = &row.written;
+        [d, theta].into_iter().any(|written| {
+            let mut words = written.split(|c: char| !(c.is_alphanumeric() || c == '_'));
+            words.any(|word| self.doubtful.contains(word))
+        })
+    }
+}
