@@ -1,5 +1,6 @@
 //! What the names of a description stand for.
 
+use std::cell::Cell;
 use std::collections::HashMap;
 
 use super::Frame;
@@ -13,7 +14,13 @@ pub(super) struct Names<'a> {
     chains: HashMap<&'a str, usize>,
     platforms: HashMap<&'a str, usize>,
     description: &'a Description,
+    /// How many more names are compared with all others to find the one meant.
+    suggestions: Cell<usize>,
 }
+
+/// A file with more unknown names than this is not one with spelling mistakes, and comparing every name with every
+/// other would take long.
+const MOST_SUGGESTIONS: usize = 200;
 
 fn index<T>(named: &[Named<T>]) -> HashMap<&str, usize> {
     let names = named.iter().map(|named| named.name.value.as_str());
@@ -28,7 +35,17 @@ impl<'a> Names<'a> {
             chains: index(&description.chains),
             platforms: index(&description.platforms),
             description,
+            suggestions: Cell::new(MOST_SUGGESTIONS),
         }
+    }
+
+    fn suggestion(&self, name: &str, known: impl FnOnce() -> Vec<String>) -> Option<String> {
+        let left = self.suggestions.get().checked_sub(1)?;
+        self.suggestions.set(left);
+        let mut known = known();
+        // hash maps have no order, and of two equally near names the same must always be suggested
+        known.sort_unstable();
+        nearest(name, known.iter().map(String::as_str)).map(str::to_owned)
     }
 
     /// The symbol of a name in an expression.
@@ -51,14 +68,14 @@ impl<'a> Names<'a> {
             (Some(&joint), _) => return Ok(Symbol::Joint(joint)),
             (None, _) => {}
         }
-        let parameters = self.parameters.keys().copied();
-        let mut candidates: Vec<&str> = parameters.chain(locals.keys().copied()).collect();
-        if scope != Scope::Parameters {
-            candidates.extend(self.joints.keys());
-        }
-        // hash maps have no order, and of two equally near names the same must always be suggested
-        candidates.sort_unstable();
-        let suggestion = nearest(name, candidates).map(str::to_owned);
+        let suggestion = self.suggestion(name, || {
+            let mut known: Vec<&str> = self.parameters.keys().copied().collect();
+            known.extend(locals.keys());
+            if scope != Scope::Parameters {
+                known.extend(self.joints.keys());
+            }
+            known.into_iter().map(str::to_owned).collect()
+        });
         Err(ProblemKind::UnknownName {
             name: name.into(),
             suggestion,
@@ -99,11 +116,9 @@ impl<'a> Names<'a> {
                 return Ok(Frame::OnPlatform { platform, frame });
             }
         }
-        let known = self.frame_names();
-        let suggestion = nearest(name, known.iter().map(String::as_str));
         Err(ProblemKind::UnknownFrame {
             name: name.into(),
-            suggestion: suggestion.map(str::to_owned),
+            suggestion: self.suggestion(name, || self.frame_names()),
         })
     }
 
