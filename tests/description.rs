@@ -148,6 +148,10 @@ fn large_texts_are_answered_in_time() {
     let numbered: String = (0..40_000)
         .map(|i| format!("\"p{i}\": \"q{i}\", "))
         .collect();
+    // chains on unknown frames, each name given three times
+    let mounted: String = (0..12_000)
+        .map(|i| format!("\"c{}\":Chain(on:\"u{i}\",rows:[(d:\"q{i}\")]),", i % 4000))
+        .collect();
     let texts = [
         fill("", "(", ""),
         fill("", "[", ""),
@@ -184,10 +188,12 @@ fn large_texts_are_answered_in_time() {
         ),
         fill(&format!("{start}joints: {{"), "\n\"a\":Pasive,", "})"),
         format!("{start}parameters: {{ {numbered} }})"),
+        format!("{start}chains: {{ {mounted} }})"),
     ];
     for text in texts {
         let begin = Instant::now();
-        if let Err(problems) = Description::read(&text) {
+        let problems = Mechanism::problems(&text);
+        if !problems.is_empty() {
             let error = file_error(&text, problems);
             let _ = error.to_string();
             #[cfg(feature = "cli")]

@@ -20,6 +20,7 @@ mod generic;
 mod real;
 mod report;
 mod threads;
+mod way;
 
 pub use follow::{Fold, Followed};
 pub use generic::{GenericSolutions, Progress, StoredError};

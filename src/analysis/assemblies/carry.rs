@@ -1,9 +1,10 @@
 //! Carrying the generic solutions to the inputs that are asked for.
 
 use super::coordinates::{C, size};
-use super::family::{Family, Member, Way};
+use super::family::{Family, Member};
 use super::generic::polish;
 use super::threads;
+use super::way::Way;
 use crate::number::Number;
 use crate::solve::{Arrival, Ending, Homotopy, Stages, Tracker, ending};
 

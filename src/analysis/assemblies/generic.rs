@@ -11,7 +11,8 @@ use rand_pcg::Pcg64;
 use serde::{Deserialize, Serialize};
 
 use super::coordinates::{C, size};
-use super::family::{Family, Member, Way};
+use super::family::{Family, Member};
+use super::way::Way;
 use super::{AssembliesSettings, threads};
 use crate::number::Number;
 use crate::solve::{Arrival, Homotopy, Newton, Stages, Stop, Tracker};

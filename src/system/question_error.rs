@@ -1,10 +1,73 @@
-//! Words for questions that cannot be put.
+//! Questions that cannot be put, and the words for them.
 
 use std::error::Error;
 use std::fmt::{self, Display, Formatter};
 
-use super::{Demand, QuestionError, ValueError, Verb};
+use super::{Demand, ValueError, Verb};
 use crate::description::{ProblemKind, Scope, count, listed};
+
+/// Why a question cannot be put.
+#[derive(Clone, Debug, PartialEq)]
+pub enum QuestionError {
+    /// No joint, platform or platform coordinate has the name.
+    UnknownName {
+        /// The name.
+        name: String,
+        /// The name that was probably meant.
+        suggestion: Option<String>,
+    },
+    /// The value is no number, expression or pose.
+    Value {
+        /// What the value was for.
+        name: String,
+        /// The value as given.
+        text: String,
+        /// What is wrong with it.
+        error: ValueError,
+    },
+    /// The same joint or coordinate is held or guessed twice, or held and freed.
+    Contradiction {
+        /// What was demanded first.
+        first: Demand,
+        /// What was demanded then.
+        second: Demand,
+    },
+    /// Only joints can be freed.
+    NotAJoint {
+        /// The name.
+        name: String,
+    },
+    /// More is held than the mechanism has freedoms.
+    TooMany {
+        /// Freedoms of the mechanism.
+        mobility: usize,
+        /// Coordinates held.
+        held: usize,
+        /// Coordinates which, freed, leave a question that has an answer.
+        free: Vec<String>,
+    },
+    /// Less is held than the mechanism has freedoms.
+    TooFew {
+        /// Freedoms of the mechanism.
+        mobility: usize,
+        /// Coordinates held.
+        held: usize,
+        /// Coordinates which, held too, leave a question that has an answer.
+        hold: Vec<String>,
+    },
+    /// Roll, pitch and yaw of a platform do not tell its motion where it is pitched by ±90°.
+    AnglesLocked {
+        /// The platform.
+        platform: String,
+    },
+    /// The right number is held, but what is held depends on itself and something else is free.
+    Dependent {
+        /// Held coordinates to free.
+        free: Vec<String>,
+        /// Coordinates to hold instead.
+        hold: Vec<String>,
+    },
+}
 
 impl QuestionError {
     /// What is wrong, without what to do about it.

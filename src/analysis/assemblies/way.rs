@@ -1,0 +1,266 @@
+//! The straight way between two members of a family.
+
+use super::coordinates::C;
+use super::family::{Family, Member};
+use crate::geometry::{Quaternion, Vector3};
+use crate::mechanism::{Configuration, PlatformPose};
+use crate::number::Number;
+use crate::solve::{Equations, Homotopy};
+use crate::system::{System, Work};
+
+impl Family {
+    /// The way from one member to another. `None` if an expression has no value at the start.
+    pub fn way(&self, from: &Member, to: &Member) -> Option<Way<'_>> {
+        let system = System::new(&self.dimensions(&from.parameters)?, &self.held);
+        let difference = |a: &[C], b: &[C]| a.iter().zip(b).map(|(a, b)| b - a).collect::<Vec<C>>();
+        let change = Member {
+            parameters: difference(&from.parameters, &to.parameters),
+            inputs: difference(&from.inputs, &to.inputs),
+        };
+        let mut way = Way {
+            family: self,
+            work: system.work(),
+            at: self.home.map(C::from_f64),
+            rates: vec![C::from_f64(0.0); system.rows()],
+            residual: vec![C::from_f64(0.0); system.rows()],
+            inputs: from.inputs.clone(),
+            resized: change.parameters.iter().any(|x| x.norm_sqr() > 0.0),
+            system,
+            from: from.clone(),
+            change,
+            placed: None,
+            sound: true,
+            evaluations: 0,
+        };
+        way.place(C::from_f64(0.0));
+        Some(way)
+    }
+}
+
+/// A straight way between two members, s from 0 to 1, with storage for following it.
+#[derive(Clone, Debug)]
+pub(super) struct Way<'f> {
+    pub family: &'f Family,
+    pub system: System<C>,
+    pub work: Work<C>,
+    /// The configuration last evaluated.
+    pub at: Configuration<C>,
+    rates: Vec<C>,
+    residual: Vec<C>,
+    inputs: Vec<C>,
+    /// Whether dimensions change on the way; otherwise only inputs do.
+    resized: bool,
+    from: Member,
+    change: Member,
+    placed: Option<C>,
+    sound: bool,
+    evaluations: usize,
+}
+
+impl Way<'_> {
+    /// The member at `s` becomes the system's.
+    fn place(&mut self, s: C) {
+        if self.placed == Some(s) {
+            return;
+        }
+        self.placed = Some(s);
+        if self.resized {
+            let moved = self.from.parameters.iter().zip(&self.change.parameters);
+            let parameters: Vec<C> = moved.map(|(a, d)| a + d * s).collect();
+            let dimensions = self.family.dimensions(&parameters);
+            self.sound = dimensions.is_some();
+            if let Some(dimensions) = dimensions {
+                self.system = System::new(&dimensions, &self.family.held);
+                self.work = self.system.work();
+            }
+        }
+        for ((x, a), d) in self
+            .inputs
+            .iter_mut()
+            .zip(&self.from.inputs)
+            .zip(&self.change.inputs)
+        {
+            *x = a + d * s;
+        }
+        let c = &self.family.coordinates;
+        let (joints, rest) = self.inputs.split_at(c.held_joints.len());
+        for (&j, x) in c.held_joints.iter().zip(joints) {
+            self.at.joints[j] = *x;
+        }
+        let (poses, rest) = rest.split_at(7 * c.held_poses.len());
+        for (&p, x) in c.held_poses.iter().zip(poses.chunks_exact(7)) {
+            self.at.platforms[p] = PlatformPose {
+                orientation: Quaternion([x[0], x[1], x[2], x[3]]).normalised(),
+                position: Vector3([x[4], x[5], x[6]]),
+            };
+        }
+        let (targets, orientations) = rest.split_at(c.targets.len());
+        for (&(p, coordinate), x) in c.targets.iter().zip(targets) {
+            self.system.set_target(p, coordinate, *x);
+        }
+        for (&p, x) in c.orientations.iter().zip(orientations.chunks_exact(4)) {
+            let wanted = Quaternion([x[0], x[1], x[2], x[3]]).normalised();
+            self.system.set_orientation(p, wanted.rotation());
+        }
+    }
+
+    fn load(&mut self, s: C, x: &[C]) {
+        self.place(s);
+        self.family.coordinates.unflatten(x, &mut self.at);
+    }
+
+    /// Evaluates and factorises at a point; returns the largest residual.
+    pub fn linearise(&mut self, s: C, x: &[C]) -> f64 {
+        self.load(s, x);
+        self.evaluations += 1;
+        let size = self.system.linearise(&self.at, &mut self.work);
+        self.system.factorise(0.0, &mut self.work);
+        size.largest
+    }
+
+    /// Quotient of the smallest and the largest pivot of the Jacobian at a point.
+    pub fn regularity(&mut self, s: C, x: &[C]) -> f64 {
+        self.load(s, x);
+        self.system.linearise(&self.at, &mut self.work);
+        let (largest, smallest) = self.system.pivots(&mut self.work);
+        if largest > 0.0 {
+            smallest / largest
+        } else {
+            0.0
+        }
+    }
+
+    /// How many directions are free at a point.
+    pub fn freedom(&mut self, s: C, x: &[C], tolerance: f64) -> usize {
+        self.load(s, x);
+        self.system.linearise(&self.at, &mut self.work);
+        self.system.nullity(tolerance, &mut self.work)
+    }
+
+    /// dx/ds = −J⁺ ∂h/∂s by the factors last made. The residual is analytic in s, so a difference
+    /// over 1e-7 is as good as a derivative for a prediction.
+    fn velocity_by_factors(&mut self, s: C, x: &[C], out: &mut [C]) -> bool {
+        const APART: f64 = 1e-7;
+        self.load(s, x);
+        self.system.residual(&self.at, &mut self.work);
+        self.residual
+            .copy_from_slice(self.system.residual_of(&self.work));
+        let work = self
+            .resized
+            .then(|| (self.system.clone(), self.work.clone()));
+        self.load(s + APART, x);
+        self.system.residual(&self.at, &mut self.work);
+        let after = self.system.residual_of(&self.work);
+        for ((rate, after), before) in self.rates.iter_mut().zip(after).zip(&self.residual) {
+            *rate = (after - before) / APART;
+        }
+        if let Some((system, work)) = work {
+            (self.system, self.work) = (system, work);
+        }
+        self.placed = None;
+        if !self
+            .system
+            .step_for(&self.rates, &mut self.work)
+            .is_finite()
+        {
+            return false;
+        }
+        let step = self.system.step_of(&self.work);
+        let joints = self.family.coordinates.free_joints.len();
+        out[..joints].copy_from_slice(&step[..joints]);
+        let poses = x[joints..]
+            .chunks_exact(7)
+            .zip(out[joints..].chunks_exact_mut(7));
+        for ((x, out), twist) in poses.zip(step[joints..].chunks_exact(6)) {
+            // q̇ = ½ ω q
+            let half = [0, 1, 2].map(|i| twist[i] * 0.5);
+            let omega = Quaternion([C::from_f64(0.0), half[0], half[1], half[2]]);
+            let rate = omega.then_left(&Quaternion([x[0], x[1], x[2], x[3]]));
+            out[..4].copy_from_slice(&rate.0);
+            out[4..].copy_from_slice(&twist[3..]);
+        }
+        true
+    }
+}
+
+impl Homotopy for Way<'_> {
+    fn settle(&self, x: &mut [C]) {
+        self.family.coordinates.settle(x);
+    }
+
+    fn velocity(&mut self, s: C, x: &[C], out: &mut [C]) -> bool {
+        self.linearise(s, x);
+        self.sound && self.velocity_by_factors(s, x, out)
+    }
+
+    fn velocity_again(&mut self, s: C, x: &[C], out: &mut [C]) -> bool {
+        match self.resized {
+            // changed dimensions have replaced the factors
+            true => self.velocity(s, x, out),
+            false => self.velocity_by_factors(s, x, out),
+        }
+    }
+
+    fn correct(&mut self, s: C, x: &mut [C]) -> f64 {
+        self.linearise(s, x);
+        let longest = self.system.step(&mut self.work);
+        if !longest.is_finite() || !self.sound {
+            return f64::NAN;
+        }
+        let step = self.system.step_of(&self.work);
+        let joints = self.family.coordinates.free_joints.len();
+        // in squares: roots are taken once
+        let mut largest = 0.0f64;
+        for (x, step) in x[..joints].iter_mut().zip(step) {
+            *x += *step;
+            largest = largest.max(step.norm_sqr());
+        }
+        for (x, twist) in x[joints..]
+            .chunks_exact_mut(7)
+            .zip(step[joints..].chunks_exact(6))
+        {
+            let q = Quaternion([x[0], x[1], x[2], x[3]]);
+            let turned = q.turned_by(&Vector3([twist[0], twist[1], twist[2]]));
+            let (mut moved, mut size) = (0.0f64, 1.0f64);
+            for (x, to) in x[..4].iter_mut().zip(turned.0) {
+                moved = moved.max(4.0 * (to - *x).norm_sqr());
+                size = size.max(to.norm_sqr());
+                *x = to;
+            }
+            // complex rotations and positions have no bound: on the way to infinity only what a
+            // step is beside them counts
+            largest = largest.max(moved / size);
+            let (mut moved, mut size) = (0.0f64, 1.0f64);
+            for (x, shift) in x[4..].iter_mut().zip(&twist[3..]) {
+                *x += *shift;
+                moved = moved.max(shift.norm_sqr());
+                size = size.max(x.norm_sqr());
+            }
+            largest = largest.max(moved / size);
+        }
+        largest.sqrt()
+    }
+
+    fn residual(&mut self, s: C, x: &[C]) -> f64 {
+        self.load(s, x);
+        self.system.residual(&self.at, &mut self.work).largest
+    }
+}
+
+impl crate::solve::Turning for Way<'_> {
+    fn apart(&self, x: &[C], y: &[C]) -> (f64, bool) {
+        let c = &self.family.coordinates;
+        let mut turned = false;
+        let mut largest = 0.0f64;
+        for (k, (x, y)) in x.iter().zip(y).enumerate() {
+            let mut gap = x - y;
+            if c.free_joints.get(k).is_some_and(|&j| c.periodic[j]) {
+                let turns = (gap.re / std::f64::consts::TAU).round();
+                turned |= turns != 0.0;
+                gap.re -= std::f64::consts::TAU * turns;
+            }
+            largest = largest.max(gap.norm());
+        }
+        (largest, turned)
+    }
+}
