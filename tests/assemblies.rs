@@ -651,3 +651,53 @@ fn a_stored_platform_is_answered_in_few_steps() {
     assert_eq!(report.complex, 40);
     assert!(report.steps < 40 * 20, "{} steps", report.steps);
 }
+
+#[test]
+fn whole_turns_of_an_input_change_nothing() {
+    let mechanism = mechanism("four_bar");
+    let list = |turns: f64| {
+        let held = Question::new(&mechanism).held();
+        let solver =
+            AssemblySolver::new(&mechanism, &held, &AssembliesSettings::default()).unwrap();
+        let mut asked = mechanism.home();
+        asked.joints[mechanism.joint("theta1").unwrap()] = 1.0 + turns * std::f64::consts::TAU;
+        solver.at(&asked, Wanted::default())
+    };
+    let (near, far) = (list(0.0), list(200.0));
+    assert_eq!((near.real, far.real, far.lost), (2, 2, 0));
+    for (a, b) in near.assemblies.iter().zip(&far.assemblies) {
+        let (a, b) = (a.joints.get("phi1").unwrap(), b.joints.get("phi1").unwrap());
+        assert!((a - b).abs() < 1e-9);
+    }
+}
+
+#[test]
+fn assemblies_that_are_not_isolated_are_not_denied() {
+    // a wrist stretched out turns about one line with two joints
+    let mechanism = mechanism("spherical_wrist");
+    let question = ["hand.roll", "hand.pitch", "hand.yaw"].iter().fold(
+        Question::new(&mechanism).free("actuated").unwrap(),
+        |question, angle| question.hold(angle, "0").unwrap(),
+    );
+    let solver =
+        AssemblySolver::new(&mechanism, &question.held(), &AssembliesSettings::default()).unwrap();
+    let report = solver.at_targets(&question.start(), &question.held(), Wanted::default());
+    assert_eq!(report.real, 0);
+    assert!(report.closest.is_some_and(|closest| closest.is_closed()));
+    // and a real gap is one
+    let mechanism = mechanism("three_rps");
+    let question = Question::new(&mechanism).hold("l1", "3").unwrap();
+    let solver =
+        AssemblySolver::new(&mechanism, &question.held(), &AssembliesSettings::default()).unwrap();
+    let report = solver.at(&question.start(), Wanted::default());
+    assert!(report.closest.is_some_and(|closest| !closest.is_closed()));
+}
+
+#[test]
+fn single_angles_are_refused() {
+    let mechanism = mechanism("three_rps");
+    let question = Question::new(&mechanism).free("l1").unwrap();
+    let question = question.hold("top.roll", "5 deg").unwrap();
+    let solver = AssemblySolver::new(&mechanism, &question.held(), &AssembliesSettings::default());
+    assert!(matches!(solver, Err(AssembliesError::SingleAngle)));
+}

@@ -28,6 +28,8 @@ pub use report::{
     AssembliesReport, Assembly, ClosestApproach, ComplexAssembly, Fit, Named, PoseReport,
 };
 
+use std::f64::consts::TAU;
+
 use rand::SeedableRng;
 use rand_pcg::Pcg64;
 
@@ -97,6 +99,9 @@ pub enum AssembliesError {
     StoredForAnotherQuestion,
     /// No assembly has that number; there are this many.
     NoSuchMode(usize),
+    /// One or two of roll, pitch and yaw are held. They are no rational functions of the pose, so
+    /// their complex solutions are not those of an algebraic system.
+    SingleAngle,
 }
 
 impl std::fmt::Display for AssembliesError {
@@ -111,6 +116,11 @@ impl std::fmt::Display for AssembliesError {
             AssembliesError::StoredForAnotherQuestion => write!(
                 f,
                 "the stored solutions belong to other dimensions or to another choice of inputs"
+            ),
+            AssembliesError::SingleAngle => write!(
+                f,
+                "with roll, pitch or yaw held by itself not all assemblies can be listed: hold joints, \
+                 positions, all three angles or a whole pose, or use `solve`"
             ),
             AssembliesError::NoSuchMode(0) => write!(f, "there is no assembly at the home inputs"),
             AssembliesError::NoSuchMode(n) => {
@@ -158,6 +168,15 @@ impl AssemblySolver {
         settings: &AssembliesSettings,
         watch: &dyn Fn(Progress),
     ) -> Result<Self, AssembliesError> {
+        let single_angle = |held: &HeldPlatform<f64>| match held {
+            HeldPlatform::Partly { coordinates, .. } => {
+                coordinates.iter().any(|(c, _)| c.is_angle())
+            }
+            HeldPlatform::Free | HeldPlatform::Pose => false,
+        };
+        if held.platforms.iter().any(single_angle) {
+            return Err(AssembliesError::SingleAngle);
+        }
         let family = Family::new(mechanism, held);
         let bound = bound::known_bound(mechanism, held).map(|b| b.count);
         let generic = generic::search(
@@ -228,6 +247,14 @@ impl AssemblySolver {
         held: &Held<f64>,
         wanted: Wanted,
     ) -> AssembliesReport {
+        // whole turns of an input change nothing but the way to it
+        let mut asked = asked.clone();
+        for (i, value) in asked.joints.iter_mut().enumerate() {
+            if held.joints[i] && self.mechanism.repeats(i) {
+                *value -= TAU * (*value / TAU).round();
+            }
+        }
+        let asked = &asked;
         let question = Question {
             mechanism: &self.mechanism,
             coordinates: &self.family.coordinates,

@@ -1,7 +1,7 @@
 //! `linkwork assemblies`
 
 use clap::Args;
-use linkwork::analysis::assemblies::Wanted;
+use linkwork::analysis::assemblies::{Fit, Wanted};
 use linkwork::output::assemblies;
 use linkwork::output::question::complaint;
 use linkwork::system::{QuestionError, check_count};
@@ -60,7 +60,7 @@ impl Assemblies {
                 Format::Json => assemblies::json(&question, &report),
             },
             remarks,
-            yes: report.real > 0 && report.lost == 0,
+            yes: report.real > 0 && report.lost == 0 && report.fit != Fit::TooManyHeld,
         })
     }
 }

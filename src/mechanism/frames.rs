@@ -185,6 +185,15 @@ impl Mechanism {
         })
     }
 
+    /// Whether a whole turn of the joint leaves every frame where it is: not if it also slides, or
+    /// its variable turns some row by a fraction.
+    pub fn repeats(&self, joint: usize) -> bool {
+        let rows = self.dimensions.chains.iter().flat_map(|chain| &chain.rows);
+        let whole = |c: f64| c == c.round();
+        self.joints[joint].kind == JointKind::Revolute
+            && rows.map(|row| row.turn.coefficient(joint)).all(whole)
+    }
+
     /// The body that a frame is fixed to.
     pub fn body(&self, frame: Frame) -> Body {
         let mut frame = frame;

@@ -57,6 +57,18 @@ pub fn sentence(report: &AssembliesReport) -> String {
             }
         ),
         (Fit::TooManyHeld, _) => format!("{real} found."),
+        (Fit::Finite, 0)
+            if report
+                .closest
+                .as_ref()
+                .is_some_and(ClosestApproach::is_closed) =>
+        {
+            format!(
+                "0 isolated real of {} complex, but the mechanism assembles: at these inputs \
+                 infinitely many assemblies are connected, and one of them is given.",
+                report.complex
+            )
+        }
         (Fit::Finite, 0) => format!("0 real of {} complex: no assembly.", report.complex),
         (Fit::Finite, _) => format!(
             "{real}: {} real of {} complex.",
@@ -94,7 +106,7 @@ fn accounting(mechanism: &Mechanism, report: &AssembliesReport) -> String {
         count(report.loops, "loop"),
         report.seed
     );
-    let _ = writeln!(text, "complete: {}", report.complete);
+    let _ = writeln!(text, "completeness: {}", report.complete);
     if let Some(source) = &report.bound_source {
         let _ = writeln!(text, "bound for {source}");
     }
@@ -296,7 +308,10 @@ fn complex_number(re: f64, im: f64) -> String {
 }
 
 fn nearest(mechanism: &Mechanism, closest: &ClosestApproach) -> String {
-    let mut text = format!("Closest approach: closure {} gapes most\n", closest.worst);
+    let mut text = match closest.is_closed() {
+        true => "One assembly of infinitely many\n".into(),
+        false => format!("Closest approach: closure {} gapes most\n", closest.worst),
+    };
     for (name, gap) in &closest.gaps.0 {
         let _ = writeln!(text, "  {name}: {}", closing::gap(gap.distance, gap.angle));
     }

@@ -4,7 +4,7 @@ use rand::SeedableRng;
 use rand_pcg::Pcg64Mcg;
 
 use super::{Held, HeldPlatform, Question, System, Work, fit, random_configuration};
-use crate::mechanism::{Configuration, JointKind, Mechanism};
+use crate::mechanism::{Configuration, Mechanism};
 use crate::solve::{Newton, Report, Stop};
 
 /// One start and where it led.
@@ -207,25 +207,12 @@ impl<'a> Search<'a> {
     fn normalise_angles(&self, at: &mut Configuration<f64>) {
         let turn = std::f64::consts::TAU;
         for (i, joint) in self.mechanism.joints().iter().enumerate() {
-            if self.held.joints[i] || joint.kind != JointKind::Revolute || !self.turns_freely(i) {
+            if self.held.joints[i] || !self.mechanism.repeats(i) {
                 continue;
             }
             let middle = joint.limits.map_or(0.0, |(low, high)| 0.5 * (low + high));
             let value = &mut at.joints[i];
             *value -= turn * ((*value - middle) / turn).round();
         }
-    }
-
-    /// Whether a whole turn of the joint leaves every frame where it is: not if the variable turns
-    /// some row by a fraction.
-    fn turns_freely(&self, joint: usize) -> bool {
-        let rows = self
-            .mechanism
-            .dimensions()
-            .chains
-            .iter()
-            .flat_map(|chain| &chain.rows);
-        rows.map(|row| row.turn.coefficient(joint))
-            .all(|c| c == c.round())
     }
 }

@@ -98,6 +98,16 @@ pub struct ClosestApproach {
     pub platforms: Named<PoseReport>,
 }
 
+impl ClosestApproach {
+    /// Whether it is an assembly after all: one of infinitely many, which no path leads to.
+    pub fn is_closed(&self) -> bool {
+        const CLOSED: f64 = 1e-9;
+        let gaps = self.gaps.0.iter();
+        gaps.map(|(_, gap)| gap)
+            .all(|gap| gap.distance < CLOSED && gap.angle < CLOSED)
+    }
+}
+
 /// How the question fits the mechanism.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "snake_case")]
@@ -106,8 +116,8 @@ pub enum Fit {
     Finite,
     /// So many freedoms are left; the assemblies listed are samples.
     FreedomLeft(usize),
-    /// More inputs are held than can be chosen freely; what is listed was found by starting from
-    /// many guesses and need not be complete.
+    /// No generic solution was found, perhaps because more inputs are held than can be chosen
+    /// freely; what is listed was found by starting from many guesses and need not be complete.
     TooManyHeld,
 }
 
@@ -194,8 +204,9 @@ impl AssembliesReport {
                 );
             }
             Fit::TooManyHeld => {
-                return "more inputs are held than can be chosen freely; \
-                        the list comes from many starts and may be incomplete"
+                return "nearby complex inputs have no solution that could be found: perhaps more is held \
+                        than can be chosen freely; the list comes from many starts and may be \
+                        incomplete"
                     .into();
             }
             Fit::Finite => {}
