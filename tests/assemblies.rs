@@ -674,21 +674,21 @@ fn whole_turns_of_an_input_change_nothing() {
 #[test]
 fn assemblies_that_are_not_isolated_are_not_denied() {
     // a wrist stretched out turns about one line with two joints
-    let mechanism = mechanism("spherical_wrist");
+    let wrist = mechanism("spherical_wrist");
     let question = ["hand.roll", "hand.pitch", "hand.yaw"].iter().fold(
-        Question::new(&mechanism).free("actuated").unwrap(),
+        Question::new(&wrist).free("actuated").unwrap(),
         |question, angle| question.hold(angle, "0").unwrap(),
     );
     let solver =
-        AssemblySolver::new(&mechanism, &question.held(), &AssembliesSettings::default()).unwrap();
+        AssemblySolver::new(&wrist, &question.held(), &AssembliesSettings::default()).unwrap();
     let report = solver.at_targets(&question.start(), &question.held(), Wanted::default());
     assert_eq!(report.real, 0);
     assert!(report.closest.is_some_and(|closest| closest.is_closed()));
     // and a real gap is one
-    let mechanism = mechanism("three_rps");
-    let question = Question::new(&mechanism).hold("l1", "3").unwrap();
+    let platform = mechanism("three_rps");
+    let question = Question::new(&platform).hold("l1", "3").unwrap();
     let solver =
-        AssemblySolver::new(&mechanism, &question.held(), &AssembliesSettings::default()).unwrap();
+        AssemblySolver::new(&platform, &question.held(), &AssembliesSettings::default()).unwrap();
     let report = solver.at(&question.start(), Wanted::default());
     assert!(report.closest.is_some_and(|closest| !closest.is_closed()));
 }
