@@ -33,14 +33,14 @@ pub struct MobilityJson<'a> {
     pub redundant: usize,
     /// Joints that stand still in every motion.
     pub idle_joints: Vec<String>,
-    /// Joints that only spin a link about its own line.
-    pub spinning_joints: Vec<String>,
     /// Joints that move.
     pub moving_joints: &'a [String],
     /// The dependent equations in words, by closure and direction in the closure's first frame.
     pub redundant_constraints: Vec<String>,
     /// The answer in sentences.
     pub explanation: String,
+    /// Joints that only spin a link about its own line.
+    pub spinning_joints: Vec<String>,
     /// What kind of point of the configuration space this is.
     pub character: Character,
     /// Joint values (rad or m) of the closed configuration.
