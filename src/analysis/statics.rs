@@ -46,6 +46,8 @@ pub struct StaticsReport {
     /// What would move because nothing balances the load; empty in equilibrium. The forces below
     /// are then those that come nearest.
     pub unbalanced: Vec<String>,
+    /// Freedoms gained at a singular configuration: motions that nothing held resists.
+    pub gained: usize,
     /// What is held, with the force that holds it: along its positive direction.
     pub actuators: Vec<Force>,
     /// What each closure passes on.
@@ -64,6 +66,8 @@ pub struct StaticsReport {
     pub given_gap: Option<WidestGap>,
     /// Whether what the file holds kept its values when the mechanism was closed.
     pub kept: bool,
+    /// Names of the joints that are outside their limits.
+    pub outside_limits: Vec<String>,
 }
 
 /// A wrench on a frame.
@@ -184,12 +188,14 @@ pub fn statics(
             })
             .collect(),
         unbalanced: unbalanced(mechanism, &unknowns, &left, norm(&generalised)),
+        gained: (unknowns.len() - equations.rank()).saturating_sub(tangent.idle.len()),
         actuators,
         closures,
         joints,
         self_stresses: stresses.len(),
         condition: equations.condition(),
         normalising_length: mechanism.characteristic_length(),
+        outside_limits: closed.outside_limits(mechanism),
         given_gap: closed.given.filter(|gap| gap.size(mechanism) > 1e-9),
         kept: closed.kept,
     }))

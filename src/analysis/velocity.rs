@@ -5,11 +5,12 @@ mod planar;
 
 use serde::Serialize;
 
+use crate::linear::RANK_TOLERANCE;
 use crate::mechanism::{Frame, Mechanism};
 use crate::solve::Newton;
 use crate::system::{
     Analysed, Drive, FrameMotion, FrameMotions, Freedoms, Holdable, Motion, Neighbourhood,
-    Question, QuestionError, WidestGap, check_angles, check_count, close, too_large,
+    Question, QuestionError, Unknown, WidestGap, check_angles, check_count, close, too_large,
 };
 
 pub use jacobian::{Axis, InputOutput};
@@ -65,6 +66,8 @@ pub struct VelocityReport {
     pub given_gap: Option<WidestGap>,
     /// Whether what the file holds kept its values when the mechanism was closed.
     pub kept: bool,
+    /// Names of the joints that are outside their limits.
+    pub outside_limits: Vec<String>,
 }
 
 /// A coordinate and how fast it changes.
@@ -169,8 +172,17 @@ pub fn velocity(
     let determined = gain.is_none();
 
     motion.at(at);
+    // idle motions are all there are, if the rest is determined
+    let spinning: Vec<usize> = (0..mechanism.joints().len())
+        .filter(|&joint| {
+            let mut unknowns = freedoms.unknowns.iter();
+            let place = unknowns.position(|u| *u == Unknown::Joint(joint));
+            place.is_some_and(|k| freedoms.motions.iter().any(|m| m[k].abs() > RANK_TOLERANCE))
+        })
+        .collect();
     let jacobian = determined.then(|| {
-        let outputs = jacobian::outputs(mechanism, &drive.coordinates, &settings.points);
+        let mut outputs = jacobian::outputs(mechanism, &drive.coordinates, &spinning);
+        outputs.extend(jacobian::followed(&outputs, &settings.points));
         jacobian::input_output(mechanism, &mut motion, at, &outputs)
     });
     let centres = match determined {
@@ -187,8 +199,8 @@ pub fn velocity(
         unit: unit(joint.kind.is_angle()),
         held: drive.coordinates.contains(&Holdable::Joint(i)),
         value: at.joints[i],
-        rate: determined.then(|| rates[i] * scales[i]),
-        acceleration: determined.then(|| changes[i] * scales[i]),
+        rate: (determined && !spinning.contains(&i)).then(|| rates[i] * scales[i]),
+        acceleration: (determined && !spinning.contains(&i)).then(|| changes[i] * scales[i]),
     });
     let joints = joints.collect();
     let frames = match determined {
@@ -212,6 +224,7 @@ pub fn velocity(
         centres,
         normalising_length: mechanism.characteristic_length(),
         mismatch,
+        outside_limits: closed.outside_limits(mechanism),
         given_gap: closed.given.filter(|gap| gap.size(mechanism) > 1e-9),
         kept: closed.kept,
     }))

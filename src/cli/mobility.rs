@@ -41,10 +41,12 @@ impl Mobility {
             Format::Text => analysed::text(mechanism, &answer, output::text),
             Format::Json => analysed::json(mechanism, &answer, output::json),
         };
-        let yes = yes.is_some_and(|_| true);
+        let warning =
+            yes.map(|report| analysed::limits_warning(&output::outside_limits(mechanism, report)));
+        let yes = yes.is_some();
         Ok(Answer {
             data,
-            remarks: loaded.warnings(),
+            remarks: loaded.warnings() + &warning.unwrap_or_default(),
             yes,
         })
     }

@@ -61,10 +61,11 @@ impl Statics {
             Format::Text => analysed::text(mechanism, &report, output::text),
             Format::Json => analysed::json(mechanism, &report, output::json),
         };
+        let warning = yes.map(|report| analysed::limits_warning(&report.outside_limits));
         let yes = yes.is_some_and(|report| report.unbalanced.is_empty());
         Ok(Answer {
             data,
-            remarks: loaded.warnings(),
+            remarks: loaded.warnings() + &warning.unwrap_or_default(),
             yes,
         })
     }

@@ -33,6 +33,15 @@ pub(super) fn given(given: &WidestGap, kept: bool) -> String {
     )
 }
 
+/// The remark that joints are outside their limits; empty if none is.
+pub fn limits_warning(outside: &[String]) -> String {
+    match outside {
+        [] => String::new(),
+        [one] => format!("warning: {one} is outside its limits\n"),
+        many => format!("warning: {} are outside their limits\n", listed(many)),
+    }
+}
+
 /// The report as `show` writes it, or why there is none and what to ask instead.
 pub fn text<'a, R>(
     mechanism: &Mechanism,

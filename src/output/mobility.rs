@@ -10,7 +10,7 @@ use serde_json::{Map, Value};
 use super::closing;
 use super::json::document;
 use super::layout::{align_right, indented, plain};
-use super::quantity::{number, quantity, short, size};
+use super::quantity::{number, quantity, short, signed, size};
 use crate::analysis::mobility::{
     BranchReport, Character, IdleFreedom, LoopCount, MobilityReport, Redundancy, Screw, TwistSpace,
 };
@@ -32,13 +32,15 @@ pub struct MobilityJson<'a> {
     /// Closure equations that depend on the others.
     pub redundant: usize,
     /// Joints that stand still in every motion.
-    pub idle_joints: &'a [String],
+    pub idle_joints: Vec<String>,
     /// Joints that move.
     pub moving_joints: &'a [String],
     /// The dependent equations in words, by closure and direction in the closure's first frame.
     pub redundant_constraints: Vec<String>,
     /// The answer in sentences.
     pub explanation: String,
+    /// Joints that only spin a link about its own line.
+    pub spinning_joints: Vec<String>,
     /// What kind of point of the configuration space this is.
     pub character: Character,
     /// Joint values (rad or m) of the closed configuration.
@@ -69,6 +71,8 @@ pub struct MobilityJson<'a> {
     pub given_gap: Option<&'a WidestGap>,
     /// Whether what the file holds kept its values when the mechanism was closed.
     pub kept: bool,
+    /// Names of the joints that are outside their limits.
+    pub outside_limits: Vec<String>,
     /// What a finite step leaves of the closure equations, dimensionless.
     pub gap_after_step: Option<f64>,
 }
@@ -98,7 +102,8 @@ impl<'a> MobilityJson<'a> {
             rank: report.rank,
             infinitesimal: report.infinitesimal,
             redundant: report.redundant,
-            idle_joints: &report.idle_joints,
+            idle_joints: words::still(report),
+            spinning_joints: words::spinning(report),
             moving_joints: &report.moving_joints,
             redundant_constraints: report.redundancies.iter().map(words::redundancy).collect(),
             explanation: words::explanation(mechanism, report),
@@ -122,9 +127,17 @@ impl<'a> MobilityJson<'a> {
             normalising_length: report.length,
             given_gap: report.given.as_ref(),
             kept: report.kept,
+            outside_limits: outside_limits(mechanism, report),
             gap_after_step: report.gap_after_step,
         }
     }
+}
+
+/// Names of the joints that are outside their limits at the closed configuration.
+pub fn outside_limits(mechanism: &Mechanism, report: &MobilityReport) -> Vec<String> {
+    let joints = mechanism.joints().iter().zip(&report.joints);
+    let outside = joints.filter(|(joint, value)| !joint.allows(**value));
+    outside.map(|(joint, _)| joint.name.clone()).collect()
 }
 
 /// The report as JSON.
@@ -168,7 +181,7 @@ fn heading(mechanism: &Mechanism, report: &MobilityReport) -> String {
         "  Kutzbach {} − {} = {}, rank {}, infinitesimal {}, redundant {}",
         report.unknowns,
         report.equations,
-        report.kutzbach,
+        signed(report.kutzbach),
         report.rank,
         report.infinitesimal,
         report.redundant
@@ -196,8 +209,12 @@ fn joints(report: &MobilityReport) -> String {
         [] => "none".to_owned(),
         names => listed(names),
     };
-    let (moving, idle) = (said(&report.moving_joints), said(&report.idle_joints));
-    format!("Joints\n  moving  {moving}\n  idle    {idle}\n")
+    let (moving, idle) = (said(&report.moving_joints), said(&words::still(report)));
+    let spinning = match &words::spinning(report)[..] {
+        [] => String::new(),
+        names => format!("  spin    {}\n", listed(names)),
+    };
+    format!("Joints\n  moving  {moving}\n  idle    {idle}\n{spinning}")
 }
 
 fn loops(loops: &[LoopCount]) -> String {
@@ -213,7 +230,7 @@ fn loops(loops: &[LoopCount]) -> String {
     } in loops
     {
         let numbers = [*freedoms as i64, *kutzbach, *order as i64, *by_order];
-        let [freedoms, kutzbach, order, by_order] = numbers.map(|n| n.to_string());
+        let [freedoms, kutzbach, order, by_order] = numbers.map(signed);
         let joints = joints.join(" ");
         table.add_row([closure, &joints, &freedoms, &kutzbach, &order, &by_order]);
     }

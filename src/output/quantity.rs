@@ -1,5 +1,10 @@
 //! Numbers as people read them; JSON keeps every digit instead.
 
+/// A count with the minus sign of the formulas it stands in.
+pub(super) fn signed(count: i64) -> String {
+    count.to_string().replace('-', "−")
+}
+
 /// Six decimals without trailing zeros; the exponent form for what these cannot show.
 pub(super) fn number(value: f64) -> String {
     let size = value.abs();

@@ -41,8 +41,7 @@ pub fn complaint(error: &QuestionError) -> (Complaint, Part) {
         }
         QuestionError::AnglesLocked { platform } => {
             let help = format!(
-                "hold joints instead of `{platform}`, its whole pose, or describe `{platform}` by a frame that is \
-                 turned"
+                "hold joints instead of `{platform}`, or describe `{platform}` by a frame that is turned"
             );
             (said(title, "", Some(help)), Part::Name)
         }

@@ -35,6 +35,17 @@ pub fn json(mechanism: &Mechanism, report: &StaticsReport) -> String {
 
 /// The answer in one or two sentences.
 fn sentence(report: &StaticsReport) -> String {
+    match report.gained {
+        0 => balance(report),
+        gained => format!(
+            "Singular: {} gained that nothing held resists. {}",
+            count(gained, "freedom"),
+            balance(report)
+        ),
+    }
+}
+
+fn balance(report: &StaticsReport) -> String {
     if !report.unbalanced.is_empty() {
         return format!(
             "Not in equilibrium: nothing held resists the load along a motion of {}; the forces \
@@ -97,10 +108,12 @@ pub fn text(mechanism: &Mechanism, report: &StaticsReport) -> String {
         sections.push(format!("{title}\n{}", forces(&report.actuators)));
     }
     if !report.closures.is_empty() {
-        sections.push(format!("Closures\n{}", reactions(&report.closures)));
+        let title = "Closures, axes of ground, moments about the point of the second frame";
+        sections.push(format!("{title}\n{}", reactions(&report.closures)));
     }
     if !report.joints.is_empty() {
-        sections.push(format!("Joints\n{}", reactions(&report.joints)));
+        let title = "Joints, axes of ground, moments about the origin of the frame after the joint";
+        sections.push(format!("{title}\n{}", reactions(&report.joints)));
     }
     sections.join("\n")
 }

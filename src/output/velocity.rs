@@ -163,8 +163,13 @@ fn jacobian(jacobian: &InputOutput, length: f64) -> String {
         Some(condition) => size(condition),
         None => format!("infinite: {} lost", count(jacobian.loss, "freedom")),
     };
+    let without = match jacobian.followed {
+        0 => "",
+        rows if rows == jacobian.rows.len() => "",
+        _ => "without the points followed: ",
+    };
     let rest = format!(
-        "rank {}, condition number {condition}, manipulability {}, with lengths over {} m\n",
+        "{without}rank {}, condition number {condition}, manipulability {}, with lengths over {} m\n",
         jacobian.rank,
         number(jacobian.manipulability),
         number(length)

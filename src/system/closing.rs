@@ -30,7 +30,8 @@ impl WidestGap {
 pub struct Closed {
     /// The assembled configuration.
     pub configuration: Configuration<f64>,
-    /// The widest gap of the pose given; `None` if the mechanism has no closures.
+    /// The widest gap of the file's pose; `None` if the mechanism has no closures or the question
+    /// starts from other values.
     pub given: Option<WidestGap>,
     /// Whether what the question holds kept its values.
     pub kept: bool,
@@ -82,7 +83,11 @@ pub fn close(
 ) -> Result<Closed, NotClosed> {
     let mechanism = question.mechanism();
     let start = question.start();
-    let given = widest(mechanism, &start);
+    // values that were asked for move the mechanism: that says nothing about the file
+    let given = match question.differs_from_home() {
+        true => None,
+        false => widest(mechanism, &start),
+    };
     let closed = |configuration, kept| Closed {
         configuration,
         given: given.clone(),
@@ -108,6 +113,15 @@ pub fn close(
         left: widest(mechanism, &found.attempt.at),
         held: question.held_names(),
     })
+}
+
+impl Closed {
+    /// Names of the joints that are outside their limits.
+    pub fn outside_limits(&self, mechanism: &Mechanism) -> Vec<String> {
+        let joints = mechanism.joints().iter().zip(&self.configuration.joints);
+        let outside = joints.filter(|(joint, value)| !joint.allows(**value));
+        outside.map(|(joint, _)| joint.name.clone()).collect()
+    }
 }
 
 /// The number of unknowns with nothing held, if that is too many for the whole spectrum.

@@ -4,7 +4,7 @@ use serde::Serialize;
 
 use crate::linear::Decomposition;
 use crate::mechanism::Configuration;
-use crate::system::{Neighbourhood, loops};
+use crate::system::{MechanismLoop, Neighbourhood, loops};
 
 /// Kutzbach's count for one loop.
 ///
@@ -16,7 +16,7 @@ pub struct LoopCount {
     pub closure: String,
     /// Its bodies in order, from the one the two ways part at.
     pub bodies: Vec<String>,
-    /// The joint variables and closures in it, in order.
+    /// The joint variables and closures in it, in order, each once.
     pub joints: Vec<String>,
     /// The sum of their freedoms Σf.
     pub freedoms: usize,
@@ -33,17 +33,20 @@ pub(super) fn count(near: &mut Neighbourhood, at: &Configuration<f64>) -> Vec<Lo
     let loops = loops(near, at).into_iter();
     loops
         .map(|found| {
-            let parts = found.parts.iter();
-            let twists: Vec<f64> = (parts.clone())
-                .flat_map(|part| part.twists.iter().flatten().copied())
-                .collect();
+            let twists = twists(&found).concat();
             let freedoms = twists.len() / 6;
+            let mut joints: Vec<String> = Vec::new();
+            for name in found.parts.iter().flat_map(|part| &part.names) {
+                if !joints.contains(name) {
+                    joints.push(name.clone());
+                }
+            }
             let order = Decomposition::of(6, freedoms, &twists).rank();
             let bodies = found.bodies.iter();
             LoopCount {
                 closure: found.closure,
                 bodies: bodies.map(|&body| mechanism.body_name(body)).collect(),
-                joints: parts.flat_map(|part| part.names.clone()).collect(),
+                joints,
                 freedoms,
                 order,
                 kutzbach: freedoms as i64 - 6,
@@ -51,4 +54,32 @@ pub(super) fn count(near: &mut Neighbourhood, at: &Configuration<f64>) -> Vec<Lo
             }
         })
         .collect()
+}
+
+/// The twist of each freedom of a loop: a variable that stands in several rows is one freedom, and
+/// its twists along the way around add up.
+fn twists(found: &MechanismLoop) -> Vec<[f64; 6]> {
+    let mut twists: Vec<[f64; 6]> = Vec::new();
+    let mut variables: Vec<(usize, usize)> = Vec::new();
+    for (part, body) in found.parts.iter().zip(&found.bodies) {
+        let forth = part.bodies[0] == *body;
+        // a closure has the motion of its second body, a row that of its first
+        let sign = if forth == part.closure { -1.0 } else { 1.0 };
+        let own = part.twists.len().saturating_sub(part.joints.len());
+        twists.extend(&part.twists[..own]);
+        for (&joint, twist) in part.joints.iter().zip(&part.twists[own..]) {
+            let twist = twist.map(|x| sign * x);
+            match variables.iter().find(|(known, _)| *known == joint) {
+                Some(&(_, place)) => {
+                    let sum = twists[place].iter_mut().zip(twist);
+                    sum.for_each(|(sum, x)| *sum += x);
+                }
+                None => {
+                    variables.push((joint, twists.len()));
+                    twists.push(twist);
+                }
+            }
+        }
+    }
+    twists
 }

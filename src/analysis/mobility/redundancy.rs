@@ -60,12 +60,9 @@ pub(super) fn find(near: &mut Neighbourhood, tangent: &Tangent) -> Vec<Redundanc
             continue;
         }
         let rest = complement(&entering, dependencies.len());
-        let turn = |local: &[f64]| {
-            wrenches
-                .frame
-                .rotation
-                .inverse_rotate(&Vector3([local[0], local[1], local[2]]))
-        };
+        // placed in full: closures without axes leave frames unturned
+        let first = mechanism.poses([closure.frames[0]], &tangent.at)[0];
+        let turn = |v: &[f64]| first.rotation.inverse_rotate(&Vector3([v[0], v[1], v[2]]));
         let dependent: Vec<Vec<f64>> = (entering.iter())
             .map(|weights| {
                 let mut sum = [0.0; 6];

@@ -16,6 +16,9 @@ pub struct InputOutput {
     pub columns: Vec<Axis>,
     /// Row by row; an entry has the unit of its row over that of its column.
     pub entries: Vec<Vec<f64>>,
+    /// How many rows at the end are points followed: what is said of the matrix leaves them out,
+    /// unless there are no others.
+    pub followed: usize,
     /// Its rank, once lengths are divided by the normalising length.
     pub rank: usize,
     /// Freedoms lost: inputs, or outputs if they are fewer, less the rank.
@@ -47,14 +50,15 @@ pub(super) enum Output {
 }
 
 /// The outputs of a question: with a platform coordinate held the driven joints that are free, else
-/// the platforms' twists, else the free joints; and always the points asked for.
-pub(super) fn outputs(mechanism: &Mechanism, held: &[Holdable], points: &[Frame]) -> Vec<Output> {
-    let free = |joint: &usize| !held.contains(&Holdable::Joint(*joint));
+/// the platforms' twists, else the free joints that something determines.
+pub(super) fn outputs(mechanism: &Mechanism, held: &[Holdable], spinning: &[usize]) -> Vec<Output> {
+    let free =
+        |joint: &usize| !held.contains(&Holdable::Joint(*joint)) && !spinning.contains(joint);
     let free: Vec<usize> = (0..mechanism.joints().len()).filter(free).collect();
     let driven = |joint: &usize| mechanism.joints()[*joint].role == Role::Actuated;
     let inverse = held.iter().any(|h| matches!(h, Holdable::Coordinate(..)));
     let platforms = 0..mechanism.platforms().len();
-    let mut outputs: Vec<Output> = if inverse && free.iter().any(driven) {
+    if inverse && free.iter().any(driven) {
         let driven = free.iter().copied().filter(|joint| driven(joint));
         driven.map(Output::Joint).collect()
     } else if !inverse && !platforms.is_empty() {
@@ -63,9 +67,19 @@ pub(super) fn outputs(mechanism: &Mechanism, held: &[Holdable], points: &[Frame]
             .collect()
     } else {
         free.into_iter().map(Output::Joint).collect()
-    };
-    outputs.extend(points.iter().copied().map(Output::Point));
-    outputs
+    }
+}
+
+/// The points followed that are no outputs already, each once.
+pub(super) fn followed(outputs: &[Output], points: &[Frame]) -> Vec<Output> {
+    let mut frames: Vec<Frame> = Vec::new();
+    for &point in points {
+        let is_output = |output: &Output| matches!(output, Output::Twist(frame) if *frame == point);
+        if !frames.contains(&point) && !outputs.iter().any(is_output) {
+            frames.push(point);
+        }
+    }
+    frames.into_iter().map(Output::Point).collect()
 }
 
 pub(super) fn input_output(
@@ -146,11 +160,23 @@ pub(super) fn input_output(
             normalised.push(entry * scale / row_scale);
         }
     }
-    let smaller = rows.len().min(columns.len());
-    let decomposition = Decomposition::of(rows.len(), columns.len(), &normalised);
+    let points = outputs.iter();
+    let points = points.filter(|output| matches!(output, Output::Point(_)));
+    let followed = 3 * points.count();
+    let counted = match rows.len() - followed {
+        0 => rows.len(),
+        others => others,
+    };
+    let columnwise = normalised.chunks_exact(rows.len().max(1));
+    let normalised: Vec<f64> = (columnwise.flat_map(|column| &column[..counted]))
+        .copied()
+        .collect();
+    let smaller = counted.min(columns.len());
+    let decomposition = Decomposition::of(counted, columns.len(), &normalised);
     let values = decomposition.singular_values();
     let rank = rank(values);
     InputOutput {
+        followed,
         loss: smaller - rank,
         condition: (rank == smaller).then(|| decomposition.condition()),
         manipulability: values.iter().product(),

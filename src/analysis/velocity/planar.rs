@@ -163,18 +163,33 @@ pub(super) fn centres(
     let mut placement = twists.placement();
     twists.place(at, &mut placement);
     let length = mechanism.characteristic_length();
-    let twists: Vec<[f64; 6]> = (0..frames.len())
-        .map(|i| {
-            let Twist { omega, velocity } = twists.twist(i, &placement, &rates);
-            let velocity = velocity - omega.cross(&twists.origin(i, &placement));
-            let ([a, b, c], [x, y, z]) = (omega.0, velocity.times(1.0 / length).0);
-            [a, b, c, x, y, z]
-        })
-        .collect();
-    if normal(twists.iter()).is_none() {
+    let at_origin = |i: usize, rates: &[f64]| {
+        let Twist { omega, velocity } = twists.twist(i, &placement, rates);
+        let velocity = velocity - omega.cross(&twists.origin(i, &placement));
+        let ([a, b, c], [x, y, z]) = (omega.0, velocity.times(1.0 / length).0);
+        [a, b, c, x, y, z]
+    };
+    let at_input: Vec<[f64; 6]> = (0..frames.len()).map(|i| at_origin(i, &rates)).collect();
+    // planar for a moment only is not enough: every joint and every input must keep the plane
+    let mut all = at_input.clone();
+    let joints = (0..mechanism.joints().len()).map(|joint| {
+        let mut rates = vec![0.0; rates.len()];
+        rates[joint] = 1.0;
+        rates
+    });
+    let alone: Vec<Vec<f64>> = joints.collect();
+    let inputs = (0..drive.rates.len()).map(|input| {
+        let mut given = vec![0.0; drive.rates.len()];
+        given[input] = 1.0;
+        motion.rates(&given).to_vec()
+    });
+    for rates in inputs.chain(alone) {
+        all.extend((0..frames.len()).map(|i| at_origin(i, &rates)));
+    }
+    if normal(all.iter()).is_none() {
         return vec![];
     }
-    let largest = twists
+    let largest = at_input
         .iter()
         .flatten()
         .fold(0.0, |m: f64, x| m.max(x.abs()));
@@ -184,13 +199,13 @@ pub(super) fn centres(
             if bodies.len() > MANY_BODIES && bodies[i] != Body::Ground {
                 continue;
             }
-            let relative: [f64; 6] = std::array::from_fn(|k| twists[j][k] - twists[i][k]);
+            let relative: [f64; 6] = std::array::from_fn(|k| at_input[j][k] - at_input[i][k]);
             let (omega, velocity) = split(&relative);
             let (point, at_infinity) = if omega.norm() > ZERO * largest {
                 let speed = omega.dot(&omega);
                 (Some(omega.cross(&velocity).times(length / speed)), None)
             } else if velocity.norm() > ZERO * largest {
-                let plane = normal(twists.iter()).unwrap_or(Vector3::unit(2));
+                let plane = normal(at_input.iter()).unwrap_or(Vector3::unit(2));
                 let across = plane.cross(&velocity);
                 (None, Some(across.times(1.0 / across.norm())))
             } else {

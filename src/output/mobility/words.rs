@@ -7,7 +7,7 @@ use crate::description::count;
 use crate::description::listed;
 use crate::mechanism::Mechanism;
 use crate::output::closing;
-use crate::output::quantity::quantity;
+use crate::output::quantity::{quantity, signed};
 
 /// The answer: how many freedoms, and why that is not what counting says.
 pub(super) fn explanation(mechanism: &Mechanism, report: &MobilityReport) -> String {
@@ -28,16 +28,41 @@ pub(super) fn explanation(mechanism: &Mechanism, report: &MobilityReport) -> Str
             many.len()
         )),
     }
-    if report.mobility > 0 && !report.idle_joints.is_empty() {
-        let stand = match report.idle_joints.len() {
+    let still = still(report);
+    if report.mobility > 0 && !still.is_empty() {
+        let stand = match still.len() {
             1 => "stands",
             _ => "stand",
         };
-        sentences.push(format!("{} {stand} still.", listed(&report.idle_joints)));
+        sentences.push(format!("{} {stand} still.", listed(&still)));
     }
     sentences.extend((report.elsewhere.iter()).map(|other| elsewhere(mechanism, other)));
     sentences.extend((report.given.as_ref()).map(|gap| closing::given(gap, report.kept)));
     sentences.join(" ")
+}
+
+/// Joints that stand still in every motion, idle ones too.
+pub(super) fn still(report: &MobilityReport) -> Vec<String> {
+    let idle = report.idle_joints.iter();
+    idle.filter(|joint| !spins(report, joint))
+        .cloned()
+        .collect()
+}
+
+/// Joints that move only because a link spins about its own line.
+pub(super) fn spinning(report: &MobilityReport) -> Vec<String> {
+    let idle = report.idle_joints.iter();
+    idle.filter(|joint| spins(report, joint)).cloned().collect()
+}
+
+fn spins(report: &MobilityReport, joint: &String) -> bool {
+    let freedoms = report.idle_freedoms.iter();
+    freedoms
+        .filter_map(|freedom| match freedom {
+            IdleFreedom::Joints(joints) => Some(joints),
+            IdleFreedom::Rod(_) => None,
+        })
+        .any(|joints| joints.contains(joint))
 }
 
 fn freedoms(number: usize) -> String {
@@ -68,9 +93,10 @@ pub(super) fn mobility(report: &MobilityReport) -> String {
             )
         }
         Character::Singular => format!(
-            "The mechanism has {} at this singular configuration, where {infinitesimal} are \
+            "The mechanism has {} at this singular configuration, where {infinitesimal} {} \
              infinitesimal.",
-            freedoms(*mobility)
+            freedoms(*mobility),
+            if *infinitesimal == 1 { "is" } else { "are" }
         ),
         Character::Bifurcation => format!(
             "Bifurcation: {} of {} each meet here, where {infinitesimal} freedoms are \
@@ -114,8 +140,9 @@ fn counted(report: &MobilityReport) -> String {
         _ => format!("the {equations} closure equations have"),
     };
     format!(
-        "Kutzbach counts {unknowns} − {equations} = {kutzbach}; {equations_said} rank {rank}, \
-         {independent}."
+        "Kutzbach counts {unknowns} − {equations} = {}; {equations_said} rank {rank}, \
+         {independent}.",
+        signed(*kutzbach)
     )
 }
 

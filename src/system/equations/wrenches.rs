@@ -1,15 +1,13 @@
 //! What the rows of the closures resist.
 
 use super::{System, Work};
-use crate::geometry::{Pose, Vector3};
+use crate::geometry::Vector3;
 use crate::linear::Factorable;
 use crate::mechanism::{Configuration, Side};
 
 /// The constraint wrenches of a closure: what its rows resist, acting on side B.
 #[derive(Clone, Debug)]
 pub struct ClosureWrenches<T> {
-    /// Ground from frame A of the closure.
-    pub frame: Pose<T>,
     /// Where the forces attack on side A and side B, in ground, in m.
     pub points: [Vector3<T>; 2],
     /// Number of the closure's first row among all rows.
@@ -32,7 +30,6 @@ impl<T: Factorable> System<T> {
                 let rows = closure.rows(&work.placement, at);
                 let here = rows.twist_rows(Side::B, &Vector3::zero(), self.length);
                 ClosureWrenches {
-                    frame: *closure.frames(&work.placement)[0],
                     points: [Side::A, Side::B].map(|side| *rows.velocity_point(side)),
                     first_row: plan.row,
                     rows: here[..plan.rows].to_vec(),
