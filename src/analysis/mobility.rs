@@ -189,9 +189,7 @@ pub fn mobility(question: &Question, settings: &MobilitySettings) -> Analysed<Mo
         let unknowns = near.system().unknowns().iter().zip(moved);
         unknowns
             .filter_map(|(unknown, &moved)| match *unknown {
-                Unknown::Joint(joint) if moved => {
-                    Some(mechanism.joints()[joint].name.clone())
-                }
+                Unknown::Joint(joint) if moved => Some(mechanism.joints()[joint].name.clone()),
                 _ => None,
             })
             .collect()

@@ -225,9 +225,8 @@ fn branches(
     let mut branches: Vec<(bool, Branch)> = Vec::new();
     for seen in seen {
         let motions = there(near, tangent, &seen);
-        let one = |known: &&mut (bool, Branch)| {
-            same(&known.1.tangent.motions, &motions, SAME_THERE)
-        };
+        let one =
+            |known: &&mut (bool, Branch)| same(&known.1.tangent.motions, &motions, SAME_THERE);
         if let Some((_, branch)) = branches.iter_mut().find(one) {
             let all = branch.moved.iter_mut().zip(&seen.moved);
             all.for_each(|(any, moved)| *any |= moved);
@@ -379,9 +378,14 @@ fn there(near: &mut Neighbourhood, tangent: &Tangent, seen: &Seen) -> Vec<Vec<f6
     };
     for (i, (own, motions)) in levels.iter().enumerate() {
         let others = levels.iter().enumerate().filter(|(j, _)| *j != i);
-        let weight: f64 = others.map(|(_, (other, _))| other / (other - own)).product();
+        let weight: f64 = others
+            .map(|(_, (other, _))| other / (other - own))
+            .product();
         for (limit, motion) in limit.iter_mut().zip(motions) {
-            limit.iter_mut().zip(motion).for_each(|(l, m)| *l += weight * m);
+            limit
+                .iter_mut()
+                .zip(motion)
+                .for_each(|(l, m)| *l += weight * m);
         }
     }
     // every finite motion starts along an infinitesimal one

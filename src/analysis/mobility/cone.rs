@@ -70,10 +70,15 @@ impl Cone {
         let mut v = combination(&units, rng);
         let mut left = f64::INFINITY;
         for _ in 0..STEPS {
-            let (values, slopes) = self.linearised(&v);
+            let (values, mut slopes) = self.linearised(&v);
             left = norm(&values);
             if left < 1e-12 {
                 break;
+            }
+            // by Euler the slope along v is twice the value: a step there would only shorten v
+            for (column, &v) in slopes.chunks_exact_mut(values.len()).zip(&v) {
+                let along = column.iter_mut().zip(&values);
+                along.for_each(|(slope, value)| *slope -= 2.0 * value * v);
             }
             let back = Decomposition::of(values.len(), n, &slopes).solve(&values);
             v.iter_mut().zip(&back).for_each(|(v, b)| *v -= b);
