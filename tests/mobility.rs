@@ -394,6 +394,121 @@ fn motions_that_meet_are_told_apart() {
     );
 }
 
+/// Parallelograms of cranks 2 and couplers 4 in line, beside each other.
+fn parallelograms(number: usize, more_joints: &str, more_chains: &str) -> Mechanism {
+    let (mut joints, mut chains, mut closures) = <(String, String, String)>::default();
+    for i in 0..number {
+        joints += &format!(
+            r#""a{i}": Actuated(home: 0), "b{i}": Passive(home: 0), "c{i}": Passive(home: 0),"#
+        );
+        chains += &format!(
+            r#""l{i}": Chain(base: [Ty("{y}")], rows: [(theta: "a{i}"), (a: 2, theta: "b{i}")],
+                   tip: [Tx("4")]),
+               "r{i}": Chain(base: [T(4, {y}, 0)], rows: [(theta: "c{i}")], tip: [Tx("2")]),"#,
+            y = 9 * i
+        );
+        closures += &format!(r#""j{i}": Revolute("l{i}", "r{i}"),"#);
+    }
+    read(&format!(
+        r#"Mechanism(version: 1, name: "parallelograms", convention: Modified,
+            joints: {{ {joints} {more_joints} }}, chains: {{ {chains} {more_chains} }},
+            closures: {{ {closures} }})"#
+    ))
+}
+
+fn branches_with_seed(mechanism: &Mechanism, seed: u64) -> Vec<usize> {
+    let settings = MobilitySettings {
+        seed,
+        ..MobilitySettings::default()
+    };
+    let report = mobility(&Question::new(mechanism), &settings)
+        .closed()
+        .unwrap();
+    report.branches.iter().map(|b| b.mobility).collect()
+}
+
+#[test]
+fn freedoms_beside_a_bifurcation_are_added_to_each_of_its_branches() {
+    // the configurations of independent parts are products: each parallelogram has two branches
+    let crank = (
+        r#""d": Passive(home: 0.3)"#,
+        r#""arm": Chain(base: [Ty("-9")], rows: [(theta: "d")], tip: [Tx("1")])"#,
+    );
+    for seed in 1..=4 {
+        let with_crank = parallelograms(1, crank.0, crank.1);
+        assert_eq!(branches_with_seed(&with_crank, seed), [2, 2], "{seed}");
+        let two = parallelograms(2, "", "");
+        assert_eq!(branches_with_seed(&two, seed), [2; 4], "{seed}");
+        let three = parallelograms(3, "", "");
+        assert_eq!(branches_with_seed(&three, seed), [3; 8], "{seed}");
+    }
+}
+
+#[test]
+fn a_plate_on_six_equal_vertical_rods_shifts_or_turns() {
+    // shifted by (x, y) all rods tilt alike; turned about the axis they lean as rulings of a
+    // hyperboloid and the plate sinks; both at once would need a different sinking of each rod
+    let (mut chains, mut frames, mut closures) = <(String, String, String)>::default();
+    for i in 0..6 {
+        let place = format!(r#"[Rz("{} deg"), Tx(1)]"#, 60 * i);
+        chains += &format!(r#""A{i}": Chain(base: {place}),"#);
+        frames += &format!(r#""B{i}": {place},"#);
+        closures += &format!(r#""leg{i}": Distance("A{i}", "top.B{i}", 1),"#);
+    }
+    let plate = read(&format!(
+        r#"Mechanism(version: 1, name: "plate", convention: Modified, joints: {{}},
+            chains: {{ {chains} }},
+            platforms: {{ "top": Platform(home: [Tz(1)], frames: {{ {frames} }}) }},
+            closures: {{ {closures} }})"#
+    ));
+    for seed in 1..=3 {
+        assert_eq!(branches_with_seed(&plate, seed), [2, 1], "{seed}");
+    }
+}
+
+#[test]
+fn three_equal_cranks_in_line_move_whatever_the_seed() {
+    // the coupler shifts on a circle, in line as elsewhere
+    let (mut joints, mut chains, mut frames, mut closures) =
+        <(String, String, String, String)>::default();
+    for i in 0..3 {
+        let x = 2 * i;
+        joints += &format!(r#""q{i}": Passive(home: 0),"#);
+        chains +=
+            &format!(r#""k{i}": Chain(base: [Tx({x})], rows: [(theta: "q{i}")], tip: [Tx(1)]),"#);
+        frames += &format!(r#""B{i}": [Tx({x})],"#);
+        closures += &format!(r#""B{i}": Revolute("k{i}", "p.B{i}"),"#);
+    }
+    let cranks = read(&format!(
+        r#"Mechanism(version: 1, name: "cranks", convention: Modified, joints: {{ {joints} }},
+            chains: {{ {chains} }},
+            platforms: {{ "p": Platform(home: [Tx(1)], frames: {{ {frames} }}) }},
+            closures: {{ {closures} }})"#
+    ));
+    for seed in 1..=8 {
+        assert_eq!(branches_with_seed(&cranks, seed), [1], "{seed}");
+    }
+}
+
+#[test]
+fn the_slack_of_a_shaky_part_is_no_motion() {
+    // a crank beside two bars in line between posts, which cannot move
+    let mechanism = read(
+        r#"Mechanism(version: 1, name: "crank beside a flat triangle", convention: Modified,
+            joints: { "d": Passive(home: 0.3), "t": Passive(home: 0), "u": Passive(home: 0) },
+            chains: {
+                "arm": Chain(rows: [(theta: "d")], tip: [Tx(1)]),
+                "bars": Chain(base: [Ty(9)], rows: [(theta: "t"), (a: 2, theta: "u")], tip: [Tx(3)]),
+                "post": Chain(base: [T(5, 9, 0)]),
+            },
+            closures: { "hinge": Revolute("bars", "post") })"#,
+    );
+    let report = of(&mechanism);
+    assert_eq!((report.mobility, report.infinitesimal), (1, 2));
+    assert_eq!(report.moving_joints, ["d"]);
+    assert_eq!(report.idle_joints, ["t", "u"]);
+}
+
 #[test]
 fn beside_the_meeting_point_each_motion_is_regular() {
     let mechanism = load("parallelogram");

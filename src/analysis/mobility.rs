@@ -6,6 +6,7 @@
 //! step, never from a rank alone.
 
 mod branches;
+mod cone;
 mod loops;
 mod redundancy;
 mod screws;
@@ -54,7 +55,7 @@ impl Default for MobilitySettings {
             restarts: 40,
             step: 0.05,
             directions: 3,
-            branch_step: 0.01,
+            branch_step: 0.02,
             branch_trials: 8,
             elsewhere: 8,
             seed: 1,
@@ -150,7 +151,8 @@ pub struct BranchReport {
     pub mobility: usize,
     /// Joints that move on it.
     pub moving_joints: Vec<String>,
-    /// Its motions, beside the meeting point, as for the whole.
+    /// Its motions at the configuration, as for the whole; those of a branch that is shaky
+    /// throughout and has several freedoms only to about the length of a step.
     pub twists: Vec<TwistSpace>,
 }
 
@@ -183,13 +185,11 @@ pub fn mobility(question: &Question, settings: &MobilitySettings) -> Analysed<Mo
     let found = branches::find(&mut near, &tangent, settings, &mut rng);
     let carriers = screws::carriers(mechanism);
     let (rows, unknowns) = (near.system().rows(), near.system().unknowns().len());
-    let moving = |moved: &[f64]| -> Vec<String> {
+    let moving = |moved: &[bool]| -> Vec<String> {
         let unknowns = near.system().unknowns().iter().zip(moved);
         unknowns
             .filter_map(|(unknown, &moved)| match *unknown {
-                Unknown::Joint(joint) if moved > branches::MOVED => {
-                    Some(mechanism.joints()[joint].name.clone())
-                }
+                Unknown::Joint(joint) if moved => Some(mechanism.joints()[joint].name.clone()),
                 _ => None,
             })
             .collect()

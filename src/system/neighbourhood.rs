@@ -210,6 +210,27 @@ impl<'a> Neighbourhood<'a> {
         }
     }
 
+    /// What a motion ξ leaves of the equations to second order: wᵀ H(ξ, ξ) for each of the given w
+    /// with wᵀ J = 0. Motions of higher order that a finite one would need do not enter.
+    pub fn second_order(
+        &mut self,
+        from: &Tangent,
+        dependencies: &[Vec<f64>],
+        motion: &[f64],
+    ) -> Vec<f64> {
+        /// Balances the fourth order against rounding.
+        const STEP: f64 = 1e-3;
+        let mut sums = vec![0.0; dependencies.len()];
+        for step in [STEP, -STEP] {
+            let step: Vec<f64> = motion.iter().map(|x| x * step).collect();
+            let at = self.system.displaced(&from.at, &step);
+            self.system.residual(&at, &mut self.work);
+            let residual = self.system.residual_of(&self.work);
+            (sums.iter_mut().zip(dependencies)).for_each(|(sum, w)| *sum += dot(w, residual));
+        }
+        sums.iter().map(|sum| sum / (STEP * STEP)).collect()
+    }
+
     /// The assembled configuration that Gauss–Newton steps of least length reach from a point, to
     /// rounding; `None` if they go further than `reach` or do not arrive.
     pub fn settle(&mut self, mut at: Configuration<f64>, reach: f64) -> Option<Configuration<f64>> {

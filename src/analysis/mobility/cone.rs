@@ -1,0 +1,110 @@
+//! Directions in which an infinitesimal motion is finite to second order.
+
+use rand::Rng;
+
+use super::branches::combination;
+use crate::linear::{Decomposition, norm, orthonormal};
+use crate::system::{Neighbourhood, Tangent};
+
+/// The quadratic tangent cone: the motions ξ = Σ vᵢ mᵢ with wₖᵀ H(ξ, ξ) = 0 for all wₖ with
+/// wₖᵀ J = 0, which every finite motion starts along.
+/// Source: Connelly and Whiteley, SIAM J. Discrete Math. 9, 1996; Müller, Mech. Mach. Theory 2019.
+pub(super) struct Cone {
+    freedoms: usize,
+    /// For each independent form its coefficients cᵢⱼ of vᵢ vⱼ with i ≤ j, row by row.
+    forms: Vec<Vec<f64>>,
+}
+
+impl Cone {
+    /// The cone at a configuration.
+    pub fn of(near: &mut Neighbourhood, tangent: &Tangent) -> Self {
+        /// Beyond so many freedoms the forms cost more than they are worth.
+        const LIMIT: usize = 24;
+        /// Below this a form is truncation of the differences: zero.
+        const ZERO: f64 = 1e-4;
+        let motions = &tangent.motions;
+        let n = motions.len();
+        let mut cone = Cone {
+            freedoms: n,
+            forms: vec![],
+        };
+        if !(2..=LIMIT).contains(&n) {
+            return cone;
+        }
+        let dependencies = tangent.decomposition.left_null_space();
+        let mut along = |motion: &[f64]| near.second_order(tangent, &dependencies, motion);
+        let squares: Vec<Vec<f64>> = motions.iter().map(|motion| along(motion)).collect();
+        let mut coefficients: Vec<Vec<f64>> = vec![];
+        for i in 0..n {
+            coefficients.push(squares[i].clone());
+            for j in i + 1..n {
+                let sum: Vec<f64> = (motions[i].iter().zip(&motions[j]))
+                    .map(|(a, b)| a + b)
+                    .collect();
+                let both = along(&sum);
+                let cross = both.iter().zip(squares[i].iter().zip(&squares[j]));
+                coefficients.push(cross.map(|(q, (a, b))| q - a - b).collect());
+            }
+        }
+        let rows: Vec<Vec<f64>> = (0..dependencies.len())
+            .map(|k| coefficients.iter().map(|c| c[k]).collect())
+            .collect();
+        cone.forms = orthonormal(&rows, ZERO);
+        cone
+    }
+
+    /// Whether second order excludes anything.
+    pub fn is_all(&self) -> bool {
+        self.forms.is_empty()
+    }
+
+    /// A direction on the cone, by Gauss–Newton steps from a random one; `None` if they do not
+    /// settle.
+    pub fn direction(&self, motions: &[Vec<f64>], rng: &mut impl Rng) -> Option<Vec<f64>> {
+        const STEPS: usize = 40;
+        /// Double solutions are neared linearly only: what is left is left to the finite step.
+        const NEAR: f64 = 1e-5;
+        let n = self.freedoms;
+        let unit = |i: usize| (0..n).map(|j| f64::from(u8::from(i == j))).collect();
+        let units: Vec<Vec<f64>> = (0..n).map(unit).collect();
+        let mut v = combination(&units, rng);
+        let mut left = f64::INFINITY;
+        for _ in 0..STEPS {
+            let (values, mut slopes) = self.linearised(&v);
+            left = norm(&values);
+            if left < 1e-12 {
+                break;
+            }
+            // by Euler the slope along v is twice the value: a step there would only shorten v
+            for (column, &v) in slopes.chunks_exact_mut(values.len()).zip(&v) {
+                let along = column.iter_mut().zip(&values);
+                along.for_each(|(slope, value)| *slope -= 2.0 * value * v);
+            }
+            let back = Decomposition::of(values.len(), n, &slopes).solve(&values);
+            v.iter_mut().zip(&back).for_each(|(v, b)| *v -= b);
+            let length = norm(&v);
+            if length.is_nan() || length < 1e-3 {
+                return None;
+            }
+            v.iter_mut().for_each(|x| *x /= length);
+        }
+        let sum = |i: usize| motions.iter().zip(&v).map(|(m, v)| m[i] * v).sum();
+        (left < NEAR).then(|| (0..motions[0].len()).map(sum).collect())
+    }
+
+    /// The forms at v and their derivatives, column-major.
+    fn linearised(&self, v: &[f64]) -> (Vec<f64>, Vec<f64>) {
+        let (rows, n) = (self.forms.len(), self.freedoms);
+        let mut values = vec![0.0; rows];
+        let mut slopes = vec![0.0; rows * n];
+        for (k, form) in self.forms.iter().enumerate() {
+            let pairs = (0..n).flat_map(|i| (i..n).map(move |j| (i, j)));
+            for ((i, j), c) in pairs.zip(form) {
+                values[k] += c * v[i] * v[j];
+                slopes[i * rows + k] += c * v[j];
+                slopes[j * rows + k] += c * v[i];
+            }
+        }
+        (values, slopes)
+    }
+}
