@@ -165,9 +165,12 @@ pub fn text(mechanism: &Mechanism, report: &MobilityReport) -> String {
         sections.push(twists("Infinitesimal motions", &report.twists));
     }
     for (i, branch) in report.branches.iter().enumerate() {
-        let moving = listed(&branch.moving_joints);
+        let moving = match branch.moving_joints.as_slice() {
+            [] => String::new(),
+            joints => format!(", moving {}", listed(joints)),
+        };
         let freedoms = crate::description::count(branch.mobility, "freedom");
-        let title = format!("Branch {}: {freedoms}, moving {moving}", i + 1);
+        let title = format!("Branch {}: {freedoms}{moving}", i + 1);
         sections.push(twists(&title, &branch.twists));
     }
     sections.retain(|section| !section.is_empty());
