@@ -1,0 +1,264 @@
+//! Joint axes → Denavit–Hartenberg tables, as a mechanism file.
+//!
+//! A serial chain is one table. Where the joints say which bodies they connect, closed loops are cut
+//! (`loops.rs`), and what is left becomes chains (`chains.rs`).
+
+mod chains;
+mod loops;
+mod values;
+
+use serde::Serialize;
+
+use crate::description::{
+    AxesDescription, AxesProblem, AxisKind, Convention, Description, Problem, ProblemKind,
+};
+use crate::geometry::{Pose, Relation};
+use crate::mechanism::{Assignment, Mechanism, Normal};
+
+/// The most joints of one file of axes.
+pub const MOST_JOINTS: usize = 1000;
+
+/// How frames are placed.
+#[derive(Clone, Debug, Default)]
+pub struct FramesSettings {
+    /// The convention of the tables; that of the file, or else the modified one.
+    pub convention: Option<Convention>,
+}
+
+/// Tables for joint axes.
+#[derive(Clone, Debug, Serialize)]
+pub struct FramesReport {
+    /// `Modified` or `Standard`.
+    pub convention: &'static str,
+    /// The chains with their frames.
+    pub chains: Vec<PlacedChain>,
+    /// Where loops were cut, and why there; `None` for a serial chain.
+    pub cuts: Option<CutReport>,
+    /// Largest angle in rad by which an axis or the tool differs from the one given.
+    pub turned: f64,
+    /// The same in m.
+    pub moved: f64,
+    /// The mechanism file.
+    #[serde(skip)]
+    pub description: Description,
+    /// What is odd about the file of axes.
+    #[serde(skip)]
+    pub warnings: Vec<Problem>,
+}
+
+/// A chain whose frames are placed.
+#[derive(Clone, Debug, Serialize)]
+pub struct PlacedChain {
+    /// Its name.
+    pub name: String,
+    /// The frame it stands on.
+    pub on: String,
+    /// The joints, one for each row.
+    pub joints: Vec<String>,
+    /// Whether frame 0 is the frame it stands on or the base given.
+    pub starts_at_base: bool,
+    /// Whether the last frame is the tool given.
+    pub ends_at_tool: bool,
+    /// The common normals N₀ … N_n that x₀ … x_n lie on.
+    pub normals: Vec<PlacedNormal>,
+    /// The rows, constant parts.
+    pub rows: Vec<PlacedRow>,
+    /// Frames 0 to n at home.
+    pub frames: Vec<PlacedFrame>,
+    /// The joint axes at home.
+    pub axes: Vec<PlacedAxis>,
+}
+
+/// A common normal between consecutive axes.
+#[derive(Clone, Debug, Serialize)]
+pub struct PlacedNormal {
+    /// How the axes lie; `None` at an end where nothing given fixes it.
+    pub relation: Option<Relation>,
+    /// Angle in rad between the axes as given.
+    pub angle: f64,
+    /// Distance in m between the axes as given.
+    pub distance: f64,
+    /// Where it starts, in m.
+    pub from: [f64; 3],
+    /// Where it ends, in m.
+    pub to: [f64; 3],
+    /// Unit vector along it.
+    pub x: [f64; 3],
+}
+
+/// The constant parts of a row.
+#[derive(Clone, Copy, Debug, Serialize)]
+pub struct PlacedRow {
+    /// Twist in rad.
+    pub alpha: f64,
+    /// Length in m.
+    pub a: f64,
+    /// Offset in m at the variable's zero.
+    pub d: f64,
+    /// Angle in rad at the variable's zero.
+    pub theta: f64,
+    /// Factor of the variable in θ.
+    pub turn: f64,
+    /// Factor of the variable in d.
+    pub slide: f64,
+}
+
+/// A frame at home, in ground.
+#[derive(Clone, Copy, Debug, Serialize)]
+pub struct PlacedFrame {
+    /// Its origin in m.
+    pub position: [f64; 3],
+    /// Its x axis.
+    pub x: [f64; 3],
+    /// Its y axis.
+    pub y: [f64; 3],
+    /// Its z axis.
+    pub z: [f64; 3],
+}
+
+/// A joint axis at home, in ground.
+#[derive(Clone, Copy, Debug, Serialize)]
+pub struct PlacedAxis {
+    /// A point on it, in m.
+    pub point: [f64; 3],
+    /// Its direction.
+    pub direction: [f64; 3],
+    /// Whether the joint slides along it.
+    pub prismatic: bool,
+}
+
+/// Where loops were cut.
+#[derive(Clone, Debug, Serialize)]
+pub struct CutReport {
+    /// The joints that were cut.
+    pub cut: Vec<String>,
+    /// Whether the file named them.
+    pub given: bool,
+    /// The ways to cut that were compared, simplest first; the first is the one taken.
+    pub ways: Vec<Way>,
+    /// Whether there are more ways than were compared.
+    pub more: bool,
+}
+
+/// One way to cut the loops.
+#[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize)]
+pub struct Way {
+    /// Rows of the longest chain.
+    pub longest: usize,
+    /// Entries and displacements that are not zero, joint variables left out.
+    pub entries: usize,
+    /// How many of the cut joints are prismatic.
+    pub prismatic: usize,
+    /// The joints cut.
+    pub cut: Vec<String>,
+}
+
+impl PlacedFrame {
+    fn of(pose: &Pose<f64>) -> Self {
+        let [x, y, z] = pose.rotation.0.map(|column| column.0);
+        PlacedFrame {
+            position: pose.position.0,
+            x,
+            y,
+            z,
+        }
+    }
+}
+
+impl PlacedNormal {
+    fn of(normal: &Normal) -> Self {
+        PlacedNormal {
+            relation: normal.relation,
+            angle: normal.angle,
+            distance: normal.distance,
+            from: normal.feet[0].0,
+            to: normal.feet[1].0,
+            x: normal.x.0,
+        }
+    }
+}
+
+impl PlacedChain {
+    /// The first `rows` rows of an assignment.
+    fn of(name: String, on: String, joints: Vec<String>, made: &Assignment) -> Self {
+        let rows = joints.len();
+        let row = |row: &crate::mechanism::TableRow| PlacedRow {
+            alpha: row.alpha,
+            a: row.a,
+            d: row.d,
+            theta: row.theta,
+            turn: row.turn,
+            slide: row.slide,
+        };
+        let frames = made.table.frames();
+        let axis = |(line, row): (&crate::geometry::Line, &crate::mechanism::TableRow)| PlacedAxis {
+            point: line.point.0,
+            direction: line.direction.0,
+            prismatic: row.turn == 0.0,
+        };
+        PlacedChain {
+            name,
+            on,
+            starts_at_base: made.starts_at_base,
+            ends_at_tool: made.ends_at_tool && made.table.rows.len() == rows,
+            normals: made.normals[..=rows].iter().map(PlacedNormal::of).collect(),
+            rows: made.table.rows[..rows].iter().map(row).collect(),
+            frames: frames[..=rows].iter().map(PlacedFrame::of).collect(),
+            axes: made.axes.iter().zip(&made.table.rows).take(rows).map(axis).collect(),
+            joints,
+        }
+    }
+}
+
+fn problem(problem: AxesProblem) -> ProblemKind {
+    ProblemKind::Axes(Box::new(problem))
+}
+
+/// Places frames on joint axes and reads the tables off them.
+///
+/// # Errors
+/// With all that is wrong with the axes, in the order of the file.
+pub fn frames(
+    axes: &AxesDescription,
+    settings: &FramesSettings,
+) -> Result<FramesReport, Vec<Problem>> {
+    let of_file = axes.convention.as_ref().map(|convention| convention.value);
+    let convention = settings.convention.or(of_file).unwrap_or(Convention::Modified);
+    let values = values::Values::of(axes)?;
+    let closed = axes.joints.iter().any(|joint| joint.value.between.is_some());
+    let built = match closed {
+        true => loops::closed(axes, &values, convention)?,
+        false => {
+            let ball = axes.joints.iter().filter(|joint| joint.value.kind == AxisKind::Spherical);
+            let problems: Vec<Problem> = ball
+                .map(|ball| {
+                    let joint = ball.name.value.clone();
+                    problem(AxesProblem::SphericalInSerial { joint }).at(ball.value.span.clone())
+                })
+                .chain(axes.cut.first().map(|cut| {
+                    let joint = cut.value.clone();
+                    problem(AxesProblem::CutsOff { joint }).at(cut.span.clone())
+                }))
+                .collect();
+            if !problems.is_empty() {
+                return Err(problems);
+            }
+            chains::serial(axes, &values, convention)
+        }
+    };
+    let description = built.description;
+    let mut warnings = values.warnings;
+    // entries keep their places in the file, and what is new cannot be wrong
+    let mechanism = Mechanism::new(&description)?;
+    let kept = |problem: &&Problem| matches!(problem.kind, ProblemKind::HomeOutsideLimits { .. });
+    warnings.extend(mechanism.warnings().iter().filter(kept).cloned());
+    Ok(FramesReport {
+        convention: convention.word(),
+        chains: built.chains,
+        cuts: built.cuts,
+        turned: built.turned,
+        moved: built.moved,
+        description,
+        warnings,
+    })
+}

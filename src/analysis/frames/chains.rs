@@ -1,0 +1,205 @@
+//! Chains of a mechanism file from assigned frames.
+
+use std::collections::HashSet;
+
+use super::values::Values;
+use super::{CutReport, PlacedChain};
+use crate::algebra::{Expression, Node, Operator};
+use crate::description::{
+    AxesDescription, AxisKind, ChainDescription, Convention, Description, Displacement, Entry,
+    JointDescription, Named, Role, Row, Spanned,
+};
+use crate::geometry::Pose;
+use crate::mechanism::{JointAxis, SerialAxes, Table, TableRow};
+
+/// A mechanism file and how it came about.
+pub(super) struct Built {
+    pub description: Description,
+    pub chains: Vec<PlacedChain>,
+    pub cuts: Option<CutReport>,
+    pub turned: f64,
+    pub moved: f64,
+}
+
+pub(super) fn nowhere<T>(value: T) -> Spanned<T> {
+    Spanned::new(value, 0..0)
+}
+
+/// The axis of the joint of that index, traversed from the first of its bodies or from the second.
+pub(super) fn joint_axis(
+    axes: &AxesDescription,
+    values: &Values,
+    joint: usize,
+    forwards: bool,
+) -> JointAxis {
+    let (line, home) = (values.lines[joint], values.homes[joint]);
+    let axis = match axes.joints[joint].value.kind {
+        AxisKind::Prismatic => JointAxis::prismatic(line, home),
+        AxisKind::Revolute | AxisKind::Spherical => JointAxis::revolute(line, home),
+    };
+    // the first body moves against the second the other way
+    let sense = if forwards { 1.0 } else { -1.0 };
+    JointAxis {
+        turn: sense * axis.turn,
+        slide: sense * axis.slide,
+        ..axis
+    }
+}
+
+/// constant ± variable
+fn moving(constant: Entry, factor: f64, variable: &str) -> Entry {
+    let name = || Box::new(Expression::name(variable.to_owned()));
+    let zero = constant.expression.is_zero();
+    let negative = match constant.expression.node {
+        Node::Number(x) | Node::Quantity(x, _) => x < 0.0,
+        _ => false,
+    };
+    let positive = match constant.expression.node {
+        Node::Number(x) => Node::Number(x.abs()),
+        Node::Quantity(x, unit) => Node::Quantity(x.abs(), unit),
+        other => other,
+    };
+    let constant = Box::new(positive.at(0..0));
+    let node = match (factor > 0.0, zero, negative) {
+        (true, true, _) => return entry(Expression::name(variable.to_owned())),
+        (false, true, _) => Node::Negate(name()),
+        (true, false, false) => Node::Binary(Operator::Add, name(), constant),
+        (true, false, true) => Node::Binary(Operator::Subtract, name(), constant),
+        (false, false, false) => Node::Binary(Operator::Subtract, constant, name()),
+        (false, false, true) => {
+            let minus = Box::new(Node::Negate(name()).at(0..0));
+            Node::Binary(Operator::Subtract, minus, constant)
+        }
+    };
+    entry(node.at(0..0))
+}
+
+fn entry(expression: Expression) -> Entry {
+    Entry {
+        expression,
+        span: 0..0,
+    }
+}
+
+fn row(row: &TableRow, variable: &str) -> Row {
+    let (d, theta) = (Entry::length(row.d), Entry::angle(row.theta));
+    Row {
+        alpha: Entry::angle(row.alpha),
+        a: Entry::length(row.a),
+        d: match row.slide {
+            0.0 => d,
+            factor => moving(d, factor, variable),
+        },
+        theta: match row.turn {
+            0.0 => theta,
+            factor => moving(theta, factor, variable),
+        },
+        span: 0..0,
+    }
+}
+
+/// The first rows of a table, as many as there are names of variables.
+pub(super) fn rows(table: &Table, variables: &[String]) -> Vec<Row> {
+    let named = table.rows.iter().zip(variables);
+    named.map(|(r, variable)| row(r, variable)).collect()
+}
+
+/// The declarations of the joints that stand in tables, and the parameters that these and some fixed
+/// displacements use.
+pub(super) fn declarations(
+    axes: &AxesDescription,
+    kept: impl Fn(usize) -> bool,
+    role: impl Fn(usize) -> Role,
+    fixed: &[Displacement],
+) -> (Vec<Named<Entry>>, Vec<Named<JointDescription>>) {
+    let joints: Vec<Named<JointDescription>> = (axes.joints.iter().enumerate())
+        .filter(|(i, _)| kept(*i))
+        .map(|(i, joint)| Named {
+            name: joint.name.clone(),
+            value: JointDescription {
+                role: role(i),
+                home: joint.value.home.clone(),
+                limits: joint.value.limits.clone(),
+                span: joint.value.span.clone(),
+            },
+        })
+        .collect();
+    let mut used: HashSet<&str> = HashSet::new();
+    let entries = joints.iter().flat_map(|joint| {
+        let limits = joint.value.limits.iter().flat_map(|(low, high)| [low, high]);
+        limits.chain([&joint.value.home])
+    });
+    let fixed = fixed.iter().flat_map(|step| step.entries());
+    let mut waiting: Vec<&Entry> = entries.chain(fixed).collect();
+    while let Some(entry) = waiting.pop() {
+        for (name, _) in entry.expression.names() {
+            if used.insert(name) {
+                let defined = axes.parameters.iter().filter(|p| p.name.value == *name);
+                waiting.extend(defined.map(|p| &p.value));
+            }
+        }
+    }
+    let parameters = axes.parameters.iter();
+    let parameters = parameters.filter(|p| used.contains(p.name.value.as_str())).cloned();
+    (parameters.collect(), joints)
+}
+
+/// The one chain of a serial mechanism.
+pub(super) fn serial(axes: &AxesDescription, values: &Values, convention: Convention) -> Built {
+    let joints = (0..axes.joints.len()).map(|k| joint_axis(axes, values, k, true));
+    let serial = SerialAxes {
+        base: values.base,
+        joints: joints.collect(),
+        tool: values.tool,
+    };
+    let made = serial.assign(convention);
+    let names: Vec<String> = axes.joints.iter().map(|joint| joint.name.value.clone()).collect();
+    let base = match (&axes.base, values.base) {
+        (Some(steps), Some(base)) => {
+            let mut steps = steps.clone();
+            steps.extend(Displacement::of_pose(&(base.inverse() * made.table.base)));
+            steps
+        }
+        _ => Displacement::of_pose(&made.table.base),
+    };
+    let chain = ChainDescription {
+        on: None,
+        convention: None,
+        base,
+        rows: rows(&made.table, &names),
+        tip: Displacement::of_pose(&made.table.tip),
+    };
+    let driven = axes.joints.iter().any(|joint| joint.value.role.is_some());
+    let role = |k: usize| match (axes.joints[k].value.role, driven) {
+        (Some(role), _) => role,
+        (None, true) => Role::Passive,
+        (None, false) => Role::Actuated,
+    };
+    let (parameters, joints) = declarations(axes, |_| true, role, &chain.base);
+    let name = "chain";
+    Built {
+        description: Description {
+            name: axes.name.clone(),
+            source: axes.source.clone(),
+            convention: Some(nowhere(convention)),
+            parameters,
+            joints,
+            chains: vec![Named {
+                name: nowhere(name.into()),
+                value: chain,
+            }],
+            platforms: vec![],
+            closures: vec![],
+            closed_forms: vec![],
+        },
+        chains: vec![PlacedChain::of(name.into(), "ground".into(), names, &made)],
+        cuts: None,
+        turned: made.turned,
+        moved: made.moved,
+    }
+}
+
+/// A displacement from one pose to another, both in ground.
+pub(super) fn between(from: &Pose<f64>, to: &Pose<f64>) -> Vec<Displacement> {
+    Displacement::of_pose(&(from.inverse() * *to))
+}

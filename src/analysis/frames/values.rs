@@ -1,0 +1,122 @@
+//! The numbers behind the expressions of a file of axes.
+
+use super::{MOST_JOINTS, problem};
+use crate::description::{
+    AxesDescription, AxesProblem, AxisDescription, AxisPlace, Description, Displacement, Entry,
+    JointDescription, Named, PlatformDescription, Problem, ProblemKind, Role, Spanned,
+};
+use crate::geometry::{Line, Pose, Vector3};
+use crate::mechanism::Mechanism;
+
+/// All that is given, as numbers in m and rad.
+pub(super) struct Values {
+    /// For each joint its axis; for a ball a line through its centre.
+    pub lines: Vec<Line>,
+    /// For each joint the value of its variable at home.
+    pub homes: Vec<f64>,
+    pub base: Option<Pose<f64>>,
+    pub tool: Option<Pose<f64>>,
+    pub warnings: Vec<Problem>,
+}
+
+impl Values {
+    /// Evaluates everything by the one evaluator, that of mechanisms: points and directions stand in
+    /// it as frames of a platform.
+    pub fn of(axes: &AxesDescription) -> Result<Self, Vec<Problem>> {
+        let joints = axes.joints.len();
+        if joints > MOST_JOINTS {
+            let kind = problem(AxesProblem::TooMany { joints });
+            return Err(vec![kind.at(axes.name.span.clone())]);
+        }
+        let mut frames: Vec<Named<Vec<Displacement>>> = Vec::new();
+        let mut add = |steps: Vec<Displacement>| {
+            let name = Spanned::new(format!("frame {}", frames.len()), 0..0);
+            frames.push(Named { name, value: steps });
+            frames.len() - 1
+        };
+        let mut vector = |entries: &[Entry; 3]| add(vec![Displacement::TranslateBy(entries.clone())]);
+        let places: Vec<(Option<usize>, Option<usize>)> = (axes.joints.iter())
+            .map(|joint| match &joint.value.place {
+                AxisPlace::Along(point, direction) => {
+                    (point.as_ref().map(&mut vector), Some(vector(direction)))
+                }
+                AxisPlace::Through(first, second) => (Some(vector(first)), Some(vector(second))),
+                AxisPlace::Centre(point) => (Some(vector(point)), None),
+            })
+            .collect();
+        let base = axes.base.clone().map(&mut add);
+        let tool = axes.tool.clone().map(&mut add);
+        let mechanism = Mechanism::new(&Description {
+            name: axes.name.clone(),
+            source: None,
+            convention: None,
+            parameters: axes.parameters.clone(),
+            joints: axes.joints.iter().map(declared).collect(),
+            chains: vec![],
+            platforms: vec![Named {
+                name: Spanned::new("axes".into(), 0..0),
+                value: PlatformDescription {
+                    home: vec![],
+                    frames,
+                },
+            }],
+            closures: vec![],
+            closed_forms: vec![],
+        })?;
+        let poses = &mechanism.dimensions().platforms[0];
+        let at = |frame: usize| poses[frame].position;
+        let mut problems = Vec::new();
+        let mut lines = Vec::new();
+        for (joint, (first, second)) in axes.joints.iter().zip(places) {
+            let point = first.map_or(Vector3::zero(), at);
+            let line = match (&joint.value.place, second) {
+                (AxisPlace::Through(..), Some(second)) => Line::through(point, at(second)),
+                (_, Some(direction)) => Line::new(point, at(direction)),
+                (_, None) => Line::new(point, Vector3::unit(2)),
+            };
+            if line.is_none() {
+                let name = joint.name.value.clone();
+                let kind = problem(AxesProblem::NoDirection { joint: name });
+                problems.push(kind.at(place_span(&joint.value)));
+            }
+            lines.extend(line);
+        }
+        if joints < 2 {
+            let kind = problem(AxesProblem::TooFew { joints });
+            problems.push(kind.at(axes.name.span.clone()));
+        }
+        if !problems.is_empty() {
+            return Err(problems);
+        }
+        let unused = |p: &&Problem| matches!(p.kind, ProblemKind::UnusedParameter { .. });
+        Ok(Values {
+            lines,
+            homes: mechanism.joints().iter().map(|joint| joint.home).collect(),
+            base: base.map(|frame| poses[frame]),
+            tool: tool.map(|frame| poses[frame]),
+            warnings: mechanism.warnings().iter().filter(unused).cloned().collect(),
+        })
+    }
+}
+
+fn declared(joint: &Named<AxisDescription>) -> Named<JointDescription> {
+    Named {
+        name: joint.name.clone(),
+        value: JointDescription {
+            role: joint.value.role.unwrap_or(Role::Passive),
+            home: joint.value.home.clone(),
+            limits: joint.value.limits.clone(),
+            span: joint.value.span.clone(),
+        },
+    }
+}
+
+/// Where the direction is given.
+fn place_span(joint: &AxisDescription) -> std::ops::Range<usize> {
+    let span = |entries: &[Entry; 3]| entries[0].span.start..entries[2].span.end;
+    match &joint.place {
+        AxisPlace::Along(_, direction) => span(direction),
+        AxisPlace::Through(first, second) => span(first).start..span(second).end,
+        AxisPlace::Centre(point) => span(point),
+    }
+}
