@@ -38,7 +38,7 @@ pub fn text(overview: &Overview) -> String {
     sections.join("\n")
 }
 
-fn heading(overview: &Overview) -> String {
+pub(super) fn heading(overview: &Overview) -> String {
     match &overview.source {
         Some(source) => format!("{}\n  {source}\n", overview.name),
         None => format!("{}\n", overview.name),
@@ -76,7 +76,7 @@ fn joints(overview: &Overview) -> String {
     format!("Joints\n{}", indented(&table.to_string()))
 }
 
-fn chain(chain: &ChainOverview) -> String {
+pub(super) fn chain(chain: &ChainOverview) -> String {
     let mut text = format!("Chain {} on {}", chain.name, chain.on);
     if !chain.rows.is_empty() {
         let convention = chain.convention.to_lowercase();
@@ -135,7 +135,7 @@ fn table(chain: &ChainOverview) -> String {
     table.to_string()
 }
 
-fn platforms(overview: &Overview) -> Vec<String> {
+pub(super) fn platforms(overview: &Overview) -> Vec<String> {
     let platform = |platform: &PlatformOverview| {
         let [x, y, z] = platform.position.map(number);
         let [roll, pitch, yaw] = platform.roll_pitch_yaw.map(degrees);
@@ -156,7 +156,7 @@ fn platforms(overview: &Overview) -> Vec<String> {
     overview.platforms.iter().map(platform).collect()
 }
 
-fn closures(overview: &Overview) -> String {
+pub(super) fn closures(overview: &Overview) -> String {
     let mut table = plain(["name", "kind", "between", "equations"]);
     for closure in &overview.closures {
         let [from, to] = &closure.frames;

@@ -1,0 +1,105 @@
+//! `linkwork frames`
+
+use std::path::PathBuf;
+
+use clap::{Args, ValueEnum};
+use linkwork::analysis::frames::{FramesSettings, frames};
+use linkwork::analysis::overview::overview;
+use linkwork::description::{AxesDescription, Convention, FileError, LoadError, Problem, load_text};
+use linkwork::mechanism::Mechanism;
+use linkwork::output::{diagnostics, frames as output};
+
+use super::{Answer, Refusal, style};
+
+/// Place Denavit–Hartenberg frames on joint axes and read the tables off them.
+///
+/// The file gives the axes at home: `Axes(version: 1, name: "…", joints: { "q1": Revolute(point: (0, 0, 0), direction:
+/// (0, 0, 1), home: 0), "q2": Prismatic(direction: (1, 0, 0)), … }, base: […], tool: […])`. Where joints say which bodies
+/// they connect, as in `between: ("ground", "crank")`, loops are cut, at the joints of `cut: [\"q3\"]` or else where
+/// that gives the simplest tables.
+#[derive(Args)]
+#[command(after_help = "Example: linkwork frames mechanisms/axes/puma560.ron --convention standard --format ron")]
+pub struct Frames {
+    /// The file of joint axes.
+    file: PathBuf,
+    /// The convention of the tables; that of the file, or else modified
+    #[arg(long, value_enum)]
+    convention: Option<Named>,
+    /// Report the 14 steps of the Denavit–Hartenberg algorithm one by one
+    #[arg(long)]
+    steps: bool,
+    /// How to write the answer
+    #[arg(long, value_enum, default_value_t = FileFormat::Text)]
+    format: FileFormat,
+}
+
+/// A convention by its name.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub enum Named {
+    /// Rows (α(i−1), a(i−1), d(i), θ(i)), z of frame i along joint i.
+    Modified,
+    /// Rows (θ(i), d(i), a(i), α(i)), z of frame i−1 along joint i.
+    Standard,
+}
+
+impl From<Named> for Convention {
+    fn from(named: Named) -> Self {
+        match named {
+            Named::Modified => Convention::Modified,
+            Named::Standard => Convention::Standard,
+        }
+    }
+}
+
+/// How a mechanism that was made is written.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub enum FileFormat {
+    /// To be read by people.
+    Text,
+    /// A mechanism file.
+    Ron,
+    /// To be read by programs: metres and radians with all digits, and the mechanism file.
+    Json,
+}
+
+impl Frames {
+    pub fn run(&self) -> Result<Answer, Refusal> {
+        let refused = |error: LoadError| Refusal(format!("error: {error}\n"));
+        let text = load_text(&self.file).map_err(refused)?;
+        let wrong = |problems: Vec<Problem>| {
+            let error = FileError {
+                path: self.file.clone(),
+                text: text.clone(),
+                problems,
+            };
+            diagnostics::render(&error, style())
+        };
+        let axes = AxesDescription::read(&text).map_err(|problems| Refusal(wrong(problems)))?;
+        let settings = FramesSettings {
+            convention: self.convention.map(Convention::from),
+        };
+        let report = frames(&axes, &settings).map_err(|problems| Refusal(wrong(problems)))?;
+        let unwritten = |error| Refusal(format!("error: the mechanism cannot be written: {error}\n"));
+        let data = match self.format {
+            FileFormat::Text => {
+                let mechanism = Mechanism::new(&report.description)
+                    .map_err(|problems| Refusal(wrong(problems)))?;
+                output::text(&report, &overview(&mechanism), self.steps)
+            }
+            FileFormat::Ron => report.description.to_ron().map_err(unwritten)?,
+            FileFormat::Json => {
+                let file = report.description.to_ron().map_err(unwritten)?;
+                output::json(&axes.name.value, &report, &file)
+            }
+        };
+        let remarks = match report.warnings.is_empty() {
+            true => String::new(),
+            false => wrong(report.warnings.clone()),
+        };
+        Ok(Answer {
+            data,
+            remarks,
+            yes: true,
+        })
+    }
+}

@@ -1,0 +1,210 @@
+//! Words for frames placed on joint axes.
+
+mod steps;
+
+use std::fmt::Write;
+
+use super::json::document;
+use super::layout::{align_right, indented, plain};
+use super::overview;
+use super::quantity::{degrees, number, short, size};
+use crate::analysis::frames::{CutReport, FramesReport, PlacedChain, PlacedNormal, Way};
+use crate::analysis::overview::Overview;
+use crate::description::{count, listed};
+use crate::geometry::Relation;
+use crate::linear::RANK_TOLERANCE;
+
+/// Axes this near to parallel get a remark though their normal is used.
+const NEARLY_PARALLEL: f64 = 1e-3;
+
+/// Below this a difference is rounding.
+const ROUNDING: f64 = 1e-12;
+
+/// The report as text, with the drawn tables of the mechanism it makes, and with the steps by which
+/// the frames were placed if asked.
+pub fn text(report: &FramesReport, overview: &Overview, steps: bool) -> String {
+    let mut sections = vec![overview::heading(overview)];
+    if let Some(cuts) = &report.cuts {
+        sections.push(cut_section(cuts));
+    }
+    for chain in &overview.chains {
+        sections.push(overview::chain(chain));
+        let placed = report.chains.iter().find(|placed| placed.name == chain.name);
+        sections.extend(placed.map(normals));
+        if let (Some(placed), true) = (placed, steps) {
+            sections.push(steps::steps(placed, report.convention == "Modified"));
+        }
+    }
+    sections.extend(overview::platforms(overview));
+    if !overview.closures.is_empty() {
+        sections.push(overview::closures(overview));
+    }
+    sections.push(accuracy(report));
+    sections.join("\n")
+}
+
+/// The report as JSON, with the mechanism file as a text.
+pub fn json(name: &str, report: &FramesReport, file: &str) -> String {
+    #[derive(serde::Serialize)]
+    struct WithFile<'a> {
+        #[serde(flatten)]
+        report: &'a FramesReport,
+        file: &'a str,
+    }
+    document(name, &WithFile { report, file })
+}
+
+fn cut_section(cuts: &CutReport) -> String {
+    let quoted: Vec<String> = cuts.cut.iter().map(|name| format!("`{name}`")).collect();
+    let mut text = match cuts.cut.is_empty() {
+        true => String::from("No loops to cut\n"),
+        false => format!("Cut at {}\n", listed(&quoted)),
+    };
+    let balls = cuts.cut.len() - cuts.ways.first().map_or(0, |way| way.cut.len());
+    if balls > 0 {
+        let _ = writeln!(text, "  {} cut in any case", count(balls, "spherical joint"));
+    }
+    let Some((best, others)) = cuts.ways.split_first() else {
+        return text;
+    };
+    if best.cut.is_empty() {
+        return text;
+    }
+    if cuts.given {
+        let _ = writeln!(text, "  as the file asks: {}", simple(best));
+        return text;
+    }
+    let _ = writeln!(text, "  the simplest tables: {}", simple(best));
+    const SHOWN: usize = 5;
+    for way in others.iter().take(SHOWN) {
+        let _ = writeln!(text, "  instead at {}: {}", listed(&way.cut), simple(way));
+    }
+    if others.len() > SHOWN {
+        let more = others.len() - SHOWN;
+        let _ = writeln!(text, "  and {}", count(more, "other way"));
+    }
+    if cuts.more {
+        text += "  more ways to cut were not compared\n";
+    }
+    text
+}
+
+fn simple(way: &Way) -> String {
+    let entries = match way.entries {
+        1 => "1 constant that is not zero".into(),
+        number => format!("{number} constants that are not zero"),
+    };
+    let prismatic = match way.prismatic {
+        0 => String::new(),
+        number => format!(", {}", count(number, "prismatic joint cut")),
+    };
+    let rows = count(way.longest, "row");
+    format!("{rows} in the longest chain, {entries}{prismatic}")
+}
+
+/// What relation the axes have, in words.
+pub(super) fn relation(relation: Option<Relation>) -> &'static str {
+    match relation {
+        None => "free",
+        Some(Relation::Skew) => "skew",
+        Some(Relation::Intersecting) => "intersecting",
+        Some(Relation::Parallel) => "parallel",
+        Some(Relation::AntiParallel) => "anti-parallel",
+        Some(Relation::Coincident) => "one line",
+        Some(Relation::AntiCoincident) => "one line, opposite",
+    }
+}
+
+fn choice(normal: &PlacedNormal, k: usize) -> String {
+    match normal.relation {
+        None => format!("θ{k} = 0, d{k} = 0 at the variable's zero"),
+        Some(Relation::Skew) => "none".into(),
+        Some(Relation::Intersecting) => format!("sense of x{k}: θ{k} within ±90°"),
+        Some(Relation::Parallel | Relation::AntiParallel) => format!("place of x{k}: d{k} = 0"),
+        Some(_) => format!("x{k}: θ{k} = 0, d{k} = 0"),
+    }
+}
+
+/// Where a decision changed what was given, or stands on an edge.
+fn remark(normal: &PlacedNormal) -> Option<String> {
+    let found = normal.relation?;
+    let off = normal.angle.min(std::f64::consts::PI - normal.angle);
+    let tolerance = size(RANK_TOLERANCE);
+    if found.is_parallel() && off > ROUNDING {
+        return Some(format!(
+            "taken as parallel: {} rad apart, within {tolerance}",
+            size(off)
+        ));
+    }
+    if found.meets() && normal.distance > ROUNDING {
+        return Some(format!(
+            "taken as meeting: {} m apart, within {tolerance} of the size",
+            size(normal.distance)
+        ));
+    }
+    if !found.is_parallel() && off < NEARLY_PARALLEL {
+        return Some(format!(
+            "nearly parallel: {} rad, beyond {tolerance}; the normal is far off",
+            size(off)
+        ));
+    }
+    None
+}
+
+fn normals(chain: &PlacedChain) -> String {
+    let mut table = plain(["x", "between", "axes", "angle", "distance", "chosen", ""]);
+    let last = chain.normals.len() - 1;
+    let name = |k: usize| match k.checked_sub(1) {
+        None => match chain.starts_at_base {
+            true => "base".to_owned(),
+            false => "free base".into(),
+        },
+        Some(k) => match chain.joints.get(k) {
+            Some(joint) => joint.clone(),
+            None if chain.ends_at_tool => "tool".into(),
+            None => "end".into(),
+        },
+    };
+    for (k, normal) in chain.normals.iter().enumerate() {
+        let nothing = normal.relation.is_none();
+        let shown = |text: String| if nothing { String::new() } else { text };
+        let chosen = match (k, nothing) {
+            (0, true) => "frame 0 is frame 1 at the variable's zero".into(),
+            (0, false) => "none".into(),
+            (k, false) if k == last && chain.ends_at_tool => "none".into(),
+            _ => choice(normal, k),
+        };
+        table.add_row([
+            &k.to_string(),
+            &format!("{} – {}", name(k), name(k + 1)),
+            relation(normal.relation),
+            &shown(degrees(normal.angle)),
+            &shown(format!("{} m", number(normal.distance))),
+            &chosen,
+            &remark(normal).unwrap_or_default(),
+        ]);
+    }
+    align_right(&mut table, [3, 4]);
+    let mut text = format!(
+        "Common normals of {}\n{}",
+        chain.name,
+        indented(&table.to_string())
+    );
+    let slides = chain.axes.iter().zip(&chain.joints);
+    for (axis, joint) in slides.filter(|(axis, _)| axis.prismatic) {
+        let [x, y, z] = axis.point.map(short);
+        let _ = writeln!(
+            text,
+            "  {joint} slides: its axis has no place and was put through ({x}, {y}, {z}) m"
+        );
+    }
+    text
+}
+
+fn accuracy(report: &FramesReport) -> String {
+    format!(
+        "The tables reproduce the axes given to {} m and {} rad.\n",
+        size(report.moved),
+        size(report.turned)
+    )
+}
