@@ -4,6 +4,7 @@
 pub mod assemblies;
 pub mod assembly;
 pub mod compare;
+pub mod convert;
 pub mod frames;
 pub mod mobility;
 pub mod overview;

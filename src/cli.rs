@@ -4,6 +4,7 @@ mod asked;
 mod assemblies;
 mod check;
 mod compare;
+mod convert;
 mod frames;
 mod mobility;
 mod progress;
@@ -36,6 +37,7 @@ enum Command {
     Solve(solve::Solve),
     Assemblies(assemblies::Assemblies),
     Compare(compare::Compare),
+    Convert(convert::Convert),
     Frames(frames::Frames),
     Mobility(mobility::Mobility),
     Velocity(velocity::Velocity),
@@ -72,6 +74,7 @@ pub fn run() -> ExitCode {
         Command::Solve(solve) => solve.run(),
         Command::Assemblies(assemblies) => assemblies.run(),
         Command::Compare(compare) => compare.run(),
+        Command::Convert(convert) => convert.run(),
         Command::Frames(frames) => frames.run(),
         Command::Mobility(mobility) => mobility.run(),
         Command::Velocity(velocity) => velocity.run(),

@@ -4,7 +4,7 @@ use std::path::PathBuf;
 use std::str::FromStr;
 
 use clap::Args;
-use linkwork::description::{self, FileError, LoadError, Problem};
+use linkwork::description::{self, Description, FileError, LoadError, Problem};
 use linkwork::mechanism::Mechanism;
 use linkwork::output::diagnostics;
 use linkwork::output::option::{Complaint, Given, Part, replacement};
@@ -80,6 +80,8 @@ pub fn once(option: &str, given: &[Assignment]) -> Result<(), Refusal> {
 pub struct Loaded {
     path: PathBuf,
     text: String,
+    /// What the file says, with what `--set` changed.
+    pub description: Description,
     pub mechanism: Mechanism,
 }
 
@@ -111,6 +113,7 @@ impl Source {
             Ok(mechanism) => Ok(Loaded {
                 path: self.file.clone(),
                 text,
+                description,
                 mechanism,
             }),
             Err(problems) => Err(Refusal(self.wrong(text, problems, &description))),

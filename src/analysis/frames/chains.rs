@@ -1,7 +1,5 @@
 //! Chains of a mechanism file from assigned frames.
 
-use std::collections::HashSet;
-
 use super::values::Values;
 use super::{CutReport, PlacedChain};
 use crate::algebra::{Expression, Node, Operator};
@@ -104,44 +102,45 @@ pub(super) fn rows(table: &Table, variables: &[String]) -> Vec<Row> {
     named.map(|(r, variable)| row(r, variable)).collect()
 }
 
-/// The declarations of the joints that stand in tables, and the parameters that these and some fixed
-/// displacements use.
+/// The declarations of the joints that stand in tables.
+///
+/// The tables are numbers, so that parameters would change homes and limits only: what is written
+/// with parameters becomes a number too.
 pub(super) fn declarations(
     axes: &AxesDescription,
+    values: &Values,
     kept: impl Fn(usize) -> bool,
     role: impl Fn(usize) -> Role,
-    fixed: &[Displacement],
-) -> (Vec<Named<Entry>>, Vec<Named<JointDescription>>) {
-    let joints: Vec<Named<JointDescription>> = (axes.joints.iter().enumerate())
-        .filter(|(i, _)| kept(*i))
-        .map(|(i, joint)| Named {
+) -> Vec<Named<JointDescription>> {
+    let joints = axes.joints.iter().enumerate().filter(|(i, _)| kept(*i));
+    let declared = joints.map(|(i, joint)| {
+        let number = |written: &Entry, value: f64| {
+            if written.expression.names().next().is_none() {
+                return written.clone();
+            }
+            let number = match joint.value.kind {
+                AxisKind::Prismatic => Entry::length(value),
+                AxisKind::Revolute | AxisKind::Spherical => Entry::angle(value),
+            };
+            Entry {
+                span: written.span.clone(),
+                ..number
+            }
+        };
+        let limits = joint.value.limits.as_ref().zip(values.limits[i]);
+        Named {
             name: joint.name.clone(),
             value: JointDescription {
                 role: role(i),
-                home: joint.value.home.clone(),
-                limits: joint.value.limits.clone(),
+                home: number(&joint.value.home, values.homes[i]),
+                limits: limits.map(|((low, high), (least, most))| {
+                    (number(low, least), number(high, most))
+                }),
                 span: joint.value.span.clone(),
             },
-        })
-        .collect();
-    let mut used: HashSet<&str> = HashSet::new();
-    let entries = joints.iter().flat_map(|joint| {
-        let limits = joint.value.limits.iter().flat_map(|(low, high)| [low, high]);
-        limits.chain([&joint.value.home])
-    });
-    let fixed = fixed.iter().flat_map(|step| step.entries());
-    let mut waiting: Vec<&Entry> = entries.chain(fixed).collect();
-    while let Some(entry) = waiting.pop() {
-        for (name, _) in entry.expression.names() {
-            if used.insert(name) {
-                let defined = axes.parameters.iter().filter(|p| p.name.value == *name);
-                waiting.extend(defined.map(|p| &p.value));
-            }
         }
-    }
-    let parameters = axes.parameters.iter();
-    let parameters = parameters.filter(|p| used.contains(p.name.value.as_str())).cloned();
-    (parameters.collect(), joints)
+    });
+    declared.collect()
 }
 
 /// The one chain of a serial mechanism.
@@ -154,18 +153,10 @@ pub(super) fn serial(axes: &AxesDescription, values: &Values, convention: Conven
     };
     let made = serial.assign(convention);
     let names: Vec<String> = axes.joints.iter().map(|joint| joint.name.value.clone()).collect();
-    let base = match (&axes.base, values.base) {
-        (Some(steps), Some(base)) => {
-            let mut steps = steps.clone();
-            steps.extend(Displacement::of_pose(&(base.inverse() * made.table.base)));
-            steps
-        }
-        _ => Displacement::of_pose(&made.table.base),
-    };
     let chain = ChainDescription {
         on: None,
         convention: None,
-        base,
+        base: Displacement::of_pose(&made.table.base),
         rows: rows(&made.table, &names),
         tip: Displacement::of_pose(&made.table.tip),
     };
@@ -175,14 +166,14 @@ pub(super) fn serial(axes: &AxesDescription, values: &Values, convention: Conven
         (None, true) => Role::Passive,
         (None, false) => Role::Actuated,
     };
-    let (parameters, joints) = declarations(axes, |_| true, role, &chain.base);
+    let joints = declarations(axes, values, |_| true, role);
     let name = "chain";
     Built {
         description: Description {
             name: axes.name.clone(),
             source: axes.source.clone(),
             convention: Some(nowhere(convention)),
-            parameters,
+            parameters: vec![],
             joints,
             chains: vec![Named {
                 name: nowhere(name.into()),

@@ -333,14 +333,14 @@ impl<'a> Build<'a> {
         let driven = driven(self.axes);
         let role = |j: usize| if driven[j] { Role::Actuated } else { Role::Passive };
         let kept = |j: usize| !self.cuts.contains(&j);
-        let (parameters, joints) = declarations(self.axes, kept, role, &[]);
+        let joints = declarations(self.axes, self.values, kept, role);
         let closures = self.cuts.iter().map(|&joint| self.closure(joint)).collect();
         Built {
             description: Description {
                 name: self.axes.name.clone(),
                 source: self.axes.source.clone(),
                 convention: Some(nowhere(self.convention)),
-                parameters,
+                parameters: vec![],
                 joints,
                 chains: self.chains,
                 platforms: self.platforms,

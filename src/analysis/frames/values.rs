@@ -14,6 +14,8 @@ pub(super) struct Values {
     pub lines: Vec<Line>,
     /// For each joint the value of its variable at home.
     pub homes: Vec<f64>,
+    /// For each joint its lowest and highest value.
+    pub limits: Vec<Option<(f64, f64)>>,
     pub base: Option<Pose<f64>>,
     pub tool: Option<Pose<f64>>,
     pub warnings: Vec<Problem>,
@@ -92,6 +94,7 @@ impl Values {
         Ok(Values {
             lines,
             homes: mechanism.joints().iter().map(|joint| joint.home).collect(),
+            limits: mechanism.joints().iter().map(|joint| joint.limits).collect(),
             base: base.map(|frame| poses[frame]),
             tool: tool.map(|frame| poses[frame]),
             warnings: mechanism.warnings().iter().filter(unused).cloned().collect(),

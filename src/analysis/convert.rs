@@ -1,0 +1,175 @@
+//! The same mechanism in the other convention, or broken at another joint.
+//!
+//! Nothing is evaluated: rows are moved and turned round as they are written, so that names and
+//! expressions stay. Only home values of new variables are numbers.
+
+mod convention;
+mod cut;
+mod references;
+
+use serde::Serialize;
+
+use crate::algebra::{Expression, Node};
+use crate::description::{
+    Axis, Convention, Description, Displacement, Entry, Problem, Row, Spanned,
+};
+use crate::mechanism::Mechanism;
+
+pub use cut::CutError;
+
+/// What is to be changed.
+#[derive(Clone, Debug, Default)]
+pub struct ConvertSettings {
+    /// The convention of all chains; `None` leaves each as it is.
+    pub convention: Option<Convention>,
+    /// The joint at which the mechanism is to be broken instead.
+    pub cut: Option<String>,
+}
+
+/// A mechanism file that says the same another way.
+#[derive(Clone, Debug, Serialize)]
+pub struct Conversion {
+    /// The file.
+    #[serde(skip)]
+    pub description: Description,
+    /// What it no longer says, or says by other names.
+    pub notes: Vec<ConversionNote>,
+}
+
+/// What a converted file says differently.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+#[serde(tag = "note", rename_all = "snake_case")]
+pub enum ConversionNote {
+    /// A frame is called otherwise now.
+    Renamed {
+        /// Its name before.
+        from: String,
+        /// Its name now.
+        to: String,
+    },
+    /// A closed form names the variable of the joint that is a closure now, and is left out.
+    Dropped {
+        /// The closed form.
+        closed_form: String,
+        /// The variable.
+        joint: String,
+    },
+    /// A driven joint has no variable any more.
+    DriveLost {
+        /// The joint.
+        joint: String,
+    },
+    /// Variables that take the place of a closure.
+    Variables {
+        /// The closure.
+        closure: String,
+        /// The variables.
+        joints: Vec<String>,
+    },
+}
+
+/// Why a mechanism is not converted.
+#[derive(Clone, Debug, PartialEq)]
+pub enum ConvertError {
+    /// It cannot be broken there.
+    Cut(CutError),
+    /// What came out is not a mechanism.
+    Wrong(Vec<Problem>),
+}
+
+/// The same mechanism, written another way.
+///
+/// # Errors
+/// If the cut asked for is not possible.
+pub fn convert(
+    mechanism: &Mechanism,
+    description: &Description,
+    settings: &ConvertSettings,
+) -> Result<Conversion, ConvertError> {
+    let mut conversion = Conversion {
+        description: description.clone(),
+        notes: Vec::new(),
+    };
+    if let Some(joint) = &settings.cut {
+        conversion = cut::cut(mechanism, description, joint).map_err(ConvertError::Cut)?;
+    }
+    if let Some(convention) = settings.convention {
+        convention::convert(&mut conversion, convention);
+    }
+    Mechanism::new(&conversion.description).map_err(ConvertError::Wrong)?;
+    Ok(conversion)
+}
+
+fn nowhere<T>(value: T) -> Spanned<T> {
+    Spanned::new(value, 0..0)
+}
+
+fn entry(expression: Expression) -> Entry {
+    Entry {
+        expression,
+        span: 0..0,
+    }
+}
+
+fn zero() -> Entry {
+    entry(Expression::number(0.0))
+}
+
+/// −e, as it would be written.
+fn negated(e: &Entry) -> Entry {
+    entry(negated_expression(&e.expression))
+}
+
+fn negated_expression(e: &Expression) -> Expression {
+    use crate::algebra::Operator;
+    let node = match &e.node {
+        Node::Number(x) => Node::Number(0.0 - x),
+        Node::Quantity(x, unit) => Node::Quantity(0.0 - x, *unit),
+        Node::Negate(inner) => return (**inner).clone(),
+        Node::Binary(Operator::Subtract, x, y) => {
+            Node::Binary(Operator::Subtract, y.clone(), x.clone())
+        }
+        Node::Binary(operator @ (Operator::Multiply | Operator::Divide), x, y) => {
+            Node::Binary(*operator, Box::new(negated_expression(x)), y.clone())
+        }
+        Node::Binary(Operator::Add, x, y) => {
+            Node::Binary(Operator::Subtract, Box::new(negated_expression(x)), y.clone())
+        }
+        _ => Node::Negate(Box::new(e.clone())),
+    };
+    node.at(0..0)
+}
+
+/// Tx(a)·Rx(α), without what is zero.
+fn link(alpha: &Entry, a: &Entry) -> Vec<Displacement> {
+    let along = Displacement::Translate(Axis::X, a.clone());
+    let about = Displacement::Rotate(Axis::X, alpha.clone());
+    doing_something([along, about])
+}
+
+fn doing_something(steps: impl IntoIterator<Item = Displacement>) -> Vec<Displacement> {
+    let something = |step: &Displacement| step.entries().iter().any(|e| !e.expression.is_zero());
+    steps.into_iter().filter(something).collect()
+}
+
+/// The displacements undone, last first.
+fn undone(steps: &[Displacement]) -> Vec<Displacement> {
+    let undo = |step: &Displacement| match step {
+        Displacement::Translate(axis, e) => Displacement::Translate(*axis, negated(e)),
+        Displacement::Rotate(axis, e) => Displacement::Rotate(*axis, negated(e)),
+        Displacement::TranslateBy(entries) => {
+            Displacement::TranslateBy([0, 1, 2].map(|i| negated(&entries[i])))
+        }
+    };
+    steps.iter().rev().map(undo).collect()
+}
+
+fn row(alpha: Entry, a: Entry, d: Entry, theta: Entry) -> Row {
+    Row {
+        alpha,
+        a,
+        d,
+        theta,
+        span: 0..0,
+    }
+}

@@ -1,0 +1,75 @@
+//! The same chains in the other convention.
+//!
+//! Both are the product base · J₁ L₁ J₂ … L_{n−1} J_n · tip with J = Rz(θ)·Tz(d), L = Tx(a)·Rx(α).
+//! A modified row is L_{k−1} J_k, a standard row J_k L_k: twist and length move to the neighbouring
+//! row, what is left over at an end into base or tip. Frame k moves by L_k.
+
+use super::references::{Substitute, exchange, link_of};
+use super::{Conversion, ConversionNote, link, nowhere, row, undone, zero};
+use crate::description::{ChainDescription, Convention, Displacement, Entry, Row};
+
+/// (α, a) of L₀ … L_n.
+type Links = Vec<(Entry, Entry)>;
+
+pub(super) fn convert(conversion: &mut Conversion, to: Convention) {
+    let description = &mut conversion.description;
+    let of_file = description.convention.as_ref().map(|c| c.value);
+    let mut moved: Vec<(String, Links)> = Vec::new();
+    for chain in &mut description.chains {
+        let from = chain.value.convention.take().map(|c| c.value).or(of_file);
+        if let Some(from) = from.filter(|&from| from != to && !chain.value.rows.is_empty()) {
+            let links = links(&chain.value.rows, from);
+            rewrite(&mut chain.value, &links, to);
+            moved.push((chain.name.value.clone(), links));
+        }
+    }
+    description.convention = Some(nowhere(to));
+    let renamed = exchange(description, |frame| {
+        moved.iter().find_map(|(chain, links)| {
+            let k = link_of(frame, chain)?;
+            let (alpha, a) = links.get(k)?;
+            let step = link(alpha, a);
+            // the modified frame stands before L_k, the standard one behind it
+            let steps = match to {
+                Convention::Modified if k > 0 => step,
+                Convention::Standard => undone(&step),
+                Convention::Modified => Vec::new(),
+            };
+            (!steps.is_empty()).then(|| Substitute {
+                frame: frame.to_owned(),
+                steps,
+            })
+        })
+    });
+    let note = |(from, to)| ConversionNote::Renamed { from, to };
+    conversion.notes.extend(renamed.into_iter().map(note));
+}
+
+fn links(rows: &[Row], from: Convention) -> Links {
+    let own = rows.iter().map(|row| (row.alpha.clone(), row.a.clone()));
+    let nothing = std::iter::once((zero(), zero()));
+    match from {
+        Convention::Modified => own.chain(nothing).collect(),
+        Convention::Standard => nothing.chain(own).collect(),
+    }
+}
+
+fn rewrite(chain: &mut ChainDescription, links: &Links, to: Convention) {
+    let n = chain.rows.len();
+    let shifted = |k: usize| match to {
+        Convention::Modified => k,
+        Convention::Standard => k + 1,
+    };
+    let rows = chain.rows.iter().enumerate().map(|(k, old)| {
+        let (alpha, a) = links[shifted(k)].clone();
+        row(alpha, a, old.d.clone(), old.theta.clone())
+    });
+    chain.rows = rows.collect();
+    let step = |k: usize| -> Vec<Displacement> { link(&links[k].0, &links[k].1) };
+    match to {
+        Convention::Standard => chain.base.extend(step(0)),
+        Convention::Modified => {
+            chain.tip.splice(0..0, step(n));
+        }
+    }
+}

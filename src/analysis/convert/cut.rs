@@ -1,0 +1,407 @@
+//! The same mechanism broken at another joint.
+//!
+//! A joint in row r of a chain becomes a closure. What hangs behind it keeps its connexion through
+//! one of the old closures, which becomes rows: with K the motion of that joint, the chain
+//! base · J₁ L₁ … J_n L_n · tip = closed on frame F becomes
+//!
+//! - `chain`: F · K, which is its old tip frame under its old name;
+//! - `chain_back`: chain · tip⁻¹ · L_n⁻¹ J_n⁻¹ … J_{r+1}⁻¹ L_r⁻¹, back to axis r;
+//! - `chain_front`: base · J₁ … L_{r−1}, forth to axis r;
+//!
+//! and `chain_front` and `chain_back` are joined by the joint of row r.
+
+mod motion;
+
+use super::references::{Substitute, exchange, free_name, link_of};
+use super::{
+    Conversion, ConversionNote, doing_something, entry, link, negated, nowhere, row, undone, zero,
+};
+use crate::algebra::Affine;
+use crate::description::{
+    Axis, ChainDescription, ClosureDescription, ClosureKind, Convention, Description,
+    Displacement, Entry, GROUND, Named, Role, Row, nearest,
+};
+use crate::mechanism::{Frame, JointKind, Mechanism};
+use motion::Motion;
+
+/// Why a mechanism is not broken at a joint.
+#[derive(Clone, Debug, PartialEq)]
+pub enum CutError {
+    /// There is no such joint.
+    UnknownJoint {
+        /// Its name.
+        name: String,
+        /// The joint that was probably meant.
+        suggestion: Option<String>,
+    },
+    /// The name is a closure's: the mechanism is broken there already.
+    AlreadyCut {
+        /// The closure.
+        closure: String,
+    },
+    /// The joint is helical, and no closure is.
+    Helical {
+        /// The joint.
+        joint: String,
+    },
+    /// The variable stands in no row.
+    NoRow {
+        /// The joint.
+        joint: String,
+    },
+    /// The variable stands in several rows or entries.
+    SeveralRows {
+        /// The joint.
+        joint: String,
+    },
+    /// Other variables stand in its row.
+    SharedRow {
+        /// The joint.
+        joint: String,
+    },
+    /// No closure holds what is behind the joint.
+    NoLoop {
+        /// The joint.
+        joint: String,
+    },
+    /// The closures that do are not at the end of the joint's own chain, or cannot become rows.
+    NotRows {
+        /// The joint.
+        joint: String,
+        /// The closures.
+        closures: Vec<String>,
+    },
+}
+
+/// Where the joint stands.
+struct Place {
+    joint: usize,
+    chain: usize,
+    /// From 0.
+    row: usize,
+    slides: bool,
+}
+
+pub(super) fn cut(
+    mechanism: &Mechanism,
+    description: &Description,
+    joint: &str,
+) -> Result<Conversion, CutError> {
+    let place = find(mechanism, description, joint)?;
+    let (closure, side) = closing(mechanism, &place, joint)?;
+    let motion = Motion::of(mechanism, description, closure, side);
+    let (old, new) = rebuild(mechanism, description, &place, closure, side, &motion);
+    let mut conversion = new;
+    let mut notes: Vec<ConversionNote> = old
+        .into_iter()
+        .map(|(from, to)| ConversionNote::Renamed { from, to })
+        .collect();
+    notes.push(ConversionNote::Variables {
+        closure: description.closures[closure].name.value.clone(),
+        joints: motion.joints.iter().map(|joint| joint.name.value.clone()).collect(),
+    });
+    if description.joints[place.joint].value.role == Role::Actuated {
+        let joint = joint.to_owned();
+        notes.push(ConversionNote::DriveLost { joint });
+    }
+    notes.append(&mut conversion.notes);
+    conversion.notes = notes;
+    Ok(conversion)
+}
+
+fn find(
+    mechanism: &Mechanism,
+    description: &Description,
+    name: &str,
+) -> Result<Place, CutError> {
+    let joint = || name.to_owned();
+    let Some(index) = mechanism.joint(name) else {
+        if description.closures.iter().any(|c| c.name.value == name) {
+            return Err(CutError::AlreadyCut { closure: joint() });
+        }
+        let names = description.joints.iter().map(|j| j.name.value.as_str());
+        return Err(CutError::UnknownJoint {
+            name: joint(),
+            suggestion: nearest(name, names).map(str::to_owned),
+        });
+    };
+    if mechanism.joints()[index].kind == JointKind::Helical {
+        return Err(CutError::Helical { joint: joint() });
+    }
+    let mut places = Vec::new();
+    for (chain, part) in mechanism.dimensions().chains.iter().enumerate() {
+        for (row, dims) in part.rows.iter().enumerate() {
+            let (turn, slide) = (&dims.turn.0, &dims.slide.0);
+            let stands = |(j, _): &&(usize, f64)| *j == index;
+            if turn.iter().chain(slide).any(|term| stands(&term)) {
+                places.push((chain, row, turn.len() + slide.len(), !slide.is_empty()));
+            }
+        }
+    }
+    let lengths = mechanism.dimensions().closures.iter();
+    let in_length = lengths.flat_map(|c| &c.extension.0).any(|(j, _)| *j == index);
+    match (places[..].as_ref(), in_length) {
+        ([], _) => Err(CutError::NoRow { joint: joint() }),
+        (&[(chain, row, 1, slides)], false) => Ok(Place {
+            joint: index,
+            chain,
+            row,
+            slides,
+        }),
+        ([_], false) => Err(CutError::SharedRow { joint: joint() }),
+        _ => Err(CutError::SeveralRows { joint: joint() }),
+    }
+}
+
+/// The closure that shall hold what is behind the joint, and which of its frames is there.
+fn closing(
+    mechanism: &Mechanism,
+    place: &Place,
+    joint: &str,
+) -> Result<(usize, usize), CutError> {
+    let rows = mechanism.chains()[place.chain].rows.len();
+    let behind = |frame: Frame| mechanism.joints_below(frame).contains(&place.joint);
+    let ends = |frame: Frame| match frame {
+        Frame::Tip { chain } => chain == place.chain,
+        Frame::Link { chain, row } => chain == place.chain && row == rows,
+        _ => false,
+    };
+    let mut found: Vec<(usize, usize, usize)> = Vec::new();
+    let mut others = Vec::new();
+    for (index, closure) in mechanism.closures().iter().enumerate() {
+        let side = match closure.frames.map(behind) {
+            [true, false] => 0,
+            [false, true] => 1,
+            _ => continue,
+        };
+        match Motion::variables(closure.kind) {
+            Some(number) if ends(closure.frames[side]) => found.push((number, index, side)),
+            _ => others.push(closure.name.clone()),
+        }
+    }
+    match found.into_iter().min() {
+        Some((_, index, side)) => Ok((index, side)),
+        None if others.is_empty() => Err(CutError::NoLoop { joint: joint.into() }),
+        None => Err(CutError::NotRows {
+            joint: joint.into(),
+            closures: others,
+        }),
+    }
+}
+
+/// An entry at the variables' zeros.
+fn constant(e: &Entry, description: &Description) -> Entry {
+    let is_joint = |name: &String| description.joints.iter().any(|j| j.name.value == *name);
+    match e.expression.affine(is_joint) {
+        Ok(Affine { constant, .. }) => entry(constant),
+        // the mechanism was built from this entry, which is affine
+        Err(_) => e.clone(),
+    }
+}
+
+fn rebuild(
+    mechanism: &Mechanism,
+    description: &Description,
+    place: &Place,
+    closure: usize,
+    side: usize,
+    motion: &Motion,
+) -> (Vec<(String, String)>, Conversion) {
+    let convention = mechanism.chains()[place.chain].convention;
+    let Named { name, value: chain } = &description.chains[place.chain];
+    let (old, r) = (&chain.rows, place.row);
+    let n = old.len();
+    let links = |k: usize| match convention {
+        // L_k of k from 0 to n
+        Convention::Modified => old.get(k).map(|row| link(&row.alpha, &row.a)),
+        Convention::Standard => k.checked_sub(1).map(|k| link(&old[k].alpha, &old[k].a)),
+    };
+    let links = |k: usize| links(k).unwrap_or_default();
+    // forth to the axis of the joint
+    let fixed = match place.slides {
+        true => Displacement::Rotate(Axis::Z, constant(&old[r].theta, description)),
+        false => Displacement::Translate(Axis::Z, constant(&old[r].d, description)),
+    };
+    let mut tip = match convention {
+        Convention::Modified => links(r),
+        Convention::Standard => Vec::new(),
+    };
+    tip.extend(doing_something([fixed]));
+    let front = ChainDescription {
+        rows: old[..r].to_vec(),
+        tip,
+        ..chain.clone()
+    };
+    // from the closure to the old tip
+    let whole_tip = matches!(mechanism.closures()[closure].frames[side], Frame::Tip { .. });
+    let mut end = motion.tip.clone();
+    if !whole_tip {
+        end.extend(chain.tip.iter().cloned());
+    }
+    let held = ChainDescription {
+        // renamed below like all frames
+        on: None,
+        convention: Some(nowhere(convention)),
+        base: vec![],
+        rows: motion.rows(convention),
+        tip: end,
+    };
+    let back = back(chain, convention, r, &links);
+    let back_rows = back.rows.len();
+    let mut new = description.clone();
+    let front_name = free_name(&new, &format!("{}_front", name.value));
+    let back_name = free_name(&new, &format!("{}_back", name.value));
+    let on = back_name.clone();
+    // frames in front keep their number; those behind are counted from the other end
+    let renamed = exchange(&mut new, |frame| {
+        let k = link_of(frame, &name.value)?;
+        if k <= r {
+            return Some(Substitute {
+                frame: format!("{front_name}.{k}"),
+                steps: vec![],
+            });
+        }
+        // the way back passes L_k the other way round
+        let steps = match convention {
+            Convention::Modified => undone(&links(k)),
+            Convention::Standard => links(k),
+        };
+        Some(Substitute {
+            frame: format!("{on}.{}", (n - k).min(back_rows)),
+            steps,
+        })
+    });
+    let at = new.chains.iter().position(|c| c.name.value == name.value).unwrap_or(0);
+    let held = ChainDescription {
+        on: Some(new.closures[closure].value.frames[1 - side].clone())
+            .filter(|on| on.value != GROUND),
+        ..held
+    };
+    let on_old = ChainDescription {
+        on: new.chains[at].value.on.clone(),
+        base: new.chains[at].value.base.clone(),
+        ..front
+    };
+    new.chains.splice(
+        at..=at,
+        [
+            named(front_name.clone(), on_old),
+            named(name.value.clone(), held),
+            named(
+                back_name.clone(),
+                ChainDescription {
+                    on: Some(nowhere(name.value.clone())),
+                    ..back
+                },
+            ),
+        ],
+    );
+    let joint = description.joints[place.joint].name.value.clone();
+    new.closures[closure] = named(
+        free_closure(&new, closure, &joint),
+        ClosureDescription {
+            kind: match place.slides {
+                true => ClosureKind::Prismatic,
+                false => ClosureKind::Revolute,
+            },
+            frames: [nowhere(front_name), nowhere(back_name)],
+            length: None,
+            span: 0..0,
+        },
+    );
+    new.joints.splice(place.joint..=place.joint, motion.joints.clone());
+    let mut notes = Vec::new();
+    new.closed_forms.retain(|form| {
+        let lost = names(&form.value).any(|name| *name == joint)
+            && !form.value.locals.iter().any(|local| local.name.value == joint);
+        if lost {
+            notes.push(ConversionNote::Dropped {
+                closed_form: form.name.value.clone(),
+                joint: joint.clone(),
+            });
+        }
+        !lost
+    });
+    let conversion = Conversion {
+        description: new,
+        notes,
+    };
+    (renamed, conversion)
+}
+
+fn named<T>(name: String, value: T) -> Named<T> {
+    Named {
+        name: nowhere(name),
+        value,
+    }
+}
+
+fn free_closure(description: &Description, own: usize, wanted: &str) -> String {
+    let others = description.closures.iter().enumerate().filter(|(i, _)| *i != own);
+    let taken: Vec<&String> = others.map(|(_, c)| &c.name.value).collect();
+    let numbered = (2..).map(|i| format!("{wanted}_{i}"));
+    let mut names = std::iter::once(wanted.to_owned()).chain(numbered);
+    names.find(|name| !taken.contains(&name)).unwrap_or_default()
+}
+
+/// From the old tip back to the axis of row r, without what it stands on.
+fn back(
+    chain: &ChainDescription,
+    convention: Convention,
+    r: usize,
+    links: &impl Fn(usize) -> Vec<Displacement>,
+) -> ChainDescription {
+    let n = chain.rows.len();
+    let mut base = undone(&chain.tip);
+    let motion = |old: &Row| (negated(&old.d), negated(&old.theta));
+    let twist = |old: Option<&Row>| {
+        old.map_or((zero(), zero()), |old| (negated(&old.alpha), negated(&old.a)))
+    };
+    let mut rows = Vec::new();
+    let mut tip = Vec::new();
+    match convention {
+        Convention::Modified => {
+            for k in (r + 1..n).rev() {
+                let (alpha, a) = twist(chain.rows.get(k + 1));
+                let (d, theta) = motion(&chain.rows[k]);
+                rows.push(row(alpha, a, d, theta));
+            }
+            if r + 1 < n {
+                tip = undone(&links(r + 1));
+            }
+        }
+        Convention::Standard => {
+            base.extend(undone(&links(n)));
+            for k in (r + 1..n).rev() {
+                let (alpha, a) = twist(chain.rows.get(k - 1));
+                let (d, theta) = motion(&chain.rows[k]);
+                rows.push(row(alpha, a, d, theta));
+            }
+        }
+    }
+    ChainDescription {
+        on: None,
+        convention: Some(nowhere(convention)),
+        base,
+        rows,
+        tip,
+    }
+}
+
+/// Every name in the formulas of a closed form.
+fn names(form: &crate::description::ClosedFormDescription) -> impl Iterator<Item = &String> {
+    let locals = form.locals.iter().map(|local| &local.value);
+    let identities = form.identities.iter().map(|identity| &identity.value);
+    let position = form.position.iter().flatten();
+    let rotation = form.rotation.iter().flatten().flatten();
+    let transform = form.transform.iter().flatten().flatten();
+    let entries = form.entries.iter().map(|(_, entry)| entry);
+    locals
+        .chain(identities)
+        .chain(position)
+        .chain(rotation)
+        .chain(transform)
+        .chain(entries)
+        .chain(&form.identity)
+        .flat_map(|entry| entry.expression.names().map(|(name, _)| name))
+}

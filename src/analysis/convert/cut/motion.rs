@@ -1,0 +1,185 @@
+//! A closure as rows with variables of their own.
+//!
+//! | closure | rows |
+//! |---|---|
+//! | revolute, prismatic | θ; d |
+//! | cylindrical | d and θ in one |
+//! | universal | θ₁, then θ₂ at 90° |
+//! | spherical | three that meet at right angles, away from their gimbal lock at home |
+//! | rigid | none |
+
+use std::f64::consts::FRAC_PI_2;
+
+use crate::algebra::{Expression, Node, Operator, Unit, is_name, is_reserved};
+use crate::analysis::convert::{entry, nowhere, row, zero};
+use crate::description::{
+    Axis, ClosureKind, Convention, Description, Displacement, Entry, JointDescription, Named, Role,
+    Row,
+};
+use crate::geometry::{self, Pose, Rotation};
+use crate::mechanism::Mechanism;
+use crate::number::Number;
+
+/// The rows that take the place of a closure, from its other frame to the frame behind the cut.
+pub(super) struct Motion {
+    pub joints: Vec<Named<JointDescription>>,
+    /// Twist before each row, its slide and its turn.
+    parts: Vec<(Entry, Entry, Entry)>,
+    pub tip: Vec<Displacement>,
+}
+
+fn right_angle(sign: f64) -> Entry {
+    entry(Node::Quantity(sign * 90.0, Unit::Degree).at(0..0))
+}
+
+impl Motion {
+    /// How many variables a closure becomes; `None` if it cannot become rows.
+    pub fn variables(kind: ClosureKind) -> Option<usize> {
+        match kind {
+            ClosureKind::Rigid => Some(0),
+            ClosureKind::Revolute | ClosureKind::Prismatic => Some(1),
+            ClosureKind::Universal | ClosureKind::Cylindrical => Some(2),
+            ClosureKind::Spherical => Some(3),
+            ClosureKind::Planar | ClosureKind::Distance => None,
+        }
+    }
+
+    /// The rows for a closure of which the given side moves against the other.
+    pub fn of(
+        mechanism: &Mechanism,
+        description: &Description,
+        closure: usize,
+        side: usize,
+    ) -> Self {
+        let model = &mechanism.closures()[closure];
+        let [from, to] = [model.frames[1 - side], model.frames[side]];
+        let pose = mechanism.transform(from, to, &mechanism.home());
+        let mut motion = Motion {
+            joints: Vec::new(),
+            parts: Vec::new(),
+            tip: Vec::new(),
+        };
+        let name = &model.name;
+        let [x, _, z] = pose.rotation.0;
+        let angle = Number::atan2(x.0[1], x.0[0]);
+        let mut add = |suffix: &str, home: Entry| {
+            let taken: Vec<&String> = (description.joints.iter().map(|j| &j.name.value))
+                .chain(description.parameters.iter().map(|p| &p.name.value))
+                .chain(motion.joints.iter().map(|j| &j.name.value))
+                .collect();
+            let name = free_variable(&format!("{name}{suffix}"), &taken);
+            motion.joints.push(Named {
+                name: nowhere(name.clone()),
+                value: JointDescription {
+                    role: Role::Passive,
+                    home,
+                    limits: None,
+                    span: 0..0,
+                },
+            });
+            Entry {
+                expression: Expression::name(name),
+                span: 0..0,
+            }
+        };
+        match model.kind {
+            ClosureKind::Revolute => {
+                let theta = add("", Entry::angle(angle));
+                motion.parts.push((zero(), zero(), theta));
+            }
+            ClosureKind::Prismatic => {
+                let d = add("", Entry::length(pose.position.0[2]));
+                motion.parts.push((zero(), d, zero()));
+            }
+            ClosureKind::Cylindrical => {
+                let theta = add("_turn", Entry::angle(angle));
+                let d = add("_slide", Entry::length(pose.position.0[2]));
+                motion.parts.push((zero(), d, theta));
+            }
+            ClosureKind::Universal => {
+                // Rz(θ₁)·Rx(90°) takes z to (sin θ₁, −cos θ₁, 0)
+                let first = Number::atan2(z.0[0], -z.0[1]);
+                let cross = Pose::rotation(geometry::Axis::Z, first)
+                    * Pose::rotation(geometry::Axis::X, FRAC_PI_2);
+                let [x, ..] = (cross.inverse() * pose).rotation.0;
+                let one = add("_1", Entry::angle(first));
+                let two = add("_2", Entry::angle(Number::atan2(x.0[1], x.0[0])));
+                motion.parts.push((zero(), zero(), one));
+                motion.parts.push((right_angle(1.0), zero(), two));
+            }
+            ClosureKind::Spherical => {
+                let (angles, beyond) = meeting(&pose.rotation);
+                let [one, two, three] = angles;
+                let one = add("_1", Entry::angle(one));
+                let two = add("_2", Entry::angle(two));
+                let three = add("_3", Entry::angle(three));
+                motion.parts.push((zero(), zero(), one));
+                let two = match beyond {
+                    false => two,
+                    true => entry(
+                        Node::Binary(
+                            Operator::Add,
+                            Box::new(two.expression),
+                            Box::new(right_angle(1.0).expression),
+                        )
+                        .at(0..0),
+                    ),
+                };
+                motion.parts.push((right_angle(-1.0), zero(), two));
+                motion.parts.push((right_angle(1.0), zero(), three));
+                if beyond {
+                    let back = Displacement::Rotate(Axis::Y, right_angle(-1.0));
+                    motion.tip.push(back);
+                }
+            }
+            ClosureKind::Rigid | ClosureKind::Planar | ClosureKind::Distance => {}
+        }
+        motion
+    }
+
+    /// The rows in a convention.
+    pub fn rows(&self, convention: Convention) -> Vec<Row> {
+        let twist = |k: usize| self.parts.get(k).map_or(zero(), |part| part.0.clone());
+        let rows = self.parts.iter().enumerate().map(|(k, (_, d, theta))| {
+            let alpha = match convention {
+                Convention::Modified => twist(k),
+                Convention::Standard => twist(k + 1),
+            };
+            row(alpha, zero(), d.clone(), theta.clone())
+        });
+        rows.collect()
+    }
+}
+
+/// The angles of three axes that meet: R = Rz(θ₁) Rx(−90°) Rz(β) Rx(90°) Rz(θ₃) E, with E = 1 and
+/// β = θ₂, or E = Ry(−90°) and β = θ₂ + 90°, whichever is further from β = 0 and 180°, where the
+/// first and the third axis are one line. True for the second.
+fn meeting(rotation: &Rotation<f64>) -> ([f64; 3], bool) {
+    // Rx(−90°) Rz(β) Rx(90°) = Ry(β): the angles are those about z, y and z
+    let angles = |r: &Rotation<f64>| {
+        let [_, _, z] = r.0;
+        let first = Number::atan2(z.0[1], z.0[0]);
+        let beta = Number::atan2(z.0[0].hypot(z.0[1]), z.0[2]);
+        let turn = |axis, angle| Pose::rotation(axis, angle);
+        let done = turn(geometry::Axis::Z, first) * turn(geometry::Axis::Y, beta);
+        let [x, ..] = (done.rotation.transpose() * *r).0;
+        [first, beta, Number::atan2(x.0[1], x.0[0])]
+    };
+    let beyond = *rotation * Pose::rotation(geometry::Axis::Y, FRAC_PI_2).rotation;
+    let (near, far) = (angles(rotation), angles(&beyond));
+    match near[1].sin().abs() >= far[1].sin().abs() {
+        true => (near, false),
+        false => ([far[0], far[1] - FRAC_PI_2, far[2]], true),
+    }
+}
+
+/// A name that expressions may use and nothing else has.
+fn free_variable(wanted: &str, taken: &[&String]) -> String {
+    let clean: String = (wanted.chars())
+        .map(|c| if c.is_alphanumeric() || c == '_' { c } else { '_' })
+        .collect();
+    let numbered = (2..).map(|i| format!("q_{clean}_{i}"));
+    let mut names = [clean.clone(), format!("q_{clean}")].into_iter().chain(numbered);
+    let free = |name: &String| is_name(name) && !is_reserved(name) && !taken.contains(&name);
+    names.find(free).unwrap_or_default()
+}

@@ -1,0 +1,94 @@
+//! Words for mechanisms written another way.
+
+use crate::analysis::convert::{ConversionNote, ConvertError, CutError};
+use crate::description::listed;
+
+use super::option::Complaint;
+
+fn quoted(names: &[String]) -> String {
+    let quoted: Vec<String> = names.iter().map(|name| format!("`{name}`")).collect();
+    listed(&quoted)
+}
+
+/// A line for each note.
+pub fn notes(notes: &[ConversionNote]) -> String {
+    let line = |note: &ConversionNote| {
+        let said = match note {
+            ConversionNote::Renamed { from, to } => format!("the frame `{from}` is now `{to}`"),
+            ConversionNote::Dropped { closed_form, joint } => format!(
+                "the closed form `{closed_form}` is left out: it names `{joint}`, which is a closure now"
+            ),
+            ConversionNote::DriveLost { joint } => format!(
+                "`{joint}` was driven and has no variable any more: hold another joint with --hold"
+            ),
+            ConversionNote::Variables { closure, joints } if joints.is_empty() => {
+                format!("the closure `{closure}` holds its frames together and has no variable")
+            }
+            ConversionNote::Variables { closure, joints } => {
+                format!("the closure `{closure}` has become rows with {}", quoted(joints))
+            }
+        };
+        format!("note: {said}\n")
+    };
+    notes.iter().map(line).collect()
+}
+
+/// Why a mechanism is not converted, unless it is what came out that is wrong.
+pub fn complaint(error: &ConvertError) -> Complaint {
+    let (title, help) = match error {
+        ConvertError::Cut(cut) => because(cut),
+        ConvertError::Wrong(problems) => {
+            let titles: Vec<String> = problems.iter().map(|p| p.kind.title()).collect();
+            let title = format!("what would come out is no mechanism: {}", titles.join("; "));
+            (title, None)
+        }
+    };
+    Complaint {
+        title,
+        label: String::new(),
+        help,
+    }
+}
+
+fn because(error: &CutError) -> (String, Option<String>) {
+    match error {
+        CutError::UnknownJoint { name, suggestion } => (
+            format!("there is no joint `{name}`"),
+            suggestion.as_ref().map(|meant| format!("did you mean `{meant}`?")),
+        ),
+        CutError::AlreadyCut { closure } => (
+            format!("the mechanism is broken at `{closure}` already"),
+            Some("name a joint that has a variable".into()),
+        ),
+        CutError::Helical { joint } => (
+            format!("the joint `{joint}` is helical, and no closure is"),
+            Some("break the mechanism at a revolute or prismatic joint".into()),
+        ),
+        CutError::NoRow { joint } => (
+            format!("the variable `{joint}` stands in no row of a table"),
+            Some("break the mechanism at a joint between links".into()),
+        ),
+        CutError::SeveralRows { joint } => (
+            format!("the variable `{joint}` stands in several places, and a cut would open only one"),
+            Some("break the mechanism at a joint with a row of its own".into()),
+        ),
+        CutError::SharedRow { joint } => (
+            format!("the row of `{joint}` has other variables too, which the cut would free"),
+            Some("break the mechanism at a joint with a row of its own".into()),
+        ),
+        CutError::NoLoop { joint } => (
+            format!("`{joint}` is in no loop: nothing would hold the links behind it"),
+            Some("only joints that a closure feels can be cut".into()),
+        ),
+        CutError::NotRows { joint, closures } => (
+            format!(
+                "the links behind `{joint}` are held by {} only, which cannot become rows at the end of its chain",
+                quoted(closures)
+            ),
+            Some(
+                "planar and distance closures have no rows, and others must be at the chain's own end"
+                    .into(),
+            ),
+        ),
+    }
+}
