@@ -19,6 +19,7 @@ fn mechanisms() -> Vec<(String, Mechanism)> {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("mechanisms");
     let files = folder.read_dir().expect("the shipped mechanisms");
     let mut paths: Vec<_> = files.map(|file| file.expect("a file").path()).collect();
+    paths.retain(|path| path.is_file());
     paths.sort();
     let name = |path: &Path| {
         path.file_stem()

@@ -54,7 +54,8 @@ fn json(arguments: &[&str]) -> Value {
 fn mechanisms() -> Vec<String> {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("mechanisms");
     let names = folder.read_dir().unwrap();
-    let names = names.map(|entry| entry.unwrap().file_name().into_string().unwrap());
+    let files = names.filter(|entry| entry.as_ref().unwrap().path().is_file());
+    let names = files.map(|entry| entry.unwrap().file_name().into_string().unwrap());
     let mut names: Vec<String> = names.map(|name| format!("mechanisms/{name}")).collect();
     names.sort();
     names

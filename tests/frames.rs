@@ -304,3 +304,360 @@ fn rows_to_axes_to_rows_are_the_same() {
             .unwrap();
     }
 }
+
+/// A length in m and an angle in rad by which two lines differ, sense included.
+fn apart(a: &Line, b: &Line) -> f64 {
+    let turned = a.direction.cross(&b.direction).norm() + (1.0 - a.direction.dot(&b.direction));
+    turned + a.distance(&b.point)
+}
+
+#[test]
+fn nearly_parallel_axes_are_parallel_or_skew_and_never_blow_up() {
+    for exponent in 3..16 {
+        let tilt = 10.0_f64.powi(-exponent);
+        let axes = SerialAxes {
+            base: None,
+            joints: vec![
+                revolute([0.0, 0.0, 0.0], [0.0, 0.0, 1.0], 0.0),
+                revolute([1.0, 0.0, 0.0], [0.0, tilt, 1.0], 0.0),
+                revolute([2.0, 0.3, 0.0], [0.1, 0.2, 1.0], 0.0),
+            ],
+            tool: Some(translation(2.0, 0.5, 0.3)),
+        };
+        for convention in Convention::ALL {
+            let made = axes.assign(convention);
+            let taken = made.normals[1].relation.unwrap();
+            let parallel = tilt <= 1e-7;
+            assert_eq!(taken.is_parallel(), parallel, "{tilt:e}");
+            // within the tolerance the tilt is dropped; beyond it digits are lost to the far normal
+            let allowed = if parallel { 2.0 * tilt + 1e-15 } else { 1e-15 / tilt };
+            assert!(made.turned <= allowed.max(1e-14), "{tilt:e}: {:e}", made.turned);
+            assert!(made.moved <= allowed.max(1e-14), "{tilt:e}: {:e}", made.moved);
+            let finite = |x: &f64| x.is_finite();
+            assert!(rows(&made.table).iter().flatten().all(finite));
+        }
+    }
+}
+
+#[test]
+fn a_prismatic_axis_is_put_where_the_table_is_simplest_wherever_its_point_is() {
+    let axes = |point: [f64; 3]| SerialAxes {
+        base: None,
+        joints: vec![
+            revolute([0.0; 3], [0.0, 0.0, 1.0], 0.0),
+            JointAxis::prismatic(line(point, [1.0, 0.0, 0.0]), 0.5),
+            revolute([0.5, 0.0, 0.0], [1.0, 0.0, 0.0], 0.0),
+        ],
+        tool: None,
+    };
+    let near = axes([0.0; 3]).assign(Convention::Standard);
+    let far = axes([3.0, -7.0, 2.0]).assign(Convention::Standard);
+    assert_eq!(near.table, far.table);
+    // the axis of the slide is that of the joint behind it: nothing but d moves
+    assert_rows(
+        &near.table,
+        &[[90.0, 0.0, 0.0, 90.0], [0.0, 0.0, 0.0, 0.0], [0.0, 0.0, 0.0, 0.0]],
+    );
+}
+
+mod files {
+    use super::*;
+    use std::path::{Path, PathBuf};
+
+    use linkwork::analysis::frames::{AxesError, FramesSettings, frames, joint_axes};
+    use linkwork::description::{AxesDescription, Description, Lines, Problem};
+    use linkwork::mechanism::{Configuration, Frame, Mechanism};
+    use linkwork::solve::Newton;
+    use linkwork::system::{Question, close};
+
+    fn folder() -> PathBuf {
+        Path::new(env!("CARGO_MANIFEST_DIR")).join("mechanisms")
+    }
+
+    fn shipped(folder: &Path) -> Vec<PathBuf> {
+        let entries = folder.read_dir().unwrap();
+        let mut paths: Vec<PathBuf> = entries.map(|entry| entry.unwrap().path()).collect();
+        paths.retain(|path| path.is_file());
+        paths.sort();
+        assert!(!paths.is_empty());
+        paths
+    }
+
+    fn placed(axes: &AxesDescription, convention: Convention) -> Mechanism {
+        let settings = FramesSettings {
+            convention: Some(convention),
+        };
+        let report = frames(axes, &settings).unwrap();
+        // what is written is what was meant
+        let text = report.description.to_ron().unwrap();
+        assert_eq!(Description::read(&text).unwrap(), report.description);
+        let mechanism = Mechanism::new(&report.description).unwrap();
+        assert!(mechanism.warnings().is_empty(), "{text}");
+        mechanism
+    }
+
+    fn closed(mechanism: &Mechanism) -> Configuration<f64> {
+        match mechanism.closures().is_empty() {
+            true => mechanism.home(),
+            false => {
+                let question = Question::new(mechanism);
+                let closed = close(&question, &Newton::default(), 20, 1).unwrap();
+                closed.configuration
+            }
+        }
+    }
+
+    /// The lines of joints, by name; a ball has a point only and a slide a direction only.
+    fn lines(axes: &AxesDescription) -> Vec<(String, Option<Vector3<f64>>, Option<Vector3<f64>>)> {
+        use linkwork::description::AxisPlace;
+        let vector = |v: &[linkwork::description::Entry; 3]| {
+            Vector3(v.each_ref().map(|x| x.expression.as_number().unwrap()))
+        };
+        let line = |joint: &linkwork::description::Named<_>| {
+            let joint: &linkwork::description::Named<linkwork::description::AxisDescription> = joint;
+            let (point, along) = match &joint.value.place {
+                AxisPlace::Along(point, along) => (point.as_ref().map(vector), Some(vector(along))),
+                AxisPlace::Centre(point) => (Some(vector(point)), None),
+                AxisPlace::Through(..) => unreachable!("axes of tables are written with directions"),
+            };
+            (joint.name.value.clone(), point, along)
+        };
+        let mut lines: Vec<_> = axes.joints.iter().map(line).collect();
+        lines.sort_by(|a, b| a.0.cmp(&b.0));
+        lines
+    }
+
+    #[test]
+    fn shipped_mechanisms_to_axes_to_mechanisms_have_the_same_axes_and_are_assembled() {
+        let mut made = 0;
+        for path in shipped(&folder()) {
+            let mechanism = Mechanism::load(&path).unwrap();
+            let axes = match joint_axes(&mechanism, &closed(&mechanism)) {
+                Ok(axes) => axes,
+                Err(AxesError::Row { .. } | AxesError::Closure { .. }) => continue,
+                Err(AxesError::TooFew) => panic!("{path:?} has joints"),
+            };
+            let text = axes.to_ron().unwrap();
+            let read = AxesDescription::read(&text).unwrap();
+            assert_eq!(read, axes, "{text}");
+            for convention in Convention::ALL {
+                let again = placed(&axes, convention);
+                let home = again.home();
+                for closure in again.closures() {
+                    let [a, b] = again.poses(closure.frames, &home);
+                    let gap = (a.position - b.position).norm();
+                    let z = |pose: &Pose<f64>| pose.rotation.column(Axis::Z);
+                    let kind = format!("{:?}", closure.kind);
+                    if kind != "Prismatic" {
+                        assert!(gap < 1e-12 * again.characteristic_length().max(1.0), "{path:?} {gap:e}");
+                    }
+                    if kind != "Spherical" {
+                        assert!((z(&a) - z(&b)).norm() < 1e-12, "{path:?}");
+                    }
+                }
+                let back = joint_axes(&again, &home).unwrap();
+                let (given, back) = (lines(&axes), lines(&back));
+                assert_eq!(given.len(), back.len(), "{path:?}");
+                for ((name, point, along), (other, at, found)) in given.iter().zip(&back) {
+                    assert_eq!(name, other);
+                    if let (Some(u), Some(v)) = (along, found) {
+                        // a joint that is put back has no sense
+                        let sense = u.dot(v).signum();
+                        let cut = again.joint(name).is_none();
+                        assert!(sense > 0.0 || cut, "{path:?} {name}");
+                        assert!((*u - v.times(sense)).norm() < 1e-12, "{path:?} {name}");
+                    }
+                    match (point, at, along, found) {
+                        (Some(p), Some(q), None, None) => assert!((*p - *q).norm() < 1e-12),
+                        (Some(p), Some(q), Some(u), Some(v)) => {
+                            let given = Line::new(*p, *u).unwrap();
+                            let found = Line::new(*q, v.times(u.dot(v).signum())).unwrap();
+                            let apart = apart(&given, &found);
+                            assert!(apart < 2e-12, "{path:?} {name}: {apart:e}");
+                        }
+                        _ => {}
+                    }
+                }
+                made += 1;
+            }
+        }
+        assert!(made > 60, "{made}");
+    }
+
+    #[test]
+    fn serial_chains_move_as_before() {
+        // beyond home the joint variables must mean the same
+        for name in ["puma560_modified", "stanford_arm", "scara_modified", "scara_standard", "rpp_wrist"] {
+            let mechanism = Mechanism::load(folder().join(format!("{name}.ron"))).unwrap();
+            let axes = joint_axes(&mechanism, &mechanism.home()).unwrap();
+            for convention in Convention::ALL {
+                let again = placed(&axes, convention);
+                for k in 1..8 {
+                    let mut at = mechanism.home();
+                    let mut there = again.home();
+                    for (i, joint) in mechanism.joints().iter().enumerate() {
+                        let value = joint.home + (f64::from(k) * (i as f64 + 1.3)).sin();
+                        at.joints[i] = value;
+                        there.joints[again.joint(&joint.name).unwrap()] = value;
+                    }
+                    let tip = |m: &Mechanism, at| m.transform(Frame::Ground, Frame::Tip { chain: 0 }, at);
+                    let (a, b) = (tip(&mechanism, &at), tip(&again, &there));
+                    assert!((a.position - b.position).norm() < 1e-12, "{name}");
+                    for (u, v) in a.rotation.0.iter().zip(&b.rotation.0) {
+                        assert!((*u - *v).norm() < 1e-12, "{name}");
+                    }
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn canonical_tables_come_back_as_they_are() {
+        let same = ["puma560_modified", "stanford_arm", "planar_3r", "spherical_wrist", "elbow_manipulator"];
+        for name in same {
+            let mechanism = Mechanism::load(folder().join(format!("{name}.ron"))).unwrap();
+            let convention = mechanism.chains()[0].convention;
+            let axes = joint_axes(&mechanism, &mechanism.home()).unwrap();
+            let again = placed(&axes, convention);
+            let (a, b) = (&mechanism.dimensions().chains[0], &again.dimensions().chains[0]);
+            for (a, b) in a.rows.iter().zip(&b.rows) {
+                for (p, q) in [(a.before, b.before), (a.after, b.after)] {
+                    assert!((p.position - q.position).norm() < 1e-12, "{name}");
+                    for (u, v) in p.rotation.0.iter().zip(&q.rotation.0) {
+                        assert!((*u - *v).norm() < 1e-12, "{name}");
+                    }
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn shipped_axes_give_mechanisms_in_both_conventions() {
+        for path in shipped(&folder().join("axes")) {
+            let axes = AxesDescription::read(&std::fs::read_to_string(&path).unwrap()).unwrap();
+            for convention in Convention::ALL {
+                let mechanism = placed(&axes, convention);
+                let gap = close(&Question::new(&mechanism), &Newton::default(), 0, 1);
+                assert!(mechanism.closures().is_empty() || gap.is_ok(), "{path:?}");
+            }
+        }
+    }
+
+    #[test]
+    fn every_choice_of_cuts_assembles_where_the_axes_are() {
+        let text = std::fs::read_to_string(folder().join("axes/four_bar.ron")).unwrap();
+        for cut in ["theta1", "phi2", "phi3", "phi1"] {
+            let text = text.replacen("joints:", &format!("cut: [\"{cut}\"],\n    joints:"), 1);
+            let axes = AxesDescription::read(&text).unwrap();
+            for convention in Convention::ALL {
+                let mechanism = placed(&axes, convention);
+                assert_eq!(mechanism.closures().len(), 1);
+                assert!(mechanism.joint(cut).is_none());
+                let frames = mechanism.closures()[0].frames;
+                let [a, b] = mechanism.poses(frames, &mechanism.home());
+                assert!((a.position - b.position).norm() < 1e-14, "{cut}");
+            }
+        }
+    }
+
+    fn titles(text: &str) -> Vec<String> {
+        let problems = match AxesDescription::read(text) {
+            Ok(axes) => frames(&axes, &FramesSettings::default()).map(|_| ()).unwrap_err(),
+            Err(problems) => problems,
+        };
+        let shown = |problem: &Problem| {
+            let (line, column) = Lines::new(text).position(problem.span.start);
+            let help = problem.kind.help().map_or(String::new(), |help| format!(" ({help})"));
+            format!("{line}:{column} {}{help}", problem.kind.title())
+        };
+        problems.iter().map(shown).collect()
+    }
+
+    #[test]
+    fn wrong_axes_are_pointed_at() {
+        let serial = |joints: &str| format!("Axes(version: 1, name: \"x\", joints: {{\n{joints}}})");
+        let q = "\"q\": Revolute(point: (0, 0, 0), direction: (0, 0, 1)),\n";
+        assert_eq!(
+            titles(&serial(&format!("{q}\"p\": Prismatic(direction: (0, 0, \"1 - 1\"))"))),
+            ["3:28 the axis of joint `p` has no direction (give a vector that is not zero, or two points that differ)"]
+        );
+        assert_eq!(
+            titles(&serial(&format!("{q}\"p\": Revolute(through: ((1, 2, 3), (1, 2, 3)))"))),
+            ["3:25 the axis of joint `p` has no direction (give a vector that is not zero, or two points that differ)"]
+        );
+        assert_eq!(
+            titles(&serial(q)),
+            ["1:24 there is only one joint (a table between axes needs two of them)"]
+        );
+        assert_eq!(titles(&serial("")), ["1:24 there are no joints (a table between axes needs two of them)"]);
+        assert_eq!(
+            titles(&serial(&format!("{q}\"p\": Revolut(point: (0, 0, 0), direction: (0, 1, l))"))),
+            ["3:6 expected `Revolute(…)`, `Prismatic(…)` or `Spherical(…)`, found `Revolut` (did you mean `Revolute`?)"]
+        );
+        assert_eq!(
+            titles(&serial(&format!("{q}\"p\": Prismatic(direction: (0, 1, \"l\"))"))),
+            ["3:35 `l` is not a parameter (declare it under `parameters`)"]
+        );
+        assert_eq!(
+            titles(&serial(&format!("{q}\"p\": Revolute(direction: (0, 1, 0))"))),
+            ["3:6 a revolute joint needs the field `point`"]
+        );
+        let closed = |joints: &str, cut: &str| {
+            format!("Axes(version: 1, name: \"x\", cut: [{cut}],\njoints: {{ {joints} }})")
+        };
+        let joint = |name: &str, x: i32, a: &str, b: &str| {
+            format!(
+                "\"{name}\": Revolute(point: ({x}, 0, 0), direction: (0, 0, 1), between: (\"{a}\", \"{b}\")),\n"
+            )
+        };
+        let triangle = joint("a", 0, "ground", "u") + &joint("b", 1, "u", "v") + &joint("c", 2, "v", "ground");
+        let starts = |text: String, start: &str| {
+            let found = titles(&text);
+            assert!(found.len() == 1 && found[0].contains(start), "{found:?}");
+        };
+        assert!(titles_none(&closed(&triangle, "")));
+        starts(closed(&triangle, "\"d\""), "there is no joint `d` to be cut");
+        starts(closed(&triangle, "\"a\", \"b\""), "cutting the joint `b` takes bodies off");
+        let two = triangle.clone() + &joint("d", 3, "u", "ground");
+        starts(closed(&two, "\"a\""), "leave a loop closed");
+        starts(closed(&(triangle.clone() + &joint("d", 3, "s", "t")), ""), "no joints connect the body `s`");
+        starts(closed(&(triangle.clone() + &joint("d", 3, "s", "s")), ""), "connects the body `s` with itself");
+        starts(closed(&(triangle + q), ""), "nothing says which bodies the joint `q` connects");
+        starts(closed(&(joint("a", 0, "u", "v") + &joint("b", 1, "v", "w")), ""), "no joint connects anything with `ground`");
+    }
+
+    fn titles_none(text: &str) -> bool {
+        AxesDescription::read(text).is_ok_and(|axes| frames(&axes, &FramesSettings::default()).is_ok())
+    }
+
+    #[test]
+    fn damaged_files_are_answered_without_a_panic() {
+        let texts: Vec<String> = shipped(&folder().join("axes"))
+            .iter()
+            .map(|path| std::fs::read_to_string(path).unwrap())
+            .collect();
+        let pieces = [
+            "0", "-1", "1e308", "1e-320", "\"q\"", "ground", "()", "(0, 0, 0)", "[]", "{", "}", ",", "(",
+            "Spherical", "Prismatic", "between", "cut: [\"phi1\"],", "tool: [Tx(1)],", "base: [],", "inf",
+        ];
+        let damage = (0..texts.len(), 0.0..1.0f64, 0usize..40, 0..pieces.len(), 0.0..1.0f64, 0..pieces.len());
+        runner(1500)
+            .run(&damage, |(file, at, removed, piece, second, other)| {
+                let mut text: Vec<char> = texts[file].chars().collect();
+                for (at, piece) in [(at, piece), (second, other)] {
+                    let start = (at * text.len() as f64) as usize;
+                    let end = (start + removed).min(text.len());
+                    text.splice(start..end, pieces[piece].chars());
+                }
+                let text: String = text.into_iter().collect();
+                if let Ok(axes) = AxesDescription::read(&text)
+                    && let Ok(report) = frames(&axes, &FramesSettings::default())
+                {
+                    prop_assert!(report.turned.is_finite() && report.moved.is_finite(), "{text}");
+                    prop_assert!(Mechanism::new(&report.description).is_ok(), "{text}");
+                }
+                Ok(())
+            })
+            .unwrap();
+    }
+}

@@ -19,6 +19,7 @@ fn load(name: &str) -> Mechanism {
 fn every_mechanism() -> Vec<Mechanism> {
     let files = folder().read_dir().unwrap();
     let mut paths: Vec<_> = files.map(|file| file.unwrap().path()).collect();
+    paths.retain(|path| path.is_file());
     paths.sort();
     paths
         .into_iter()

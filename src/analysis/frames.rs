@@ -3,7 +3,9 @@
 //! A serial chain is one table. Where the joints say which bodies they connect, closed loops are cut
 //! (`loops.rs`), and what is left becomes chains (`chains.rs`).
 
+mod build;
 mod chains;
+mod given;
 mod loops;
 mod values;
 
@@ -14,6 +16,8 @@ use crate::description::{
 };
 use crate::geometry::{Pose, Relation};
 use crate::mechanism::{Assignment, Mechanism, Normal};
+
+pub use given::{AxesError, joint_axes};
 
 /// The most joints of one file of axes.
 pub const MOST_JOINTS: usize = 1000;

@@ -3,11 +3,15 @@
 use std::path::PathBuf;
 
 use clap::{Args, ValueEnum};
-use linkwork::analysis::frames::{FramesSettings, frames};
+use linkwork::analysis::frames::{FramesSettings, frames, joint_axes};
 use linkwork::analysis::overview::overview;
-use linkwork::description::{AxesDescription, Convention, FileError, LoadError, Problem, load_text};
+use linkwork::description::{
+    AxesDescription, Convention, FileError, LoadError, Problem, is_mechanism, load_text,
+};
 use linkwork::mechanism::Mechanism;
 use linkwork::output::{diagnostics, frames as output};
+use linkwork::solve::Newton;
+use linkwork::system::{Question, close};
 
 use super::{Answer, Refusal, style};
 
@@ -17,10 +21,12 @@ use super::{Answer, Refusal, style};
 /// (0, 0, 1), home: 0), "q2": Prismatic(direction: (1, 0, 0)), … }, base: […], tool: […])`. Where joints say which bodies
 /// they connect, as in `between: ("ground", "crank")`, loops are cut, at the joints of `cut: [\"q3\"]` or else where
 /// that gives the simplest tables.
+///
+/// For a mechanism file it is the other way round: the joint axes that its tables describe, where it is assembled.
 #[derive(Args)]
 #[command(after_help = "Example: linkwork frames mechanisms/axes/puma560.ron --convention standard --format ron")]
 pub struct Frames {
-    /// The file of joint axes.
+    /// The file of joint axes, or a mechanism file.
     file: PathBuf,
     /// The convention of the tables; that of the file, or else modified
     #[arg(long, value_enum)]
@@ -32,6 +38,10 @@ pub struct Frames {
     #[arg(long, value_enum, default_value_t = FileFormat::Text)]
     format: FileFormat,
 }
+
+/// How often and from which seed a mechanism is closed again whose home is far from closed.
+const RESTARTS: usize = 20;
+const SEED: u64 = 1;
 
 /// A convention by its name.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
@@ -74,6 +84,9 @@ impl Frames {
             };
             diagnostics::render(&error, style())
         };
+        if is_mechanism(&text) {
+            return self.axes_of_mechanism();
+        }
         let axes = AxesDescription::read(&text).map_err(|problems| Refusal(wrong(problems)))?;
         let settings = FramesSettings {
             convention: self.convention.map(Convention::from),
@@ -100,6 +113,42 @@ impl Frames {
             data,
             remarks,
             yes: true,
+        })
+    }
+
+    /// From tables to axes.
+    fn axes_of_mechanism(&self) -> Result<Answer, Refusal> {
+        let mechanism = Mechanism::load(&self.file).map_err(|error| {
+            Refusal(match error {
+                LoadError::Wrong(error) => diagnostics::render(&error, style()),
+                other => format!("error: {other}\n"),
+            })
+        })?;
+        let question = Question::new(&mechanism);
+        // without closures every configuration is assembled
+        let (at, gap) = match mechanism.closures().is_empty() {
+            true => (mechanism.home(), false),
+            false => match close(&question, &Newton::default(), RESTARTS, SEED) {
+                Ok(closed) => (closed.configuration, false),
+                Err(_) => (mechanism.home(), true),
+            },
+        };
+        let axes = joint_axes(&mechanism, &at)
+            .map_err(|error| Refusal(output::no_axes(&error).render(style())))?;
+        let unwritten = |error| Refusal(format!("error: the axes cannot be written: {error}\n"));
+        Ok(Answer {
+            data: match self.format {
+                FileFormat::Text => output::axes_text(&axes),
+                FileFormat::Ron => axes.to_ron().map_err(unwritten)?,
+                FileFormat::Json => {
+                    output::axes_json(&axes, &axes.to_ron().map_err(unwritten)?)
+                }
+            },
+            remarks: match gap {
+                true => output::NOT_ASSEMBLED.into(),
+                false => String::new(),
+            },
+            yes: !gap,
         })
     }
 }

@@ -153,9 +153,9 @@ pub enum AxesProblem {
     },
 }
 
-/// Whether a text seems to be a file of joint axes and not of a mechanism.
-pub fn is_axes(text: &str) -> bool {
-    reader::first_word(text).is_some_and(|word| word == "Axes")
+/// Whether a text seems to be a file of a mechanism and not of joint axes.
+pub fn is_mechanism(text: &str) -> bool {
+    reader::first_word(text).is_some_and(|word| word == "Mechanism")
 }
 
 impl AxesDescription {

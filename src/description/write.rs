@@ -7,12 +7,74 @@ use serde::ser::{
 
 use super::*;
 
+/// Writes the fields that are given.
+macro_rules! fields {
+    ($start:expr, $($name:literal: $value:expr, if $given:expr;)+) => {{
+        let mut fields = $start?;
+        $(if $given { fields.serialize_field($name, $value)?; })+
+        fields.end()
+    }};
+}
+
 impl Description {
     /// The text of a mechanism file that says the same. Comments are not kept.
     pub fn to_ron(&self) -> Result<String, ron::Error> {
         // Rows and vectors stand on one line, as in a printed table.
         let layout = PrettyConfig::new().depth_limit(4);
         Ok(ron::ser::to_string_pretty(self, layout)? + "\n")
+    }
+}
+
+impl AxesDescription {
+    /// The text of a file of joint axes that says the same. Comments are not kept.
+    pub fn to_ron(&self) -> Result<String, ron::Error> {
+        let layout = PrettyConfig::new().depth_limit(2);
+        Ok(ron::ser::to_string_pretty(self, layout)? + "\n")
+    }
+}
+
+impl Serialize for AxesDescription {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        fields!(serializer.serialize_struct_variant("File", 0, "Axes", 9),
+            "version": &VERSION, if true;
+            "name": &self.name, if true;
+            "source": &Bare(&self.source), if self.source.is_some();
+            "convention": &Bare(&self.convention), if self.convention.is_some();
+            "parameters": &Map(&self.parameters), if !self.parameters.is_empty();
+            "joints": &Map(&self.joints), if true;
+            "base": &Bare(&self.base), if self.base.is_some();
+            "tool": &Bare(&self.tool), if self.tool.is_some();
+            "cut": &self.cut, if !self.cut.is_empty();
+        )
+    }
+}
+
+/// A word without anything behind it.
+struct Word(&'static str);
+
+impl Serialize for Word {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        serializer.serialize_unit_variant("Word", 0, self.0)
+    }
+}
+
+impl Serialize for AxisDescription {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        let (point, direction, through) = match &self.place {
+            AxisPlace::Along(point, direction) => (point.as_ref(), Some(direction), None),
+            AxisPlace::Through(first, second) => (None, None, Some((first, second))),
+            AxisPlace::Centre(point) => (Some(point), None, None),
+        };
+        let role = self.role.map(|role| Word(role.word()));
+        fields!(serializer.serialize_struct_variant("Axis", 0, self.kind.word(), 7),
+            "point": &Bare(&point), if point.is_some();
+            "direction": &Bare(&direction), if direction.is_some();
+            "through": &Bare(&through), if through.is_some();
+            "home": &self.home, if !self.home.expression.is_zero();
+            "limits": &Bare(&self.limits), if self.limits.is_some();
+            "role": &Bare(&role), if role.is_some();
+            "between": &Bare(&self.between), if self.between.is_some();
+        )
     }
 }
 
@@ -35,15 +97,6 @@ impl<T: Serialize> Serialize for Bare<'_, T> {
             None => serializer.serialize_unit(),
         }
     }
-}
-
-/// Writes the fields that are given.
-macro_rules! fields {
-    ($start:expr, $($name:literal: $value:expr, if $given:expr;)+) => {{
-        let mut fields = $start?;
-        $(if $given { fields.serialize_field($name, $value)?; })+
-        fields.end()
-    }};
 }
 
 impl Serialize for Description {

@@ -6,11 +6,12 @@ use std::fmt::Write;
 
 use super::json::document;
 use super::layout::{align_right, indented, plain};
+use super::option::Complaint;
 use super::overview;
 use super::quantity::{degrees, number, short, size};
-use crate::analysis::frames::{CutReport, FramesReport, PlacedChain, PlacedNormal, Way};
+use crate::analysis::frames::{AxesError, CutReport, FramesReport, PlacedChain, PlacedNormal, Way};
 use crate::analysis::overview::Overview;
-use crate::description::{count, listed};
+use crate::description::{AxesDescription, AxisPlace, Entry, count, listed};
 use crate::geometry::Relation;
 use crate::linear::RANK_TOLERANCE;
 
@@ -207,4 +208,70 @@ fn accuracy(report: &FramesReport) -> String {
         size(report.moved),
         size(report.turned)
     )
+}
+
+/// What is said where the axes are those of a configuration that is not assembled.
+pub const NOT_ASSEMBLED: &str = "warning: the mechanism could not be assembled near home; these are \
+     the axes at home, and what is made from them will not close\n";
+
+/// The axes that the tables of a mechanism describe.
+pub fn axes_text(axes: &AxesDescription) -> String {
+    let vector = |v: &[Entry; 3]| {
+        let shown = v.each_ref().map(|x| match x.expression.as_number() {
+            Some(value) => number(value),
+            None => x.expression.to_string(),
+        });
+        format!("({})", shown.join(", "))
+    };
+    let mut table = plain(["joint", "kind", "point (m)", "direction", "home", "between"]);
+    for joint in &axes.joints {
+        let axis = &joint.value;
+        let (point, direction) = match &axis.place {
+            AxisPlace::Along(point, direction) => {
+                (point.as_ref().map_or("any".into(), vector), vector(direction))
+            }
+            AxisPlace::Through(first, second) => (vector(first), format!("to {}", vector(second))),
+            AxisPlace::Centre(point) => (vector(point), String::new()),
+        };
+        let between = axis.between.as_ref();
+        let between = between.map_or(String::new(), |[a, b]| format!("{} and {}", a.value, b.value));
+        table.add_row([
+            &joint.name.value,
+            &axis.kind.word().to_lowercase(),
+            &point,
+            &direction,
+            &axis.home.expression.to_string(),
+            &between,
+        ]);
+    }
+    format!("{}\nJoint axes\n{}", axes.name.value, indented(&table.to_string()))
+}
+
+/// The same as JSON: the file of axes as a text.
+pub fn axes_json(axes: &AxesDescription, file: &str) -> String {
+    #[derive(serde::Serialize)]
+    struct File<'a> {
+        file: &'a str,
+    }
+    document(&axes.name.value, &File { file })
+}
+
+/// Why the joints of a mechanism are not given by axes.
+pub fn no_axes(error: &AxesError) -> Complaint {
+    let (title, help) = match error {
+        AxesError::Row { chain, row } => (
+            format!("row {row} of chain `{chain}` is not one joint with a variable of its own"),
+            Some("axes are given for revolute and prismatic joints that move alone".to_owned()),
+        ),
+        AxesError::Closure { closure, kind } => (
+            format!("the {} closure `{closure}` has no axis", kind.word().to_lowercase()),
+            Some("axes are given for joints; write a rod as a link with balls at its ends".into()),
+        ),
+        AxesError::TooFew => ("the mechanism has no joints with axes".to_owned(), None),
+    };
+    Complaint {
+        title,
+        label: String::new(),
+        help,
+    }
 }

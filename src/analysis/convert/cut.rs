@@ -241,7 +241,7 @@ fn rebuild(
     let held = ChainDescription {
         // renamed below like all frames
         on: None,
-        convention: Some(nowhere(convention)),
+        convention: chain.convention.clone(),
         base: vec![],
         rows: motion.rows(convention),
         tip: end,
@@ -381,7 +381,7 @@ fn back(
     }
     ChainDescription {
         on: None,
-        convention: Some(nowhere(convention)),
+        convention: chain.convention.clone(),
         base,
         rows,
         tip,

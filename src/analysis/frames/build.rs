@@ -1,0 +1,412 @@
+//! Chains, platforms and closures of a mechanism whose cuts are chosen.
+
+use std::collections::BTreeSet;
+
+use super::PlacedChain;
+use super::chains::{self, Built, between, declarations, joint_axis, nowhere};
+use super::loops::{Graph, driven};
+use super::values::Values;
+use crate::description::{
+    AxesDescription, AxisKind, ChainDescription, ClosureDescription, ClosureKind, Convention,
+    Description, Displacement, GROUND, Named, PlatformDescription, Role,
+};
+use crate::geometry::{Axis, Line, Pose, Rotation, Vector3};
+use crate::mechanism::{Assignment, JointAxis, SerialAxes};
+
+/// A mechanism file being made from axes and cuts.
+pub(super) struct Build<'a> {
+    axes: &'a AxesDescription,
+    values: &'a Values,
+    graph: &'a Graph,
+    cuts: &'a BTreeSet<usize>,
+    convention: Convention,
+    /// For each body the frame that carries it, with its pose.
+    carried: Vec<Option<(String, Pose<f64>)>>,
+    /// For each joint that is cut the frames on its two bodies.
+    cut_frames: Vec<[Option<String>; 2]>,
+    /// For each joint that is cut where it is put back.
+    cut_poses: Vec<Option<Pose<f64>>>,
+    chains: Vec<Named<ChainDescription>>,
+    platforms: Vec<Named<PlatformDescription>>,
+    placed: Vec<PlacedChain>,
+    turned: f64,
+    moved: f64,
+}
+
+impl<'a> Build<'a> {
+    pub fn new(
+        axes: &'a AxesDescription,
+        values: &'a Values,
+        graph: &'a Graph,
+        cuts: &'a BTreeSet<usize>,
+        convention: Convention,
+    ) -> Self {
+        let joints = axes.joints.len();
+        Build {
+            axes,
+            values,
+            graph,
+            cuts,
+            convention,
+            carried: vec![None; graph.bodies.len()],
+            cut_frames: vec![[None, None]; joints],
+            cut_poses: vec![None; joints],
+            chains: Vec::new(),
+            platforms: Vec::new(),
+            placed: Vec::new(),
+            turned: 0.0,
+            moved: 0.0,
+        }
+    }
+
+    /// The mechanism file.
+    pub fn build(mut self) -> Built {
+        self.carried[0] = Some((GROUND.into(), Pose::identity()));
+        self.grow(0);
+        // what is held by cut joints only is a platform
+        while let Some(root) = self.next_platform() {
+            let joints = self.joints_of(root);
+            let points = joints.iter().map(|&j| self.values.lines[j].point);
+            let sum = points.fold(Vector3::zero(), |sum, point| sum + point);
+            let pose = Pose::translation(sum.times(1.0 / joints.len() as f64));
+            let name = self.free_name(&self.graph.bodies[root], "platform");
+            self.platforms.push(Named {
+                name: nowhere(name.clone()),
+                value: PlatformDescription {
+                    home: Displacement::of_pose(&pose),
+                    frames: vec![],
+                },
+            });
+            self.carried[root] = Some((name, pose));
+            self.grow(root);
+        }
+        self.put_back();
+        let driven = driven(self.axes);
+        let role = |j: usize| if driven[j] { Role::Actuated } else { Role::Passive };
+        let kept = |j: usize| !self.cuts.contains(&j);
+        let joints = declarations(self.axes, self.values, kept, role);
+        let closures = self.cuts.iter().map(|&joint| self.closure(joint)).collect();
+        Built {
+            description: Description {
+                name: self.axes.name.clone(),
+                source: self.axes.source.clone(),
+                convention: Some(nowhere(self.convention)),
+                parameters: vec![],
+                joints,
+                chains: self.chains,
+                platforms: self.platforms,
+                closures,
+                closed_forms: vec![],
+            },
+            chains: self.placed,
+            cuts: None,
+            turned: self.turned,
+            moved: self.moved,
+        }
+    }
+
+    fn joints_of(&self, body: usize) -> Vec<usize> {
+        let all = 0..self.graph.ends.len();
+        all.filter(|&j| self.graph.ends[j].contains(&body)).collect()
+    }
+
+    /// A body without a frame, of its part the one with the most joints.
+    fn next_platform(&self) -> Option<usize> {
+        let parts = self.graph.parts(|j| !self.cuts.contains(&j));
+        let first = self.carried.iter().position(Option::is_none)?;
+        let same = (0..parts.len()).filter(|&b| parts[b] == parts[first]);
+        // the first of those with the most
+        same.rev().max_by_key(|&b| self.joints_of(b).len())
+    }
+
+    fn free_name(&self, wanted: &str, otherwise: &str) -> String {
+        let chains = self.chains.iter().map(|chain| &chain.name.value);
+        let taken: Vec<&String> =
+            chains.chain(self.platforms.iter().map(|p| &p.name.value)).collect();
+        let possible = |name: &String| {
+            !name.trim().is_empty()
+                && !name.contains('.')
+                && name != GROUND
+                && !taken.contains(&name)
+        };
+        let numbered = (1..).map(|i| format!("{otherwise}{i}"));
+        let mut names = std::iter::once(wanted.to_owned()).chain(numbered);
+        names.find(possible).unwrap_or_default()
+    }
+
+    /// The joints that lead away from a body to bodies not carried yet, with those bodies.
+    fn onward(&self, body: usize) -> Vec<(usize, usize)> {
+        let joints = self.joints_of(body).into_iter();
+        joints
+            .filter(|j| !self.cuts.contains(j))
+            .map(|j| {
+                let [a, b] = self.graph.ends[j];
+                (j, if a == body { b } else { a })
+            })
+            .filter(|&(_, to)| self.carried[to].is_none())
+            .collect()
+    }
+
+    /// The longest way of joints and bodies from a body that does not go back through a joint.
+    fn longest(&self, start: (usize, usize)) -> Vec<(usize, usize)> {
+        // depth first without recursion: trees may be a thousand bodies deep
+        let mut best = Vec::new();
+        let mut stack = vec![(start, 0usize)];
+        let mut path: Vec<(usize, usize)> = Vec::new();
+        while let Some((step, depth)) = stack.pop() {
+            path.truncate(depth);
+            path.push(step);
+            if path.len() > best.len() {
+                best = path.clone();
+            }
+            let onward = self.onward(step.1).into_iter().rev();
+            let new = onward.filter(|(j, _)| *j != step.0);
+            stack.extend(new.map(|next| (next, depth + 1)));
+        }
+        best
+    }
+
+    /// Chains for all that hangs on a body that is carried.
+    fn grow(&mut self, root: usize) {
+        let mut waiting = vec![root];
+        while let Some(body) = waiting.pop() {
+            let mut passed = Vec::new();
+            while let Some(&start) = self.onward(body).first() {
+                let way = self.longest(start);
+                self.chain(body, &way);
+                passed.extend(way.iter().map(|&(_, body)| body));
+            }
+            waiting.extend(passed.into_iter().rev());
+        }
+    }
+
+    fn chain(&mut self, from: usize, way: &[(usize, usize)]) {
+        let (on, parent) = match &self.carried[from] {
+            Some(carried) => carried.clone(),
+            None => return,
+        };
+        let end = way.last().map_or(from, |&(_, body)| body);
+        let name = self.free_name(&self.graph.bodies[end], "chain");
+        let mut before = from;
+        let mut joints = Vec::new();
+        for &(joint, body) in way {
+            let forwards = self.graph.ends[joint][0] == before;
+            joints.push(joint_axis(self.axes, self.values, joint, forwards));
+            before = body;
+        }
+        let base = match from {
+            0 => self.values.base,
+            _ => Some(parent),
+        };
+        let serial = SerialAxes {
+            base,
+            joints,
+            tool: None,
+        };
+        let open = |joint: &usize| {
+            let side = self.graph.ends[*joint].iter().position(|&body| body == end);
+            let side = side.unwrap_or(0);
+            self.cuts.contains(joint) && self.cut_frames[*joint][side].is_none()
+        };
+        let cut = self.joints_of(end).into_iter().find(open);
+        let variables: Vec<String> = (way.iter())
+            .map(|&(joint, _)| self.axes.joints[joint].name.value.clone())
+            .collect();
+        let (made, tip) = match cut {
+            Some(cut) => self.ended(serial.clone(), cut),
+            None => (serial.assign(self.convention), Pose::identity()),
+        };
+        let frames = made.table.frames();
+        for (k, &(_, body)) in way.iter().enumerate() {
+            self.carried[body] = Some((format!("{name}.{}", k + 1), frames[k + 1]));
+        }
+        let (turned, moved) = serial.difference(&made.table);
+        self.turned = self.turned.max(turned);
+        self.moved = self.moved.max(moved);
+        if let Some(cut) = cut {
+            let side = usize::from(self.graph.ends[cut][0] != end);
+            self.cut_frames[cut][side] = Some(name.clone());
+            self.cut_poses[cut].get_or_insert(frames[way.len()] * tip);
+        }
+        self.chains.push(Named {
+            name: nowhere(name.clone()),
+            value: ChainDescription {
+                on: (on != GROUND).then(|| nowhere(on.clone())),
+                convention: None,
+                base: between(&parent, &made.table.base),
+                rows: chains::rows(&made.table, &variables),
+                tip: match cut.map(|cut| self.axes.joints[cut].value.kind) {
+                    Some(AxisKind::Spherical) => Displacement::of_position(tip.position.0),
+                    _ => Displacement::of_pose(&tip),
+                },
+            },
+        });
+        let placed = PlacedChain::of(name, on, variables, &made);
+        self.placed.push(placed);
+    }
+
+    /// A chain that ends at a joint to be put back: its frames, and from the last of them the frame
+    /// there.
+    fn ended(&self, serial: SerialAxes, cut: usize) -> (Assignment, Pose<f64>) {
+        let rows = serial.joints.len();
+        let kind = self.axes.joints[cut].value.kind;
+        let line = self.values.lines[cut];
+        let last = serial.joints.last().copied();
+        let slides = last.is_none_or(|joint| joint.is_prismatic());
+        let at_tool = |tool: Pose<f64>| {
+            let made = SerialAxes {
+                tool: Some(tool),
+                ..serial.clone()
+            };
+            let made = made.assign(self.convention);
+            let tip = made.table.frames()[rows].inverse() * tool;
+            (made, tip)
+        };
+        let known = self.cut_poses[cut];
+        let axis = match (kind, last) {
+            (AxisKind::Spherical, _) if slides => {
+                return at_tool(Pose::translation(line.point));
+            }
+            // the link then points to the ball
+            (AxisKind::Spherical, Some(last)) => JointAxis::revolute(
+                Line {
+                    direction: last.line.direction,
+                    ..line
+                },
+                0.0,
+            ),
+            (AxisKind::Prismatic, _) => match known {
+                Some(pose) => return at_tool(pose),
+                None => JointAxis::prismatic(line, 0.0),
+            },
+            _ => JointAxis::revolute(line, 0.0),
+        };
+        let mut extended = serial.clone();
+        extended.joints.push(axis);
+        let made = extended.assign(self.convention);
+        let frames = made.table.frames();
+        let mut end = frames[rows + 1];
+        if kind == AxisKind::Spherical {
+            end.position = line.point;
+        } else if let Some(known) = known {
+            let z = end.rotation.column(Axis::Z);
+            end.position += z.times((known.position - end.position).dot(&z));
+        }
+        (made, frames[rows].inverse() * end)
+    }
+
+    /// Frames for the sides of cut joints that no chain ends at.
+    fn put_back(&mut self) {
+        for &joint in self.cuts {
+            for side in 0..2 {
+                if self.cut_frames[joint][side].is_some() {
+                    continue;
+                }
+                let body = self.graph.ends[joint][side];
+                let Some((on, parent)) = self.carried[body].clone() else {
+                    continue;
+                };
+                let pose = match self.cut_poses[joint] {
+                    Some(pose) => pose,
+                    None => self.upright(joint, &parent),
+                };
+                self.cut_poses[joint] = Some(pose);
+                let kind = self.axes.joints[joint].value.kind;
+                // only of a sliding joint the x axes must agree
+                let pose = match kind {
+                    AxisKind::Revolute => turned_to(&pose, &parent),
+                    AxisKind::Spherical => Pose {
+                        rotation: parent.rotation,
+                        ..pose
+                    },
+                    AxisKind::Prismatic => pose,
+                };
+                let steps = between(&parent, &pose);
+                self.cut_frames[joint][side] = Some(self.fixed_frame(joint, body, on, steps));
+            }
+        }
+    }
+
+    /// The name of a frame that is fixed to a carried body.
+    fn fixed_frame(
+        &mut self,
+        joint: usize,
+        body: usize,
+        on: String,
+        steps: Vec<Displacement>,
+    ) -> String {
+        if steps.is_empty() {
+            return on;
+        }
+        let joint = &self.axes.joints[joint].name.value;
+        if let Some(platform) = self.platforms.iter_mut().find(|p| p.name.value == on) {
+            platform.value.frames.push(Named {
+                name: nowhere(joint.clone()),
+                value: steps,
+            });
+            return format!("{on}.{joint}");
+        }
+        let wanted = format!("{joint} on {}", self.graph.bodies[body]);
+        let name = self.free_name(&wanted, "frame");
+        self.chains.push(Named {
+            name: nowhere(name.clone()),
+            value: ChainDescription {
+                on: (on != GROUND).then(|| nowhere(on)),
+                convention: None,
+                base: steps,
+                rows: vec![],
+                tip: vec![],
+            },
+        });
+        name
+    }
+
+    /// A frame with z along a joint's axis, nearest to a body's frame.
+    fn upright(&self, joint: usize, parent: &Pose<f64>) -> Pose<f64> {
+        let line = self.values.lines[joint];
+        let frame = Pose {
+            rotation: Rotation([Vector3::unit(0), Vector3::unit(1), line.direction]),
+            position: line.foot(&parent.position),
+        };
+        match self.axes.joints[joint].value.kind {
+            AxisKind::Spherical => Pose {
+                rotation: parent.rotation,
+                position: line.point,
+            },
+            _ => turned_to(&frame, parent),
+        }
+    }
+
+    fn closure(&self, joint: usize) -> Named<ClosureDescription> {
+        let described = &self.axes.joints[joint];
+        let frame = |side: usize| nowhere(self.cut_frames[joint][side].clone().unwrap_or_default());
+        Named {
+            name: nowhere(described.name.value.clone()),
+            value: ClosureDescription {
+                kind: match described.value.kind {
+                    AxisKind::Revolute => ClosureKind::Revolute,
+                    AxisKind::Prismatic => ClosureKind::Prismatic,
+                    AxisKind::Spherical => ClosureKind::Spherical,
+                },
+                frames: [frame(0), frame(1)],
+                length: None,
+                span: 0..0,
+            },
+        }
+    }
+}
+
+/// The frame turned about its z axis until its x axis is nearest to that of another frame, or to its
+/// y axis where x stands along z.
+fn turned_to(pose: &Pose<f64>, other: &Pose<f64>) -> Pose<f64> {
+    let z = pose.rotation.column(Axis::Z);
+    let [x, y, _] = other.rotation.0;
+    let part = |v: Vector3<f64>| v - z.times(v.dot(&z));
+    let found = [x, y].map(part).into_iter().find(|p| p.norm() > 0.5);
+    let x = found.unwrap_or_else(|| part(x));
+    let x = x.times(1.0 / x.norm());
+    Pose {
+        rotation: Rotation([x, z.cross(&x), z]),
+        position: pose.position,
+    }
+}
