@@ -283,7 +283,14 @@ fn files_that_cannot_be_read_are_refused() {
 
 #[test]
 fn a_wrong_file_is_answered_with_all_its_problems() {
-    for command in ["check", "solve", "assemblies", "compare"] {
+    for command in [
+        "check",
+        "solve",
+        "assemblies",
+        "compare",
+        "frames",
+        "convert",
+    ] {
         let said = refusal(&[command, "tests/wrong/unknown_frames.ron"]);
         assert!(said.contains("did you mean `ground`?"), "{said}");
         assert!(

@@ -49,11 +49,17 @@ fn assert_same(a: &Pose<f64>, b: &Pose<f64>, tolerance: f64, what: &str) {
 
 /// The frames that both mechanisms have under names that mean the same: all but links, and renamed ones.
 fn common(mechanism: &Mechanism, conversion: &Conversion, new: &Mechanism) -> Vec<(Frame, Frame)> {
-    let named = mechanism.frames().into_iter().filter(|f| !matches!(f, Frame::Link { .. }));
+    let named = mechanism
+        .frames()
+        .into_iter()
+        .filter(|f| !matches!(f, Frame::Link { .. }));
     let mut common: Vec<(Frame, Frame)> = named
         .map(|frame| {
             let name = mechanism.frame_name(frame);
-            (frame, new.frame(&name).unwrap_or_else(|| panic!("{name} is lost")))
+            (
+                frame,
+                new.frame(&name).unwrap_or_else(|| panic!("{name} is lost")),
+            )
         })
         .collect();
     for note in &conversion.notes {
@@ -81,7 +87,11 @@ fn the_other_convention_puts_every_frame_in_the_same_place() {
             let text = conversion.description.to_ron().unwrap();
             assert_eq!(Description::read(&text).unwrap(), conversion.description);
             let new = Mechanism::new(&conversion.description).unwrap();
-            assert!(new.chains().iter().all(|chain| chain.convention == to || chain.rows.is_empty()));
+            assert!(
+                new.chains()
+                    .iter()
+                    .all(|chain| chain.convention == to || chain.rows.is_empty())
+            );
             assert_eq!(mechanism.warnings().len(), new.warnings().len(), "{path:?}");
             assert_eq!(mechanism.closed_forms().len(), new.closed_forms().len());
             // parameters and joints with their limits are untouched
@@ -94,7 +104,12 @@ fn the_other_convention_puts_every_frame_in_the_same_place() {
                 for &(old, found) in &common {
                     let [a] = mechanism.poses([old], &at);
                     let [b] = new.poses([found], &at);
-                    assert_same(&a, &b, 1e-12, &format!("{path:?} {}", mechanism.frame_name(old)));
+                    assert_same(
+                        &a,
+                        &b,
+                        1e-12,
+                        &format!("{path:?} {}", mechanism.frame_name(old)),
+                    );
                 }
             }
         }
@@ -117,14 +132,20 @@ fn rows_are_moved_as_they_are_written_and_come_back() {
         let new = Mechanism::new(&there).unwrap();
         let back = in_convention(&new, &there, own).description;
         for (a, b) in description.chains.iter().zip(
-            back.chains.iter().filter(|c| description.chains.iter().any(|d| d.name == c.name)),
+            back.chains
+                .iter()
+                .filter(|c| description.chains.iter().any(|d| d.name == c.name)),
         ) {
             assert_eq!(a.value.rows.len(), b.value.rows.len(), "{path:?}");
             let rows = a.value.rows.iter().zip(&b.value.rows);
             for (k, (r, s)) in rows.enumerate() {
                 assert_eq!((&r.d, &r.theta), (&s.d, &s.theta));
                 // what stood at an end stays in base or tip
-                let end = if own == Convention::Modified { 0 } else { a.value.rows.len() - 1 };
+                let end = if own == Convention::Modified {
+                    0
+                } else {
+                    a.value.rows.len() - 1
+                };
                 if k != end {
                     assert_eq!((&r.alpha, &r.a), (&s.alpha, &s.a), "{path:?}");
                 }
@@ -237,7 +258,7 @@ fn a_mechanism_broken_at_another_joint_is_assembled_where_it_was() {
 
 #[test]
 fn the_four_bar_broken_anywhere_has_the_assemblies_of_the_shipped_files() {
-    use linkwork::analysis::assemblies::{AssembliesSettings, assemblies};
+    use linkwork::analysis::assemblies::{AssembliesSettings, AssemblySolver, Wanted};
     let (description, mechanism) = shipped("four_bar");
     for (cut, other, hold) in [
         ("phi2", "four_bar_cut2", ("theta1", "60 deg")),
@@ -252,23 +273,26 @@ fn the_four_bar_broken_anywhere_has_the_assemblies_of_the_shipped_files() {
         let converted = Mechanism::new(&conversion.description).unwrap();
         let (_, shipped) = shipped(other);
         let found = |mechanism: &Mechanism| {
-            let mut question = Question::new(mechanism);
-            if mechanism.joint("theta1").is_some() && hold.0 != "theta1" {
-                question = question.free("theta1").unwrap();
-            }
+            let question = Question::new(mechanism);
+            let question = match mechanism.joint("theta1") {
+                Some(_) if hold.0 != "theta1" => question.free("theta1").unwrap(),
+                _ => question,
+            };
             let question = question.hold(hold.0, hold.1).unwrap();
-            let report = assemblies(&question, &AssembliesSettings::default()).unwrap();
+            let settings = AssembliesSettings::default();
+            let solver = AssemblySolver::new(mechanism, &question.held(), &settings).unwrap();
+            let report = solver.at_targets(&question.start(), &question.held(), Wanted::default());
             // the joints that both have, modulo a turn
+            let both =
+                |name: &&str| converted.joint(name).is_some() && shipped.joint(name).is_some();
             let mut found: Vec<Vec<i64>> = (report.assemblies.iter())
                 .map(|assembly| {
-                    ["theta1", "phi1", "phi2"]
-                        .iter()
-                        .filter(|name| converted.joint(name).is_some() && shipped.joint(name).is_some())
-                        .map(|name| {
-                            let value = assembly.configuration.joints[mechanism.joint(name).unwrap()];
-                            (value.rem_euclid(std::f64::consts::TAU) * 1e9).round() as i64
-                        })
-                        .collect()
+                    let names = ["theta1", "phi1", "phi2"].into_iter().filter(both);
+                    let turned = |name: &str| {
+                        let value = *assembly.joints.get(name).unwrap();
+                        (value.rem_euclid(std::f64::consts::TAU) * 1e9).round() as i64
+                    };
+                    names.map(turned).collect()
                 })
                 .collect();
             found.sort();
@@ -277,7 +301,10 @@ fn the_four_bar_broken_anywhere_has_the_assemblies_of_the_shipped_files() {
         let (a, b) = (found(&converted), found(&shipped));
         assert_eq!(a.len(), 2, "{cut}");
         let near = |(x, y): (&i64, &i64)| (x - y).abs() <= 2;
-        assert!(a.iter().flatten().zip(b.iter().flatten()).all(near), "{cut}: {a:?} {b:?}");
+        assert!(
+            a.iter().flatten().zip(b.iter().flatten()).all(near),
+            "{cut}: {a:?} {b:?}"
+        );
     }
 }
 
@@ -294,9 +321,32 @@ fn cuts_that_are_not_possible_say_why() {
             other => panic!("{other:?}"),
         }
     };
-    assert!(matches!(error("four_bar", "phi9"), CutError::UnknownJoint { suggestion: Some(_), .. }));
-    assert!(matches!(error("four_bar", "joint3"), CutError::AlreadyCut { .. }));
-    assert!(matches!(error("planar_2r", "theta1"), CutError::NoLoop { .. }));
-    assert!(matches!(error("four_bar_cut1", "phi1"), CutError::SeveralRows { .. }));
+    assert!(matches!(
+        error("four_bar", "phi9"),
+        CutError::UnknownJoint {
+            suggestion: Some(_),
+            ..
+        }
+    ));
+    assert!(matches!(
+        error("four_bar", "joint3"),
+        CutError::AlreadyCut { .. }
+    ));
+    let open = r#"Mechanism(version: 1, name: "x", convention: Modified, joints: { "q": Actuated() },
+        chains: { "c": Chain(rows: [(a: 1, theta: "q")]) })"#;
+    let open = Description::read(open).unwrap();
+    let settings = ConvertSettings {
+        cut: Some("q".into()),
+        ..ConvertSettings::default()
+    };
+    let found = convert(&Mechanism::new(&open).unwrap(), &open, &settings);
+    assert!(matches!(
+        found,
+        Err(ConvertError::Cut(CutError::NoLoop { .. }))
+    ));
+    assert!(matches!(
+        error("four_bar_cut1", "phi1"),
+        CutError::SeveralRows { .. }
+    ));
     assert!(matches!(error("delta", "theta1"), CutError::NotRows { .. }));
 }

@@ -25,7 +25,6 @@ fn revolute(point: [f64; 3], along: [f64; 3], home: f64) -> JointAxis {
     JointAxis::revolute(line(point, along), home)
 }
 
-
 fn translation(x: f64, y: f64, z: f64) -> Pose<f64> {
     Pose::translation(Vector3([x, y, z]))
 }
@@ -33,12 +32,7 @@ fn translation(x: f64, y: f64, z: f64) -> Pose<f64> {
 /// α, a, d, θ in degrees and metres.
 fn rows(table: &Table) -> Vec<[f64; 4]> {
     let row = |row: &linkwork::mechanism::TableRow| {
-        [
-            row.alpha.to_degrees(),
-            row.a,
-            row.d,
-            row.theta.to_degrees(),
-        ]
+        [row.alpha.to_degrees(), row.a, row.d, row.theta.to_degrees()]
     };
     table.rows.iter().map(row).collect()
 }
@@ -330,9 +324,21 @@ fn nearly_parallel_axes_are_parallel_or_skew_and_never_blow_up() {
             let parallel = tilt <= 1e-7;
             assert_eq!(taken.is_parallel(), parallel, "{tilt:e}");
             // within the tolerance the tilt is dropped; beyond it digits are lost to the far normal
-            let allowed = if parallel { 2.0 * tilt + 1e-15 } else { 1e-15 / tilt };
-            assert!(made.turned <= allowed.max(1e-14), "{tilt:e}: {:e}", made.turned);
-            assert!(made.moved <= allowed.max(1e-14), "{tilt:e}: {:e}", made.moved);
+            let allowed = if parallel {
+                2.0 * tilt + 1e-15
+            } else {
+                1e-15 / tilt
+            };
+            assert!(
+                made.turned <= allowed.max(1e-14),
+                "{tilt:e}: {:e}",
+                made.turned
+            );
+            assert!(
+                made.moved <= allowed.max(1e-14),
+                "{tilt:e}: {:e}",
+                made.moved
+            );
             let finite = |x: &f64| x.is_finite();
             assert!(rows(&made.table).iter().flatten().all(finite));
         }
@@ -356,7 +362,11 @@ fn a_prismatic_axis_is_put_where_the_table_is_simplest_wherever_its_point_is() {
     // the axis of the slide is that of the joint behind it: nothing but d moves
     assert_rows(
         &near.table,
-        &[[90.0, 0.0, 0.0, 90.0], [0.0, 0.0, 0.0, 0.0], [0.0, 0.0, 0.0, 0.0]],
+        &[
+            [90.0, 0.0, 0.0, 90.0],
+            [0.0, 0.0, 0.0, 0.0],
+            [0.0, 0.0, 0.0, 0.0],
+        ],
     );
 }
 
@@ -414,11 +424,14 @@ mod files {
             Vector3(v.each_ref().map(|x| x.expression.as_number().unwrap()))
         };
         let line = |joint: &linkwork::description::Named<_>| {
-            let joint: &linkwork::description::Named<linkwork::description::AxisDescription> = joint;
+            let joint: &linkwork::description::Named<linkwork::description::AxisDescription> =
+                joint;
             let (point, along) = match &joint.value.place {
                 AxisPlace::Along(point, along) => (point.as_ref().map(vector), Some(vector(along))),
                 AxisPlace::Centre(point) => (Some(vector(point)), None),
-                AxisPlace::Through(..) => unreachable!("axes of tables are written with directions"),
+                AxisPlace::Through(..) => {
+                    unreachable!("axes of tables are written with directions")
+                }
             };
             (joint.name.value.clone(), point, along)
         };
@@ -449,7 +462,10 @@ mod files {
                     let z = |pose: &Pose<f64>| pose.rotation.column(Axis::Z);
                     let kind = format!("{:?}", closure.kind);
                     if kind != "Prismatic" {
-                        assert!(gap < 1e-12 * again.characteristic_length().max(1.0), "{path:?} {gap:e}");
+                        assert!(
+                            gap < 1e-12 * again.characteristic_length().max(1.0),
+                            "{path:?} {gap:e}"
+                        );
                     }
                     if kind != "Spherical" {
                         assert!((z(&a) - z(&b)).norm() < 1e-12, "{path:?}");
@@ -487,7 +503,13 @@ mod files {
     #[test]
     fn serial_chains_move_as_before() {
         // beyond home the joint variables must mean the same
-        for name in ["puma560_modified", "stanford_arm", "scara_modified", "scara_standard", "rpp_wrist"] {
+        for name in [
+            "puma560_modified",
+            "stanford_arm",
+            "scara_modified",
+            "scara_standard",
+            "rpp_wrist",
+        ] {
             let mechanism = Mechanism::load(folder().join(format!("{name}.ron"))).unwrap();
             let axes = joint_axes(&mechanism, &mechanism.home()).unwrap();
             for convention in Convention::ALL {
@@ -500,7 +522,8 @@ mod files {
                         at.joints[i] = value;
                         there.joints[again.joint(&joint.name).unwrap()] = value;
                     }
-                    let tip = |m: &Mechanism, at| m.transform(Frame::Ground, Frame::Tip { chain: 0 }, at);
+                    let tip =
+                        |m: &Mechanism, at| m.transform(Frame::Ground, Frame::Tip { chain: 0 }, at);
                     let (a, b) = (tip(&mechanism, &at), tip(&again, &there));
                     assert!((a.position - b.position).norm() < 1e-12, "{name}");
                     for (u, v) in a.rotation.0.iter().zip(&b.rotation.0) {
@@ -513,13 +536,22 @@ mod files {
 
     #[test]
     fn canonical_tables_come_back_as_they_are() {
-        let same = ["puma560_modified", "stanford_arm", "planar_3r", "spherical_wrist", "elbow_manipulator"];
+        let same = [
+            "puma560_modified",
+            "stanford_arm",
+            "planar_3r",
+            "spherical_wrist",
+            "elbow_manipulator",
+        ];
         for name in same {
             let mechanism = Mechanism::load(folder().join(format!("{name}.ron"))).unwrap();
             let convention = mechanism.chains()[0].convention;
             let axes = joint_axes(&mechanism, &mechanism.home()).unwrap();
             let again = placed(&axes, convention);
-            let (a, b) = (&mechanism.dimensions().chains[0], &again.dimensions().chains[0]);
+            let (a, b) = (
+                &mechanism.dimensions().chains[0],
+                &again.dimensions().chains[0],
+            );
             for (a, b) in a.rows.iter().zip(&b.rows) {
                 for (p, q) in [(a.before, b.before), (a.after, b.after)] {
                     assert!((p.position - q.position).norm() < 1e-12, "{name}");
@@ -562,12 +594,17 @@ mod files {
 
     fn titles(text: &str) -> Vec<String> {
         let problems = match AxesDescription::read(text) {
-            Ok(axes) => frames(&axes, &FramesSettings::default()).map(|_| ()).unwrap_err(),
+            Ok(axes) => frames(&axes, &FramesSettings::default())
+                .map(|_| ())
+                .unwrap_err(),
             Err(problems) => problems,
         };
         let shown = |problem: &Problem| {
             let (line, column) = Lines::new(text).position(problem.span.start);
-            let help = problem.kind.help().map_or(String::new(), |help| format!(" ({help})"));
+            let help = problem
+                .kind
+                .help()
+                .map_or(String::new(), |help| format!(" ({help})"));
             format!("{line}:{column} {}{help}", problem.kind.title())
         };
         problems.iter().map(shown).collect()
@@ -575,31 +612,51 @@ mod files {
 
     #[test]
     fn wrong_axes_are_pointed_at() {
-        let serial = |joints: &str| format!("Axes(version: 1, name: \"x\", joints: {{\n{joints}}})");
+        let serial =
+            |joints: &str| format!("Axes(version: 1, name: \"x\", joints: {{\n{joints}}})");
         let q = "\"q\": Revolute(point: (0, 0, 0), direction: (0, 0, 1)),\n";
         assert_eq!(
-            titles(&serial(&format!("{q}\"p\": Prismatic(direction: (0, 0, \"1 - 1\"))"))),
-            ["3:28 the axis of joint `p` has no direction (give a vector that is not zero, or two points that differ)"]
+            titles(&serial(&format!(
+                "{q}\"p\": Prismatic(direction: (0, 0, \"1 - 1\"))"
+            ))),
+            [
+                "3:28 the axis of joint `p` has no direction (give a vector that is not zero, or two points that differ)"
+            ]
         );
         assert_eq!(
-            titles(&serial(&format!("{q}\"p\": Revolute(through: ((1, 2, 3), (1, 2, 3)))"))),
-            ["3:25 the axis of joint `p` has no direction (give a vector that is not zero, or two points that differ)"]
+            titles(&serial(&format!(
+                "{q}\"p\": Revolute(through: ((1, 2, 3), (1, 2, 3)))"
+            ))),
+            [
+                "3:25 the axis of joint `p` has no direction (give a vector that is not zero, or two points that differ)"
+            ]
         );
         assert_eq!(
             titles(&serial(q)),
             ["1:24 there is only one joint (a table between axes needs two of them)"]
         );
-        assert_eq!(titles(&serial("")), ["1:24 there are no joints (a table between axes needs two of them)"]);
         assert_eq!(
-            titles(&serial(&format!("{q}\"p\": Revolut(point: (0, 0, 0), direction: (0, 1, l))"))),
-            ["3:6 expected `Revolute(…)`, `Prismatic(…)` or `Spherical(…)`, found `Revolut` (did you mean `Revolute`?)"]
+            titles(&serial("")),
+            ["1:24 there are no joints (a table between axes needs two of them)"]
         );
         assert_eq!(
-            titles(&serial(&format!("{q}\"p\": Prismatic(direction: (0, 1, \"l\"))"))),
+            titles(&serial(&format!(
+                "{q}\"p\": Revolut(point: (0, 0, 0), direction: (0, 1, l))"
+            ))),
+            [
+                "3:6 expected `Revolute(…)`, `Prismatic(…)` or `Spherical(…)`, found `Revolut` (did you mean `Revolute`?)"
+            ]
+        );
+        assert_eq!(
+            titles(&serial(&format!(
+                "{q}\"p\": Prismatic(direction: (0, 1, \"l\"))"
+            ))),
             ["3:35 `l` is not a parameter (declare it under `parameters`)"]
         );
         assert_eq!(
-            titles(&serial(&format!("{q}\"p\": Revolute(direction: (0, 1, 0))"))),
+            titles(&serial(&format!(
+                "{q}\"p\": Revolute(direction: (0, 1, 0))"
+            ))),
             ["3:6 a revolute joint needs the field `point`"]
         );
         let closed = |joints: &str, cut: &str| {
@@ -610,24 +667,44 @@ mod files {
                 "\"{name}\": Revolute(point: ({x}, 0, 0), direction: (0, 0, 1), between: (\"{a}\", \"{b}\")),\n"
             )
         };
-        let triangle = joint("a", 0, "ground", "u") + &joint("b", 1, "u", "v") + &joint("c", 2, "v", "ground");
+        let triangle =
+            joint("a", 0, "ground", "u") + &joint("b", 1, "u", "v") + &joint("c", 2, "v", "ground");
         let starts = |text: String, start: &str| {
             let found = titles(&text);
             assert!(found.len() == 1 && found[0].contains(start), "{found:?}");
         };
         assert!(titles_none(&closed(&triangle, "")));
-        starts(closed(&triangle, "\"d\""), "there is no joint `d` to be cut");
-        starts(closed(&triangle, "\"a\", \"b\""), "cutting the joint `b` takes bodies off");
+        starts(
+            closed(&triangle, "\"d\""),
+            "there is no joint `d` to be cut",
+        );
+        starts(
+            closed(&triangle, "\"a\", \"b\""),
+            "cutting the joint `b` takes bodies off",
+        );
         let two = triangle.clone() + &joint("d", 3, "u", "ground");
         starts(closed(&two, "\"a\""), "leave a loop closed");
-        starts(closed(&(triangle.clone() + &joint("d", 3, "s", "t")), ""), "no joints connect the body `s`");
-        starts(closed(&(triangle.clone() + &joint("d", 3, "s", "s")), ""), "connects the body `s` with itself");
-        starts(closed(&(triangle + q), ""), "nothing says which bodies the joint `q` connects");
-        starts(closed(&(joint("a", 0, "u", "v") + &joint("b", 1, "v", "w")), ""), "no joint connects anything with `ground`");
+        starts(
+            closed(&(triangle.clone() + &joint("d", 3, "s", "t")), ""),
+            "no joints connect the body `s`",
+        );
+        starts(
+            closed(&(triangle.clone() + &joint("d", 3, "s", "s")), ""),
+            "connects the body `s` with itself",
+        );
+        starts(
+            closed(&(triangle + q), ""),
+            "nothing says which bodies the joint `q` connects",
+        );
+        starts(
+            closed(&(joint("a", 0, "u", "v") + &joint("b", 1, "v", "w")), ""),
+            "no joint connects anything with `ground`",
+        );
     }
 
     fn titles_none(text: &str) -> bool {
-        AxesDescription::read(text).is_ok_and(|axes| frames(&axes, &FramesSettings::default()).is_ok())
+        AxesDescription::read(text)
+            .is_ok_and(|axes| frames(&axes, &FramesSettings::default()).is_ok())
     }
 
     #[test]
@@ -637,10 +714,35 @@ mod files {
             .map(|path| std::fs::read_to_string(path).unwrap())
             .collect();
         let pieces = [
-            "0", "-1", "1e308", "1e-320", "\"q\"", "ground", "()", "(0, 0, 0)", "[]", "{", "}", ",", "(",
-            "Spherical", "Prismatic", "between", "cut: [\"phi1\"],", "tool: [Tx(1)],", "base: [],", "inf",
+            "0",
+            "-1",
+            "1e308",
+            "1e-320",
+            "\"q\"",
+            "ground",
+            "()",
+            "(0, 0, 0)",
+            "[]",
+            "{",
+            "}",
+            ",",
+            "(",
+            "Spherical",
+            "Prismatic",
+            "between",
+            "cut: [\"phi1\"],",
+            "tool: [Tx(1)],",
+            "base: [],",
+            "inf",
         ];
-        let damage = (0..texts.len(), 0.0..1.0f64, 0usize..40, 0..pieces.len(), 0.0..1.0f64, 0..pieces.len());
+        let damage = (
+            0..texts.len(),
+            0.0..1.0f64,
+            0usize..40,
+            0..pieces.len(),
+            0.0..1.0f64,
+            0..pieces.len(),
+        );
         runner(1500)
             .run(&damage, |(file, at, removed, piece, second, other)| {
                 let mut text: Vec<char> = texts[file].chars().collect();
@@ -653,7 +755,10 @@ mod files {
                 if let Ok(axes) = AxesDescription::read(&text)
                     && let Ok(report) = frames(&axes, &FramesSettings::default())
                 {
-                    prop_assert!(report.turned.is_finite() && report.moved.is_finite(), "{text}");
+                    prop_assert!(
+                        report.turned.is_finite() && report.moved.is_finite(),
+                        "{text}"
+                    );
                     prop_assert!(Mechanism::new(&report.description).is_ok(), "{text}");
                 }
                 Ok(())

@@ -9,7 +9,7 @@ mod references;
 
 use serde::Serialize;
 
-use crate::algebra::{Expression, Node};
+use crate::algebra::{Expression, Node, Operator};
 use crate::description::{
     Axis, Convention, Description, Displacement, Entry, Problem, Row, Spanned,
 };
@@ -117,23 +117,25 @@ fn zero() -> Entry {
 
 /// −e, as it would be written.
 fn negated(e: &Entry) -> Entry {
-    entry(negated_expression(&e.expression))
+    entry(match e.expression.as_number() {
+        Some(x) => Expression::number(0.0 - x),
+        None => negative(&e.expression),
+    })
 }
 
-fn negated_expression(e: &Expression) -> Expression {
-    use crate::algebra::Operator;
+/// −e as the parser would read it: signs stand before numbers.
+fn negative(e: &Expression) -> Expression {
     let node = match &e.node {
-        Node::Number(x) => Node::Number(0.0 - x),
-        Node::Quantity(x, unit) => Node::Quantity(0.0 - x, *unit),
+        Node::Number(x) if *x <= 0.0 => Node::Number(-x),
         Node::Negate(inner) => return (**inner).clone(),
         Node::Binary(Operator::Subtract, x, y) => {
             Node::Binary(Operator::Subtract, y.clone(), x.clone())
         }
-        Node::Binary(operator @ (Operator::Multiply | Operator::Divide), x, y) => {
-            Node::Binary(*operator, Box::new(negated_expression(x)), y.clone())
-        }
         Node::Binary(Operator::Add, x, y) => {
-            Node::Binary(Operator::Subtract, Box::new(negated_expression(x)), y.clone())
+            Node::Binary(Operator::Subtract, Box::new(negative(x)), y.clone())
+        }
+        Node::Binary(operator @ (Operator::Multiply | Operator::Divide), x, y) => {
+            Node::Binary(*operator, Box::new(negative(x)), y.clone())
         }
         _ => Node::Negate(Box::new(e.clone())),
     };

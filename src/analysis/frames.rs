@@ -195,11 +195,12 @@ impl PlacedChain {
             slide: row.slide,
         };
         let frames = made.table.frames();
-        let axis = |(line, row): (&crate::geometry::Line, &crate::mechanism::TableRow)| PlacedAxis {
-            point: line.point.0,
-            direction: line.direction.0,
-            prismatic: row.turn == 0.0,
-        };
+        let axis =
+            |(line, row): (&crate::geometry::Line, &crate::mechanism::TableRow)| PlacedAxis {
+                point: line.point.0,
+                direction: line.direction.0,
+                prismatic: row.turn == 0.0,
+            };
         PlacedChain {
             name,
             on,
@@ -208,7 +209,13 @@ impl PlacedChain {
             normals: made.normals[..=rows].iter().map(PlacedNormal::of).collect(),
             rows: made.table.rows[..rows].iter().map(row).collect(),
             frames: frames[..=rows].iter().map(PlacedFrame::of).collect(),
-            axes: made.axes.iter().zip(&made.table.rows).take(rows).map(axis).collect(),
+            axes: made
+                .axes
+                .iter()
+                .zip(&made.table.rows)
+                .take(rows)
+                .map(axis)
+                .collect(),
             joints,
         }
     }
@@ -227,13 +234,22 @@ pub fn frames(
     settings: &FramesSettings,
 ) -> Result<FramesReport, Vec<Problem>> {
     let of_file = axes.convention.as_ref().map(|convention| convention.value);
-    let convention = settings.convention.or(of_file).unwrap_or(Convention::Modified);
+    let convention = settings
+        .convention
+        .or(of_file)
+        .unwrap_or(Convention::Modified);
     let values = values::Values::of(axes)?;
-    let closed = axes.joints.iter().any(|joint| joint.value.between.is_some());
+    let closed = axes
+        .joints
+        .iter()
+        .any(|joint| joint.value.between.is_some());
     let built = match closed {
         true => loops::closed(axes, &values, convention)?,
         false => {
-            let ball = axes.joints.iter().filter(|joint| joint.value.kind == AxisKind::Spherical);
+            let ball = axes
+                .joints
+                .iter()
+                .filter(|joint| joint.value.kind == AxisKind::Spherical);
             let problems: Vec<Problem> = ball
                 .map(|ball| {
                     let joint = ball.name.value.clone();

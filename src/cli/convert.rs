@@ -35,7 +35,8 @@ impl Convert {
         };
         let converted = convert(&loaded.mechanism, &loaded.description, &settings)
             .map_err(|error| Refusal(conversion::complaint(&error).render(style())))?;
-        let unwritten = |error| Refusal(format!("error: the mechanism cannot be written: {error}\n"));
+        let unwritten =
+            |error| Refusal(format!("error: the mechanism cannot be written: {error}\n"));
         Ok(Answer {
             data: converted.description.to_ron().map_err(unwritten)?,
             remarks: loaded.warnings() + &conversion::notes(&converted.notes),

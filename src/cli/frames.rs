@@ -24,7 +24,9 @@ use super::{Answer, Refusal, style};
 ///
 /// For a mechanism file it is the other way round: the joint axes that its tables describe, where it is assembled.
 #[derive(Args)]
-#[command(after_help = "Example: linkwork frames mechanisms/axes/puma560.ron --convention standard --format ron")]
+#[command(
+    after_help = "Example: linkwork frames mechanisms/axes/puma560.ron --convention standard --format ron"
+)]
 pub struct Frames {
     /// The file of joint axes, or a mechanism file.
     file: PathBuf,
@@ -92,7 +94,8 @@ impl Frames {
             convention: self.convention.map(Convention::from),
         };
         let report = frames(&axes, &settings).map_err(|problems| Refusal(wrong(problems)))?;
-        let unwritten = |error| Refusal(format!("error: the mechanism cannot be written: {error}\n"));
+        let unwritten =
+            |error| Refusal(format!("error: the mechanism cannot be written: {error}\n"));
         let data = match self.format {
             FileFormat::Text => {
                 let mechanism = Mechanism::new(&report.description)
@@ -140,9 +143,7 @@ impl Frames {
             data: match self.format {
                 FileFormat::Text => output::axes_text(&axes),
                 FileFormat::Ron => axes.to_ron().map_err(unwritten)?,
-                FileFormat::Json => {
-                    output::axes_json(&axes, &axes.to_ron().map_err(unwritten)?)
-                }
+                FileFormat::Json => output::axes_json(&axes, &axes.to_ron().map_err(unwritten)?),
             },
             remarks: match gap {
                 true => output::NOT_ASSEMBLED.into(),

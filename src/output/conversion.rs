@@ -25,7 +25,10 @@ pub fn notes(notes: &[ConversionNote]) -> String {
                 format!("the closure `{closure}` holds its frames together and has no variable")
             }
             ConversionNote::Variables { closure, joints } => {
-                format!("the closure `{closure}` has become rows with {}", quoted(joints))
+                format!(
+                    "the closure `{closure}` has become rows with {}",
+                    quoted(joints)
+                )
             }
         };
         format!("note: {said}\n")

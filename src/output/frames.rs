@@ -30,7 +30,10 @@ pub fn text(report: &FramesReport, overview: &Overview, steps: bool) -> String {
     }
     for chain in &overview.chains {
         sections.push(overview::chain(chain));
-        let placed = report.chains.iter().find(|placed| placed.name == chain.name);
+        let placed = report
+            .chains
+            .iter()
+            .find(|placed| placed.name == chain.name);
         sections.extend(placed.map(normals));
         if let (Some(placed), true) = (placed, steps) {
             sections.push(steps::steps(placed, report.convention == "Modified"));
@@ -63,7 +66,11 @@ fn cut_section(cuts: &CutReport) -> String {
     };
     let balls = cuts.cut.len() - cuts.ways.first().map_or(0, |way| way.cut.len());
     if balls > 0 {
-        let _ = writeln!(text, "  {} cut in any case", count(balls, "spherical joint"));
+        let _ = writeln!(
+            text,
+            "  {} cut in any case",
+            count(balls, "spherical joint")
+        );
     }
     let Some((best, others)) = cuts.ways.split_first() else {
         return text;
@@ -227,14 +234,17 @@ pub fn axes_text(axes: &AxesDescription) -> String {
     for joint in &axes.joints {
         let axis = &joint.value;
         let (point, direction) = match &axis.place {
-            AxisPlace::Along(point, direction) => {
-                (point.as_ref().map_or("any".into(), vector), vector(direction))
-            }
+            AxisPlace::Along(point, direction) => (
+                point.as_ref().map_or("any".into(), vector),
+                vector(direction),
+            ),
             AxisPlace::Through(first, second) => (vector(first), format!("to {}", vector(second))),
             AxisPlace::Centre(point) => (vector(point), String::new()),
         };
         let between = axis.between.as_ref();
-        let between = between.map_or(String::new(), |[a, b]| format!("{} and {}", a.value, b.value));
+        let between = between.map_or(String::new(), |[a, b]| {
+            format!("{} and {}", a.value, b.value)
+        });
         table.add_row([
             &joint.name.value,
             &axis.kind.word().to_lowercase(),
@@ -244,7 +254,11 @@ pub fn axes_text(axes: &AxesDescription) -> String {
             &between,
         ]);
     }
-    format!("{}\nJoint axes\n{}", axes.name.value, indented(&table.to_string()))
+    format!(
+        "{}\nJoint axes\n{}",
+        axes.name.value,
+        indented(&table.to_string())
+    )
 }
 
 /// The same as JSON: the file of axes as a text.
@@ -264,7 +278,10 @@ pub fn no_axes(error: &AxesError) -> Complaint {
             Some("axes are given for revolute and prismatic joints that move alone".to_owned()),
         ),
         AxesError::Closure { closure, kind } => (
-            format!("the {} closure `{closure}` has no axis", kind.word().to_lowercase()),
+            format!(
+                "the {} closure `{closure}` has no axis",
+                kind.word().to_lowercase()
+            ),
             Some("axes are given for joints; write a rod as a link with balls at its ends".into()),
         ),
         AxesError::TooFew => ("the mechanism has no joints with axes".to_owned(), None),

@@ -18,8 +18,8 @@ use super::{
 };
 use crate::algebra::Affine;
 use crate::description::{
-    Axis, ChainDescription, ClosureDescription, ClosureKind, Convention, Description,
-    Displacement, Entry, GROUND, Named, Role, Row, nearest,
+    Axis, ChainDescription, ClosureDescription, ClosureKind, Convention, Description, Displacement,
+    Entry, GROUND, Named, Role, Row, nearest,
 };
 use crate::mechanism::{Frame, JointKind, Mechanism};
 use motion::Motion;
@@ -98,7 +98,11 @@ pub(super) fn cut(
         .collect();
     notes.push(ConversionNote::Variables {
         closure: description.closures[closure].name.value.clone(),
-        joints: motion.joints.iter().map(|joint| joint.name.value.clone()).collect(),
+        joints: motion
+            .joints
+            .iter()
+            .map(|joint| joint.name.value.clone())
+            .collect(),
     });
     if description.joints[place.joint].value.role == Role::Actuated {
         let joint = joint.to_owned();
@@ -109,11 +113,7 @@ pub(super) fn cut(
     Ok(conversion)
 }
 
-fn find(
-    mechanism: &Mechanism,
-    description: &Description,
-    name: &str,
-) -> Result<Place, CutError> {
+fn find(mechanism: &Mechanism, description: &Description, name: &str) -> Result<Place, CutError> {
     let joint = || name.to_owned();
     let Some(index) = mechanism.joint(name) else {
         if description.closures.iter().any(|c| c.name.value == name) {
@@ -139,7 +139,9 @@ fn find(
         }
     }
     let lengths = mechanism.dimensions().closures.iter();
-    let in_length = lengths.flat_map(|c| &c.extension.0).any(|(j, _)| *j == index);
+    let in_length = lengths
+        .flat_map(|c| &c.extension.0)
+        .any(|(j, _)| *j == index);
     match (places[..].as_ref(), in_length) {
         ([], _) => Err(CutError::NoRow { joint: joint() }),
         (&[(chain, row, 1, slides)], false) => Ok(Place {
@@ -154,11 +156,7 @@ fn find(
 }
 
 /// The closure that shall hold what is behind the joint, and which of its frames is there.
-fn closing(
-    mechanism: &Mechanism,
-    place: &Place,
-    joint: &str,
-) -> Result<(usize, usize), CutError> {
+fn closing(mechanism: &Mechanism, place: &Place, joint: &str) -> Result<(usize, usize), CutError> {
     let rows = mechanism.chains()[place.chain].rows.len();
     let behind = |frame: Frame| mechanism.joints_below(frame).contains(&place.joint);
     let ends = |frame: Frame| match frame {
@@ -181,7 +179,9 @@ fn closing(
     }
     match found.into_iter().min() {
         Some((_, index, side)) => Ok((index, side)),
-        None if others.is_empty() => Err(CutError::NoLoop { joint: joint.into() }),
+        None if others.is_empty() => Err(CutError::NoLoop {
+            joint: joint.into(),
+        }),
         None => Err(CutError::NotRows {
             joint: joint.into(),
             closures: others,
@@ -233,7 +233,10 @@ fn rebuild(
         ..chain.clone()
     };
     // from the closure to the old tip
-    let whole_tip = matches!(mechanism.closures()[closure].frames[side], Frame::Tip { .. });
+    let whole_tip = matches!(
+        mechanism.closures()[closure].frames[side],
+        Frame::Tip { .. }
+    );
     let mut end = motion.tip.clone();
     if !whole_tip {
         end.extend(chain.tip.iter().cloned());
@@ -271,7 +274,11 @@ fn rebuild(
             steps,
         })
     });
-    let at = new.chains.iter().position(|c| c.name.value == name.value).unwrap_or(0);
+    let at = new
+        .chains
+        .iter()
+        .position(|c| c.name.value == name.value)
+        .unwrap_or(0);
     let held = ChainDescription {
         on: Some(new.closures[closure].value.frames[1 - side].clone())
             .filter(|on| on.value != GROUND),
@@ -309,11 +316,16 @@ fn rebuild(
             span: 0..0,
         },
     );
-    new.joints.splice(place.joint..=place.joint, motion.joints.clone());
+    new.joints
+        .splice(place.joint..=place.joint, motion.joints.clone());
     let mut notes = Vec::new();
     new.closed_forms.retain(|form| {
         let lost = names(&form.value).any(|name| *name == joint)
-            && !form.value.locals.iter().any(|local| local.name.value == joint);
+            && !form
+                .value
+                .locals
+                .iter()
+                .any(|local| local.name.value == joint);
         if lost {
             notes.push(ConversionNote::Dropped {
                 closed_form: form.name.value.clone(),
@@ -337,11 +349,17 @@ fn named<T>(name: String, value: T) -> Named<T> {
 }
 
 fn free_closure(description: &Description, own: usize, wanted: &str) -> String {
-    let others = description.closures.iter().enumerate().filter(|(i, _)| *i != own);
+    let others = description
+        .closures
+        .iter()
+        .enumerate()
+        .filter(|(i, _)| *i != own);
     let taken: Vec<&String> = others.map(|(_, c)| &c.name.value).collect();
     let numbered = (2..).map(|i| format!("{wanted}_{i}"));
     let mut names = std::iter::once(wanted.to_owned()).chain(numbered);
-    names.find(|name| !taken.contains(&name)).unwrap_or_default()
+    names
+        .find(|name| !taken.contains(&name))
+        .unwrap_or_default()
 }
 
 /// From the old tip back to the axis of row r, without what it stands on.
@@ -355,7 +373,9 @@ fn back(
     let mut base = undone(&chain.tip);
     let motion = |old: &Row| (negated(&old.d), negated(&old.theta));
     let twist = |old: Option<&Row>| {
-        old.map_or((zero(), zero()), |old| (negated(&old.alpha), negated(&old.a)))
+        old.map_or((zero(), zero()), |old| {
+            (negated(&old.alpha), negated(&old.a))
+        })
     };
     let mut rows = Vec::new();
     let mut tip = Vec::new();

@@ -12,8 +12,9 @@ pub(super) struct Substitute {
 /// A name that no chain and no platform of the file has.
 pub(super) fn free_name(description: &Description, wanted: &str) -> String {
     let chains = description.chains.iter().map(|chain| &chain.name.value);
-    let taken: Vec<&String> =
-        chains.chain(description.platforms.iter().map(|p| &p.name.value)).collect();
+    let taken: Vec<&String> = chains
+        .chain(description.platforms.iter().map(|p| &p.name.value))
+        .collect();
     let numbered = (2..).map(|i| format!("{wanted}_{i}"));
     let mut names = std::iter::once(wanted.to_owned()).chain(numbered);
     let free = |name: &String| !taken.contains(&name) && name != GROUND && !name.contains('.');
@@ -53,7 +54,10 @@ pub(super) fn exchange(
             false => {
                 let name = free_name(description, &frame.replace('.', "_"));
                 let after = found.frame.split('.').next().unwrap_or_default().to_owned();
-                let place = description.chains.iter().position(|c| c.name.value == after);
+                let place = description
+                    .chains
+                    .iter()
+                    .position(|c| c.name.value == after);
                 let chain = Named {
                     name: nowhere(name.clone()),
                     value: ChainDescription {
@@ -79,7 +83,11 @@ pub(super) fn exchange(
         }
     };
     for closure in &mut description.closures {
-        closure.value.frames.iter_mut().for_each(|frame| new_name(&mut frame.value));
+        closure
+            .value
+            .frames
+            .iter_mut()
+            .for_each(|frame| new_name(&mut frame.value));
     }
     for form in &mut description.closed_forms {
         let frames = form.value.of.iter_mut().chain(&mut form.value.relative_to);

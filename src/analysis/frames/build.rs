@@ -82,7 +82,13 @@ impl<'a> Build<'a> {
         }
         self.put_back();
         let driven = driven(self.axes);
-        let role = |j: usize| if driven[j] { Role::Actuated } else { Role::Passive };
+        let role = |j: usize| {
+            if driven[j] {
+                Role::Actuated
+            } else {
+                Role::Passive
+            }
+        };
         let kept = |j: usize| !self.cuts.contains(&j);
         let joints = declarations(self.axes, self.values, kept, role);
         let closures = self.cuts.iter().map(|&joint| self.closure(joint)).collect();
@@ -107,7 +113,8 @@ impl<'a> Build<'a> {
 
     fn joints_of(&self, body: usize) -> Vec<usize> {
         let all = 0..self.graph.ends.len();
-        all.filter(|&j| self.graph.ends[j].contains(&body)).collect()
+        all.filter(|&j| self.graph.ends[j].contains(&body))
+            .collect()
     }
 
     /// A body without a frame, of its part the one with the most joints.
@@ -121,8 +128,9 @@ impl<'a> Build<'a> {
 
     fn free_name(&self, wanted: &str, otherwise: &str) -> String {
         let chains = self.chains.iter().map(|chain| &chain.name.value);
-        let taken: Vec<&String> =
-            chains.chain(self.platforms.iter().map(|p| &p.name.value)).collect();
+        let taken: Vec<&String> = chains
+            .chain(self.platforms.iter().map(|p| &p.name.value))
+            .collect();
         let possible = |name: &String| {
             !name.trim().is_empty()
                 && !name.contains('.')

@@ -48,14 +48,10 @@ pub(super) fn joint_axis(
 fn moving(constant: Entry, factor: f64, variable: &str) -> Entry {
     let name = || Box::new(Expression::name(variable.to_owned()));
     let zero = constant.expression.is_zero();
-    let negative = match constant.expression.node {
-        Node::Number(x) | Node::Quantity(x, _) => x < 0.0,
-        _ => false,
-    };
-    let positive = match constant.expression.node {
-        Node::Number(x) => Node::Number(x.abs()),
-        Node::Quantity(x, unit) => Node::Quantity(x.abs(), unit),
-        other => other,
+    let (negative, positive) = match constant.expression.node {
+        Node::Number(x) => (x < 0.0, Node::Number(x.abs())),
+        Node::Negate(inner) => (true, inner.node),
+        other => (false, other),
     };
     let constant = Box::new(positive.at(0..0));
     let node = match (factor > 0.0, zero, negative) {
@@ -133,9 +129,8 @@ pub(super) fn declarations(
             value: JointDescription {
                 role: role(i),
                 home: number(&joint.value.home, values.homes[i]),
-                limits: limits.map(|((low, high), (least, most))| {
-                    (number(low, least), number(high, most))
-                }),
+                limits: limits
+                    .map(|((low, high), (least, most))| (number(low, least), number(high, most))),
                 span: joint.value.span.clone(),
             },
         }
@@ -152,7 +147,11 @@ pub(super) fn serial(axes: &AxesDescription, values: &Values, convention: Conven
         tool: values.tool,
     };
     let made = serial.assign(convention);
-    let names: Vec<String> = axes.joints.iter().map(|joint| joint.name.value.clone()).collect();
+    let names: Vec<String> = axes
+        .joints
+        .iter()
+        .map(|joint| joint.name.value.clone())
+        .collect();
     let chain = ChainDescription {
         on: None,
         convention: None,

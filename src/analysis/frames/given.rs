@@ -2,8 +2,8 @@
 
 use super::chains::nowhere;
 use crate::description::{
-    AxesDescription, AxisDescription, AxisKind, AxisPlace, ClosureKind, Displacement, Entry, GROUND,
-    Named, Role,
+    AxesDescription, AxisDescription, AxisKind, AxisPlace, ClosureKind, Displacement, Entry,
+    GROUND, Named, Role,
 };
 use crate::geometry::{Axis, Pose, Vector3};
 use crate::mechanism::{Body, Configuration, Frame, Mechanism};
@@ -93,22 +93,38 @@ pub fn joint_axes(
         }
     }
     let follows = |pair: &[Joint]| pair[0].bodies[1] == pair[1].bodies[0];
-    let serial = mechanism.chains().iter().filter(|chain| !chain.rows.is_empty()).count() == 1
+    let serial = mechanism
+        .chains()
+        .iter()
+        .filter(|chain| !chain.rows.is_empty())
+        .count()
+        == 1
         && joints[0].bodies[0] == GROUND
         && joints.windows(2).all(follows)
-        && joints.iter().all(|joint| joint.kind != AxisKind::Spherical && joint.bodies[1] != GROUND);
+        && joints
+            .iter()
+            .all(|joint| joint.kind != AxisKind::Spherical && joint.bodies[1] != GROUND);
     let ends = |frame: Frame| {
         let pose = mechanism.transform(Frame::Ground, frame, at);
         Displacement::of_pose(&pose)
     };
-    let chain = mechanism.chains().iter().position(|chain| !chain.rows.is_empty());
+    let chain = mechanism
+        .chains()
+        .iter()
+        .position(|chain| !chain.rows.is_empty());
     let chain = chain.filter(|_| serial);
     Ok(AxesDescription {
         name: nowhere(mechanism.name().into()),
         source: mechanism.source().map(|source| nowhere(source.into())),
-        convention: mechanism.chains().first().map(|chain| nowhere(chain.convention)),
+        convention: mechanism
+            .chains()
+            .first()
+            .map(|chain| nowhere(chain.convention)),
         parameters: vec![],
-        joints: joints.into_iter().map(|joint| joint.described(!serial)).collect(),
+        joints: joints
+            .into_iter()
+            .map(|joint| joint.described(!serial))
+            .collect(),
         base: chain.map(|chain| ends(Frame::Link { chain, row: 0 })),
         tool: chain.map(|chain| ends(Frame::Tip { chain })),
         cut: vec![],
@@ -193,8 +209,18 @@ fn closures(
                 joints.push(joint("_2", AxisKind::Revolute, &poses[1], [middle(), to]));
             }
             ClosureKind::Cylindrical => {
-                joints.push(joint("_turn", AxisKind::Revolute, &poses[0], [from, middle()]));
-                joints.push(joint("_slide", AxisKind::Prismatic, &poses[0], [middle(), to]));
+                joints.push(joint(
+                    "_turn",
+                    AxisKind::Revolute,
+                    &poses[0],
+                    [from, middle()],
+                ));
+                joints.push(joint(
+                    "_slide",
+                    AxisKind::Prismatic,
+                    &poses[0],
+                    [middle(), to],
+                ));
             }
             ClosureKind::Rigid => {
                 let kept = match (first, second) {
@@ -216,10 +242,18 @@ fn closures(
 /// A name for the variable of a closure that no joint has.
 fn variable(mechanism: &Mechanism, wanted: &str) -> String {
     let clean: String = (wanted.chars())
-        .map(|c| if c.is_alphanumeric() || c == '_' { c } else { '_' })
+        .map(|c| {
+            if c.is_alphanumeric() || c == '_' {
+                c
+            } else {
+                '_'
+            }
+        })
         .collect();
     let numbered = (2..).map(|i| format!("q_{clean}_{i}"));
-    let mut names = [clean.clone(), format!("q_{clean}")].into_iter().chain(numbered);
+    let mut names = [clean.clone(), format!("q_{clean}")]
+        .into_iter()
+        .chain(numbered);
     let free = |name: &String| {
         crate::algebra::is_name(name)
             && !crate::algebra::is_reserved(name)

@@ -85,7 +85,9 @@ impl Graph {
         for (joint, &[a, b]) in self.ends.iter().enumerate() {
             if joins(joint) && part[a] != part[b] {
                 let (kept, lost) = (part[a].min(part[b]), part[a].max(part[b]));
-                part.iter_mut().filter(|p| **p == lost).for_each(|p| *p = kept);
+                part.iter_mut()
+                    .filter(|p| **p == lost)
+                    .for_each(|p| *p = kept);
             }
         }
         part
@@ -125,7 +127,11 @@ pub(super) fn closed(
     let named = |j: &usize| axes.joints[*j].name.value.clone();
     Ok(Built {
         cuts: Some(CutReport {
-            cut: best.cut.into_iter().chain(balls.iter().map(named)).collect(),
+            cut: best
+                .cut
+                .into_iter()
+                .chain(balls.iter().map(named))
+                .collect(),
             given: !axes.cut.is_empty(),
             ways: ways_compared,
             more: ways.1,
@@ -134,7 +140,12 @@ pub(super) fn closed(
     })
 }
 
-fn way(axes: &AxesDescription, cuts: &BTreeSet<usize>, balls: &BTreeSet<usize>, built: &Built) -> Way {
+fn way(
+    axes: &AxesDescription,
+    cuts: &BTreeSet<usize>,
+    balls: &BTreeSet<usize>,
+    built: &Built,
+) -> Way {
     let named = |j: &usize| axes.joints[*j].name.value.clone();
     let chosen: Vec<usize> = cuts.difference(balls).copied().collect();
     let prismatic = |j: &&usize| axes.joints[**j].value.kind == AxisKind::Prismatic;
@@ -145,7 +156,12 @@ fn way(axes: &AxesDescription, cuts: &BTreeSet<usize>, balls: &BTreeSet<usize>, 
     let on_platforms = built.description.platforms.iter();
     let on_platforms = on_platforms.flat_map(|platform| &platform.value.frames);
     Way {
-        longest: built.chains.iter().map(|chain| chain.rows.len()).max().unwrap_or(0),
+        longest: built
+            .chains
+            .iter()
+            .map(|chain| chain.rows.len())
+            .max()
+            .unwrap_or(0),
         entries: constants.filter(|x| *x != 0.0).count()
             + steps.sum::<usize>()
             + on_platforms.map(|frame| frame.value.len()).sum::<usize>(),
@@ -163,7 +179,10 @@ fn given(
     let mut cuts = balls.clone();
     let mut problems = Vec::new();
     for cut in &axes.cut {
-        let found = axes.joints.iter().position(|joint| joint.name.value == cut.value);
+        let found = axes
+            .joints
+            .iter()
+            .position(|joint| joint.name.value == cut.value);
         let Some(joint) = found else {
             let names = axes.joints.iter().map(|joint| joint.name.value.as_str());
             let kind = problem(AxesProblem::UnknownCut {
@@ -257,7 +276,9 @@ fn proposed(
     }
     let more = choices > MOST_CHOICES || found.len() == MOST_WAYS;
     match found.is_empty() {
-        true => Err(vec![problem(AxesProblem::NothingToCut).at(axes.name.span.clone())]),
+        true => Err(vec![
+            problem(AxesProblem::NothingToCut).at(axes.name.span.clone()),
+        ]),
         false => Ok((found, more)),
     }
 }

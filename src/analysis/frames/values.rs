@@ -36,7 +36,8 @@ impl Values {
             frames.push(Named { name, value: steps });
             frames.len() - 1
         };
-        let mut vector = |entries: &[Entry; 3]| add(vec![Displacement::TranslateBy(entries.clone())]);
+        let mut vector =
+            |entries: &[Entry; 3]| add(vec![Displacement::TranslateBy(entries.clone())]);
         let places: Vec<(Option<usize>, Option<usize>)> = (axes.joints.iter())
             .map(|joint| match &joint.value.place {
                 AxisPlace::Along(point, direction) => {
@@ -94,10 +95,19 @@ impl Values {
         Ok(Values {
             lines,
             homes: mechanism.joints().iter().map(|joint| joint.home).collect(),
-            limits: mechanism.joints().iter().map(|joint| joint.limits).collect(),
+            limits: mechanism
+                .joints()
+                .iter()
+                .map(|joint| joint.limits)
+                .collect(),
             base: base.map(|frame| poses[frame]),
             tool: tool.map(|frame| poses[frame]),
-            warnings: mechanism.warnings().iter().filter(unused).cloned().collect(),
+            warnings: mechanism
+                .warnings()
+                .iter()
+                .filter(unused)
+                .cloned()
+                .collect(),
         })
     }
 }

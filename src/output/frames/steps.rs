@@ -18,7 +18,11 @@ fn place(v: [f64; 3]) -> String {
 }
 
 fn variable(constant: String, zero: bool, factor: f64, name: &str) -> String {
-    let moving = if factor < 0.0 { format!("-{name}") } else { name.to_owned() };
+    let moving = if factor < 0.0 {
+        format!("-{name}")
+    } else {
+        name.to_owned()
+    };
     match (factor == 0.0, zero) {
         (true, _) => constant,
         (false, true) => moving,
@@ -57,7 +61,13 @@ pub(super) fn steps(chain: &PlacedChain, modified: bool) -> String {
     let mut say = |step: usize, what: String| {
         let _ = writeln!(text, "  {step:>2}. {what}");
     };
-    let kind = |row: &PlacedRow| if row.turn == 0.0 { "prismatic" } else { "revolute" };
+    let kind = |row: &PlacedRow| {
+        if row.turn == 0.0 {
+            "prismatic"
+        } else {
+            "revolute"
+        }
+    };
     let joints: Vec<String> = (chain.joints.iter().zip(&chain.rows).enumerate())
         .map(|(k, (joint, row))| format!("{} {joint} ({})", k + 1, kind(row)))
         .collect();
@@ -69,7 +79,11 @@ pub(super) fn steps(chain: &PlacedChain, modified: bool) -> String {
             "L0 at {}, z0 {} along {}, x0 {}; k = 1",
             place(frame.position),
             vector(frame.z),
-            if modified && chain.starts_at_base { "the base's z" } else { "the axis of joint 1" },
+            if modified && chain.starts_at_base {
+                "the base's z"
+            } else {
+                "the axis of joint 1"
+            },
             vector(frame.x)
         ),
     );
@@ -77,16 +91,26 @@ pub(super) fn steps(chain: &PlacedChain, modified: bool) -> String {
     for k in placed.clone() {
         let (frame, normal) = (&chain.frames[k], &chain.normals[k]);
         let joint = if modified { k } else { k + 1 };
-        say(3, format!("z{k} along the axis of joint {joint}: {}", vector(frame.z)));
+        say(
+            3,
+            format!("z{k} along the axis of joint {joint}: {}", vector(frame.z)),
+        );
         let axes = match normal.relation {
             None => String::new(),
             found => format!("axes {k} and {} {}: ", k + 1, relation(found)),
         };
         let why = why_origin(normal.relation, k);
         say(4, format!("L{k} at {}: {axes}{why}", place(frame.position)));
-        say(5, format!("x{k} {}: {}", vector(frame.x), why_x(normal.relation, k)));
+        say(
+            5,
+            format!("x{k} {}: {}", vector(frame.x), why_x(normal.relation, k)),
+        );
         say(6, format!("y{k} = z{k} × x{k} = {}", vector(frame.y)));
-        let on = if k + 1 < placed.end { "k < n: go on" } else { "k = n: done" };
+        let on = if k + 1 < placed.end {
+            "k < n: go on"
+        } else {
+            "k = n: done"
+        };
         say(7, format!("k = {}; {on}", k + 1));
     }
     let last = &chain.frames[n];
@@ -111,17 +135,35 @@ pub(super) fn steps(chain: &PlacedChain, modified: bool) -> String {
         let joint = &chain.joints[k - 1];
         say(
             9,
-            format!("b{k} at {}, where x{k} meets z{z}", place(chain.normals[k].from)),
+            format!(
+                "b{k} at {}, where x{k} meets z{z}",
+                place(chain.normals[k].from)
+            ),
         );
         let theta = variable(degrees(row.theta), row.theta == 0.0, row.turn, joint);
-        say(10, format!("θ{k} = {theta}, from x{} to x{k} about z{z}", k - 1));
-        let d = variable(format!("{} m", number(row.d)), row.d == 0.0, row.slide, joint);
+        say(
+            10,
+            format!("θ{k} = {theta}, from x{} to x{k} about z{z}", k - 1),
+        );
+        let d = variable(
+            format!("{} m", number(row.d)),
+            row.d == 0.0,
+            row.slide,
+            joint,
+        );
         say(11, format!("d{k} = {d}, along z{z} to b{k}"));
         say(12, format!("a{link} = {} m, along x{link}", number(row.a)));
         let to = link + 1;
-        let (from, to) = if modified { (link, to) } else { (link - 1, link) };
+        let (from, to) = if modified {
+            (link, to)
+        } else {
+            (link - 1, link)
+        };
         let alpha = degrees(row.alpha);
-        say(13, format!("α{link} = {alpha}, from z{from} to z{to} about x{link}"));
+        say(
+            13,
+            format!("α{link} = {alpha}, from z{from} to z{to} about x{link}"),
+        );
         let on = if k < n { "k ≤ n: go on" } else { "stop" };
         say(14, format!("k = {}; {on}", k + 1));
     }

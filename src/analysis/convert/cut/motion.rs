@@ -10,7 +10,7 @@
 
 use std::f64::consts::FRAC_PI_2;
 
-use crate::algebra::{Expression, Node, Operator, Unit, is_name, is_reserved};
+use crate::algebra::{Expression, Node, Operator, is_name, is_reserved};
 use crate::analysis::convert::{entry, nowhere, row, zero};
 use crate::description::{
     Axis, ClosureKind, Convention, Description, Displacement, Entry, JointDescription, Named, Role,
@@ -29,7 +29,7 @@ pub(super) struct Motion {
 }
 
 fn right_angle(sign: f64) -> Entry {
-    entry(Node::Quantity(sign * 90.0, Unit::Degree).at(0..0))
+    Entry::degrees(sign * 90.0)
 }
 
 impl Motion {
@@ -176,10 +176,18 @@ fn meeting(rotation: &Rotation<f64>) -> ([f64; 3], bool) {
 /// A name that expressions may use and nothing else has.
 fn free_variable(wanted: &str, taken: &[&String]) -> String {
     let clean: String = (wanted.chars())
-        .map(|c| if c.is_alphanumeric() || c == '_' { c } else { '_' })
+        .map(|c| {
+            if c.is_alphanumeric() || c == '_' {
+                c
+            } else {
+                '_'
+            }
+        })
         .collect();
     let numbered = (2..).map(|i| format!("q_{clean}_{i}"));
-    let mut names = [clean.clone(), format!("q_{clean}")].into_iter().chain(numbered);
+    let mut names = [clean.clone(), format!("q_{clean}")]
+        .into_iter()
+        .chain(numbered);
     let free = |name: &String| is_name(name) && !is_reserved(name) && !taken.contains(&name);
     names.find(free).unwrap_or_default()
 }
