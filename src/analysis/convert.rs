@@ -96,6 +96,11 @@ pub fn convert(
     if let Some(convention) = settings.convention {
         convention::convert(&mut conversion, convention);
     }
+    // frames that came with a cut had no name before
+    conversion.notes.retain(|note| match note {
+        ConversionNote::Renamed { from, .. } => mechanism.frame(from).is_some(),
+        _ => true,
+    });
     Mechanism::new(&conversion.description).map_err(ConvertError::Wrong)?;
     Ok(conversion)
 }

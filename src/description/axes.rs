@@ -26,7 +26,7 @@ pub struct AxesDescription {
 }
 
 /// A joint of which the axis is known.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone)]
 pub struct AxisDescription {
     /// How it moves.
     pub kind: AxisKind,

@@ -361,6 +361,7 @@ macro_rules! equal_up_to_place {
 equal_up_to_place! {
     Entry: expression;
     JointDescription: role, home, limits;
+    super::AxisDescription: kind, place, role, home, limits, between;
     Row: alpha, a, d, theta;
     ClosureDescription: kind, frames, length;
 }

@@ -41,8 +41,17 @@ pub(super) fn convert(conversion: &mut Conversion, to: Convention) {
             })
         })
     });
-    let note = |(from, to)| ConversionNote::Renamed { from, to };
-    conversion.notes.extend(renamed.into_iter().map(note));
+    for (from, to) in renamed {
+        // a frame that a cut has renamed before is named once
+        let before = conversion.notes.iter_mut().find_map(|note| match note {
+            ConversionNote::Renamed { to, .. } if *to == from => Some(to),
+            _ => None,
+        });
+        match before {
+            Some(name) => *name = to,
+            None => conversion.notes.push(ConversionNote::Renamed { from, to }),
+        }
+    }
 }
 
 fn links(rows: &[Row], from: Convention) -> Links {

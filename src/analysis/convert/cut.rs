@@ -10,6 +10,7 @@
 //!
 //! and `chain_front` and `chain_back` are joined by the joint of row r.
 
+mod error;
 mod motion;
 
 use super::references::{Substitute, exchange, free_name, link_of};
@@ -24,54 +25,7 @@ use crate::description::{
 use crate::mechanism::{Frame, JointKind, Mechanism};
 use motion::Motion;
 
-/// Why a mechanism is not broken at a joint.
-#[derive(Clone, Debug, PartialEq)]
-pub enum CutError {
-    /// There is no such joint.
-    UnknownJoint {
-        /// Its name.
-        name: String,
-        /// The joint that was probably meant.
-        suggestion: Option<String>,
-    },
-    /// The name is a closure's: the mechanism is broken there already.
-    AlreadyCut {
-        /// The closure.
-        closure: String,
-    },
-    /// The joint is helical, and no closure is.
-    Helical {
-        /// The joint.
-        joint: String,
-    },
-    /// The variable stands in no row.
-    NoRow {
-        /// The joint.
-        joint: String,
-    },
-    /// The variable stands in several rows or entries.
-    SeveralRows {
-        /// The joint.
-        joint: String,
-    },
-    /// Other variables stand in its row.
-    SharedRow {
-        /// The joint.
-        joint: String,
-    },
-    /// No closure holds what is behind the joint.
-    NoLoop {
-        /// The joint.
-        joint: String,
-    },
-    /// The closures that do are not at the end of the joint's own chain, or cannot become rows.
-    NotRows {
-        /// The joint.
-        joint: String,
-        /// The closures.
-        closures: Vec<String>,
-    },
-}
+pub use error::CutError;
 
 /// Where the joint stands.
 struct Place {

@@ -3,7 +3,7 @@
 use std::collections::BTreeSet;
 
 use super::PlacedChain;
-use super::chains::{self, Built, between, declarations, joint_axis, nowhere};
+use super::chains::{self, Built, between, declarations, joint_axis, nowhere, turned_to};
 use super::loops::{Graph, driven};
 use super::values::Values;
 use crate::description::{
@@ -401,20 +401,5 @@ impl<'a> Build<'a> {
                 span: 0..0,
             },
         }
-    }
-}
-
-/// The frame turned about its z axis until its x axis is nearest to that of another frame, or to its
-/// y axis where x stands along z.
-fn turned_to(pose: &Pose<f64>, other: &Pose<f64>) -> Pose<f64> {
-    let z = pose.rotation.column(Axis::Z);
-    let [x, y, _] = other.rotation.0;
-    let part = |v: Vector3<f64>| v - z.times(v.dot(&z));
-    let found = [x, y].map(part).into_iter().find(|p| p.norm() > 0.5);
-    let x = found.unwrap_or_else(|| part(x));
-    let x = x.times(1.0 / x.norm());
-    Pose {
-        rotation: Rotation([x, z.cross(&x), z]),
-        position: pose.position,
     }
 }

@@ -7,7 +7,7 @@ use crate::description::{
     AxesDescription, AxisKind, ChainDescription, Convention, Description, Displacement, Entry,
     JointDescription, Named, Role, Row, Spanned,
 };
-use crate::geometry::Pose;
+use crate::geometry::{Axis, Pose, Rotation, Vector3};
 use crate::mechanism::{JointAxis, SerialAxes, Table, TableRow};
 
 /// A mechanism file and how it came about.
@@ -192,4 +192,19 @@ pub(super) fn serial(axes: &AxesDescription, values: &Values, convention: Conven
 /// A displacement from one pose to another, both in ground.
 pub(super) fn between(from: &Pose<f64>, to: &Pose<f64>) -> Vec<Displacement> {
     Displacement::of_pose(&(from.inverse() * *to))
+}
+
+/// The frame turned about its z axis until its x axis is nearest to that of another frame, or to its
+/// y axis where x stands along z.
+pub(super) fn turned_to(pose: &Pose<f64>, other: &Pose<f64>) -> Pose<f64> {
+    let z = pose.rotation.column(Axis::Z);
+    let [x, y, _] = other.rotation.0;
+    let part = |v: Vector3<f64>| v - z.times(v.dot(&z));
+    let found = [x, y].map(part).into_iter().find(|p| p.norm() > 0.5);
+    let x = found.unwrap_or_else(|| part(x));
+    let x = x.times(1.0 / x.norm());
+    Pose {
+        rotation: Rotation([x, z.cross(&x), z]),
+        position: pose.position,
+    }
 }

@@ -52,7 +52,15 @@ pub(super) fn place(
         .fold(Vector3::zero(), |sum, &step| sum + step);
     if end < lines.len() {
         let whole = steps.iter().fold(near, |sum, &step| sum + step);
-        let mut point = origin(axes, lines, to, whole, length);
+        let previous = from.checked_sub(1).map(|k| lines[k]);
+        let mut point = match (defined_origin(axes, lines, to, length), previous) {
+            (Some(origin), _) => origin,
+            (None, Some(previous)) if from < to => {
+                let along = lines[from].direction;
+                free_origin(&previous, &near, &along, &after_first, &lines[to])
+            }
+            (None, _) => lines[to].foot(&whole),
+        };
         for k in (from..to).rev() {
             lines[k].point = point;
             point = point - steps[k - from];
@@ -80,19 +88,41 @@ fn parallel(a: &Line, b: &Line, length: f64) -> bool {
     a.common_normal(b, length).relation.is_parallel()
 }
 
-/// The origin on axis k: where the normal to the axis behind it stands if that is defined, else the
-/// point nearest to a given one.
-fn origin(
+/// The origin on axis k where the normal to the axis behind it fixes it.
+fn defined_origin(
     axes: &SerialAxes,
     lines: &[Line],
     k: usize,
-    near: Vector3<f64>,
     length: f64,
+) -> Option<Vector3<f64>> {
+    axes.joints
+        .get(k + 1)
+        .filter(|joint| !joint.is_prismatic())?;
+    let normal = lines[k].common_normal(&lines[k + 1], length);
+    (!normal.relation.is_parallel()).then_some(normal.feet[0])
+}
+
+/// A free origin P on the next axis: the slide's axis through P − `rest` either meets the previous
+/// axis, or stands off from it at the point `near`, where the offset is zero.
+///
+/// Seen along the slide both axes are lines in a plane. Where they cross at more than 45° they meet;
+/// else the perpendicular to the previous one at `near` crosses the next one well.
+fn free_origin(
+    previous: &Line,
+    near: &Vector3<f64>,
+    slide: &Vector3<f64>,
+    rest: &Vector3<f64>,
+    next: &Line,
 ) -> Vector3<f64> {
-    let behind = axes.joints.get(k + 1).filter(|joint| !joint.is_prismatic());
-    let normal = behind.map(|_| lines[k].common_normal(&lines[k + 1], length));
-    match normal {
-        Some(normal) if !normal.relation.is_parallel() => normal.feet[0],
-        _ => lines[k].foot(&near),
-    }
+    let seen = |v: Vector3<f64>| v - slide.times(v.dot(slide));
+    let (u, v) = (seen(previous.direction), seen(next.direction));
+    let between = seen(*near - (next.point - *rest));
+    let (sine, cosine) = (slide.dot(&u.cross(&v)), u.dot(&v));
+    let along = match sine.abs() > cosine.abs() {
+        true => slide.dot(&u.cross(&between)) / sine,
+        false if cosine != 0.0 => between.dot(&u) / cosine,
+        // the next axis is seen as a point
+        false => (*near + *rest - next.point).dot(&next.direction),
+    };
+    next.point + next.direction.times(along)
 }
