@@ -15,7 +15,9 @@ fn files() -> Vec<PathBuf> {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("mechanisms");
     let files = std::fs::read_dir(folder).unwrap();
     let files = files.map(|file| file.unwrap().path());
-    let mut files: Vec<PathBuf> = files.filter(|f| f.extension().is_some_and(|e| e == "ron")).collect();
+    let mut files: Vec<PathBuf> = files
+        .filter(|f| f.extension().is_some_and(|e| e == "ron"))
+        .collect();
     files.sort();
     files
 }
@@ -83,7 +85,12 @@ fn differences(mechanism: &Mechanism, a: &AssembliesReport, b: &AssembliesReport
             )
         };
         if verdict(x) != verdict(y) {
-            found.push(format!("mode {}: {} against {}", x.mode, verdict(x), verdict(y)));
+            found.push(format!(
+                "mode {}: {} against {}",
+                x.mode,
+                verdict(x),
+                verdict(y)
+            ));
         }
     }
     found
@@ -96,7 +103,8 @@ fn campaign() {
     let top: u64 = std::env::var("TOP").map_or(50, |x| x.parse().unwrap());
     for file in files() {
         let name = file.file_stem().unwrap().to_str().unwrap().to_owned();
-        if name == "stewart_gough_6ups" || !(only.is_empty() || only.split(',').any(|o| o == name)) {
+        if name == "stewart_gough_6ups" || !(only.is_empty() || only.split(',').any(|o| o == name))
+        {
             continue;
         }
         let m = mechanism(&file);
@@ -108,6 +116,9 @@ fn campaign() {
                 println!("DIFF {name} seed {seed}: {d}");
             }
         }
-        println!("{name} done, {:.2} s a seed", t.elapsed().as_secs_f64() / (top - 1) as f64);
+        println!(
+            "{name} done, {:.2} s a seed",
+            t.elapsed().as_secs_f64() / (top - 1) as f64
+        );
     }
 }

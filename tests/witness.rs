@@ -253,15 +253,21 @@ impl Family {
         });
         let (inputs, parameters): (Vec<_>, Vec<_>) =
             given.partition(|(name, _)| self.inputs.contains(name));
-        let parameters: String = parameters.iter().map(|(n, v)| format!("\"{n}\": {v},")).collect();
-        let actuated = inputs.iter().map(|(n, v)| format!("\"{n}\": Actuated(home: {v}),"));
+        let parameters: String = parameters
+            .iter()
+            .map(|(n, v)| format!("\"{n}\": {v},"))
+            .collect();
+        let actuated = inputs
+            .iter()
+            .map(|(n, v)| format!("\"{n}\": Actuated(home: {v}),"));
         let passive = self.passive.iter().map(|n| format!("\"{n}\": Passive(),"));
         let joints: String = actuated.chain(passive).collect();
         let text = format!(
             "Mechanism(version: 1, name: \"random\", convention: {}, parameters: {{{parameters}}}, joints: {{{joints}}}, {})",
             self.convention, self.body
         );
-        Mechanism::new(&Description::read(&text).unwrap_or_else(|e| panic!("{e:?}\n{text}"))).unwrap()
+        Mechanism::new(&Description::read(&text).unwrap_or_else(|e| panic!("{e:?}\n{text}")))
+            .unwrap()
     }
 
     /// The witness's coordinates of every solution, the real ones first, and how many those are.
@@ -276,7 +282,12 @@ impl Family {
                 let all = pose.position.iter().chain(&pose.quaternion);
                 all.map(real).collect()
             };
-            found.push(self.read.iter().flat_map(|r| read(*r, &joint, &pose)).collect());
+            found.push(
+                self.read
+                    .iter()
+                    .flat_map(|r| read(*r, &joint, &pose))
+                    .collect(),
+            );
         }
         for assembly in &report.complex_assemblies {
             let joint = |name: &str| complex(assembly.joints.get(name).unwrap());
@@ -284,7 +295,12 @@ impl Family {
                 let pose = assembly.platforms.get(name).unwrap();
                 pose.iter().map(complex).collect()
             };
-            found.push(self.read.iter().flat_map(|r| read(*r, &joint, &pose)).collect());
+            found.push(
+                self.read
+                    .iter()
+                    .flat_map(|r| read(*r, &joint, &pose))
+                    .collect(),
+            );
         }
         (found, report.assemblies.len())
     }
@@ -331,7 +347,10 @@ fn matrix(q: &[Complex64]) -> [Complex64; 9] {
 
 /// Largest difference of two solutions, compared with their size.
 fn apart(a: &[Complex64], b: &[Complex64]) -> f64 {
-    let far = a.iter().zip(b).map(|(a, b)| (a - b).norm() / (1.0 + b.norm()));
+    let far = a
+        .iter()
+        .zip(b)
+        .map(|(a, b)| (a - b).norm() / (1.0 + b.norm()));
     far.fold(0.0, f64::max)
 }
 
@@ -343,9 +362,14 @@ fn disagreement(found: &[Vec<Complex64>], known: &[Vec<Complex64>], digits: f64)
     let mut left: Vec<&Vec<Complex64>> = found.iter().collect();
     for solution in known {
         let far = |k: usize| apart(left[k], solution);
-        let best = (0..left.len()).min_by(|a, b| far(*a).total_cmp(&far(*b))).unwrap();
+        let best = (0..left.len())
+            .min_by(|a, b| far(*a).total_cmp(&far(*b)))
+            .unwrap();
         if far(best) > digits {
-            return Some(format!("nearest to {solution:?} is off by {:.1e}", far(best)));
+            return Some(format!(
+                "nearest to {solution:?} is off by {:.1e}",
+                far(best)
+            ));
         }
         left.swap_remove(best);
     }
@@ -356,7 +380,10 @@ fn cases(name: &str) -> Vec<Value> {
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/data/witness.json");
     let data: Value = serde_json::from_str(&std::fs::read_to_string(path).unwrap()).unwrap();
     let cases = data["cases"].as_array().unwrap().iter();
-    cases.filter(|case| case["family"] == name).cloned().collect()
+    cases
+        .filter(|case| case["family"] == name)
+        .cloned()
+        .collect()
 }
 
 fn answer(mechanism: &Mechanism) -> AssembliesReport {
@@ -381,7 +408,9 @@ fn agrees(name: &str, least: usize) {
         let solutions = case["solutions"].as_array().unwrap();
         let values = |solution: &Value| -> Vec<Complex64> {
             let pairs = solution["values"].as_array().unwrap().iter();
-            pairs.map(|z| Complex64::new(z[0].as_f64().unwrap(), z[1].as_f64().unwrap())).collect()
+            pairs
+                .map(|z| Complex64::new(z[0].as_f64().unwrap(), z[1].as_f64().unwrap()))
+                .collect()
         };
         let (real, rest): (Vec<&Value>, Vec<&Value>) =
             solutions.iter().partition(|s| s["real"] == true);
@@ -394,13 +423,25 @@ fn agrees(name: &str, least: usize) {
             if name == "delta" {
                 return translating(&report, found, real);
             }
-            assert_eq!((report.complex, report.real), (found.len(), real), "{name} {k}");
+            assert_eq!(
+                (report.complex, report.real),
+                (found.len(), real),
+                "{name} {k}"
+            );
             let rest = found.split_off(real);
             (found, rest)
         };
         let (found, others) = lists(numbers);
-        assert_eq!(disagreement(&found, &real, DIGITS), None, "{name} {k}: real");
-        assert_eq!(disagreement(&others, &rest, DIGITS), None, "{name} {k}: complex");
+        assert_eq!(
+            disagreement(&found, &real, DIGITS),
+            None,
+            "{name} {k}: real"
+        );
+        assert_eq!(
+            disagreement(&others, &rest, DIGITS),
+            None,
+            "{name} {k}: complex"
+        );
         if k == 0 {
             let mut wrong = numbers.clone();
             let first = wrong.iter().next().unwrap().0.clone();
@@ -422,9 +463,15 @@ fn translating(
     real: usize,
 ) -> (Vec<Vec<Complex64>>, Vec<Vec<Complex64>>) {
     let turned = |w: Complex64| (w * w - 1.0).norm() > 1e-9;
-    let hands = report.assemblies.iter().map(|a| a.platforms.get("hand").unwrap());
+    let hands = report
+        .assemblies
+        .iter()
+        .map(|a| a.platforms.get("hand").unwrap());
     let quaternions = hands.map(|hand| Complex64::new(hand.quaternion[0], 0.0));
-    let complex = report.complex_assemblies.iter().map(|a| a.platforms.get("hand").unwrap()[3]);
+    let complex = report
+        .complex_assemblies
+        .iter()
+        .map(|a| a.platforms.get("hand").unwrap()[3]);
     let quaternions = quaternions.chain(complex.map(|z| Complex64::new(z[0], z[1])));
     let (mut plain, mut rest) = (Vec::new(), Vec::new());
     for (k, (solution, w)) in found.into_iter().zip(quaternions).enumerate() {
@@ -499,7 +546,12 @@ fn deltas_of_six_free_rods() {
 /// The comparison itself tells one digit.
 #[test]
 fn lists_that_differ_in_one_number_disagree() {
-    let list = |x: f64| vec![vec![Complex64::from_polar(1.0, TAU * x)], vec![Complex64::i()]];
+    let list = |x: f64| {
+        vec![
+            vec![Complex64::from_polar(1.0, TAU * x)],
+            vec![Complex64::i()],
+        ]
+    };
     assert_eq!(disagreement(&list(0.1), &list(0.1), 1e-9), None);
     assert!(disagreement(&list(0.1), &list(0.1 + 1e-8), 1e-9).is_some());
     assert!(disagreement(&list(0.1)[..1], &list(0.1), 1e-9).is_some());

@@ -32,10 +32,13 @@ impl Search {
         if let Some(store) = &store {
             if let Some(stored) = store.read()? {
                 match AssemblySolver::from_stored(mechanism, &held, stored) {
-                    Err(AssembliesError::StoredForAnotherQuestion) => say(&format!(
-                        "note: {} has the solutions of another question and is written anew\n",
-                        store.path()
-                    )),
+                    Err(AssembliesError::StoredForAnotherQuestion) => {
+                        store.check_writable()?;
+                        say(&format!(
+                            "note: {} has the solutions of another question and is written anew\n",
+                            store.path()
+                        ));
+                    }
                     solver => return solver.map_err(|error| Refusal(format!("error: {error}\n"))),
                 }
             }

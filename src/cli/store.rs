@@ -112,15 +112,19 @@ impl Store {
                 ANOTHER,
             )
         };
-        if self.exists && fs::metadata(&self.place).is_ok_and(|data| data.permissions().readonly()) {
+        if self.exists && fs::metadata(&self.place).is_ok_and(|data| data.permissions().readonly())
+        {
             return Err(refused(&"it is write-protected"));
         }
         let beside = self.beside().ok_or_else(|| refused(&"it has no name"))?;
         File::create(&beside)
             .and_then(|_| fs::remove_file(&beside))
-            .map_err(|error| match error.kind() {
-                ErrorKind::NotFound => refused(&"there is no such folder"),
-                _ => refused(&error),
+            .map_err(|error| {
+                let folder = beside.parent().unwrap_or(Path::new("."));
+                match folder.as_os_str().is_empty() || folder.exists() {
+                    true => refused(&error),
+                    false => refused(&"there is no such folder"),
+                }
             })
     }
 
