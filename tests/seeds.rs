@@ -5,7 +5,7 @@ use std::f64::consts::{PI, TAU};
 use std::path::{Path, PathBuf};
 
 use linkwork::analysis::assemblies::{
-    AssembliesReport, AssembliesSettings, AssemblySolver, Wanted,
+    AssembliesReport, AssembliesSettings, Assembly, AssemblySolver, Wanted,
 };
 use linkwork::description::load;
 use linkwork::mechanism::Mechanism;
@@ -62,8 +62,7 @@ fn differences(mechanism: &Mechanism, a: &AssembliesReport, b: &AssembliesReport
     for (x, y) in a.assemblies.iter().zip(&b.assemblies) {
         let digits = if x.multiplicity == 1 { 1e-9 } else { 1e-6 };
         for (j, ((name, u), (_, v))) in x.joints.0.iter().zip(&y.joints.0).enumerate() {
-            let far = apart(mechanism, j, *u, *v);
-            if far > digits {
+            if apart(mechanism, j, *u, *v) > digits {
                 found.push(format!("mode {}: {name} {u} against {v}", x.mode));
             }
         }
@@ -74,7 +73,18 @@ fn differences(mechanism: &Mechanism, a: &AssembliesReport, b: &AssembliesReport
                 found.push(format!("mode {}: pose of {name} differs", x.mode));
             }
         }
-        let verdict = |a: &linkwork::analysis::assemblies::Assembly| {
+        // where solutions meet the condition is rounding
+        if x.multiplicity == 1
+            && x.condition
+                .zip(y.condition)
+                .is_some_and(|(u, v)| (u - v).abs() > 1e-6 * u)
+        {
+            found.push(format!(
+                "mode {}: condition {:?} against {:?}",
+                x.mode, x.condition, y.condition
+            ));
+        }
+        let verdict = |a: &Assembly| {
             format!(
                 "sign {}, multiplicity {}, certified {}, within limits {}, shares with {:?}",
                 a.determinant_sign,
@@ -96,29 +106,104 @@ fn differences(mechanism: &Mechanism, a: &AssembliesReport, b: &AssembliesReport
     found
 }
 
+/// Mechanisms whose answer still depends on the seed, or takes minutes, with the reason. An entry goes when its reason
+/// does.
+const OPEN: [(&str, &str); 4] = [
+    (
+        "bricard_trihedral",
+        "seed 23 finds 2 of 4 generic solutions",
+    ),
+    (
+        "delta",
+        "seeds 10, 26, 30, 38 and 42 find fewer than 40 generic solutions",
+    ),
+    (
+        "flat_triangle",
+        "its one double solution is counted as 1, 2 or 3",
+    ),
+    ("stewart_gough_6ups", "a search takes minutes"),
+];
+
+/// Mechanisms with so many solutions that fifty searches take longer than a test may.
+const LONG: [&str; 5] = [
+    "dietmaier",
+    "stewart_gough_6sps",
+    "three_fingered_hand",
+    "three_fingered_hand_distances",
+    "three_rps",
+];
+
+fn name(file: &Path) -> &str {
+    file.file_stem().unwrap().to_str().unwrap()
+}
+
+/// The first seeds after 1, up to `last`, whose answer differs, and in what.
+fn seeds_that_matter(file: &Path, last: u64) -> Vec<String> {
+    let mechanism = mechanism(file);
+    let reference = answer(&mechanism, 1);
+    let others = (2..=last).flat_map(|seed| {
+        let found = differences(&mechanism, &reference, &answer(&mechanism, seed));
+        let said = found.into_iter().map(move |d| format!("seed {seed}: {d}"));
+        said.map(|d| format!("{}, {d}", name(file)))
+    });
+    others.take(5).collect()
+}
+
+fn no_seed_matters(wanted: impl Fn(&str) -> bool, last: u64) {
+    let open = |name: &str| OPEN.iter().any(|(open, _)| *open == name);
+    let chosen = files()
+        .into_iter()
+        .filter(|f| wanted(name(f)) && !open(name(f)));
+    let chosen: Vec<PathBuf> = chosen.collect();
+    assert!(!chosen.is_empty());
+    let found: Vec<String> = chosen
+        .iter()
+        .flat_map(|f| seeds_that_matter(f, last))
+        .collect();
+    assert!(found.is_empty(), "{found:#?}");
+}
+
 #[test]
-#[ignore = "campaign"]
-fn campaign() {
-    let only = std::env::var("ONLY").unwrap_or_default();
-    let top: u64 = std::env::var("TOP").map_or(50, |x| x.parse().unwrap());
-    for file in files() {
-        let name = file.file_stem().unwrap().to_str().unwrap().to_owned();
-        if name == "stewart_gough_6ups" || !(only.is_empty() || only.split(',').any(|o| o == name))
-        {
-            continue;
-        }
-        let m = mechanism(&file);
-        let reference = answer(&m, 1);
-        let t = std::time::Instant::now();
-        for seed in 2..=top {
-            let other = answer(&m, seed);
-            for d in differences(&m, &reference, &other) {
-                println!("DIFF {name} seed {seed}: {d}");
-            }
-        }
-        println!(
-            "{name} done, {:.2} s a seed",
-            t.elapsed().as_secs_f64() / (top - 1) as f64
-        );
+fn fifty_seeds_give_one_answer() {
+    no_seed_matters(|name| !LONG.contains(&name), 50);
+}
+
+#[test]
+fn five_seeds_give_one_answer_where_there_are_many_solutions() {
+    no_seed_matters(|name| LONG.contains(&name), 5);
+}
+
+/// Ten minutes: `cargo test --release --test seeds -- --ignored`
+#[test]
+#[ignore = "takes ten minutes"]
+fn fifty_seeds_give_one_answer_where_there_are_many_solutions() {
+    no_seed_matters(|name| LONG.contains(&name), 50);
+}
+
+/// A file of every name is there, so that a renamed one is not left out in silence.
+#[test]
+fn every_mechanism_named_here_is_there() {
+    let files = files();
+    let names: Vec<&str> = files.iter().map(|f| name(f)).collect();
+    for name in OPEN.iter().map(|(name, _)| name).chain(&LONG) {
+        assert!(names.contains(name), "{name}");
     }
+}
+
+/// The comparison tells a digit, a mode and a count.
+#[test]
+fn answers_that_differ_are_told_apart() {
+    let four_bar = files().into_iter().find(|f| name(f) == "four_bar").unwrap();
+    let mechanism = mechanism(&four_bar);
+    let one = answer(&mechanism, 1);
+    assert!(differences(&mechanism, &one, &answer(&mechanism, 2)).is_empty());
+    let mut other = one.clone();
+    other.assemblies[1].joints.0[1].1 += 1e-8;
+    assert_eq!(differences(&mechanism, &one, &other).len(), 1);
+    other = one.clone();
+    other.assemblies.swap(0, 1);
+    assert!(!differences(&mechanism, &one, &other).is_empty());
+    other = one.clone();
+    other.generic += 1;
+    assert_eq!(differences(&mechanism, &one, &other).len(), 1);
 }

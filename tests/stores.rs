@@ -96,7 +96,8 @@ fn numbers_that_do_not_assemble_the_mechanism_are_refused() {
     assert!(AssemblySolver::from_stored(&mechanism, &held, right).is_ok());
     // as a program that writes its own title would do it
     let body = text.split_once('\n').unwrap().1;
-    let at = body.find("solutions:[[(").unwrap() + "solutions:[[(".len();
+    let first = body.find("solutions:[[(").unwrap();
+    let at = first + body[first..].find(|c: char| c.is_ascii_digit()).unwrap();
     let wrong = format!("{}9{}", &body[..at], &body[at..]);
     let title = format!(
         "linkwork generic solutions, version 1: 2 solutions, checksum {:08x}",
