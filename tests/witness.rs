@@ -520,7 +520,7 @@ fn three_fingered_hands() {
 
 #[test]
 fn six_revolute_joints() {
-    agrees("six_r", 2);
+    agrees("six_r", 3);
 }
 
 #[test]
