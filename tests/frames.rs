@@ -375,7 +375,9 @@ mod files {
     use std::path::{Path, PathBuf};
 
     use linkwork::analysis::frames::{AxesError, FramesSettings, frames, joint_axes};
-    use linkwork::description::{AxesDescription, Description, Lines, Problem};
+    use linkwork::description::{
+        AxesDescription, AxisDescription, Description, Lines, Named, Problem,
+    };
     use linkwork::mechanism::{Configuration, Frame, Mechanism};
     use linkwork::solve::Newton;
     use linkwork::system::{Question, close};
@@ -417,15 +419,16 @@ mod files {
         }
     }
 
+    /// A joint's name, a point of its axis and its direction.
+    type Placed = (String, Option<Vector3<f64>>, Option<Vector3<f64>>);
+
     /// The lines of joints, by name; a ball has a point only and a slide a direction only.
-    fn lines(axes: &AxesDescription) -> Vec<(String, Option<Vector3<f64>>, Option<Vector3<f64>>)> {
+    fn lines(axes: &AxesDescription) -> Vec<Placed> {
         use linkwork::description::AxisPlace;
         let vector = |v: &[linkwork::description::Entry; 3]| {
             Vector3(v.each_ref().map(|x| x.expression.as_number().unwrap()))
         };
-        let line = |joint: &linkwork::description::Named<_>| {
-            let joint: &linkwork::description::Named<linkwork::description::AxisDescription> =
-                joint;
+        let line = |joint: &Named<AxisDescription>| {
             let (point, along) = match &joint.value.place {
                 AxisPlace::Along(point, along) => (point.as_ref().map(vector), Some(vector(along))),
                 AxisPlace::Centre(point) => (Some(vector(point)), None),

@@ -7,7 +7,8 @@ use std::path::{Path, PathBuf};
 use std::process::Command;
 
 use linkwork::analysis::assembly::{AssemblySettings, Outcome, assemble};
-use linkwork::description::Description;
+use linkwork::analysis::frames::{FramesSettings, frames};
+use linkwork::description::{AxesDescription, Description, is_mechanism};
 use linkwork::mechanism::Mechanism;
 use linkwork::system::Question;
 
@@ -117,6 +118,12 @@ fn the_test_command_is_the_one_that_changes_must_pass() {
 #[test]
 fn files_in_the_readme_are_read_and_assemble() {
     for block in blocks_in(&blocks(&readme()), "ron") {
+        if !is_mechanism(&block.text) {
+            let axes = AxesDescription::read(&block.text).unwrap();
+            let report = frames(&axes, &FramesSettings::default()).unwrap();
+            assert!(report.warnings.is_empty() && report.moved < 1e-12);
+            continue;
+        }
         let description = Description::read(&block.text).unwrap();
         let mechanism = Mechanism::new(&description).unwrap();
         assert!(

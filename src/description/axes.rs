@@ -2,7 +2,7 @@
 
 use std::ops::Range;
 
-use super::{Convention, Displacement, Entry, Named, Problem, Role, Spanned, reader};
+use super::{ClosureKind, Convention, Displacement, Entry, Named, Problem, Role, Spanned, reader};
 
 /// A whole file of joint axes. Everything is in the order of the file.
 #[derive(Debug, Clone, PartialEq)]
@@ -69,6 +69,15 @@ pub enum AxisPlace {
 impl AxisKind {
     /// Every kind.
     pub const ALL: [Self; 3] = [Self::Revolute, Self::Prismatic, Self::Spherical];
+
+    /// The closure that puts such a joint back.
+    pub fn closure(self) -> ClosureKind {
+        match self {
+            Self::Revolute => ClosureKind::Revolute,
+            Self::Prismatic => ClosureKind::Prismatic,
+            Self::Spherical => ClosureKind::Spherical,
+        }
+    }
 
     /// How it is written in a file.
     pub fn word(self) -> &'static str {

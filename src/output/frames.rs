@@ -123,6 +123,12 @@ pub(super) fn relation(relation: Option<Relation>) -> &'static str {
     }
 }
 
+/// Whether x1 has the sense that is nearest to the x of the coordinates, because frame 0 follows it.
+pub(super) fn nearest_to_coordinates(chain: &PlacedChain) -> bool {
+    let first = chain.normals.get(1);
+    !chain.starts_at_base && first.is_some_and(|n| n.relation == Some(Relation::Intersecting))
+}
+
 fn choice(normal: &PlacedNormal, k: usize) -> String {
     match normal.relation {
         None => format!("θ{k} = 0, d{k} = 0 at the variable's zero"),
@@ -180,6 +186,9 @@ fn normals(chain: &PlacedChain) -> String {
             (0, true) => "frame 0 is frame 1 at the variable's zero".into(),
             (0, false) => "none".into(),
             (k, false) if k == last && chain.ends_at_tool => "none".into(),
+            (1, false) if nearest_to_coordinates(chain) => {
+                "sense of x1: that of the coordinates' x".into()
+            }
             _ => choice(normal, k),
         };
         table.add_row([

@@ -7,8 +7,8 @@ use super::chains::{self, Built, between, declarations, joint_axis, nowhere, tur
 use super::loops::{Graph, driven};
 use super::values::Values;
 use crate::description::{
-    AxesDescription, AxisKind, ChainDescription, ClosureDescription, ClosureKind, Convention,
-    Description, Displacement, GROUND, Named, PlatformDescription, Role,
+    AxesDescription, AxisKind, ChainDescription, ClosureDescription, Convention, Description,
+    Displacement, GROUND, Named, PlatformDescription, Role,
 };
 use crate::geometry::{Axis, Line, Pose, Rotation, Vector3};
 use crate::mechanism::{Assignment, JointAxis, SerialAxes};
@@ -82,13 +82,7 @@ impl<'a> Build<'a> {
         }
         self.put_back();
         let driven = driven(self.axes);
-        let role = |j: usize| {
-            if driven[j] {
-                Role::Actuated
-            } else {
-                Role::Passive
-            }
-        };
+        let role = |j: usize| [Role::Passive, Role::Actuated][usize::from(driven[j])];
         let kept = |j: usize| !self.cuts.contains(&j);
         let joints = declarations(self.axes, self.values, kept, role);
         let closures = self.cuts.iter().map(|&joint| self.closure(joint)).collect();
@@ -228,9 +222,7 @@ impl<'a> Build<'a> {
         for (k, &(_, body)) in way.iter().enumerate() {
             self.carried[body] = Some((format!("{name}.{}", k + 1), frames[k + 1]));
         }
-        let (turned, moved) = serial.difference(&made.table);
-        self.turned = self.turned.max(turned);
-        self.moved = self.moved.max(moved);
+        self.measure(serial.difference(&made.table));
         if let Some(cut) = cut {
             let side = usize::from(self.graph.ends[cut][0] != end);
             self.cut_frames[cut][side] = Some(name.clone());
@@ -251,6 +243,11 @@ impl<'a> Build<'a> {
         });
         let placed = PlacedChain::of(name, on, variables, &made);
         self.placed.push(placed);
+    }
+
+    fn measure(&mut self, (turned, moved): (f64, f64)) {
+        self.turned = self.turned.max(turned);
+        self.moved = self.moved.max(moved);
     }
 
     /// A chain that ends at a joint to be put back: its frames, and from the last of them the frame
@@ -391,11 +388,7 @@ impl<'a> Build<'a> {
         Named {
             name: nowhere(described.name.value.clone()),
             value: ClosureDescription {
-                kind: match described.value.kind {
-                    AxisKind::Revolute => ClosureKind::Revolute,
-                    AxisKind::Prismatic => ClosureKind::Prismatic,
-                    AxisKind::Spherical => ClosureKind::Spherical,
-                },
+                kind: described.value.kind.closure(),
                 frames: [frame(0), frame(1)],
                 length: None,
                 span: 0..0,

@@ -3,7 +3,7 @@
 use std::fmt::Write;
 
 use super::super::quantity::{degrees, number, short};
-use super::relation;
+use super::{nearest_to_coordinates, relation};
 use crate::analysis::frames::{PlacedChain, PlacedRow};
 use crate::geometry::Relation;
 
@@ -101,10 +101,11 @@ pub(super) fn steps(chain: &PlacedChain, modified: bool) -> String {
         };
         let why = why_origin(normal.relation, k);
         say(4, format!("L{k} at {}: {axes}{why}", place(frame.position)));
-        say(
-            5,
-            format!("x{k} {}: {}", vector(frame.x), why_x(normal.relation, k)),
-        );
+        let why = match k == 1 && nearest_to_coordinates(chain) {
+            true => "orthogonal to both axes, in the sense of the coordinates' x".into(),
+            false => why_x(normal.relation, k),
+        };
+        say(5, format!("x{k} {}: {why}", vector(frame.x)));
         say(6, format!("y{k} = z{k} × x{k} = {}", vector(frame.y)));
         let on = if k + 1 < placed.end {
             "k < n: go on"
