@@ -19,7 +19,7 @@ use super::{Answer, Refusal, style};
 ///
 /// The file gives the axes at home: `Axes(version: 1, name: "…", joints: { "q1": Revolute(point: (0, 0, 0), direction:
 /// (0, 0, 1), home: 0), "q2": Prismatic(direction: (1, 0, 0)), … }, base: […], tool: […])`. Where joints say which bodies
-/// they connect, as in `between: ("ground", "crank")`, loops are cut, at the joints of `cut: [\"q3\"]` or else where
+/// they connect, as in `between: ("ground", "crank")`, loops are cut, at the joints of `cut: ["q3"]` or else where
 /// that gives the simplest tables.
 ///
 /// For a mechanism file it is the other way round: the joint axes that its tables describe, where it is assembled.
