@@ -8,10 +8,12 @@ use super::json::document;
 use super::layout::{align_right, indented, plain};
 use super::option::Complaint;
 use super::overview;
-use super::quantity::{degrees, number, short, size};
+use super::quantity::{degrees, number, quantity, short, size};
 use crate::analysis::frames::{AxesError, CutReport, FramesReport, PlacedChain, PlacedNormal, Way};
 use crate::analysis::overview::Overview;
-use crate::description::{AxesDescription, AxisPlace, Entry, count, listed};
+use crate::description::{
+    AxesDescription, AxisDescription, AxisKind, AxisPlace, Entry, count, listed,
+};
 use crate::geometry::Relation;
 use crate::linear::RANK_TOLERANCE;
 
@@ -259,7 +261,7 @@ pub fn axes_text(axes: &AxesDescription) -> String {
             &axis.kind.word().to_lowercase(),
             &point,
             &direction,
-            &axis.home.expression.to_string(),
+            &home(axis),
             &between,
         ]);
     }
@@ -268,6 +270,16 @@ pub fn axes_text(axes: &AxesDescription) -> String {
         axes.name.value,
         indented(&table.to_string())
     )
+}
+
+/// The value of a joint's variable, with its unit.
+fn home(axis: &AxisDescription) -> String {
+    let value = axis.home.expression.evaluate(&|_| f64::NAN);
+    match (axis.kind, value) {
+        (AxisKind::Spherical, _) => String::new(),
+        (kind, Ok(value)) => quantity(value, kind != AxisKind::Prismatic),
+        (_, Err(_)) => axis.home.expression.to_string(),
+    }
 }
 
 /// The same as JSON: the file of axes as a text.
