@@ -1,0 +1,5 @@
+//! URDF, the format of ROS.
+
+mod write;
+
+pub use write::write;
