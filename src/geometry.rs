@@ -2,11 +2,13 @@
 //!
 //! Poses are named `target_from_source`: `ground_from_top * point_in_top` is the point in ground.
 
+mod line;
 mod orientation;
 mod pose;
 mod rotation;
 mod vector;
 
+pub use line::{CommonNormal, Line, Relation};
 pub use orientation::{Quaternion, RollPitchYaw};
 pub use pose::{Axis, Pose};
 pub use rotation::Rotation;

@@ -12,12 +12,15 @@ mod lift;
 mod model;
 mod names;
 mod parameters;
+mod serial_axes;
 
 pub use configuration::{Configuration, PlatformPose};
 pub use coordinate::Coordinate;
 pub use dimensions::{ChainDimensions, ClosureDimensions, Dimensions, LinearForm, RowDimensions};
 pub use frames::Body;
 pub use kinematics::{Kinematics, Placement};
+
+pub use serial_axes::{Assignment, JointAxis, Normal, SerialAxes, Table, TableRow};
 
 pub use crate::description::{ClosureKind, Convention, MatrixEntry, Role};
 pub use model::{

@@ -1,0 +1,109 @@
+//! Joint axes of a serial chain ↔ its Denavit–Hartenberg table, in both conventions.
+//!
+//! Between consecutive axes k and k + 1 stands the common normal N_k, with x_k along it. Both
+//! conventions read the same four numbers off it (Craig 1986, §3.4; Denavit and Hartenberg 1955):
+//!
+//! - a_k, the length of N_k, not negative, and α_k, the angle from z_k to z_{k+1} about x_k;
+//! - d_k along axis k from N_{k−1} to N_k, and θ_k, the angle from x_{k−1} to x_k about z_k.
+//!
+//! The modified row k is (α_{k−1}, a_{k−1}, d_k, θ_k), the standard row k is (θ_k, d_k, a_k, α_k).
+//! z_k points along the given direction of axis k, so a joint's variable keeps its sense.
+//!
+//! Where the axes leave a choice the entry concerned becomes zero at the variable's own zero:
+//!
+//! | axes k, k + 1 | choice |
+//! |---|---|
+//! | skew | none |
+//! | intersecting | x_k along z_k × z_{k+1} or against it: θ_k within ±90°, at 90° along it |
+//! | parallel, anti-parallel | place of N_k along them: d_k = 0 |
+//! | one line | x_k and its place: θ_k = 0, d_k = 0 |
+//!
+//! A prismatic axis has a direction only; `prismatic.rs` says where it is put. The first link is
+//! (α₀, a₀) = (0, 0) unless a base frame is given from which another one leads to axis 1 (modified
+//! convention); the last is (α_n, a_n) = (0, 0) unless a tool frame is given to which another one
+//! leads (standard convention). What is left stands in `base` and `tip`.
+
+mod assignment;
+mod prismatic;
+mod table;
+
+pub use assignment::{Assignment, Normal};
+pub use table::{Table, TableRow};
+
+use crate::geometry::{Line, Pose, Vector3};
+
+/// The axis of a joint in the home configuration.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct JointAxis {
+    /// The axis, in the coordinates in which base and tool are given too. The point of a prismatic
+    /// axis has no meaning.
+    pub line: Line,
+    /// Rotation about the axis for a unit of the variable: 1 for a revolute joint, 0 for a
+    /// prismatic one.
+    pub turn: f64,
+    /// Translation along the axis for a unit of the variable, in m: 0 for a revolute joint, 1 for a
+    /// prismatic one, the lead per radian for a helical one.
+    pub slide: f64,
+    /// Value of the variable in the home configuration, rad or m.
+    pub home: f64,
+}
+
+impl JointAxis {
+    /// The axis of a revolute joint whose variable is `home` rad there.
+    pub fn revolute(line: Line, home: f64) -> Self {
+        let (turn, slide) = (1.0, 0.0);
+        JointAxis {
+            line,
+            turn,
+            slide,
+            home,
+        }
+    }
+
+    /// The axis of a prismatic joint whose variable is `home` m there.
+    pub fn prismatic(line: Line, home: f64) -> Self {
+        let (turn, slide) = (0.0, 1.0);
+        JointAxis {
+            line,
+            turn,
+            slide,
+            home,
+        }
+    }
+
+    /// Whether the joint slides only, so that its axis has no place.
+    pub fn is_prismatic(&self) -> bool {
+        self.turn == 0.0
+    }
+}
+
+/// The joint axes of a serial chain in the home configuration, in one frame's coordinates.
+#[derive(Clone, Debug, PartialEq)]
+pub struct SerialAxes {
+    /// The frame from which the table shall start. It does where a row can lead from it to the
+    /// first axis; `None` leaves the first frame free.
+    pub base: Option<Pose<f64>>,
+    /// The axes, from the base to the tool.
+    pub joints: Vec<JointAxis>,
+    /// The frame at which the chain ends; `None` ends it with the last link frame.
+    pub tool: Option<Pose<f64>>,
+}
+
+impl SerialAxes {
+    /// A length that is typical of the axes: the largest distance between places given, 1 m if
+    /// there is none.
+    pub fn length(&self) -> f64 {
+        let placed = self.joints.iter().filter(|joint| !joint.is_prismatic());
+        let points: Vec<Vector3<f64>> = placed
+            .map(|joint| joint.line.point)
+            .chain([&self.base, &self.tool].into_iter().flatten().map(|p| p.position))
+            .collect();
+        let apart = |p: &Vector3<f64>| {
+            let distances = points.iter().map(|q| (*p - *q).norm());
+            distances.fold(0.0, f64::max)
+        };
+        let slides = self.joints.iter().map(|joint| (joint.slide * joint.home).abs());
+        let largest = points.iter().map(apart).chain(slides).fold(0.0, f64::max);
+        if largest > 0.0 { largest } else { 1.0 }
+    }
+}

@@ -1,0 +1,369 @@
+use super::prismatic;
+use super::{JointAxis, SerialAxes, Table, TableRow};
+use crate::description::Convention;
+use crate::geometry::{Line, Pose, Relation, Rotation, Vector3};
+use crate::linear::RANK_TOLERANCE;
+
+/// Frames placed on joint axes, and the table read off them.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Assignment {
+    /// The table.
+    pub table: Table,
+    /// The axes as the table has them; those of prismatic joints have a place now.
+    pub axes: Vec<Line>,
+    /// N₀ … N_n: from the base to axis 1, between consecutive axes, from axis n to the tool.
+    pub normals: Vec<Normal>,
+    /// Whether the table starts in the base frame given.
+    pub starts_at_base: bool,
+    /// Whether the table ends in the tool frame given, without a tip.
+    pub ends_at_tool: bool,
+    /// Largest angle in rad by which an axis or the tool of the table differs from the one given:
+    /// rounding, or what was taken as parallel or meeting within the tolerance.
+    pub turned: f64,
+    /// The same in m.
+    pub moved: f64,
+}
+
+/// The common normal between two consecutive axes, with the choices made.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Normal {
+    /// How the axes lie to one another; at the ends, where only one axis is, `None` if nothing
+    /// given fixes the normal.
+    pub relation: Option<Relation>,
+    /// The angle in rad between the directions as given, in [0, π].
+    pub angle: f64,
+    /// The distance in m between the lines as given.
+    pub distance: f64,
+    /// Unit vector along the normal: x_k.
+    pub x: Vector3<f64>,
+    /// z at its start and at its end.
+    pub z: [Vector3<f64>; 2],
+    /// Where it starts, on axis k, and where it ends, on axis k + 1.
+    pub feet: [Vector3<f64>; 2],
+}
+
+impl Normal {
+    /// A normal without length or twist.
+    fn nothing(x: Vector3<f64>, z: Vector3<f64>, at: Vector3<f64>) -> Self {
+        Normal {
+            relation: None,
+            angle: 0.0,
+            distance: 0.0,
+            x,
+            z: [z, z],
+            feet: [at, at],
+        }
+    }
+
+    fn frame(&self, side: usize) -> Pose<f64> {
+        let z = self.z[side];
+        Pose {
+            rotation: Rotation([self.x, z.cross(&self.x), z]),
+            position: self.feet[side],
+        }
+    }
+
+    /// α, the angle from the first axis to the second about x.
+    fn alpha(&self) -> f64 {
+        angle_about(&self.x, &self.z[0], &self.z[1])
+    }
+
+    /// a, the length.
+    fn a(&self) -> f64 {
+        (self.feet[1] - self.feet[0]).dot(&self.x)
+    }
+}
+
+/// The angle from `u` to `v` about a unit vector perpendicular to both, in (−π, π].
+fn angle_about(axis: &Vector3<f64>, u: &Vector3<f64>, v: &Vector3<f64>) -> f64 {
+    let angle = f64::atan2(u.cross(v).dot(axis), u.dot(v));
+    match angle {
+        // rounding of a half turn must not change its sign
+        _ if angle < -std::f64::consts::PI + ROUNDING => -angle,
+        _ => angle,
+    }
+}
+
+/// What sums of a few products leave of a zero, beside 1.
+const ROUNDING: f64 = 3e-14;
+
+fn without_rounding(x: f64, size: f64) -> f64 {
+    if x.abs() <= ROUNDING * size { 0.0 } else { x }
+}
+
+/// A vector turned about a unit vector (Rodrigues).
+fn turned(v: &Vector3<f64>, about: &Vector3<f64>, angle: f64) -> Vector3<f64> {
+    let (sin, cos) = crate::number::Number::sin_cos(angle);
+    v.times(cos) + about.cross(v).times(sin) + about.times(about.dot(v) * (1.0 - cos))
+}
+
+/// The part of the first of these vectors perpendicular to `z` that is not lost, as a unit vector.
+fn perpendicular<const N: usize>(z: &Vector3<f64>, vectors: [Vector3<f64>; N]) -> Vector3<f64> {
+    let parts = vectors.map(|v| v - z.times(v.dot(z)));
+    // of two orthogonal unit vectors at least one keeps half of itself
+    let found = parts.iter().find(|part| part.norm() > 0.5);
+    let part = found.copied().unwrap_or(parts[0]);
+    part.times(1.0 / part.norm())
+}
+
+impl SerialAxes {
+    /// Places the frames and reads the table off them. Any number of axes, also none.
+    pub fn assign(&self, convention: Convention) -> Assignment {
+        let length = self.length();
+        let mut axes = prismatic::place(self, length);
+        let first = self.first(convention, &mut axes, length);
+        let starts_at_base = first.relation.is_some();
+        let mut normals = vec![first];
+        for k in 0..axes.len() {
+            let normal = match axes.get(k + 1).copied() {
+                Some(_) => self.between(k, &normals[k], &mut axes, length),
+                None => self.last(convention, &normals[k], &axes[k], length),
+            };
+            normals.push(normal);
+        }
+        if !starts_at_base && let [first, second, ..] = &mut normals[..] {
+            // frame 0 is frame 1 where the variable is zero
+            let JointAxis {
+                turn, slide, home, ..
+            } = self.joints[0];
+            let z = axes[0].direction;
+            let x = turned(&second.x, &z, -turn * home);
+            *first = Normal::nothing(x, z, second.feet[0] - z.times(slide * home));
+        }
+        self.read_off(convention, axes, normals, starts_at_base, length)
+    }
+
+    /// From the base to the first axis; of no relation where frame 0 is free. Then `x` and the
+    /// place are what choices refer to.
+    fn first(&self, convention: Convention, axes: &mut [Line], length: f64) -> Normal {
+        let base = self.base.unwrap_or_else(Pose::identity);
+        let [x, _, z] = base.rotation.0;
+        let origin = base.position;
+        let Some(axis) = axes.first_mut() else {
+            return Normal {
+                relation: Some(Relation::Coincident),
+                ..Normal::nothing(x, z, origin)
+            };
+        };
+        if self.base.is_some()
+            && let Some(normal) = link(&x, &z, &origin, axis, length)
+            && (convention == Convention::Modified || normal.relation == Some(Relation::Coincident))
+        {
+            axis.direction = normal.z[1];
+            axis.point = normal.feet[1];
+            return normal;
+        }
+        let y = z.cross(&x);
+        let x = perpendicular(&axis.direction, [x, y]);
+        Normal::nothing(x, axis.direction, axis.foot(&origin))
+    }
+
+    /// Where the last normal left axis k and how x stood, moved on by the joint's own variable:
+    /// what θ_k = 0 and d_k = 0 ask for.
+    fn unmoved(&self, k: usize, last: &Normal, axis: &Line) -> (Vector3<f64>, Vector3<f64>) {
+        let JointAxis {
+            turn, slide, home, ..
+        } = self.joints[k];
+        let x = turned(&last.x, &axis.direction, turn * home);
+        (x, last.feet[1] + axis.direction.times(slide * home))
+    }
+
+    /// N_k between the axes of index k and k + 1, the second of which is moved to where the
+    /// relation holds exactly.
+    fn between(&self, k: usize, last: &Normal, axes: &mut [Line], length: f64) -> Normal {
+        let (axis, next) = (axes[k], axes[k + 1]);
+        let (x, start) = self.unmoved(k, last, &axis);
+        let common = axis.common_normal(&next, length);
+        let relation = common.relation;
+        let z = axis.direction;
+        let (x, feet) = match (relation, common.direction) {
+            (Relation::Skew, Some(n)) => (n, common.feet),
+            (Relation::Intersecting, Some(n)) => {
+                // at a right angle either way along the vector product
+                let against = n.dot(&x) < -RANK_TOLERANCE;
+                let at = common.feet[0];
+                (if against { -n } else { n }, [at, at])
+            }
+            (_, Some(n)) => (n, [start, start + n.times(common.distance)]),
+            (_, None) => (x, [start, start]),
+        };
+        let direction = match relation {
+            Relation::Skew | Relation::Intersecting => next.direction,
+            Relation::Parallel | Relation::Coincident => z,
+            Relation::AntiParallel | Relation::AntiCoincident => -z,
+        };
+        axes[k + 1] = Line {
+            point: feet[1],
+            direction,
+        };
+        Normal {
+            relation: Some(relation),
+            angle: common.angle,
+            distance: common.distance,
+            x,
+            z: [z, direction],
+            feet,
+        }
+    }
+
+    /// From the last axis to the tool where a row of the standard convention can lead there.
+    fn last(&self, convention: Convention, last: &Normal, axis: &Line, length: f64) -> Normal {
+        if let (Convention::Standard, Some(tool)) = (convention, self.tool) {
+            let [x, _, z] = tool.rotation.0;
+            // from the tool back to the axis the link is as long the other way
+            if let Some(back) = link(&-x, &z, &tool.position, axis, length) {
+                return Normal {
+                    x: -back.x,
+                    z: [back.z[1], back.z[0]],
+                    feet: [back.feet[1], back.feet[0]],
+                    ..back
+                };
+            }
+        }
+        let (x, at) = self.unmoved(self.joints.len() - 1, last, axis);
+        Normal::nothing(x, axis.direction, at)
+    }
+
+    fn read_off(
+        &self,
+        convention: Convention,
+        axes: Vec<Line>,
+        normals: Vec<Normal>,
+        starts_at_base: bool,
+        length: f64,
+    ) -> Assignment {
+        let row = |(k, joint): (usize, &JointAxis)| {
+            let (before, after) = (&normals[k], &normals[k + 1]);
+            let z = &axes[k].direction;
+            let link = match convention {
+                Convention::Modified => before,
+                Convention::Standard => after,
+            };
+            let theta = angle_about(z, &before.x, &after.x) - joint.turn * joint.home;
+            let d = (after.feet[0] - before.feet[1]).dot(z) - joint.slide * joint.home;
+            let reach = length + before.feet[1].norm() + after.feet[0].norm();
+            TableRow {
+                alpha: without_rounding(link.alpha(), 1.0),
+                a: without_rounding(link.a().max(0.0), reach),
+                d: without_rounding(d, reach),
+                theta: wrapped(theta),
+                turn: joint.turn,
+                slide: joint.slide,
+                home: joint.home,
+            }
+        };
+        let rows: Vec<TableRow> = self.joints.iter().enumerate().map(row).collect();
+        let base = match (self.base, starts_at_base) {
+            (Some(base), true) => base,
+            _ => normals[0].frame(0),
+        };
+        let mut table = Table {
+            convention,
+            base,
+            rows,
+            tip: Pose::identity(),
+        };
+        let ended = normals.len() > 1 && normals[normals.len() - 1].relation.is_some();
+        if let Some(tool) = self.tool
+            && !ended
+        {
+            table.tip = tidy(&(table.tool().inverse() * tool), length);
+        }
+        let (turned, moved) = self.difference(&table);
+        Assignment {
+            table,
+            axes,
+            normals,
+            starts_at_base,
+            ends_at_tool: ended,
+            turned,
+            moved,
+        }
+    }
+
+    /// The largest angle (rad) and distance (m) between the axes and tool given and those of a
+    /// table with as many rows.
+    pub fn difference(&self, table: &Table) -> (f64, f64) {
+        let made = table.axes();
+        let mut turned = 0.0_f64;
+        let mut moved = 0.0_f64;
+        for (given, made) in self.joints.iter().zip(&made.joints) {
+            let (u, v) = (given.line.direction, made.line.direction);
+            turned = turned.max(f64::atan2(u.cross(&v).norm(), u.dot(&v)));
+            if !given.is_prismatic() {
+                moved = moved.max(made.line.distance(&given.line.point));
+            }
+        }
+        if let (Some(given), Some(made)) = (self.tool, made.tool) {
+            for (u, v) in given.rotation.0.iter().zip(&made.rotation.0) {
+                turned = turned.max(f64::atan2(u.cross(v).norm(), u.dot(v)));
+            }
+            moved = moved.max((given.position - made.position).norm());
+        }
+        (turned, moved)
+    }
+}
+
+/// The link that leads from a frame to a line along the frame's x axis: x meets the line at a right
+/// angle and not behind the origin. `None` if there is none.
+fn link(
+    x: &Vector3<f64>,
+    z: &Vector3<f64>,
+    origin: &Vector3<f64>,
+    axis: &Line,
+    length: f64,
+) -> Option<Normal> {
+    if axis.direction.dot(x).abs() > RANK_TOLERANCE {
+        return None;
+    }
+    let foot = axis.foot(origin);
+    // perpendicular to x and within the tolerance of the line
+    let a = match (foot - *origin).dot(x) {
+        a if a.abs() <= RANK_TOLERANCE * length => 0.0,
+        a => a,
+    };
+    // the point of the axis nearest to the x axis: x and the axis meet there or nowhere
+    let at = *origin + x.times(a);
+    if a < 0.0 || axis.distance(&at) > RANK_TOLERANCE * length {
+        return None;
+    }
+    let twist = angle_about(x, z, &axis.direction);
+    let parallel = z.cross(&axis.direction).norm() <= RANK_TOLERANCE;
+    let same = z.dot(&axis.direction) > 0.0;
+    let (relation, direction) = match (parallel, same, a == 0.0) {
+        (true, true, true) => (Relation::Coincident, *z),
+        (true, true, false) => (Relation::Parallel, *z),
+        (true, false, true) => (Relation::AntiCoincident, -*z),
+        (true, false, false) => (Relation::AntiParallel, -*z),
+        (false, _, true) => (Relation::Intersecting, turned(z, x, twist)),
+        (false, _, false) => (Relation::Skew, turned(z, x, twist)),
+    };
+    Some(Normal {
+        relation: Some(relation),
+        angle: twist.abs(),
+        distance: a,
+        x: *x,
+        z: [*z, direction],
+        feet: [*origin, at],
+    })
+}
+
+/// An angle in (−π, π], without rounding.
+fn wrapped(angle: f64) -> f64 {
+    use std::f64::consts::{PI, TAU};
+    let within = angle - TAU * (angle / TAU).round();
+    let within = if within < -PI + ROUNDING { within + TAU } else { within };
+    without_rounding(within, 1.0 + angle.abs())
+}
+
+/// A pose whose entries that are zero or one but for rounding are so.
+fn tidy(pose: &Pose<f64>, length: f64) -> Pose<f64> {
+    let entry = |x: f64| match x {
+        _ if (x.abs() - 1.0).abs() <= ROUNDING => x.signum(),
+        _ => without_rounding(x, 1.0),
+    };
+    Pose {
+        rotation: Rotation(pose.rotation.0.map(|column| column.map(entry))),
+        position: pose.position.map(|x| without_rounding(x, length)),
+    }
+}
