@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 
 /// The library's modules, from the one that uses no other to the one that may use all.
-const ORDER: [&str; 11] = [
+const ORDER: [&str; 12] = [
     "number",
     "linear",
     "algebra",
@@ -11,6 +11,7 @@ const ORDER: [&str; 11] = [
     "solve",
     "description",
     "mechanism",
+    "interchange",
     "system",
     "analysis",
     "scene",
