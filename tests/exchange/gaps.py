@@ -23,7 +23,9 @@ def report(job):
     mujoco.mj_forward(model, data)
     equality = [i for i in range(data.nefc) if data.efc_type[i] == mujoco.mjtConstraint.mjCNSTR_EQUALITY]
     gaps = [abs(data.efc_pos[i]) for i in equality]
-    jacobian = data.efc_J.reshape(data.nefc, model.nv)[equality] if equality else np.zeros((0, model.nv))
+    # constraints that nothing moves are left out of the rows but not of the memory
+    rows = data.efc_J[: data.nefc * model.nv].reshape(data.nefc, model.nv)
+    jacobian = rows[equality]
     values = np.linalg.svd(jacobian, compute_uv=False) if jacobian.size else np.zeros(0)
     rank = int(np.sum(values > 1e-7 * values[0])) if values.size and values[0] > 0 else 0
     apart = [0.0]
