@@ -6,11 +6,13 @@
 
 use std::collections::HashSet;
 
+mod axes;
 mod brackets;
 mod checks;
 mod expectation;
 mod lines;
 mod load;
+mod numbers;
 mod parts;
 mod piece;
 mod problem;
@@ -20,9 +22,10 @@ mod suggestion;
 mod words;
 mod write;
 
+pub use axes::*;
 pub use expectation::*;
 pub use lines::Lines;
-pub use load::{FileError, LoadError, MAX_BYTES, load};
+pub use load::{FileError, LoadError, MAX_BYTES, load, load_text};
 pub use parts::*;
 pub use problem::*;
 pub use replacement::ReplacementError;

@@ -25,9 +25,6 @@ fn revolute(point: [f64; 3], along: [f64; 3], home: f64) -> JointAxis {
     JointAxis::revolute(line(point, along), home)
 }
 
-fn prismatic(along: [f64; 3], home: f64) -> JointAxis {
-    JointAxis::prismatic(line([0.0; 3], along), home)
-}
 
 fn translation(x: f64, y: f64, z: f64) -> Pose<f64> {
     Pose::translation(Vector3([x, y, z]))

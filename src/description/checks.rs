@@ -42,6 +42,17 @@ pub(super) fn check(description: &Description, problems: &mut Vec<Problem>) {
     }
 }
 
+/// The same of a file of joint axes, as far as it differs from a mechanism's.
+pub(super) fn check_axes(description: &AxesDescription, problems: &mut Vec<Problem>) {
+    let parameters = names(Noun::Parameter, &description.parameters);
+    let joints = names(Noun::Axis, &description.joints);
+    let quantities: Vec<_> = parameters.chain(joints).collect();
+    for &(noun, name) in &quantities {
+        check_quantity(noun, name, problems);
+    }
+    check_distinct(&quantities, problems);
+}
+
 fn names<T>(noun: Noun, named: &[Named<T>]) -> impl Iterator<Item = (Noun, &Spanned<String>)> {
     named.iter().map(move |named| (noun, &named.name))
 }

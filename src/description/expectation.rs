@@ -13,6 +13,10 @@ pub enum Structure {
     Row,
     Platform,
     ClosedForm,
+    Axes,
+    RevoluteAxis,
+    PrismaticAxis,
+    SphericalCentre,
 }
 
 /// What must stand at a place of the file.
@@ -60,6 +64,18 @@ pub enum Expected {
     TransformRows,
     /// One row of a transform.
     TransformRow,
+    /// `Revolute(…)` and its like in a file of joint axes.
+    Axis,
+    /// Two points on an axis.
+    TwoPoints,
+    /// `Passive` or `Actuated`, without parentheses.
+    Role,
+    /// The name of a body.
+    Body,
+    /// The names of two bodies.
+    Bodies,
+    /// A list of joints to be cut.
+    Cuts,
 }
 
 /// What stands at a place of the file instead.
@@ -98,6 +114,10 @@ impl Structure {
             Self::Row => "Row",
             Self::Platform => "Platform",
             Self::ClosedForm => "ClosedForm",
+            Self::Axes => "Axes",
+            Self::RevoluteAxis => "Revolute",
+            Self::PrismaticAxis => "Prismatic",
+            Self::SphericalCentre => "Spherical",
         }
     }
 
@@ -117,6 +137,27 @@ impl Structure {
                 "closed_forms",
             ],
             Self::Passive | Self::Actuated => &["home", "limits"],
+            Self::Axes => &[
+                "version",
+                "name",
+                "source",
+                "convention",
+                "parameters",
+                "joints",
+                "base",
+                "tool",
+                "cut",
+            ],
+            Self::RevoluteAxis | Self::PrismaticAxis => &[
+                "point",
+                "direction",
+                "through",
+                "home",
+                "limits",
+                "role",
+                "between",
+            ],
+            Self::SphericalCentre => &["point", "between"],
             Self::Chain => &["on", "convention", "base", "rows", "tip"],
             Self::Row => &["alpha", "a", "d", "theta"],
             Self::Platform => &["home", "frames"],

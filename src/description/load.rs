@@ -63,6 +63,14 @@ pub fn load(path: impl AsRef<Path>) -> Result<(String, Description), LoadError> 
     }
 }
 
+/// Reads a file as text, whatever it describes.
+///
+/// # Errors
+/// If it cannot be read, is too large or is not text.
+pub fn load_text(path: impl AsRef<Path>) -> Result<String, LoadError> {
+    read_text(path.as_ref())
+}
+
 fn read_text(path: &Path) -> Result<String, LoadError> {
     let unreadable = |error| LoadError::Unreadable {
         path: path.to_owned(),

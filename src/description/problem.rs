@@ -2,7 +2,7 @@
 
 use std::ops::Range;
 
-use super::{Expected, Found, Structure};
+use super::{AxesProblem, Expected, Found, Structure};
 use crate::algebra::{EvaluationErrorKind, ParseErrorKind};
 
 /// Something wrong with a mechanism file.
@@ -47,6 +47,7 @@ pub enum Noun {
     Field,
     Parameter,
     Joint,
+    Axis,
     Chain,
     Platform,
     PlatformFrame,
@@ -299,6 +300,8 @@ pub enum ProblemKind {
         /// The closure.
         closure: String,
     },
+    /// Something wrong with a file of joint axes.
+    Axes(Box<AxesProblem>),
     /// A platform that no closure and no chain touches.
     UnusedPlatform {
         /// The platform.

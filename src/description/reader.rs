@@ -2,6 +2,7 @@
 //!
 //! Where something is wrong the reader notes it, puts something harmless in its place and goes on.
 
+mod axes;
 mod closed_form;
 mod leaves;
 mod shapes;
@@ -15,12 +16,39 @@ use shapes::Fields;
 
 /// The description as far as it could be read, what is wrong with the text, and the names it is wrong with.
 pub(super) fn read(text: &str) -> (Option<Description>, Vec<Problem>, HashSet<String>) {
+    let (description, reader) = read_with(text, Reader::mechanism);
+    (description, reader.problems, reader.broken)
+}
+
+/// The same of a file of joint axes.
+pub(super) fn read_axes(text: &str) -> (Option<AxesDescription>, Vec<Problem>) {
+    let (description, reader) = read_with(text, Reader::axes);
+    (description, reader.problems)
+}
+
+/// The word that a text begins with, if it is one RON value that does.
+pub(super) fn first_word(text: &str) -> Option<&str> {
+    let start = text.len() - text.strip_prefix('\u{feff}').unwrap_or(text).len();
+    let within = text.len() as u64 <= MAX_BYTES;
+    let begin = within.then(|| syntax::begin(text, start)).flatten()?;
+    match Piece::new(&text[begin..], begin).shape() {
+        Shape::Word { word, .. } => Some(word),
+        _ => None,
+    }
+}
+
+fn read_with<'a, T>(
+    text: &'a str,
+    read: impl Fn(&mut Reader, Piece<'a>) -> Option<T>,
+) -> (Option<T>, Reader) {
+    let mut reader = Reader {
+        problems: Vec::new(),
+        broken: HashSet::new(),
+    };
     if text.len() as u64 > MAX_BYTES {
-        return (
-            None,
-            vec![ProblemKind::TooLarge { bytes: text.len() }.at(0..0)],
-            HashSet::new(),
-        );
+        let problem = ProblemKind::TooLarge { bytes: text.len() }.at(0..0);
+        reader.problems.push(problem);
+        return (None, reader);
     }
     // Some editors begin a file with a byte order mark.
     let start = if text.starts_with('\u{feff}') {
@@ -28,18 +56,14 @@ pub(super) fn read(text: &str) -> (Option<Description>, Vec<Problem>, HashSet<St
     } else {
         0
     };
-    let mut reader = Reader {
-        problems: Vec::new(),
-        broken: HashSet::new(),
-    };
     let description = match syntax::check(text, start) {
-        Ok(begin) => reader.mechanism(Piece::new(&text[begin..], begin)),
+        Ok(begin) => read(&mut reader, Piece::new(&text[begin..], begin)),
         Err(problem) => {
             reader.problems.push(*problem);
             None
         }
     };
-    (description, reader.problems, reader.broken)
+    (description, reader)
 }
 
 struct Reader {
@@ -50,18 +74,8 @@ struct Reader {
 impl Reader {
     fn mechanism(&mut self, piece: Piece) -> Option<Description> {
         let mut fields = self.fields(piece, Structure::Mechanism)?;
-        if let Some(version) = self.require(&mut fields, "version") {
-            let count = self.problems.len();
-            self.version(version);
-            // A later format may differ in anything; all else would be noise.
-            if let Some(Problem {
-                kind: ProblemKind::LaterVersion(_),
-                ..
-            }) = self.problems.get(count)
-            {
-                self.problems.drain(..count);
-                return None;
-            }
+        if !self.known_version(&mut fields) {
+            return None;
         }
         let name = self
             .require(&mut fields, "name")
@@ -83,6 +97,34 @@ impl Reader {
                 Noun::ClosedForm,
                 Self::closed_form,
             ),
+        })
+    }
+
+    /// Reads the version; false if the file is for a later one.
+    fn known_version(&mut self, fields: &mut Fields) -> bool {
+        let Some(version) = self.require(fields, "version") else {
+            return true;
+        };
+        let count = self.problems.len();
+        self.version(version);
+        // A later format may differ in anything; all else would be noise.
+        let later = matches!(
+            self.problems.get(count),
+            Some(Problem {
+                kind: ProblemKind::LaterVersion(_),
+                ..
+            })
+        );
+        if later {
+            self.problems.drain(..count);
+        }
+        !later
+    }
+
+    fn limits(&mut self, fields: &mut Fields) -> Option<(Entry, Entry)> {
+        fields.take("limits").and_then(|piece| {
+            let limits = self.tuple(piece, Expected::Limits)?;
+            self.entries(limits).map(|[low, high]| (low, high))
         })
     }
 
@@ -120,10 +162,7 @@ impl Reader {
         Some(JointDescription {
             role,
             home: self.entry_or_zero(&mut fields, "home"),
-            limits: fields.take("limits").and_then(|piece| {
-                let limits = self.tuple(piece, Expected::Limits)?;
-                self.entries(limits).map(|[low, high]| (low, high))
-            }),
+            limits: self.limits(&mut fields),
             span: fields.span,
         })
     }

@@ -1,5 +1,6 @@
 //! The words for every problem: a sentence, a label for the offending text, and what to do about it.
 
+mod axes;
 mod expression;
 mod parts;
 mod syntax;
@@ -101,6 +102,7 @@ impl ProblemKind {
             NegativeLinkLength { chain, row, a } => {
                 format!("row {row} of chain `{chain}` has the negative link length {a} m")
             }
+            Axes(problem) => axes::title(problem),
             ZeroDistance { closure } => {
                 format!("the closure `{closure}` asks for a distance of zero")
             }
@@ -183,6 +185,7 @@ impl ProblemKind {
             NegativeLinkLength { .. } => "turn theta by 180 deg and change the sign of alpha, or leave it".into(),
             ZeroDistance { .. } => "two points that coincide are a `Spherical` closure".into(),
             LimitsReversed { .. } => "write the lowest value first".into(),
+            Axes(problem) => return axes::help(problem),
             DefinitionCycle { .. } => "give one of them a value of its own".into(),
             ChainCycle { .. } => "let one of them stand on `ground` and close the loop by a closure".into(),
             _ => return None,
@@ -234,7 +237,7 @@ impl Note {
 
 fn wrong_type_help(expected: Expected, found: &Found) -> Option<&'static str> {
     match (expected, found) {
-        (Expected::Convention, Found::Text) => Some("write it without quotes"),
+        (Expected::Convention | Expected::Role, Found::Text) => Some("write it without quotes"),
         (
             Expected::Text | Expected::NameOf(_) | Expected::Frame,
             Found::Word(_) | Found::Character,

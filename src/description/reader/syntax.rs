@@ -29,6 +29,12 @@ pub(super) fn check(text: &str, start: usize) -> Result<usize, Box<Problem>> {
     }
 }
 
+/// Where the value begins that the text holds from `start` on, whether or not it is well formed.
+pub(super) fn begin(text: &str, start: usize) -> Option<usize> {
+    let deserializer = ron::Deserializer::from_str(&text[start..]).ok()?;
+    Some(text.len() - deserializer.remainder().len())
+}
+
 /// What to say of an error that `ron` met at `offset`.
 fn problem(text: &str, offset: usize, error: Error) -> Problem {
     let found = text[offset..].chars().next();

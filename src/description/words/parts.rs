@@ -9,7 +9,7 @@ impl Display for Noun {
         f.write_str(match self {
             Self::Field => "a field",
             Self::Parameter => "a parameter",
-            Self::Joint => "a joint",
+            Self::Joint | Self::Axis => "a joint",
             Self::Chain => "a chain",
             Self::Platform => "a platform",
             Self::PlatformFrame => "a platform frame",
@@ -27,6 +27,10 @@ impl Display for Structure {
         f.write_str(match self {
             Self::Mechanism => "a mechanism",
             Self::Passive | Self::Actuated => "a joint",
+            Self::Axes => "a file of joint axes",
+            Self::RevoluteAxis => "a revolute joint",
+            Self::PrismaticAxis => "a prismatic joint",
+            Self::SphericalCentre => "a spherical joint",
             Self::Chain => "a chain",
             Self::Row => "a row",
             Self::Platform => "a platform",
@@ -52,6 +56,8 @@ impl Expected {
             Self::ClosureFrames("Distance") => "value",
             Self::ClosureFrames(_) => "frame",
             Self::RotationRows | Self::TransformRows => "row",
+            Self::TwoPoints => "point",
+            Self::Bodies => "body",
             _ => "entry",
         }
     }
@@ -88,6 +94,12 @@ impl Display for Expected {
             Self::RotationRow => "a row of a rotation matrix",
             Self::TransformRows => "a transform",
             Self::TransformRow => "a row of a transform",
+            Self::Axis => "`Revolute(…)`, `Prismatic(…)` or `Spherical(…)`",
+            Self::TwoPoints => "two points `((x, y, z), (x, y, z))`",
+            Self::Role => "`Passive` or `Actuated`",
+            Self::Body => "the name of a body",
+            Self::Bodies => "two bodies `(\"ground\", \"crank\")`",
+            Self::Cuts => "a list of joints",
         })
     }
 }
@@ -98,6 +110,7 @@ fn content(noun: Noun) -> &'static str {
             "a number or an expression"
         }
         Noun::Joint => "`Passive(…)` or `Actuated(…)`",
+        Noun::Axis => "`Revolute(…)`, `Prismatic(…)` or `Spherical(…)`",
         Noun::Chain => "`Chain(…)`",
         Noun::Platform => "`Platform(…)`",
         Noun::PlatformFrame => "a list of displacements",

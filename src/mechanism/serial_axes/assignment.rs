@@ -110,11 +110,17 @@ impl SerialAxes {
     /// Places the frames and reads the table off them. Any number of axes, also none.
     pub fn assign(&self, convention: Convention) -> Assignment {
         let length = self.length();
-        let mut axes = prismatic::place(self, length);
-        let first = self.first(convention, &mut axes, length);
+        let mut axes: Vec<Line> = self.joints.iter().map(|joint| joint.line).collect();
+        let start = self.base.map_or(Vector3::zero(), |base| base.position);
+        let start = prismatic::place(self, &mut axes, 0, start, length).unwrap_or(start);
+        let first = self.first(convention, &mut axes, start, length);
         let starts_at_base = first.relation.is_some();
         let mut normals = vec![first];
         for k in 0..axes.len() {
+            if !self.joints[k].is_prismatic() {
+                let (_, unmoved) = self.unmoved(k, &normals[k], &axes[k]);
+                prismatic::place(self, &mut axes, k + 1, unmoved, length);
+            }
             let normal = match axes.get(k + 1).copied() {
                 Some(_) => self.between(k, &normals[k], &mut axes, length),
                 None => self.last(convention, &normals[k], &axes[k], length),
@@ -135,7 +141,13 @@ impl SerialAxes {
 
     /// From the base to the first axis; of no relation where frame 0 is free. Then `x` and the
     /// place are what choices refer to.
-    fn first(&self, convention: Convention, axes: &mut [Line], length: f64) -> Normal {
+    fn first(
+        &self,
+        convention: Convention,
+        axes: &mut [Line],
+        start: Vector3<f64>,
+        length: f64,
+    ) -> Normal {
         let base = self.base.unwrap_or_else(Pose::identity);
         let [x, _, z] = base.rotation.0;
         let origin = base.position;
@@ -155,7 +167,7 @@ impl SerialAxes {
         }
         let y = z.cross(&x);
         let x = perpendicular(&axis.direction, [x, y]);
-        Normal::nothing(x, axis.direction, axis.foot(&origin))
+        Normal::nothing(x, axis.direction, axis.foot(&start))
     }
 
     /// Where the last normal left axis k and how x stood, moved on by the joint's own variable:

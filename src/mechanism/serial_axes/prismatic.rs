@@ -7,31 +7,25 @@
 //! 2. else on the previous axis that has a place, if it is parallel to that one;
 //! 3. else through the origin on the next axis, or behind the last revolute joint through the tool's
 //!    origin if it then meets the previous axis, or else through the origin on the previous axis.
+//!    Where that origin is free too, it is put where offsets become zero.
 //!
 //! Several prismatic joints in a row follow one another so that their offsets are zero.
 
 use super::SerialAxes;
 use crate::geometry::{Line, Vector3};
 
-/// The axes, with a place for each.
-pub(super) fn place(axes: &SerialAxes, length: f64) -> Vec<Line> {
-    let mut lines: Vec<Line> = axes.joints.iter().map(|joint| joint.line).collect();
-    let mut end = lines.len();
-    while let Some(last) = axes.joints[..end].iter().rposition(|joint| joint.is_prismatic()) {
-        let before = axes.joints[..last].iter().rposition(|joint| !joint.is_prismatic());
-        let first = before.map_or(0, |revolute| revolute + 1);
-        place_run(axes, &mut lines, first, last + 1, length);
-        end = first;
-    }
-    lines
-}
-
-fn parallel(a: &Line, b: &Line, length: f64) -> bool {
-    a.common_normal(b, length).relation.is_parallel()
-}
-
-/// Places the axes `first..end`, all prismatic, between revolute ones.
-fn place_run(axes: &SerialAxes, lines: &mut [Line], first: usize, end: usize, length: f64) {
+/// Places the run of prismatic axes that begins with index `first`, if there is one. `near` is where
+/// the axis before them is left if its own offset is zero; without one, where the base stands.
+/// Returns where the first of them starts if all offsets are to be zero and that is not `near`.
+pub(super) fn place(
+    axes: &SerialAxes,
+    lines: &mut [Line],
+    first: usize,
+    near: Vector3<f64>,
+    length: f64,
+) -> Option<Vector3<f64>> {
+    let slides = axes.joints[first..].iter();
+    let end = first + slides.take_while(|joint| joint.is_prismatic()).count();
     let (mut from, mut to) = (first, end);
     if let Some(next) = lines.get(end).copied() {
         while to > from && parallel(&lines[to - 1], &next, length) {
@@ -45,54 +39,50 @@ fn place_run(axes: &SerialAxes, lines: &mut [Line], first: usize, end: usize, le
             from += 1;
         }
     }
-    let step = |k: usize, lines: &[Line]| {
-        let joint = &axes.joints[k];
-        lines[k].direction.times(joint.slide * joint.home)
-    };
-    let start = axes.base.map_or(Vector3::zero(), |base| base.position);
-    // a defined origin of the axis: the foot of the normal that it has with the neighbour behind
-    // (`other` > k) or before it, else the point nearest to a given one
-    let origin = |k: usize, other: Option<usize>, near: Vector3<f64>, lines: &[Line]| {
-        let known = |o: usize| o < lines.len() && !axes.joints[o].is_prismatic();
-        let normal = other
-            .filter(|&o| known(o))
-            .map(|o| lines[k].common_normal(&lines[o], length));
-        match normal {
-            Some(normal) if !normal.relation.is_parallel() => normal.feet[0],
-            _ => lines[k].foot(&near),
-        }
-    };
+    let steps: Vec<Vector3<f64>> = (from..to)
+        .map(|k| lines[k].direction.times(axes.joints[k].slide * axes.joints[k].home))
+        .collect();
+    let after_first = steps.iter().skip(1).fold(Vector3::zero(), |sum, &step| sum + step);
     if end < lines.len() {
-        let near = match from.checked_sub(1) {
-            Some(k) => origin(k, k.checked_sub(1), start, lines),
-            None => start,
-        };
-        let mut point = origin(to, Some(to + 1), near, lines);
+        let whole = steps.iter().fold(near, |sum, &step| sum + step);
+        let mut point = origin(axes, lines, to, whole, length);
         for k in (from..to).rev() {
             lines[k].point = point;
-            point = point - step(k, lines);
+            point = point - steps[k - from];
         }
-        return;
+        return (from == first && from < to).then_some(point);
     }
-    let mut point = match from.checked_sub(1) {
-        None => start,
-        Some(k) => {
-            let tool = axes.tool.map(|tool| {
-                (from + 1..to).fold(tool.position, |point, k| point - step(k, lines))
-            });
-            let through_tool = tool
-                .filter(|_| from < to)
-                .and_then(|tool| Line::new(tool, lines[from].direction))
-                .map(|line| line.common_normal(&lines[k], length))
-                .filter(|normal| normal.relation.meets());
-            match through_tool {
-                Some(normal) => normal.feet[1],
-                None => origin(k, k.checked_sub(1), tool.unwrap_or(start), lines),
-            }
-        }
+    let through_tool = |line: &Line| {
+        let tool = Line::new(axes.tool?.position - after_first, lines.get(from)?.direction)?;
+        let normal = line.common_normal(&tool, length);
+        normal.relation.meets().then_some(normal.feet[0])
     };
+    let previous = from.checked_sub(1).map(|k| lines[k]);
+    let mut point = previous.as_ref().and_then(through_tool).unwrap_or(near);
     for k in from..to {
         lines[k].point = point;
-        point += step(k, lines);
+        point += steps[k - from];
+    }
+    None
+}
+
+fn parallel(a: &Line, b: &Line, length: f64) -> bool {
+    a.common_normal(b, length).relation.is_parallel()
+}
+
+/// The origin on axis k: where the normal to the axis behind it stands if that is defined, else the
+/// point nearest to a given one.
+fn origin(
+    axes: &SerialAxes,
+    lines: &[Line],
+    k: usize,
+    near: Vector3<f64>,
+    length: f64,
+) -> Vector3<f64> {
+    let behind = axes.joints.get(k + 1).filter(|joint| !joint.is_prismatic());
+    let normal = behind.map(|_| lines[k].common_normal(&lines[k + 1], length));
+    match normal {
+        Some(normal) if !normal.relation.is_parallel() => normal.feet[0],
+        _ => lines[k].foot(&near),
     }
 }

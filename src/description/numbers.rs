@@ -1,0 +1,119 @@
+//! Numbers as a person would have written them in a file.
+
+use super::{Axis, Displacement, Entry};
+use crate::algebra::{Node, Unit};
+use crate::geometry::{self, Pose};
+use crate::number::Number;
+
+/// What may be lost when a number is written shorter, beside 1.
+const ROUNDING: f64 = 4e-15;
+
+/// The number with at most twelve decimals that differs by no more than rounding, if there is one.
+fn short(value: f64) -> Option<f64> {
+    const DECIMALS: f64 = 1e12;
+    let shortened = (value * DECIMALS).round() / DECIMALS;
+    let near = (shortened - value).abs() <= ROUNDING * value.abs().max(1.0);
+    // a zero has no sign here
+    near.then_some(shortened + 0.0)
+}
+
+impl Entry {
+    /// A length in m.
+    pub fn length(metres: f64) -> Self {
+        Entry::number(short(metres).unwrap_or(metres), 0..0)
+    }
+
+    /// An angle in rad, written in degrees where that is shorter: `90 deg`.
+    pub fn angle(radians: f64) -> Self {
+        let degrees = short(radians.to_degrees())
+            .filter(|degrees| (degrees.to_radians() - radians).abs() <= ROUNDING)
+            .filter(|degrees| degrees.to_string().len() <= 12);
+        match degrees {
+            Some(0.0) => Entry::number(0.0, 0..0),
+            Some(degrees) => Entry {
+                expression: Node::Quantity(degrees, Unit::Degree).at(0..0),
+                span: 0..0,
+            },
+            None => Entry::number(radians, 0..0),
+        }
+    }
+}
+
+impl Displacement {
+    /// A pose as a list of displacements: T, then Rz, Ry and Rx, without those that do nothing.
+    pub fn of_pose(pose: &Pose<f64>) -> Vec<Displacement> {
+        let mut steps = Displacement::of_position(pose.position.0);
+        let mut left = *pose;
+        let mut turn = |axis: geometry::Axis, (sin, cos): (f64, f64), name: Axis| {
+            let angle = Number::atan2(sin, cos);
+            // what is left after each turn is measured anew, so that rounding does not add up
+            left = Pose::rotation(axis, -angle) * left;
+            let entry = Entry::angle(angle);
+            if !entry.expression.is_zero() && angle.abs() > ROUNDING {
+                steps.push(Displacement::Rotate(name, entry));
+            }
+            left.rotation.0
+        };
+        let [n, ..] = pose.rotation.0;
+        let upright = n.0[0].hypot(n.0[1]) < 1e-9;
+        let yaw = if upright { (0.0, 1.0) } else { (n.0[1], n.0[0]) };
+        let [n, ..] = turn(geometry::Axis::Z, yaw, Axis::Z);
+        let [_, s, _] = turn(geometry::Axis::Y, (-n.0[2], n.0[0]), Axis::Y);
+        turn(geometry::Axis::X, (s.0[2], s.0[1]), Axis::X);
+        steps
+    }
+
+    /// A translation in m, without what is zero.
+    pub fn of_position(position: [f64; 3]) -> Vec<Displacement> {
+        let entries = position.map(Entry::length);
+        let given = |i: &usize| !entries[*i].expression.is_zero() && position[*i].abs() > ROUNDING;
+        let parts: Vec<usize> = (0..3).filter(given).collect();
+        match parts[..] {
+            [] => Vec::new(),
+            [i] => {
+                let axis = [Axis::X, Axis::Y, Axis::Z][i];
+                vec![Displacement::Translate(axis, entries[i].clone())]
+            }
+            _ => vec![Displacement::TranslateBy(entries)],
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::geometry::Vector3;
+
+    fn shown(steps: &[Displacement]) -> Vec<String> {
+        let step = |step: &Displacement| {
+            let entries: Vec<String> = (step.entries().iter())
+                .map(|entry| entry.expression.to_string())
+                .collect();
+            format!("{}({})", step.word(), entries.join(", "))
+        };
+        steps.iter().map(step).collect()
+    }
+
+    #[test]
+    fn numbers_are_written_as_they_would_be_by_hand() {
+        let angle = |x: f64| Entry::angle(x).expression.to_string();
+        assert_eq!(angle(std::f64::consts::FRAC_PI_2), "90 deg");
+        assert_eq!(angle(-std::f64::consts::PI / 3.0), "-60 deg");
+        assert_eq!(angle(22.5_f64.to_radians()), "22.5 deg");
+        assert_eq!(angle(0.1), "0.1");
+        let length = |x: f64| Entry::length(x).expression.to_string();
+        assert_eq!(length(0.1 + 0.2), "0.3");
+        assert_eq!(length(1.0 / 3.0), "0.3333333333333333");
+        assert_eq!(length(-0.0), "0");
+    }
+
+    #[test]
+    fn a_pose_becomes_the_displacements_that_make_it() {
+        let rx = Pose::rotation(geometry::Axis::X, std::f64::consts::FRAC_PI_2);
+        let made = Pose::translation(Vector3([0.5, 0.0, 0.0])) * rx;
+        assert_eq!(shown(&Displacement::of_pose(&made)), ["Tx(0.5)", "Rx(90 deg)"]);
+        let up = Pose::rotation(geometry::Axis::Y, -std::f64::consts::FRAC_PI_2);
+        assert_eq!(shown(&Displacement::of_pose(&up)), ["Ry(-90 deg)"]);
+        assert!(Displacement::of_pose(&Pose::identity()).is_empty());
+    }
+}
