@@ -5,6 +5,7 @@ mod assemblies;
 mod check;
 mod compare;
 mod export;
+mod import;
 mod mobility;
 mod progress;
 mod search;
@@ -37,6 +38,7 @@ enum Command {
     Assemblies(assemblies::Assemblies),
     Compare(compare::Compare),
     Export(export::Export),
+    Import(import::Import),
     Mobility(mobility::Mobility),
     Velocity(velocity::Velocity),
     Statics(statics::Statics),
@@ -73,6 +75,7 @@ pub fn run() -> ExitCode {
         Command::Assemblies(assemblies) => assemblies.run(),
         Command::Compare(compare) => compare.run(),
         Command::Export(export) => export.run(),
+        Command::Import(import) => import.run(),
         Command::Mobility(mobility) => mobility.run(),
         Command::Velocity(velocity) => velocity.run(),
         Command::Statics(statics) => statics.run(),

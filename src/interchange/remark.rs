@@ -86,6 +86,33 @@ pub enum Remark {
     },
     /// Masses and the like, which the mechanism does not have.
     MassesInvented,
+    /// Elements of a file that linkwork has no use for.
+    Ignored {
+        /// Their name.
+        element: String,
+        /// How many there are.
+        count: usize,
+    },
+    /// How it was decided which joints are actuated.
+    Driven(&'static str),
+    /// Two links that look like the two sides of a broken joint.
+    Halves([String; 2]),
+    /// A constraint of a file that is not active.
+    Inactive {
+        /// Its name.
+        name: String,
+    },
+    /// A name that a mechanism file cannot use.
+    Renamed {
+        /// What bears it.
+        noun: &'static str,
+        /// The name in the file.
+        from: String,
+        /// The name given instead.
+        to: String,
+    },
+    /// Where the home values come from.
+    Home(String),
 }
 
 impl Remark {
@@ -97,6 +124,7 @@ impl Remark {
                 | Self::LengthLost { .. }
                 | Self::Floating { .. }
                 | Self::Unused { .. }
+                | Self::Halves(_)
         )
     }
 }
@@ -165,6 +193,21 @@ impl Display for Remark {
             Remark::MassesInvented => f.write_str(
                 "masses, inertias, efforts and shapes are made up: the mechanism file has none",
             ),
+            Remark::Ignored { element, count } => {
+                write!(f, "{} ignored: `{element}`", crate::description::count(*count, "element"))
+            }
+            Remark::Driven(rule) => f.write_str(rule),
+            Remark::Halves([a, b]) => write!(
+                f,
+                "links `{a}` and `{b}` look like the two sides of a broken joint: close it with --loops"
+            ),
+            Remark::Inactive { name } => {
+                write!(f, "constraint `{name}` is left out: it is not active")
+            }
+            Remark::Renamed { noun, from, to } => {
+                write!(f, "{noun} `{from}` is called `{to}`: names of frames have no dots, those of joints only letters, digits and `_`")
+            }
+            Remark::Home(text) => f.write_str(text),
         }
     }
 }

@@ -11,7 +11,7 @@
 //! | Prismatic, Cylindrical, Planar | a body on A that slides and turns as the joint allows, and a `weld` of it to B |
 //! | Distance | a `tendon` of that length; a joint in the length is a second, fixed tendon |
 
-use super::xml::{Xml, numbers, place, vector};
+use crate::interchange::xml::{Xml, numbers, place, vector};
 use crate::description::ClosureKind;
 use crate::geometry::{Pose, Quaternion, Vector3};
 use crate::interchange::remark::Remark;
