@@ -25,7 +25,6 @@ mod write;
 pub use axes::*;
 pub use expectation::*;
 pub use lines::Lines;
-pub(crate) use load::read_text;
 pub use load::{FileError, LoadError, MAX_BYTES, load, load_text};
 pub use parts::*;
 pub use problem::*;

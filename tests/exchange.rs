@@ -68,7 +68,10 @@ fn ask(python: &Path, script: &str, question: &Value) -> Value {
 
 /// Where every frame of a mechanism is.
 fn places(mechanism: &Mechanism, at: &Configuration<f64>) -> BTreeMap<String, [f64; 3]> {
-    let names = mechanism.frames().into_iter().map(|frame| mechanism.frame_name(frame));
+    let names = mechanism
+        .frames()
+        .into_iter()
+        .map(|frame| mechanism.frame_name(frame));
     names
         .map(|name| {
             let place = mechanism.pose(&name, at).unwrap().position.0;
@@ -111,6 +114,9 @@ fn mujoco_finds_every_exported_mechanism_assembled_and_as_free_as_it_is() {
             assert!(nudged["gap"].as_f64().unwrap() > 1e-5, "{name}: {nudged}");
             assert!(number("constraints") > 0.0);
         }
-        assert!(nudged["sites"].as_f64().unwrap() > 1e-6 || mechanism.frames().len() < 3, "{name}: {nudged}");
+        assert!(
+            nudged["sites"].as_f64().unwrap() > 1e-6 || mechanism.frames().len() < 3,
+            "{name}: {nudged}"
+        );
     }
 }

@@ -25,7 +25,6 @@ fn revolute(point: [f64; 3], along: [f64; 3], home: f64) -> JointAxis {
     JointAxis::revolute(line(point, along), home)
 }
 
-
 fn translation(x: f64, y: f64, z: f64) -> Pose<f64> {
     Pose::translation(Vector3([x, y, z]))
 }
@@ -33,12 +32,7 @@ fn translation(x: f64, y: f64, z: f64) -> Pose<f64> {
 /// α, a, d, θ in degrees and metres.
 fn rows(table: &Table) -> Vec<[f64; 4]> {
     let row = |row: &linkwork::mechanism::TableRow| {
-        [
-            row.alpha.to_degrees(),
-            row.a,
-            row.d,
-            row.theta.to_degrees(),
-        ]
+        [row.alpha.to_degrees(), row.a, row.d, row.theta.to_degrees()]
     };
     table.rows.iter().map(row).collect()
 }

@@ -17,7 +17,9 @@ use super::{Answer, Refusal};
 /// gets the loops as equality constraints and the assembled configuration as the keyframe `home`; URDF knows no loops
 /// and gets the tree. What a format cannot say, or says another way, is named on stderr.
 #[derive(Args)]
-#[command(after_help = "Example: linkwork export mechanisms/four_bar.ron --to mjcf --output four_bar.xml")]
+#[command(
+    after_help = "Example: linkwork export mechanisms/four_bar.ron --to mjcf --output four_bar.xml"
+)]
 pub struct Export {
     #[command(flatten)]
     source: Source,

@@ -16,7 +16,9 @@ use super::{Answer, Refusal, style};
 /// shared variables, constraints `connect` and `weld` and the loop elements that programs add to URDF closures. What is
 /// left out or decided is said on stderr.
 #[derive(Args)]
-#[command(after_help = "Example: linkwork import robot.urdf --loops loops.ron --frame tool0 > robot.ron")]
+#[command(
+    after_help = "Example: linkwork import robot.urdf --loops loops.ron --frame tool0 > robot.ron"
+)]
 pub struct Import {
     /// The URDF or MJCF file
     file: PathBuf,
@@ -76,11 +78,17 @@ impl Import {
                 (Some(path), Some((text, _))) => (path.clone(), text),
                 _ => (self.file.clone(), String::new()),
             };
-            let error = FileError { path, text, problems };
+            let error = FileError {
+                path,
+                text,
+                problems,
+            };
             return Err(Refusal(diagnostics::render(&error, style())));
         }
         let text = imported.description.to_ron();
-        let text = text.map_err(|error| Refusal(format!("error: the mechanism cannot be written: {error}\n")))?;
+        let text = text.map_err(|error| {
+            Refusal(format!("error: the mechanism cannot be written: {error}\n"))
+        })?;
         let remarks = imported.remarks.iter().map(|remark| {
             let word = if remark.is_loss() { "warning" } else { "note" };
             format!("{word}: {remark}\n")
@@ -89,8 +97,9 @@ impl Import {
         let data = match &self.output {
             None => text,
             Some(path) => {
-                std::fs::write(path, text)
-                    .map_err(|error| Refusal(format!("error: cannot write {}: {error}\n", path.display())))?;
+                std::fs::write(path, text).map_err(|error| {
+                    Refusal(format!("error: cannot write {}: {error}\n", path.display()))
+                })?;
                 String::new()
             }
         };

@@ -2,9 +2,7 @@
 
 use std::ops::Range;
 
-use super::{
-    Convention, Displacement, Entry, Named, Problem, Role, Spanned, reader,
-};
+use super::{Convention, Displacement, Entry, Named, Problem, Role, Spanned, reader};
 
 /// A whole file of joint axes. Everything is in the order of the file.
 #[derive(Debug, Clone, PartialEq)]

@@ -71,8 +71,7 @@ pub fn load_text(path: impl AsRef<Path>) -> Result<String, LoadError> {
     read_text(path.as_ref())
 }
 
-/// The text of a file, if it is text and not too large.
-pub(crate) fn read_text(path: &Path) -> Result<String, LoadError> {
+fn read_text(path: &Path) -> Result<String, LoadError> {
     let unreadable = |error| LoadError::Unreadable {
         path: path.to_owned(),
         error,

@@ -56,7 +56,11 @@ impl Displacement {
         };
         let [n, ..] = pose.rotation.0;
         let upright = n.0[0].hypot(n.0[1]) < 1e-9;
-        let yaw = if upright { (0.0, 1.0) } else { (n.0[1], n.0[0]) };
+        let yaw = if upright {
+            (0.0, 1.0)
+        } else {
+            (n.0[1], n.0[0])
+        };
         let [n, ..] = turn(geometry::Axis::Z, yaw, Axis::Z);
         let [_, s, _] = turn(geometry::Axis::Y, (-n.0[2], n.0[0]), Axis::Y);
         turn(geometry::Axis::X, (s.0[2], s.0[1]), Axis::X);
@@ -111,7 +115,10 @@ mod tests {
     fn a_pose_becomes_the_displacements_that_make_it() {
         let rx = Pose::rotation(geometry::Axis::X, std::f64::consts::FRAC_PI_2);
         let made = Pose::translation(Vector3([0.5, 0.0, 0.0])) * rx;
-        assert_eq!(shown(&Displacement::of_pose(&made)), ["Tx(0.5)", "Rx(90 deg)"]);
+        assert_eq!(
+            shown(&Displacement::of_pose(&made)),
+            ["Tx(0.5)", "Rx(90 deg)"]
+        );
         let up = Pose::rotation(geometry::Axis::Y, -std::f64::consts::FRAC_PI_2);
         assert_eq!(shown(&Displacement::of_pose(&up)), ["Ry(-90 deg)"]);
         assert!(Displacement::of_pose(&Pose::identity()).is_empty());

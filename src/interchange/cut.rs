@@ -55,9 +55,7 @@ pub fn tree_of(mechanism: &Mechanism, at: &Configuration<f64>) -> (Tree, Vec<Rem
         .chain(followers(mechanism, &tree.couplings));
     let remarks = remarks.collect();
     tree.bodies.iter_mut().for_each(|body| {
-        body.joints
-            .iter_mut()
-            .for_each(|joint| joint.home += 0.0);
+        body.joints.iter_mut().for_each(|joint| joint.home += 0.0);
     });
     (tree, remarks)
 }
@@ -71,7 +69,11 @@ fn within_limits(mechanism: &Mechanism, at: &Configuration<f64>) -> Vec<f64> {
             Some((low, high)) if !(low..=high).contains(&value) && mechanism.repeats(i) => {
                 // as near to the lower limit as whole turns allow, but for rounding
                 let first = value + turn * ((low - 1e-9 - value) / turn).ceil();
-                if first <= high + 1e-9 { first.clamp(low, high) } else { value }
+                if first <= high + 1e-9 {
+                    first.clamp(low, high)
+                } else {
+                    value
+                }
             }
             _ => value,
         }

@@ -9,7 +9,9 @@ use super::remark::Remark;
 use super::tree::Tree;
 use super::unroll::{Unrolled, describe};
 use super::urdf;
-use crate::description::{ChainDescription, Convention, Description, LoadError, nearest, read_text};
+use crate::description::{
+    ChainDescription, Convention, Description, LoadError, load_text, nearest,
+};
 
 /// How a file is read.
 #[derive(Clone, Debug, PartialEq)]
@@ -72,7 +74,10 @@ impl ImportError {
                 let (line, column) = crate::description::Lines::new(text).position(span.start);
                 format!("{line}:{column}: ")
             });
-            let help = problem.kind.help().map_or(String::new(), |help| format!(" ({help})"));
+            let help = problem
+                .kind
+                .help()
+                .map_or(String::new(), |help| format!(" ({help})"));
             let separator = if place.is_empty() { ": " } else { ":" };
             format!("{name}{separator}{place}{}{help}", problem.kind.title())
         };
@@ -95,10 +100,14 @@ impl std::error::Error for ImportError {}
 ///
 /// # Errors
 /// If a file cannot be read, or with what is wrong with it.
-pub fn load(path: &Path, loops: Option<&Description>, settings: &ImportSettings) -> Result<Imported, ImportError> {
-    let text = read_text(path).map_err(ImportError::Unreadable)?;
+pub fn load(
+    path: &Path,
+    loops: Option<&Description>,
+    settings: &ImportSettings,
+) -> Result<Imported, ImportError> {
+    let text = load_text(path).map_err(ImportError::Unreadable)?;
     let folder = path.parent().map(Path::to_owned).unwrap_or_default();
-    let files = |name: &str| match read_text(&folder.join(name)) {
+    let files = |name: &str| match load_text(folder.join(name)) {
         Ok(text) => Ok(text),
         Err(LoadError::Unreadable { error, .. }) => Err(error.to_string()),
         Err(other) => Err(other.to_string()),
@@ -122,7 +131,12 @@ pub fn import(
         files: vec![(name.to_owned(), text.to_owned())],
         problems: vec![(0, problem)],
     };
-    let element = super::page::document(text).map_err(whole)?.root_element().tag_name().name().to_owned();
+    let element = super::page::document(text)
+        .map_err(whole)?
+        .root_element()
+        .tag_name()
+        .name()
+        .to_owned();
     let ((tree, mut remarks), own) = match element.as_str() {
         "robot" => {
             let read = urdf::read(text).map_err(|problems| WrongFile {
@@ -132,10 +146,11 @@ pub fn import(
             (read, None)
         }
         "mujoco" => {
-            let spliced = mjcf::splice(name, text, files).map_err(|(files, file, problem)| WrongFile {
-                files,
-                problems: vec![(file, problem)],
-            })?;
+            let spliced =
+                mjcf::splice(name, text, files).map_err(|(files, file, problem)| WrongFile {
+                    files,
+                    problems: vec![(file, problem)],
+                })?;
             let read = mjcf::read(&spliced.text).map_err(|problems| {
                 let located = problems.into_iter().map(|problem| match &problem.span {
                     None => (0, problem),
@@ -161,8 +176,15 @@ pub fn import(
     };
     drop(own);
     let asked = asked(&tree, loops, settings).map_err(|kind| whole(kind.anywhere()))?;
-    let source = Path::new(name).file_name().map_or(name.to_owned(), |name| name.to_string_lossy().into_owned());
-    let unrolled = describe(&tree, settings.convention, &asked, format!("imported from {source}"));
+    let source = Path::new(name)
+        .file_name()
+        .map_or(name.to_owned(), |name| name.to_string_lossy().into_owned());
+    let unrolled = describe(
+        &tree,
+        settings.convention,
+        &asked,
+        format!("imported from {source}"),
+    );
     let Unrolled {
         mut description,
         remarks: more,
@@ -170,7 +192,9 @@ pub fn import(
     } = unrolled.map_err(|kind| whole(kind.anywhere()))?;
     remarks.extend(more);
     if let Some(loops) = loops {
-        let references = references.iter().map(|(name, reference)| (fit(name), reference.clone()));
+        let references = references
+            .iter()
+            .map(|(name, reference)| (fit(name), reference.clone()));
         add(&mut description, loops, &references.collect::<Vec<_>>());
     }
     Ok(Imported {
@@ -180,8 +204,17 @@ pub fn import(
 }
 
 /// The frames of the tree that must keep their names.
-fn asked(tree: &Tree, loops: Option<&Description>, settings: &ImportSettings) -> Result<Vec<String>, ImportProblemKind> {
-    let known: Vec<&String> = tree.bodies.iter().flat_map(|body| &body.frames).map(|(name, _)| name).collect();
+fn asked(
+    tree: &Tree,
+    loops: Option<&Description>,
+    settings: &ImportSettings,
+) -> Result<Vec<String>, ImportProblemKind> {
+    let known: Vec<&String> = tree
+        .bodies
+        .iter()
+        .flat_map(|body| &body.frames)
+        .map(|(name, _)| name)
+        .collect();
     if settings.all_frames {
         return Ok(known.into_iter().cloned().collect());
     }
@@ -198,8 +231,14 @@ fn asked(tree: &Tree, loops: Option<&Description>, settings: &ImportSettings) ->
         asked.push(name.clone());
     }
     if let Some(loops) = loops {
-        let stands = loops.chains.iter().filter_map(|chain| chain.value.on.as_ref());
-        let joined = loops.closures.iter().flat_map(|closure| &closure.value.frames);
+        let stands = loops
+            .chains
+            .iter()
+            .filter_map(|chain| chain.value.on.as_ref());
+        let joined = loops
+            .closures
+            .iter()
+            .flat_map(|closure| &closure.value.frames);
         for name in stands.chain(joined) {
             let meant = known.iter().filter(|known| fit(known) == name.value);
             asked.extend(meant.map(|name| (*name).clone()));
@@ -216,7 +255,10 @@ fn add(description: &mut Description, loops: &Description, references: &[(String
         }
     };
     for joint in &loops.joints {
-        let own = description.joints.iter_mut().find(|own| own.name == joint.name);
+        let own = description
+            .joints
+            .iter_mut()
+            .find(|own| own.name == joint.name);
         match own {
             Some(own) => {
                 let limits = own.value.limits.take();
@@ -236,12 +278,22 @@ fn add(description: &mut Description, loops: &Description, references: &[(String
         chain.value.convention = chain.value.convention.or(convention.clone());
         description.chains.push(chain);
     }
-    description.platforms.extend(loops.platforms.iter().cloned());
+    description
+        .platforms
+        .extend(loops.platforms.iter().cloned());
     for closure in &loops.closures {
         let mut closure = closure.clone();
-        closure.value.frames.iter_mut().for_each(|name| frame(&mut name.value));
+        closure
+            .value
+            .frames
+            .iter_mut()
+            .for_each(|name| frame(&mut name.value));
         description.closures.push(closure);
     }
-    description.parameters.extend(loops.parameters.iter().cloned());
-    description.closed_forms.extend(loops.closed_forms.iter().cloned());
+    description
+        .parameters
+        .extend(loops.parameters.iter().cloned());
+    description
+        .closed_forms
+        .extend(loops.closed_forms.iter().cloned());
 }

@@ -21,7 +21,13 @@ pub(super) struct Names {
 impl Names {
     /// A name for a joint variable: letters, digits and underscores.
     pub fn variable(&mut self, wanted: &str) -> String {
-        let fit = |c: char| if c.is_alphanumeric() || c == '_' { c } else { '_' };
+        let fit = |c: char| {
+            if c.is_alphanumeric() || c == '_' {
+                c
+            } else {
+                '_'
+            }
+        };
         let mut name: String = wanted.chars().map(fit).collect();
         if !is_name(&name) || is_reserved(&name) {
             name = format!("q_{name}");
@@ -69,20 +75,27 @@ impl Names {
 
     fn note(&mut self, noun: &'static str, wanted: &str, name: &str) {
         if wanted != name {
-            self.renamed.push((noun, wanted.to_owned(), name.to_owned()));
+            self.renamed
+                .push((noun, wanted.to_owned(), name.to_owned()));
         }
     }
 
     /// What had to be called otherwise.
     pub fn renamed(self) -> Vec<Remark> {
         let renamed = self.renamed.into_iter();
-        renamed.map(|(noun, from, to)| Remark::Renamed { noun, from, to }).collect()
+        renamed
+            .map(|(noun, from, to)| Remark::Renamed { noun, from, to })
+            .collect()
     }
 }
 
 /// What a chain, platform or frame may be called instead of `wanted`.
 pub(super) fn fit(wanted: &str) -> String {
-    let name: String = wanted.trim().chars().map(|c| if c == '.' { '_' } else { c }).collect();
+    let name: String = wanted
+        .trim()
+        .chars()
+        .map(|c| if c == '.' { '_' } else { c })
+        .collect();
     match name.as_str() {
         "" => "frame".into(),
         GROUND => format!("{GROUND}_"),

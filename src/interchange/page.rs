@@ -82,14 +82,24 @@ fn tag_end(bytes: &[u8], start: usize) -> usize {
 }
 
 fn next_char(text: &str, start: usize) -> usize {
-    text[start..].chars().next().map_or(start, |c| start + c.len_utf8())
+    text[start..]
+        .chars()
+        .next()
+        .map_or(start, |c| start + c.len_utf8())
 }
 
 /// The byte at a row and a column, both from 1; columns count characters.
 fn offset(text: &str, row: usize, column: usize) -> usize {
-    let line = text.split_inclusive('\n').take(row.saturating_sub(1)).map(str::len).sum::<usize>();
+    let line = text
+        .split_inclusive('\n')
+        .take(row.saturating_sub(1))
+        .map(str::len)
+        .sum::<usize>();
     let rest = &text[line.min(text.len())..];
-    let within = rest.char_indices().nth(column.saturating_sub(1)).map_or(rest.len(), |(i, _)| i);
+    let within = rest
+        .char_indices()
+        .nth(column.saturating_sub(1))
+        .map_or(rest.len(), |(i, _)| i);
     (line + within).min(text.len())
 }
 
@@ -115,7 +125,9 @@ fn value_span(node: Node, name: &str) -> Range<usize> {
 /// The elements in an element, of a name.
 pub(super) fn children<'a, 'i>(node: Node<'a, 'i>, name: &str) -> Vec<Node<'a, 'i>> {
     let elements = node.children().filter(|child| child.is_element());
-    elements.filter(|child| child.tag_name().name() == name).collect()
+    elements
+        .filter(|child| child.tag_name().name() == name)
+        .collect()
 }
 
 /// The first of them.
@@ -166,7 +178,8 @@ impl Problems {
 
     pub fn not_numbers(&mut self, text: &str, count: usize, span: Range<usize>) {
         let text = text.chars().take(40).collect();
-        self.0.push(ImportProblemKind::NotNumbers { text, count }.at(span));
+        self.0
+            .push(ImportProblemKind::NotNumbers { text, count }.at(span));
     }
 
     /// One number of an attribute; it may be infinite.
@@ -187,7 +200,12 @@ impl Problems {
     }
 
     /// The word of an attribute that must be one of those known.
-    pub fn word<'a>(&mut self, node: Node<'a, '_>, name: &str, known: &'static [&'static str]) -> Option<&'a str> {
+    pub fn word<'a>(
+        &mut self,
+        node: Node<'a, '_>,
+        name: &str,
+        known: &'static [&'static str],
+    ) -> Option<&'a str> {
         let word = self.needed(node, name)?;
         if known.contains(&word) {
             return Some(word);
@@ -201,7 +219,14 @@ impl Problems {
     }
 
     /// A name that nothing bears, in an attribute.
-    pub fn unknown(&mut self, node: Node, attribute: &str, noun: &'static str, name: &str, known: &[String]) {
+    pub fn unknown(
+        &mut self,
+        node: Node,
+        attribute: &str,
+        noun: &'static str,
+        name: &str,
+        known: &[String],
+    ) {
         let suggestion = nearest(name, known.iter().map(String::as_str)).map(str::to_owned);
         let problem = ImportProblemKind::Unknown {
             noun,
@@ -214,7 +239,9 @@ impl Problems {
 
 /// As many finite numbers as asked for.
 pub(super) fn parse<const N: usize>(text: &str) -> Option<[f64; N]> {
-    let numbers = text.split_whitespace().map(|word| word.parse::<f64>().ok().filter(|x| x.is_finite()));
+    let numbers = text
+        .split_whitespace()
+        .map(|word| word.parse::<f64>().ok().filter(|x| x.is_finite()));
     let numbers: Vec<f64> = numbers.collect::<Option<_>>()?;
     numbers.try_into().ok()
 }

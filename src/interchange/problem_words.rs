@@ -8,7 +8,9 @@ impl ImportProblemKind {
     pub fn title(&self) -> String {
         match self {
             Self::Syntax { message } => format!("this is not XML: {message}"),
-            Self::TooDeep { most } => format!("elements stand more than {most} levels deep in one another"),
+            Self::TooDeep { most } => {
+                format!("elements stand more than {most} levels deep in one another")
+            }
             Self::NotThisFormat { found, expected } => {
                 format!("the outermost element is `{found}`, not {}", or(expected))
             }
@@ -22,7 +24,10 @@ impl ImportProblemKind {
             Self::Unknown { noun, name, .. } => format!("there is no {noun} `{name}`"),
             Self::NoAxis { joint } => format!("the axis of joint `{joint}` has no direction"),
             Self::NoOrientation { text } => format!("`{text}` gives no orientation"),
-            Self::TwoParents { link, joints: [a, b] } => {
+            Self::TwoParents {
+                link,
+                joints: [a, b],
+            } => {
                 format!("joints `{a}` and `{b}` both lead to link `{link}`")
             }
             Self::NoRoot { links } => format!(
@@ -93,7 +98,11 @@ impl ImportProblemKind {
 
 fn quoted(names: &[String]) -> String {
     const MOST: usize = 8;
-    let mut shown: Vec<String> = names.iter().take(MOST).map(|name| format!("`{name}`")).collect();
+    let mut shown: Vec<String> = names
+        .iter()
+        .take(MOST)
+        .map(|name| format!("`{name}`"))
+        .collect();
     if names.len() > MOST {
         shown.push(format!("{} more", names.len() - MOST));
     }

@@ -164,7 +164,11 @@ impl Display for Remark {
                 follow(followers)
             ),
             Remark::Shared { joint, followers } => {
-                write!(f, "joint `{joint}` moves several rows: {}", follow(followers))
+                write!(
+                    f,
+                    "joint `{joint}` moves several rows: {}",
+                    follow(followers)
+                )
             }
             Remark::Carried { joint, body } => write!(
                 f,
@@ -194,7 +198,11 @@ impl Display for Remark {
                 "masses, inertias, efforts and shapes are made up: the mechanism file has none",
             ),
             Remark::Ignored { element, count } => {
-                write!(f, "{} ignored: `{element}`", crate::description::count(*count, "element"))
+                write!(
+                    f,
+                    "{} ignored: `{element}`",
+                    crate::description::count(*count, "element")
+                )
             }
             Remark::Driven(rule) => f.write_str(rule),
             Remark::Halves([a, b]) => write!(
@@ -205,7 +213,10 @@ impl Display for Remark {
                 write!(f, "constraint `{name}` is left out: it is not active")
             }
             Remark::Renamed { noun, from, to } => {
-                write!(f, "{noun} `{from}` is called `{to}`: names of frames have no dots, those of joints only letters, digits and `_`")
+                write!(
+                    f,
+                    "{noun} `{from}` is called `{to}`: names of frames have no dots, those of joints only letters, digits and `_`"
+                )
             }
             Remark::Home(text) => f.write_str(text),
         }
@@ -218,6 +229,10 @@ fn quoted(names: &[String]) -> String {
 }
 
 fn follow(followers: &[String]) -> String {
-    let verb = if followers.len() == 1 { "follows" } else { "follow" };
+    let verb = if followers.len() == 1 {
+        "follows"
+    } else {
+        "follow"
+    };
     format!("{} {verb} it", quoted(followers))
 }

@@ -163,7 +163,10 @@ impl Tree {
             let parent = body.parent.map_or(Pose::identity(), |parent| poses[parent]);
             poses.push(body.home.unwrap_or_else(|| {
                 let joints = body.joints.iter();
-                parent * joints.fold(body.pose, |pose, joint| pose * joint.displacement(joint.home))
+                parent
+                    * joints.fold(body.pose, |pose, joint| {
+                        pose * joint.displacement(joint.home)
+                    })
             }));
         }
         poses

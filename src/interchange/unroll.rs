@@ -14,8 +14,8 @@ use super::remark::Remark;
 use super::tree::{Attachment, Body, Coupling, Extent, Joint, Loop, Motion, Tree};
 use crate::algebra::Expression;
 use crate::description::{
-    ChainDescription, ClosureDescription, ClosureKind, Convention, Description, Displacement, Entry, GROUND,
-    JointDescription, Named, PlatformDescription, Role, Row, Spanned,
+    ChainDescription, ClosureDescription, ClosureKind, Convention, Description, Displacement,
+    Entry, GROUND, JointDescription, Named, PlatformDescription, Role, Row, Spanned,
 };
 use crate::geometry::{Line, Pose};
 use crate::mechanism::{JointAxis, SerialAxes, Table};
@@ -29,7 +29,12 @@ pub(super) struct Unrolled {
 }
 
 /// The description of a tree, in which the frames of the given names can be found.
-pub(super) fn describe(tree: &Tree, convention: Convention, asked: &[String], source: String) -> Result<Unrolled, ImportProblemKind> {
+pub(super) fn describe(
+    tree: &Tree,
+    convention: Convention,
+    asked: &[String],
+    source: String,
+) -> Result<Unrolled, ImportProblemKind> {
     let mut unroller = Unroller {
         tree,
         convention,
@@ -48,7 +53,10 @@ pub(super) fn describe(tree: &Tree, convention: Convention, asked: &[String], so
     let platforms = unroller.platforms();
     unroller.chains();
     let (platforms, closures) = unroller.closures(platforms)?;
-    let moves = unroller.chains.iter().any(|chain| !chain.value.rows.is_empty());
+    let moves = unroller
+        .chains
+        .iter()
+        .any(|chain| !chain.value.rows.is_empty());
     if !moves && platforms.is_empty() {
         return Err(ImportProblemKind::NothingMoves);
     }
@@ -75,7 +83,9 @@ fn carriers(tree: &Tree) -> Vec<(usize, Pose<f64>)> {
     let mut carriers: Vec<(usize, Pose<f64>)> = Vec::with_capacity(tree.bodies.len());
     for (i, body) in tree.bodies.iter().enumerate() {
         carriers.push(match body.parent {
-            Some(parent) if body.joints.is_empty() => (carriers[parent].0, carriers[parent].1 * body.pose),
+            Some(parent) if body.joints.is_empty() => {
+                (carriers[parent].0, carriers[parent].1 * body.pose)
+            }
             _ => (i, Pose::identity()),
         });
     }
@@ -245,8 +255,12 @@ impl Unroller<'_> {
         // the last of the parts fixed to the link, where there is one that none hangs on
         let fixed = (last + 1..self.tree.bodies.len()).filter(|&i| self.carriers[i].0 == last);
         let fixed: Vec<usize> = fixed.collect();
-        let hung: HashSet<Option<usize>> = self.tree.bodies.iter().map(|body| body.parent).collect();
-        let end = fixed.into_iter().find(|i| !hung.contains(&Some(*i))).unwrap_or(last);
+        let hung: HashSet<Option<usize>> =
+            self.tree.bodies.iter().map(|body| body.parent).collect();
+        let end = fixed
+            .into_iter()
+            .find(|i| !hung.contains(&Some(*i)))
+            .unwrap_or(last);
         (self.tree.bodies[end].name.clone(), self.carriers[end].1)
     }
 
@@ -313,7 +327,9 @@ impl Unroller<'_> {
     }
 
     fn rows(&self, links: &[usize], table: &Table) -> Vec<Row> {
-        let joints = links.iter().flat_map(|&link| &self.tree.bodies[link].joints);
+        let joints = links
+            .iter()
+            .flat_map(|&link| &self.tree.bodies[link].joints);
         let rows = joints.zip(&table.rows).map(|(joint, row)| Row {
             alpha: Entry::angle(row.alpha),
             a: Entry::length(row.a),
@@ -325,12 +341,21 @@ impl Unroller<'_> {
     }
 
     /// constant + coefficient · joint, where a joint that follows is what it follows.
-    fn affine(&self, entry: fn(f64) -> Entry, constant: f64, coefficient: f64, joint: &Joint) -> Entry {
+    fn affine(
+        &self,
+        entry: fn(f64) -> Entry,
+        constant: f64,
+        coefficient: f64,
+        joint: &Joint,
+    ) -> Entry {
         if coefficient == 0.0 {
             return entry(constant);
         }
         match self.leaders.get(&joint.name) {
-            None => sum(entry(constant), &[(self.variables[&joint.name].clone(), coefficient)]),
+            None => sum(
+                entry(constant),
+                &[(self.variables[&joint.name].clone(), coefficient)],
+            ),
             Some(coupling) => {
                 let constant = constant + coefficient * coupling.offset;
                 let terms = self.variables.get(&coupling.leader);
@@ -365,7 +390,10 @@ impl Unroller<'_> {
             let steps = Displacement::of_pose(pose);
             let frames = &mut platform.value.frames;
             // frames of the same name are the same frame
-            let own = wanted.strip_prefix(&format!("{owner}.")).unwrap_or(wanted).to_owned();
+            let own = wanted
+                .strip_prefix(&format!("{owner}."))
+                .unwrap_or(wanted)
+                .to_owned();
             if !frames.iter().any(|frame| frame.name.value == own) {
                 frames.push(named(own.clone(), steps));
             }
@@ -376,7 +404,9 @@ impl Unroller<'_> {
             Some(Placed { chain, row, frame }) => {
                 let part = &self.chains[*chain];
                 let at = frame.inverse() * self.zero[carrier] * *pose;
-                if self.names.of_frame(wanted) == Some(&part.name.value) && *row == part.value.rows.len() {
+                if self.names.of_frame(wanted) == Some(&part.name.value)
+                    && *row == part.value.rows.len()
+                {
                     return part.name.value.clone();
                 }
                 (format!("{}.{row}", part.name.value), at)
@@ -403,7 +433,13 @@ impl Unroller<'_> {
     fn closures(
         &mut self,
         mut platforms: Vec<(usize, Named<PlatformDescription>)>,
-    ) -> Result<(Vec<Named<PlatformDescription>>, Vec<Named<ClosureDescription>>), ImportProblemKind> {
+    ) -> Result<
+        (
+            Vec<Named<PlatformDescription>>,
+            Vec<Named<ClosureDescription>>,
+        ),
+        ImportProblemKind,
+    > {
         for (name, carrier, pose) in self.needs.clone() {
             let reference = self.frame_on(&name, carrier, &pose, &mut platforms);
             self.references.push((name, reference));
@@ -420,7 +456,9 @@ impl Unroller<'_> {
             named(name.to_owned(), closure)
         };
         for (i, body) in tree.bodies.iter().enumerate() {
-            let Some(ball) = floats(body).filter(|joint| joint.motion == Motion::Ball) else { continue };
+            let Some(ball) = floats(body).filter(|joint| joint.motion == Motion::Ball) else {
+                continue;
+            };
             let point = Pose::translation(ball.point);
             let sides = [(body.parent.unwrap_or(0), body.pose * point), (i, point)];
             let frames = [0, 1].map(|side| Attachment {
@@ -431,12 +469,21 @@ impl Unroller<'_> {
             let frames = [&frames[0], &frames[1]].map(|side| self.frame(side, &mut platforms));
             closures.push(joint(&ball.name, ClosureKind::Spherical, frames, None));
         }
-        for Loop { name, kind, sides, length } in &tree.loops {
+        for Loop {
+            name,
+            kind,
+            sides,
+            length,
+        } in &tree.loops
+        {
             let frames = [&sides[0], &sides[1]].map(|side| self.frame(side, &mut platforms));
             let length = length.as_ref().map(|length| self.length(length));
             closures.push(joint(name, *kind, frames, length));
         }
-        let platforms = platforms.into_iter().map(|(_, platform)| platform).collect();
+        let platforms = platforms
+            .into_iter()
+            .map(|(_, platform)| platform)
+            .collect();
         Ok((platforms, closures))
     }
 
@@ -461,12 +508,18 @@ impl Unroller<'_> {
         let mut joints = Vec::new();
         let all = || self.tree.bodies.iter().flat_map(|body| &body.joints);
         for joint in all() {
-            let Some(variable) = self.variables.get(&joint.name) else { continue };
+            let Some(variable) = self.variables.get(&joint.name) else {
+                continue;
+            };
             let mut limits = joint.limits;
             let mut actuated = joint.actuated;
             let mut angle = joint.motion == Motion::Turn;
             for follower in all() {
-                let Some(coupling) = self.leaders.get(&follower.name).filter(|c| c.leader == joint.name) else {
+                let Some(coupling) = self
+                    .leaders
+                    .get(&follower.name)
+                    .filter(|c| c.leader == joint.name)
+                else {
                     continue;
                 };
                 actuated |= follower.actuated;
@@ -475,12 +528,18 @@ impl Unroller<'_> {
                     let ends = [low, high].map(|end| (end - coupling.offset) / coupling.factor);
                     let (low, high) = (ends[0].min(ends[1]), ends[0].max(ends[1]));
                     let (least, most) = limits.unwrap_or((low, high));
-                    limits = Some((least.max(low), most.min(high))).filter(|(low, high)| low <= high).or(limits);
+                    limits = Some((least.max(low), most.min(high)))
+                        .filter(|(low, high)| low <= high)
+                        .or(limits);
                 }
             }
             let entry = if angle { Entry::angle } else { Entry::length };
             let description = JointDescription {
-                role: if actuated { Role::Actuated } else { Role::Passive },
+                role: if actuated {
+                    Role::Actuated
+                } else {
+                    Role::Passive
+                },
                 home: entry(joint.home),
                 limits: limits.map(|(low, high)| (entry(low), entry(high))),
                 span: 0..0,

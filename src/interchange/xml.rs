@@ -51,7 +51,9 @@ impl Xml {
 }
 
 fn pairs<'a>(attributes: &'a [(&str, String)]) -> impl Iterator<Item = (&'a str, &'a str)> {
-    attributes.iter().map(|(name, value)| (*name, value.as_str()))
+    attributes
+        .iter()
+        .map(|(name, value)| (*name, value.as_str()))
 }
 
 /// Numbers with a space between, all digits, no negative zeros.

@@ -96,13 +96,21 @@ impl SerialAxes {
         let placed = self.joints.iter().filter(|joint| !joint.is_prismatic());
         let points: Vec<Vector3<f64>> = placed
             .map(|joint| joint.line.point)
-            .chain([&self.base, &self.tool].into_iter().flatten().map(|p| p.position))
+            .chain(
+                [&self.base, &self.tool]
+                    .into_iter()
+                    .flatten()
+                    .map(|p| p.position),
+            )
             .collect();
         let apart = |p: &Vector3<f64>| {
             let distances = points.iter().map(|q| (*p - *q).norm());
             distances.fold(0.0, f64::max)
         };
-        let slides = self.joints.iter().map(|joint| (joint.slide * joint.home).abs());
+        let slides = self
+            .joints
+            .iter()
+            .map(|joint| (joint.slide * joint.home).abs());
         let largest = points.iter().map(apart).chain(slides).fold(0.0, f64::max);
         if largest > 0.0 { largest } else { 1.0 }
     }

@@ -29,7 +29,10 @@ pub fn render(wrong: &WrongFile, style: Style) -> String {
         _ => format!(", {hidden} of them not shown"),
     };
     let name = wrong.files.first().map_or("", |(name, _)| name);
-    parts.push(format!("{} in {name}{more}", count(wrong.problems.len(), "problem")));
+    parts.push(format!(
+        "{} in {name}{more}",
+        count(wrong.problems.len(), "problem")
+    ));
     parts.join("\n\n") + "\n"
 }
 
@@ -45,7 +48,10 @@ fn one(renderer: &Renderer, (name, text): &(String, String), problem: &ImportPro
             if line.len() > MAX_WIDTH || line.trim().is_empty() {
                 title.element(Level::NOTE.message(format!("at {name}:{first}:{column}")))
             } else {
-                let end = span.end.min(window.start + line.trim_end().len()).max(span.start);
+                let end = span
+                    .end
+                    .min(window.start + line.trim_end().len())
+                    .max(span.start);
                 let within = span.start - window.start..end - window.start;
                 let snippet = Snippet::source(line).line_start(first).path(name.as_str());
                 title.element(snippet.annotation(AnnotationKind::Primary.span(within)))

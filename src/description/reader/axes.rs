@@ -1,7 +1,9 @@
 //! Files of joint axes.
 
 use super::*;
-use crate::description::axes::{AxesDescription, AxesProblem, AxisDescription, AxisKind, AxisPlace};
+use crate::description::axes::{
+    AxesDescription, AxesProblem, AxisDescription, AxisKind, AxisPlace,
+};
 
 impl Reader {
     pub(super) fn axes(&mut self, piece: Piece) -> Option<AxesDescription> {
@@ -111,7 +113,11 @@ impl Reader {
 
     fn role(&mut self, piece: Piece) -> Option<Role> {
         let known = [Role::Passive, Role::Actuated];
-        let Shape::Word { word, content: None } = piece.shape() else {
+        let Shape::Word {
+            word,
+            content: None,
+        } = piece.shape()
+        else {
             self.wrong_type(piece, Expected::Role);
             return None;
         };

@@ -39,7 +39,9 @@ pub(super) fn help(problem: &AxesProblem) -> Option<String> {
         NoDirection { .. } => "give a vector that is not zero, or two points that differ".into(),
         TooFew { .. } => "a table between axes needs two of them".into(),
         TwoPlaces { .. } => "give either `point` and `direction`, or `through` two points".into(),
-        NotBetween { .. } => "write `between: (\"body\", \"body\")` in all joints or in none".into(),
+        NotBetween { .. } => {
+            "write `between: (\"body\", \"body\")` in all joints or in none".into()
+        }
         OneBody { .. } => "name the two bodies that it connects".into(),
         NoGround => format!("the fixed body is called `{GROUND}`"),
         UnknownCut {

@@ -33,10 +33,14 @@ pub(super) fn read(
         couplings: Vec::new(),
     };
     let blocks = children(root, "equality");
-    let constraints = blocks.iter().flat_map(|block| block.children().filter(Node::is_element));
+    let constraints = blocks
+        .iter()
+        .flat_map(|block| block.children().filter(Node::is_element));
     for (i, node) in constraints.enumerate() {
         let element = node.tag_name().name();
-        let name = node.attribute("name").map_or_else(|| format!("{element}{}", i + 1), str::to_owned);
+        let name = node
+            .attribute("name")
+            .map_or_else(|| format!("{element}{}", i + 1), str::to_owned);
         if matches!(node.attribute("active"), Some("false")) {
             remarks.push(Remark::Inactive { name });
             continue;
@@ -75,13 +79,19 @@ struct Constraints<'a, 'r, 'i> {
 impl<'r, 'i> Constraints<'_, 'r, 'i> {
     /// The body of the tree that a body of the model is, in an attribute; the world if there is no attribute.
     fn body(&mut self, node: Node, attribute: &str) -> Option<usize> {
-        let Some(name) = node.attribute(attribute) else { return Some(0) };
+        let Some(name) = node.attribute(attribute) else {
+            return Some(0);
+        };
         let found = match name {
             "world" => Some(0),
             name => self.model.body_id_by_name(name),
         };
         if found.is_none() {
-            let known = self.model.bodies.iter().filter_map(|entry| entry.body.name.clone());
+            let known = self
+                .model
+                .bodies
+                .iter()
+                .filter_map(|entry| entry.body.name.clone());
             let known: Vec<String> = known.collect();
             self.problems.unknown(node, attribute, "body", name, &known);
         }
@@ -91,7 +101,12 @@ impl<'r, 'i> Constraints<'_, 'r, 'i> {
     /// The site of that name.
     fn site(&mut self, node: Node, attribute: &str, name: &str) -> Option<Attachment> {
         for (body, entry) in self.model.bodies.iter().enumerate() {
-            for site in entry.body.sites.iter().filter(|site| site.name.as_deref() == Some(name)) {
+            for site in entry
+                .body
+                .sites
+                .iter()
+                .filter(|site| site.name.as_deref() == Some(name))
+            {
                 return Some(Attachment {
                     body: *self.parts[body].last()?,
                     frame: name.to_owned(),
@@ -114,7 +129,13 @@ impl<'r, 'i> Constraints<'_, 'r, 'i> {
         Some(Some([a?, b?]))
     }
 
-    fn push(&mut self, name: String, kind: ClosureKind, sides: [Attachment; 2], length: Option<Extent>) {
+    fn push(
+        &mut self,
+        name: String,
+        kind: ClosureKind,
+        sides: [Attachment; 2],
+        length: Option<Extent>,
+    ) {
         let mut unique = name;
         while self.loops.iter().any(|other| other.name == unique) {
             unique += "_";
@@ -130,14 +151,24 @@ impl<'r, 'i> Constraints<'_, 'r, 'i> {
     /// A point of two bodies: two sites, or one point of the first that is given, and the point of the second that
     /// lies there where the joints have their references.
     fn connect(&mut self, node: Node, name: String) {
-        let Some(sites) = self.sites(node) else { return };
+        let Some(sites) = self.sites(node) else {
+            return;
+        };
         if let Some(sides) = sites {
             return self.push(name, ClosureKind::Spherical, sides, None);
         }
-        let Some(_) = self.problems.needed(node, "body1") else { return };
-        let Some(_) = self.problems.needed(node, "anchor") else { return };
-        let Some(anchor) = self.problems.numbers::<3>(node, "anchor") else { return };
-        let (Some(a), Some(b)) = (self.body(node, "body1"), self.body(node, "body2")) else { return };
+        let Some(_) = self.problems.needed(node, "body1") else {
+            return;
+        };
+        let Some(_) = self.problems.needed(node, "anchor") else {
+            return;
+        };
+        let Some(anchor) = self.problems.numbers::<3>(node, "anchor") else {
+            return;
+        };
+        let (Some(a), Some(b)) = (self.body(node, "body1"), self.body(node, "body2")) else {
+            return;
+        };
         let first = Pose::translation(Vector3(anchor));
         let point = self.poses[b].inverse() * self.poses[a] * Vector3(anchor);
         let sides = named(&name, [(a, first), (b, Pose::translation(point))]);
@@ -146,12 +177,18 @@ impl<'r, 'i> Constraints<'_, 'r, 'i> {
 
     /// Two frames: two sites, or two bodies with the second's pose in the first.
     fn weld(&mut self, node: Node, name: String) {
-        let Some(sites) = self.sites(node) else { return };
+        let Some(sites) = self.sites(node) else {
+            return;
+        };
         if let Some(sides) = sites {
             return self.push(name, ClosureKind::Rigid, sides, None);
         }
-        let Some(_) = self.problems.needed(node, "body1") else { return };
-        let (Some(a), Some(b)) = (self.body(node, "body1"), self.body(node, "body2")) else { return };
+        let Some(_) = self.problems.needed(node, "body1") else {
+            return;
+        };
+        let (Some(a), Some(b)) = (self.body(node, "body1"), self.body(node, "body2")) else {
+            return;
+        };
         let given = self.problems.numbers::<7>(node, "relpose");
         let given = given.filter(|v| v[3..].iter().any(|x| x.abs() > 1e-12));
         let relative = match given {
@@ -168,10 +205,15 @@ impl<'r, 'i> Constraints<'_, 'r, 'i> {
     /// Coefficients c₀, c₁ of a polynomial without higher powers.
     fn line(&mut self, node: Node) -> Option<[f64; 2]> {
         let text = node.attribute("polycoef").unwrap_or("0 1");
-        let numbers: Option<Vec<f64>> = text.split_whitespace().map(|word| word.parse().ok()).collect();
-        let numbers = numbers.filter(|numbers| numbers.len() <= 5 && numbers.iter().all(|x| x.is_finite()));
+        let numbers: Option<Vec<f64>> = text
+            .split_whitespace()
+            .map(|word| word.parse().ok())
+            .collect();
+        let numbers =
+            numbers.filter(|numbers| numbers.len() <= 5 && numbers.iter().all(|x| x.is_finite()));
         let Some(numbers) = numbers else {
-            self.problems.not_numbers(text, 5, super::super::page::tag(node));
+            self.problems
+                .not_numbers(text, 5, super::super::page::tag(node));
             return None;
         };
         if numbers.iter().skip(2).any(|c| *c != 0.0) {
@@ -190,7 +232,9 @@ impl<'r, 'i> Constraints<'_, 'r, 'i> {
     fn reference(&mut self, node: Node, attribute: &str, name: &str) -> Option<f64> {
         let mut joints = self.tree.bodies.iter().flat_map(|body| &body.joints);
         match joints.find(|joint| joint.name == name) {
-            Some(joint) if matches!(joint.motion, Motion::Turn | Motion::Slide) => Some(joint.reference),
+            Some(joint) if matches!(joint.motion, Motion::Turn | Motion::Slide) => {
+                Some(joint.reference)
+            }
             Some(_) => {
                 let problem = ImportProblemKind::Unsupported {
                     what: format!("a constraint on `{name}`, which is no hinge and no slide"),
@@ -202,7 +246,8 @@ impl<'r, 'i> Constraints<'_, 'r, 'i> {
             None => {
                 let joints = self.tree.bodies.iter().flat_map(|body| &body.joints);
                 let known: Vec<String> = joints.map(|joint| joint.name.clone()).collect();
-                self.problems.unknown(node, attribute, "joint", name, &known);
+                self.problems
+                    .unknown(node, attribute, "joint", name, &known);
                 None
             }
         }
@@ -210,8 +255,12 @@ impl<'r, 'i> Constraints<'_, 'r, 'i> {
 
     /// y − y₀ = c₀ + c₁ (x − x₀), with the references x₀ and y₀.
     fn joint(&mut self, node: Node) {
-        let Some(follower) = self.problems.needed(node, "joint1").map(str::to_owned) else { return };
-        let (Some([c0, c1]), Some(y0)) = (self.line(node), self.reference(node, "joint1", &follower)) else {
+        let Some(follower) = self.problems.needed(node, "joint1").map(str::to_owned) else {
+            return;
+        };
+        let (Some([c0, c1]), Some(y0)) =
+            (self.line(node), self.reference(node, "joint1", &follower))
+        else {
             return;
         };
         let coupling = match node.attribute("joint2") {
@@ -222,7 +271,9 @@ impl<'r, 'i> Constraints<'_, 'r, 'i> {
                 offset: y0 + c0,
             },
             Some(leader) => {
-                let Some(x0) = self.reference(node, "joint2", leader) else { return };
+                let Some(x0) = self.reference(node, "joint2", leader) else {
+                    return;
+                };
                 Coupling {
                     joint: follower,
                     leader: leader.to_owned(),
@@ -236,12 +287,21 @@ impl<'r, 'i> Constraints<'_, 'r, 'i> {
 
     /// A tendon between two sites that has a constant length, or that of a fixed tendon.
     fn tendon(&mut self, node: Node, name: String) {
-        let Some(first) = self.problems.needed(node, "tendon1") else { return };
-        let Some([c0, c1]) = self.line(node) else { return };
-        let Some(spatial) = self.tendon_named(node, "tendon1", first) else { return };
+        let Some(first) = self.problems.needed(node, "tendon1") else {
+            return;
+        };
+        let Some([c0, c1]) = self.line(node) else {
+            return;
+        };
+        let Some(spatial) = self.tendon_named(node, "tendon1", first) else {
+            return;
+        };
         let sites: Vec<Node> = spatial.children().filter(Node::is_element).collect();
         let two = spatial.has_tag_name("spatial") && sites.len() == 2;
-        let names: Vec<&str> = sites.iter().filter_map(|site| site.attribute("site")).collect();
+        let names: Vec<&str> = sites
+            .iter()
+            .filter_map(|site| site.attribute("site"))
+            .collect();
         let ([a, b], true) = (&names[..], two) else {
             let problem = ImportProblemKind::Unsupported {
                 what: format!("the constraint on tendon `{first}`"),
@@ -249,7 +309,10 @@ impl<'r, 'i> Constraints<'_, 'r, 'i> {
             };
             return self.problems.say(problem, node);
         };
-        let (Some(a), Some(b)) = (self.site(sites[0], "site", a), self.site(sites[1], "site", b)) else {
+        let (Some(a), Some(b)) = (
+            self.site(sites[0], "site", a),
+            self.site(sites[1], "site", b),
+        ) else {
             return;
         };
         let [p, q] = [&a, &b].map(|side| (self.poses[side.body] * side.pose).position);
@@ -258,18 +321,28 @@ impl<'r, 'i> Constraints<'_, 'r, 'i> {
             terms: Vec::new(),
         };
         if let Some(second) = node.attribute("tendon2") {
-            let Some(fixed) = self.tendon_named(node, "tendon2", second) else { return };
+            let Some(fixed) = self.tendon_named(node, "tendon2", second) else {
+                return;
+            };
             if !fixed.has_tag_name("fixed") {
                 let problem = ImportProblemKind::Unsupported {
-                    what: format!("two spatial tendons `{first}` and `{second}` of related lengths"),
+                    what: format!(
+                        "two spatial tendons `{first}` and `{second}` of related lengths"
+                    ),
                     help: "a length may depend on joints, by a fixed tendon",
                 };
                 return self.problems.say(problem, node);
             }
             for term in children(fixed, "joint") {
-                let Some(joint) = self.problems.needed(term, "joint") else { return };
-                let coefficient = term.attribute("coef").map_or(Some(1.0), |text| Some(parse::<1>(text)?[0]));
-                let (Some(coefficient), Some(x0)) = (coefficient, self.reference(term, "joint", joint)) else {
+                let Some(joint) = self.problems.needed(term, "joint") else {
+                    return;
+                };
+                let coefficient = term
+                    .attribute("coef")
+                    .map_or(Some(1.0), |text| Some(parse::<1>(text)?[0]));
+                let (Some(coefficient), Some(x0)) =
+                    (coefficient, self.reference(term, "joint", joint))
+                else {
                     return;
                 };
                 length.constant -= c1 * coefficient * x0;
@@ -281,12 +354,19 @@ impl<'r, 'i> Constraints<'_, 'r, 'i> {
 
     fn tendon_named(&mut self, node: Node, attribute: &str, name: &str) -> Option<Node<'r, 'i>> {
         let blocks = children(self.root, "tendon");
-        let tendons: Vec<Node> = blocks.iter().flat_map(|block| block.children().filter(Node::is_element)).collect();
-        let found = tendons.iter().find(|tendon| tendon.attribute("name") == Some(name)).copied();
+        let tendons: Vec<Node> = blocks
+            .iter()
+            .flat_map(|block| block.children().filter(Node::is_element))
+            .collect();
+        let found = tendons
+            .iter()
+            .find(|tendon| tendon.attribute("name") == Some(name))
+            .copied();
         if found.is_none() {
             let known = tendons.iter().filter_map(|tendon| tendon.attribute("name"));
             let known: Vec<String> = known.map(str::to_owned).collect();
-            self.problems.unknown(node, attribute, "tendon", name, &known);
+            self.problems
+                .unknown(node, attribute, "tendon", name, &known);
         }
         found
     }

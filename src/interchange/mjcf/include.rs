@@ -28,7 +28,9 @@ impl Spliced {
     /// The file that a place of the text is from, and the place in it.
     pub fn locate(&self, span: &Range<usize>) -> (usize, Range<usize>) {
         let mut pieces = self.pieces.iter();
-        let found = pieces.find(|(piece, ..)| piece.contains(&span.start)).or(self.pieces.last());
+        let found = pieces
+            .find(|(piece, ..)| piece.contains(&span.start))
+            .or(self.pieces.last());
         match found {
             Some((piece, file, start)) => {
                 let begin = start + span.start.saturating_sub(piece.start).min(piece.len());
@@ -41,7 +43,11 @@ impl Spliced {
 }
 
 /// The text of a file with all it includes; or what is wrong, and in which file.
-pub(crate) fn splice(name: &str, text: &str, files: Files) -> Result<Spliced, (Vec<(String, String)>, usize, ImportProblem)> {
+pub(crate) fn splice(
+    name: &str,
+    text: &str,
+    files: Files,
+) -> Result<Spliced, (Vec<(String, String)>, usize, ImportProblem)> {
     let mut spliced = Spliced {
         text: String::new(),
         pieces: Vec::new(),
@@ -53,20 +59,38 @@ pub(crate) fn splice(name: &str, text: &str, files: Files) -> Result<Spliced, (V
     }
 }
 
-fn expand(spliced: &mut Spliced, files: Files, file: usize, open: &mut Vec<usize>) -> Result<(), (usize, ImportProblem)> {
+fn expand(
+    spliced: &mut Spliced,
+    files: Files,
+    file: usize,
+    open: &mut Vec<usize>,
+) -> Result<(), (usize, ImportProblem)> {
     let text = spliced.files[file].1.clone();
     let page = document(&text).map_err(|problem| (file, problem))?;
     let root = page.root_element();
     // of an included file only what is in its outermost element
-    let whole = if file == 0 { 0..text.len() } else { tag(root).end..root.range().end };
+    let whole = if file == 0 {
+        0..text.len()
+    } else {
+        tag(root).end..root.range().end
+    };
     let whole = if file == 0 {
         whole
     } else {
-        let close = text[whole.clone()].rfind("</").map_or(whole.end, |i| whole.start + i);
-        whole.start.min(close)..if root.has_children() { close } else { whole.start }
+        let close = text[whole.clone()]
+            .rfind("</")
+            .map_or(whole.end, |i| whole.start + i);
+        whole.start.min(close)..if root.has_children() {
+            close
+        } else {
+            whole.start
+        }
     };
     let mut at = whole.start;
-    for node in root.descendants().filter(|node| node.has_tag_name("include")) {
+    for node in root
+        .descendants()
+        .filter(|node| node.has_tag_name("include"))
+    {
         let range = node.range();
         push(spliced, file, &text, at..range.start);
         at = range.end;
@@ -79,7 +103,11 @@ fn expand(spliced: &mut Spliced, files: Files, file: usize, open: &mut Vec<usize
             file: name.to_owned(),
             reason,
         };
-        if open.iter().any(|&file| file != 0 && spliced.files[file].0 == name) || open.len() > MOST_LEVELS {
+        if open
+            .iter()
+            .any(|&file| file != 0 && spliced.files[file].0 == name)
+            || open.len() > MOST_LEVELS
+        {
             return Err(refuse(failed("it includes itself".into())));
         }
         let content = files(name).map_err(|reason| refuse(failed(reason)))?;
@@ -97,8 +125,12 @@ fn expand(spliced: &mut Spliced, files: Files, file: usize, open: &mut Vec<usize
 }
 
 fn push(spliced: &mut Spliced, file: usize, text: &str, range: Range<usize>) {
-    let Some(part) = text.get(range.clone()) else { return };
+    let Some(part) = text.get(range.clone()) else {
+        return;
+    };
     let start = spliced.text.len();
     spliced.text += part;
-    spliced.pieces.push((start..spliced.text.len(), file, range.start));
+    spliced
+        .pieces
+        .push((start..spliced.text.len(), file, range.start));
 }

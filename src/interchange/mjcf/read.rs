@@ -19,8 +19,29 @@ use crate::interchange::tree::{Body, Joint, Motion, Tree};
 
 /// Elements that say nothing of how bodies move.
 const IRRELEVANT: &[&str] = &[
-    "asset", "camera", "composite", "contact", "custom", "deformable", "extension", "geom", "inertial", "light", "option",
-    "sensor", "size", "statistic", "visual", "material", "mesh", "pair", "skin", "plugin", "texture", "hfield", "user",
+    "asset",
+    "camera",
+    "composite",
+    "contact",
+    "custom",
+    "deformable",
+    "extension",
+    "geom",
+    "inertial",
+    "light",
+    "option",
+    "sensor",
+    "size",
+    "statistic",
+    "visual",
+    "material",
+    "mesh",
+    "pair",
+    "skin",
+    "plugin",
+    "texture",
+    "hfield",
+    "user",
 ];
 
 /// Elements that make bodies in ways that are not followed here.
@@ -28,8 +49,18 @@ const MAKING: &[&str] = &["attach", "replicate", "flexcomp", "model", "composite
 
 /// Attributes of numbers, and how many.
 const NUMBERS: &[(&str, usize)] = &[
-    ("pos", 3), ("quat", 4), ("axisangle", 4), ("euler", 3), ("xyaxes", 6), ("zaxis", 3), ("axis", 3), ("range", 2),
-    ("ref", 1), ("anchor", 3), ("relpose", 7), ("coef", 1),
+    ("pos", 3),
+    ("quat", 4),
+    ("axisangle", 4),
+    ("euler", 3),
+    ("xyaxes", 6),
+    ("zaxis", 3),
+    ("axis", 3),
+    ("range", 2),
+    ("ref", 1),
+    ("anchor", 3),
+    ("relpose", 7),
+    ("coef", 1),
 ];
 
 /// A body and where it is in the tree: its first and its last part, if it was taken apart.
@@ -62,7 +93,8 @@ pub(crate) fn read(text: &str) -> Result<(Tree, Vec<Remark>), Vec<ImportProblem>
         vec![ImportProblemKind::Reader { message }.anywhere()]
     })?;
     let mut remarks = Vec::new();
-    let (mut tree, parts) = bodies(&model, root, &mut remarks).map_err(|kind| vec![kind.anywhere()])?;
+    let (mut tree, parts) =
+        bodies(&model, root, &mut remarks).map_err(|kind| vec![kind.anywhere()])?;
     constraints::read(root, &model, &mut tree, &parts, &mut problems, &mut remarks);
     match problems.0.is_empty() {
         true => Ok((tree, remarks)),
@@ -73,7 +105,11 @@ pub(crate) fn read(text: &str) -> Result<(Tree, Vec<Remark>), Vec<ImportProblem>
 /// What can be found wrong with one element.
 fn look<'a>(node: Node<'a, '_>, problems: &mut Problems, seen: &mut HashSet<(&'a str, String)>) {
     let element = node.tag_name().name();
-    if IRRELEVANT.contains(&element) || node.ancestors().any(|part| IRRELEVANT.contains(&part.tag_name().name())) {
+    if IRRELEVANT.contains(&element)
+        || node
+            .ancestors()
+            .any(|part| IRRELEVANT.contains(&part.tag_name().name()))
+    {
         if MAKING.contains(&element) {
             let problem = ImportProblemKind::Unsupported {
                 what: format!("the element `{element}`"),
@@ -90,7 +126,9 @@ fn look<'a>(node: Node<'a, '_>, problems: &mut Problems, seen: &mut HashSet<(&'a
         };
         return problems.say(problem, node);
     }
-    let within = node.parent().map(|parent| parent.tag_name().name().to_owned());
+    let within = node
+        .parent()
+        .map(|parent| parent.tag_name().name().to_owned());
     let moves = matches!(element, "joint" | "freejoint");
     if moves && within.as_deref() == Some("frame") {
         let problem = ImportProblemKind::Unsupported {
@@ -132,10 +170,14 @@ fn look<'a>(node: Node<'a, '_>, problems: &mut Problems, seen: &mut HashSet<(&'a
             continue;
         }
         let text = node.attribute(name).unwrap_or_default();
-        let numbers: Vec<f64> = text.split_whitespace().filter_map(|word| word.parse().ok()).collect();
+        let numbers: Vec<f64> = text
+            .split_whitespace()
+            .filter_map(|word| word.parse().ok())
+            .collect();
         let size = |numbers: &[f64]| numbers.iter().fold(0.0, |most: f64, x| most.max(x.abs()));
         let parallel = |v: &[f64]| {
-            let [a, b] = [&v[..3], &v[3..]].map(|v| Vector3([v[0], v[1], v[2]]).times(1.0 / size(v)));
+            let [a, b] =
+                [&v[..3], &v[3..]].map(|v| Vector3([v[0], v[1], v[2]]).times(1.0 / size(v)));
             !(a.cross(&b).norm() > 1e-9)
         };
         let nothing = match name {
@@ -197,18 +239,36 @@ pub(super) fn pose(pose: &mjcf_rs::Pose) -> Pose<f64> {
 fn exact(rotation: Rotation<f64>) -> Rotation<f64> {
     let clean = |x: f64| {
         let whole = x.round();
-        if (x - whole).abs() < 4.0 * f64::EPSILON { whole + 0.0 } else { x }
+        if (x - whole).abs() < 4.0 * f64::EPSILON {
+            whole + 0.0
+        } else {
+            x
+        }
     };
     let cleaned = Rotation(rotation.0.map(|column| column.map(clean)));
-    let axes = cleaned.0.iter().filter(|column| column.0.iter().any(|x| x.abs() == 1.0));
+    let axes = cleaned
+        .0
+        .iter()
+        .filter(|column| column.0.iter().any(|x| x.abs() == 1.0));
     // all three axes are along coordinates, or one is and the others are turned about it
     if axes.count() > 0 { cleaned } else { rotation }
 }
 
 /// All bodies, and for each body of the model the bodies of the tree that it became.
-fn bodies(model: &Model, root: Node, remarks: &mut Vec<Remark>) -> Result<(Tree, Vec<Parts>), ImportProblemKind> {
-    let driven: HashSet<&str> = model.actuators.iter().filter_map(|actuator| actuator.joint.as_deref()).collect();
-    let closed = model.equality.iter().any(|equality| !matches!(equality, mjcf_rs::equality::Equality::Joint(_)));
+fn bodies(
+    model: &Model,
+    root: Node,
+    remarks: &mut Vec<Remark>,
+) -> Result<(Tree, Vec<Parts>), ImportProblemKind> {
+    let driven: HashSet<&str> = model
+        .actuators
+        .iter()
+        .filter_map(|actuator| actuator.joint.as_deref())
+        .collect();
+    let closed = model
+        .equality
+        .iter()
+        .any(|equality| !matches!(equality, mjcf_rs::equality::Equality::Joint(_)));
     if driven.is_empty() && closed {
         remarks.push(Remark::Driven("no joint has an actuator: all are passive"));
     }
@@ -223,7 +283,9 @@ fn bodies(model: &Model, root: Node, remarks: &mut Vec<Remark>) -> Result<(Tree,
         let mut own = Vec::new();
         let mut part = Body {
             name: name.clone(),
-            parent: entry.parent.map(|parent| parts[parent][parts[parent].len() - 1]),
+            parent: entry
+                .parent
+                .map(|parent| parts[parent][parts[parent].len() - 1]),
             pose: pose(&entry.body.pose),
             joints: Vec::new(),
             home: None,
@@ -240,7 +302,10 @@ fn bodies(model: &Model, root: Node, remarks: &mut Vec<Remark>) -> Result<(Tree,
             let before = part.joints.last().map(|joint: &Joint| joint.motion);
             // a ball joint stands alone in its body
             if before.is_some_and(|before| floats(before) || floats(motion)) {
-                let last = part.joints.last().map_or(String::new(), |joint| joint.name.clone());
+                let last = part
+                    .joints
+                    .last()
+                    .map_or(String::new(), |joint| joint.name.clone());
                 let next = Body {
                     name: String::new(),
                     parent: Some(bodies.len()),
@@ -254,12 +319,20 @@ fn bodies(model: &Model, root: Node, remarks: &mut Vec<Remark>) -> Result<(Tree,
                 bodies.push(std::mem::replace(&mut part, next));
                 part.name = name.clone();
             }
-            let joint_name = joint.name.clone().unwrap_or_else(|| match entry.body.joints.len() {
-                1 => format!("{name}_joint"),
-                _ => format!("{name}_joint{}", i + 1),
-            });
-            let limited = joint.limited.resolve(model.compiler.autolimits, joint.range.is_some());
-            let limits = joint.range.filter(|[low, high]| limited && low < high).map(|[low, high]| (low, high));
+            let joint_name = joint
+                .name
+                .clone()
+                .unwrap_or_else(|| match entry.body.joints.len() {
+                    1 => format!("{name}_joint"),
+                    _ => format!("{name}_joint{}", i + 1),
+                });
+            let limited = joint
+                .limited
+                .resolve(model.compiler.autolimits, joint.range.is_some());
+            let limits = joint
+                .range
+                .filter(|[low, high]| limited && low < high)
+                .map(|[low, high]| (low, high));
             let [x, y, z] = joint.axis;
             let length = (x * x + y * y + z * z).sqrt();
             let axis = Vector3([x, y, z]).times(1.0 / length);
@@ -302,10 +375,16 @@ fn bodies(model: &Model, root: Node, remarks: &mut Vec<Remark>) -> Result<(Tree,
 }
 
 /// The home values: those of the keyframe `home`, or of the first one, or the references.
-fn home(model: &Model, tree: &mut Tree, remarks: &mut Vec<Remark>) -> Result<(), ImportProblemKind> {
+fn home(
+    model: &Model,
+    tree: &mut Tree,
+    remarks: &mut Vec<Remark>,
+) -> Result<(), ImportProblemKind> {
     let frames = model.keyframes.iter();
     let frames: Vec<_> = frames.filter(|frame| !frame.qpos.is_empty()).collect();
-    let named = frames.iter().find(|frame| frame.name.as_deref() == Some("home"));
+    let named = frames
+        .iter()
+        .find(|frame| frame.name.as_deref() == Some("home"));
     let keyframe = named.or(frames.first());
     let size = |motion: Motion| match motion {
         Motion::Turn | Motion::Slide => 1,
@@ -354,7 +433,10 @@ fn home(model: &Model, tree: &mut Tree, remarks: &mut Vec<Remark>) -> Result<(),
                         rotation,
                         position: Vector3::zero(),
                     };
-                    pose = pose * Pose::translation(joint.point) * turn * Pose::translation(-joint.point);
+                    pose = pose
+                        * Pose::translation(joint.point)
+                        * turn
+                        * Pose::translation(-joint.point);
                     body.home = Some(pose);
                 }
                 (Motion::Free, given) => {

@@ -11,11 +11,11 @@
 //! | Prismatic, Cylindrical, Planar | a body on A that slides and turns as the joint allows, and a `weld` of it to B |
 //! | Distance | a `tendon` of that length; a joint in the length is a second, fixed tendon |
 
-use crate::interchange::xml::{Xml, numbers, place, vector};
 use crate::description::ClosureKind;
 use crate::geometry::{Pose, Quaternion, Vector3};
 use crate::interchange::remark::Remark;
 use crate::interchange::tree::{Attachment, Body, Extent, Joint, Loop, Motion, Tree};
+use crate::interchange::xml::{Xml, numbers, place, vector};
 
 /// The text of an MJCF file, and what it says another way than the mechanism.
 pub fn write(tree: &Tree, known: &[Remark]) -> (String, Vec<Remark>) {
@@ -28,11 +28,14 @@ pub fn write(tree: &Tree, known: &[Remark]) -> (String, Vec<Remark>) {
         equalities: Vec::new(),
         tree: &tree,
     };
-    let remarks_of_loops: Vec<Remark> = tree.loops.iter().filter_map(|l| page.equality(l)).collect();
+    let remarks_of_loops: Vec<Remark> =
+        tree.loops.iter().filter_map(|l| page.equality(l)).collect();
     remarks.extend(remarks_of_loops);
     remarks.push(Remark::MassesInvented);
     page.couplings();
-    let told: Vec<String> = (known.iter().chain(&remarks)).map(Remark::to_string).collect();
+    let told: Vec<String> = (known.iter().chain(&remarks))
+        .map(Remark::to_string)
+        .collect();
     page.document(&told);
     (page.xml.text(), remarks)
 }
@@ -70,7 +73,8 @@ fn with_sliders(tree: &Tree) -> (Tree, Vec<Remark>) {
         let relative = (home[a.body] * a.pose).inverse() * (home[b.body] * b.pose);
         let [x, y, z] = relative.position.0;
         let turned = relative.rotation.0[0].0[1].atan2(relative.rotation.0[0].0[0]);
-        let slide = |word: &str, axis: usize, home: f64| (word.to_owned(), Motion::Slide, axis, home);
+        let slide =
+            |word: &str, axis: usize, home: f64| (word.to_owned(), Motion::Slide, axis, home);
         let turn = || ("turn".to_owned(), Motion::Turn, 2, turned);
         let freedoms = match kind {
             ClosureKind::Prismatic => vec![slide("slide", 2, z)],
@@ -78,16 +82,18 @@ fn with_sliders(tree: &Tree) -> (Tree, Vec<Remark>) {
             ClosureKind::Planar => vec![slide("x", 0, x), slide("y", 1, y), turn()],
             _ => continue,
         };
-        let joints = freedoms.into_iter().map(|(word, motion, axis, home)| Joint {
-            name: format!("{name}.{word}"),
-            motion,
-            axis: Vector3::unit(axis),
-            point: Vector3::zero(),
-            reference: 0.0,
-            home,
-            limits: None,
-            actuated: false,
-        });
+        let joints = freedoms
+            .into_iter()
+            .map(|(word, motion, axis, home)| Joint {
+                name: format!("{name}.{word}"),
+                motion,
+                axis: Vector3::unit(axis),
+                point: Vector3::zero(),
+                reference: 0.0,
+                home,
+                limits: None,
+                actuated: false,
+            });
         let joints: Vec<Joint> = joints.collect();
         remarks.push(Remark::Welded {
             closure: name.clone(),
@@ -191,7 +197,9 @@ impl Page<'_> {
         let at_zero = (q - p).norm();
         let value = |joint: &str| {
             let mut joints = self.tree.bodies.iter().flat_map(|body| &body.joints);
-            joints.find(|part| part.name == joint).map_or(0.0, |part| part.home)
+            joints
+                .find(|part| part.name == joint)
+                .map_or(0.0, |part| part.home)
         };
         let terms = length.terms.iter();
         let home = terms.fold(length.constant, |sum, (joint, c)| sum + c * value(joint));
@@ -203,8 +211,12 @@ impl Page<'_> {
             equality.push(("polycoef", numbers([constant, 0.0, 0.0, 0.0, 0.0])));
         } else {
             let second = format!("{name}.length");
-            let terms = length.terms.iter().map(|(joint, c)| (joint.clone(), sign * c));
-            self.tendons.push(Tendon::Fixed(second.clone(), terms.collect()));
+            let terms = length
+                .terms
+                .iter()
+                .map(|(joint, c)| (joint.clone(), sign * c));
+            self.tendons
+                .push(Tendon::Fixed(second.clone(), terms.collect()));
             equality.push(("tendon2", second));
             equality.push(("polycoef", numbers([constant, 1.0, 0.0, 0.0, 0.0])));
         }
@@ -227,12 +239,15 @@ impl Page<'_> {
     fn document(&mut self, told: &[String]) {
         let size = self.size;
         let one = |name, value: String| [(name, value)];
-        self.xml.open("mujoco", &one("model", self.tree.name.clone()));
+        self.xml
+            .open("mujoco", &one("model", self.tree.name.clone()));
         for line in told {
             self.xml.comment(line);
         }
-        self.xml
-            .leaf("compiler", &[("angle", "radian".into()), ("autolimits", "true".into())]);
+        self.xml.leaf(
+            "compiler",
+            &[("angle", "radian".into()), ("autolimits", "true".into())],
+        );
         self.xml.open("default", &[]);
         let damped = [("armature", "0.01".into()), ("damping", "0.1".into())];
         self.xml.leaf("joint", &damped);
@@ -248,7 +263,8 @@ impl Page<'_> {
             ("group", "3".into()),
         ];
         self.xml.leaf("site", &dot);
-        self.xml.leaf("tendon", &[("width", numbers([rounded(0.008 * size)]))]);
+        self.xml
+            .leaf("tendon", &[("width", numbers([rounded(0.008 * size)]))]);
         self.xml.close("default");
         self.xml.open("worldbody", &[]);
         let order = self.bodies();
@@ -306,7 +322,8 @@ impl Page<'_> {
             self.xml.leaf("site", &attributes);
         }
         for (name, point) in &self.marks[index] {
-            self.xml.leaf("site", &[("name", name.clone()), ("pos", vector(point))]);
+            self.xml
+                .leaf("site", &[("name", name.clone()), ("pos", vector(point))]);
         }
     }
 
@@ -314,7 +331,10 @@ impl Page<'_> {
     fn shapes(&mut self, body: &Body, ends: Vec<Vector3<f64>>, ground: bool) {
         let least = 0.02 * self.size;
         let mut drawn: Vec<Vector3<f64>> = Vec::new();
-        let slides = body.joints.iter().filter(|joint| joint.motion == Motion::Slide);
+        let slides = body
+            .joints
+            .iter()
+            .filter(|joint| joint.motion == Motion::Slide);
         let rods = slides.map(|joint| joint.axis.times(-joint.home));
         for end in ends.into_iter().chain(rods) {
             let far = |other: &Vector3<f64>| (end - *other).norm() > least;
@@ -323,7 +343,10 @@ impl Page<'_> {
             }
         }
         if !ground || drawn.is_empty() {
-            let ball = [("type", "sphere".into()), ("size", numbers([rounded(least)]))];
+            let ball = [
+                ("type", "sphere".into()),
+                ("size", numbers([rounded(least)])),
+            ];
             self.xml.leaf("geom", &ball);
         }
         for end in drawn {

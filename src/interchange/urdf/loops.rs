@@ -20,7 +20,16 @@ use crate::interchange::tree::{Attachment, Loop, Tree};
 
 /// The types of joints that can close a loop, in the words of the formats.
 const TYPES: &[&str] = &[
-    "revolute", "continuous", "hinge", "spherical", "ball", "fixed", "prismatic", "universal", "cylindrical", "planar",
+    "revolute",
+    "continuous",
+    "hinge",
+    "spherical",
+    "ball",
+    "fixed",
+    "prismatic",
+    "universal",
+    "cylindrical",
+    "planar",
 ];
 
 /// Whether an element of a robot is one of them.
@@ -34,13 +43,21 @@ pub(super) fn is_loop(node: Node) -> bool {
 }
 
 /// The loops of a robot.
-pub(super) fn read(robot: Node, tree: &Tree, problems: &mut Problems, remarks: &mut Vec<Remark>) -> Vec<Loop> {
+pub(super) fn read(
+    robot: Node,
+    tree: &Tree,
+    problems: &mut Problems,
+    remarks: &mut Vec<Remark>,
+) -> Vec<Loop> {
     let mut reader = LoopReader {
         tree,
         problems,
         loops: Vec::new(),
     };
-    for node in robot.children().filter(|node| node.is_element() && is_loop(*node)) {
+    for node in robot
+        .children()
+        .filter(|node| node.is_element() && is_loop(*node))
+    {
         match node.tag_name().name() {
             "ball_constraint" => reader.ball(node),
             "gazebo" => {
@@ -56,7 +73,8 @@ pub(super) fn read(robot: Node, tree: &Tree, problems: &mut Problems, remarks: &
         let halves = |link: &str| {
             let name = link.strip_suffix("_1")?;
             let other = format!("{name}_2");
-            let found = name.starts_with("closing_") && tree.bodies.iter().any(|body| body.name == other);
+            let found =
+                name.starts_with("closing_") && tree.bodies.iter().any(|body| body.name == other);
             found.then_some(other)
         };
         for body in &tree.bodies {
@@ -79,7 +97,12 @@ impl LoopReader<'_> {
     fn link(&mut self, node: Node, attribute: &str, name: &str) -> Option<usize> {
         let found = self.tree.bodies.iter().position(|body| body.name == name);
         if found.is_none() {
-            let known: Vec<String> = self.tree.bodies.iter().map(|body| body.name.clone()).collect();
+            let known: Vec<String> = self
+                .tree
+                .bodies
+                .iter()
+                .map(|body| body.name.clone())
+                .collect();
             self.problems.unknown(node, attribute, "link", name, &known);
         }
         found
@@ -106,7 +129,9 @@ impl LoopReader<'_> {
 
     /// `loop_joint`, `constraint`, `loop`: two links, a frame on each, a type, and axes in the frames.
     fn joined(&mut self, node: Node) {
-        let Some(kind) = self.problems.word(node, "type", TYPES) else { return };
+        let Some(kind) = self.problems.word(node, "type", TYPES) else {
+            return;
+        };
         // the documentation of Isaac Sim writes `link1` for both
         let mut ends = [children(node, "link1"), children(node, "link2")].concat();
         for pair in [["parent", "child"], ["predecessor", "successor"]] {
@@ -123,8 +148,12 @@ impl LoopReader<'_> {
         let mut sides = Vec::new();
         for (side, end) in [first, second].into_iter().enumerate() {
             let name = end.tag_name().name();
-            let Some(link) = self.problems.needed(end, "link") else { return };
-            let Some(body) = self.link(end, "link", link) else { return };
+            let Some(link) = self.problems.needed(end, "link") else {
+                return;
+            };
+            let Some(body) = self.link(end, "link", link) else {
+                return;
+            };
             let origin = child(node, &format!("{name}_origin")).or(child(end, "origin"));
             let pose = self.problems.origin(origin.unwrap_or(end));
             let axis = child(node, &format!("{name}_axis")).or(child(node, "axis"));
@@ -155,9 +184,15 @@ impl LoopReader<'_> {
         let mut sides = Vec::new();
         for (body, point) in [("body_A", "p_AP"), ("body_B", "p_BQ")] {
             let [body, point] = [body, point].map(|name| format!("ball_constraint_{name}"));
-            let Some(end) = self.problems.needed_child(node, &body) else { return };
-            let Some(name) = self.problems.needed(end, "name") else { return };
-            let Some(body) = self.link(end, "name", name) else { return };
+            let Some(end) = self.problems.needed_child(node, &body) else {
+                return;
+            };
+            let Some(name) = self.problems.needed(end, "name") else {
+                return;
+            };
+            let Some(body) = self.link(end, "name", name) else {
+                return;
+            };
             let place = child(node, &point).and_then(|point| self.problems.numbers(point, "value"));
             sides.push((body, pose_of(place.unwrap_or_default(), [0.0; 3])));
         }
@@ -168,18 +203,33 @@ impl LoopReader<'_> {
 
     /// A joint of SDFormat: its frame is given in the child, and where that is at zero it is on the parent too.
     fn gazebo(&mut self, node: Node) {
-        let Some(kind) = self.problems.word(node, "type", TYPES) else { return };
+        let Some(kind) = self.problems.word(node, "type", TYPES) else {
+            return;
+        };
         let mut bodies = Vec::new();
         for end in ["parent", "child"] {
-            let Some(part) = self.problems.needed_child(node, end) else { return };
-            let link = part.attribute("link").or(part.text()).unwrap_or_default().trim();
-            let known: Vec<String> = self.tree.bodies.iter().map(|body| body.name.clone()).collect();
+            let Some(part) = self.problems.needed_child(node, end) else {
+                return;
+            };
+            let link = part
+                .attribute("link")
+                .or(part.text())
+                .unwrap_or_default()
+                .trim();
+            let known: Vec<String> = self
+                .tree
+                .bodies
+                .iter()
+                .map(|body| body.name.clone())
+                .collect();
             match known.iter().position(|name| name == link) {
                 Some(body) => bodies.push(body),
                 None => return self.problems.unknown(part, "link", "link", link, &known),
             }
         }
-        let [parent, child_body] = bodies[..] else { return };
+        let [parent, child_body] = bodies[..] else {
+            return;
+        };
         let mut numbers = |part: Node, count: usize| {
             let text = part.text().unwrap_or_default();
             let words: Option<Vec<f64>> = match count {
@@ -196,7 +246,10 @@ impl LoopReader<'_> {
         if let Some(part) = child(node, "pose") {
             let Some(v) = numbers(part, 6) else { return };
             pose = pose_of([v[0], v[1], v[2]], [v[3], v[4], v[5]]);
-            if part.attribute("relative_to").is_some_and(|name| !name.is_empty()) {
+            if part
+                .attribute("relative_to")
+                .is_some_and(|name| !name.is_empty())
+            {
                 let problem = ImportProblemKind::Unsupported {
                     what: "a pose relative to a named frame".into(),
                     help: "give the pose in the child link",
@@ -216,7 +269,11 @@ impl LoopReader<'_> {
         let poses = self.tree.poses(|joint| joint.reference);
         let frame = pose * along_z(&axis);
         let on_parent = poses[parent].inverse() * poses[child_body] * frame;
-        self.close(node, kind_of(kind), [(parent, on_parent), (child_body, frame)]);
+        self.close(
+            node,
+            kind_of(kind),
+            [(parent, on_parent), (child_body, frame)],
+        );
     }
 }
 
@@ -235,7 +292,13 @@ fn kind_of(word: &str) -> ClosureKind {
 /// A rotation that turns z into a direction; axes of coordinates stay exact.
 pub(crate) fn along_z(axis: &Vector3<f64>) -> Pose<f64> {
     // the coordinate axis most across the direction becomes x as nearly as it can
-    let least = (0..3).fold(0, |i, j| if axis.0[j].abs() < axis.0[i].abs() { j } else { i });
+    let least = (0..3).fold(0, |i, j| {
+        if axis.0[j].abs() < axis.0[i].abs() {
+            j
+        } else {
+            i
+        }
+    });
     let e = Vector3::unit(least);
     let across = e - axis.times(axis.dot(&e));
     let x = across.times(1.0 / across.norm());

@@ -10,7 +10,7 @@ use roxmltree::Node;
 
 use super::loops;
 use crate::geometry::{Pose, Vector3};
-use crate::interchange::page::{Problems, children, child, document, pose_of, tag};
+use crate::interchange::page::{Problems, child, children, document, pose_of, tag};
 use crate::interchange::problem::{ImportProblem, ImportProblemKind};
 use crate::interchange::remark::Remark;
 use crate::interchange::tree::{Body, Coupling, Joint, Motion, Tree};
@@ -18,7 +18,13 @@ use crate::interchange::xml::Xml;
 
 /// The types of joints.
 pub(super) const TYPES: &[&str] = &[
-    "revolute", "continuous", "prismatic", "fixed", "floating", "planar", "spherical",
+    "revolute",
+    "continuous",
+    "prismatic",
+    "fixed",
+    "floating",
+    "planar",
+    "spherical",
 ];
 
 /// A tree that was read, and what is worth knowing about it.
@@ -53,9 +59,14 @@ impl<'a, 'i> Reader<'a, 'i> {
         for node in robot.children().filter(Node::is_element) {
             let element = node.tag_name().name();
             match element {
-                _ if node.tag_name().namespace().is_some_and(|uri| uri.contains("xacro")) => {
+                _ if node
+                    .tag_name()
+                    .namespace()
+                    .is_some_and(|uri| uri.contains("xacro")) =>
+                {
                     let element = format!("xacro:{element}");
-                    self.problems.say(ImportProblemKind::Macro { element }, node);
+                    self.problems
+                        .say(ImportProblemKind::Macro { element }, node);
                 }
                 "link" => {
                     if let Some(name) = self.problems.needed(node, "name") {
@@ -73,7 +84,10 @@ impl<'a, 'i> Reader<'a, 'i> {
                     if let Some(name) = self.problems.needed(node, "name") {
                         if self.joints.iter().any(|(_, other)| other == name) {
                             let name = name.to_owned();
-                            let problem = ImportProblemKind::Duplicate { noun: "joint", name };
+                            let problem = ImportProblemKind::Duplicate {
+                                noun: "joint",
+                                name,
+                            };
                             self.problems.say(problem, node);
                         }
                         self.joints.push((node, name.to_owned()));
@@ -93,7 +107,10 @@ impl<'a, 'i> Reader<'a, 'i> {
 
     fn finish(mut self, robot: Node<'a, 'i>) -> Read {
         let joints: Vec<(Node, String)> = std::mem::take(&mut self.joints);
-        let hangs: Vec<Option<Hanging>> = joints.iter().map(|(node, name)| self.hanging(*node, name)).collect();
+        let hangs: Vec<Option<Hanging>> = joints
+            .iter()
+            .map(|(node, name)| self.hanging(*node, name))
+            .collect();
         let order = self.order(&joints, &hangs);
         if !self.problems.0.is_empty() {
             return Err(self.problems.0);
@@ -107,10 +124,18 @@ impl<'a, 'i> Reader<'a, 'i> {
             }
         };
         let driven = driven(robot, &joints, &mut self.remarks);
-        let joint_of: HashMap<&str, usize> = hangs.iter().enumerate().map(|(i, h)| (h.child.as_str(), i)).collect();
+        let joint_of: HashMap<&str, usize> = hangs
+            .iter()
+            .enumerate()
+            .map(|(i, h)| (h.child.as_str(), i))
+            .collect();
         let mut bodies: Vec<Body> = Vec::new();
         let mut couplings = Vec::new();
-        let index: HashMap<&str, usize> = order.iter().enumerate().map(|(i, link)| (link.as_str(), i)).collect();
+        let index: HashMap<&str, usize> = order
+            .iter()
+            .enumerate()
+            .map(|(i, link)| (link.as_str(), i))
+            .collect();
         for link in &order {
             let mut body = Body {
                 name: link.clone(),
@@ -145,7 +170,10 @@ impl<'a, 'i> Reader<'a, 'i> {
         };
         let poses = tree.poses(|joint| joint.reference);
         for (body, pose) in tree.bodies.iter_mut().zip(poses) {
-            let floats = body.joints.iter().any(|joint| matches!(joint.motion, Motion::Ball | Motion::Free));
+            let floats = body
+                .joints
+                .iter()
+                .any(|joint| matches!(joint.motion, Motion::Ball | Motion::Free));
             body.home = floats.then_some(pose);
         }
         tree.loops = loops::read(robot, &tree, &mut self.problems, &mut self.remarks);
@@ -163,7 +191,9 @@ impl<'a, 'i> Reader<'a, 'i> {
         }
         if let Some(axis) = child(node, "axis")
             && let Some(along) = self.problems.numbers::<3>(axis, "xyz")
-            && kind.is_some_and(|kind| matches!(kind, "revolute" | "continuous" | "prismatic" | "planar"))
+            && kind.is_some_and(|kind| {
+                matches!(kind, "revolute" | "continuous" | "prismatic" | "planar")
+            })
             && direction(along).is_none()
         {
             let joint = name.to_owned();
@@ -182,7 +212,9 @@ impl<'a, 'i> Reader<'a, 'i> {
             }
         }
         if let Some(mimic) = child(node, "mimic") {
-            ["multiplier", "offset"].map(|name| self.problems.numbers::<1>(mimic, name));
+            for name in ["multiplier", "offset"] {
+                self.problems.numbers::<1>(mimic, name);
+            }
             self.problems.needed(mimic, "joint");
         }
         let ends = ["parent", "child"].map(|end| {
@@ -207,7 +239,9 @@ impl<'a, 'i> Reader<'a, 'i> {
         let mut parent_of: HashMap<&str, (usize, &str)> = HashMap::new();
         let mut below: HashMap<&str, Vec<&str>> = HashMap::new();
         for (i, hanging) in hangs.iter().enumerate() {
-            let Some(Hanging { parent, child }) = hanging else { continue };
+            let Some(Hanging { parent, child }) = hanging else {
+                continue;
+            };
             if let Some((other, _)) = parent_of.get(child.as_str()) {
                 let problem = ImportProblemKind::TwoParents {
                     link: child.clone(),
@@ -220,35 +254,52 @@ impl<'a, 'i> Reader<'a, 'i> {
             below.entry(parent).or_default().push(child);
         }
         for (node, name) in joints {
-            let Some(mimic) = child(*node, "mimic") else { continue };
-            let Some(leader) = mimic.attribute("joint") else { continue };
+            let Some(mimic) = child(*node, "mimic") else {
+                continue;
+            };
+            let Some(leader) = mimic.attribute("joint") else {
+                continue;
+            };
             if !joints.iter().any(|(_, other)| other == leader) {
                 let known: Vec<String> = joints.iter().map(|(_, name)| name.clone()).collect();
-                self.problems.unknown(mimic, "joint", "joint", leader, &known);
+                self.problems
+                    .unknown(mimic, "joint", "joint", leader, &known);
             } else if leader == name {
                 let joint = name.clone();
-                self.problems.say(ImportProblemKind::FollowsItself { joint }, mimic);
+                self.problems
+                    .say(ImportProblemKind::FollowsItself { joint }, mimic);
             }
         }
         // joints that could not be read may be those that are missing
         if !self.problems.0.is_empty() {
             return Vec::new();
         }
-        let roots: Vec<&str> = self.links.iter().map(String::as_str).filter(|link| !parent_of.contains_key(link)).collect();
+        let roots: Vec<&str> = self
+            .links
+            .iter()
+            .map(String::as_str)
+            .filter(|link| !parent_of.contains_key(link))
+            .collect();
         let root = match roots.as_slice() {
             [root] => *root,
             [] if self.links.is_empty() => {
-                self.problems.0.push(ImportProblemKind::NothingMoves.anywhere());
+                self.problems
+                    .0
+                    .push(ImportProblemKind::NothingMoves.anywhere());
                 return Vec::new();
             }
             [] => {
                 let links = self.links.clone();
-                self.problems.0.push(ImportProblemKind::NoRoot { links }.anywhere());
+                self.problems
+                    .0
+                    .push(ImportProblemKind::NoRoot { links }.anywhere());
                 return Vec::new();
             }
             roots => {
                 let links = roots.iter().map(|link| (*link).to_owned()).collect();
-                self.problems.0.push(ImportProblemKind::SeveralRoots { links }.anywhere());
+                self.problems
+                    .0
+                    .push(ImportProblemKind::SeveralRoots { links }.anywhere());
                 return Vec::new();
             }
         };
@@ -260,8 +311,15 @@ impl<'a, 'i> Reader<'a, 'i> {
         }
         if order.len() < self.links.len() {
             let reached: HashSet<&String> = order.iter().collect();
-            let links = self.links.iter().filter(|link| !reached.contains(link)).cloned().collect();
-            self.problems.0.push(ImportProblemKind::Cycle { links }.anywhere());
+            let links = self
+                .links
+                .iter()
+                .filter(|link| !reached.contains(link))
+                .cloned()
+                .collect();
+            self.problems
+                .0
+                .push(ImportProblemKind::Cycle { links }.anywhere());
         }
         order
     }
@@ -288,7 +346,9 @@ pub(super) fn direction([x, y, z]: [f64; 3]) -> Option<Vector3<f64>> {
 fn reduced(robot: Node, links: &[String], joints: &[(Node, String)]) -> String {
     let mut xml = Xml::new();
     let kept = |node: Node, names: &[&'static str]| -> Vec<(&'static str, String)> {
-        let given = names.iter().filter_map(|name| Some((*name, node.attribute(*name)?.to_owned())));
+        let given = names
+            .iter()
+            .filter_map(|name| Some((*name, node.attribute(*name)?.to_owned())));
         given.collect()
     };
     xml.open("robot", &kept(robot, &["name", "version"]));
@@ -355,12 +415,23 @@ fn moving(part: &urdf_rs::Joint, actuated: bool) -> Vec<Joint> {
         JointType::Spherical => vec![joint(name(), Motion::Ball, axis, false)],
         JointType::Planar => {
             // in the plane that the axis is normal to
-            let least = (0..3).fold(0, |i, j| if axis.0[j].abs() < axis.0[i].abs() { j } else { i });
+            let least = (0..3).fold(0, |i, j| {
+                if axis.0[j].abs() < axis.0[i].abs() {
+                    j
+                } else {
+                    i
+                }
+            });
             let across = axis.cross(&Vector3::unit(least));
             let x = across.times(1.0 / across.norm());
             vec![
                 joint(format!("{}_x", part.name), Motion::Slide, x, false),
-                joint(format!("{}_y", part.name), Motion::Slide, axis.cross(&x), false),
+                joint(
+                    format!("{}_y", part.name),
+                    Motion::Slide,
+                    axis.cross(&x),
+                    false,
+                ),
                 joint(format!("{}_turn", part.name), Motion::Turn, axis, false),
             ]
         }
@@ -370,24 +441,39 @@ fn moving(part: &urdf_rs::Joint, actuated: bool) -> Vec<Joint> {
 /// Which joints are driven: those of transmissions; where there are none, those with an effort, or all.
 fn driven(robot: Node, joints: &[(Node, String)], remarks: &mut Vec<Remark>) -> Vec<bool> {
     let transmissions = children(robot, "transmission");
-    let named = transmissions.iter().flat_map(|transmission| children(*transmission, "joint"));
+    let named = transmissions
+        .iter()
+        .flat_map(|transmission| children(*transmission, "joint"));
     let named: HashSet<&str> = named.filter_map(|joint| joint.attribute("name")).collect();
     let follows = |node: &Node| child(*node, "mimic").is_some();
     if joints.iter().any(|(_, name)| named.contains(name.as_str())) {
         remarks.push(Remark::Driven("the joints of transmissions are actuated"));
-        return joints.iter().map(|(node, name)| named.contains(name.as_str()) && !follows(node)).collect();
+        return joints
+            .iter()
+            .map(|(node, name)| named.contains(name.as_str()) && !follows(node))
+            .collect();
     }
     let strong = |node: &Node| {
-        let effort = child(*node, "limit").and_then(|limit| limit.attribute("effort")?.trim().parse().ok());
+        let effort =
+            child(*node, "limit").and_then(|limit| limit.attribute("effort")?.trim().parse().ok());
         effort.map(|effort: f64| effort > 0.0)
     };
     let moves = |node: &Node| node.attribute("type") != Some("fixed");
     let efforts: Vec<Option<bool>> = joints.iter().map(|(node, _)| strong(node)).collect();
     if efforts.contains(&Some(true)) && efforts.contains(&Some(false)) {
-        remarks.push(Remark::Driven("joints with an effort of 0, or none, are passive"));
-        return joints.iter().zip(efforts).map(|((node, _), strong)| strong == Some(true) && !follows(node)).collect();
+        remarks.push(Remark::Driven(
+            "joints with an effort of 0, or none, are passive",
+        ));
+        return joints
+            .iter()
+            .zip(efforts)
+            .map(|((node, _), strong)| strong == Some(true) && !follows(node))
+            .collect();
     }
-    joints.iter().map(|(node, _)| moves(node) && !follows(node)).collect()
+    joints
+        .iter()
+        .map(|(node, _)| moves(node) && !follows(node))
+        .collect()
 }
 
 /// Where the start tag of an element stands.

@@ -38,7 +38,10 @@ pub fn write(tree: &Tree) -> Result<(String, Vec<Remark>), String> {
     }
     let kept = writer.losses();
     let UrdfWriter {
-        robot, mut remarks, unlimited, ..
+        robot,
+        mut remarks,
+        unlimited,
+        ..
     } = writer;
     remarks.extend(kept);
     if !unlimited.is_empty() {
@@ -66,12 +69,20 @@ impl UrdfWriter<'_> {
             return false;
         };
         body.frames.is_empty()
-            && !self.tree.couplings.iter().any(|coupling| coupling.leader == joint.name)
+            && !self
+                .tree
+                .couplings
+                .iter()
+                .any(|coupling| coupling.leader == joint.name)
     }
 
     /// The closure that fixes a floating body to a frame of another one.
     fn fixing(&self, body: usize) -> Option<(&Loop, usize)> {
-        let rigid = self.tree.loops.iter().filter(|l| l.kind == ClosureKind::Rigid);
+        let rigid = self
+            .tree
+            .loops
+            .iter()
+            .filter(|l| l.kind == ClosureKind::Rigid);
         let sides = rigid.flat_map(|l| [(l, 0), (l, 1)]);
         // a body that comes before cannot hang on this one
         let mut fixing = sides.filter(|(l, side)| {
@@ -90,7 +101,11 @@ impl UrdfWriter<'_> {
             let part = &self.tree.bodies[body];
             // a floating body may itself be fixed to another one
             if part.home.is_some() && body != on {
-                let rigid = self.tree.loops.iter().filter(|l| l.kind == ClosureKind::Rigid);
+                let rigid = self
+                    .tree
+                    .loops
+                    .iter()
+                    .filter(|l| l.kind == ClosureKind::Rigid);
                 let mut touching = rigid.filter(|l| l.sides.iter().any(|side| side.body == body));
                 if touching.next().is_some() {
                     return true;
@@ -120,7 +135,9 @@ impl UrdfWriter<'_> {
                 self.floating(index, body, home, &mut written);
             }
             self.robot.joints.push(written);
-            self.robot.links.push(link(&child, Some((self.tree.size, joint))));
+            self.robot
+                .links
+                .push(link(&child, Some((self.tree.size, joint))));
             (parent, origin) = (child, Pose::identity());
         }
         self.frames(body);
@@ -166,7 +183,13 @@ impl UrdfWriter<'_> {
         }
     }
 
-    fn joint(&mut self, joint: &Joint, parent: &str, child: &str, at: &Pose<f64>) -> urdf_rs::Joint {
+    fn joint(
+        &mut self,
+        joint: &Joint,
+        parent: &str,
+        child: &str,
+        at: &Pose<f64>,
+    ) -> urdf_rs::Joint {
         let (joint_type, limits) = match (joint.motion, joint.limits) {
             (Motion::Turn, None) => (JointType::Continuous, None),
             (Motion::Turn, limits) => (JointType::Revolute, limits),

@@ -364,7 +364,11 @@ fn link(
 fn wrapped(angle: f64) -> f64 {
     use std::f64::consts::{PI, TAU};
     let within = angle - TAU * (angle / TAU).round();
-    let within = if within < -PI + ROUNDING { within + TAU } else { within };
+    let within = if within < -PI + ROUNDING {
+        within + TAU
+    } else {
+        within
+    };
     without_rounding(within, 1.0 + angle.abs())
 }
 

@@ -40,9 +40,16 @@ pub(super) fn place(
         }
     }
     let steps: Vec<Vector3<f64>> = (from..to)
-        .map(|k| lines[k].direction.times(axes.joints[k].slide * axes.joints[k].home))
+        .map(|k| {
+            lines[k]
+                .direction
+                .times(axes.joints[k].slide * axes.joints[k].home)
+        })
         .collect();
-    let after_first = steps.iter().skip(1).fold(Vector3::zero(), |sum, &step| sum + step);
+    let after_first = steps
+        .iter()
+        .skip(1)
+        .fold(Vector3::zero(), |sum, &step| sum + step);
     if end < lines.len() {
         let whole = steps.iter().fold(near, |sum, &step| sum + step);
         let mut point = origin(axes, lines, to, whole, length);
@@ -53,7 +60,10 @@ pub(super) fn place(
         return (from == first && from < to).then_some(point);
     }
     let through_tool = |line: &Line| {
-        let tool = Line::new(axes.tool?.position - after_first, lines.get(from)?.direction)?;
+        let tool = Line::new(
+            axes.tool?.position - after_first,
+            lines.get(from)?.direction,
+        )?;
         let normal = line.common_normal(&tool, length);
         normal.relation.meets().then_some(normal.feet[0])
     };
