@@ -1,4 +1,5 @@
-//! Files of other programs: what MuJoCo finds in exported files, and what comes back when they are read.
+//! Files of other programs: what MuJoCo finds in exported files, what comes back when they are read, and what is said
+//! of files that are wrong.
 //!
 //! MuJoCo is asked through Python, from `target/mujoco` as `.ci/run` makes it, or from `MUJOCO_PYTHON`. Where there is
 //! none, its tests say so and pass.
@@ -10,14 +11,21 @@ use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
 
 use linkwork::analysis::assembly::{AssemblySettings, assemble};
-use linkwork::analysis::mobility::{MobilitySettings, mobility};
-use linkwork::interchange::{tree_of, write_mjcf};
+use linkwork::description::{Convention, Description};
+use linkwork::geometry::{Pose, Quaternion};
+use linkwork::interchange::{ImportSettings, Imported, import, tree_of, write_mjcf, write_urdf};
 use linkwork::mechanism::{Configuration, Mechanism};
-use linkwork::system::Question;
+use linkwork::solve::Newton;
+use linkwork::system::{Freedoms, Gap, Held, Question, close};
+use proptest::prelude::*;
 use serde_json::{Value, json};
 
 fn root() -> &'static Path {
     Path::new(env!("CARGO_MANIFEST_DIR"))
+}
+
+fn file(name: &str) -> String {
+    std::fs::read_to_string(root().join("tests/exchange").join(name)).unwrap()
 }
 
 /// The shipped mechanisms with their names.
@@ -27,9 +35,15 @@ fn shipped() -> Vec<(String, Mechanism)> {
     files.sort();
     let named = files.iter().map(|path| {
         let name = path.file_stem().unwrap().to_str().unwrap().to_owned();
-        (name, Mechanism::load(path).unwrap())
+        (name, Mechanism::load(path))
     });
-    named.collect()
+    // files of joint axes are no mechanisms
+    named.filter_map(|(name, found)| Some((name, found.ok()?))).collect()
+}
+
+/// What is in no shipped mechanism: sliding closures, a helical joint, variables that stand several times.
+fn every_closure() -> Mechanism {
+    Mechanism::load(root().join("tests/exchange/closures.ron")).unwrap()
 }
 
 fn home_assembly(mechanism: &Mechanism) -> Configuration<f64> {
@@ -38,11 +52,30 @@ fn home_assembly(mechanism: &Mechanism) -> Configuration<f64> {
     report.configuration
 }
 
+/// A configuration in which all closures are whole.
+fn any_assembly(mechanism: &Mechanism) -> Configuration<f64> {
+    let closed = close(&Question::new(mechanism), &Newton::default(), 40, 1);
+    closed.expect("it can be assembled").configuration
+}
+
+/// How many freedoms the mechanism has there if nothing is held.
+fn freedoms(mechanism: &Mechanism, at: &Configuration<f64>) -> usize {
+    let nothing = Held::nothing(mechanism);
+    let unknowns = mechanism.joints().len() + 6 * mechanism.platforms().len();
+    unknowns - Freedoms::at(mechanism.dimensions(), &nothing, at).rank()
+}
+
+/// Where every frame of a mechanism is.
+fn places(mechanism: &Mechanism, at: &Configuration<f64>) -> BTreeMap<String, [f64; 3]> {
+    let frames = mechanism.frames().into_iter();
+    let names = frames.map(|frame| mechanism.frame_name(frame));
+    names.map(|name| (name.clone(), mechanism.pose(&name, at).unwrap().position.0)).collect()
+}
+
 /// Python with MuJoCo.
 fn python() -> Option<PathBuf> {
     let given = std::env::var_os("MUJOCO_PYTHON").map(PathBuf::from);
-    let made = root().join("target/mujoco/bin/python");
-    let python = given.unwrap_or(made);
+    let python = given.unwrap_or(root().join("target/mujoco/bin/python"));
     if !python.exists() {
         eprintln!("skipped: there is no MuJoCo at {}", python.display());
         return None;
@@ -50,10 +83,10 @@ fn python() -> Option<PathBuf> {
     Some(python)
 }
 
-/// What a script of this folder answers to a question.
-fn ask(python: &Path, script: &str, question: &Value) -> Value {
+/// What MuJoCo finds at the keyframe `home` of files.
+fn ask(python: &Path, question: &Value) -> Value {
     let mut child = Command::new(python)
-        .arg(root().join("tests/exchange").join(script))
+        .arg(root().join("tests/exchange/gaps.py"))
         .stdin(Stdio::piped())
         .stdout(Stdio::piped())
         .spawn()
@@ -62,61 +95,446 @@ fn ask(python: &Path, script: &str, question: &Value) -> Value {
     stdin.write_all(question.to_string().as_bytes()).unwrap();
     drop(stdin);
     let output = child.wait_with_output().unwrap();
-    assert!(output.status.success(), "{script} failed");
+    assert!(output.status.success(), "MuJoCo refuses a file");
     serde_json::from_slice(&output.stdout).unwrap()
 }
 
-/// Where every frame of a mechanism is.
-fn places(mechanism: &Mechanism, at: &Configuration<f64>) -> BTreeMap<String, [f64; 3]> {
-    let names = mechanism
-        .frames()
-        .into_iter()
-        .map(|frame| mechanism.frame_name(frame));
-    names
-        .map(|name| {
-            let place = mechanism.pose(&name, at).unwrap().position.0;
-            (name, place)
-        })
-        .collect()
+fn mjcf_of(mechanism: &Mechanism, at: &Configuration<f64>) -> String {
+    let (tree, remarks) = tree_of(mechanism, at);
+    write_mjcf(&tree, &remarks).0
 }
 
 #[test]
 fn mujoco_finds_every_exported_mechanism_assembled_and_as_free_as_it_is() {
     let Some(python) = python() else { return };
-    let shipped = shipped();
-    let mut question = serde_json::Map::new();
-    for (name, mechanism) in &shipped {
-        let at = home_assembly(mechanism);
-        let (tree, remarks) = tree_of(mechanism, &at);
-        let (mjcf, _) = write_mjcf(&tree, &remarks);
-        let frames = places(mechanism, &at);
-        question.insert(name.clone(), json!({"mjcf": mjcf, "frames": frames}));
-        question.insert(
-            format!("{name} nudged"),
-            json!({"mjcf": mjcf, "frames": frames, "nudge": 1e-3}),
-        );
+    let mut mechanisms: Vec<(String, Mechanism, Configuration<f64>)> = Vec::new();
+    for (name, mechanism) in shipped() {
+        let at = home_assembly(&mechanism);
+        mechanisms.push((name, mechanism, at));
     }
-    let answers = ask(&python, "gaps.py", &question.into());
-    for (name, mechanism) in &shipped {
+    let every = every_closure();
+    let at = any_assembly(&every);
+    mechanisms.push(("every closure".into(), every, at));
+    let mut question = serde_json::Map::new();
+    for (name, mechanism, at) in &mechanisms {
+        let job = json!({"mjcf": mjcf_of(mechanism, at), "frames": places(mechanism, at)});
+        let mut nudged = job.clone();
+        nudged["nudge"] = 1e-3.into();
+        question.insert(name.clone(), job);
+        question.insert(format!("{name} nudged"), nudged);
+    }
+    let answers = ask(&python, &question.into());
+    for (name, mechanism, at) in &mechanisms {
         let answer = &answers[name];
         let number = |key: &str| answer[key].as_f64().unwrap();
-        assert!(number("gap") < 1e-9, "{name}: {answer}");
-        assert!(number("sites") < 1e-9, "{name}: {answer}");
-        assert!(number("outside") < 1e-9, "{name}: {answer}");
-        let at = home_assembly(mechanism);
-        let question = Question::new(mechanism).near(&at);
-        let report = mobility(&question, &MobilitySettings::default()).unwrap();
-        let free = report.unknowns - report.rank;
-        assert_eq!(number("freedoms") as usize, free, "{name}: {answer}");
-        // what is held open gapes
-        let nudged = &answers[&format!("{name} nudged")];
+        assert!(number("gap") < 1e-8, "{name}: {answer}");
+        assert!(number("sites") < 1e-8, "{name}: {answer}");
+        assert!(number("outside") < 1e-8, "{name}: {answer}");
+        assert_eq!(number("freedoms") as usize, freedoms(mechanism, at), "{name}: {answer}");
         if !mechanism.closures().is_empty() {
+            assert!(number("constraints") > 0.0, "{name}");
+            // a keyframe that is wrong gapes
+            let nudged = &answers[&format!("{name} nudged")];
             assert!(nudged["gap"].as_f64().unwrap() > 1e-5, "{name}: {nudged}");
-            assert!(number("constraints") > 0.0);
         }
-        assert!(
-            nudged["sites"].as_f64().unwrap() > 1e-6 || mechanism.frames().len() < 3,
-            "{name}: {nudged}"
-        );
+    }
+}
+
+fn no_files(_: &str) -> Result<String, String> {
+    Err("there are no files here".into())
+}
+
+/// What a text of another program means. What is read can be written, and read again.
+fn imported(text: &str, settings: &ImportSettings, loops: Option<&Description>) -> (Imported, Mechanism) {
+    let imported = import("file", text, &no_files, loops, settings);
+    let imported = imported.unwrap_or_else(|wrong| panic!("{:?}", wrong.problems));
+    let ron = imported.description.to_ron().unwrap();
+    let description = Description::read(&ron).unwrap_or_else(|problems| panic!("{ron}\n{problems:?}"));
+    let mechanism = Mechanism::new(&description).unwrap_or_else(|problems| panic!("{ron}\n{problems:?}"));
+    (imported, mechanism)
+}
+
+fn all_frames() -> ImportSettings {
+    ImportSettings {
+        all_frames: true,
+        ..ImportSettings::default()
+    }
+}
+
+/// The frame that has a name after it was written and read.
+fn found(places: &BTreeMap<String, [f64; 3]>, name: &str) -> Option<[f64; 3]> {
+    let renamed = name.replace('.', "_");
+    let is = |known: &str| known == name || known == renamed || known.ends_with(&format!(".{name}"));
+    places.iter().find(|(known, _)| is(known)).map(|(_, place)| *place)
+}
+
+fn apart(a: [f64; 3], b: [f64; 3]) -> f64 {
+    (0..3).map(|i| (a[i] - b[i]).powi(2)).sum::<f64>().sqrt()
+}
+
+/// How many frames of `here` are found `there`, all at the same places.
+fn same_places(name: &str, here: &BTreeMap<String, [f64; 3]>, there: &BTreeMap<String, [f64; 3]>) -> usize {
+    let mut compared = 0;
+    for (frame, place) in here {
+        if let Some(other) = found(there, frame) {
+            let size = place.iter().fold(1.0, |size: f64, x| size.max(x.abs()));
+            assert!(apart(*place, other) < 1e-8 * size, "{name}: {frame} at {place:?}, not {other:?}");
+            compared += 1;
+        }
+    }
+    compared
+}
+
+#[test]
+fn what_is_written_as_mjcf_and_read_again_is_the_same_mechanism() {
+    let mut all = shipped();
+    all.push(("every closure".into(), every_closure()));
+    for (name, mechanism) in all {
+        let at = any_assembly(&mechanism);
+        let (_, back) = imported(&mjcf_of(&mechanism, &at), &all_frames(), None);
+        let home = back.home();
+        let gaps = Gap::of(&back, &home);
+        let widest = gaps.iter().map(|gap| gap.size(&back)).fold(0.0, f64::max);
+        assert!(widest < 1e-8, "{name}: {widest}");
+        let compared = same_places(&name, &places(&mechanism, &at), &places(&back, &home));
+        assert!(compared >= mechanism.chains().len(), "{name}: {compared} frames");
+        assert_eq!(freedoms(&back, &home), freedoms(&mechanism, &at), "{name}");
+        let mut there = home.clone();
+        let mut here = at.clone();
+        for (i, joint) in mechanism.joints().iter().enumerate() {
+            let other = back.joint(&joint.name);
+            let other = other.unwrap_or_else(|| panic!("{name} lost {}", joint.name));
+            let part = &back.joints()[other];
+            assert_eq!((part.role, part.limits), (joint.role, joint.limits), "{name}: {}", joint.name);
+            let turn = std::f64::consts::TAU;
+            let between = (home.joints[other] - at.joints[i]).rem_euclid(turn);
+            assert!(between.min(turn - between) < 1e-8, "{name}: {}", joint.name);
+            here.joints[i] += 0.1 + 0.01 * i as f64;
+            there.joints[other] += 0.1 + 0.01 * i as f64;
+        }
+        // elsewhere too, closed or not
+        same_places(&name, &places(&mechanism, &here), &places(&back, &there));
+    }
+}
+
+#[test]
+fn the_tree_written_as_urdf_and_read_again_moves_the_same_way() {
+    let mut all = shipped();
+    all.push(("every closure".into(), every_closure()));
+    for (name, mechanism) in all {
+        let at = any_assembly(&mechanism);
+        let (tree, _) = tree_of(&mechanism, &at);
+        let (urdf, remarks) = write_urdf(&tree).unwrap();
+        // every closure is named: as lost, or as what holds a platform
+        for closure in mechanism.closures() {
+            let named = format!("`{}`", closure.name);
+            let said = remarks.iter().any(|remark| remark.to_string().contains(&named));
+            assert!(said, "{name}: {named}");
+        }
+        for convention in Convention::ALL {
+            let settings = ImportSettings {
+                convention,
+                ..all_frames()
+            };
+            let (_, back) = imported(&urdf, &settings, None);
+            let (mut here, mut there) = (at.clone(), back.home());
+            for (i, joint) in mechanism.joints().iter().enumerate() {
+                here.joints[i] += 0.05 + 0.01 * i as f64;
+                if let Some(other) = back.joint(&joint.name) {
+                    there.joints[other] = here.joints[i];
+                }
+            }
+            let (here, there) = (places(&mechanism, &here), places(&back, &there));
+            let compared = same_places(&name, &here, &there);
+            assert!(compared >= mechanism.chains().len(), "{name}: {compared} frames");
+        }
+    }
+}
+
+#[test]
+fn an_arm_read_from_urdf_is_where_mujoco_puts_it() {
+    let data: Value = serde_json::from_str(&file("arm.json")).unwrap();
+    for convention in Convention::ALL {
+        let settings = ImportSettings {
+            convention,
+            ..all_frames()
+        };
+        let (read, arm) = imported(&file("arm.urdf"), &settings, None);
+        let mut at = arm.home();
+        for (joint, value) in data["joints"].as_object().unwrap() {
+            match arm.joint(joint) {
+                Some(joint) => at.joints[joint] = value.as_f64().unwrap(),
+                None => assert_eq!(joint, "other_finger"),
+            }
+        }
+        for (link, place) in data["links"].as_object().unwrap() {
+            let number = |i: usize| place[i].as_f64().unwrap();
+            let pose = arm.pose(link, &at).unwrap_or_else(|| panic!("{link} is lost"));
+            assert!(apart(pose.position.0, [0, 1, 2].map(number)) < 1e-9, "{link}");
+            let turned = Quaternion([3, 4, 5, 6].map(number)).rotation();
+            let between = Pose {
+                rotation: turned.transpose() * pose.rotation,
+                ..Pose::identity()
+            };
+            let [w, ..] = Quaternion::from_rotation(&between.rotation).canonical().0;
+            assert!(w > 1.0 - 1e-9, "{link}: {w}");
+        }
+        // limits stay; that of the finger is the narrower of its own and that of the one that follows it
+        let limits = |joint: &str| arm.joints()[arm.joint(joint).unwrap()].limits;
+        assert_eq!(limits("lift"), Some((-1.5, 2.0)));
+        assert_eq!(limits("roll"), None);
+        let (low, high) = limits("finger").unwrap();
+        assert!(low == 0.0 && (high - 0.035).abs() < 1e-12);
+        assert!(arm.joints()[arm.joint("elbow").unwrap()].home == 0.2);
+        assert!(read.remarks.iter().any(|remark| remark.to_string().contains("mesh")));
+    }
+}
+
+#[test]
+fn a_four_bar_read_from_urdf_has_the_assemblies_of_the_one_in_the_shipped_file() {
+    let sidecar = Description::read(&file("four_bar_loops.ron")).unwrap();
+    let with_loop = file("four_bar.urdf");
+    let start = with_loop.find("<loop_joint").unwrap();
+    let end = with_loop.find("</loop_joint>").unwrap() + "</loop_joint>".len();
+    let tree = with_loop[..start].to_owned() + &with_loop[end..];
+    let gazebo = "<gazebo><joint name=\"joint3\" type=\"revolute\"><parent>rocker</parent><child>coupler</child>\
+                  <pose>3 0 0 0 0 0</pose><axis><xyz>0 0 1</xyz></axis></joint></gazebo>";
+    // at zero the coupler's end lies on the rocker where its pivot is moved by −1: not the same linkage
+    let gazebo = tree.replace("</robot>", &format!("{gazebo}</robot>"));
+    let constraint = "<constraint name=\"joint3\" type=\"revolute\"><parent link=\"coupler\"/>\
+                      <parent_origin xyz=\"3 0 0\"/><parent_axis xyz=\"0 0 1\"/><child link=\"rocker\"/>\
+                      <child_origin xyz=\"4 0 0\"/><child_axis xyz=\"0 0 1\"/></constraint>";
+    let constraint = tree.replace("</robot>", &format!("{constraint}</robot>"));
+    let plus = "<loop name=\"joint3\" type=\"continuous\"><predecessor link=\"coupler\"><origin xyz=\"3 0 0\"/>\
+                </predecessor><successor link=\"rocker\"><origin xyz=\"4 0 0\"/></successor><axis xyz=\"0 0 1\"/></loop>";
+    let plus = tree.replace("</robot>", &format!("{plus}</robot>"));
+    let ball = "<drake:ball_constraint><drake:ball_constraint_body_A name=\"coupler\"/>\
+                <drake:ball_constraint_body_B name=\"rocker\"/><drake:ball_constraint_p_AP value=\"3 0 0\"/>\
+                <drake:ball_constraint_p_BQ value=\"4 0 0\"/></drake:ball_constraint>";
+    let ball = tree
+        .replace("<robot ", "<robot xmlns:drake=\"http://drake.mit.edu\" ")
+        .replace("</robot>", &format!("{ball}</robot>"));
+    let shipped = Mechanism::load(root().join("mechanisms/four_bar.ron")).unwrap();
+    let at = |mechanism: &Mechanism, guess: f64| {
+        let question = Question::new(mechanism).hold("theta1", "80 deg").unwrap();
+        let question = question.guess("phi1", &guess.to_string()).unwrap();
+        let report = assemble(&question, &AssemblySettings::default()).unwrap();
+        assert!(report.residual < 1e-9);
+        ["phi1", "phi2"].map(|joint| report.configuration.joints[mechanism.joint(joint).unwrap()])
+    };
+    let settings = ImportSettings::default();
+    let (read, first) = imported(&with_loop, &settings, None);
+    assert_eq!(read.description.chains.len(), 2);
+    let mechanisms = [
+        first,
+        imported(&tree, &settings, Some(&sidecar)).1,
+        imported(&constraint, &settings, None).1,
+        imported(&plus, &settings, None).1,
+        imported(&ball, &settings, None).1,
+    ];
+    for mechanism in &mechanisms {
+        assert_eq!(freedoms(mechanism, &any_assembly(mechanism)), 1);
+        for guess in [2.2, -2.2] {
+            let [found, expected] = [at(mechanism, guess), at(&shipped, guess)];
+            for (a, b) in found.iter().zip(expected) {
+                let turns = (a - b) / std::f64::consts::TAU;
+                assert!((turns - turns.round()).abs() < 1e-9, "{found:?} {expected:?}");
+            }
+        }
+    }
+    let (_, gazebo) = imported(&gazebo, &settings, None);
+    assert_eq!(freedoms(&gazebo, &any_assembly(&gazebo)), 1);
+    assert!((at(&gazebo, 2.2)[0] - at(&shipped, 2.2)[0]).abs() > 0.1);
+    // without its loop it is another mechanism
+    let (_, open) = imported(&tree, &settings, None);
+    assert_eq!(freedoms(&open, &open.home()), 3);
+}
+
+#[test]
+fn mjcf_of_others_is_read_as_mujoco_reads_it() {
+    let (_, mechanism) = imported(&file("others.xml"), &all_frames(), None);
+    let home = mechanism.home();
+    // hinge limits in degrees, a slide's in m
+    let joint = |name: &str| &mechanism.joints()[mechanism.joint(name).unwrap()];
+    let (low, high) = joint("swing").limits.unwrap();
+    assert!((low + 1.0471975511965976).abs() < 1e-12 && (high - 1.5707963267948966).abs() < 1e-12);
+    assert_eq!(joint("lift").limits, Some((0.0, 0.4)));
+    let data: Value = serde_json::from_str(&file("others.json")).unwrap();
+    let mut compared = 0;
+    let here = places(&mechanism, &home);
+    for (site, place) in data.as_object().unwrap() {
+        let place = [0, 1, 2].map(|i| place[i].as_f64().unwrap());
+        let own = found(&here, site).unwrap_or_else(|| panic!("{site} is lost"));
+        assert!(apart(own, place) < 1e-9, "{site}: {own:?} {place:?}");
+        compared += 1;
+    }
+    assert!(compared >= 5);
+}
+
+/// What is said of a wrong text: `line:column: problem (help)`.
+fn complaints(text: &str) -> Vec<String> {
+    match import("file", text, &no_files, None, &ImportSettings::default()) {
+        Ok(_) => panic!("{text} was read"),
+        Err(wrong) => linkwork::interchange::ImportError::Wrong(wrong).lines(),
+    }
+}
+
+#[test]
+fn wrong_files_are_refused_with_their_places() {
+    let robot = |inside: &str| format!("<robot name=\"r\">\n{inside}\n</robot>");
+    let links = "<link name=\"a\"/><link name=\"b\"/>\n";
+    let joint = |inside: &str| {
+        robot(&format!(
+            "{links}<joint name=\"j\" type=\"revolute\">{inside}<parent link=\"a\"/><child link=\"b\"/></joint>"
+        ))
+    };
+    let mujoco = |inside: &str| format!("<mujoco>\n{inside}\n</mujoco>");
+    let body = |inside: &str| {
+        mujoco(&format!("<worldbody><body name=\"b\">{inside}</body></worldbody>"))
+    };
+    let deep = "<a>".repeat(100_000);
+    let cases: Vec<(String, &str)> = vec![
+        (String::new(), "this is not XML"),
+        ("not xml".into(), "file:1:1: this is not XML"),
+        (robot("<link name=\"a\">"), "file:3:"),
+        (robot("<link name=a/>"), "file:2:12: this is not XML"),
+        ("<sdf/>".into(), "the outermost element is `sdf`"),
+        (deep, "levels deep"),
+        (joint("<axis xyz=\"0 0 0\"/>"), "file:3:35: the axis of joint `j` has no direction"),
+        (joint("<axis xyz=\"0 one 0\"/>"), "file:3:46: `0 one 0` is not 3 finite numbers"),
+        (joint("<origin xyz=\"1 2\"/>"), "`1 2` is not 3 finite numbers"),
+        (joint("<origin xyz=\"1 2 nan\"/>"), "is not 3 finite numbers"),
+        (joint("<limit lower=\"x\" velocity=\"1\"/>"), "`x` is not a finite number"),
+        (joint("<limit lower=\"2\" upper=\"1\"/>"), "the lower of which is higher"),
+        (joint("<mimic joint=\"k\"/>"), "there is no joint `k`"),
+        (joint("<mimic joint=\"j\"/>"), "joint `j` follows itself"),
+        (robot("<link name=\"a\"/><link name=\"a\"/>"), "there are two links `a`"),
+        (robot(&format!("{links}<joint name=\"j\" type=\"hinge\"><parent link=\"a\"/><child link=\"b\"/></joint>")),
+         "`hinge` is not known here (known are `revolute`"),
+        (robot(&format!("{links}<joint name=\"j\" type=\"revolute\"><parent link=\"a\"/></joint>")), "has no element `child`"),
+        (robot(&format!("{links}<joint name=\"j\" type=\"revolute\"><parent link=\"a\"/><child link=\"c\"/></joint>")),
+         "there is no link `c`"),
+        (robot(links), "`a` and `b` hang on no link"),
+        (robot("<link name=\"a\"/>"), "nothing in the file moves"),
+        (robot(""), "nothing in the file moves"),
+        (robot(&format!("{links}<joint name=\"j\" type=\"fixed\"><parent link=\"a\"/><child link=\"b\"/></joint>\
+                         <joint name=\"k\" type=\"fixed\"><parent link=\"b\"/><child link=\"a\"/></joint>")),
+         "every link hangs on another one"),
+        (robot(&format!("{links}<link name=\"c\"/><joint name=\"j\" type=\"fixed\"><parent link=\"a\"/><child link=\"b\"/></joint>\
+                         <joint name=\"k\" type=\"fixed\"><parent link=\"c\"/><child link=\"b\"/></joint>")),
+         "joints `j` and `k` both lead to link `b`"),
+        ("<robot name=\"r\" xmlns:xacro=\"http://ros.org/wiki/xacro\"><xacro:arm/></robot>".into(), "is a macro"),
+        (body("<joint axis=\"0 0 0\"/>"), "has no direction"),
+        (body("<joint type=\"screw\"/>"), "the file cannot be read"),
+        (body("<joint pos=\"0 0\"/>"), "`0 0` is not 3 finite numbers"),
+        (body("<frame><joint/></frame>"), "a `joint` in a `frame`"),
+        (mujoco("<compiler eulerseq=\"xyzx\"/>"), "the sequence of angles `xyzx`"),
+        (mujoco("<compiler coordinate=\"global\"/>"), "the file cannot be read"),
+        (mujoco("<include file=\"other.xml\"/>"), "`other.xml` cannot be included: there are no files here"),
+        (mujoco("<worldbody><body name=\"b\" quat=\"0 0 0 0\"/></worldbody>"), "gives no orientation"),
+        (mujoco("<worldbody><replicate/></worldbody>"), "linkwork cannot read the element `replicate`"),
+        (mujoco("<worldbody><body><joint name=\"j\"/></body></worldbody><keyframe><key qpos=\"1 2\"/></keyframe>"),
+         "keyframe `0` has 2 values, the joints have 1"),
+        (mujoco("<worldbody><body name=\"b\"><joint/></body></worldbody><equality><connect body1=\"c\" anchor=\"0 0 0\"/></equality>"),
+         "there is no body `c`"),
+        (mujoco("<worldbody><body name=\"b\"><joint name=\"j\"/><joint name=\"k\"/></body></worldbody>\
+                 <equality><joint joint1=\"j\" joint2=\"k\" polycoef=\"0 1 2 0 0\"/></equality>"), "a polynomial of a higher degree"),
+        (mujoco("<worldbody><body name=\"b\"><joint name=\"j\"/><joint name=\"k\"/></body></worldbody>\
+                 <equality><joint joint1=\"j\" joint2=\"k\"/><joint joint1=\"k\" joint2=\"j\"/></equality>"), "follows itself"),
+    ];
+    for (text, expected) in cases {
+        let said = complaints(&text).join("\n");
+        assert!(said.contains(expected), "{expected:?} is not in:\n{said}\nof {}", text.chars().take(300).collect::<String>());
+    }
+}
+
+/// Texts that almost are files of other programs: parts of real ones exchanged, repeated, left out, changed.
+fn damaged(text: String) -> impl Strategy<Value = String> {
+    let words = prop::sample::select(vec![
+        "", "0", "-1", "1e308", "nan", "inf", "<", ">", "\"", "/", "</robot>", "<link name=\"x\"/>", "<joint", "fixed",
+        "floating", "planar", "mimic", "1 2 3", "0 0 0", "ball", "free", "slide", "<frame>", "</frame>", "<!--", "&amp;", "&x;",
+        "]]>", "<![CDATA[", "é", "\u{0}", "spherical", "site1", "body1=\"b\"", "polycoef=\"1 0\"", "ref=\"1\"", "limited=\"true\"",
+    ]);
+    let change = (any::<prop::sample::Index>(), 0..12_usize, words, 0..4_u8, any::<prop::sample::Index>());
+    prop::collection::vec(change, 1..6).prop_map(move |changes| {
+        let mut text: Vec<char> = text.chars().collect();
+        for (at, length, word, kind, other) in changes {
+            if text.is_empty() {
+                break;
+            }
+            let at = at.index(text.len());
+            let end = (at + length).min(text.len());
+            match kind {
+                // a tag as a whole, or some letters, give way
+                0 => {
+                    let start = text[..at].iter().rposition(|c| *c == '<').unwrap_or(at);
+                    let end = text[at..].iter().position(|c| *c == '>').map_or(end, |i| at + i + 1);
+                    text.splice(start..end, word.chars());
+                }
+                1 => {
+                    text.splice(at..end, word.chars());
+                }
+                // a part is repeated elsewhere
+                2 => {
+                    let part: Vec<char> = text[at..(at + 40 * length).min(text.len())].to_vec();
+                    let to = other.index(text.len());
+                    text.splice(to..to, part);
+                }
+                // a number or name is exchanged for another
+                _ => {
+                    let quote = |from: usize| text[from..].iter().position(|c| *c == '"').map(|i| from + i);
+                    if let Some((start, end)) = quote(at).and_then(|start| Some((start, quote(start + 1)?))) {
+                        text.splice(start + 1..end, word.chars().filter(|c| *c != '"'));
+                    }
+                }
+            }
+        }
+        text.into_iter().collect()
+    })
+}
+
+fn reads_or_refuses(text: &str) -> Result<(), TestCaseError> {
+    let settings = ImportSettings::default();
+    match import("file", text, &no_files, None, &settings) {
+        Err(wrong) => {
+            prop_assert!(!wrong.problems.is_empty());
+            // every problem has its words and its place
+            let lines = linkwork::interchange::ImportError::Wrong(wrong).lines();
+            prop_assert!(lines.iter().all(|line| !line.contains("NaN")));
+        }
+        Ok(imported) => {
+            let ron = imported.description.to_ron().unwrap();
+            let again = Description::read(&ron);
+            prop_assert!(again.is_ok(), "{}\n{:?}", ron, again.err());
+            let mechanism = Mechanism::new(&again.unwrap());
+            prop_assert!(mechanism.is_ok(), "{}\n{:?}", ron, mechanism.err());
+        }
+    }
+    Ok(())
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig { cases: 300, failure_persistence: None, ..ProptestConfig::default() })]
+
+    #[test]
+    fn damaged_urdf_is_read_or_refused(text in prop::sample::select(vec!["arm.urdf", "four_bar.urdf"]).prop_flat_map(|name| damaged(file(name)))) {
+        reads_or_refuses(&text)?;
+    }
+
+    #[test]
+    fn damaged_mjcf_is_read_or_refused(text in damaged(file("others.xml"))) {
+        reads_or_refuses(&text)?;
+    }
+
+    #[test]
+    fn damaged_mjcf_of_our_own_is_read_or_refused(text in damaged({ let m = every_closure(); mjcf_of(&m, &any_assembly(&m)) })) {
+        reads_or_refuses(&text)?;
+    }
+
+    #[test]
+    fn damaged_mechanism_files_are_read_or_refused(text in damaged(file("closures.ron"))) {
+        if let Ok(description) = Description::read(&text) {
+            let _ = Mechanism::new(&description);
+        }
     }
 }

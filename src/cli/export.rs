@@ -3,11 +3,13 @@
 use std::path::PathBuf;
 
 use clap::{Args, ValueEnum};
-use linkwork::analysis::assembly::{AssemblySettings, Outcome, assemble};
+use linkwork::analysis::assembly::AssemblySettings;
 use linkwork::interchange::{Remark, tree_of, write_mjcf, write_urdf};
-use linkwork::output::solution;
+use linkwork::output::closing;
+use linkwork::solve::Newton;
+use linkwork::system::{Analysed, close};
 
-use super::asked::{Asked, refusal};
+use super::asked::Asked;
 use super::source::Source;
 use super::{Answer, Refusal};
 
@@ -46,30 +48,28 @@ impl Export {
     pub fn run(&self) -> Result<Answer, Refusal> {
         let loaded = self.source.load()?;
         let question = self.asked.question(&loaded.mechanism)?;
-        let report = assemble(&question, &AssemblySettings::default())
-            .map_err(|error| refusal(&error, None))?;
-        let mut remarks = loaded.warnings();
-        match report.outcome {
-            Outcome::CannotBeAssembled { .. } | Outcome::GaveUp { .. } => {
-                let sentence = solution::sentence(&loaded.mechanism, &report);
+        let (newton, search) = (Newton::default(), AssemblySettings::default());
+        let closed = close(&question, &newton, search.restarts, search.seed);
+        let closed = match closed {
+            Ok(closed) => closed,
+            Err(open) => {
+                let open: Analysed<()> = Analysed::NotClosed(open);
+                let (sentence, _) = closing::text(&loaded.mechanism, &open, |_, ()| String::new());
                 return Ok(Answer {
                     data: String::new(),
-                    remarks: format!("{remarks}error: {sentence}\nNothing is written.\n"),
+                    remarks: loaded.warnings() + &sentence + "Nothing is written.\n",
                     yes: false,
                 });
             }
-            Outcome::ConvergedOutsideLimits { .. } | Outcome::Singular { .. } => {
-                let sentence = solution::sentence(&loaded.mechanism, &report);
-                remarks += &format!("warning: {sentence}\n");
-            }
-            Outcome::Converged => {}
-        }
-        let (tree, mut said) = tree_of(&loaded.mechanism, &report.configuration);
+        };
+        let (tree, mut said) = tree_of(&loaded.mechanism, &closed.configuration);
         let (text, more): (String, Vec<Remark>) = match self.to {
             To::Mjcf => write_mjcf(&tree, &said),
             To::Urdf => write_urdf(&tree).map_err(|error| Refusal(format!("error: {error}\n")))?,
         };
         said.extend(more);
+        let mut remarks = loaded.warnings();
+        remarks += &closing::limits_warning(&closed.outside_limits(&loaded.mechanism));
         for remark in &said {
             let word = if remark.is_loss() { "warning" } else { "note" };
             remarks += &format!("{word}: {remark}\n");
