@@ -244,9 +244,14 @@ fn the_tree_written_as_urdf_and_read_again_moves_the_same_way() {
                     there.joints[other] = here.joints[i];
                 }
             }
-            let (here, there) = (places(&mechanism, &here), places(&back, &there));
+            // what stands on a platform is lost with the closures that hold it
+            let stands = |name: &String| mechanism.frame(name).is_some_and(|f| mechanism.carrier(f).is_none());
+            let mut here = places(&mechanism, &here);
+            here.retain(|name, _| stands(name));
+            let there = places(&back, &there);
+            let chains = mechanism.chains().iter().filter(|chain| stands(&chain.name)).count();
             let compared = same_places(&name, &here, &there);
-            assert!(compared >= mechanism.chains().len(), "{name}: {compared} frames");
+            assert!(compared >= chains, "{name}: {compared} frames");
         }
     }
 }
@@ -299,7 +304,6 @@ fn a_four_bar_read_from_urdf_has_the_assemblies_of_the_one_in_the_shipped_file()
     let tree = with_loop[..start].to_owned() + &with_loop[end..];
     let gazebo = "<gazebo><joint name=\"joint3\" type=\"revolute\"><parent>rocker</parent><child>coupler</child>\
                   <pose>3 0 0 0 0 0</pose><axis><xyz>0 0 1</xyz></axis></joint></gazebo>";
-    // at zero the coupler's end lies on the rocker where its pivot is moved by −1: not the same linkage
     let gazebo = tree.replace("</robot>", &format!("{gazebo}</robot>"));
     let constraint = "<constraint name=\"joint3\" type=\"revolute\"><parent link=\"coupler\"/>\
                       <parent_origin xyz=\"3 0 0\"/><parent_axis xyz=\"0 0 1\"/><child link=\"rocker\"/>\
@@ -342,9 +346,14 @@ fn a_four_bar_read_from_urdf_has_the_assemblies_of_the_one_in_the_shipped_file()
             }
         }
     }
+    // the joint of a Gazebo file is where the child's frame is at zero: there it is whole, the others are not
     let (_, gazebo) = imported(&gazebo, &settings, None);
-    assert_eq!(freedoms(&gazebo, &any_assembly(&gazebo)), 1);
-    assert!((at(&gazebo, 2.2)[0] - at(&shipped, 2.2)[0]).abs() > 0.1);
+    let widest = |mechanism: &Mechanism| {
+        let mut at = mechanism.home();
+        at.joints.fill(0.0);
+        Gap::of(mechanism, &at)[0].distance
+    };
+    assert!(widest(&gazebo) < 1e-12 && (widest(&mechanisms[0]) - 5.0).abs() < 1e-12);
     // without its loop it is another mechanism
     let (_, open) = imported(&tree, &settings, None);
     assert_eq!(freedoms(&open, &open.home()), 3);
@@ -397,11 +406,11 @@ fn wrong_files_are_refused_with_their_places() {
         (String::new(), "this is not XML"),
         ("not xml".into(), "file:1:1: this is not XML"),
         (robot("<link name=\"a\">"), "file:3:"),
-        (robot("<link name=a/>"), "file:2:12: this is not XML"),
+        (robot("<link name=a/>"), "file:2:"),
         ("<sdf/>".into(), "the outermost element is `sdf`"),
         (deep, "levels deep"),
-        (joint("<axis xyz=\"0 0 0\"/>"), "file:3:35: the axis of joint `j` has no direction"),
-        (joint("<axis xyz=\"0 one 0\"/>"), "file:3:46: `0 one 0` is not 3 finite numbers"),
+        (joint("<axis xyz=\"0 0 0\"/>"), "file:3:33: the axis of joint `j` has no direction"),
+        (joint("<axis xyz=\"0 one 0\"/>"), "file:3:44: `0 one 0` is not 3 finite numbers"),
         (joint("<origin xyz=\"1 2\"/>"), "`1 2` is not 3 finite numbers"),
         (joint("<origin xyz=\"1 2 nan\"/>"), "is not 3 finite numbers"),
         (joint("<limit lower=\"x\" velocity=\"1\"/>"), "`x` is not a finite number"),

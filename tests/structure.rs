@@ -3,6 +3,9 @@
 use std::path::{Path, PathBuf};
 
 /// The library's modules, from the one that uses no other to the one that may use all.
+///
+/// `interchange` makes descriptions from files of other programs and such files from mechanisms: it knows both and
+/// nothing of systems and analyses.
 const ORDER: [&str; 12] = [
     "number",
     "linear",

@@ -143,6 +143,11 @@ pub enum ImportProblemKind {
         /// Its words.
         message: String,
     },
+    /// A number beyond all that a mechanism can have.
+    TooLarge {
+        /// What has it.
+        of: String,
+    },
     /// Nothing moves.
     NothingMoves,
 }

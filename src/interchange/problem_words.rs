@@ -49,6 +49,7 @@ impl ImportProblemKind {
             } => format!("keyframe `{name}` has {found} values, the joints have {expected}"),
             Self::NotIncluded { file, reason } => format!("`{file}` cannot be included: {reason}"),
             Self::Reader { message } => format!("the file cannot be read: {message}"),
+            Self::TooLarge { of } => format!("the numbers of `{of}` are too large"),
             Self::NothingMoves => "nothing in the file moves".into(),
         }
     }
@@ -90,6 +91,7 @@ impl ImportProblemKind {
                 "give one value for each hinge and slide, 4 for a ball, 7 for a free joint".into()
             }
             Self::NotIncluded { .. } => "put the file there, or its content here".into(),
+            Self::TooLarge { .. } => "lengths are in m and angles in rad".into(),
             Self::NothingMoves => "a mechanism needs a joint that is not fixed".into(),
         };
         Some(help)

@@ -97,6 +97,11 @@ pub enum Remark {
     Driven(&'static str),
     /// Two links that look like the two sides of a broken joint.
     Halves([String; 2]),
+    /// A loop that joins two frames of one body.
+    WithinBody {
+        /// Its name.
+        name: String,
+    },
     /// A constraint of a file that is not active.
     Inactive {
         /// Its name.
@@ -209,6 +214,9 @@ impl Display for Remark {
                 f,
                 "links `{a}` and `{b}` look like the two sides of a broken joint: close it with --loops"
             ),
+            Remark::WithinBody { name } => {
+                write!(f, "closure `{name}` is left out: it joins two frames of one body")
+            }
             Remark::Inactive { name } => {
                 write!(f, "constraint `{name}` is left out: it is not active")
             }

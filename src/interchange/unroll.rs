@@ -35,6 +35,7 @@ pub(super) fn describe(
     asked: &[String],
     source: String,
 ) -> Result<Unrolled, ImportProblemKind> {
+    within_reason(tree)?;
     let mut unroller = Unroller {
         tree,
         convention,
@@ -47,12 +48,13 @@ pub(super) fn describe(
         places: HashMap::new(),
         chains: Vec::new(),
         references: Vec::new(),
+        remarks: Vec::new(),
     };
     unroller.variables();
     unroller.needs(asked);
     let platforms = unroller.platforms();
     unroller.chains();
-    let (platforms, closures) = unroller.closures(platforms)?;
+    let (platforms, closures) = unroller.closures(platforms);
     let moves = unroller
         .chains
         .iter()
@@ -61,7 +63,10 @@ pub(super) fn describe(
         return Err(ImportProblemKind::NothingMoves);
     }
     let description = Description {
-        name: spanned(tree.name.clone()),
+        name: spanned(match tree.name.trim() {
+            "" => "mechanism".to_owned(),
+            name => name.to_owned(),
+        }),
         source: Some(spanned(source)),
         convention: Some(Spanned::new(convention, 0..0)),
         parameters: Vec::new(),
@@ -73,7 +78,7 @@ pub(super) fn describe(
     };
     Ok(Unrolled {
         description,
-        remarks: unroller.names.renamed(),
+        remarks: unroller.remarks.into_iter().chain(unroller.names.renamed()).collect(),
         references: unroller.references,
     })
 }
@@ -120,6 +125,50 @@ fn leaders(tree: &Tree) -> Result<HashMap<String, Coupling>, ImportProblemKind> 
     Ok(leaders)
 }
 
+/// Refuses what no mechanism can have: lengths beside which all others drown in rounding.
+fn within_reason(tree: &Tree) -> Result<(), ImportProblemKind> {
+    const MOST: f64 = 1e12;
+    let fits = |x: &f64| x.abs() <= MOST;
+    let pose = |pose: &Pose<f64>| {
+        let axes = pose.rotation.0.iter().flat_map(|axis| &axis.0);
+        pose.position.0.iter().chain(axes).all(fits)
+    };
+    let refuse = |of: &str| Err(ImportProblemKind::TooLarge { of: of.to_owned() });
+    let zero = tree.poses(|joint| joint.reference);
+    let home = tree.home();
+    for (i, body) in tree.bodies.iter().enumerate() {
+        if ![&body.pose, &zero[i], &home[i]].into_iter().all(pose) {
+            return refuse(&body.name);
+        }
+        if let Some((name, _)) = body.frames.iter().find(|(_, frame)| !pose(frame)) {
+            return refuse(name);
+        }
+        for joint in &body.joints {
+            let point = joint.point.0.iter().chain(&joint.axis.0);
+            let limits = joint.limits.map_or([0.0; 2], |(low, high)| [low, high]);
+            let values = [joint.reference, joint.home];
+            if !point.chain(&values).chain(&limits).all(fits) {
+                return refuse(&joint.name);
+            }
+        }
+    }
+    for coupling in &tree.couplings {
+        if ![coupling.factor, coupling.offset].iter().all(fits) {
+            return refuse(&coupling.joint);
+        }
+    }
+    for part in &tree.loops {
+        let lengths = part.length.iter().flat_map(|length| {
+            let factors = length.terms.iter().map(|(_, factor)| *factor);
+            factors.chain([length.constant])
+        });
+        if !part.sides.iter().all(|side| pose(&side.pose)) || !lengths.into_iter().all(|x| fits(&x)) {
+            return refuse(&part.name);
+        }
+    }
+    Ok(())
+}
+
 /// Where a body that moves by rows is: its chain and its last row; the pose of that link frame at the references.
 #[derive(Clone)]
 struct Placed {
@@ -143,7 +192,13 @@ struct Unroller<'a> {
     places: HashMap<usize, Placed>,
     chains: Vec<Named<ChainDescription>>,
     references: Vec<(String, String)>,
+    remarks: Vec<Remark>,
 }
+
+/// A platform and the body that it is.
+type Floating = (usize, Named<PlatformDescription>);
+type Platforms = Vec<Named<PlatformDescription>>;
+type Closures = Vec<Named<ClosureDescription>>;
 
 fn spanned<T>(value: T) -> Spanned<T> {
     Spanned::new(value, 0..0)
@@ -206,7 +261,7 @@ impl Unroller<'_> {
         }
     }
 
-    fn platforms(&mut self) -> Vec<(usize, Named<PlatformDescription>)> {
+    fn platforms(&mut self) -> Vec<Floating> {
         let mut platforms = Vec::new();
         for (i, body) in self.tree.bodies.iter().enumerate() {
             if floats(body).is_some() {
@@ -369,7 +424,7 @@ impl Unroller<'_> {
     fn frame(
         &mut self,
         side: &Attachment,
-        platforms: &mut [(usize, Named<PlatformDescription>)],
+        platforms: &mut [Floating],
     ) -> String {
         let (carrier, pose) = self.carried(side);
         self.frame_on(&side.frame, carrier, &pose, platforms)
@@ -380,7 +435,7 @@ impl Unroller<'_> {
         wanted: &str,
         carrier: usize,
         pose: &Pose<f64>,
-        platforms: &mut [(usize, Named<PlatformDescription>)],
+        platforms: &mut [Floating],
     ) -> String {
         if let Some((_, platform)) = platforms.iter_mut().find(|(body, _)| *body == carrier) {
             let owner = platform.name.value.clone();
@@ -390,10 +445,8 @@ impl Unroller<'_> {
             let steps = Displacement::of_pose(pose);
             let frames = &mut platform.value.frames;
             // frames of the same name are the same frame
-            let own = wanted
-                .strip_prefix(&format!("{owner}."))
-                .unwrap_or(wanted)
-                .to_owned();
+            let own = wanted.strip_prefix(&format!("{owner}.")).unwrap_or(wanted);
+            let own = if own.trim().is_empty() { "frame" } else { own }.to_owned();
             if !frames.iter().any(|frame| frame.name.value == own) {
                 frames.push(named(own.clone(), steps));
             }
@@ -430,61 +483,82 @@ impl Unroller<'_> {
         name
     }
 
-    fn closures(
-        &mut self,
-        mut platforms: Vec<(usize, Named<PlatformDescription>)>,
-    ) -> Result<
-        (
-            Vec<Named<PlatformDescription>>,
-            Vec<Named<ClosureDescription>>,
-        ),
-        ImportProblemKind,
-    > {
+    /// The platforms with their frames, and the closures between all frames.
+    fn closures(&mut self, platforms: Vec<Floating>) -> (Platforms, Closures) {
+        let mut platforms = platforms;
         for (name, carrier, pose) in self.needs.clone() {
             let reference = self.frame_on(&name, carrier, &pose, &mut platforms);
             self.references.push((name, reference));
         }
-        let mut closures: Vec<Named<ClosureDescription>> = Vec::new();
-        let tree = self.tree;
-        let joint = |name: &str, kind, frames: [String; 2], length| {
+        let mut closures: Closures = Vec::new();
+        for closing in self.balls().iter().chain(&self.tree.loops) {
+            let Loop {
+                name, kind, sides, ..
+            } = closing;
+            let movers = [0, 1].map(|side| self.mover(sides[side].body));
+            if movers[0] == movers[1] {
+                let name = name.clone();
+                self.remarks.push(Remark::WithinBody { name });
+                continue;
+            }
+            let frames = [&sides[0], &sides[1]].map(|side| self.frame(side, &mut platforms));
             let closure = ClosureDescription {
-                kind,
+                kind: *kind,
                 frames: frames.map(spanned),
-                length,
+                length: closing.length.as_ref().map(|length| self.length(length)),
                 span: 0..0,
             };
-            named(name.to_owned(), closure)
-        };
-        for (i, body) in tree.bodies.iter().enumerate() {
-            let Some(ball) = floats(body).filter(|joint| joint.motion == Motion::Ball) else {
-                continue;
+            let mut label = match name.trim() {
+                "" => "closure".to_owned(),
+                name => name.to_owned(),
             };
+            while closures.iter().any(|other| other.name.value == label) {
+                label += "_";
+            }
+            closures.push(named(label, closure));
+        }
+        let platforms = platforms.into_iter().map(|(_, platform)| platform);
+        (platforms.collect(), closures)
+    }
+
+    /// Ball joints as loops: spherical closures between parents and platforms.
+    fn balls(&self) -> Vec<Loop> {
+        let bodies = self.tree.bodies.iter().enumerate();
+        let balls = bodies.filter_map(|(i, body)| {
+            let ball = floats(body).filter(|joint| joint.motion == Motion::Ball)?;
             let point = Pose::translation(ball.point);
-            let sides = [(body.parent.unwrap_or(0), body.pose * point), (i, point)];
-            let frames = [0, 1].map(|side| Attachment {
+            let sides = [(body.parent?, body.pose * point), (i, point)];
+            let sides = [0, 1].map(|side| Attachment {
                 body: sides[side].0,
                 frame: format!("{}_{}", ball.name, side + 1),
                 pose: sides[side].1,
             });
-            let frames = [&frames[0], &frames[1]].map(|side| self.frame(side, &mut platforms));
-            closures.push(joint(&ball.name, ClosureKind::Spherical, frames, None));
+            Some(Loop {
+                name: ball.name.clone(),
+                kind: ClosureKind::Spherical,
+                sides,
+                length: None,
+            })
+        });
+        balls.collect()
+    }
+
+    /// The body that a body moves with: the nearest one with a joint that has a variable.
+    fn mover(&self, body: usize) -> usize {
+        let moves = |joint: &Joint| match self.leaders.get(&joint.name) {
+            None => true,
+            Some(coupling) => {
+                coupling.factor != 0.0 && self.variables.contains_key(&coupling.leader)
+            }
+        };
+        let mut at = body;
+        while let Some(parent) = self.tree.bodies[at].parent {
+            if self.tree.bodies[at].joints.iter().any(moves) {
+                break;
+            }
+            at = parent;
         }
-        for Loop {
-            name,
-            kind,
-            sides,
-            length,
-        } in &tree.loops
-        {
-            let frames = [&sides[0], &sides[1]].map(|side| self.frame(side, &mut platforms));
-            let length = length.as_ref().map(|length| self.length(length));
-            closures.push(joint(name, *kind, frames, length));
-        }
-        let platforms = platforms
-            .into_iter()
-            .map(|(_, platform)| platform)
-            .collect();
-        Ok((platforms, closures))
+        at
     }
 
     fn length(&self, extent: &Extent) -> Entry {
@@ -500,6 +574,9 @@ impl Unroller<'_> {
                 }
             }
         }
+        terms.retain(|(_, factor)| *factor != 0.0);
+        // a length has no sign
+        let constant = if terms.is_empty() { constant.abs() } else { constant };
         sum(Entry::length(constant), &terms)
     }
 
