@@ -38,7 +38,9 @@ fn shipped() -> Vec<(String, Mechanism)> {
         (name, Mechanism::load(path))
     });
     // files of joint axes are no mechanisms
-    named.filter_map(|(name, found)| Some((name, found.ok()?))).collect()
+    named
+        .filter_map(|(name, found)| Some((name, found.ok()?)))
+        .collect()
 }
 
 /// What is in no shipped mechanism: sliding closures, a helical joint, variables that stand several times.
@@ -69,7 +71,9 @@ fn freedoms(mechanism: &Mechanism, at: &Configuration<f64>) -> usize {
 fn places(mechanism: &Mechanism, at: &Configuration<f64>) -> BTreeMap<String, [f64; 3]> {
     let frames = mechanism.frames().into_iter();
     let names = frames.map(|frame| mechanism.frame_name(frame));
-    names.map(|name| (name.clone(), mechanism.pose(&name, at).unwrap().position.0)).collect()
+    names
+        .map(|name| (name.clone(), mechanism.pose(&name, at).unwrap().position.0))
+        .collect()
 }
 
 /// Python with MuJoCo.
@@ -130,7 +134,11 @@ fn mujoco_finds_every_exported_mechanism_assembled_and_as_free_as_it_is() {
         assert!(number("gap") < 1e-8, "{name}: {answer}");
         assert!(number("sites") < 1e-8, "{name}: {answer}");
         assert!(number("outside") < 1e-8, "{name}: {answer}");
-        assert_eq!(number("freedoms") as usize, freedoms(mechanism, at), "{name}: {answer}");
+        assert_eq!(
+            number("freedoms") as usize,
+            freedoms(mechanism, at),
+            "{name}: {answer}"
+        );
         if !mechanism.closures().is_empty() {
             assert!(number("constraints") > 0.0, "{name}");
             // a keyframe that is wrong gapes
@@ -145,12 +153,18 @@ fn no_files(_: &str) -> Result<String, String> {
 }
 
 /// What a text of another program means. What is read can be written, and read again.
-fn imported(text: &str, settings: &ImportSettings, loops: Option<&Description>) -> (Imported, Mechanism) {
+fn imported(
+    text: &str,
+    settings: &ImportSettings,
+    loops: Option<&Description>,
+) -> (Imported, Mechanism) {
     let imported = import("file", text, &no_files, loops, settings);
     let imported = imported.unwrap_or_else(|wrong| panic!("{:?}", wrong.problems));
     let ron = imported.description.to_ron().unwrap();
-    let description = Description::read(&ron).unwrap_or_else(|problems| panic!("{ron}\n{problems:?}"));
-    let mechanism = Mechanism::new(&description).unwrap_or_else(|problems| panic!("{ron}\n{problems:?}"));
+    let description =
+        Description::read(&ron).unwrap_or_else(|problems| panic!("{ron}\n{problems:?}"));
+    let mechanism =
+        Mechanism::new(&description).unwrap_or_else(|problems| panic!("{ron}\n{problems:?}"));
     (imported, mechanism)
 }
 
@@ -164,8 +178,17 @@ fn all_frames() -> ImportSettings {
 /// The frame that has a name after it was written and read.
 fn found(places: &BTreeMap<String, [f64; 3]>, name: &str) -> Option<[f64; 3]> {
     let renamed = name.replace('.', "_");
-    let is = |known: &str| known == name || known == renamed || known.ends_with(&format!(".{name}"));
-    places.iter().find(|(known, _)| is(known)).map(|(_, place)| *place)
+    // `left.1` of a chain became `left_1`, and a `left.1` there is there may be another frame
+    let is_link = name
+        .rsplit_once('.')
+        .is_some_and(|(_, row)| row.parse::<usize>().is_ok());
+    let is = |known: &str| {
+        known == renamed || (!is_link && known == name) || known.ends_with(&format!(".{name}"))
+    };
+    places
+        .iter()
+        .find(|(known, _)| is(known))
+        .map(|(_, place)| *place)
 }
 
 fn apart(a: [f64; 3], b: [f64; 3]) -> f64 {
@@ -173,12 +196,19 @@ fn apart(a: [f64; 3], b: [f64; 3]) -> f64 {
 }
 
 /// How many frames of `here` are found `there`, all at the same places.
-fn same_places(name: &str, here: &BTreeMap<String, [f64; 3]>, there: &BTreeMap<String, [f64; 3]>) -> usize {
+fn same_places(
+    name: &str,
+    here: &BTreeMap<String, [f64; 3]>,
+    there: &BTreeMap<String, [f64; 3]>,
+) -> usize {
     let mut compared = 0;
     for (frame, place) in here {
         if let Some(other) = found(there, frame) {
             let size = place.iter().fold(1.0, |size: f64, x| size.max(x.abs()));
-            assert!(apart(*place, other) < 1e-8 * size, "{name}: {frame} at {place:?}, not {other:?}");
+            assert!(
+                apart(*place, other) < 1e-8 * size,
+                "{name}: {frame} at {place:?}, not {other:?}"
+            );
             compared += 1;
         }
     }
@@ -197,7 +227,10 @@ fn what_is_written_as_mjcf_and_read_again_is_the_same_mechanism() {
         let widest = gaps.iter().map(|gap| gap.size(&back)).fold(0.0, f64::max);
         assert!(widest < 1e-8, "{name}: {widest}");
         let compared = same_places(&name, &places(&mechanism, &at), &places(&back, &home));
-        assert!(compared >= mechanism.chains().len(), "{name}: {compared} frames");
+        assert!(
+            compared >= mechanism.chains().len(),
+            "{name}: {compared} frames"
+        );
         assert_eq!(freedoms(&back, &home), freedoms(&mechanism, &at), "{name}");
         let mut there = home.clone();
         let mut here = at.clone();
@@ -205,7 +238,12 @@ fn what_is_written_as_mjcf_and_read_again_is_the_same_mechanism() {
             let other = back.joint(&joint.name);
             let other = other.unwrap_or_else(|| panic!("{name} lost {}", joint.name));
             let part = &back.joints()[other];
-            assert_eq!((part.role, part.limits), (joint.role, joint.limits), "{name}: {}", joint.name);
+            assert_eq!(
+                (part.role, part.limits),
+                (joint.role, joint.limits),
+                "{name}: {}",
+                joint.name
+            );
             let turn = std::f64::consts::TAU;
             let between = (home.joints[other] - at.joints[i]).rem_euclid(turn);
             assert!(between.min(turn - between) < 1e-8, "{name}: {}", joint.name);
@@ -228,7 +266,9 @@ fn the_tree_written_as_urdf_and_read_again_moves_the_same_way() {
         // every closure is named: as lost, or as what holds a platform
         for closure in mechanism.closures() {
             let named = format!("`{}`", closure.name);
-            let said = remarks.iter().any(|remark| remark.to_string().contains(&named));
+            let said = remarks
+                .iter()
+                .any(|remark| remark.to_string().contains(&named));
             assert!(said, "{name}: {named}");
         }
         for convention in Convention::ALL {
@@ -245,11 +285,19 @@ fn the_tree_written_as_urdf_and_read_again_moves_the_same_way() {
                 }
             }
             // what stands on a platform is lost with the closures that hold it
-            let stands = |name: &String| mechanism.frame(name).is_some_and(|f| mechanism.carrier(f).is_none());
+            let stands = |name: &String| {
+                mechanism
+                    .frame(name)
+                    .is_some_and(|f| mechanism.carrier(f).is_none())
+            };
             let mut here = places(&mechanism, &here);
             here.retain(|name, _| stands(name));
             let there = places(&back, &there);
-            let chains = mechanism.chains().iter().filter(|chain| stands(&chain.name)).count();
+            let chains = mechanism
+                .chains()
+                .iter()
+                .filter(|chain| stands(&chain.name))
+                .count();
             let compared = same_places(&name, &here, &there);
             assert!(compared >= chains, "{name}: {compared} frames");
         }
@@ -274,8 +322,13 @@ fn an_arm_read_from_urdf_is_where_mujoco_puts_it() {
         }
         for (link, place) in data["links"].as_object().unwrap() {
             let number = |i: usize| place[i].as_f64().unwrap();
-            let pose = arm.pose(link, &at).unwrap_or_else(|| panic!("{link} is lost"));
-            assert!(apart(pose.position.0, [0, 1, 2].map(number)) < 1e-9, "{link}");
+            let pose = arm
+                .pose(link, &at)
+                .unwrap_or_else(|| panic!("{link} is lost"));
+            assert!(
+                apart(pose.position.0, [0, 1, 2].map(number)) < 1e-9,
+                "{link}"
+            );
             let turned = Quaternion([3, 4, 5, 6].map(number)).rotation();
             let between = Pose {
                 rotation: turned.transpose() * pose.rotation,
@@ -291,7 +344,11 @@ fn an_arm_read_from_urdf_is_where_mujoco_puts_it() {
         let (low, high) = limits("finger").unwrap();
         assert!(low == 0.0 && (high - 0.035).abs() < 1e-12);
         assert!(arm.joints()[arm.joint("elbow").unwrap()].home == 0.2);
-        assert!(read.remarks.iter().any(|remark| remark.to_string().contains("mesh")));
+        assert!(
+            read.remarks
+                .iter()
+                .any(|remark| remark.to_string().contains("mesh"))
+        );
     }
 }
 
@@ -342,7 +399,10 @@ fn a_four_bar_read_from_urdf_has_the_assemblies_of_the_one_in_the_shipped_file()
             let [found, expected] = [at(mechanism, guess), at(&shipped, guess)];
             for (a, b) in found.iter().zip(expected) {
                 let turns = (a - b) / std::f64::consts::TAU;
-                assert!((turns - turns.round()).abs() < 1e-9, "{found:?} {expected:?}");
+                assert!(
+                    (turns - turns.round()).abs() < 1e-9,
+                    "{found:?} {expected:?}"
+                );
             }
         }
     }
@@ -399,7 +459,9 @@ fn wrong_files_are_refused_with_their_places() {
     };
     let mujoco = |inside: &str| format!("<mujoco>\n{inside}\n</mujoco>");
     let body = |inside: &str| {
-        mujoco(&format!("<worldbody><body name=\"b\">{inside}</body></worldbody>"))
+        mujoco(&format!(
+            "<worldbody><body name=\"b\">{inside}</body></worldbody>"
+        ))
     };
     let deep = "<a>".repeat(100_000);
     let cases: Vec<(String, &str)> = vec![
@@ -409,62 +471,188 @@ fn wrong_files_are_refused_with_their_places() {
         (robot("<link name=a/>"), "file:2:"),
         ("<sdf/>".into(), "the outermost element is `sdf`"),
         (deep, "levels deep"),
-        (joint("<axis xyz=\"0 0 0\"/>"), "file:3:33: the axis of joint `j` has no direction"),
-        (joint("<axis xyz=\"0 one 0\"/>"), "file:3:44: `0 one 0` is not 3 finite numbers"),
-        (joint("<origin xyz=\"1 2\"/>"), "`1 2` is not 3 finite numbers"),
-        (joint("<origin xyz=\"1 2 nan\"/>"), "is not 3 finite numbers"),
-        (joint("<limit lower=\"x\" velocity=\"1\"/>"), "`x` is not a finite number"),
-        (joint("<limit lower=\"2\" upper=\"1\"/>"), "the lower of which is higher"),
+        (
+            joint("<axis xyz=\"0 0 0\"/>"),
+            "file:3:33: the axis of joint `j` has no direction",
+        ),
+        (
+            joint("<axis xyz=\"0 one 0\"/>"),
+            "file:3:44: `0 one 0` is not 3 finite numbers",
+        ),
+        (
+            joint("<origin xyz=\"1 2\"/>"),
+            "`1 2` is not 3 finite numbers",
+        ),
+        (
+            joint("<origin xyz=\"1 2 nan\"/>"),
+            "is not 3 finite numbers",
+        ),
+        (
+            joint("<limit lower=\"x\" velocity=\"1\"/>"),
+            "`x` is not a finite number",
+        ),
+        (
+            joint("<limit lower=\"2\" upper=\"1\"/>"),
+            "the lower of which is higher",
+        ),
         (joint("<mimic joint=\"k\"/>"), "there is no joint `k`"),
         (joint("<mimic joint=\"j\"/>"), "joint `j` follows itself"),
-        (robot("<link name=\"a\"/><link name=\"a\"/>"), "there are two links `a`"),
-        (robot(&format!("{links}<joint name=\"j\" type=\"hinge\"><parent link=\"a\"/><child link=\"b\"/></joint>")),
-         "`hinge` is not known here (known are `revolute`"),
-        (robot(&format!("{links}<joint name=\"j\" type=\"revolute\"><parent link=\"a\"/></joint>")), "has no element `child`"),
-        (robot(&format!("{links}<joint name=\"j\" type=\"revolute\"><parent link=\"a\"/><child link=\"c\"/></joint>")),
-         "there is no link `c`"),
+        (
+            robot("<link name=\"a\"/><link name=\"a\"/>"),
+            "there are two links `a`",
+        ),
+        (
+            robot(&format!(
+                "{links}<joint name=\"j\" type=\"hinge\"><parent link=\"a\"/><child link=\"b\"/></joint>"
+            )),
+            "`hinge` is not known here (known are `revolute`",
+        ),
+        (
+            robot(&format!(
+                "{links}<joint name=\"j\" type=\"revolute\"><parent link=\"a\"/></joint>"
+            )),
+            "has no element `child`",
+        ),
+        (
+            robot(&format!(
+                "{links}<joint name=\"j\" type=\"revolute\"><parent link=\"a\"/><child link=\"c\"/></joint>"
+            )),
+            "there is no link `c`",
+        ),
         (robot(links), "`a` and `b` hang on no link"),
         (robot("<link name=\"a\"/>"), "nothing in the file moves"),
         (robot(""), "nothing in the file moves"),
-        (robot(&format!("{links}<joint name=\"j\" type=\"fixed\"><parent link=\"a\"/><child link=\"b\"/></joint>\
-                         <joint name=\"k\" type=\"fixed\"><parent link=\"b\"/><child link=\"a\"/></joint>")),
-         "every link hangs on another one"),
-        (robot(&format!("{links}<link name=\"c\"/><joint name=\"j\" type=\"fixed\"><parent link=\"a\"/><child link=\"b\"/></joint>\
-                         <joint name=\"k\" type=\"fixed\"><parent link=\"c\"/><child link=\"b\"/></joint>")),
-         "joints `j` and `k` both lead to link `b`"),
-        ("<robot name=\"r\" xmlns:xacro=\"http://ros.org/wiki/xacro\"><xacro:arm/></robot>".into(), "is a macro"),
+        (
+            robot(&format!(
+                "{links}<joint name=\"j\" type=\"fixed\"><parent link=\"a\"/><child link=\"b\"/></joint>\
+                         <joint name=\"k\" type=\"fixed\"><parent link=\"b\"/><child link=\"a\"/></joint>"
+            )),
+            "every link hangs on another one",
+        ),
+        (
+            robot(&format!(
+                "{links}<link name=\"c\"/><joint name=\"j\" type=\"fixed\"><parent link=\"a\"/><child link=\"b\"/></joint>\
+                         <joint name=\"k\" type=\"fixed\"><parent link=\"c\"/><child link=\"b\"/></joint>"
+            )),
+            "joints `j` and `k` both lead to link `b`",
+        ),
+        (
+            "<robot name=\"r\" xmlns:xacro=\"http://ros.org/wiki/xacro\"><xacro:arm/></robot>"
+                .into(),
+            "is a macro",
+        ),
         (body("<joint axis=\"0 0 0\"/>"), "has no direction"),
         (body("<joint type=\"screw\"/>"), "the file cannot be read"),
-        (body("<joint pos=\"0 0\"/>"), "`0 0` is not 3 finite numbers"),
+        (
+            body("<joint pos=\"0 0\"/>"),
+            "`0 0` is not 3 finite numbers",
+        ),
         (body("<frame><joint/></frame>"), "a `joint` in a `frame`"),
-        (mujoco("<compiler eulerseq=\"xyzx\"/>"), "the sequence of angles `xyzx`"),
-        (mujoco("<compiler coordinate=\"global\"/>"), "the file cannot be read"),
-        (mujoco("<include file=\"other.xml\"/>"), "`other.xml` cannot be included: there are no files here"),
-        (mujoco("<worldbody><body name=\"b\" quat=\"0 0 0 0\"/></worldbody>"), "gives no orientation"),
-        (mujoco("<worldbody><replicate/></worldbody>"), "linkwork cannot read the element `replicate`"),
-        (mujoco("<worldbody><body><joint name=\"j\"/></body></worldbody><keyframe><key qpos=\"1 2\"/></keyframe>"),
-         "keyframe `0` has 2 values, the joints have 1"),
-        (mujoco("<worldbody><body name=\"b\"><joint/></body></worldbody><equality><connect body1=\"c\" anchor=\"0 0 0\"/></equality>"),
-         "there is no body `c`"),
-        (mujoco("<worldbody><body name=\"b\"><joint name=\"j\"/><joint name=\"k\"/></body></worldbody>\
-                 <equality><joint joint1=\"j\" joint2=\"k\" polycoef=\"0 1 2 0 0\"/></equality>"), "a polynomial of a higher degree"),
-        (mujoco("<worldbody><body name=\"b\"><joint name=\"j\"/><joint name=\"k\"/></body></worldbody>\
-                 <equality><joint joint1=\"j\" joint2=\"k\"/><joint joint1=\"k\" joint2=\"j\"/></equality>"), "follows itself"),
+        (
+            mujoco("<compiler eulerseq=\"xyzx\"/>"),
+            "the sequence of angles `xyzx`",
+        ),
+        (
+            mujoco("<compiler coordinate=\"global\"/>"),
+            "the file cannot be read",
+        ),
+        (
+            mujoco("<include file=\"other.xml\"/>"),
+            "`other.xml` cannot be included: there are no files here",
+        ),
+        (
+            mujoco("<worldbody><body name=\"b\" quat=\"0 0 0 0\"/></worldbody>"),
+            "gives no orientation",
+        ),
+        (
+            mujoco("<worldbody><replicate/></worldbody>"),
+            "linkwork cannot read the element `replicate`",
+        ),
+        (
+            mujoco(
+                "<worldbody><body><joint name=\"j\"/></body></worldbody><keyframe><key qpos=\"1 2\"/></keyframe>",
+            ),
+            "keyframe `0` has 2 values, the joints have 1",
+        ),
+        (
+            mujoco(
+                "<worldbody><body name=\"b\"><joint/></body></worldbody><equality><connect body1=\"c\" anchor=\"0 0 0\"/></equality>",
+            ),
+            "there is no body `c`",
+        ),
+        (
+            mujoco(
+                "<worldbody><body name=\"b\"><joint name=\"j\"/><joint name=\"k\"/></body></worldbody>\
+                 <equality><joint joint1=\"j\" joint2=\"k\" polycoef=\"0 1 2 0 0\"/></equality>",
+            ),
+            "a polynomial of a higher degree",
+        ),
+        (
+            mujoco(
+                "<worldbody><body name=\"b\"><joint name=\"j\"/><joint name=\"k\"/></body></worldbody>\
+                 <equality><joint joint1=\"j\" joint2=\"k\"/><joint joint1=\"k\" joint2=\"j\"/></equality>",
+            ),
+            "follows itself",
+        ),
     ];
     for (text, expected) in cases {
         let said = complaints(&text).join("\n");
-        assert!(said.contains(expected), "{expected:?} is not in:\n{said}\nof {}", text.chars().take(300).collect::<String>());
+        assert!(
+            said.contains(expected),
+            "{expected:?} is not in:\n{said}\nof {}",
+            text.chars().take(300).collect::<String>()
+        );
     }
 }
 
 /// Texts that almost are files of other programs: parts of real ones exchanged, repeated, left out, changed.
 fn damaged(text: String) -> impl Strategy<Value = String> {
     let words = prop::sample::select(vec![
-        "", "0", "-1", "1e308", "nan", "inf", "<", ">", "\"", "/", "</robot>", "<link name=\"x\"/>", "<joint", "fixed",
-        "floating", "planar", "mimic", "1 2 3", "0 0 0", "ball", "free", "slide", "<frame>", "</frame>", "<!--", "&amp;", "&x;",
-        "]]>", "<![CDATA[", "é", "\u{0}", "spherical", "site1", "body1=\"b\"", "polycoef=\"1 0\"", "ref=\"1\"", "limited=\"true\"",
+        "",
+        "0",
+        "-1",
+        "1e308",
+        "nan",
+        "inf",
+        "<",
+        ">",
+        "\"",
+        "/",
+        "</robot>",
+        "<link name=\"x\"/>",
+        "<joint",
+        "fixed",
+        "floating",
+        "planar",
+        "mimic",
+        "1 2 3",
+        "0 0 0",
+        "ball",
+        "free",
+        "slide",
+        "<frame>",
+        "</frame>",
+        "<!--",
+        "&amp;",
+        "&x;",
+        "]]>",
+        "<![CDATA[",
+        "é",
+        "\u{0}",
+        "spherical",
+        "site1",
+        "body1=\"b\"",
+        "polycoef=\"1 0\"",
+        "ref=\"1\"",
+        "limited=\"true\"",
     ]);
-    let change = (any::<prop::sample::Index>(), 0..12_usize, words, 0..4_u8, any::<prop::sample::Index>());
+    let change = (
+        any::<prop::sample::Index>(),
+        0..12_usize,
+        words,
+        0..4_u8,
+        any::<prop::sample::Index>(),
+    );
     prop::collection::vec(change, 1..6).prop_map(move |changes| {
         let mut text: Vec<char> = text.chars().collect();
         for (at, length, word, kind, other) in changes {
@@ -477,7 +665,10 @@ fn damaged(text: String) -> impl Strategy<Value = String> {
                 // a tag as a whole, or some letters, give way
                 0 => {
                     let start = text[..at].iter().rposition(|c| *c == '<').unwrap_or(at);
-                    let end = text[at..].iter().position(|c| *c == '>').map_or(end, |i| at + i + 1);
+                    let end = text[at..]
+                        .iter()
+                        .position(|c| *c == '>')
+                        .map_or(end, |i| at + i + 1);
                     text.splice(start..end, word.chars());
                 }
                 1 => {
@@ -491,8 +682,15 @@ fn damaged(text: String) -> impl Strategy<Value = String> {
                 }
                 // a number or name is exchanged for another
                 _ => {
-                    let quote = |from: usize| text[from..].iter().position(|c| *c == '"').map(|i| from + i);
-                    if let Some((start, end)) = quote(at).and_then(|start| Some((start, quote(start + 1)?))) {
+                    let quote = |from: usize| {
+                        text[from..]
+                            .iter()
+                            .position(|c| *c == '"')
+                            .map(|i| from + i)
+                    };
+                    if let Some((start, end)) =
+                        quote(at).and_then(|start| Some((start, quote(start + 1)?)))
+                    {
                         text.splice(start + 1..end, word.chars().filter(|c| *c != '"'));
                     }
                 }

@@ -215,7 +215,10 @@ impl Display for Remark {
                 "links `{a}` and `{b}` look like the two sides of a broken joint: close it with --loops"
             ),
             Remark::WithinBody { name } => {
-                write!(f, "closure `{name}` is left out: it joins two frames of one body")
+                write!(
+                    f,
+                    "closure `{name}` is left out: it joins two frames of one body"
+                )
             }
             Remark::Inactive { name } => {
                 write!(f, "constraint `{name}` is left out: it is not active")

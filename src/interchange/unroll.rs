@@ -78,7 +78,11 @@ pub(super) fn describe(
     };
     Ok(Unrolled {
         description,
-        remarks: unroller.remarks.into_iter().chain(unroller.names.renamed()).collect(),
+        remarks: unroller
+            .remarks
+            .into_iter()
+            .chain(unroller.names.renamed())
+            .collect(),
         references: unroller.references,
     })
 }
@@ -162,7 +166,8 @@ fn within_reason(tree: &Tree) -> Result<(), ImportProblemKind> {
             let factors = length.terms.iter().map(|(_, factor)| *factor);
             factors.chain([length.constant])
         });
-        if !part.sides.iter().all(|side| pose(&side.pose)) || !lengths.into_iter().all(|x| fits(&x)) {
+        if !part.sides.iter().all(|side| pose(&side.pose)) || !lengths.into_iter().all(|x| fits(&x))
+        {
             return refuse(&part.name);
         }
     }
@@ -421,11 +426,7 @@ impl Unroller<'_> {
     }
 
     /// The name of a frame; a new one is made where it has none.
-    fn frame(
-        &mut self,
-        side: &Attachment,
-        platforms: &mut [Floating],
-    ) -> String {
+    fn frame(&mut self, side: &Attachment, platforms: &mut [Floating]) -> String {
         let (carrier, pose) = self.carried(side);
         self.frame_on(&side.frame, carrier, &pose, platforms)
     }
@@ -576,7 +577,11 @@ impl Unroller<'_> {
         }
         terms.retain(|(_, factor)| *factor != 0.0);
         // a length has no sign
-        let constant = if terms.is_empty() { constant.abs() } else { constant };
+        let constant = if terms.is_empty() {
+            constant.abs()
+        } else {
+            constant
+        };
         sum(Entry::length(constant), &terms)
     }
 

@@ -5,5 +5,5 @@ mod read;
 mod write;
 
 pub(super) use loops::along_z;
-pub(super) use read::read;
+pub(super) use read::{direction, read};
 pub use write::write;

@@ -16,6 +16,7 @@ use crate::interchange::page::{Problems, document};
 use crate::interchange::problem::{ImportProblem, ImportProblemKind};
 use crate::interchange::remark::Remark;
 use crate::interchange::tree::{Body, Joint, Motion, Tree};
+use crate::interchange::urdf::direction;
 
 /// Elements that say nothing of how bodies move.
 const IRRELEVANT: &[&str] = &[
@@ -334,11 +335,12 @@ fn bodies(
                 .filter(|[low, high]| limited && low < high)
                 .map(|[low, high]| (low, high));
             let [x, y, z] = joint.axis;
-            let length = (x * x + y * y + z * z).sqrt();
-            let axis = Vector3([x, y, z]).times(1.0 / length);
-            if !(axis.norm() - 1.0 < 1e-9) && !floats(motion) {
-                return Err(ImportProblemKind::NoAxis { joint: joint_name });
-            }
+            let along = direction([x, y, z]);
+            let axis = match along {
+                Some(axis) => axis,
+                None if floats(motion) => Vector3::unit(2),
+                None => return Err(ImportProblemKind::NoAxis { joint: joint_name }),
+            };
             part.joints.push(Joint {
                 actuated: match closed || !driven.is_empty() {
                     true => driven.contains(joint_name.as_str()),

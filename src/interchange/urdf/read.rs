@@ -332,7 +332,7 @@ struct Hanging {
 }
 
 /// The unit vector along three numbers, if they give a direction.
-pub(super) fn direction([x, y, z]: [f64; 3]) -> Option<Vector3<f64>> {
+pub(crate) fn direction([x, y, z]: [f64; 3]) -> Option<Vector3<f64>> {
     let v = Vector3([x, y, z]);
     let largest = x.abs().max(y.abs()).max(z.abs());
     if !largest.is_finite() || largest < 1e-12 {
