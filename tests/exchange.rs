@@ -182,13 +182,14 @@ fn found(places: &BTreeMap<String, [f64; 3]>, name: &str) -> Option<[f64; 3]> {
     let is_link = name
         .rsplit_once('.')
         .is_some_and(|(_, row)| row.parse::<usize>().is_ok());
-    let is = |known: &str| {
-        known == renamed || (!is_link && known == name) || known.ends_with(&format!(".{name}"))
-    };
-    places
-        .iter()
-        .find(|(known, _)| is(known))
-        .map(|(_, place)| *place)
+    let own = |known: &&String| **known == renamed || (!is_link && **known == name);
+    // what stands on a platform becomes a frame of it
+    let on_platform = |known: &&String| known.ends_with(&format!(".{name}"));
+    let known = places
+        .keys()
+        .find(own)
+        .or(places.keys().find(on_platform))?;
+    Some(places[known])
 }
 
 fn apart(a: [f64; 3], b: [f64; 3]) -> f64 {

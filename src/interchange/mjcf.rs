@@ -1,8 +1,11 @@
 //! MJCF, the format of MuJoCo.
 
+mod check;
 mod constraints;
+mod hinges;
 mod include;
 mod read;
+mod sliders;
 mod write;
 
 pub(crate) use include::{Files, splice};

@@ -6,13 +6,19 @@
 //! against their parent are parts of it. A frame that is asked for becomes the tip of its chain, or, if that is taken,
 //! a chain without rows.
 
+mod closures;
+mod relations;
+mod sum;
+
 use std::collections::{HashMap, HashSet};
 
-use super::names::{Names, fit};
+use relations::{carriers, leaders, within_reason};
+use sum::sum;
+
+use super::names::Names;
 use super::problem::ImportProblemKind;
 use super::remark::Remark;
 use super::tree::{Attachment, Body, Coupling, Extent, Joint, Loop, Motion, Tree};
-use crate::algebra::Expression;
 use crate::description::{
     ChainDescription, ClosureDescription, ClosureKind, Convention, Description, Displacement,
     Entry, GROUND, JointDescription, Named, PlatformDescription, Role, Row, Spanned,
@@ -85,93 +91,6 @@ pub(super) fn describe(
             .collect(),
         references: unroller.references,
     })
-}
-
-/// The body that carries each body, and the pose of the body in it: the nearest one that moves.
-fn carriers(tree: &Tree) -> Vec<(usize, Pose<f64>)> {
-    let mut carriers: Vec<(usize, Pose<f64>)> = Vec::with_capacity(tree.bodies.len());
-    for (i, body) in tree.bodies.iter().enumerate() {
-        carriers.push(match body.parent {
-            Some(parent) if body.joints.is_empty() => {
-                (carriers[parent].0, carriers[parent].1 * body.pose)
-            }
-            _ => (i, Pose::identity()),
-        });
-    }
-    carriers
-}
-
-/// What each joint that follows another one is: the first leader, factor and offset.
-fn leaders(tree: &Tree) -> Result<HashMap<String, Coupling>, ImportProblemKind> {
-    let mut direct: HashMap<&str, &Coupling> = HashMap::new();
-    for coupling in &tree.couplings {
-        if direct.insert(&coupling.joint, coupling).is_some() {
-            let joint = coupling.joint.clone();
-            return Err(ImportProblemKind::FollowsTwo { joint });
-        }
-    }
-    let mut leaders = HashMap::new();
-    for coupling in &tree.couplings {
-        let mut total = coupling.clone();
-        let mut steps = 0;
-        while let Some(next) = direct.get(total.leader.as_str()) {
-            total.offset += total.factor * next.offset;
-            total.factor *= next.factor;
-            total.leader = next.leader.clone();
-            steps += 1;
-            if steps > direct.len() {
-                let joint = coupling.joint.clone();
-                return Err(ImportProblemKind::FollowsItself { joint });
-            }
-        }
-        leaders.insert(coupling.joint.clone(), total);
-    }
-    Ok(leaders)
-}
-
-/// Refuses what no mechanism can have: lengths beside which all others drown in rounding.
-fn within_reason(tree: &Tree) -> Result<(), ImportProblemKind> {
-    const MOST: f64 = 1e12;
-    let fits = |x: &f64| x.abs() <= MOST;
-    let pose = |pose: &Pose<f64>| {
-        let axes = pose.rotation.0.iter().flat_map(|axis| &axis.0);
-        pose.position.0.iter().chain(axes).all(fits)
-    };
-    let refuse = |of: &str| Err(ImportProblemKind::TooLarge { of: of.to_owned() });
-    let zero = tree.poses(|joint| joint.reference);
-    let home = tree.home();
-    for (i, body) in tree.bodies.iter().enumerate() {
-        if ![&body.pose, &zero[i], &home[i]].into_iter().all(pose) {
-            return refuse(&body.name);
-        }
-        if let Some((name, _)) = body.frames.iter().find(|(_, frame)| !pose(frame)) {
-            return refuse(name);
-        }
-        for joint in &body.joints {
-            let point = joint.point.0.iter().chain(&joint.axis.0);
-            let limits = joint.limits.map_or([0.0; 2], |(low, high)| [low, high]);
-            let values = [joint.reference, joint.home];
-            if !point.chain(&values).chain(&limits).all(fits) {
-                return refuse(&joint.name);
-            }
-        }
-    }
-    for coupling in &tree.couplings {
-        if ![coupling.factor, coupling.offset].iter().all(fits) {
-            return refuse(&coupling.joint);
-        }
-    }
-    for part in &tree.loops {
-        let lengths = part.length.iter().flat_map(|length| {
-            let factors = length.terms.iter().map(|(_, factor)| *factor);
-            factors.chain([length.constant])
-        });
-        if !part.sides.iter().all(|side| pose(&side.pose)) || !lengths.into_iter().all(|x| fits(&x))
-        {
-            return refuse(&part.name);
-        }
-    }
-    Ok(())
 }
 
 /// Where a body that moves by rows is: its chain and its last row; the pose of that link frame at the references.
@@ -326,15 +245,20 @@ impl Unroller<'_> {
 
     fn chain(&mut self, on: usize, links: &[usize]) {
         let tree = self.tree;
+        // the axis of a slide has no place: that of a first one is put where its body is
+        let first = &tree.bodies[links[0]].joints[0];
+        let seen_from = match first.motion {
+            Motion::Slide => self.zero[links[0]],
+            _ => Pose::identity(),
+        };
+        let zero = |link: usize| seen_from.inverse() * self.zero[link];
         let mut joints = Vec::new();
         for &link in links {
             let body = &tree.bodies[link];
             // a joint carries those after it; at the references all stand where the body does
             for joint in &body.joints {
-                let line = Line::new(
-                    self.zero[link] * joint.point,
-                    self.zero[link].rotation * joint.axis,
-                );
+                let pose = zero(link);
+                let line = Line::new(pose * joint.point, pose.rotation * joint.axis);
                 let line = line.expect("readers refuse axes without direction");
                 joints.push(match joint.motion {
                     Motion::Slide => JointAxis::prismatic(line, joint.reference),
@@ -347,7 +271,7 @@ impl Unroller<'_> {
         let axes = SerialAxes {
             base: None,
             joints,
-            tool: Some(self.zero[last] * tip),
+            tool: Some(zero(last) * tip),
         };
         let table = axes.assign(self.convention).table;
         let chain = self.chains.len();
@@ -355,10 +279,10 @@ impl Unroller<'_> {
         let mut row = 0;
         for &link in links {
             row += tree.bodies[link].joints.len();
-            let frame = frames[row];
+            let frame = seen_from * frames[row];
             self.places.insert(link, Placed { chain, row, frame });
         }
-        let (on, base) = self.standing(on, &table);
+        let (on, base) = self.standing(on, seen_from * table.base);
         let name = self.names.frame(&wanted);
         let rows = self.rows(links, &table);
         let chain = ChainDescription {
@@ -372,16 +296,16 @@ impl Unroller<'_> {
     }
 
     /// The frame that a chain stands on, and the pose of its first frame there.
-    fn standing(&self, on: usize, table: &Table) -> (String, Pose<f64>) {
+    fn standing(&self, on: usize, base: Pose<f64>) -> (String, Pose<f64>) {
         match self.places.get(&on) {
             Some(Placed { chain, row, frame }) => {
                 let name = format!("{}.{row}", self.chains[*chain].name.value);
-                (name, frame.inverse() * table.base)
+                (name, frame.inverse() * base)
             }
-            None if on == 0 => (GROUND.into(), table.base),
+            None if on == 0 => (GROUND.into(), base),
             None => {
                 let name = self.names.of_platform(&self.tree.bodies[on].name);
-                (name, self.zero[on].inverse() * table.base)
+                (name, self.zero[on].inverse() * base)
             }
         }
     }
@@ -423,166 +347,6 @@ impl Unroller<'_> {
                 sum(entry(constant), &terms.into_iter().collect::<Vec<_>>())
             }
         }
-    }
-
-    /// The name of a frame; a new one is made where it has none.
-    fn frame(&mut self, side: &Attachment, platforms: &mut [Floating]) -> String {
-        let (carrier, pose) = self.carried(side);
-        self.frame_on(&side.frame, carrier, &pose, platforms)
-    }
-
-    fn frame_on(
-        &mut self,
-        wanted: &str,
-        carrier: usize,
-        pose: &Pose<f64>,
-        platforms: &mut [Floating],
-    ) -> String {
-        if let Some((_, platform)) = platforms.iter_mut().find(|(body, _)| *body == carrier) {
-            let owner = platform.name.value.clone();
-            if is_identity(pose) {
-                return owner;
-            }
-            let steps = Displacement::of_pose(pose);
-            let frames = &mut platform.value.frames;
-            // frames of the same name are the same frame
-            let own = wanted.strip_prefix(&format!("{owner}.")).unwrap_or(wanted);
-            let own = if own.trim().is_empty() { "frame" } else { own }.to_owned();
-            if !frames.iter().any(|frame| frame.name.value == own) {
-                frames.push(named(own.clone(), steps));
-            }
-            return format!("{owner}.{own}");
-        }
-        let (on, base) = match self.places.get(&carrier) {
-            None => (GROUND.to_owned(), *pose),
-            Some(Placed { chain, row, frame }) => {
-                let part = &self.chains[*chain];
-                let at = frame.inverse() * self.zero[carrier] * *pose;
-                if self.names.of_frame(wanted) == Some(&part.name.value)
-                    && *row == part.value.rows.len()
-                {
-                    return part.name.value.clone();
-                }
-                (format!("{}.{row}", part.name.value), at)
-            }
-        };
-        if let Some(name) = self.names.of_frame(wanted) {
-            return name.clone();
-        }
-        if is_identity(&base) && fit(wanted) != wanted {
-            return on;
-        }
-        let name = self.names.frame(wanted);
-        let chain = ChainDescription {
-            on: (on != GROUND).then(|| spanned(on)),
-            convention: None,
-            base: Displacement::of_pose(&base),
-            rows: Vec::new(),
-            tip: Vec::new(),
-        };
-        self.chains.push(named(name.clone(), chain));
-        name
-    }
-
-    /// The platforms with their frames, and the closures between all frames.
-    fn closures(&mut self, platforms: Vec<Floating>) -> (Platforms, Closures) {
-        let mut platforms = platforms;
-        for (name, carrier, pose) in self.needs.clone() {
-            let reference = self.frame_on(&name, carrier, &pose, &mut platforms);
-            self.references.push((name, reference));
-        }
-        let mut closures: Closures = Vec::new();
-        for closing in self.balls().iter().chain(&self.tree.loops) {
-            let Loop {
-                name, kind, sides, ..
-            } = closing;
-            let movers = [0, 1].map(|side| self.mover(sides[side].body));
-            if movers[0] == movers[1] {
-                let name = name.clone();
-                self.remarks.push(Remark::WithinBody { name });
-                continue;
-            }
-            let frames = [&sides[0], &sides[1]].map(|side| self.frame(side, &mut platforms));
-            let closure = ClosureDescription {
-                kind: *kind,
-                frames: frames.map(spanned),
-                length: closing.length.as_ref().map(|length| self.length(length)),
-                span: 0..0,
-            };
-            let mut label = match name.trim() {
-                "" => "closure".to_owned(),
-                name => name.to_owned(),
-            };
-            while closures.iter().any(|other| other.name.value == label) {
-                label += "_";
-            }
-            closures.push(named(label, closure));
-        }
-        let platforms = platforms.into_iter().map(|(_, platform)| platform);
-        (platforms.collect(), closures)
-    }
-
-    /// Ball joints as loops: spherical closures between parents and platforms.
-    fn balls(&self) -> Vec<Loop> {
-        let bodies = self.tree.bodies.iter().enumerate();
-        let balls = bodies.filter_map(|(i, body)| {
-            let ball = floats(body).filter(|joint| joint.motion == Motion::Ball)?;
-            let point = Pose::translation(ball.point);
-            let sides = [(body.parent?, body.pose * point), (i, point)];
-            let sides = [0, 1].map(|side| Attachment {
-                body: sides[side].0,
-                frame: format!("{}_{}", ball.name, side + 1),
-                pose: sides[side].1,
-            });
-            Some(Loop {
-                name: ball.name.clone(),
-                kind: ClosureKind::Spherical,
-                sides,
-                length: None,
-            })
-        });
-        balls.collect()
-    }
-
-    /// The body that a body moves with: the nearest one with a joint that has a variable.
-    fn mover(&self, body: usize) -> usize {
-        let moves = |joint: &Joint| match self.leaders.get(&joint.name) {
-            None => true,
-            Some(coupling) => {
-                coupling.factor != 0.0 && self.variables.contains_key(&coupling.leader)
-            }
-        };
-        let mut at = body;
-        while let Some(parent) = self.tree.bodies[at].parent {
-            if self.tree.bodies[at].joints.iter().any(moves) {
-                break;
-            }
-            at = parent;
-        }
-        at
-    }
-
-    fn length(&self, extent: &Extent) -> Entry {
-        let mut constant = extent.constant;
-        let mut terms = Vec::new();
-        for (joint, factor) in &extent.terms {
-            match self.leaders.get(joint) {
-                None => terms.push((self.variables[joint].clone(), *factor)),
-                Some(coupling) => {
-                    constant += factor * coupling.offset;
-                    let leader = self.variables.get(&coupling.leader);
-                    terms.extend(leader.map(|leader| (leader.clone(), factor * coupling.factor)));
-                }
-            }
-        }
-        terms.retain(|(_, factor)| *factor != 0.0);
-        // a length has no sign
-        let constant = if terms.is_empty() {
-            constant.abs()
-        } else {
-            constant
-        };
-        sum(Entry::length(constant), &terms)
     }
 
     /// The joint variables: those of joints that lead, within the limits of all that follow.
@@ -629,39 +393,5 @@ impl Unroller<'_> {
             joints.push(named(variable.clone(), description));
         }
         joints
-    }
-}
-
-/// constant + Σ factor · name, as it would be written.
-fn sum(constant: Entry, terms: &[(String, f64)]) -> Entry {
-    let mut text = String::new();
-    for (name, factor) in terms.iter().filter(|(_, factor)| *factor != 0.0) {
-        let size = factor.abs();
-        let sign = match (text.is_empty(), *factor < 0.0) {
-            (true, true) => "-",
-            (true, false) => "",
-            (false, true) => " - ",
-            (false, false) => " + ",
-        };
-        text += sign;
-        if size != 1.0 {
-            text += &format!("{size}*");
-        }
-        text += name;
-    }
-    if text.is_empty() {
-        return constant;
-    }
-    if !constant.expression.is_zero() {
-        let constant = constant.expression.to_string();
-        text += &match constant.strip_prefix('-') {
-            Some(size) => format!(" - {size}"),
-            None => format!(" + {constant}"),
-        };
-    }
-    let expression = Expression::parse(&text).expect("sums of numbers and names are expressions");
-    Entry {
-        expression,
-        span: 0..0,
     }
 }

@@ -10,10 +10,10 @@
 
 use roxmltree::Node;
 
-use super::read::{direction, place};
+use super::motion::direction;
 use crate::description::ClosureKind;
 use crate::geometry::{Pose, Rotation, Vector3};
-use crate::interchange::page::{Problems, child, children, parse, pose_of};
+use crate::interchange::page::{Problems, child, children, parse, pose_of, tag};
 use crate::interchange::problem::ImportProblemKind;
 use crate::interchange::remark::Remark;
 use crate::interchange::tree::{Attachment, Loop, Tree};
@@ -238,7 +238,7 @@ impl LoopReader<'_> {
             };
             if words.is_none() {
                 let text = text.chars().take(40).collect::<String>();
-                self.problems.not_numbers(&text, count, place(part));
+                self.problems.not_numbers(&text, count, tag(part));
             }
             words
         };
