@@ -10,6 +10,7 @@ use std::io::Write;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
 
+use linkwork::analysis::assemblies::{AssembliesSettings, AssemblySolver, Wanted};
 use linkwork::analysis::assembly::{AssemblySettings, assemble};
 use linkwork::description::{Convention, Description};
 use linkwork::geometry::{Pose, Quaternion};
@@ -253,6 +254,38 @@ fn what_is_written_as_mjcf_and_read_again_is_the_same_mechanism() {
         }
         // elsewhere too, closed or not
         same_places(&name, &places(&mechanism, &here), &places(&back, &there));
+    }
+}
+
+#[test]
+fn what_is_written_as_mjcf_and_read_again_has_as_many_assemblies() {
+    let count = |mechanism: &Mechanism| {
+        let question = Question::new(mechanism);
+        let settings = AssembliesSettings::default();
+        let solver = AssemblySolver::new(mechanism, &question.held(), &settings).unwrap();
+        let wanted = Wanted {
+            certificates: false,
+            all_complex: false,
+        };
+        let report = solver.at_targets(&question.start(), &question.held(), wanted);
+        (report.real, report.complex, report.lost)
+    };
+    // the counts are known: a 4-bar and a slider-crank have 2, an R-S-S-R 2, a 5-bar 2, a planar 3-RPR 6
+    for (name, complex) in [
+        ("four_bar", 2),
+        ("four_bar_cut1", 2),
+        ("slider_crank", 2),
+        ("rssr", 2),
+        ("five_bar", 2),
+        ("planar_3rpr", 6),
+    ] {
+        let path = root().join(format!("mechanisms/{name}.ron"));
+        let mechanism = Mechanism::load(path).unwrap();
+        let at = home_assembly(&mechanism);
+        let (_, back) = imported(&mjcf_of(&mechanism, &at), &ImportSettings::default(), None);
+        let counts = count(&mechanism);
+        assert_eq!((counts.1, counts.2), (complex, 0), "{name}");
+        assert_eq!(count(&back), counts, "{name}");
     }
 }
 
@@ -651,7 +684,7 @@ fn damaged(text: String) -> impl Strategy<Value = String> {
         any::<prop::sample::Index>(),
         0..12_usize,
         words,
-        0..4_u8,
+        0..9_u8,
         any::<prop::sample::Index>(),
     );
     prop::collection::vec(change, 1..6).prop_map(move |changes| {
@@ -701,14 +734,15 @@ fn damaged(text: String) -> impl Strategy<Value = String> {
     })
 }
 
-fn reads_or_refuses(text: &str) -> Result<(), TestCaseError> {
+/// Whether a text is read; what is read can be written and read again, what is not has its problems in words.
+fn reads_or_refuses(text: &str) -> Result<bool, TestCaseError> {
     let settings = ImportSettings::default();
     match import("file", text, &no_files, None, &settings) {
         Err(wrong) => {
             prop_assert!(!wrong.problems.is_empty());
-            // every problem has its words and its place
             let lines = linkwork::interchange::ImportError::Wrong(wrong).lines();
-            prop_assert!(lines.iter().all(|line| !line.contains("NaN")));
+            prop_assert!(lines.iter().all(|line| line.starts_with("file:")));
+            Ok(false)
         }
         Ok(imported) => {
             let ron = imported.description.to_ron().unwrap();
@@ -716,33 +750,139 @@ fn reads_or_refuses(text: &str) -> Result<(), TestCaseError> {
             prop_assert!(again.is_ok(), "{}\n{:?}", ron, again.err());
             let mechanism = Mechanism::new(&again.unwrap());
             prop_assert!(mechanism.is_ok(), "{}\n{:?}", ron, mechanism.err());
+            Ok(true)
         }
     }
-    Ok(())
 }
 
-proptest! {
-    #![proptest_config(ProptestConfig { cases: 300, failure_persistence: None, ..ProptestConfig::default() })]
+/// Damages a text again and again; some of the damaged texts must still say something.
+fn damage(text: String, reads: impl Fn(&str) -> Result<bool, TestCaseError>) {
+    let config = ProptestConfig {
+        cases: 400,
+        failure_persistence: None,
+        ..ProptestConfig::default()
+    };
+    let read = std::cell::Cell::new(0);
+    let mut runner = proptest::test_runner::TestRunner::new_with_rng(
+        config,
+        proptest::test_runner::TestRng::deterministic_rng(
+            proptest::test_runner::RngAlgorithm::ChaCha,
+        ),
+    );
+    let result = runner.run(&damaged(text), |text| {
+        read.set(read.get() + usize::from(reads(&text)?));
+        Ok(())
+    });
+    result.unwrap();
+    assert!((20..400).contains(&read.get()), "{} were read", read.get());
+}
 
-    #[test]
-    fn damaged_urdf_is_read_or_refused(text in prop::sample::select(vec!["arm.urdf", "four_bar.urdf"]).prop_flat_map(|name| damaged(file(name)))) {
-        reads_or_refuses(&text)?;
-    }
+#[test]
+fn damaged_files_are_read_or_refused() {
+    damage(file("arm.urdf"), reads_or_refuses);
+    damage(file("four_bar.urdf"), reads_or_refuses);
+    damage(file("others.xml"), reads_or_refuses);
+    let every = every_closure();
+    let own = mjcf_of(&every, &any_assembly(&every));
+    damage(own, reads_or_refuses);
+    damage(file("closures.ron"), |text| {
+        let description = Description::read(text);
+        Ok(description.is_ok_and(|description| Mechanism::new(&description).is_ok()))
+    });
+}
 
-    #[test]
-    fn damaged_mjcf_is_read_or_refused(text in damaged(file("others.xml"))) {
-        reads_or_refuses(&text)?;
-    }
+fn linkwork(arguments: &[&str]) -> (i32, String, String) {
+    let output = Command::new(env!("CARGO_BIN_EXE_linkwork"))
+        .args(arguments)
+        .env("NO_COLOR", "1")
+        .current_dir(root())
+        .output()
+        .unwrap();
+    let [out, err] = [output.stdout, output.stderr].map(|bytes| String::from_utf8(bytes).unwrap());
+    (output.status.code().unwrap(), out, err)
+}
 
-    #[test]
-    fn damaged_mjcf_of_our_own_is_read_or_refused(text in damaged({ let m = every_closure(); mjcf_of(&m, &any_assembly(&m)) })) {
-        reads_or_refuses(&text)?;
-    }
-
-    #[test]
-    fn damaged_mechanism_files_are_read_or_refused(text in damaged(file("closures.ron"))) {
-        if let Ok(description) = Description::read(&text) {
-            let _ = Mechanism::new(&description);
-        }
-    }
+#[test]
+fn commands_write_data_to_stdout_and_the_rest_to_stderr() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = |name: &str| folder.path().join(name).to_str().unwrap().to_owned();
+    // through files, with includes, and back
+    let (robot, main, part) = (path("robot.xml"), path("main.xml"), path("part.xml"));
+    let (code, out, err) = linkwork(&[
+        "export",
+        "mechanisms/four_bar.ron",
+        "--to",
+        "mjcf",
+        "--output",
+        &robot,
+    ]);
+    assert_eq!((code, out.as_str()), (0, ""), "{err}");
+    let text = std::fs::read_to_string(&robot).unwrap();
+    let (start, end) = (
+        text.find("<equality>").unwrap(),
+        text.find("<actuator>").unwrap(),
+    );
+    let inside = format!("<mujocoinclude>{}</mujocoinclude>", &text[start..end]);
+    std::fs::write(&part, inside).unwrap();
+    let including = format!(
+        "{}<include file=\"part.xml\"/>{}",
+        &text[..start],
+        &text[end..]
+    );
+    std::fs::write(&main, including).unwrap();
+    let (code, whole, err) = linkwork(&["import", &robot]);
+    assert_eq!(code, 0, "{err}");
+    let (code, parted, err) = linkwork(&["import", &main]);
+    assert_eq!(code, 0, "{err}");
+    assert_eq!(parted.replace("main.xml", "robot.xml"), whole);
+    assert!(whole.contains("Revolute("), "{whole}");
+    let mechanism = path("robot.ron");
+    std::fs::write(&mechanism, &whole).unwrap();
+    let (code, _, err) = linkwork(&["check", &mechanism]);
+    assert_eq!((code, err.as_str()), (0, ""));
+    // a wrong included file is named, with the place in it
+    std::fs::write(&part, "<mujocoinclude>\n<equality>\n<connect site1=\"x\" site2=\"left\"/></equality></mujocoinclude>").unwrap();
+    let (code, out, err) = linkwork(&["import", &main]);
+    assert_eq!((code, out.as_str()), (2, ""));
+    assert!(
+        err.contains("there is no site `x`") && err.contains("part.xml:3:17"),
+        "{err}"
+    );
+    std::fs::write(
+        &part,
+        "<mujocoinclude><include file=\"part.xml\"/></mujocoinclude>",
+    )
+    .unwrap();
+    let (code, _, err) = linkwork(&["import", &main]);
+    assert!(code == 2 && err.contains("it includes itself"), "{err}");
+    // what is wrong with the file of loops is shown there
+    let loops = path("loops.ron");
+    std::fs::write(
+        &loops,
+        file("four_bar_loops.ron").replace("on: \"rocker\"", "on: \"rokcer\""),
+    )
+    .unwrap();
+    let (code, _, err) = linkwork(&["import", "tests/exchange/four_bar.urdf", "--loops", &loops]);
+    assert!(
+        code == 2 && err.contains("loops.ron:9:") && err.contains("did you mean `rocker`?"),
+        "{err}"
+    );
+    let (code, _, err) = linkwork(&["import", "tests/exchange/arm.urdf", "--frame", "wrist"]);
+    assert!(
+        code == 2 && err.contains("there is no link or site `wrist`"),
+        "{err}"
+    );
+    // a mechanism that cannot be assembled is not written
+    let (code, out, err) = linkwork(&[
+        "export",
+        "mechanisms/four_bar.ron",
+        "--to",
+        "mjcf",
+        "--set",
+        "l0=50",
+    ]);
+    assert_eq!((code, out.as_str()), (1, ""));
+    assert!(err.contains("Nothing is written"), "{err}");
+    let (code, _, err) = linkwork(&["import", "no such file.urdf"]);
+    assert!(code == 2 && err.contains("no such file.urdf"), "{err}");
 }

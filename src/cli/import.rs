@@ -3,7 +3,7 @@
 use std::path::PathBuf;
 
 use clap::{Args, ValueEnum};
-use linkwork::description::{self, Convention, FileError, LoadError};
+use linkwork::description::{self, Convention, FileError, LoadError, ProblemKind};
 use linkwork::interchange::{ImportError, ImportSettings, load};
 use linkwork::mechanism::Mechanism;
 use linkwork::output::{diagnostics, import};
@@ -72,7 +72,13 @@ impl Import {
                 ImportError::Unreadable(error) => format!("error: {error}\n"),
             })
         })?;
-        if let Err(problems) = Mechanism::new(&imported.description) {
+        if let Err(mut problems) = Mechanism::new(&imported.description) {
+            for problem in &mut problems {
+                if let ProblemKind::UnknownFrame { name, suggestion } = &mut problem.kind {
+                    let links = imported.links.iter().map(String::as_str);
+                    *suggestion = description::nearest(name, links).map(str::to_owned);
+                }
+            }
             // names and values of the imported part are sound: what is wrong stands in the file of loops
             let (path, text) = match (&self.loops, loops) {
                 (Some(path), Some((text, _))) => (path.clone(), text),

@@ -41,6 +41,8 @@ pub struct Imported {
     pub description: Description,
     /// What is worth knowing about it.
     pub remarks: Vec<Remark>,
+    /// The names of all links and sites, by which a file of loops can speak of them.
+    pub links: Vec<String>,
 }
 
 /// Why a file of another program could not be read.
@@ -197,9 +199,11 @@ pub fn import(
             .map(|(name, reference)| (fit(name), reference.clone()));
         add(&mut description, loops, &references.collect::<Vec<_>>());
     }
+    let links = tree.bodies.iter().flat_map(|body| &body.frames);
     Ok(Imported {
         description,
         remarks,
+        links: links.map(|(name, _)| fit(name)).collect(),
     })
 }
 

@@ -18,10 +18,10 @@ use sum::sum;
 use super::names::Names;
 use super::problem::ImportProblemKind;
 use super::remark::Remark;
-use super::tree::{Attachment, Body, Coupling, Extent, Joint, Loop, Motion, Tree};
+use super::tree::{Attachment, Body, Coupling, Joint, Motion, Tree};
 use crate::description::{
-    ChainDescription, ClosureDescription, ClosureKind, Convention, Description, Displacement,
-    Entry, GROUND, JointDescription, Named, PlatformDescription, Role, Row, Spanned,
+    ChainDescription, ClosureDescription, Convention, Description, Displacement, Entry, GROUND,
+    JointDescription, Named, PlatformDescription, Role, Row, Spanned,
 };
 use crate::geometry::{Line, Pose};
 use crate::mechanism::{JointAxis, SerialAxes, Table};

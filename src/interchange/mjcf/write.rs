@@ -13,7 +13,7 @@
 
 use super::sliders::with_sliders;
 use crate::description::ClosureKind;
-use crate::geometry::{Pose, Quaternion, Vector3};
+use crate::geometry::{Quaternion, Vector3};
 use crate::interchange::remark::Remark;
 use crate::interchange::tree::{Attachment, Body, Extent, Joint, Loop, Motion, Tree};
 use crate::interchange::xml::{Xml, numbers, place, vector};

@@ -10,12 +10,11 @@ use roxmltree::Node;
 
 use super::loops;
 use super::motion::{direction, driven, moving, reduced};
-use crate::geometry::{Pose, Vector3};
-use crate::interchange::page::{Problems, child, children, document, pose_of, tag};
+use crate::geometry::Pose;
+use crate::interchange::page::{Problems, child, children, document, pose_of};
 use crate::interchange::problem::{ImportProblem, ImportProblemKind};
 use crate::interchange::remark::Remark;
-use crate::interchange::tree::{Body, Coupling, Joint, Motion, Tree};
-use crate::interchange::xml::Xml;
+use crate::interchange::tree::{Body, Coupling, Motion, Tree};
 
 /// The types of joints.
 pub(super) const TYPES: &[&str] = &[
