@@ -6,6 +6,8 @@ mod check;
 mod compare;
 mod convert;
 mod frames;
+mod export;
+mod import;
 mod mobility;
 mod progress;
 mod search;
@@ -40,6 +42,8 @@ enum Command {
     Compare(compare::Compare),
     Convert(convert::Convert),
     Frames(frames::Frames),
+    Export(export::Export),
+    Import(import::Import),
     Mobility(mobility::Mobility),
     Velocity(velocity::Velocity),
     Statics(statics::Statics),
@@ -77,6 +81,8 @@ pub fn run() -> ExitCode {
         Command::Compare(compare) => compare.run(),
         Command::Convert(convert) => convert.run(),
         Command::Frames(frames) => frames.run(),
+        Command::Export(export) => export.run(),
+        Command::Import(import) => import.run(),
         Command::Mobility(mobility) => mobility.run(),
         Command::Velocity(velocity) => velocity.run(),
         Command::Statics(statics) => statics.run(),

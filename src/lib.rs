@@ -5,6 +5,8 @@ pub mod algebra;
 pub mod analysis;
 pub mod description;
 pub mod geometry;
+#[cfg(feature = "interchange")]
+pub mod interchange;
 pub mod linear;
 pub mod mechanism;
 pub mod number;

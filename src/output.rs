@@ -13,6 +13,8 @@ pub mod diagnostics;
 #[cfg(feature = "cli")]
 pub mod frames;
 #[cfg(feature = "cli")]
+pub mod import;
+#[cfg(feature = "cli")]
 mod json;
 #[cfg(feature = "cli")]
 mod layout;

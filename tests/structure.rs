@@ -3,7 +3,10 @@
 use std::path::{Path, PathBuf};
 
 /// The library's modules, from the one that uses no other to the one that may use all.
-const ORDER: [&str; 11] = [
+///
+/// `interchange` makes descriptions from files of other programs and such files from mechanisms: it knows both and
+/// nothing of systems and analyses.
+const ORDER: [&str; 12] = [
     "number",
     "linear",
     "algebra",
@@ -11,6 +14,7 @@ const ORDER: [&str; 11] = [
     "solve",
     "description",
     "mechanism",
+    "interchange",
     "system",
     "analysis",
     "scene",

@@ -1,0 +1,92 @@
+//! `linkwork export`
+
+use std::path::PathBuf;
+
+use clap::{Args, ValueEnum};
+use linkwork::analysis::assembly::AssemblySettings;
+use linkwork::interchange::{Remark, tree_of, write_mjcf, write_urdf};
+use linkwork::output::closing;
+use linkwork::solve::Newton;
+use linkwork::system::{Analysed, close};
+
+use super::asked::Asked;
+use super::source::Source;
+use super::{Answer, Refusal};
+
+/// Write a mechanism as a file for another program.
+///
+/// The mechanism is assembled first, as `solve` does it, at home unless --hold, --free and --guess say otherwise. MJCF
+/// gets the loops as equality constraints and the assembled configuration as the keyframe `home`; URDF knows no loops
+/// and gets the tree. What a format cannot say, or says another way, is named on stderr.
+#[derive(Args)]
+#[command(
+    after_help = "Example: linkwork export mechanisms/four_bar.ron --to mjcf --output four_bar.xml"
+)]
+pub struct Export {
+    #[command(flatten)]
+    source: Source,
+    /// The format
+    #[arg(long, value_enum)]
+    to: To,
+    /// Write to this file instead of stdout
+    #[arg(long, value_name = "FILE")]
+    output: Option<PathBuf>,
+    #[command(flatten)]
+    asked: Asked,
+}
+
+/// A format of another program.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+enum To {
+    /// The format of ROS: trees.
+    Urdf,
+    /// The format of MuJoCo.
+    Mjcf,
+}
+
+impl Export {
+    pub fn run(&self) -> Result<Answer, Refusal> {
+        let loaded = self.source.load()?;
+        let question = self.asked.question(&loaded.mechanism)?;
+        let (newton, search) = (Newton::default(), AssemblySettings::default());
+        let closed = close(&question, &newton, search.restarts, search.seed);
+        let closed = match closed {
+            Ok(closed) => closed,
+            Err(open) => {
+                let open: Analysed<()> = Analysed::NotClosed(open);
+                let (sentence, _) = closing::text(&loaded.mechanism, &open, |_, ()| String::new());
+                return Ok(Answer {
+                    data: String::new(),
+                    remarks: loaded.warnings() + &sentence + "Nothing is written.\n",
+                    yes: false,
+                });
+            }
+        };
+        let (tree, mut said) = tree_of(&loaded.mechanism, &closed.configuration);
+        let (text, more): (String, Vec<Remark>) = match self.to {
+            To::Mjcf => write_mjcf(&tree, &said),
+            To::Urdf => write_urdf(&tree).map_err(|error| Refusal(format!("error: {error}\n")))?,
+        };
+        said.extend(more);
+        let mut remarks = loaded.warnings();
+        remarks += &closing::limits_warning(&closed.outside_limits(&loaded.mechanism));
+        for remark in &said {
+            let word = if remark.is_loss() { "warning" } else { "note" };
+            remarks += &format!("{word}: {remark}\n");
+        }
+        let data = match &self.output {
+            None => text,
+            Some(path) => {
+                std::fs::write(path, text).map_err(|error| {
+                    Refusal(format!("error: cannot write {}: {error}\n", path.display()))
+                })?;
+                String::new()
+            }
+        };
+        Ok(Answer {
+            data,
+            remarks,
+            yes: true,
+        })
+    }
+}

@@ -1,0 +1,118 @@
+//! `linkwork import`
+
+use std::path::PathBuf;
+
+use clap::{Args, ValueEnum};
+use linkwork::description::{self, Convention, FileError, LoadError, ProblemKind};
+use linkwork::interchange::{ImportError, ImportSettings, load};
+use linkwork::mechanism::Mechanism;
+use linkwork::output::{diagnostics, import};
+
+use super::{Answer, Refusal, style};
+
+/// Read a URDF or MJCF file as a mechanism.
+///
+/// Trees become chains with tables, branches chains on links of others, mimic joints and equality constraints of joints
+/// shared variables, constraints `connect` and `weld` and the loop elements that programs add to URDF closures. What is
+/// left out or decided is said on stderr.
+#[derive(Args)]
+#[command(
+    after_help = "Example: linkwork import robot.urdf --loops loops.ron --frame tool0 > robot.ron"
+)]
+pub struct Import {
+    /// The URDF or MJCF file
+    file: PathBuf,
+    /// A mechanism file that closes loops: closures, and chains `on:` links, by the names of links and sites
+    #[arg(long, value_name = "FILE")]
+    loops: Option<PathBuf>,
+    /// Keep the frame of a link or site under its name; `all` keeps all
+    #[arg(long, value_name = "NAME")]
+    frame: Vec<String>,
+    /// The convention of the tables
+    #[arg(long, value_enum, default_value_t = Tables::Modified)]
+    convention: Tables,
+    /// Write to this file instead of stdout
+    #[arg(long, value_name = "FILE")]
+    output: Option<PathBuf>,
+}
+
+/// A convention of tables.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+enum Tables {
+    /// Craig's: alpha and a before the joint.
+    Modified,
+    /// Denavit's and Hartenberg's: alpha and a behind it.
+    Standard,
+}
+
+impl Import {
+    pub fn run(&self) -> Result<Answer, Refusal> {
+        let loops = match &self.loops {
+            None => None,
+            Some(path) => Some(description::load(path).map_err(|error| {
+                Refusal(match error {
+                    LoadError::Wrong(error) => diagnostics::render(&error, style()),
+                    other => format!("error: {other}\n"),
+                })
+            })?),
+        };
+        let all_frames = self.frame.iter().any(|name| name == "all");
+        let settings = ImportSettings {
+            convention: match self.convention {
+                Tables::Modified => Convention::Modified,
+                Tables::Standard => Convention::Standard,
+            },
+            frames: self.frame.clone(),
+            all_frames,
+        };
+        let closing = loops.as_ref().map(|(_, description)| description);
+        let imported = load(&self.file, closing, &settings).map_err(|error| {
+            Refusal(match error {
+                ImportError::Wrong(wrong) => import::render(&wrong, style()),
+                ImportError::Unreadable(error) => format!("error: {error}\n"),
+            })
+        })?;
+        if let Err(mut problems) = Mechanism::new(&imported.description) {
+            for problem in &mut problems {
+                if let ProblemKind::UnknownFrame { name, suggestion } = &mut problem.kind {
+                    let links = imported.links.iter().map(String::as_str);
+                    *suggestion = description::nearest(name, links).map(str::to_owned);
+                }
+            }
+            // names and values of the imported part are sound: what is wrong stands in the file of loops
+            let (path, text) = match (&self.loops, loops) {
+                (Some(path), Some((text, _))) => (path.clone(), text),
+                _ => (self.file.clone(), String::new()),
+            };
+            let error = FileError {
+                path,
+                text,
+                problems,
+            };
+            return Err(Refusal(diagnostics::render(&error, style())));
+        }
+        let text = imported.description.to_ron();
+        let text = text.map_err(|error| {
+            Refusal(format!("error: the mechanism cannot be written: {error}\n"))
+        })?;
+        let remarks = imported.remarks.iter().map(|remark| {
+            let word = if remark.is_loss() { "warning" } else { "note" };
+            format!("{word}: {remark}\n")
+        });
+        let remarks: String = remarks.collect();
+        let data = match &self.output {
+            None => text,
+            Some(path) => {
+                std::fs::write(path, text).map_err(|error| {
+                    Refusal(format!("error: cannot write {}: {error}\n", path.display()))
+                })?;
+                String::new()
+            }
+        };
+        Ok(Answer {
+            data,
+            remarks,
+            yes: true,
+        })
+    }
+}

@@ -1,0 +1,25 @@
+//! Files of other programs: URDF and MJCF, read as descriptions and written from mechanisms.
+//!
+//! Both formats know trees of bodies; they differ in what they say about loops. In between stands the [`Tree`]: writing
+//! goes mechanism → tree → text, reading text → tree → description.
+
+mod cut;
+mod import;
+mod mjcf;
+mod names;
+mod page;
+mod problem;
+mod problem_words;
+mod remark;
+mod tree;
+mod unroll;
+mod urdf;
+mod xml;
+
+pub use cut::tree_of;
+pub use import::{ImportError, ImportSettings, Imported, WrongFile, import, load};
+pub use mjcf::write as write_mjcf;
+pub use problem::{ImportProblem, ImportProblemKind};
+pub use remark::Remark;
+pub use tree::{Attachment, Body, Coupling, Extent, Joint, Loop, Motion, Tree};
+pub use urdf::write as write_urdf;

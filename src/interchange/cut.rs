@@ -1,0 +1,348 @@
+//! A mechanism at a configuration as a tree of bodies and the loops that its closures put back.
+//!
+//! A chain becomes a branch with one body for every row that moves; its frame is that of the row before `after`, so
+//! that the joint axis is its z axis. A row turned by a sum gets one joint for each variable. Every variable moves one
+//! joint that bears its name; others that it stands in follow that one.
+
+use std::collections::{BTreeMap, HashMap};
+
+use super::remark::Remark;
+use super::tree::{Attachment, Body, Coupling, Extent, Joint, Loop, Motion, Tree};
+use crate::description::{GROUND, Role};
+use crate::geometry::{Pose, Vector3};
+use crate::mechanism::{Configuration, Frame, JointKind, LinearForm, Mechanism};
+
+/// Where a variable stands: in a row of a chain, as an angle or as a length.
+#[derive(Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
+struct Place {
+    chain: usize,
+    row: usize,
+    slides: bool,
+    joint: usize,
+}
+
+/// The tree of a mechanism at a configuration, and what is said another way in it.
+pub fn tree_of(mechanism: &Mechanism, at: &Configuration<f64>) -> (Tree, Vec<Remark>) {
+    let mut cutter = Cutter {
+        mechanism,
+        values: within_limits(mechanism, at),
+        leading: HashMap::new(),
+        placed: BTreeMap::new(),
+        couplings: Vec::new(),
+        bodies: vec![Body {
+            name: GROUND.into(),
+            parent: None,
+            pose: Pose::identity(),
+            joints: Vec::new(),
+            home: None,
+            frames: Vec::new(),
+        }],
+    };
+    cutter.place(Frame::Ground, 0, Pose::identity());
+    let remarks = cutter.lead();
+    cutter.platforms(at);
+    cutter.chains();
+    let loops = cutter.loops();
+    let mut tree = Tree {
+        name: printable(mechanism.name()),
+        bodies: cutter.bodies,
+        couplings: cutter.couplings,
+        loops,
+        size: mechanism.characteristic_length(),
+    };
+    let remarks = remarks
+        .into_iter()
+        .chain(followers(mechanism, &tree.couplings));
+    let remarks = remarks.collect();
+    tree.bodies.iter_mut().for_each(|body| {
+        body.joints.iter_mut().for_each(|joint| joint.home += 0.0);
+    });
+    (tree, remarks)
+}
+
+/// Joint values, angles a whole turn further where that brings them within their limits.
+fn within_limits(mechanism: &Mechanism, at: &Configuration<f64>) -> Vec<f64> {
+    let joints = mechanism.joints().iter().zip(&at.joints).enumerate();
+    let value = |(i, (joint, &value)): (usize, (&crate::mechanism::Joint, &f64))| {
+        let turn = std::f64::consts::TAU;
+        match joint.limits {
+            Some((low, high)) if !(low..=high).contains(&value) && mechanism.repeats(i) => {
+                // as near to the lower limit as whole turns allow, but for rounding
+                let first = value + turn * ((low - 1e-9 - value) / turn).ceil();
+                if first <= high + 1e-9 {
+                    first.clamp(low, high)
+                } else {
+                    value
+                }
+            }
+            _ => value,
+        }
+    };
+    joints.map(value).collect()
+}
+
+/// What can stand in XML: no control characters.
+fn printable(name: &str) -> String {
+    let fit = |c: char| match c {
+        c if c.is_control() => '_',
+        '\u{fffe}' | '\u{ffff}' => '_',
+        c => c,
+    };
+    name.chars().map(fit).collect()
+}
+
+struct Cutter<'a> {
+    mechanism: &'a Mechanism,
+    values: Vec<f64>,
+    /// Where each variable has the joint of its name; nowhere if that is on a body of its own.
+    leading: HashMap<usize, Option<Place>>,
+    placed: BTreeMap<Frame, Attachment>,
+    couplings: Vec<Coupling>,
+    bodies: Vec<Body>,
+}
+
+impl Cutter<'_> {
+    fn place(&mut self, frame: Frame, body: usize, pose: Pose<f64>) {
+        let name = printable(&self.mechanism.frame_name(frame));
+        self.bodies[body].frames.push((name.clone(), pose));
+        let attachment = Attachment {
+            body,
+            frame: name,
+            pose,
+        };
+        self.placed.insert(frame, attachment);
+    }
+
+    /// Chooses where each variable has the joint of its name: where it stands with factor 1 or −1, an angle before a
+    /// length; else on a body of its own.
+    fn lead(&mut self) -> Vec<Remark> {
+        let mechanism = self.mechanism;
+        let mut remarks = Vec::new();
+        for (i, joint) in mechanism.joints().iter().enumerate() {
+            let stands = places(mechanism).filter(|(place, _)| place.joint == i);
+            let unit = stands.filter(|(place, factor)| {
+                factor.abs() == 1.0 && place.slides == (joint.kind == JointKind::Prismatic)
+            });
+            let first = unit.map(|(place, _)| place).next();
+            self.leading.insert(i, first);
+            if first.is_some() {
+                continue;
+            }
+            let moves = places(mechanism).any(|(place, _)| place.joint == i);
+            let closures = mechanism.dimensions().closures.iter();
+            let stretches = closures.flat_map(|c| &c.extension.0).any(|(j, _)| *j == i);
+            if !moves && !stretches {
+                remarks.push(Remark::Unused {
+                    joint: joint.name.clone(),
+                });
+                continue;
+            }
+            let body = format!("variable {}", joint.name);
+            if moves {
+                remarks.push(Remark::Carried {
+                    joint: joint.name.clone(),
+                    body: body.clone(),
+                });
+            }
+            let joint = self.named(i, 1.0, joint.kind == JointKind::Prismatic);
+            self.bodies.push(Body {
+                name: body,
+                parent: Some(0),
+                pose: Pose::identity(),
+                joints: vec![joint],
+                home: None,
+                frames: Vec::new(),
+            });
+        }
+        remarks
+    }
+
+    /// The joint that bears the name of a variable.
+    fn named(&self, joint: usize, sign: f64, slides: bool) -> Joint {
+        let part = &self.mechanism.joints()[joint];
+        Joint {
+            name: part.name.clone(),
+            motion: if slides { Motion::Slide } else { Motion::Turn },
+            axis: Vector3([0.0, 0.0, sign]),
+            point: Vector3::zero(),
+            reference: 0.0,
+            home: self.values[joint],
+            limits: part.limits,
+            actuated: part.role == Role::Actuated,
+        }
+    }
+
+    fn platforms(&mut self, at: &Configuration<f64>) {
+        for (platform, part) in self.mechanism.platforms().iter().enumerate() {
+            let body = self.bodies.len();
+            let pose = at.platforms[platform].pose();
+            self.bodies.push(Body {
+                name: printable(&part.name),
+                parent: Some(0),
+                pose,
+                joints: vec![Joint {
+                    name: format!("{} floats", printable(&part.name)),
+                    motion: Motion::Free,
+                    axis: Vector3::unit(2),
+                    point: Vector3::zero(),
+                    reference: 0.0,
+                    home: 0.0,
+                    limits: None,
+                    actuated: false,
+                }],
+                home: Some(pose),
+                frames: Vec::new(),
+            });
+            self.place(Frame::Platform { platform }, body, Pose::identity());
+            let frames = &self.mechanism.dimensions().platforms[platform];
+            for (frame, pose) in frames.iter().enumerate() {
+                self.place(Frame::OnPlatform { platform, frame }, body, *pose);
+            }
+        }
+    }
+
+    /// Chains after those they stand on.
+    fn chains(&mut self) {
+        let mechanism = self.mechanism;
+        let mut waiting: Vec<usize> = (0..mechanism.chains().len()).collect();
+        while !waiting.is_empty() {
+            let (ready, rest): (Vec<usize>, Vec<usize>) = (waiting.iter())
+                .partition(|&&chain| self.placed.contains_key(&mechanism.chains()[chain].on));
+            assert!(
+                !ready.is_empty(),
+                "no chain of a mechanism stands on itself"
+            );
+            ready.into_iter().for_each(|chain| self.chain(chain));
+            waiting = rest;
+        }
+    }
+
+    fn chain(&mut self, chain: usize) {
+        let dimensions = &self.mechanism.dimensions().chains[chain];
+        let Attachment { mut body, pose, .. } = self.placed[&dimensions.on].clone();
+        let mut pose = pose * dimensions.base;
+        self.place(Frame::Link { chain, row: 0 }, body, pose);
+        for (index, part) in dimensions.rows.iter().enumerate() {
+            let frame = Frame::Link {
+                chain,
+                row: index + 1,
+            };
+            pose = pose * part.before;
+            if part.moves() {
+                let row = printable(&self.mechanism.frame_name(frame));
+                let mut joints = Vec::new();
+                for (form, slides) in [(&part.turn, false), (&part.slide, true)] {
+                    let place = |joint| Place {
+                        chain,
+                        row: index,
+                        slides,
+                        joint,
+                    };
+                    for &(joint, factor) in &form.0 {
+                        joints.push(self.joint(place(joint), factor, &row));
+                    }
+                }
+                self.bodies.push(Body {
+                    name: match part.after == Pose::identity() {
+                        true => row,
+                        false => format!("{row}.axis"),
+                    },
+                    parent: Some(body),
+                    pose,
+                    joints,
+                    home: None,
+                    frames: Vec::new(),
+                });
+                body = self.bodies.len() - 1;
+                pose = Pose::identity();
+            }
+            pose = pose * part.after;
+            self.place(frame, body, pose);
+        }
+        self.place(Frame::Tip { chain }, body, pose * dimensions.tip);
+    }
+
+    /// The joint for a variable in a row; one that follows if the variable leads elsewhere.
+    fn joint(&mut self, place: Place, factor: f64, row: &str) -> Joint {
+        if self.leading[&place.joint] == Some(place) {
+            return self.named(place.joint, factor, place.slides);
+        }
+        let leader = &self.mechanism.joints()[place.joint];
+        let suffix = if place.slides { ".slide" } else { "" };
+        let name = format!("{row}.{}{suffix}", leader.name);
+        self.couplings.push(Coupling {
+            joint: name.clone(),
+            leader: leader.name.clone(),
+            factor,
+            offset: 0.0,
+        });
+        Joint {
+            name,
+            limits: None,
+            actuated: false,
+            home: factor * self.values[place.joint],
+            ..self.named(place.joint, 1.0, place.slides)
+        }
+    }
+
+    fn loops(&self) -> Vec<Loop> {
+        let mechanism = self.mechanism;
+        let closures = mechanism.closures().iter();
+        let closures = closures.zip(&mechanism.dimensions().closures);
+        let of = |(closure, dimensions): (&crate::mechanism::NamedClosure, _)| {
+            let dimensions: &crate::mechanism::ClosureDimensions<f64> = dimensions;
+            let LinearForm(terms) = &dimensions.extension;
+            let terms = terms.iter();
+            let terms = terms.map(|&(joint, c)| (mechanism.joints()[joint].name.clone(), c));
+            Loop {
+                name: printable(&closure.name),
+                kind: closure.kind,
+                sides: closure.frames.map(|frame| self.placed[&frame].clone()),
+                length: closure.length.as_ref().map(|_| Extent {
+                    constant: dimensions.length,
+                    terms: terms.collect(),
+                }),
+            }
+        };
+        closures.map(of).collect()
+    }
+}
+
+/// Where variables stand in rows, with their factors.
+fn places(mechanism: &Mechanism) -> impl Iterator<Item = (Place, f64)> {
+    let chains = mechanism.dimensions().chains.iter().enumerate();
+    let rows = chains.flat_map(|(chain, part)| {
+        let rows = part.rows.iter().enumerate();
+        rows.map(move |(row, part)| (chain, row, part))
+    });
+    rows.flat_map(|(chain, row, part)| {
+        let forms = [(&part.turn, false), (&part.slide, true)];
+        forms.into_iter().flat_map(move |(form, slides)| {
+            form.0.iter().map(move |&(joint, factor)| {
+                let place = Place {
+                    chain,
+                    row,
+                    slides,
+                    joint,
+                };
+                (place, factor)
+            })
+        })
+    })
+}
+
+/// What is said of the variables that others follow.
+fn followers(mechanism: &Mechanism, couplings: &[Coupling]) -> Vec<Remark> {
+    let mut remarks = Vec::new();
+    for joint in mechanism.joints() {
+        let of = couplings.iter().filter(|c| c.leader == joint.name);
+        let followers: Vec<String> = of.map(|c| c.joint.clone()).collect();
+        let joint = joint.name.clone();
+        match mechanism.joint(&joint).map(|i| mechanism.joints()[i].kind) {
+            _ if followers.is_empty() => {}
+            Some(JointKind::Helical) => remarks.push(Remark::Helical { joint, followers }),
+            _ => remarks.push(Remark::Shared { joint, followers }),
+        }
+    }
+    remarks
+}

@@ -1,0 +1,303 @@
+//! URDF or MJCF → description.
+
+use std::path::Path;
+
+use super::mjcf::{self, Files};
+use super::names::fit;
+use super::problem::{ImportProblem, ImportProblemKind};
+use super::remark::Remark;
+use super::tree::Tree;
+use super::unroll::{Unrolled, describe};
+use super::urdf;
+use crate::description::{
+    ChainDescription, Convention, Description, LoadError, load_text, nearest,
+};
+
+/// How a file is read.
+#[derive(Clone, Debug, PartialEq)]
+pub struct ImportSettings {
+    /// The convention of the tables.
+    pub convention: Convention,
+    /// Links and sites whose frames are kept under their names.
+    pub frames: Vec<String>,
+    /// Whether the frames of all links and sites are kept.
+    pub all_frames: bool,
+}
+
+impl Default for ImportSettings {
+    fn default() -> Self {
+        ImportSettings {
+            convention: Convention::Modified,
+            frames: Vec::new(),
+            all_frames: false,
+        }
+    }
+}
+
+/// A description made from a file of another program.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Imported {
+    /// The mechanism.
+    pub description: Description,
+    /// What is worth knowing about it.
+    pub remarks: Vec<Remark>,
+    /// The names of all links and sites, by which a file of loops can speak of them.
+    pub links: Vec<String>,
+}
+
+/// Why a file of another program could not be read.
+#[derive(Debug)]
+pub enum ImportError {
+    /// The file could not be opened, or is no text.
+    Unreadable(LoadError),
+    /// Something is wrong with what it says.
+    Wrong(WrongFile),
+}
+
+/// A file, those it includes, and everything that is wrong with them.
+#[derive(Clone, Debug, PartialEq)]
+pub struct WrongFile {
+    /// Names and texts; the first is the file that was asked for.
+    pub files: Vec<(String, String)>,
+    /// What is wrong, with the file it is wrong in.
+    pub problems: Vec<(usize, ImportProblem)>,
+}
+
+impl ImportError {
+    /// Everything that is wrong, one line each: `file:line:column: what is wrong (what to do)`.
+    pub fn lines(&self) -> Vec<String> {
+        let WrongFile { files, problems } = match self {
+            ImportError::Unreadable(error) => return vec![error.to_string()],
+            ImportError::Wrong(wrong) => wrong,
+        };
+        let line = |(file, problem): &(usize, ImportProblem)| {
+            let (name, text) = &files[*file];
+            let place = problem.span.as_ref().map_or(String::new(), |span| {
+                let (line, column) = crate::description::Lines::new(text).position(span.start);
+                format!("{line}:{column}: ")
+            });
+            let help = problem
+                .kind
+                .help()
+                .map_or(String::new(), |help| format!(" ({help})"));
+            let separator = if place.is_empty() { ": " } else { ":" };
+            format!("{name}{separator}{place}{}{help}", problem.kind.title())
+        };
+        problems.iter().map(line).collect()
+    }
+}
+
+impl std::fmt::Display for ImportError {
+    fn fmt(&self, f: &mut std::fmt::Formatter) -> std::fmt::Result {
+        f.write_str(&self.lines().join("\n"))
+    }
+}
+
+impl std::error::Error for ImportError {}
+
+/// Reads a URDF or MJCF file; MJCF with the files it includes.
+///
+/// `loops` is the description of a file that closes loops: its closures, chains and platforms may stand on links and
+/// sites by their names, its joints say anew what role, home and limits imported ones have.
+///
+/// # Errors
+/// If a file cannot be read, or with what is wrong with it.
+pub fn load(
+    path: &Path,
+    loops: Option<&Description>,
+    settings: &ImportSettings,
+) -> Result<Imported, ImportError> {
+    let text = load_text(path).map_err(ImportError::Unreadable)?;
+    let folder = path.parent().map(Path::to_owned).unwrap_or_default();
+    let files = |name: &str| match load_text(folder.join(name)) {
+        Ok(text) => Ok(text),
+        Err(LoadError::Unreadable { error, .. }) => Err(error.to_string()),
+        Err(other) => Err(other.to_string()),
+    };
+    let name = path.display().to_string();
+    import(&name, &text, &files, loops, settings).map_err(ImportError::Wrong)
+}
+
+/// The same for a text; `files` reads the files it includes.
+///
+/// # Errors
+/// With what is wrong with the text.
+pub fn import(
+    name: &str,
+    text: &str,
+    files: Files,
+    loops: Option<&Description>,
+    settings: &ImportSettings,
+) -> Result<Imported, WrongFile> {
+    let whole = |problem: ImportProblem| WrongFile {
+        files: vec![(name.to_owned(), text.to_owned())],
+        problems: vec![(0, problem)],
+    };
+    let element = super::page::document(text)
+        .map_err(whole)?
+        .root_element()
+        .tag_name()
+        .name()
+        .to_owned();
+    let ((tree, mut remarks), own) = match element.as_str() {
+        "robot" => {
+            let read = urdf::read(text).map_err(|problems| WrongFile {
+                files: vec![(name.to_owned(), text.to_owned())],
+                problems: problems.into_iter().map(|problem| (0, problem)).collect(),
+            })?;
+            (read, None)
+        }
+        "mujoco" => {
+            let spliced =
+                mjcf::splice(name, text, files).map_err(|(files, file, problem)| WrongFile {
+                    files,
+                    problems: vec![(file, problem)],
+                })?;
+            let read = mjcf::read(&spliced.text).map_err(|problems| {
+                let located = problems.into_iter().map(|problem| match &problem.span {
+                    None => (0, problem),
+                    Some(span) => {
+                        let (file, span) = spliced.locate(span);
+                        (file, problem.kind.at(span))
+                    }
+                });
+                WrongFile {
+                    problems: located.collect(),
+                    files: spliced.files.clone(),
+                }
+            })?;
+            (read, Some(spliced))
+        }
+        found => {
+            let problem = ImportProblemKind::NotThisFormat {
+                found: found.to_owned(),
+                expected: &["robot", "mujoco"],
+            };
+            return Err(whole(problem.anywhere()));
+        }
+    };
+    drop(own);
+    let asked = asked(&tree, loops, settings).map_err(|kind| whole(kind.anywhere()))?;
+    let source = Path::new(name)
+        .file_name()
+        .map_or(name.to_owned(), |name| name.to_string_lossy().into_owned());
+    let unrolled = describe(
+        &tree,
+        settings.convention,
+        &asked,
+        format!("imported from {source}"),
+    );
+    let Unrolled {
+        mut description,
+        remarks: more,
+        references,
+    } = unrolled.map_err(|kind| whole(kind.anywhere()))?;
+    remarks.extend(more);
+    if let Some(loops) = loops {
+        let references = references
+            .iter()
+            .map(|(name, reference)| (fit(name), reference.clone()));
+        add(&mut description, loops, &references.collect::<Vec<_>>());
+    }
+    let links = tree.bodies.iter().flat_map(|body| &body.frames);
+    Ok(Imported {
+        description,
+        remarks,
+        links: links.map(|(name, _)| fit(name)).collect(),
+    })
+}
+
+/// The frames of the tree that must keep their names.
+fn asked(
+    tree: &Tree,
+    loops: Option<&Description>,
+    settings: &ImportSettings,
+) -> Result<Vec<String>, ImportProblemKind> {
+    let known: Vec<&String> = tree
+        .bodies
+        .iter()
+        .flat_map(|body| &body.frames)
+        .map(|(name, _)| name)
+        .collect();
+    if settings.all_frames {
+        return Ok(known.into_iter().cloned().collect());
+    }
+    let mut asked = Vec::new();
+    for name in &settings.frames {
+        if !known.contains(&name) {
+            let suggestion = nearest(name, known.iter().map(|name| name.as_str()));
+            return Err(ImportProblemKind::Unknown {
+                noun: "link or site",
+                name: name.clone(),
+                suggestion: suggestion.map(str::to_owned),
+            });
+        }
+        asked.push(name.clone());
+    }
+    if let Some(loops) = loops {
+        let stands = loops
+            .chains
+            .iter()
+            .filter_map(|chain| chain.value.on.as_ref());
+        let joined = loops
+            .closures
+            .iter()
+            .flat_map(|closure| &closure.value.frames);
+        for name in stands.chain(joined) {
+            let meant = known.iter().filter(|known| fit(known) == name.value);
+            asked.extend(meant.map(|name| (*name).clone()));
+        }
+    }
+    Ok(asked)
+}
+
+/// Adds what a file of loops says; its names of links become those of frames.
+fn add(description: &mut Description, loops: &Description, references: &[(String, String)]) {
+    let frame = |name: &mut String| {
+        if let Some((_, reference)) = references.iter().find(|(known, _)| known == name) {
+            name.clone_from(reference);
+        }
+    };
+    for joint in &loops.joints {
+        let own = description
+            .joints
+            .iter_mut()
+            .find(|own| own.name == joint.name);
+        match own {
+            Some(own) => {
+                let limits = own.value.limits.take();
+                *own = joint.clone();
+                own.value.limits = own.value.limits.take().or(limits);
+            }
+            None => description.joints.push(joint.clone()),
+        }
+    }
+    let convention = loops.convention.clone();
+    for chain in &loops.chains {
+        let mut chain = chain.clone();
+        let ChainDescription { on, .. } = &mut chain.value;
+        if let Some(on) = on {
+            frame(&mut on.value);
+        }
+        chain.value.convention = chain.value.convention.or(convention.clone());
+        description.chains.push(chain);
+    }
+    description
+        .platforms
+        .extend(loops.platforms.iter().cloned());
+    for closure in &loops.closures {
+        let mut closure = closure.clone();
+        closure
+            .value
+            .frames
+            .iter_mut()
+            .for_each(|name| frame(&mut name.value));
+        description.closures.push(closure);
+    }
+    description
+        .parameters
+        .extend(loops.parameters.iter().cloned());
+    description
+        .closed_forms
+        .extend(loops.closed_forms.iter().cloned());
+}

@@ -1,0 +1,13 @@
+//! MJCF, the format of MuJoCo.
+
+mod check;
+mod constraints;
+mod hinges;
+mod include;
+mod read;
+mod sliders;
+mod write;
+
+pub(crate) use include::{Files, splice};
+pub(crate) use read::read;
+pub use write::write;

@@ -1,0 +1,141 @@
+//! What can be found wrong with the elements of an MJCF file one by one.
+
+use std::collections::HashSet;
+
+use roxmltree::Node;
+
+use super::read::IRRELEVANT;
+use crate::geometry::Vector3;
+use crate::interchange::page::Problems;
+use crate::interchange::problem::ImportProblemKind;
+
+/// Elements that make bodies in ways that are not followed here.
+const MAKING: &[&str] = &["attach", "replicate", "flexcomp", "model", "composite"];
+
+/// Attributes of numbers, and how many.
+const NUMBERS: &[(&str, usize)] = &[
+    ("pos", 3),
+    ("quat", 4),
+    ("axisangle", 4),
+    ("euler", 3),
+    ("xyaxes", 6),
+    ("zaxis", 3),
+    ("axis", 3),
+    ("range", 2),
+    ("ref", 1),
+    ("anchor", 3),
+    ("relpose", 7),
+    ("coef", 1),
+];
+
+/// What can be found wrong with one element.
+pub(super) fn look<'a>(
+    node: Node<'a, '_>,
+    problems: &mut Problems,
+    seen: &mut HashSet<(&'a str, String)>,
+) {
+    let element = node.tag_name().name();
+    if IRRELEVANT.contains(&element)
+        || node
+            .ancestors()
+            .any(|part| IRRELEVANT.contains(&part.tag_name().name()))
+    {
+        if MAKING.contains(&element) {
+            let problem = ImportProblemKind::Unsupported {
+                what: format!("the element `{element}`"),
+                help: "load the file into MuJoCo and save it: mj_saveLastXML writes all bodies out",
+            };
+            problems.say(problem, node);
+        }
+        return;
+    }
+    if MAKING.contains(&element) {
+        let problem = ImportProblemKind::Unsupported {
+            what: format!("the element `{element}`"),
+            help: "load the file into MuJoCo and save it: mj_saveLastXML writes all bodies out",
+        };
+        return problems.say(problem, node);
+    }
+    let within = node
+        .parent()
+        .map(|parent| parent.tag_name().name().to_owned());
+    let moves = matches!(element, "joint" | "freejoint");
+    if moves && within.as_deref() == Some("frame") {
+        let problem = ImportProblemKind::Unsupported {
+            what: format!("a `{element}` in a `frame`"),
+            help: "move it into the body, with its place and axis turned by the frame",
+        };
+        problems.say(problem, node);
+    }
+    if moves && within.as_deref() == Some("worldbody") {
+        let problem = ImportProblemKind::Unsupported {
+            what: format!("a `{element}` of the world"),
+            help: "the world does not move: put the joint into a body",
+        };
+        problems.say(problem, node);
+    }
+    if element == "compiler"
+        && let Some(word) = node.attribute("eulerseq")
+        && (word.len() != 3 || !word.chars().all(|c| "xyzXYZ".contains(c)))
+    {
+        let problem = ImportProblemKind::Unsupported {
+            what: format!("the sequence of angles `{word}`"),
+            help: "write three letters of x, y, z, X, Y and Z",
+        };
+        problems.say(problem, node);
+    }
+    for &(name, count) in NUMBERS {
+        let fits = match (name, count) {
+            // of spatial tendons, lights and others it has another meaning
+            ("range", _) if element != "joint" => continue,
+            ("coef", _) if element != "joint" => continue,
+            (name, 1) => problems.numbers::<1>(node, name).is_some(),
+            (name, 2) => problems.numbers::<2>(node, name).is_some(),
+            (name, 3) => problems.numbers::<3>(node, name).is_some(),
+            (name, 4) => problems.numbers::<4>(node, name).is_some(),
+            (name, 6) => problems.numbers::<6>(node, name).is_some(),
+            (name, _) => problems.numbers::<7>(node, name).is_some(),
+        };
+        if !fits {
+            continue;
+        }
+        let text = node.attribute(name).unwrap_or_default();
+        let numbers: Vec<f64> = text
+            .split_whitespace()
+            .filter_map(|word| word.parse().ok())
+            .collect();
+        let size = |numbers: &[f64]| numbers.iter().fold(0.0, |most: f64, x| most.max(x.abs()));
+        let parallel = |v: &[f64]| {
+            let [a, b] =
+                [&v[..3], &v[3..]].map(|v| Vector3([v[0], v[1], v[2]]).times(1.0 / size(v)));
+            !(a.cross(&b).norm() > 1e-9)
+        };
+        let nothing = match name {
+            "quat" | "zaxis" => size(&numbers) < 1e-12,
+            "axisangle" => size(&numbers[..3]) < 1e-12,
+            "xyaxes" => parallel(&numbers),
+            _ => false,
+        };
+        if nothing {
+            let text = text.to_owned();
+            problems.say(ImportProblemKind::NoOrientation { text }, node);
+        }
+        if name == "axis" && size(&numbers) < 1e-12 {
+            let joint = node.attribute("name").unwrap_or("without name").to_owned();
+            problems.say(ImportProblemKind::NoAxis { joint }, node);
+        }
+    }
+    let noun = match element {
+        "body" => "body",
+        "joint" | "freejoint" if matches!(within.as_deref(), Some("body")) => "joint",
+        "site" if matches!(within.as_deref(), Some("body" | "worldbody" | "frame")) => "site",
+        "spatial" | "fixed" => "tendon",
+        _ => return,
+    };
+    if let Some(name) = node.attribute("name")
+        && !seen.insert((noun, name.to_owned()))
+    {
+        let name = name.to_owned();
+        problems.say(ImportProblemKind::Duplicate { noun, name }, node);
+    }
+}

@@ -1,0 +1,136 @@
+//! One text of a file and all it includes.
+
+use std::ops::Range;
+
+use crate::interchange::page::{document, tag};
+use crate::interchange::problem::{ImportProblem, ImportProblemKind};
+
+/// Files may include files this deep.
+const MOST_LEVELS: usize = 20;
+
+/// The most bytes that a file and all it includes may have.
+const MOST_BYTES: usize = 1 << 23;
+
+/// Reads another file by its name.
+pub(crate) type Files<'a> = &'a dyn Fn(&str) -> Result<String, String>;
+
+/// A text put together from files.
+pub(crate) struct Spliced {
+    /// The text, without `include`.
+    pub text: String,
+    /// Which part of the text is from which file, and where it begins there.
+    pieces: Vec<(Range<usize>, usize, usize)>,
+    /// The files: names and texts; the first is the one that was asked for.
+    pub files: Vec<(String, String)>,
+}
+
+impl Spliced {
+    /// The file that a place of the text is from, and the place in it.
+    pub fn locate(&self, span: &Range<usize>) -> (usize, Range<usize>) {
+        let mut pieces = self.pieces.iter();
+        let found = pieces
+            .find(|(piece, ..)| piece.contains(&span.start))
+            .or(self.pieces.last());
+        match found {
+            Some((piece, file, start)) => {
+                let begin = start + span.start.saturating_sub(piece.start).min(piece.len());
+                let end = start + span.end.saturating_sub(piece.start).min(piece.len());
+                (*file, begin..end.max(begin))
+            }
+            None => (0, 0..0),
+        }
+    }
+}
+
+/// The text of a file with all it includes; or what is wrong, and in which file.
+pub(crate) fn splice(
+    name: &str,
+    text: &str,
+    files: Files,
+) -> Result<Spliced, (Vec<(String, String)>, usize, ImportProblem)> {
+    let mut spliced = Spliced {
+        text: String::new(),
+        pieces: Vec::new(),
+        files: vec![(name.to_owned(), text.to_owned())],
+    };
+    match expand(&mut spliced, files, 0, &mut vec![0]) {
+        Ok(()) => Ok(spliced),
+        Err((file, problem)) => Err((spliced.files, file, problem)),
+    }
+}
+
+fn expand(
+    spliced: &mut Spliced,
+    files: Files,
+    file: usize,
+    open: &mut Vec<usize>,
+) -> Result<(), (usize, ImportProblem)> {
+    let text = spliced.files[file].1.clone();
+    let page = document(&text).map_err(|problem| (file, problem))?;
+    let root = page.root_element();
+    // of an included file only what is in its outermost element
+    let whole = if file == 0 {
+        0..text.len()
+    } else {
+        tag(root).end..root.range().end
+    };
+    let whole = if file == 0 {
+        whole
+    } else {
+        let close = text[whole.clone()]
+            .rfind("</")
+            .map_or(whole.end, |i| whole.start + i);
+        whole.start.min(close)..if root.has_children() {
+            close
+        } else {
+            whole.start
+        }
+    };
+    let mut at = whole.start;
+    for node in root
+        .descendants()
+        .filter(|node| node.has_tag_name("include"))
+    {
+        let range = node.range();
+        push(spliced, file, &text, at..range.start);
+        at = range.end;
+        let refuse = |problem: ImportProblemKind| (file, problem.at(tag(node)));
+        let Some(name) = node.attribute("file") else {
+            let (element, needs) = ("include".into(), "`file`".into());
+            return Err(refuse(ImportProblemKind::Missing { element, needs }));
+        };
+        let failed = |reason: String| ImportProblemKind::NotIncluded {
+            file: name.to_owned(),
+            reason,
+        };
+        if open
+            .iter()
+            .any(|&file| file != 0 && spliced.files[file].0 == name)
+            || open.len() > MOST_LEVELS
+        {
+            return Err(refuse(failed("it includes itself".into())));
+        }
+        let content = files(name).map_err(|reason| refuse(failed(reason)))?;
+        if spliced.text.len() + content.len() > MOST_BYTES {
+            return Err(refuse(failed("all together is too large".into())));
+        }
+        spliced.files.push((name.to_owned(), content));
+        let included = spliced.files.len() - 1;
+        open.push(included);
+        expand(spliced, files, included, open)?;
+        open.pop();
+    }
+    push(spliced, file, &text, at..whole.end.max(at));
+    Ok(())
+}
+
+fn push(spliced: &mut Spliced, file: usize, text: &str, range: Range<usize>) {
+    let Some(part) = text.get(range.clone()) else {
+        return;
+    };
+    let start = spliced.text.len();
+    spliced.text += part;
+    spliced
+        .pieces
+        .push((start..spliced.text.len(), file, range.start));
+}

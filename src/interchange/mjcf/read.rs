@@ -1,0 +1,336 @@
+//! MJCF → tree.
+//!
+//! Bodies, joints, defaults and units are read by mjcf-rs, from a text that keeps only what moves and what joins.
+//! Sites of constraints and spatial tendons, which it does not know, are read beside it.
+
+use std::collections::HashSet;
+use std::ops::Range;
+
+use mjcf_rs::Model;
+use mjcf_rs::body::JointType;
+use roxmltree::Node;
+
+use super::check::look;
+use super::constraints;
+use crate::geometry::{Pose, Quaternion, Rotation, Vector3};
+use crate::interchange::page::{Problems, document};
+use crate::interchange::problem::{ImportProblem, ImportProblemKind};
+use crate::interchange::remark::Remark;
+use crate::interchange::tree::{Body, Joint, Motion, Tree};
+use crate::interchange::urdf::direction;
+
+/// Elements that say nothing of how bodies move.
+pub(super) const IRRELEVANT: &[&str] = &[
+    "asset",
+    "camera",
+    "composite",
+    "contact",
+    "custom",
+    "deformable",
+    "extension",
+    "geom",
+    "inertial",
+    "light",
+    "option",
+    "sensor",
+    "size",
+    "statistic",
+    "visual",
+    "material",
+    "mesh",
+    "pair",
+    "skin",
+    "plugin",
+    "texture",
+    "hfield",
+    "user",
+];
+
+/// A body and where it is in the tree: its first and its last part, if it was taken apart.
+pub(super) type Parts = Vec<usize>;
+
+/// Reads the text of an MJCF file without `include`.
+pub(crate) fn read(text: &str) -> Result<(Tree, Vec<Remark>), Vec<ImportProblem>> {
+    let document = document(text).map_err(|problem| vec![problem])?;
+    let root = document.root_element();
+    let mut problems = Problems(Vec::new());
+    let mut removed: Vec<Range<usize>> = Vec::new();
+    let mut seen: HashSet<(&str, String)> = HashSet::new();
+    for node in root.descendants().filter(Node::is_element) {
+        look(node, &mut problems, &mut seen);
+        if IRRELEVANT.contains(&node.tag_name().name()) {
+            removed.push(node.range());
+        }
+        // a named outermost class of defaults is the one of everything
+        let outermost = node.has_tag_name("default") && node.parent().is_some_and(|p| p == root);
+        if let Some(class) = node.attribute_node("class").filter(|_| outermost) {
+            removed.push(class.range());
+        }
+    }
+    if !problems.0.is_empty() {
+        return Err(problems.0);
+    }
+    let reduced = without(text, removed);
+    let model = Model::from_str(&reduced, ".").map_err(|error| {
+        let message = error.to_string();
+        vec![ImportProblemKind::Reader { message }.anywhere()]
+    })?;
+    let mut remarks = Vec::new();
+    let (mut tree, parts) =
+        bodies(&model, root, &mut remarks).map_err(|kind| vec![kind.anywhere()])?;
+    constraints::read(root, &model, &mut tree, &parts, &mut problems, &mut remarks);
+    match problems.0.is_empty() {
+        true => Ok((tree, remarks)),
+        false => Err(problems.0),
+    }
+}
+
+/// The text without some ranges, of which one may stand in another.
+fn without(text: &str, mut removed: Vec<Range<usize>>) -> String {
+    removed.sort_by_key(|range| range.start);
+    let mut kept = String::new();
+    let mut at = 0;
+    for range in removed {
+        if range.start >= at {
+            kept += &text[at..range.start];
+        }
+        at = at.max(range.end);
+    }
+    kept + &text[at..]
+}
+
+/// A pose of mjcf-rs.
+pub(super) fn pose(pose: &mjcf_rs::Pose) -> Pose<f64> {
+    let q = pose.rotation;
+    let q = Quaternion([q.w, q.x, q.y, q.z]).normalised();
+    let t = pose.translation;
+    Pose {
+        rotation: exact(q.rotation()),
+        position: Vector3([t.x, t.y, t.z]),
+    }
+}
+
+/// Entries that differ from 0, 1 and −1 by rounding made exact, so that planar linkages stay planar.
+fn exact(rotation: Rotation<f64>) -> Rotation<f64> {
+    let clean = |x: f64| {
+        let whole = x.round();
+        if (x - whole).abs() < 4.0 * f64::EPSILON {
+            whole + 0.0
+        } else {
+            x
+        }
+    };
+    let cleaned = Rotation(rotation.0.map(|column| column.map(clean)));
+    let axes = cleaned
+        .0
+        .iter()
+        .filter(|column| column.0.iter().any(|x| x.abs() == 1.0));
+    // all three axes are along coordinates, or one is and the others are turned about it
+    if axes.count() > 0 { cleaned } else { rotation }
+}
+
+/// All bodies, and for each body of the model the bodies of the tree that it became.
+fn bodies(
+    model: &Model,
+    root: Node,
+    remarks: &mut Vec<Remark>,
+) -> Result<(Tree, Vec<Parts>), ImportProblemKind> {
+    let driven: HashSet<&str> = model
+        .actuators
+        .iter()
+        .filter_map(|actuator| actuator.joint.as_deref())
+        .collect();
+    let closed = model
+        .equality
+        .iter()
+        .any(|equality| !matches!(equality, mjcf_rs::equality::Equality::Joint(_)));
+    if driven.is_empty() && closed {
+        remarks.push(Remark::Driven("no joint has an actuator: all are passive"));
+    }
+    let mut bodies: Vec<Body> = Vec::new();
+    let mut parts: Vec<Parts> = Vec::new();
+    for (index, entry) in model.bodies.iter().enumerate() {
+        let name = match (&entry.body.name, index) {
+            (_, 0) => "world".to_owned(),
+            (Some(name), _) => name.clone(),
+            (None, index) => format!("body{index}"),
+        };
+        let mut own = Vec::new();
+        let mut part = Body {
+            name: name.clone(),
+            parent: entry
+                .parent
+                .map(|parent| parts[parent][parts[parent].len() - 1]),
+            pose: pose(&entry.body.pose),
+            joints: Vec::new(),
+            home: None,
+            frames: Vec::new(),
+        };
+        for (i, joint) in entry.body.joints.iter().enumerate() {
+            let motion = match joint.type_ {
+                JointType::Hinge => Motion::Turn,
+                JointType::Slide => Motion::Slide,
+                JointType::Ball => Motion::Ball,
+                JointType::Free => Motion::Free,
+            };
+            let floats = |motion: Motion| matches!(motion, Motion::Ball | Motion::Free);
+            let before = part.joints.last().map(|joint: &Joint| joint.motion);
+            // a ball joint stands alone in its body
+            if before.is_some_and(|before| floats(before) || floats(motion)) {
+                let last = part
+                    .joints
+                    .last()
+                    .map_or(String::new(), |joint| joint.name.clone());
+                let next = Body {
+                    name: String::new(),
+                    parent: Some(bodies.len()),
+                    pose: Pose::identity(),
+                    joints: Vec::new(),
+                    home: None,
+                    frames: Vec::new(),
+                };
+                part.name = format!("{name}_{last}");
+                own.push(bodies.len());
+                bodies.push(std::mem::replace(&mut part, next));
+                part.name = name.clone();
+            }
+            let joint_name = joint
+                .name
+                .clone()
+                .unwrap_or_else(|| match entry.body.joints.len() {
+                    1 => format!("{name}_joint"),
+                    _ => format!("{name}_joint{}", i + 1),
+                });
+            let limited = joint
+                .limited
+                .resolve(model.compiler.autolimits, joint.range.is_some());
+            let limits = joint
+                .range
+                .filter(|[low, high]| limited && low < high)
+                .map(|[low, high]| (low, high));
+            let [x, y, z] = joint.axis;
+            let along = direction([x, y, z]);
+            let axis = match along {
+                Some(axis) => axis,
+                None if floats(motion) => Vector3::unit(2),
+                None => return Err(ImportProblemKind::NoAxis { joint: joint_name }),
+            };
+            part.joints.push(Joint {
+                actuated: match closed || !driven.is_empty() {
+                    true => driven.contains(joint_name.as_str()),
+                    false => true,
+                },
+                name: joint_name,
+                motion,
+                axis,
+                point: Vector3(joint.pos),
+                reference: joint.ref_,
+                home: joint.ref_,
+                limits,
+            });
+        }
+        let sites = entry.body.sites.iter();
+        let sites = sites.filter_map(|site| Some((site.name.clone()?, pose(&site.pose))));
+        part.frames.extend(sites);
+        if !part.frames.iter().any(|(frame, _)| *frame == name) {
+            part.frames.push((name, Pose::identity()));
+        }
+        own.push(bodies.len());
+        bodies.push(part);
+        parts.push(own);
+    }
+    let mut tree = Tree {
+        name: root.attribute("model").unwrap_or("mechanism").to_owned(),
+        bodies,
+        couplings: Vec::new(),
+        loops: Vec::new(),
+        size: 1.0,
+    };
+    home(model, &mut tree, remarks)?;
+    Ok((tree, parts))
+}
+
+/// The home values: those of the keyframe `home`, or of the first one, or the references.
+fn home(
+    model: &Model,
+    tree: &mut Tree,
+    remarks: &mut Vec<Remark>,
+) -> Result<(), ImportProblemKind> {
+    let frames = model.keyframes.iter();
+    let frames: Vec<_> = frames.filter(|frame| !frame.qpos.is_empty()).collect();
+    let named = frames
+        .iter()
+        .find(|frame| frame.name.as_deref() == Some("home"));
+    let keyframe = named.or(frames.first());
+    let size = |motion: Motion| match motion {
+        Motion::Turn | Motion::Slide => 1,
+        Motion::Ball => 4,
+        Motion::Free => 7,
+    };
+    let all = || tree.bodies.iter().flat_map(|body| &body.joints);
+    let expected: usize = all().map(|joint| size(joint.motion)).sum();
+    let values = match keyframe {
+        None => None,
+        Some(keyframe) => {
+            let name = keyframe.name.clone().unwrap_or_else(|| "0".into());
+            if keyframe.qpos.len() != expected || keyframe.qpos.iter().any(|x| !x.is_finite()) {
+                return Err(ImportProblemKind::WrongKeyframe {
+                    name,
+                    found: keyframe.qpos.len(),
+                    expected,
+                });
+            }
+            remarks.push(Remark::Home(format!("home is the keyframe `{name}`")));
+            Some(keyframe.qpos.clone())
+        }
+    };
+    let mut poses: Vec<Pose<f64>> = Vec::with_capacity(tree.bodies.len());
+    let mut at = 0;
+    for body in &mut tree.bodies {
+        let parent = body.parent.map_or(Pose::identity(), |parent| poses[parent]);
+        let mut pose = parent * body.pose;
+        for joint in &mut body.joints {
+            let count = size(joint.motion);
+            let given = values.as_ref().map(|values| &values[at..at + count]);
+            at += count;
+            let turned = |q: &[f64]| {
+                let length = q.iter().map(|x| x * x).sum::<f64>().sqrt();
+                match length > 1e-12 {
+                    true => Quaternion([q[0], q[1], q[2], q[3]].map(|x| x / length)).rotation(),
+                    false => Rotation::identity(),
+                }
+            };
+            match (joint.motion, given) {
+                (Motion::Turn | Motion::Slide, Some(given)) => joint.home = given[0],
+                (Motion::Turn | Motion::Slide, None) => {}
+                (Motion::Ball, given) => {
+                    let rotation = given.map_or(Rotation::identity(), turned);
+                    let turn = Pose {
+                        rotation,
+                        position: Vector3::zero(),
+                    };
+                    pose = pose
+                        * Pose::translation(joint.point)
+                        * turn
+                        * Pose::translation(-joint.point);
+                    body.home = Some(pose);
+                }
+                (Motion::Free, given) => {
+                    if let Some(v) = given {
+                        pose = Pose {
+                            rotation: turned(&v[3..]),
+                            position: Vector3([v[0], v[1], v[2]]),
+                        };
+                    }
+                    body.home = Some(pose);
+                }
+            }
+            pose = match joint.motion {
+                Motion::Turn | Motion::Slide => pose * joint.displacement(joint.home),
+                _ => pose,
+            };
+        }
+        poses.push(pose);
+    }
+    Ok(())
+}

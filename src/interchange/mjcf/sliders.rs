@@ -1,0 +1,70 @@
+//! Sliding closures as joints.
+
+use crate::description::ClosureKind;
+use crate::geometry::{Pose, Vector3};
+use crate::interchange::remark::Remark;
+use crate::interchange::tree::{Attachment, Body, Joint, Loop, Motion, Tree};
+
+/// Sliding closures as joints of a further body, welded to the other side.
+pub(super) fn with_sliders(tree: &Tree) -> (Tree, Vec<Remark>) {
+    let mut tree = tree.clone();
+    let mut remarks = Vec::new();
+    let home = tree.home();
+    for i in 0..tree.loops.len() {
+        let Loop {
+            name, kind, sides, ..
+        } = tree.loops[i].clone();
+        let [a, b] = sides;
+        let relative = (home[a.body] * a.pose).inverse() * (home[b.body] * b.pose);
+        let [x, y, z] = relative.position.0;
+        let turned = relative.rotation.0[0].0[1].atan2(relative.rotation.0[0].0[0]);
+        let slide =
+            |word: &str, axis: usize, home: f64| (word.to_owned(), Motion::Slide, axis, home);
+        let turn = || ("turn".to_owned(), Motion::Turn, 2, turned);
+        let freedoms = match kind {
+            ClosureKind::Prismatic => vec![slide("slide", 2, z)],
+            ClosureKind::Cylindrical => vec![slide("slide", 2, z), turn()],
+            ClosureKind::Planar => vec![slide("x", 0, x), slide("y", 1, y), turn()],
+            _ => continue,
+        };
+        let joints = freedoms
+            .into_iter()
+            .map(|(word, motion, axis, home)| Joint {
+                name: format!("{name}.{word}"),
+                motion,
+                axis: Vector3::unit(axis),
+                point: Vector3::zero(),
+                reference: 0.0,
+                home,
+                limits: None,
+                actuated: false,
+            });
+        let joints: Vec<Joint> = joints.collect();
+        remarks.push(Remark::Welded {
+            closure: name.clone(),
+            kind,
+            joints: joints.iter().map(|joint| joint.name.clone()).collect(),
+        });
+        let frame = format!("{name}.slider");
+        let side = Attachment {
+            body: tree.bodies.len(),
+            frame: frame.clone(),
+            pose: Pose::identity(),
+        };
+        tree.bodies.push(Body {
+            name: frame.clone(),
+            parent: Some(a.body),
+            pose: a.pose,
+            joints,
+            home: None,
+            frames: vec![(frame, Pose::identity())],
+        });
+        tree.loops[i] = Loop {
+            name,
+            kind: ClosureKind::Rigid,
+            sides: [side, b],
+            length: None,
+        };
+    }
+    (tree, remarks)
+}

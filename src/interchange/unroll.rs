@@ -1,0 +1,397 @@
+//! A tree of bodies and its loops → the description of a mechanism.
+//!
+//! Bodies that move one after the other without a branch become one chain; its table is placed on the joint axes by
+//! [`SerialAxes`], at the reference values of the joints. At a branch a new chain stands on a link of the chain before.
+//! Bodies with a ball or free joint become platforms, a ball joint a spherical closure. Bodies that do not move
+//! against their parent are parts of it. A frame that is asked for becomes the tip of its chain, or, if that is taken,
+//! a chain without rows.
+
+mod closures;
+mod relations;
+mod sum;
+
+use std::collections::{HashMap, HashSet};
+
+use relations::{carriers, leaders, within_reason};
+use sum::sum;
+
+use super::names::Names;
+use super::problem::ImportProblemKind;
+use super::remark::Remark;
+use super::tree::{Attachment, Body, Coupling, Joint, Motion, Tree};
+use crate::description::{
+    ChainDescription, ClosureDescription, Convention, Description, Displacement, Entry, GROUND,
+    JointDescription, Named, PlatformDescription, Role, Row, Spanned,
+};
+use crate::geometry::{Line, Pose};
+use crate::mechanism::{JointAxis, SerialAxes, Table};
+
+/// A description and what is worth knowing about it.
+pub(super) struct Unrolled {
+    pub description: Description,
+    pub remarks: Vec<Remark>,
+    /// What the frames that were asked for are called.
+    pub references: Vec<(String, String)>,
+}
+
+/// The description of a tree, in which the frames of the given names can be found.
+pub(super) fn describe(
+    tree: &Tree,
+    convention: Convention,
+    asked: &[String],
+    source: String,
+) -> Result<Unrolled, ImportProblemKind> {
+    within_reason(tree)?;
+    let mut unroller = Unroller {
+        tree,
+        convention,
+        carriers: carriers(tree),
+        zero: tree.poses(|joint| joint.reference),
+        leaders: leaders(tree)?,
+        variables: HashMap::new(),
+        names: Names::default(),
+        needs: Vec::new(),
+        places: HashMap::new(),
+        chains: Vec::new(),
+        references: Vec::new(),
+        remarks: Vec::new(),
+    };
+    unroller.variables();
+    unroller.needs(asked);
+    let platforms = unroller.platforms();
+    unroller.chains();
+    let (platforms, closures) = unroller.closures(platforms);
+    let moves = unroller
+        .chains
+        .iter()
+        .any(|chain| !chain.value.rows.is_empty());
+    if !moves && platforms.is_empty() {
+        return Err(ImportProblemKind::NothingMoves);
+    }
+    let description = Description {
+        name: spanned(match tree.name.trim() {
+            "" => "mechanism".to_owned(),
+            name => name.to_owned(),
+        }),
+        source: Some(spanned(source)),
+        convention: Some(Spanned::new(convention, 0..0)),
+        parameters: Vec::new(),
+        joints: unroller.joints(),
+        chains: unroller.chains,
+        platforms,
+        closures,
+        closed_forms: Vec::new(),
+    };
+    Ok(Unrolled {
+        description,
+        remarks: unroller
+            .remarks
+            .into_iter()
+            .chain(unroller.names.renamed())
+            .collect(),
+        references: unroller.references,
+    })
+}
+
+/// Where a body that moves by rows is: its chain and its last row; the pose of that link frame at the references.
+#[derive(Clone)]
+struct Placed {
+    chain: usize,
+    row: usize,
+    frame: Pose<f64>,
+}
+
+struct Unroller<'a> {
+    tree: &'a Tree,
+    convention: Convention,
+    carriers: Vec<(usize, Pose<f64>)>,
+    /// Ground from every body at the references.
+    zero: Vec<Pose<f64>>,
+    leaders: HashMap<String, Coupling>,
+    /// The variable of each joint that leads.
+    variables: HashMap<String, String>,
+    names: Names,
+    /// Frames that must have a name: the name, the carrier, the pose in it.
+    needs: Vec<(String, usize, Pose<f64>)>,
+    places: HashMap<usize, Placed>,
+    chains: Vec<Named<ChainDescription>>,
+    references: Vec<(String, String)>,
+    remarks: Vec<Remark>,
+}
+
+/// A platform and the body that it is.
+type Floating = (usize, Named<PlatformDescription>);
+type Platforms = Vec<Named<PlatformDescription>>;
+type Closures = Vec<Named<ClosureDescription>>;
+
+fn spanned<T>(value: T) -> Spanned<T> {
+    Spanned::new(value, 0..0)
+}
+
+fn named<T>(name: String, value: T) -> Named<T> {
+    Named {
+        name: spanned(name),
+        value,
+    }
+}
+
+/// Whether nothing is lost when a pose is left out.
+fn is_identity(pose: &Pose<f64>) -> bool {
+    Displacement::of_pose(pose).is_empty()
+}
+
+fn floats(body: &Body) -> Option<&Joint> {
+    let mut joints = body.joints.iter();
+    joints.find(|joint| matches!(joint.motion, Motion::Ball | Motion::Free))
+}
+
+impl Unroller<'_> {
+    fn variables(&mut self) {
+        for joint in self.tree.bodies.iter().flat_map(|body| &body.joints) {
+            let moves = matches!(joint.motion, Motion::Turn | Motion::Slide);
+            if moves && !self.leaders.contains_key(&joint.name) {
+                let variable = self.names.variable(&joint.name);
+                self.variables.insert(joint.name.clone(), variable);
+            }
+        }
+    }
+
+    /// An attachment as a carrier and a pose in it.
+    fn carried(&self, side: &Attachment) -> (usize, Pose<f64>) {
+        let (carrier, pose) = &self.carriers[side.body];
+        (*carrier, *pose * side.pose)
+    }
+
+    /// Names for the frames of loops and those asked for.
+    fn needs(&mut self, asked: &[String]) {
+        let mut found = Vec::new();
+        for name in asked {
+            for (i, body) in self.tree.bodies.iter().enumerate() {
+                for (frame, pose) in body.frames.iter().filter(|(frame, _)| frame == name) {
+                    let (carrier, own) = self.carriers[i];
+                    found.push((frame.clone(), carrier, own * *pose));
+                }
+            }
+        }
+        for side in self.tree.loops.iter().flat_map(|l| &l.sides) {
+            let (carrier, pose) = self.carried(side);
+            found.push((side.frame.clone(), carrier, pose));
+        }
+        for (name, carrier, pose) in found {
+            let known = self.needs.iter().any(|(other, ..)| *other == name);
+            if !known {
+                self.needs.push((name, carrier, pose));
+            }
+        }
+    }
+
+    fn platforms(&mut self) -> Vec<Floating> {
+        let mut platforms = Vec::new();
+        for (i, body) in self.tree.bodies.iter().enumerate() {
+            if floats(body).is_some() {
+                let home = body.home.unwrap_or(self.zero[i]);
+                let platform = PlatformDescription {
+                    home: Displacement::of_pose(&home),
+                    frames: Vec::new(),
+                };
+                platforms.push((i, named(self.names.platform(&body.name), platform)));
+            }
+        }
+        platforms
+    }
+
+    fn chains(&mut self) {
+        let tree = self.tree;
+        let mut below: Vec<Vec<usize>> = vec![Vec::new(); tree.bodies.len()];
+        for (i, body) in tree.bodies.iter().enumerate() {
+            let turns = !body.joints.is_empty() && floats(body).is_none();
+            if let (true, Some(parent)) = (turns, body.parent) {
+                below[self.carriers[parent].0].push(i);
+            }
+        }
+        let is_chain = |body: usize| body != 0 && floats(&tree.bodies[body]).is_none();
+        for first in 0..tree.bodies.len() {
+            let body = &tree.bodies[first];
+            let Some(parent) = body.parent else { continue };
+            let parent = self.carriers[parent].0;
+            let goes_on = is_chain(parent) && below[parent].len() == 1;
+            if body.joints.is_empty() || floats(body).is_some() || goes_on {
+                continue;
+            }
+            let mut links = vec![first];
+            while let [next] = below[links[links.len() - 1]][..] {
+                links.push(next);
+            }
+            self.chain(parent, &links);
+        }
+    }
+
+    /// A name for the end of a chain, and the pose of that frame in the last link.
+    fn tip(&self, last: usize) -> (String, Pose<f64>) {
+        if let Some((name, _, pose)) = self.needs.iter().find(|(_, carrier, _)| *carrier == last) {
+            return (name.clone(), *pose);
+        }
+        // the last of the parts fixed to the link, where there is one that none hangs on
+        let fixed = (last + 1..self.tree.bodies.len()).filter(|&i| self.carriers[i].0 == last);
+        let fixed: Vec<usize> = fixed.collect();
+        let hung: HashSet<Option<usize>> =
+            self.tree.bodies.iter().map(|body| body.parent).collect();
+        let end = fixed
+            .into_iter()
+            .find(|i| !hung.contains(&Some(*i)))
+            .unwrap_or(last);
+        (self.tree.bodies[end].name.clone(), self.carriers[end].1)
+    }
+
+    fn chain(&mut self, on: usize, links: &[usize]) {
+        let tree = self.tree;
+        // the axis of a slide has no place: that of a first one is put where its body is
+        let first = &tree.bodies[links[0]].joints[0];
+        let seen_from = match first.motion {
+            Motion::Slide => self.zero[links[0]],
+            _ => Pose::identity(),
+        };
+        let zero = |link: usize| seen_from.inverse() * self.zero[link];
+        let mut joints = Vec::new();
+        for &link in links {
+            let body = &tree.bodies[link];
+            // a joint carries those after it; at the references all stand where the body does
+            for joint in &body.joints {
+                let pose = zero(link);
+                let line = Line::new(pose * joint.point, pose.rotation * joint.axis);
+                let line = line.expect("readers refuse axes without direction");
+                joints.push(match joint.motion {
+                    Motion::Slide => JointAxis::prismatic(line, joint.reference),
+                    _ => JointAxis::revolute(line, joint.reference),
+                });
+            }
+        }
+        let last = links[links.len() - 1];
+        let (wanted, tip) = self.tip(last);
+        let axes = SerialAxes {
+            base: None,
+            joints,
+            tool: Some(zero(last) * tip),
+        };
+        let table = axes.assign(self.convention).table;
+        let chain = self.chains.len();
+        let frames = table.frames();
+        let mut row = 0;
+        for &link in links {
+            row += tree.bodies[link].joints.len();
+            let frame = seen_from * frames[row];
+            self.places.insert(link, Placed { chain, row, frame });
+        }
+        let (on, base) = self.standing(on, seen_from * table.base);
+        let name = self.names.frame(&wanted);
+        let rows = self.rows(links, &table);
+        let chain = ChainDescription {
+            on: (on != GROUND).then(|| spanned(on)),
+            convention: None,
+            base: Displacement::of_pose(&base),
+            rows,
+            tip: Displacement::of_pose(&table.tip),
+        };
+        self.chains.push(named(name, chain));
+    }
+
+    /// The frame that a chain stands on, and the pose of its first frame there.
+    fn standing(&self, on: usize, base: Pose<f64>) -> (String, Pose<f64>) {
+        match self.places.get(&on) {
+            Some(Placed { chain, row, frame }) => {
+                let name = format!("{}.{row}", self.chains[*chain].name.value);
+                (name, frame.inverse() * base)
+            }
+            None if on == 0 => (GROUND.into(), base),
+            None => {
+                let name = self.names.of_platform(&self.tree.bodies[on].name);
+                (name, self.zero[on].inverse() * base)
+            }
+        }
+    }
+
+    fn rows(&self, links: &[usize], table: &Table) -> Vec<Row> {
+        let joints = links
+            .iter()
+            .flat_map(|&link| &self.tree.bodies[link].joints);
+        let rows = joints.zip(&table.rows).map(|(joint, row)| Row {
+            alpha: Entry::angle(row.alpha),
+            a: Entry::length(row.a),
+            d: self.affine(Entry::length, row.d, row.slide, joint),
+            theta: self.affine(Entry::angle, row.theta, row.turn, joint),
+            span: 0..0,
+        });
+        rows.collect()
+    }
+
+    /// constant + coefficient · joint, where a joint that follows is what it follows.
+    fn affine(
+        &self,
+        entry: fn(f64) -> Entry,
+        constant: f64,
+        coefficient: f64,
+        joint: &Joint,
+    ) -> Entry {
+        if coefficient == 0.0 {
+            return entry(constant);
+        }
+        match self.leaders.get(&joint.name) {
+            None => sum(
+                entry(constant),
+                &[(self.variables[&joint.name].clone(), coefficient)],
+            ),
+            Some(coupling) => {
+                let constant = constant + coefficient * coupling.offset;
+                let terms = self.variables.get(&coupling.leader);
+                let terms = terms.map(|leader| (leader.clone(), coefficient * coupling.factor));
+                sum(entry(constant), &terms.into_iter().collect::<Vec<_>>())
+            }
+        }
+    }
+
+    /// The joint variables: those of joints that lead, within the limits of all that follow.
+    fn joints(&self) -> Vec<Named<JointDescription>> {
+        let mut joints = Vec::new();
+        let all = || self.tree.bodies.iter().flat_map(|body| &body.joints);
+        for joint in all() {
+            let Some(variable) = self.variables.get(&joint.name) else {
+                continue;
+            };
+            let mut limits = joint.limits;
+            let mut actuated = joint.actuated;
+            let mut angle = joint.motion == Motion::Turn;
+            for follower in all() {
+                let Some(coupling) = self
+                    .leaders
+                    .get(&follower.name)
+                    .filter(|c| c.leader == joint.name)
+                else {
+                    continue;
+                };
+                actuated |= follower.actuated;
+                angle |= follower.motion == Motion::Turn;
+                if let (Some((low, high)), true) = (follower.limits, coupling.factor != 0.0) {
+                    let ends = [low, high].map(|end| (end - coupling.offset) / coupling.factor);
+                    let (low, high) = (ends[0].min(ends[1]), ends[0].max(ends[1]));
+                    let (least, most) = limits.unwrap_or((low, high));
+                    limits = Some((least.max(low), most.min(high)))
+                        .filter(|(low, high)| low <= high)
+                        .or(limits);
+                }
+            }
+            let entry = if angle { Entry::angle } else { Entry::length };
+            let description = JointDescription {
+                role: if actuated {
+                    Role::Actuated
+                } else {
+                    Role::Passive
+                },
+                home: entry(joint.home),
+                limits: limits.map(|(low, high)| (entry(low), entry(high))),
+                span: 0..0,
+            };
+            joints.push(named(variable.clone(), description));
+        }
+        joints
+    }
+}

@@ -1,0 +1,174 @@
+//! Frames with names, and the closures between them.
+
+use super::{
+    Closures, Floating, Placed, Platforms, Unroller, floats, is_identity, named, spanned, sum,
+};
+use crate::description::{
+    ChainDescription, ClosureDescription, ClosureKind, Displacement, Entry, GROUND,
+};
+use crate::geometry::Pose;
+use crate::interchange::names::fit;
+use crate::interchange::remark::Remark;
+use crate::interchange::tree::{Attachment, Extent, Joint, Loop, Motion};
+
+impl Unroller<'_> {
+    /// The name of a frame; a new one is made where it has none.
+    fn frame(&mut self, side: &Attachment, platforms: &mut [Floating]) -> String {
+        let (carrier, pose) = self.carried(side);
+        self.frame_on(&side.frame, carrier, &pose, platforms)
+    }
+
+    fn frame_on(
+        &mut self,
+        wanted: &str,
+        carrier: usize,
+        pose: &Pose<f64>,
+        platforms: &mut [Floating],
+    ) -> String {
+        if let Some((_, platform)) = platforms.iter_mut().find(|(body, _)| *body == carrier) {
+            let owner = platform.name.value.clone();
+            if is_identity(pose) {
+                return owner;
+            }
+            let steps = Displacement::of_pose(pose);
+            let frames = &mut platform.value.frames;
+            // frames of the same name are the same frame
+            let own = wanted.strip_prefix(&format!("{owner}.")).unwrap_or(wanted);
+            let own = if own.trim().is_empty() { "frame" } else { own }.to_owned();
+            if !frames.iter().any(|frame| frame.name.value == own) {
+                frames.push(named(own.clone(), steps));
+            }
+            return format!("{owner}.{own}");
+        }
+        let (on, base) = match self.places.get(&carrier) {
+            None => (GROUND.to_owned(), *pose),
+            Some(Placed { chain, row, frame }) => {
+                let part = &self.chains[*chain];
+                let at = frame.inverse() * self.zero[carrier] * *pose;
+                if self.names.of_frame(wanted) == Some(&part.name.value)
+                    && *row == part.value.rows.len()
+                {
+                    return part.name.value.clone();
+                }
+                (format!("{}.{row}", part.name.value), at)
+            }
+        };
+        if let Some(name) = self.names.of_frame(wanted) {
+            return name.clone();
+        }
+        if is_identity(&base) && fit(wanted) != wanted {
+            return on;
+        }
+        let name = self.names.frame(wanted);
+        let chain = ChainDescription {
+            on: (on != GROUND).then(|| spanned(on)),
+            convention: None,
+            base: Displacement::of_pose(&base),
+            rows: Vec::new(),
+            tip: Vec::new(),
+        };
+        self.chains.push(named(name.clone(), chain));
+        name
+    }
+
+    /// The platforms with their frames, and the closures between all frames.
+    pub(super) fn closures(&mut self, platforms: Vec<Floating>) -> (Platforms, Closures) {
+        let mut platforms = platforms;
+        for (name, carrier, pose) in self.needs.clone() {
+            let reference = self.frame_on(&name, carrier, &pose, &mut platforms);
+            self.references.push((name, reference));
+        }
+        let mut closures: Closures = Vec::new();
+        for closing in self.balls().iter().chain(&self.tree.loops) {
+            let Loop {
+                name, kind, sides, ..
+            } = closing;
+            let movers = [0, 1].map(|side| self.mover(sides[side].body));
+            if movers[0] == movers[1] {
+                let name = name.clone();
+                self.remarks.push(Remark::WithinBody { name });
+                continue;
+            }
+            let frames = [&sides[0], &sides[1]].map(|side| self.frame(side, &mut platforms));
+            let closure = ClosureDescription {
+                kind: *kind,
+                frames: frames.map(spanned),
+                length: closing.length.as_ref().map(|length| self.length(length)),
+                span: 0..0,
+            };
+            let mut label = match name.trim() {
+                "" => "closure".to_owned(),
+                name => name.to_owned(),
+            };
+            while closures.iter().any(|other| other.name.value == label) {
+                label += "_";
+            }
+            closures.push(named(label, closure));
+        }
+        let platforms = platforms.into_iter().map(|(_, platform)| platform);
+        (platforms.collect(), closures)
+    }
+
+    /// Ball joints as loops: spherical closures between parents and platforms.
+    fn balls(&self) -> Vec<Loop> {
+        let bodies = self.tree.bodies.iter().enumerate();
+        let balls = bodies.filter_map(|(i, body)| {
+            let ball = floats(body).filter(|joint| joint.motion == Motion::Ball)?;
+            let point = Pose::translation(ball.point);
+            let sides = [(body.parent?, body.pose * point), (i, point)];
+            let sides = [0, 1].map(|side| Attachment {
+                body: sides[side].0,
+                frame: format!("{}_{}", ball.name, side + 1),
+                pose: sides[side].1,
+            });
+            Some(Loop {
+                name: ball.name.clone(),
+                kind: ClosureKind::Spherical,
+                sides,
+                length: None,
+            })
+        });
+        balls.collect()
+    }
+
+    /// The body that a body moves with: the nearest one with a joint that has a variable.
+    fn mover(&self, body: usize) -> usize {
+        let moves = |joint: &Joint| match self.leaders.get(&joint.name) {
+            None => true,
+            Some(coupling) => {
+                coupling.factor != 0.0 && self.variables.contains_key(&coupling.leader)
+            }
+        };
+        let mut at = body;
+        while let Some(parent) = self.tree.bodies[at].parent {
+            if self.tree.bodies[at].joints.iter().any(moves) {
+                break;
+            }
+            at = parent;
+        }
+        at
+    }
+
+    fn length(&self, extent: &Extent) -> Entry {
+        let mut constant = extent.constant;
+        let mut terms = Vec::new();
+        for (joint, factor) in &extent.terms {
+            match self.leaders.get(joint) {
+                None => terms.push((self.variables[joint].clone(), *factor)),
+                Some(coupling) => {
+                    constant += factor * coupling.offset;
+                    let leader = self.variables.get(&coupling.leader);
+                    terms.extend(leader.map(|leader| (leader.clone(), factor * coupling.factor)));
+                }
+            }
+        }
+        terms.retain(|(_, factor)| *factor != 0.0);
+        // a length has no sign
+        let constant = if terms.is_empty() {
+            constant.abs()
+        } else {
+            constant
+        };
+        sum(Entry::length(constant), &terms)
+    }
+}

@@ -1,0 +1,309 @@
+//! The ways in which programs have added loops to URDF.
+//!
+//! | element | known to |
+//! |---|---|
+//! | `loop_joint` with `link1`, `link2`, or `parent`, `child` and their origins | NVIDIA Isaac Sim, exporters |
+//! | `constraint` with `parent`, `parent_origin`, `child`, `child_origin`, axes | ros/urdfdom pull request 264 |
+//! | `loop` with `predecessor`, `successor` | URDF+, Chignoli et al. 2024, arXiv:2411.19753 |
+//! | `drake:ball_constraint` | Drake |
+//! | `joint` in `gazebo`, as in SDFormat | Gazebo's tutorial of kinematic loops |
+
+use roxmltree::Node;
+
+use super::motion::direction;
+use crate::description::ClosureKind;
+use crate::geometry::{Pose, Rotation, Vector3};
+use crate::interchange::page::{Problems, child, children, parse, pose_of, tag};
+use crate::interchange::problem::ImportProblemKind;
+use crate::interchange::remark::Remark;
+use crate::interchange::tree::{Attachment, Loop, Tree};
+
+/// The types of joints that can close a loop, in the words of the formats.
+const TYPES: &[&str] = &[
+    "revolute",
+    "continuous",
+    "hinge",
+    "spherical",
+    "ball",
+    "fixed",
+    "prismatic",
+    "universal",
+    "cylindrical",
+    "planar",
+];
+
+/// Whether an element of a robot is one of them.
+pub(super) fn is_loop(node: Node) -> bool {
+    match node.tag_name().name() {
+        "loop_joint" | "loop" | "ball_constraint" => true,
+        "constraint" => child(node, "parent").is_some(),
+        "gazebo" => child(node, "joint").is_some(),
+        _ => false,
+    }
+}
+
+/// The loops of a robot.
+pub(super) fn read(
+    robot: Node,
+    tree: &Tree,
+    problems: &mut Problems,
+    remarks: &mut Vec<Remark>,
+) -> Vec<Loop> {
+    let mut reader = LoopReader {
+        tree,
+        problems,
+        loops: Vec::new(),
+    };
+    for node in robot
+        .children()
+        .filter(|node| node.is_element() && is_loop(*node))
+    {
+        match node.tag_name().name() {
+            "ball_constraint" => reader.ball(node),
+            "gazebo" => {
+                for joint in children(node, "joint") {
+                    reader.gazebo(joint);
+                }
+            }
+            _ => reader.joined(node),
+        }
+    }
+    let loops = reader.loops;
+    if loops.is_empty() {
+        let halves = |link: &str| {
+            let name = link.strip_suffix("_1")?;
+            let other = format!("{name}_2");
+            let found =
+                name.starts_with("closing_") && tree.bodies.iter().any(|body| body.name == other);
+            found.then_some(other)
+        };
+        for body in &tree.bodies {
+            if let Some(other) = halves(&body.name) {
+                remarks.push(Remark::Halves([body.name.clone(), other]));
+            }
+        }
+    }
+    loops
+}
+
+struct LoopReader<'a> {
+    tree: &'a Tree,
+    problems: &'a mut Problems,
+    loops: Vec<Loop>,
+}
+
+impl LoopReader<'_> {
+    /// The link of that name.
+    fn link(&mut self, node: Node, attribute: &str, name: &str) -> Option<usize> {
+        let found = self.tree.bodies.iter().position(|body| body.name == name);
+        if found.is_none() {
+            let known: Vec<String> = self
+                .tree
+                .bodies
+                .iter()
+                .map(|body| body.name.clone())
+                .collect();
+            self.problems.unknown(node, attribute, "link", name, &known);
+        }
+        found
+    }
+
+    fn close(&mut self, node: Node, kind: ClosureKind, sides: [(usize, Pose<f64>); 2]) {
+        let own = node.attribute("name").map(str::to_owned);
+        let mut name = own.unwrap_or_else(|| format!("loop{}", self.loops.len() + 1));
+        while self.loops.iter().any(|other| other.name == name) {
+            name += "_";
+        }
+        let sides = [0, 1].map(|side| Attachment {
+            body: sides[side].0,
+            frame: format!("{name}_{}", side + 1),
+            pose: sides[side].1,
+        });
+        self.loops.push(Loop {
+            name,
+            kind,
+            sides,
+            length: None,
+        });
+    }
+
+    /// `loop_joint`, `constraint`, `loop`: two links, a frame on each, a type, and axes in the frames.
+    fn joined(&mut self, node: Node) {
+        let Some(kind) = self.problems.word(node, "type", TYPES) else {
+            return;
+        };
+        // the documentation of Isaac Sim writes `link1` for both
+        let mut ends = [children(node, "link1"), children(node, "link2")].concat();
+        for pair in [["parent", "child"], ["predecessor", "successor"]] {
+            ends.extend(pair.iter().filter_map(|name| child(node, name)));
+        }
+        let [first, second] = ends[..] else {
+            let problem = ImportProblemKind::Missing {
+                element: node.tag_name().name().into(),
+                needs: "two links, such as elements `link1` and `link2`".into(),
+            };
+            return self.problems.say(problem, node);
+        };
+        let mut axes = [Vector3::unit(0); 2];
+        let mut sides = Vec::new();
+        for (side, end) in [first, second].into_iter().enumerate() {
+            let name = end.tag_name().name();
+            let Some(link) = self.problems.needed(end, "link") else {
+                return;
+            };
+            let Some(body) = self.link(end, "link", link) else {
+                return;
+            };
+            let origin = child(node, &format!("{name}_origin")).or(child(end, "origin"));
+            let pose = self.problems.origin(origin.unwrap_or(end));
+            let axis = child(node, &format!("{name}_axis")).or(child(node, "axis"));
+            if let Some(axis) = axis
+                && let Some(along) = self.problems.numbers(axis, "xyz")
+            {
+                let Some(along) = direction(along) else {
+                    let joint = node.attribute("name").unwrap_or("loop").to_owned();
+                    return self.problems.say(ImportProblemKind::NoAxis { joint }, axis);
+                };
+                axes[side] = along;
+            }
+            sides.push((body, pose));
+        }
+        let kind = kind_of(kind);
+        let sides = [0, 1].map(|side| {
+            let (body, pose) = sides[side];
+            match kind {
+                ClosureKind::Spherical | ClosureKind::Rigid => (body, pose),
+                _ => (body, pose * along_z(&axes[side])),
+            }
+        });
+        self.close(node, kind, sides);
+    }
+
+    /// Points P on body A and Q on body B coincide.
+    fn ball(&mut self, node: Node) {
+        let mut sides = Vec::new();
+        for (body, point) in [("body_A", "p_AP"), ("body_B", "p_BQ")] {
+            let [body, point] = [body, point].map(|name| format!("ball_constraint_{name}"));
+            let Some(end) = self.problems.needed_child(node, &body) else {
+                return;
+            };
+            let Some(name) = self.problems.needed(end, "name") else {
+                return;
+            };
+            let Some(body) = self.link(end, "name", name) else {
+                return;
+            };
+            let place = child(node, &point).and_then(|point| self.problems.numbers(point, "value"));
+            sides.push((body, pose_of(place.unwrap_or_default(), [0.0; 3])));
+        }
+        if let [a, b] = sides[..] {
+            self.close(node, ClosureKind::Spherical, [a, b]);
+        }
+    }
+
+    /// A joint of SDFormat: its frame is given in the child, and where that is at zero it is on the parent too.
+    fn gazebo(&mut self, node: Node) {
+        let Some(kind) = self.problems.word(node, "type", TYPES) else {
+            return;
+        };
+        let mut bodies = Vec::new();
+        for end in ["parent", "child"] {
+            let Some(part) = self.problems.needed_child(node, end) else {
+                return;
+            };
+            let link = part
+                .attribute("link")
+                .or(part.text())
+                .unwrap_or_default()
+                .trim();
+            let known: Vec<String> = self
+                .tree
+                .bodies
+                .iter()
+                .map(|body| body.name.clone())
+                .collect();
+            match known.iter().position(|name| name == link) {
+                Some(body) => bodies.push(body),
+                None => return self.problems.unknown(part, "link", "link", link, &known),
+            }
+        }
+        let [parent, child_body] = bodies[..] else {
+            return;
+        };
+        let mut numbers = |part: Node, count: usize| {
+            let text = part.text().unwrap_or_default();
+            let words: Option<Vec<f64>> = match count {
+                3 => parse::<3>(text).map(Vec::from),
+                _ => parse::<6>(text).map(Vec::from),
+            };
+            if words.is_none() {
+                let text = text.chars().take(40).collect::<String>();
+                self.problems.not_numbers(&text, count, tag(part));
+            }
+            words
+        };
+        let mut pose = Pose::identity();
+        if let Some(part) = child(node, "pose") {
+            let Some(v) = numbers(part, 6) else { return };
+            pose = pose_of([v[0], v[1], v[2]], [v[3], v[4], v[5]]);
+            if part
+                .attribute("relative_to")
+                .is_some_and(|name| !name.is_empty())
+            {
+                let problem = ImportProblemKind::Unsupported {
+                    what: "a pose relative to a named frame".into(),
+                    help: "give the pose in the child link",
+                };
+                return self.problems.say(problem, part);
+            }
+        }
+        let mut axis = Vector3::unit(2);
+        if let Some(part) = child(node, "axis").and_then(|axis| child(axis, "xyz")) {
+            let Some(v) = numbers(part, 3) else { return };
+            let Some(along) = direction([v[0], v[1], v[2]]) else {
+                let joint = node.attribute("name").unwrap_or("joint").to_owned();
+                return self.problems.say(ImportProblemKind::NoAxis { joint }, part);
+            };
+            axis = along;
+        }
+        let poses = self.tree.poses(|joint| joint.reference);
+        let frame = pose * along_z(&axis);
+        let on_parent = poses[parent].inverse() * poses[child_body] * frame;
+        self.close(
+            node,
+            kind_of(kind),
+            [(parent, on_parent), (child_body, frame)],
+        );
+    }
+}
+
+fn kind_of(word: &str) -> ClosureKind {
+    match word {
+        "spherical" | "ball" => ClosureKind::Spherical,
+        "fixed" => ClosureKind::Rigid,
+        "prismatic" => ClosureKind::Prismatic,
+        "universal" => ClosureKind::Universal,
+        "cylindrical" => ClosureKind::Cylindrical,
+        "planar" => ClosureKind::Planar,
+        _ => ClosureKind::Revolute,
+    }
+}
+
+/// A rotation that turns z into a direction; axes of coordinates stay exact.
+pub(crate) fn along_z(axis: &Vector3<f64>) -> Pose<f64> {
+    // the coordinate axis most across the direction becomes x as nearly as it can
+    let least = (0..3).fold(0, |i, j| {
+        if axis.0[j].abs() < axis.0[i].abs() {
+            j
+        } else {
+            i
+        }
+    });
+    let e = Vector3::unit(least);
+    let across = e - axis.times(axis.dot(&e));
+    let x = across.times(1.0 / across.norm());
+    Pose {
+        rotation: Rotation([x, axis.cross(&x), *axis]),
+        position: Vector3::zero(),
+    }
+}

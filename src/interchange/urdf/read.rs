@@ -1,0 +1,332 @@
+//! URDF → tree.
+//!
+//! The places of links and joints are read by urdf-rs, from a text that keeps only what moves: shapes and masses do not
+//! matter here, and whatever is wrong with them does not either. Loops, which URDF does not have, are read in the five
+//! ways in which programs have added them; `loops.rs` knows these.
+
+use std::collections::{BTreeMap, HashMap, HashSet};
+
+use roxmltree::Node;
+
+use super::loops;
+use super::motion::{direction, driven, moving, reduced};
+use crate::geometry::Pose;
+use crate::interchange::page::{Problems, child, children, document, pose_of};
+use crate::interchange::problem::{ImportProblem, ImportProblemKind};
+use crate::interchange::remark::Remark;
+use crate::interchange::tree::{Body, Coupling, Motion, Tree};
+
+/// The types of joints.
+pub(super) const TYPES: &[&str] = &[
+    "revolute",
+    "continuous",
+    "prismatic",
+    "fixed",
+    "floating",
+    "planar",
+    "spherical",
+];
+
+/// A tree that was read, and what is worth knowing about it.
+pub(crate) type Read = Result<(Tree, Vec<Remark>), Vec<ImportProblem>>;
+
+/// Reads the text of a URDF file.
+pub(crate) fn read(text: &str) -> Read {
+    let document = document(text).map_err(|problem| vec![problem])?;
+    let robot = document.root_element();
+    let mut reader = Reader {
+        problems: Problems(Vec::new()),
+        remarks: Vec::new(),
+        links: Vec::new(),
+        joints: Vec::new(),
+    };
+    reader.elements(robot);
+    reader.finish(robot)
+}
+
+struct Reader<'a, 'i> {
+    problems: Problems,
+    remarks: Vec<Remark>,
+    links: Vec<String>,
+    joints: Vec<(Node<'a, 'i>, String)>,
+}
+
+impl<'a, 'i> Reader<'a, 'i> {
+    /// Names of links and joints, and everything that is not known.
+    fn elements(&mut self, robot: Node<'a, 'i>) {
+        let mut ignored: BTreeMap<String, usize> = BTreeMap::new();
+        let mut names = HashSet::new();
+        for node in robot.children().filter(Node::is_element) {
+            let element = node.tag_name().name();
+            match element {
+                _ if node
+                    .tag_name()
+                    .namespace()
+                    .is_some_and(|uri| uri.contains("xacro")) =>
+                {
+                    let element = format!("xacro:{element}");
+                    self.problems
+                        .say(ImportProblemKind::Macro { element }, node);
+                }
+                "link" => {
+                    if let Some(name) = self.problems.needed(node, "name") {
+                        if !names.insert(name) {
+                            let name = name.to_owned();
+                            let problem = ImportProblemKind::Duplicate { noun: "link", name };
+                            self.problems.say(problem, node);
+                        }
+                        self.links.push(name.to_owned());
+                    }
+                    let shapes = node.descendants().filter(|part| part.has_tag_name("mesh"));
+                    *ignored.entry("mesh".into()).or_default() += shapes.count();
+                }
+                "joint" => {
+                    if let Some(name) = self.problems.needed(node, "name") {
+                        if self.joints.iter().any(|(_, other)| other == name) {
+                            let name = name.to_owned();
+                            let problem = ImportProblemKind::Duplicate {
+                                noun: "joint",
+                                name,
+                            };
+                            self.problems.say(problem, node);
+                        }
+                        self.joints.push((node, name.to_owned()));
+                    }
+                }
+                "material" | "transmission" => {}
+                _ if loops::is_loop(node) => {}
+                "gazebo" => {}
+                _ => *ignored.entry(element.to_owned()).or_default() += 1,
+            }
+        }
+        ignored.retain(|_, count| *count > 0);
+        for (element, count) in ignored {
+            self.remarks.push(Remark::Ignored { element, count });
+        }
+    }
+
+    fn finish(mut self, robot: Node<'a, 'i>) -> Read {
+        let joints: Vec<(Node, String)> = std::mem::take(&mut self.joints);
+        let hangs: Vec<Option<Hanging>> = joints
+            .iter()
+            .map(|(node, name)| self.hanging(*node, name))
+            .collect();
+        let order = self.order(&joints, &hangs);
+        if !self.problems.0.is_empty() {
+            return Err(self.problems.0);
+        }
+        let hangs: Vec<Hanging> = hangs.into_iter().flatten().collect();
+        let read = match urdf_rs::read_from_string(&reduced(robot, &self.links, &joints)) {
+            Ok(read) => read,
+            Err(error) => {
+                let message = error.to_string();
+                return Err(vec![ImportProblemKind::Reader { message }.anywhere()]);
+            }
+        };
+        let driven = driven(robot, &joints, &mut self.remarks);
+        let joint_of: HashMap<&str, usize> = hangs
+            .iter()
+            .enumerate()
+            .map(|(i, h)| (h.child.as_str(), i))
+            .collect();
+        let mut bodies: Vec<Body> = Vec::new();
+        let mut couplings = Vec::new();
+        let index: HashMap<&str, usize> = order
+            .iter()
+            .enumerate()
+            .map(|(i, link)| (link.as_str(), i))
+            .collect();
+        for link in &order {
+            let mut body = Body {
+                name: link.clone(),
+                parent: None,
+                pose: Pose::identity(),
+                joints: Vec::new(),
+                home: None,
+                frames: vec![(link.clone(), Pose::identity())],
+            };
+            if let Some(&i) = joint_of.get(link.as_str()) {
+                let part = &read.joints[i];
+                body.parent = index.get(hangs[i].parent.as_str()).copied();
+                body.pose = pose_of(part.origin.xyz.0, part.origin.rpy.0);
+                body.joints = moving(part, driven[i]);
+                if let Some(mimic) = &part.mimic {
+                    couplings.push(Coupling {
+                        joint: part.name.clone(),
+                        leader: mimic.joint.clone(),
+                        factor: mimic.multiplier.unwrap_or(1.0),
+                        offset: mimic.offset.unwrap_or(0.0),
+                    });
+                }
+            }
+            bodies.push(body);
+        }
+        let mut tree = Tree {
+            name: robot.attribute("name").unwrap_or("robot").to_owned(),
+            bodies,
+            couplings,
+            loops: Vec::new(),
+            size: 1.0,
+        };
+        let poses = tree.poses(|joint| joint.reference);
+        for (body, pose) in tree.bodies.iter_mut().zip(poses) {
+            let floats = body
+                .joints
+                .iter()
+                .any(|joint| matches!(joint.motion, Motion::Ball | Motion::Free));
+            body.home = floats.then_some(pose);
+        }
+        tree.loops = loops::read(robot, &tree, &mut self.problems, &mut self.remarks);
+        match self.problems.0.is_empty() {
+            true => Ok((tree, self.remarks)),
+            false => Err(self.problems.0),
+        }
+    }
+
+    /// What a joint joins; its numbers are looked at too.
+    fn hanging(&mut self, node: Node, name: &str) -> Option<Hanging> {
+        let kind = self.problems.word(node, "type", TYPES);
+        for part in children(node, "origin") {
+            self.problems.origin(part);
+        }
+        if let Some(axis) = child(node, "axis")
+            && let Some(along) = self.problems.numbers::<3>(axis, "xyz")
+            && kind.is_some_and(|kind| {
+                matches!(kind, "revolute" | "continuous" | "prismatic" | "planar")
+            })
+            && direction(along).is_none()
+        {
+            let joint = name.to_owned();
+            self.problems.say(ImportProblemKind::NoAxis { joint }, axis);
+        }
+        for part in children(node, "limit") {
+            let [low, high] = ["lower", "upper"].map(|name| self.problems.number(part, name));
+            if let (Some(low), Some(high)) = (low, high)
+                && low > high
+            {
+                let problem = ImportProblemKind::Unsupported {
+                    what: format!("limits from {low} to {high}, the lower of which is higher"),
+                    help: "exchange them",
+                };
+                self.problems.say(problem, part);
+            }
+        }
+        if let Some(mimic) = child(node, "mimic") {
+            for name in ["multiplier", "offset"] {
+                self.problems.numbers::<1>(mimic, name);
+            }
+            self.problems.needed(mimic, "joint");
+        }
+        let ends = ["parent", "child"].map(|end| {
+            let part = self.problems.needed_child(node, end)?;
+            let link = self.problems.needed(part, "link")?;
+            if !self.links.iter().any(|known| known == link) {
+                let links = self.links.clone();
+                self.problems.unknown(part, "link", "link", link, &links);
+                return None;
+            }
+            Some(link.to_owned())
+        });
+        let [parent, child] = ends;
+        Some(Hanging {
+            parent: parent?,
+            child: child?,
+        })
+    }
+
+    /// The links, each after the one it hangs on.
+    fn order(&mut self, joints: &[(Node, String)], hangs: &[Option<Hanging>]) -> Vec<String> {
+        let mut parent_of: HashMap<&str, (usize, &str)> = HashMap::new();
+        let mut below: HashMap<&str, Vec<&str>> = HashMap::new();
+        for (i, hanging) in hangs.iter().enumerate() {
+            let Some(Hanging { parent, child }) = hanging else {
+                continue;
+            };
+            if let Some((other, _)) = parent_of.get(child.as_str()) {
+                let problem = ImportProblemKind::TwoParents {
+                    link: child.clone(),
+                    joints: [*other, i].map(|i| joints[i].1.clone()),
+                };
+                self.problems.say(problem, joints[i].0);
+                continue;
+            }
+            parent_of.insert(child, (i, parent));
+            below.entry(parent).or_default().push(child);
+        }
+        for (node, name) in joints {
+            let Some(mimic) = child(*node, "mimic") else {
+                continue;
+            };
+            let Some(leader) = mimic.attribute("joint") else {
+                continue;
+            };
+            if !joints.iter().any(|(_, other)| other == leader) {
+                let known: Vec<String> = joints.iter().map(|(_, name)| name.clone()).collect();
+                self.problems
+                    .unknown(mimic, "joint", "joint", leader, &known);
+            } else if leader == name {
+                let joint = name.clone();
+                self.problems
+                    .say(ImportProblemKind::FollowsItself { joint }, mimic);
+            }
+        }
+        // joints that could not be read may be those that are missing
+        if !self.problems.0.is_empty() {
+            return Vec::new();
+        }
+        let roots: Vec<&str> = self
+            .links
+            .iter()
+            .map(String::as_str)
+            .filter(|link| !parent_of.contains_key(link))
+            .collect();
+        let root = match roots.as_slice() {
+            [root] => *root,
+            [] if self.links.is_empty() => {
+                self.problems
+                    .0
+                    .push(ImportProblemKind::NothingMoves.anywhere());
+                return Vec::new();
+            }
+            [] => {
+                let links = self.links.clone();
+                self.problems
+                    .0
+                    .push(ImportProblemKind::NoRoot { links }.anywhere());
+                return Vec::new();
+            }
+            roots => {
+                let links = roots.iter().map(|link| (*link).to_owned()).collect();
+                self.problems
+                    .0
+                    .push(ImportProblemKind::SeveralRoots { links }.anywhere());
+                return Vec::new();
+            }
+        };
+        let mut order = Vec::new();
+        let mut next = vec![root];
+        while let Some(link) = next.pop() {
+            order.push(link.to_owned());
+            next.extend(below.get(link).into_iter().flatten().rev());
+        }
+        if order.len() < self.links.len() {
+            let reached: HashSet<&String> = order.iter().collect();
+            let links = self
+                .links
+                .iter()
+                .filter(|link| !reached.contains(link))
+                .cloned()
+                .collect();
+            self.problems
+                .0
+                .push(ImportProblemKind::Cycle { links }.anywhere());
+        }
+        order
+    }
+}
+
+/// The links that a joint joins.
+struct Hanging {
+    parent: String,
+    child: String,
+}
