@@ -8,11 +8,15 @@ mod affine;
 mod display;
 mod evaluation;
 mod parser;
+mod symbolic;
+mod trigonometric;
 mod vocabulary;
 
 pub use affine::{Affine, NonAffine};
 pub use evaluation::{EvaluationError, EvaluationErrorKind, LARGEST};
 pub use parser::{MAX_HEIGHT, MAX_NESTING, ParseError, ParseErrorKind};
+pub use symbolic::{Symbolic, with_letters};
+pub use trigonometric::{Atom, Budget, Key, Powers, Trigonometric, Wave};
 pub use vocabulary::{Constant, Function, Unit, is_name, is_reserved};
 
 use std::ops::Range;
