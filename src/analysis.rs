@@ -4,6 +4,7 @@
 pub mod assemblies;
 pub mod assembly;
 pub mod compare;
+pub mod formulas;
 pub mod mobility;
 pub mod overview;
 pub mod statics;

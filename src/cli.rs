@@ -4,6 +4,7 @@ mod asked;
 mod assemblies;
 mod check;
 mod compare;
+mod formulas;
 mod mobility;
 mod progress;
 mod search;
@@ -35,6 +36,7 @@ enum Command {
     Solve(solve::Solve),
     Assemblies(assemblies::Assemblies),
     Compare(compare::Compare),
+    Formulas(formulas::Formulas),
     Mobility(mobility::Mobility),
     Velocity(velocity::Velocity),
     Statics(statics::Statics),
@@ -70,6 +72,7 @@ pub fn run() -> ExitCode {
         Command::Solve(solve) => solve.run(),
         Command::Assemblies(assemblies) => assemblies.run(),
         Command::Compare(compare) => compare.run(),
+        Command::Formulas(formulas) => formulas.run(),
         Command::Mobility(mobility) => mobility.run(),
         Command::Velocity(velocity) => velocity.run(),
         Command::Statics(statics) => statics.run(),

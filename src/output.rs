@@ -9,6 +9,8 @@ pub mod comparison;
 #[cfg(feature = "cli")]
 pub mod diagnostics;
 #[cfg(feature = "cli")]
+pub mod formulas;
+#[cfg(feature = "cli")]
 mod json;
 #[cfg(feature = "cli")]
 mod layout;

@@ -28,6 +28,7 @@ use num_rational::{BigRational, Ratio};
 use num_traits::{One, Signed, ToPrimitive, Zero};
 
 use super::Function;
+pub(super) use constants::is_decimal;
 pub use term::{Atom, Key, Powers, Wave};
 
 /// A sum in normal form.

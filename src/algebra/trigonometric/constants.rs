@@ -21,6 +21,11 @@ pub(super) fn decimal(value: f64) -> Option<BigRational> {
     })
 }
 
+/// Whether the shortest decimal of `value` is that rational number.
+pub(in super::super) fn is_decimal(number: &BigRational, value: f64) -> bool {
+    decimal(value).is_some_and(|shortest| shortest == *number)
+}
+
 /// cos(k·15°) as Σ q √s.
 pub(super) fn cosine(k: i64) -> Vec<(u64, BigRational)> {
     let k = k.rem_euclid(24);

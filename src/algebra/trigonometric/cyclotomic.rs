@@ -40,8 +40,8 @@ impl Trigonometric {
         self.terms().any(|(key, _)| key.wave.of_pi().is_some())
     }
 
-    /// Multiplied by every denominator P that stands in it as 1/P.
-    fn without_denominators(&self, budget: &mut Budget) -> Option<Self> {
+    /// Multiplied by every denominator P that stands in it as 1/P; `None` if that is too long.
+    pub fn without_denominators(&self, budget: &mut Budget) -> Option<Self> {
         let mut sum = self.clone();
         loop {
             let mut powers = sum.terms.keys().flat_map(|key| &key.powers);
