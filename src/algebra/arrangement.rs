@@ -297,7 +297,9 @@ fn summands(mut products: Vec<Product>, name: Name) -> Vec<Summand> {
 
 /// factor·(…)
 fn taken_out(factor: &Factor, mut inside: Vec<Product>, name: Name) -> Summand {
-    let negative = inside.iter().all(|product| product.coefficient.is_negative());
+    inside.sort_by_key(Product::rank);
+    // −s₁(c₂ − c₃) rather than s₁(−c₂ + c₃)
+    let negative = inside[0].coefficient.is_negative();
     if negative {
         inside.iter_mut().for_each(|p| p.coefficient = -p.coefficient.clone());
     }

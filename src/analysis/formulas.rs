@@ -104,6 +104,8 @@ pub struct ClosureFormula {
     pub identically_zero: usize,
     /// Of a `Distance` whose equation is long: the vector g between its ends and its length s, g·g = s².
     pub distance: Option<([Expression; 3], Expression)>,
+    /// Of a `Rigid` closure with a platform: the axes of both frames are equal too, which takes three more equations.
+    pub same_axes: bool,
     /// Whether the equations also admit the joint put together the wrong way round.
     pub admits_flipped: bool,
 }
@@ -281,8 +283,13 @@ impl Writer<'_> {
 
     fn closure(&mut self, closure: usize) -> Result<(), EvaluationError> {
         let own = &self.mechanism.closures()[closure];
+        let carried = own.frames.iter().any(|frame| self.mechanism.carrier(*frame).is_some());
+        let same_axes = own.kind == ClosureKind::Rigid && carried;
         let found = self.over_letters(|writer, formal| {
-            let found = formal.closure(closure);
+            let mut found = formal.closure(closure);
+            if same_axes {
+                found.conditions.truncate(3);
+            }
             let zero = |value: &Symbolic| value.formula().is_some_and(|sum| sum.is_empty());
             let all = found.conditions.len();
             let open: Vec<Symbolic> =
@@ -320,10 +327,12 @@ impl Writer<'_> {
             equations,
             identically_zero,
             distance: vector,
-            admits_flipped: !matches!(
-                own.kind,
-                ClosureKind::Spherical | ClosureKind::Universal | ClosureKind::Distance
-            ),
+            same_axes,
+            admits_flipped: !same_axes
+                && !matches!(
+                    own.kind,
+                    ClosureKind::Spherical | ClosureKind::Universal | ClosureKind::Distance
+                ),
         });
         Ok(())
     }

@@ -89,6 +89,10 @@ fn closure_of(notation: &Notation, closure: &ClosureFormula) -> Option<String> {
             "g_{{x}}^{{2}} + g_{{y}}^{{2}} + g_{{z}}^{{2}} &= \\left({length}\\right)^{{2}}"
         ));
     }
+    if closure.same_axes {
+        let [a, b] = closure.between.each_ref().map(|name| frame(name));
+        lines.push(format!("R_{{{a}}} &= R_{{{b}}}"));
+    }
     let aligned = lines.join(" \\\\\n");
     (!lines.is_empty()).then(|| format!("\\begin{{aligned}}\n{aligned}\n\\end{{aligned}}"))
 }

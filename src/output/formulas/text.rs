@@ -100,6 +100,7 @@ fn closure(notation: &Notation, closure: &ClosureFormula) -> String {
         equations,
         identically_zero,
         distance,
+        same_axes,
         admits_flipped,
     } = closure;
     let mut text = format!("  {name}: {kind} between {a} and {b}\n");
@@ -124,8 +125,10 @@ fn closure(notation: &Notation, closure: &ClosureFormula) -> String {
         };
         text += &format!("    {more} at all joint values\n");
     }
-    let turned = *admits_flipped && equations.len() > 3;
-    if turned {
+    if *same_axes {
+        text += &format!("    and the axes n, s, a of {a} are those of {b}\n");
+    }
+    if *admits_flipped && equations.len() > 3 {
         text += "    and the axes point the same way: these equations hold for opposite ones too\n";
     }
     text
