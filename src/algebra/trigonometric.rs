@@ -94,6 +94,11 @@ impl Trigonometric {
         self.terms.iter()
     }
 
+    /// The coefficient of a term; `None` if there is no such term.
+    pub fn coefficient(&self, key: &Key) -> Option<&BigRational> {
+        self.terms.get(key)
+    }
+
     /// How many terms there are.
     pub fn len(&self) -> usize {
         self.terms.len()

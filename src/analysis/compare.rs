@@ -1,5 +1,6 @@
 //! The closed forms of a mechanism checked against its chains: proved or refuted in letters, and compared with numbers.
 
+mod consequence;
 mod formula;
 mod proof;
 mod samples;

@@ -33,7 +33,8 @@ impl Letters<'_> {
         (joint < self.0.joints().len()).then_some(joint)
     }
 
-    fn platform(&self, platform: usize, entry: usize) -> u32 {
+    /// A letter of a platform's pose: of n, s, a and p, three each.
+    pub fn platform(&self, platform: usize, entry: usize) -> u32 {
         let before = self.0.parameters().len() + self.0.joints().len();
         self.symbol(before + OF_POSE * platform + entry)
     }

@@ -1,14 +1,16 @@
 //! Closed forms and chains brought to the same normal form.
 //!
 //! The chains run over letters, the closed form is evaluated over the same letters, and their difference is zero or is
-//! printed. What holds only where the mechanism is assembled is proved if it is a linear combination of closure equations.
+//! printed. What holds only where the mechanism is assembled is proved if it is a sum of multiples of closure equations.
 
+use std::collections::BTreeMap;
+
+use num_rational::BigRational;
 use serde::Serialize;
 
+use super::consequence::{Span, follows};
 use super::formula::Values;
-use crate::algebra::{
-    Budget, Expression, Key, Symbolic, Trigonometric, arrange, with_letters,
-};
+use crate::algebra::{Budget, Expression, Symbolic, Trigonometric, arrange, with_letters};
 use crate::mechanism::{ClosedForm, Formal, Given, Letters, MatrixEntry, Mechanism, Symbol};
 use crate::number::Number;
 
@@ -234,7 +236,8 @@ impl<'a> Setting<'a> {
         let Some(form) = form.without_denominators(&mut budget) else {
             return not_decided(Reason::TooLong);
         };
-        if form.is_combination_of(equations) {
+        let first = self.letters.platform(0, 0);
+        if Span::new(equations).contains(&form) || follows(&form, equations, first, &mut budget) {
             return Proof::FollowsFromClosures;
         }
         // a slip in an equation leaves less of it than there was
@@ -298,51 +301,15 @@ fn own_variables(
 }
 
 impl Trigonometric {
-    /// Whether it is Σ cₖ gₖ with constants cₖ, which may be multiples of √3: elimination, term by term.
-    fn is_combination_of(&self, others: &[Trigonometric]) -> bool {
-        let root = Trigonometric::term(
-            Key {
-                root: 3,
-                ..Key::default()
-            },
-            num_rational::BigRational::from_integer(1.into()),
-        );
-        let mut rows: Vec<Trigonometric> = Vec::new();
-        let mut budget = Budget {
-            products: MOST_PRODUCTS,
-        };
-        let turned = others.iter().filter_map(|g| g.times(&root, &mut budget));
-        let turned: Vec<Trigonometric> = turned.collect();
-        for other in others.iter().chain(&turned) {
-            let rest = reduced(other, &rows);
-            if !rest.is_empty() {
-                rows.push(rest);
-            }
-        }
-        reduced(self, &rows).is_empty()
-    }
-
     /// The multiple of the other that shares a term with it and leaves the fewest.
     fn nearest_multiple(&self, other: &Self) -> Option<Self> {
         let common = other.terms().filter_map(|(key, coefficient)| {
-            let (_, own) = self.terms().find(|(own, _)| *own == key)?;
-            Some(other.scaled(&(own / coefficient)))
+            Some(self.coefficient(key)? / coefficient)
         });
-        common.min_by_key(|multiple| self.minus(multiple).len())
+        // the ratio that most terms have
+        let mut ratios: BTreeMap<BigRational, usize> = BTreeMap::new();
+        common.for_each(|ratio| *ratios.entry(ratio).or_default() += 1);
+        let (ratio, _) = ratios.into_iter().max_by_key(|(_, count)| *count)?;
+        Some(other.scaled(&ratio))
     }
-}
-
-/// What is left when the first term of each row is eliminated with it.
-fn reduced(formula: &Trigonometric, rows: &[Trigonometric]) -> Trigonometric {
-    let mut rest = formula.clone();
-    for row in rows {
-        let Some((lead, coefficient)) = row.terms().next() else {
-            continue;
-        };
-        let own = rest.terms().find(|(key, _)| *key == lead).map(|(_, own)| own / coefficient);
-        if let Some(factor) = own {
-            rest = rest.minus(&row.scaled(&factor));
-        }
-    }
-    rest
 }
