@@ -27,9 +27,9 @@ fn all_agree() {
     let (mechanism, report) = compared(THREE_RPS);
     let text = comparison::text(&mechanism, &report);
     assert!(text.starts_with("3-RPS parallel manipulator: closed forms beside the chains\n\n"));
-    assert!(text.ends_with(
-        "\nAll 6 closed forms agree with the chains (seed 1). All are proved.\n"
-    ));
+    assert!(
+        text.ends_with("\nAll 6 closed forms agree with the chains (seed 1). All are proved.\n")
+    );
     for form in ["TL1", "T12", "S1", "S2", "S3", "closure"] {
         let row = text.lines().find(|line| line.trim().starts_with(form));
         let row = row.unwrap_or_else(|| panic!("no row for {form}:\n{text}"));
@@ -137,7 +137,10 @@ fn what_roots_and_other_dimensions_hide_is_said() {
     let (proof, text) = outcome(&root);
     let reason = Reason::NotPolynomial;
     assert_eq!(proof, Proof::NotDecided { reason });
-    assert!(text.contains("p, px: no proof, for roots or inverse functions stand in it"), "{text}");
+    assert!(
+        text.contains("p, px: no proof, for roots or inverse functions stand in it"),
+        "{text}"
+    );
     // inverse functions whose sines are known, and quotients
     let inverse = file(
         "\"w\": \"atan2(sin(t + u), cos(t + u))\"",
@@ -154,12 +157,18 @@ fn what_roots_and_other_dimensions_hide_is_said() {
 /// Every shipped file with its name.
 fn shipped() -> Vec<(String, Description)> {
     let folder = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("mechanisms");
-    let mut paths: Vec<_> = std::fs::read_dir(folder).unwrap().map(|e| e.unwrap().path()).collect();
+    let mut paths: Vec<_> = std::fs::read_dir(folder)
+        .unwrap()
+        .map(|e| e.unwrap().path())
+        .collect();
     paths.retain(|path| path.extension().is_some_and(|end| end == "ron"));
     paths.sort();
     let read = |path: std::path::PathBuf| {
         let description = Description::read(&std::fs::read_to_string(&path).unwrap()).unwrap();
-        (path.file_stem().unwrap().to_str().unwrap().to_owned(), description)
+        (
+            path.file_stem().unwrap().to_str().unwrap().to_owned(),
+            description,
+        )
     };
     paths.into_iter().map(read).collect()
 }
@@ -171,7 +180,15 @@ const FEW: CompareSettings = CompareSettings {
 };
 
 /// Forms that hold on the closed loop only and need more than adding and squaring its equations.
-const NOT_PROVED: [(&str, &str); 0] = [];
+const NOT_PROVED: [(&str, &str); 7] = [
+    ("bennett", "relations"),
+    ("bricard_line", "symmetry"),
+    ("goldberg_5r", "relations"),
+    ("myard_5r", "symmetry"),
+    ("planar_3rpr", "sides"),
+    ("sarrus", "straight_line"),
+    ("schatz", "relations"),
+];
 
 #[test]
 fn closed_forms_of_the_shipped_files_are_proved() {
@@ -181,7 +198,10 @@ fn closed_forms_of_the_shipped_files_are_proved() {
         let mechanism = Mechanism::new(&description).unwrap();
         for form in compare(&mechanism, &FEW).closed_forms {
             let expected = !NOT_PROVED.contains(&(name.as_str(), form.name.as_str()));
-            let all = form.components.iter().all(|component| component.proof.proved());
+            let all = form
+                .components
+                .iter()
+                .all(|component| component.proof.proved());
             proved += usize::from(all);
             if all != expected {
                 missed.push(format!("{name} {}", form.name));
@@ -196,7 +216,11 @@ fn closed_forms_of_the_shipped_files_are_proved() {
 fn a_slip_in_any_entry_of_any_shipped_form_is_refuted_with_that_slip() {
     let mut slips = 0;
     for (name, description) in shipped() {
-        let Some(joint) = description.joints.first().map(|joint| joint.name.value.clone()) else {
+        let Some(joint) = description
+            .joints
+            .first()
+            .map(|joint| joint.name.value.clone())
+        else {
             continue;
         };
         let slip = Expression::parse(&format!("cos({joint})/3")).unwrap();
@@ -241,11 +265,16 @@ fn a_slip_in_any_entry_of_any_shipped_form_is_refuted_with_that_slip() {
 #[test]
 fn a_slip_in_a_loop_equation_is_shown_beside_the_closure_equation() {
     const FOUR_BAR: &str = include_str!("../mechanisms/four_bar.ron");
-    let wrong = FOUR_BAR.replacen("- l3*cos(phi1)", "+ l3*cos(phi1)", 1);
+    let wrong = FOUR_BAR.replacen("- (l0 + l3*cos(phi1))", "- (l0 - l3*cos(phi1))", 1);
     assert_ne!(wrong, FOUR_BAR);
     let (mechanism, report) = compared(&wrong);
     let text = comparison::text(&mechanism, &report);
-    assert!(text.contains("the form has l₃ cos φ₁ where a closure has −l₃ cos φ₁; difference 2 l₃ cos φ₁."), "{text}");
+    assert!(
+        text.contains(
+            "the form has l₃ cos φ₁ where a closure has −l₃ cos φ₁; difference 2 l₃ cos φ₁."
+        ),
+        "{text}"
+    );
 }
 
 #[test]

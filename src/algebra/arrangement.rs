@@ -54,7 +54,12 @@ pub fn arrange(formulas: &[&Trigonometric], name: &dyn Fn(u32) -> String) -> Arr
 
 /// Angles of the same number are merged: some wave has both, and no two waves have them with different relative signs.
 fn blocks(formulas: &[&Trigonometric]) -> BTreeMap<Powers, usize> {
-    let waves = || formulas.iter().flat_map(|f| f.terms()).map(|(key, _)| &key.wave);
+    let waves = || {
+        formulas
+            .iter()
+            .flat_map(|f| f.terms())
+            .map(|(key, _)| &key.wave)
+    };
     let mut signs: BTreeMap<(&Powers, &Powers), (bool, bool)> = BTreeMap::new();
     let mut angles: BTreeMap<&Powers, usize> = BTreeMap::new();
     for wave in waves() {
@@ -71,14 +76,17 @@ fn blocks(formulas: &[&Trigonometric]) -> BTreeMap<Powers, usize> {
     }
     let seen = |a: &Powers, b: &Powers| {
         let mut both = [(a, b), (b, a)].into_iter();
-        both.find_map(|pair| signs.get(&pair).copied()).unwrap_or_default()
+        both.find_map(|pair| signs.get(&pair).copied())
+            .unwrap_or_default()
     };
     let mut merged: Vec<Vec<&Powers>> = Vec::new();
     let mut found = BTreeMap::new();
     for &angle in angles.keys() {
         let fits = |block: &Vec<&Powers>| {
             let mut pairs = block.iter().map(|other| seen(angle, *other));
-            let together = block.iter().any(|other| seen(angle, *other) != (false, false));
+            let together = block
+                .iter()
+                .any(|other| seen(angle, *other) != (false, false));
             together && pairs.all(|pair| pair != (true, true))
         };
         let place = merged.iter().position(fits).unwrap_or_else(|| {
@@ -119,7 +127,9 @@ fn factors(wave: &Wave, block: &dyn Fn(&Powers) -> usize) -> Vec<(Wave, i32)> {
     let signed = parts.into_iter().map(|part| {
         // the sign of the first letter; of π only if there is no other
         let lead = part.0.iter().find(|(angle, _)| *angle != [(Atom::Pi, 1)]);
-        let negative = lead.or(part.0.first()).is_some_and(|(_, k)| k.is_negative());
+        let negative = lead
+            .or(part.0.first())
+            .is_some_and(|(_, k)| k.is_negative());
         match negative {
             true => (part.times(-1), -1),
             false => (part, 1),
@@ -163,13 +173,15 @@ fn products(formula: &Trigonometric, block: &dyn Fn(&Powers) -> usize) -> Vec<Pr
         }
     }
     // a formula is real: its imaginary parts cancel
-    let real = sums.into_iter().filter(|((.., imaginary), sum)| !imaginary && !sum.is_zero());
+    let real = sums
+        .into_iter()
+        .filter(|((.., imaginary), sum)| !imaginary && !sum.is_zero());
     let products = real.map(|((powers, root, circular, _), coefficient)| Product {
-            coefficient,
-            root,
-            powers,
-            circular,
-        });
+        coefficient,
+        root,
+        powers,
+        circular,
+    });
     products.collect()
 }
 
@@ -239,7 +251,11 @@ fn sum(summands: Vec<Summand>) -> Expression {
         expression,
     } in summands
     {
-        let operator = if negative { Operator::Subtract } else { Operator::Add };
+        let operator = if negative {
+            Operator::Subtract
+        } else {
+            Operator::Add
+        };
         sum = binary(operator, sum, expression);
     }
     sum
@@ -263,23 +279,29 @@ fn summands(mut products: Vec<Product>, name: Name) -> Vec<Summand> {
     products.sort_by_key(Product::rank);
     let mut counts: BTreeMap<Factor, usize> = BTreeMap::new();
     for product in &products {
-        product.factors().for_each(|factor| *counts.entry(factor).or_default() += 1);
+        product
+            .factors()
+            .for_each(|factor| *counts.entry(factor).or_default() += 1);
     }
     // the first of those that occur most
-    let best = counts.iter().fold(None, |best: Option<(&Factor, usize)>, (factor, &count)| {
-        match best {
-            Some((_, most)) if most >= count => best,
-            _ => Some((factor, count)),
-        }
-    });
+    let best =
+        counts.iter().fold(
+            None,
+            |best: Option<(&Factor, usize)>, (factor, &count)| match best {
+                Some((_, most)) if most >= count => best,
+                _ => Some((factor, count)),
+            },
+        );
     let common = best.filter(|(_, count)| *count > 1 && products.len() > 1);
     let Some((factor, _)) = common else {
         let single = |product: Product| written(&product, None, name);
         return products.into_iter().map(single).collect();
     };
     let first = products[0].has(factor);
-    let (with, without): (Vec<Product>, Vec<Product>) =
-        products.iter().cloned().partition(|product| product.has(factor));
+    let (with, without): (Vec<Product>, Vec<Product>) = products
+        .iter()
+        .cloned()
+        .partition(|product| product.has(factor));
     let inside: Vec<Product> = with.iter().map(|product| product.without(factor)).collect();
     let mut taken = vec![taken_out(factor, inside, name)];
     let rest = match without.is_empty() {
@@ -301,7 +323,9 @@ fn taken_out(factor: &Factor, mut inside: Vec<Product>, name: Name) -> Summand {
     // −s₁(c₂ − c₃) rather than s₁(−c₂ + c₃)
     let negative = inside[0].coefficient.is_negative();
     if negative {
-        inside.iter_mut().for_each(|p| p.coefficient = -p.coefficient.clone());
+        inside
+            .iter_mut()
+            .for_each(|p| p.coefficient = -p.coefficient.clone());
     }
     let mut outside = Product {
         coefficient: BigRational::one(),
@@ -312,11 +336,16 @@ fn taken_out(factor: &Factor, mut inside: Vec<Product>, name: Name) -> Summand {
     // what all have in common goes out with it
     let mut common = vec![factor.clone()];
     loop {
-        let shared = inside[0].factors().find(|f| inside.iter().all(|p| p.has(f)));
+        let shared = inside[0]
+            .factors()
+            .find(|f| inside.iter().all(|p| p.has(f)));
         let Some(shared) = shared else {
             break;
         };
-        inside = inside.iter().map(|product| product.without(&shared)).collect();
+        inside = inside
+            .iter()
+            .map(|product| product.without(&shared))
+            .collect();
         common.push(shared);
     }
     for factor in common {
@@ -398,7 +427,9 @@ fn constant(q: &BigRational, root: u64) -> Expression {
         let inside = Expression::number(root as f64);
         Node::Call(Function::Sqrt, vec![inside]).at(0..0)
     });
-    let decimal = q.to_f64().filter(|&x| super::trigonometric::is_decimal(q, x));
+    let decimal = q
+        .to_f64()
+        .filter(|&x| super::trigonometric::is_decimal(q, x));
     if let Some(decimal) = decimal
         && !q.is_integer()
         && *q.denom() > BigInt::from(LARGEST_DENOMINATOR)
@@ -452,7 +483,10 @@ fn angle_of(angle: &Wave, name: Name) -> Expression {
 /// kπ as a number of degrees, or as a multiple of π if it has no end.
 fn degrees(k: Ratio<i64>) -> Expression {
     let degrees = big(k) * BigInt::from(180);
-    match degrees.to_f64().filter(|&x| super::trigonometric::is_decimal(&degrees, x)) {
+    match degrees
+        .to_f64()
+        .filter(|&x| super::trigonometric::is_decimal(&degrees, x))
+    {
         Some(value) => Node::Quantity(value, Unit::Degree).at(0..0),
         None => {
             let pi = Node::Constant(Constant::Pi).at(0..0);
@@ -467,8 +501,8 @@ fn big(k: Ratio<i64>) -> BigRational {
 
 #[cfg(test)]
 mod tests {
-    use super::super::symbolic::{Symbolic, with_letters};
     use super::super::Budget;
+    use super::super::symbolic::{Symbolic, with_letters};
     use super::*;
 
     const LETTERS: [&str; 9] = ["a", "b", "l", "t1", "t2", "t3", "t4", "t5", "t6"];
@@ -511,7 +545,9 @@ mod tests {
             ["b*cos(t1)*(l + a*cos(t2))"]
         );
         assert_eq!(
-            printed(&["cos(t1)*(cos(t4)*cos(t5)*cos(t6) - sin(t4)*sin(t6)) + sin(t1)*sin(t5)*cos(t6)"]),
+            printed(&[
+                "cos(t1)*(cos(t4)*cos(t5)*cos(t6) - sin(t4)*sin(t6)) + sin(t1)*sin(t5)*cos(t6)"
+            ]),
             ["cos(t1)*(cos(t4)*cos(t5)*cos(t6) - sin(t4)*sin(t6)) + sin(t1)*sin(t5)*cos(t6)"]
         );
         assert_eq!(printed(&["-a*cos(t1) - a*b"]), ["-a*(b + cos(t1))"]);
@@ -520,7 +556,12 @@ mod tests {
     #[test]
     fn constants_are_exact_and_in_front() {
         assert_eq!(
-            printed(&["sqrt(3)/2*b - l*cos(t1)*sin(60 deg)", "0.4318*a", "a/3", "cos(t1 + 20 deg)"]),
+            printed(&[
+                "sqrt(3)/2*b - l*cos(t1)*sin(60 deg)",
+                "0.4318*a",
+                "a/3",
+                "cos(t1 + 20 deg)"
+            ]),
             [
                 "sqrt(3)/2*b - sqrt(3)/2*l*cos(t1)",
                 "0.4318*a",

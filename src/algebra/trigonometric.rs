@@ -212,7 +212,11 @@ impl Trigonometric {
     }
 
     /// √P · √P = P
-    fn without_squares(mut key: Key, coefficient: BigRational, budget: &mut Budget) -> Option<Self> {
+    fn without_squares(
+        mut key: Key,
+        coefficient: BigRational,
+        budget: &mut Budget,
+    ) -> Option<Self> {
         let squares = key.take_squares_of_roots();
         let mut product = Trigonometric::term(key, coefficient);
         for (inside, power) in squares {
@@ -259,10 +263,18 @@ impl Trigonometric {
             return None;
         }
         let (mut top, mut bottom) = (Trigonometric::one(), self.clone());
-        while let Some(prime) = bottom.terms.keys().find_map(|key| constants::prime_of(key.root)) {
+        while let Some(prime) = bottom
+            .terms
+            .keys()
+            .find_map(|key| constants::prime_of(key.root))
+        {
             let mut conjugate = Trigonometric::zero();
             for (key, coefficient) in &bottom.terms {
-                let sign = if key.root % prime == 0 { -coefficient } else { coefficient.clone() };
+                let sign = if key.root % prime == 0 {
+                    -coefficient
+                } else {
+                    coefficient.clone()
+                };
                 conjugate.add_term(key.clone(), sign);
             }
             top = top.times(&conjugate, budget)?;

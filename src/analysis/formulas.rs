@@ -18,13 +18,16 @@ pub struct FormulasSettings {
     /// Products of two terms made at most for each formula that is multiplied out. What would take more is left out,
     /// and said so.
     pub most_products: usize,
+    /// Terms of the longest formula that is printed.
+    pub most_terms: usize,
 }
 
 impl Default for FormulasSettings {
     fn default() -> Self {
         FormulasSettings {
             transform: None,
-            most_products: 300_000,
+            most_products: 150_000,
+            most_terms: 400,
         }
     }
 }
@@ -190,6 +193,9 @@ impl Writer<'_> {
         let formulas = values.iter().map(|value| value.formula());
         let formulas: Vec<_> = formulas.collect::<Option<_>>()?;
         let sums: Vec<&Trigonometric> = formulas.iter().map(|formula| &**formula).collect();
+        if sums.iter().any(|sum| sum.len() > self.settings.most_terms) {
+            return None;
+        }
         let letters = Letters(self.mechanism);
         let arranged = arrange(&sums, &|symbol| letters.name(symbol));
         sums.iter().for_each(|sum| self.used.extend(sum.symbols()));
@@ -197,7 +203,11 @@ impl Writer<'_> {
         Some(arranged.expressions)
     }
 
-    fn transform(&mut self, relative_to: Frame, of: Frame) -> Result<Option<TransformFormula>, EvaluationError> {
+    fn transform(
+        &mut self,
+        relative_to: Frame,
+        of: Frame,
+    ) -> Result<Option<TransformFormula>, EvaluationError> {
         let names = [of, relative_to].map(|frame| self.mechanism.frame_name(frame));
         let entries = self.over_letters(|writer, formal| {
             let pose = formal.transform(relative_to, of);
@@ -252,7 +262,11 @@ impl Writer<'_> {
         Ok(())
     }
 
-    fn transform_and_jacobian(&mut self, relative_to: Frame, of: Frame) -> Result<(), EvaluationError> {
+    fn transform_and_jacobian(
+        &mut self,
+        relative_to: Frame,
+        of: Frame,
+    ) -> Result<(), EvaluationError> {
         let transform = self.transform(relative_to, of)?;
         self.report.transforms.extend(transform);
         self.jacobian(relative_to, of)
@@ -283,7 +297,10 @@ impl Writer<'_> {
 
     fn closure(&mut self, closure: usize) -> Result<(), EvaluationError> {
         let own = &self.mechanism.closures()[closure];
-        let carried = own.frames.iter().any(|frame| self.mechanism.carrier(*frame).is_some());
+        let carried = own
+            .frames
+            .iter()
+            .any(|frame| self.mechanism.carrier(*frame).is_some());
         let same_axes = own.kind == ClosureKind::Rigid && carried;
         let found = self.over_letters(|writer, formal| {
             let mut found = formal.closure(closure);
@@ -292,8 +309,11 @@ impl Writer<'_> {
             }
             let zero = |value: &Symbolic| value.formula().is_some_and(|sum| sum.is_empty());
             let all = found.conditions.len();
-            let open: Vec<Symbolic> =
-                found.conditions.into_iter().filter(|value| !zero(value)).collect();
+            let open: Vec<Symbolic> = found
+                .conditions
+                .into_iter()
+                .filter(|value| !zero(value))
+                .collect();
             let equations = writer.arranged(&open)?;
             let identically_zero = all - open.len();
             let mut distance = None;

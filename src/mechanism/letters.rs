@@ -76,7 +76,10 @@ impl Letters<'_> {
             let columns = pose.rotation.0.into_iter().chain([pose.position]);
             columns.flat_map(|column| column.0).collect::<Vec<f64>>()
         });
-        parameters.chain(home.joints.iter().copied()).chain(poses).collect()
+        parameters
+            .chain(home.joints.iter().copied())
+            .chain(poses)
+            .collect()
     }
 
     /// Every parameter as a letter.

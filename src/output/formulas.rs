@@ -26,7 +26,10 @@ pub fn json(mechanism: &Mechanism, report: &FormulasReport) -> String {
 /// Sentences about what a reader might miss; none for most mechanisms.
 fn notes(report: &FormulasReport) -> Vec<String> {
     let mut notes = Vec::new();
-    let screws = report.letters.iter().filter(|l| l.meaning == Meaning::Screw);
+    let screws = report
+        .letters
+        .iter()
+        .filter(|l| l.meaning == Meaning::Screw);
     for screw in screws {
         notes.push(format!(
             "{} turns and slides at once: as an angle it stands in sines and cosines, times its pitch in lengths.",

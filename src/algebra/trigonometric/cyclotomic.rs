@@ -125,7 +125,9 @@ fn basis(k: Ratio<i64>) -> Option<Vec<(i64, Ratio<i64>, i64)>> {
         small -= Ratio::new(top, power);
         let digit = power / prime;
         let tops: Vec<(i64, i64)> = match top / digit == prime - 1 {
-            true => (0..prime - 1).map(|d| (top % digit + d * digit, -1)).collect(),
+            true => (0..prime - 1)
+                .map(|d| (top % digit + d * digit, -1))
+                .collect(),
             false => vec![(top, 1)],
         };
         let mut longer = Vec::new();
@@ -146,5 +148,9 @@ fn basis(k: Ratio<i64>) -> Option<Vec<(i64, Ratio<i64>, i64)>> {
     let scaled = (small - small.floor()) * 24;
     let (whole, rest) = (scaled.floor(), (scaled - scaled.floor()) / 24);
     let parts = found.into_iter();
-    Some(parts.map(|(sum, sign)| (whole.to_integer(), (rest + sum) * 2, sign)).collect())
+    Some(
+        parts
+            .map(|(sum, sign)| (whole.to_integer(), (rest + sum) * 2, sign))
+            .collect(),
+    )
 }

@@ -118,7 +118,12 @@ pub(super) fn is_small(k: &Ratio<i64>) -> bool {
 impl Wave {
     /// The wave of a multiple of the angle.
     pub fn times(&self, factor: i64) -> Wave {
-        Wave(self.0.iter().map(|(m, k)| (m.clone(), k * factor)).collect())
+        Wave(
+            self.0
+                .iter()
+                .map(|(m, k)| (m.clone(), k * factor))
+                .collect(),
+        )
     }
 
     fn plus(&self, other: &Wave) -> Option<Wave> {
@@ -172,7 +177,10 @@ impl Wave {
 impl Key {
     pub(super) fn is_opaque(&self) -> bool {
         let angles = self.wave.0.iter().flat_map(|(angle, _)| angle);
-        self.powers.iter().chain(angles).any(|(atom, _)| atom.is_opaque())
+        self.powers
+            .iter()
+            .chain(angles)
+            .any(|(atom, _)| atom.is_opaque())
     }
 
     pub(super) fn symbols(&self, found: &mut BTreeSet<u32>) {
@@ -199,7 +207,10 @@ impl Key {
             powers: powers.collect(),
             ..self.clone()
         };
-        (key, BigRational::new(BigInt::one(), BigInt::from(self.root)))
+        (
+            key,
+            BigRational::new(BigInt::one(), BigInt::from(self.root)),
+        )
     }
 
     /// Itself times i: i·i = −1.

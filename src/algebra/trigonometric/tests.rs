@@ -5,9 +5,7 @@ use super::super::symbolic::{Symbolic, with_letters};
 use super::*;
 use crate::number::Number;
 
-const PLENTY: Budget = Budget {
-    products: 20_000,
-};
+const PLENTY: Budget = Budget { products: 20_000 };
 const LETTERS: [&str; 5] = ["a", "b", "x", "y", "t"];
 const VALUES: [f64; 5] = [0.7, 1.3, 0.4, -1.1, 2.3];
 
@@ -35,7 +33,10 @@ fn textbook_identities_are_proved() {
         ("sin(x)^2 + cos(x)^2", "1"),
         ("cos(x + y)", "cos(x)*cos(y) - sin(x)*sin(y)"),
         ("sin(3*x)", "3*sin(x) - 4*sin(x)^3"),
-        ("(a*cos(x) + b*cos(x + y))^2 + (a*sin(x) + b*sin(x + y))^2", "a^2 + b^2 + 2*a*b*cos(y)"),
+        (
+            "(a*cos(x) + b*cos(x + y))^2 + (a*sin(x) + b*sin(x + y))^2",
+            "a^2 + b^2 + 2*a*b*cos(y)",
+        ),
         ("cos(90 deg - x)", "sin(x)"),
         ("cos(120 deg + x)", "-cos(x)/2 - sqrt(3)/2*sin(x)"),
         ("sin(15 deg)", "(sqrt(6) - sqrt(2))/4"),
@@ -97,7 +98,9 @@ fn what_roots_and_inverse_functions_hide_is_not_decided() {
 
 #[test]
 fn work_is_bounded() {
-    let long = (0..60).map(|k| format!("cos({k}*x + a)")).collect::<Vec<_>>();
+    let long = (0..60)
+        .map(|k| format!("cos({k}*x + a)"))
+        .collect::<Vec<_>>();
     let long = format!("({})^6", long.join(" + "));
     assert!(normal(&long).is_none());
 }
@@ -121,7 +124,12 @@ fn expression() -> impl Strategy<Value = String> {
         (0..72_i32).prop_map(|k| format!("cos({} deg)", 5 * k)),
         (1..30_u32).prop_map(|k| format!("sqrt({k})")),
     ];
-    let angle = (0..3_i32, -3..4_i32, 0..24_i32, prop::sample::select(&LETTERS[..]));
+    let angle = (
+        0..3_i32,
+        -3..4_i32,
+        0..24_i32,
+        prop::sample::select(&LETTERS[..]),
+    );
     let angle = angle.prop_map(|(h, k, d, m)| format!("{h}*x/2 + {k}*{m} + {} deg", 15 * d));
     let leaf = prop_oneof![
         leaf,
@@ -143,7 +151,9 @@ fn expression() -> impl Strategy<Value = String> {
 /// The value by plain arithmetic.
 fn plain(text: &str) -> f64 {
     let value = Expression::parse(text).unwrap();
-    value.evaluate(&|name: &String| VALUES[number(name) as usize]).unwrap()
+    value
+        .evaluate(&|name: &String| VALUES[number(name) as usize])
+        .unwrap()
 }
 
 proptest! {

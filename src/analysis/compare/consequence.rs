@@ -8,7 +8,9 @@ use num_traits::{One, Zero};
 use crate::algebra::{Atom, Budget, Key, Powers, Trigonometric};
 
 /// Rows of the elimination at most.
-const MOST_ROWS: usize = 4_000;
+const MOST_ROWS: usize = 2_000;
+/// Terms of all equations together at most; those of spatial loops have thousands.
+const MOST_TERMS: usize = 250;
 /// Common factors of a formula that are tried.
 const MOST_FACTORS: usize = 48;
 
@@ -140,8 +142,11 @@ fn orthogonality(equations: &[Trigonometric], first: u32) -> Vec<Trigonometric> 
     let mut lengths: BTreeSet<Powers> = BTreeSet::new();
     let mut platforms: BTreeSet<u32> = BTreeSet::new();
     for (key, _) in equations.iter().flat_map(Trigonometric::terms) {
-        let (own, others): (Powers, Powers) =
-            key.powers.iter().cloned().partition(|(atom, _)| is_platform(atom, first));
+        let (own, others): (Powers, Powers) = key
+            .powers
+            .iter()
+            .cloned()
+            .partition(|(atom, _)| is_platform(atom, first));
         for (atom, _) in &own {
             if let Atom::Symbol(symbol) = atom {
                 platforms.insert((symbol - first) / 12);
@@ -189,6 +194,9 @@ pub(super) fn follows(
     first_platform: u32,
     budget: &mut Budget,
 ) -> bool {
+    if equations.iter().map(Trigonometric::len).sum::<usize>() > MOST_TERMS {
+        return false;
+    }
     let mut generators: Vec<Trigonometric> = equations.to_vec();
     for factor in factors(equations) {
         for equation in equations {

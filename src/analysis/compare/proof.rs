@@ -15,7 +15,9 @@ use crate::mechanism::{ClosedForm, Formal, Given, Letters, MatrixEntry, Mechanis
 use crate::number::Number;
 
 /// Products of two terms made at most for one closed form.
-const MOST_PRODUCTS: usize = 300_000;
+const MOST_PRODUCTS: usize = 150_000;
+/// A difference of more terms is not printed.
+const MOST_TERMS: usize = 400;
 
 /// What was proved of one component of a closed form.
 #[derive(Clone, Debug, PartialEq, Serialize)]
@@ -65,7 +67,10 @@ impl Proof {
     /// Whether it is proved.
     pub fn proved(&self) -> bool {
         use Proof::*;
-        matches!(self, Identical | IdenticalForTheseDimensions | FollowsFromClosures)
+        matches!(
+            self,
+            Identical | IdenticalForTheseDimensions | FollowsFromClosures
+        )
     }
 }
 
@@ -77,15 +82,17 @@ pub(super) fn proofs(mechanism: &Mechanism, form: &ClosedForm) -> Vec<Proof> {
     }
     let special = Attempt::new(mechanism, form, true);
     let pairs = general.proofs.into_iter().zip(special.proofs);
-    pairs.map(|(general, special)| match (general, special) {
-        (general, _) if general.proved() => general,
-        (_, Proof::Identical) => Proof::IdenticalForTheseDimensions,
-        (_, Proof::FollowsFromClosures) => Proof::FollowsFromClosures,
-        // in letters it may only be hidden that it is zero; with numbers it is seen that it is not
-        (Proof::Different(difference), _) => Proof::Different(difference),
-        (_, special @ Proof::Different(_)) => special,
-        (general, _) => general,
-    }).collect()
+    pairs
+        .map(|(general, special)| match (general, special) {
+            (general, _) if general.proved() => general,
+            (_, Proof::Identical) => Proof::IdenticalForTheseDimensions,
+            (_, Proof::FollowsFromClosures) => Proof::FollowsFromClosures,
+            // in letters it may only be hidden that it is zero; with numbers it is seen that it is not
+            (Proof::Different(difference), _) => Proof::Different(difference),
+            (_, special @ Proof::Different(_)) => special,
+            (general, _) => general,
+        })
+        .collect()
 }
 
 struct Attempt {
@@ -108,7 +115,11 @@ impl Attempt {
         let proofs = with_letters(values, budget, || {
             let setting = Setting::new(mechanism, form, numbers)?;
             Some(match &form.gives {
-                Given::Pose { of, relative_to, entries } => {
+                Given::Pose {
+                    of,
+                    relative_to,
+                    entries,
+                } => {
                     if mechanism.carrier(*of) != mechanism.carrier(*relative_to) {
                         let reason = Reason::NeedsPlatform;
                         return Some(vec![Proof::NotDecided { reason }; count]);
@@ -126,7 +137,9 @@ impl Attempt {
                 Given::Identities(identities) => {
                     let equations = setting.equations();
                     let proved = identities.iter();
-                    proved.map(|(_, formula)| setting.vanishing(formula, &equations)).collect()
+                    proved
+                        .map(|(_, formula)| setting.vanishing(formula, &equations))
+                        .collect()
                 }
             })
         });
@@ -171,7 +184,10 @@ impl<'a> Setting<'a> {
 
     fn name(&self, symbol: u32) -> String {
         let first = self.letters.local(0);
-        match symbol.checked_sub(first).and_then(|local| self.form.locals.get(local as usize)) {
+        match symbol
+            .checked_sub(first)
+            .and_then(|local| self.form.locals.get(local as usize))
+        {
             Some((name, _)) => name.clone(),
             None => self.letters.name(symbol),
         }
@@ -193,6 +209,10 @@ impl<'a> Setting<'a> {
         };
         match difference.vanishes(&mut budget) {
             Some(true) => Proof::Identical,
+            Some(false) if difference.len() > MOST_TERMS => {
+                let reason = Reason::TooLong;
+                Proof::NotDecided { reason }
+            }
             Some(false) => {
                 let own = form.restricted_to(&difference);
                 let theirs = chains.restricted_to(&difference);
@@ -277,7 +297,10 @@ fn own_variables(
             continue;
         };
         let uses = all.iter().flat_map(|formula| formula.names());
-        let alone = uses.filter(|(symbol, _)| **symbol == Symbol::Joint(*joint)).count() == 1;
+        let alone = uses
+            .filter(|(symbol, _)| **symbol == Symbol::Joint(*joint))
+            .count()
+            == 1;
         let of = |value: Symbolic| {
             let value = definition.evaluate(&|symbol| match *symbol {
                 Symbol::Parameter(i) => parameters[i],
@@ -303,9 +326,9 @@ fn own_variables(
 impl Trigonometric {
     /// The multiple of the other that shares a term with it and leaves the fewest.
     fn nearest_multiple(&self, other: &Self) -> Option<Self> {
-        let common = other.terms().filter_map(|(key, coefficient)| {
-            Some(self.coefficient(key)? / coefficient)
-        });
+        let common = other
+            .terms()
+            .filter_map(|(key, coefficient)| Some(self.coefficient(key)? / coefficient));
         // the ratio that most terms have
         let mut ratios: BTreeMap<BigRational, usize> = BTreeMap::new();
         common.for_each(|ratio| *ratios.entry(ratio).or_default() += 1);

@@ -13,12 +13,19 @@ pub fn rust(mechanism: &Mechanism, report: &FormulasReport) -> String {
         arguments: arguments(&report.letters),
         functions: BTreeSet::new(),
     };
-    let mut text = format!("// {}, by linkwork. Lengths in m, angles in rad.\n", one_line(mechanism.name()));
-    notes(report).iter().for_each(|note| text += &format!("// {}\n", one_line(note)));
+    let mut text = format!(
+        "// {}, by linkwork. Lengths in m, angles in rad.\n",
+        one_line(mechanism.name())
+    );
+    notes(report)
+        .iter()
+        .for_each(|note| text += &format!("// {}\n", one_line(note)));
     for transform in report.links.iter().chain(&report.transforms) {
         let (of, relative_to) = (&transform.of, &transform.relative_to);
         let rows = transform.rotation.iter().zip(&transform.position);
-        let rows = rows.map(|([n, s, a], p)| vec![n, s, a, p]).collect::<Vec<_>>();
+        let rows = rows
+            .map(|([n, s, a], p)| vec![n, s, a, p])
+            .collect::<Vec<_>>();
         text += &writer.function(
             &format!("{of}_in_{relative_to}"),
             &format!("{of} in {relative_to}: rows of [R | p]."),
@@ -32,8 +39,9 @@ pub fn rust(mechanism: &Mechanism, report: &FormulasReport) -> String {
     for jacobian in &report.jacobians {
         let (of, relative_to) = (&jacobian.of, &jacobian.relative_to);
         let columns = jacobian.columns.iter();
-        let rows: Vec<Vec<&Expression>> =
-            columns.map(|c| c.velocity.iter().chain(&c.omega).collect()).collect();
+        let rows: Vec<Vec<&Expression>> = columns
+            .map(|c| c.velocity.iter().chain(&c.omega).collect())
+            .collect();
         let joints: Vec<&str> = jacobian.columns.iter().map(|c| c.joint.as_str()).collect();
         text += &writer.function(
             &format!("{of}_in_{relative_to}_jacobian"),
@@ -49,7 +57,9 @@ pub fn rust(mechanism: &Mechanism, report: &FormulasReport) -> String {
 }
 
 fn one_line(text: &str) -> String {
-    text.chars().map(|c| if c.is_control() { ' ' } else { c }).collect()
+    text.chars()
+        .map(|c| if c.is_control() { ' ' } else { c })
+        .collect()
 }
 
 /// Letters as identifiers: of ASCII letters and digits, none twice, none a keyword or a name the functions use.
@@ -75,10 +85,11 @@ fn unique(name: &str, taken: &mut BTreeSet<String>) -> String {
 
 fn identifier(name: &str) -> String {
     const KEYWORDS: [&str; 43] = [
-        "as", "break", "const", "continue", "crate", "else", "enum", "extern", "false", "fn", "for", "if", "impl", "in",
-        "let", "loop", "match", "mod", "move", "mut", "pub", "ref", "return", "self", "static", "struct", "super", "trait",
-        "true", "type", "unsafe", "use", "where", "while", "async", "await", "dyn", "abstract", "become", "box", "do",
-        "final", "gen",
+        "as", "break", "const", "continue", "crate", "else", "enum", "extern", "false", "fn",
+        "for", "if", "impl", "in", "let", "loop", "match", "mod", "move", "mut", "pub", "ref",
+        "return", "self", "static", "struct", "super", "trait", "true", "type", "unsafe", "use",
+        "where", "while", "async", "await", "dyn", "abstract", "become", "box", "do", "final",
+        "gen",
     ];
     let mut plain = String::new();
     for c in name.chars() {
@@ -88,10 +99,16 @@ fn identifier(name: &str) -> String {
             _ => plain.push('_'),
         }
     }
-    let starts = plain.chars().next().is_some_and(|c| c.is_alphabetic() || c == '_');
+    let starts = plain
+        .chars()
+        .next()
+        .is_some_and(|c| c.is_alphabetic() || c == '_');
     let reserved = KEYWORDS.contains(&plain.as_str())
-        || ["Self", "macro", "override", "priv", "try", "typeof", "unsized", "virtual", "yield", "_"]
-            .contains(&plain.as_str())
+        || [
+            "Self", "macro", "override", "priv", "try", "typeof", "unsized", "virtual", "yield",
+            "_",
+        ]
+        .contains(&plain.as_str())
         || plain.starts_with("sin_")
         || plain.starts_with("cos_");
     match starts && !reserved {
@@ -109,10 +126,19 @@ struct Writer {
 type Angles = BTreeMap<String, (usize, bool, bool)>;
 
 impl Writer {
-    fn function(&mut self, name: &str, what: &str, gives: &str, rows: &[Vec<&Expression>]) -> String {
+    fn function(
+        &mut self,
+        name: &str,
+        what: &str,
+        gives: &str,
+        rows: &[Vec<&Expression>],
+    ) -> String {
         let name = unique(&identifier(name), &mut self.functions);
         let all = || rows.iter().flatten();
-        let used: BTreeSet<&str> = all().flat_map(|e| e.names()).map(|(name, _)| name.as_str()).collect();
+        let used: BTreeSet<&str> = all()
+            .flat_map(|e| e.names())
+            .map(|(name, _)| name.as_str())
+            .collect();
         let mut given: Vec<String> = Vec::new();
         // in the order of the letters: parameters, joints, platforms
         for (letter, (argument, _)) in self.in_order() {
@@ -124,8 +150,12 @@ impl Writer {
         let rows: Vec<String> = rows
             .iter()
             .map(|row| {
-                let entries: Vec<String> = row.iter().map(|e| self.code(e, &mut angles).0).collect();
-                format!("        [\n            {},\n        ],\n", entries.join(",\n            "))
+                let entries: Vec<String> =
+                    row.iter().map(|e| self.code(e, &mut angles).0).collect();
+                format!(
+                    "        [\n            {},\n        ],\n",
+                    entries.join(",\n            ")
+                )
             })
             .collect();
         let mut numbered: Vec<(&String, &(usize, bool, bool))> = angles.iter().collect();
@@ -171,7 +201,10 @@ impl Writer {
             }
             None if rows.is_empty() => String::new(),
             None => {
-                let what = format!("Closure {}: what vanishes where it is closed.", closure.name);
+                let what = format!(
+                    "Closure {}: what vanishes where it is closed.",
+                    closure.name
+                );
                 self.function(&name, &what, &format!("[[f64; 1]; {}]", rows.len()), &rows)
             }
         }
@@ -186,14 +219,29 @@ impl Writer {
             Node::Constant(other) => (format!("{:?}_f64", other.over::<f64>()), 0),
             Node::Name(name) => {
                 let known = self.arguments.get(name);
-                (known.map_or_else(|| identifier(name), |(argument, _)| argument.clone()), 0)
+                (
+                    known.map_or_else(|| identifier(name), |(argument, _)| argument.clone()),
+                    0,
+                )
             }
             Node::Negate(x) => (format!("-{}", self.part(x, 1, angles)), 1),
             Node::Binary(operator, x, y) => match operator {
-                Operator::Add => (format!("{} + {}", self.part(x, 2, angles), self.part(y, 1, angles)), 2),
-                Operator::Subtract => (format!("{} - {}", self.part(x, 2, angles), self.part(y, 1, angles)), 2),
-                Operator::Multiply => (format!("{} * {}", self.part(x, 1, angles), self.part(y, 0, angles)), 1),
-                Operator::Divide => (format!("{} / {}", self.part(x, 1, angles), self.part(y, 0, angles)), 1),
+                Operator::Add => (
+                    format!("{} + {}", self.part(x, 2, angles), self.part(y, 1, angles)),
+                    2,
+                ),
+                Operator::Subtract => (
+                    format!("{} - {}", self.part(x, 2, angles), self.part(y, 1, angles)),
+                    2,
+                ),
+                Operator::Multiply => (
+                    format!("{} * {}", self.part(x, 1, angles), self.part(y, 0, angles)),
+                    1,
+                ),
+                Operator::Divide => (
+                    format!("{} / {}", self.part(x, 1, angles), self.part(y, 0, angles)),
+                    1,
+                ),
                 Operator::Power => {
                     let base = self.code(x, angles).0;
                     let whole = y.as_number().filter(|n| n.fract() == 0.0 && n.abs() < 1e6);
@@ -219,8 +267,12 @@ impl Writer {
                 }
             }
             Node::Call(function, arguments) => {
-                let arguments: Vec<String> = arguments.iter().map(|x| self.code(x, angles).0).collect();
-                (format!("f64::{}({})", function.word(), arguments.join(", ")), 0)
+                let arguments: Vec<String> =
+                    arguments.iter().map(|x| self.code(x, angles).0).collect();
+                (
+                    format!("f64::{}({})", function.word(), arguments.join(", ")),
+                    0,
+                )
             }
         }
     }

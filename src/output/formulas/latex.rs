@@ -2,7 +2,9 @@
 
 use super::{Notation, Script, notes};
 use crate::algebra::Expression;
-use crate::analysis::formulas::{ClosureFormula, FormulasReport, JacobianFormula, TransformFormula};
+use crate::analysis::formulas::{
+    ClosureFormula, FormulasReport, JacobianFormula, TransformFormula,
+};
 use crate::mechanism::Mechanism;
 
 /// Matrices with longer rows are set entry by entry.
@@ -33,7 +35,10 @@ pub fn latex(mechanism: &Mechanism, report: &FormulasReport) -> String {
 
 /// What follows a % to the end of a line; a name may hold anything.
 fn comment(text: &str) -> String {
-    let one_line: String = text.chars().map(|c| if c.is_control() { ' ' } else { c }).collect();
+    let one_line: String = text
+        .chars()
+        .map(|c| if c.is_control() { ' ' } else { c })
+        .collect();
     format!("% {one_line}\n")
 }
 
@@ -56,7 +61,10 @@ fn transform_of(notation: &Notation, transform: &TransformFormula) -> String {
     let rows: Vec<Vec<String>> = (rotation.iter().zip(position))
         .map(|(row, p)| row.iter().chain([p]).map(|e| notation.print(e)).collect())
         .collect();
-    if rows.iter().any(|row| row.iter().map(String::len).sum::<usize>() > WIDEST) {
+    if rows
+        .iter()
+        .any(|row| row.iter().map(String::len).sum::<usize>() > WIDEST)
+    {
         let names = ["r_{#1}", "r_{#2}", "r_{#3}", "p_{@}"];
         let mut lines = Vec::new();
         for (column, name) in names.into_iter().enumerate() {
@@ -109,7 +117,12 @@ fn jacobian_of(notation: &Notation, jacobian: &JacobianFormula) -> String {
         .map(|c| c.velocity.iter().chain(&c.omega).map(print).collect())
         .collect();
     let rows: Vec<String> = (0..6)
-        .map(|row| entries.iter().map(|column| column[row].clone()).collect::<Vec<_>>())
+        .map(|row| {
+            entries
+                .iter()
+                .map(|column| column[row].clone())
+                .collect::<Vec<_>>()
+        })
         .map(|row| row.join(" & "))
         .collect();
     if rows.iter().all(|row| row.len() <= WIDEST) {

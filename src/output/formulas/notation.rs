@@ -85,9 +85,11 @@ pub(super) fn subscript(digits: &str) -> String {
 }
 
 fn raised(digits: &str) -> String {
-    let raise = |c: char| c.to_digit(10).map_or(c, |digit| {
-        ['⁰', '¹', '²', '³', '⁴', '⁵', '⁶', '⁷', '⁸', '⁹'][digit as usize]
-    });
+    let raise = |c: char| {
+        c.to_digit(10).map_or(c, |digit| {
+            ['⁰', '¹', '²', '³', '⁴', '⁵', '⁶', '⁷', '⁸', '⁹'][digit as usize]
+        })
+    };
     digits.chars().map(raise).collect()
 }
 
@@ -123,7 +125,10 @@ impl Notation {
         // c₁₁ would be both cos θ₁₁ and cos(θ₁ + θ₁); and no other letter may look like c₁
         let indexed = split.iter().all(|(_, digits)| digits.len() == 1);
         let joints = mechanism.joints().iter().map(|joint| &joint.name);
-        let parameters = mechanism.parameters().iter().map(|parameter| &parameter.name);
+        let parameters = mechanism
+            .parameters()
+            .iter()
+            .map(|parameter| &parameter.name);
         let taken = joints.chain(parameters).any(|name| {
             let (stem, digits) = parts(name);
             ["c", "s"].contains(&stem) && !digits.is_empty()
@@ -178,9 +183,9 @@ impl Notation {
             return self.component(platform, vector);
         }
         let (stem, digits) = parts(name);
-        let greek = GREEK.iter().find(|(word, letter)| {
-            *word == stem || stem.chars().eq(std::iter::once(*letter))
-        });
+        let greek = GREEK
+            .iter()
+            .find(|(word, letter)| *word == stem || stem.chars().eq(std::iter::once(*letter)));
         let mut letters = stem.chars();
         let single = letters.next().is_some() && letters.next().is_none();
         match self.script {
@@ -322,11 +327,17 @@ impl Notation {
         };
         match operator {
             Operator::Add => {
-                let (x, y) = (self.part(x, Tightness::Sum), self.part(y, Tightness::Product));
+                let (x, y) = (
+                    self.part(x, Tightness::Sum),
+                    self.part(y, Tightness::Product),
+                );
                 of(format!("{x} + {y}"), Tightness::Sum)
             }
             Operator::Subtract => {
-                let (x, y) = (self.part(x, Tightness::Sum), self.part(y, Tightness::Product));
+                let (x, y) = (
+                    self.part(x, Tightness::Sum),
+                    self.part(y, Tightness::Product),
+                );
                 of(format!("{x} {} {y}", self.minus()), Tightness::Sum)
             }
             Operator::Multiply => of(self.product(whole), Tightness::Product),
@@ -405,12 +416,17 @@ impl Notation {
                 false => printed.text,
             };
             if i > 0 && !(compact && (printed.compact || enclosed)) {
-                text += if self.script == Script::Latex { " \\, " } else { " " };
+                text += if self.script == Script::Latex {
+                    " \\, "
+                } else {
+                    " "
+                };
             } else if i > 0 && self.script == Script::Latex {
                 text.push(' ');
             }
             text += &own;
-            compact = printed.compact || matches!(&factor.node, Node::Negate(x) if self.printed(x).compact);
+            compact = printed.compact
+                || matches!(&factor.node, Node::Negate(x) if self.printed(x).compact);
         }
         text
     }
@@ -441,11 +457,24 @@ impl Notation {
             (Script::Latex, _) if circular && simple => {
                 format!("\\{} {inside}", function.word())
             }
-            (Script::Latex, Function::Sin | Function::Cos | Function::Tan | Function::Exp | Function::Ln | Function::Min | Function::Max) => {
+            (
+                Script::Latex,
+                Function::Sin
+                | Function::Cos
+                | Function::Tan
+                | Function::Exp
+                | Function::Ln
+                | Function::Min
+                | Function::Max,
+            ) => {
                 format!("\\{}{}", function.word(), self.enclosed(&inside))
             }
             (Script::Latex, _) => {
-                format!("\\operatorname{{{}}}{}", function.word(), self.enclosed(&inside))
+                format!(
+                    "\\operatorname{{{}}}{}",
+                    function.word(),
+                    self.enclosed(&inside)
+                )
             }
         })
     }

@@ -55,7 +55,9 @@ fn shorten(
             shorten(notation, x, locals);
             shorten(notation, y, locals);
         }
-        Node::Call(_, arguments) => arguments.iter_mut().for_each(|x| shorten(notation, x, locals)),
+        Node::Call(_, arguments) => arguments
+            .iter_mut()
+            .for_each(|x| shorten(notation, x, locals)),
         _ => {}
     }
 }
@@ -64,11 +66,20 @@ fn wheres(locals: &BTreeMap<(usize, String), String>) -> String {
     if locals.is_empty() {
         return String::new();
     }
-    let locals = locals.iter().map(|((_, name), meaning)| format!("\"{name}\": \"{meaning}\""));
-    format!("        where: {{ {} }},\n", locals.collect::<Vec<_>>().join(", "))
+    let locals = locals
+        .iter()
+        .map(|((_, name), meaning)| format!("\"{name}\": \"{meaning}\""));
+    format!(
+        "        where: {{ {} }},\n",
+        locals.collect::<Vec<_>>().join(", ")
+    )
 }
 
-fn transform_of(notation: &Notation, report: &FormulasReport, transform: &TransformFormula) -> String {
+fn transform_of(
+    notation: &Notation,
+    report: &FormulasReport,
+    transform: &TransformFormula,
+) -> String {
     let TransformFormula {
         of,
         relative_to,
@@ -85,7 +96,9 @@ fn transform_of(notation: &Notation, report: &FormulasReport, transform: &Transf
             [n, s, a, p].map(|e| format!("\"{}\"", shortened(notation, e, &mut locals)))
         })
         .collect();
-    let rows = rows.iter().map(|row| format!("            ({}),\n", row.join(", ")));
+    let rows = rows
+        .iter()
+        .map(|row| format!("            ({}),\n", row.join(", ")));
     let rows: String = rows.collect();
     let seen = match relative_to.as_str() {
         "ground" => String::new(),
@@ -129,9 +142,10 @@ fn closure_of(notation: &Notation, report: &FormulasReport, closure: &ClosureFor
     if equations.is_empty() {
         return String::new();
     }
-    let lines = equations.iter().enumerate().map(|(i, equation)| {
-        format!("            \"equation{}\": \"{equation}\",\n", i + 1)
-    });
+    let lines = equations
+        .iter()
+        .enumerate()
+        .map(|(i, equation)| format!("            \"equation{}\": \"{equation}\",\n", i + 1));
     let lines: String = lines.collect();
     format!(
         "    \"closure_{}\": (\n{}        identities: {{\n{lines}        }},\n    ),\n",

@@ -29,7 +29,10 @@ pub fn text(mechanism: &Mechanism, report: &FormulasReport) -> String {
     let closures = report.closures.iter().map(|c| closure(&notation, c));
     section("Closures", closures.collect());
     let jacobians = report.jacobians.iter().map(|j| jacobian(&notation, j));
-    section("Screw Jacobians, in each column v of the origin above ω", jacobians.collect());
+    section(
+        "Screw Jacobians, in each column v of the origin above ω",
+        jacobians.collect(),
+    );
     let legend = legend(&notation, report);
     if !legend.is_empty() {
         text += &format!("\n{legend}\n");
@@ -56,14 +59,15 @@ fn transform(notation: &Notation, transform: &TransformFormula) -> String {
         ["r31", "r32", "r33", "pz"],
     ];
     let title = format!("  {of} in {relative_to}\n");
-    title + &matrix(&rows).unwrap_or_else(|| {
-        // column after column, as n, s, a and p are read
-        let entries = (0..4).flat_map(|column| (0..3).map(move |row| (row, column)));
-        let entries = entries.map(|(row, column)| {
-            format!("    {} = {}\n", names[row][column], rows[row][column])
-        });
-        entries.collect()
-    })
+    title
+        + &matrix(&rows).unwrap_or_else(|| {
+            // column after column, as n, s, a and p are read
+            let entries = (0..4).flat_map(|column| (0..3).map(move |row| (row, column)));
+            let entries = entries.map(|(row, column)| {
+                format!("    {} = {}\n", names[row][column], rows[row][column])
+            });
+            entries.collect()
+        })
 }
 
 /// A matrix in brackets; nothing if it would be too wide.
@@ -71,7 +75,12 @@ fn matrix(rows: &[Vec<String>]) -> Option<String> {
     let columns = rows.first().map_or(0, Vec::len);
     let width = |text: &String| text.chars().count();
     let widths: Vec<usize> = (0..columns)
-        .map(|column| rows.iter().map(|row| width(&row[column])).max().unwrap_or(0))
+        .map(|column| {
+            rows.iter()
+                .map(|row| width(&row[column]))
+                .max()
+                .unwrap_or(0)
+        })
         .collect();
     if widths.iter().sum::<usize>() + 2 * columns > WIDEST {
         return None;
@@ -83,9 +92,10 @@ fn matrix(rows: &[Vec<String>]) -> Option<String> {
             _ if i + 1 == rows.len() => ('⎣', '⎦'),
             _ => ('⎢', '⎥'),
         };
-        let cells = row.iter().zip(&widths).map(|(cell, w)| {
-            format!("{cell}{}", " ".repeat(w - width(cell)))
-        });
+        let cells = row
+            .iter()
+            .zip(&widths)
+            .map(|(cell, w)| format!("{cell}{}", " ".repeat(w - width(cell))));
         let cells: Vec<String> = cells.collect();
         text += &format!("    {left} {} {right}\n", cells.join("  "));
     }
@@ -171,7 +181,10 @@ fn expressions(report: &FormulasReport) -> impl Iterator<Item = &Expression> {
         let distance = distance.flat_map(|(gap, length)| gap.iter().chain([length]));
         closure.equations.iter().chain(distance)
     });
-    let columns = report.jacobians.iter().flat_map(|jacobian| &jacobian.columns);
+    let columns = report
+        .jacobians
+        .iter()
+        .flat_map(|jacobian| &jacobian.columns);
     let columns = columns.flat_map(|column| column.velocity.iter().chain(&column.omega));
     transforms.chain(closures).chain(columns)
 }
@@ -198,10 +211,16 @@ fn legend(notation: &Notation, report: &FormulasReport) -> String {
     if !explained.is_empty() {
         lines.push(explained.join(", "));
     }
-    let mut platforms = report.letters.iter().filter(|l| l.meaning == Meaning::Platform);
+    let mut platforms = report
+        .letters
+        .iter()
+        .filter(|l| l.meaning == Meaning::Platform);
     if let Some(letter) = platforms.next() {
         let first = letter.name.split('.').next().unwrap_or_default();
-        let all = report.letters.iter().filter(|l| l.meaning == Meaning::Platform);
+        let all = report
+            .letters
+            .iter()
+            .filter(|l| l.meaning == Meaning::Platform);
         let several = all.clone().any(|l| l.name.split('.').next() != Some(first));
         lines.push(match several {
             true => "n, s, a and p: axes and origin of a platform in ground".into(),
