@@ -26,7 +26,7 @@ impl Default for FormulasSettings {
     fn default() -> Self {
         FormulasSettings {
             transform: None,
-            most_products: 150_000,
+            most_products: 60_000,
             most_terms: 400,
         }
     }
@@ -314,17 +314,20 @@ impl Writer<'_> {
                 .into_iter()
                 .filter(|value| !zero(value))
                 .collect();
-            let equations = writer.arranged(&open)?;
+            let equations = writer.arranged(&open);
             let identically_zero = all - open.len();
-            let mut distance = None;
-            if own.kind == ClosureKind::Distance {
-                let gap = writer.arranged(&found.gap.0)?;
-                let length = writer.arranged(&[found.length])?;
-                distance = Some((gap, length));
-            }
-            Some((equations, identically_zero, distance))
+            let distance = match own.kind {
+                ClosureKind::Distance => {
+                    let gap = writer.arranged(&found.gap.0);
+                    gap.zip(writer.arranged(&[found.length]))
+                }
+                _ => None,
+            };
+            // of a distance the one form or the other may be too long
+            let any = equations.is_some() || distance.is_some();
+            any.then_some((equations, identically_zero, distance))
         })?;
-        let Some((mut equations, identically_zero, distance)) = found else {
+        let Some((equations, identically_zero, distance)) = found else {
             self.report.left_out.push(format!("closure {}", own.name));
             return Ok(());
         };
@@ -334,12 +337,17 @@ impl Writer<'_> {
         };
         let mut vector = None;
         if let Some((gap, mut length)) = distance
-            && written(&gap) + written(&length) + 12 < written(&equations)
+            && equations.as_ref().is_none_or(|equations| {
+                written(&gap) + written(&length) + 12 < written(equations)
+            })
             && let ([x, y, z], Some(length)) = (gap.as_slice(), length.pop())
         {
             vector = Some(([x.clone(), y.clone(), z.clone()], length));
-            equations.clear();
         }
+        let equations = match vector {
+            Some(_) => vec![],
+            None => equations.unwrap_or_default(),
+        };
         self.report.closures.push(ClosureFormula {
             name: own.name.clone(),
             kind: own.kind.word(),

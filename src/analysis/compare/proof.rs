@@ -15,7 +15,7 @@ use crate::mechanism::{ClosedForm, Formal, Given, Letters, MatrixEntry, Mechanis
 use crate::number::Number;
 
 /// Products of two terms made at most for one closed form.
-const MOST_PRODUCTS: usize = 150_000;
+const MOST_PRODUCTS: usize = 100_000;
 /// A difference of more terms is not printed.
 const MOST_TERMS: usize = 400;
 
@@ -77,7 +77,8 @@ impl Proof {
 /// What can be proved of each component of a form, in order.
 pub(super) fn proofs(mechanism: &Mechanism, form: &ClosedForm) -> Vec<Proof> {
     let general = Attempt::new(mechanism, form, false);
-    if general.proofs.iter().all(Proof::proved) {
+    let of_loops = matches!(form.gives, Given::Identities(_));
+    if of_loops || general.proofs.iter().all(Proof::proved) {
         return general.proofs;
     }
     let special = Attempt::new(mechanism, form, true);
@@ -86,8 +87,7 @@ pub(super) fn proofs(mechanism: &Mechanism, form: &ClosedForm) -> Vec<Proof> {
         .map(|(general, special)| match (general, special) {
             (general, _) if general.proved() => general,
             (_, Proof::Identical) => Proof::IdenticalForTheseDimensions,
-            (_, Proof::FollowsFromClosures) => Proof::FollowsFromClosures,
-            // in letters it may only be hidden that it is zero; with numbers it is seen that it is not
+                // in letters it may only be hidden that it is zero; with numbers it is seen that it is not
             (Proof::Different(difference), _) => Proof::Different(difference),
             (_, special @ Proof::Different(_)) => special,
             (general, _) => general,
@@ -252,6 +252,9 @@ impl<'a> Setting<'a> {
         };
         if form.vanishes(&mut budget) == Some(true) {
             return Proof::Identical;
+        }
+        if Span::new(equations).contains(&form) {
+            return Proof::FollowsFromClosures;
         }
         let Some(form) = form.without_denominators(&mut budget) else {
             return not_decided(Reason::TooLong);
