@@ -337,9 +337,9 @@ impl Writer<'_> {
         };
         let mut vector = None;
         if let Some((gap, mut length)) = distance
-            && equations.as_ref().is_none_or(|equations| {
-                written(&gap) + written(&length) + 12 < written(equations)
-            })
+            && equations
+                .as_ref()
+                .is_none_or(|equations| written(&gap) + written(&length) + 12 < written(equations))
             && let ([x, y, z], Some(length)) = (gap.as_slice(), length.pop())
         {
             vector = Some(([x.clone(), y.clone(), z.clone()], length));

@@ -10,7 +10,7 @@ use crate::algebra::{Atom, Budget, Key, Powers, Trigonometric};
 /// Rows of the elimination at most.
 const MOST_ROWS: usize = 2_000;
 /// Terms of all equations together at most; those of spatial loops have thousands.
-const MOST_TERMS: usize = 250;
+const MOST_TERMS: usize = 120;
 /// Common factors of a formula that are tried.
 const MOST_FACTORS: usize = 48;
 

@@ -87,7 +87,7 @@ pub(super) fn proofs(mechanism: &Mechanism, form: &ClosedForm) -> Vec<Proof> {
         .map(|(general, special)| match (general, special) {
             (general, _) if general.proved() => general,
             (_, Proof::Identical) => Proof::IdenticalForTheseDimensions,
-                // in letters it may only be hidden that it is zero; with numbers it is seen that it is not
+            // in letters it may only be hidden that it is zero; with numbers it is seen that it is not
             (Proof::Different(difference), _) => Proof::Different(difference),
             (_, special @ Proof::Different(_)) => special,
             (general, _) => general,
