@@ -5,14 +5,20 @@
 //! knows where it stands in the text, so that whoever finds a fault in it can point at it.
 
 mod affine;
+mod arrangement;
 mod display;
 mod evaluation;
 mod parser;
+mod symbolic;
+mod trigonometric;
 mod vocabulary;
 
 pub use affine::{Affine, NonAffine};
+pub use arrangement::{Arranged, arrange};
 pub use evaluation::{EvaluationError, EvaluationErrorKind, LARGEST};
 pub use parser::{MAX_HEIGHT, MAX_NESTING, ParseError, ParseErrorKind};
+pub use symbolic::{Symbolic, with_letters};
+pub use trigonometric::{Atom, Budget, Key, Powers, Trigonometric, Wave};
 pub use vocabulary::{Constant, Function, Unit, is_name, is_reserved};
 
 use std::ops::Range;

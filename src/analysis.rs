@@ -6,6 +6,7 @@ pub mod assembly;
 pub mod compare;
 pub mod convert;
 pub mod frames;
+pub mod formulas;
 pub mod mobility;
 pub mod overview;
 pub mod statics;

@@ -8,6 +8,7 @@ mod convert;
 mod frames;
 mod export;
 mod import;
+mod formulas;
 mod mobility;
 mod progress;
 mod search;
@@ -44,6 +45,7 @@ enum Command {
     Frames(frames::Frames),
     Export(export::Export),
     Import(import::Import),
+    Formulas(formulas::Formulas),
     Mobility(mobility::Mobility),
     Velocity(velocity::Velocity),
     Statics(statics::Statics),
@@ -83,6 +85,7 @@ pub fn run() -> ExitCode {
         Command::Frames(frames) => frames.run(),
         Command::Export(export) => export.run(),
         Command::Import(import) => import.run(),
+        Command::Formulas(formulas) => formulas.run(),
         Command::Mobility(mobility) => mobility.run(),
         Command::Velocity(velocity) => velocity.run(),
         Command::Statics(statics) => statics.run(),

@@ -8,6 +8,7 @@ mod dimensions;
 mod frames;
 mod inspect;
 mod kinematics;
+mod letters;
 mod lift;
 mod model;
 mod names;
@@ -33,6 +34,7 @@ use crate::description::Problem;
 pub(crate) use closure::{Closure, Side, needs};
 pub(crate) use coordinate::orientation_rows;
 pub(crate) use kinematics::Mover;
+pub(crate) use letters::{Formal, Letters};
 
 /// A valid mechanism. It never changes; holding one proves that its description makes sense.
 #[derive(Clone, Debug)]

@@ -36,6 +36,14 @@ pub trait Number:
 {
     /// The constant `x`.
     fn from_f64(x: f64) -> Self;
+    /// π.
+    fn pi() -> Self {
+        Self::from_f64(std::f64::consts::PI)
+    }
+    /// An angle of so many degrees, in radians.
+    fn degrees(angle: f64) -> Self {
+        Self::from_f64(angle.to_radians())
+    }
     /// The real part: what comparisons and printed values use.
     fn real(self) -> f64;
     /// Sine and cosine of an angle in radians.
@@ -62,6 +70,22 @@ pub trait Number:
     /// `self` or `-self`, whichever has a real part that is not negative.
     fn abs(self) -> Self {
         if self.real() < 0.0 { -self } else { self }
+    }
+    /// The one of two with the lesser real part; the first if they are equal.
+    fn lesser(self, other: Self) -> Self {
+        if other.real() < self.real() {
+            other
+        } else {
+            self
+        }
+    }
+    /// The one of two with the greater real part; the first if they are equal.
+    fn greater(self, other: Self) -> Self {
+        if other.real() > self.real() {
+            other
+        } else {
+            self
+        }
     }
     /// Whole power.
     fn powi(self, n: i32) -> Self {

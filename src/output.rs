@@ -15,6 +15,8 @@ pub mod frames;
 #[cfg(feature = "cli")]
 pub mod import;
 #[cfg(feature = "cli")]
+pub mod formulas;
+#[cfg(feature = "cli")]
 mod json;
 #[cfg(feature = "cli")]
 mod layout;

@@ -1,7 +1,8 @@
 //! What is said of closed forms that agree and that do not.
 #![cfg(feature = "cli")]
 
-use linkwork::analysis::compare::{CompareReport, CompareSettings, compare};
+use linkwork::algebra::{Expression, Node, Operator};
+use linkwork::analysis::compare::{CompareReport, CompareSettings, Proof, Reason, compare};
 use linkwork::description::Description;
 use linkwork::mechanism::Mechanism;
 use linkwork::output::comparison;
@@ -26,7 +27,9 @@ fn all_agree() {
     let (mechanism, report) = compared(THREE_RPS);
     let text = comparison::text(&mechanism, &report);
     assert!(text.starts_with("3-RPS parallel manipulator: closed forms beside the chains\n\n"));
-    assert!(text.ends_with("\nAll 6 closed forms agree with the chains (seed 1).\n"));
+    assert!(
+        text.ends_with("\nAll 6 closed forms agree with the chains (seed 1). All are proved.\n")
+    );
     for form in ["TL1", "T12", "S1", "S2", "S3", "closure"] {
         let row = text.lines().find(|line| line.trim().starts_with(form));
         let row = row.unwrap_or_else(|| panic!("no row for {form}:\n{text}"));
@@ -82,6 +85,196 @@ fn json_says_the_same() {
     // numbers survive the way through text
     let back: serde_json::Value = serde_json::from_str(&json.to_string()).unwrap();
     assert_eq!(back, json);
+}
+
+#[test]
+fn a_wrong_sign_is_refuted_with_the_exact_difference() {
+    let text = THREE_RPS.replacen(
+        "\"(sqrt(3)/2)*b - (sqrt(3)/2)*l2*cos(theta2)\"",
+        "\"(sqrt(3)/2)*b + (sqrt(3)/2)*l2*cos(theta2)\"",
+        1,
+    );
+    assert_ne!(text, THREE_RPS);
+    let (mechanism, report) = compared(&text);
+    let said = comparison::text(&mechanism, &report);
+    let expected = "S2, py: the form has √3/2 l₂ cos θ₂ where the chains give −√3/2 l₂ cos θ₂; difference √3 l₂ cos θ₂.";
+    assert!(said.contains(expected), "{said}");
+    let json = comparison::json(&mechanism, &report);
+    let json: serde_json::Value = serde_json::from_str(&json).unwrap();
+    let proof = &json["closed_forms"][3]["components"][1]["proof"];
+    assert_eq!(proof["outcome"], "different");
+    assert_eq!(proof["difference"], "sqrt(3)*l2*cos(theta2)");
+}
+
+#[test]
+fn what_roots_and_other_dimensions_hide_is_said() {
+    let file = |locals: &str, position: &str| {
+        format!(
+            r#"Mechanism(
+            version: 1, name: "arm", convention: Modified, parameters: {{ "a": 2, "b": 4 }},
+            joints: {{ "t": Actuated(home: 0.3), "u": Actuated(home: 0.5) }},
+            chains: {{ "arm": Chain(rows: [(theta: "t"), (a: "a", theta: "u")], tip: [Tx("b")]) }},
+            closed_forms: {{ "p": (of: "arm", where: {{ {locals} }}, position: {position}) }},
+        )"#
+        )
+    };
+    let outcome = |text: &str| {
+        let (mechanism, report) = compared(text);
+        assert!(report.agree, "{report:#?}");
+        let text = comparison::text(&mechanism, &report);
+        (report.closed_forms[0].components[0].proof.clone(), text)
+    };
+    let y = "\"a*sin(t) + b*sin(t + u)\", \"0\"";
+    // b = 2 a holds for the numbers of this file only
+    let (proof, text) = outcome(&file("", &format!("(\"a*cos(t) + 2*a*cos(t + u)\", {y})")));
+    assert_eq!(proof, Proof::IdenticalForTheseDimensions);
+    assert!(text.contains("for these dimensions"), "{text}");
+    // |cos| where the cosine is positive or not: neither proved nor refuted
+    let root = file(
+        "\"r\": \"sqrt((cos(t + u) + 2)^2) - 2\"",
+        &format!("(\"a*cos(t) + b*r\", {y})"),
+    );
+    let (proof, text) = outcome(&root);
+    let reason = Reason::NotPolynomial;
+    assert_eq!(proof, Proof::NotDecided { reason });
+    assert!(
+        text.contains("p, px: no proof, for roots or inverse functions stand in it"),
+        "{text}"
+    );
+    // inverse functions whose sines are known, and quotients
+    let inverse = file(
+        "\"w\": \"atan2(sin(t + u), cos(t + u))\"",
+        &format!("(\"a*cos(t) + b*cos(w)\", {y})"),
+    );
+    assert!(outcome(&inverse).0.proved());
+    let half = file(
+        "\"h\": \"tan((t + u)/2)\"",
+        &format!("(\"a*cos(t) + b*(1 - h^2)/(1 + h^2)\", {y})"),
+    );
+    assert_eq!(outcome(&half).0, Proof::Identical);
+}
+
+/// Every shipped file with its name.
+fn shipped() -> Vec<(String, Description)> {
+    let folder = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("mechanisms");
+    let mut paths: Vec<_> = std::fs::read_dir(folder)
+        .unwrap()
+        .map(|e| e.unwrap().path())
+        .collect();
+    paths.retain(|path| path.extension().is_some_and(|end| end == "ron"));
+    paths.sort();
+    let read = |path: std::path::PathBuf| {
+        let description = Description::read(&std::fs::read_to_string(&path).unwrap()).unwrap();
+        (
+            path.file_stem().unwrap().to_str().unwrap().to_owned(),
+            description,
+        )
+    };
+    paths.into_iter().map(read).collect()
+}
+
+const FEW: CompareSettings = CompareSettings {
+    samples: 2,
+    seed: 1,
+    tolerance: 1e-9,
+};
+
+/// Forms that hold on the closed loop only and need more than adding and squaring its equations.
+const NOT_PROVED: [(&str, &str); 7] = [
+    ("bennett", "relations"),
+    ("bricard_line", "symmetry"),
+    ("goldberg_5r", "relations"),
+    ("myard_5r", "symmetry"),
+    ("planar_3rpr", "sides"),
+    ("sarrus", "straight_line"),
+    ("schatz", "relations"),
+];
+
+#[test]
+fn closed_forms_of_the_shipped_files_are_proved() {
+    let mut missed = Vec::new();
+    let mut proved = 0;
+    for (name, description) in shipped() {
+        let mechanism = Mechanism::new(&description).unwrap();
+        for form in compare(&mechanism, &FEW).closed_forms {
+            let expected = !NOT_PROVED.contains(&(name.as_str(), form.name.as_str()));
+            let all = form
+                .components
+                .iter()
+                .all(|component| component.proof.proved());
+            proved += usize::from(all);
+            if all != expected {
+                missed.push(format!("{name} {}", form.name));
+            }
+        }
+    }
+    assert!(missed.is_empty(), "{missed:#?}");
+    assert!(proved > 80, "{proved}");
+}
+
+#[test]
+fn a_slip_in_any_entry_of_any_shipped_form_is_refuted_with_that_slip() {
+    let mut slips = 0;
+    for (name, description) in shipped() {
+        let Some(joint) = description
+            .joints
+            .first()
+            .map(|joint| joint.name.value.clone())
+        else {
+            continue;
+        };
+        let slip = Expression::parse(&format!("cos({joint})/3")).unwrap();
+        for k in 0..description.closed_forms.len() {
+            let mut wrong = description.clone();
+            let form = &mut wrong.closed_forms[k].value;
+            if form.of.is_none() {
+                continue;
+            }
+            let transform = form.transform.iter_mut().flatten().flatten();
+            let rotation = form.rotation.iter_mut().flatten().flatten();
+            let position = form.position.iter_mut().flatten();
+            let entries = form.entries.iter_mut().map(|(_, entry)| entry);
+            let mut count = 0;
+            for entry in transform.chain(rotation).chain(position).chain(entries) {
+                let (x, y) = (Box::new(entry.expression.clone()), Box::new(slip.clone()));
+                entry.expression = Node::Binary(Operator::Add, x, y).at(entry.span.clone());
+                count += 1;
+            }
+            wrong.closed_forms = vec![wrong.closed_forms.swap_remove(k)];
+            let mechanism = Mechanism::new(&wrong).unwrap();
+            let report = compare(&mechanism, &FEW);
+            let components = &report.closed_forms[0].components;
+            assert_eq!(components.len(), count);
+            for component in components {
+                let Proof::Different(difference) = &component.proof else {
+                    assert!(
+                        matches!(component.proof, Proof::NotDecided { .. }),
+                        "{name} {component:?}"
+                    );
+                    continue;
+                };
+                let difference = difference.difference.to_string();
+                assert_eq!(difference, format!("1/3*cos({joint})"), "{name}");
+                slips += 1;
+            }
+        }
+    }
+    assert!(slips > 400, "{slips}");
+}
+
+#[test]
+fn a_slip_in_a_loop_equation_is_shown_beside_the_closure_equation() {
+    const FOUR_BAR: &str = include_str!("../mechanisms/four_bar.ron");
+    let wrong = FOUR_BAR.replacen("- (l0 + l3*cos(phi1))", "- (l0 - l3*cos(phi1))", 1);
+    assert_ne!(wrong, FOUR_BAR);
+    let (mechanism, report) = compared(&wrong);
+    let text = comparison::text(&mechanism, &report);
+    assert!(
+        text.contains(
+            "the form has l₃ cos φ₁ where a closure has −l₃ cos φ₁; difference 2 l₃ cos φ₁."
+        ),
+        "{text}"
+    );
 }
 
 #[test]

@@ -45,8 +45,8 @@ impl<N> Expression<N> {
     pub fn evaluate<T: Number>(&self, value_of: &impl Fn(&N) -> T) -> Result<T, EvaluationError> {
         let value = match &self.node {
             Node::Number(value) => T::from_f64(*value),
-            Node::Quantity(value, unit) => T::from_f64(unit.to_si(*value)),
-            Node::Constant(constant) => T::from_f64(constant.value()),
+            Node::Quantity(value, unit) => unit.over(*value),
+            Node::Constant(constant) => constant.over(),
             Node::Name(name) => value_of(name),
             Node::Negate(x) => -x.evaluate(value_of)?,
             Node::Binary(operator, x, y) => {
@@ -119,20 +119,8 @@ fn call<T: Number>(function: Function, x: T, y: T) -> T {
         Function::Ln => x.ln(),
         Function::Abs => x.abs(),
         Function::Hypot => (x * x + y * y).sqrt(),
-        Function::Min => {
-            if y.real() < x.real() {
-                y
-            } else {
-                x
-            }
-        }
-        Function::Max => {
-            if y.real() > x.real() {
-                y
-            } else {
-                x
-            }
-        }
+        Function::Min => x.lesser(y),
+        Function::Max => x.greater(y),
     }
 }
 

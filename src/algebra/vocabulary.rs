@@ -1,6 +1,6 @@
 //! The words an expression understands by itself.
 
-use std::f64::consts::PI;
+use crate::number::Number;
 
 /// A constant that has a name.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
@@ -33,12 +33,12 @@ impl Constant {
             .find(|constant| constant.word() == word)
     }
 
-    /// Its value.
-    pub fn value(self) -> f64 {
+    /// Its value over any number.
+    pub fn over<T: Number>(self) -> T {
         match self {
-            Self::Pi => PI,
-            Self::Degree => PI / 180.0,
-            Self::Radian => 1.0,
+            Self::Pi => T::pi(),
+            Self::Degree => T::degrees(1.0),
+            Self::Radian => T::one(),
         }
     }
 }
@@ -88,6 +88,14 @@ impl Unit {
         Self::ALL.into_iter().find(|unit| unit.word() == word)
     }
 
+    /// `value` of this unit in radians or metres, over any number.
+    pub fn over<T: Number>(self, value: f64) -> T {
+        match self {
+            Self::Degree => T::degrees(value),
+            _ => T::from_f64(self.to_si(value)),
+        }
+    }
+
     /// `value` of this unit in radians or metres.
     pub fn to_si(self, value: f64) -> f64 {
         // Division by a power of ten rounds once; multiplication by its inexact reciprocal would round twice.
@@ -102,7 +110,7 @@ impl Unit {
 }
 
 /// A function that an expression may call. Angles are in radians.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
 #[allow(missing_docs)]
 pub enum Function {
     Sin,

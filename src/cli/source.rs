@@ -167,6 +167,11 @@ impl Source {
 }
 
 impl Loaded {
+    /// What stands in the file at these bytes.
+    pub fn excerpt(&self, span: &std::ops::Range<usize>) -> &str {
+        self.text.get(span.clone()).unwrap_or_default()
+    }
+
     /// The warnings about the file; empty if there are none.
     pub fn warnings(&self) -> String {
         let problems = self.mechanism.warnings().to_vec();

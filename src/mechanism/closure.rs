@@ -159,6 +159,42 @@ impl<T: Number> Closure<T> {
         }
     }
 
+    /// What vanishes where the joint is whole, without the denominators and factors that make residuals well scaled:
+    /// of a residual n/d the numerator n. The flipped joint, at which d vanishes, is not excluded by it.
+    pub(crate) fn conditions(&self, placement: &Placement<T>, joints: &[T]) -> Vec<T> {
+        let [a, b] = self.frames(placement);
+        let gap = b.position - a.position;
+        let point = || gap.0.to_vec();
+        let offsets = |axes: &[Vector3<T>]| axes.iter().map(|axis| axis.dot(&gap)).collect();
+        let (mut conditions, more): (Vec<T>, Vec<T>) = match self.kind {
+            ClosureKind::Spherical => (point(), vec![]),
+            ClosureKind::Revolute => (point(), misalignment(a, b).0.to_vec()),
+            ClosureKind::Universal => {
+                let (az, bz) = (a.rotation.0[2], b.rotation.0[2]);
+                (point(), vec![az.dot(&bz)])
+            }
+            ClosureKind::Rigid => (point(), disorientation(a, b).0.to_vec()),
+            ClosureKind::Prismatic => {
+                let turned = disorientation(a, b).0.to_vec();
+                (turned, offsets(&a.rotation.0[..2]))
+            }
+            ClosureKind::Cylindrical => {
+                let turned = misalignment(a, b).0.to_vec();
+                (turned, offsets(&a.rotation.0[..2]))
+            }
+            ClosureKind::Planar => {
+                let turned = misalignment(a, b).0.to_vec();
+                (turned, offsets(&a.rotation.0[2..]))
+            }
+            ClosureKind::Distance => {
+                let length = self.length + self.extension.at(joints);
+                (vec![gap.dot(&gap) - length * length], vec![])
+            }
+        };
+        conditions.extend(more);
+        conditions
+    }
+
     /// Residuals and wrenches.
     #[inline(always)]
     pub(crate) fn rows(&self, placement: &Placement<T>, at: &Configuration<T>) -> Rows<T> {
@@ -196,6 +232,24 @@ impl<T: Number> Closure<T> {
         rows
     }
 }
+
+/// a_x·b_z, a_y·b_z and 1 + a_z·b_z: sine and one plus cosine of the angle between the axes.
+#[inline(always)]
+fn misalignment<T: Number>(a: &Pose<T>, b: &Pose<T>) -> ([T; 2], T) {
+    let ([ax, ay, az], bz) = (a.rotation.0, b.rotation.0[2]);
+    ([ax.dot(&bz), ay.dot(&bz)], T::one() + az.dot(&bz))
+}
+
+/// s = vee(Rᵀ_A R_B − ·ᵀ) and t = 1 + tr(Rᵀ_A R_B): 2 n sin θ and 2 + 2 cos θ.
+#[inline(always)]
+fn disorientation<T: Number>(a: &Pose<T>, b: &Pose<T>) -> ([T; 3], T) {
+    let (a, b) = (&a.rotation.0, &b.rotation.0);
+    let trace = a[0].dot(&b[0]) + a[1].dot(&b[1]) + a[2].dot(&b[2]);
+    let s = CYCLIC.map(|(i, j)| a[j].dot(&b[i]) - a[i].dot(&b[j]));
+    (s, T::one() + trace)
+}
+
+const CYCLIC: [(usize, usize); 3] = [(1, 2), (2, 0), (0, 1)];
 
 impl<T: Number> Rows<T> {
     #[inline(always)]
@@ -242,10 +296,11 @@ impl<T: Number> Rows<T> {
     #[inline(always)]
     fn alignment(&mut self, a: &Pose<T>, b: &Pose<T>) {
         let ([ax, ay, az], bz) = (a.rotation.0, b.rotation.0[2]);
-        let inverse = T::one() / (T::one() + az.dot(&bz));
+        let (sines, bottom) = misalignment(a, b);
+        let inverse = T::one() / bottom;
         let slope = bz.cross(&az);
-        for axis in [ax, ay] {
-            let u = axis.dot(&bz).scale(2.0) * inverse;
+        for (axis, sine) in [ax, ay].into_iter().zip(sines) {
+            let u = sine.scale(2.0) * inverse;
             let twice = bz.cross(&axis).times(T::from_f64(2.0));
             self.moment(u, (twice - slope.times(u)).times(inverse));
         }
@@ -253,12 +308,11 @@ impl<T: Number> Rows<T> {
 
     #[inline(always)]
     fn orientation(&mut self, a: &Pose<T>, b: &Pose<T>) {
+        let (sines, bottom) = disorientation(a, b);
+        let inverse = T::one() / bottom;
         let (a, b) = (&a.rotation.0, &b.rotation.0);
-        let trace = a[0].dot(&b[0]) + a[1].dot(&b[1]) + a[2].dot(&b[2]);
-        let inverse = T::one() / (T::one() + trace);
         let slope = b[0].cross(&a[0]) + b[1].cross(&a[1]) + b[2].cross(&a[2]);
-        for (i, j) in [(1, 2), (2, 0), (0, 1)] {
-            let s = a[j].dot(&b[i]) - a[i].dot(&b[j]);
+        for ((i, j), s) in CYCLIC.into_iter().zip(sines) {
             let w = s.scale(2.0) * inverse;
             let twice = (b[i].cross(&a[j]) - b[j].cross(&a[i])).times(T::from_f64(2.0));
             self.moment(w, (twice - slope.times(w)).times(inverse));

@@ -140,6 +140,35 @@ impl<T> Dimensions<T> {
         }
     }
 
+    /// The same dimensions with a link or tip frame taken for the ground. Only frames that stand on it are then where
+    /// they were, seen from it.
+    pub(super) fn standing_on(&self, frame: Frame) -> Dimensions<T>
+    where
+        T: Number,
+    {
+        let mut seen = self.clone();
+        let (chain, fixed) = match frame {
+            Frame::Link { chain, row } => (chain, row),
+            Frame::Tip { chain } => (chain, self.chains[chain].rows.len()),
+            _ => return seen,
+        };
+        let part = &mut seen.chains[chain];
+        part.on = Frame::Ground;
+        part.base = Pose::identity();
+        for row in &mut part.rows[..fixed] {
+            *row = RowDimensions {
+                before: Pose::identity(),
+                turn: LinearForm(vec![]),
+                slide: LinearForm(vec![]),
+                after: Pose::identity(),
+            };
+        }
+        if let Frame::Tip { .. } = frame {
+            part.tip = Pose::identity();
+        }
+        seen
+    }
+
     /// The dimensions of a mechanism that has nothing.
     pub(super) fn empty() -> Self {
         Dimensions {

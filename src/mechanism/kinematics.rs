@@ -214,10 +214,26 @@ impl<T: Number> Kinematics<T> {
     /// Multiplies the chains out at a configuration. Nothing allocates.
     #[inline]
     pub fn place(&self, at: &Configuration<T>, placement: &mut Placement<T>) {
-        let poses = placement.0.as_mut_slice();
-        for (slot, platform) in poses[1..].iter_mut().zip(&at.platforms) {
+        for (slot, platform) in placement.0[1..].iter_mut().zip(&at.platforms) {
             *slot = platform.pose();
         }
+        self.place_chains(&at.joints, placement);
+    }
+
+    /// The same, with platforms of given poses.
+    pub(crate) fn place_on(
+        &self,
+        platforms: &[Pose<T>],
+        joints: &[T],
+        placement: &mut Placement<T>,
+    ) {
+        placement.0[1..=platforms.len()].copy_from_slice(platforms);
+        self.place_chains(joints, placement);
+    }
+
+    #[inline(always)]
+    fn place_chains(&self, joints: &[T], placement: &mut Placement<T>) {
+        let poses = placement.0.as_mut_slice();
         for (i, step) in self.steps.iter().enumerate() {
             if step.still {
                 continue;
@@ -244,11 +260,11 @@ impl<T: Number> Kinematics<T> {
                 }
             }
             if !step.slide.0.is_empty() {
-                pose.position += pose.rotation.0[2].times(step.slide.at(&at.joints));
+                pose.position += pose.rotation.0[2].times(step.slide.at(joints));
             }
             // a turn leaves origin and axis where they are
             if !step.turn.0.is_empty() && step.need == Need::Pose {
-                let sin_cos = step.turn.at(&at.joints).sin_cos();
+                let sin_cos = step.turn.at(joints).sin_cos();
                 pose.rotation = pose.rotation.turned_about_z(sin_cos);
             }
         }

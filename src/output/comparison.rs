@@ -2,10 +2,12 @@
 
 use comfy_table::{CellAlignment, Table, presets};
 
+use super::formulas::{Notation, Script};
 use super::json::document;
 use super::quantity::{number, size};
 use crate::analysis::compare::{
-    CompareReport, ComponentReport, FormReport, Quantity, Verdict, WorstSample,
+    CompareReport, ComponentReport, Difference, FormReport, Proof, Quantity, Reason, Verdict,
+    WorstSample,
 };
 use crate::description::count;
 use crate::mechanism::Mechanism;
@@ -21,7 +23,9 @@ pub fn text(mechanism: &Mechanism, report: &CompareReport) -> String {
         table(report)
     );
     text += &units(report);
+    let notation = Notation::new(mechanism, Script::Unicode);
     for form in &report.closed_forms {
+        text += &exact(&notation, form);
         for component in &form.components {
             text += &remark(mechanism, form, component);
         }
@@ -35,7 +39,21 @@ pub fn text(mechanism: &Mechanism, report: &CompareReport) -> String {
     if !report.home_assembles {
         text += "\nThe mechanism does not assemble from its home configuration.\n";
     }
-    text + &format!("\n{}\n", sentence(report))
+    text + &format!("\n{}\n", sentence(report) + &proved(report))
+}
+
+/// How many forms are proved, if any.
+fn proved(report: &CompareReport) -> String {
+    let forms = &report.closed_forms;
+    let all = forms.len();
+    let proved = |form: &&FormReport| form.components.iter().all(|c| c.proof.proved());
+    match (forms.iter().filter(proved).count(), all) {
+        (0, _) => String::new(),
+        (1, 1) => " It is proved.".into(),
+        (n, all) if n == all => " All are proved.".into(),
+        (1, _) => " 1 is proved.".into(),
+        (n, _) => format!(" {n} are proved."),
+    }
 }
 
 fn table(report: &CompareReport) -> String {
@@ -47,6 +65,7 @@ fn table(report: &CompareReport) -> String {
         "samples",
         "largest difference",
         "verdict",
+        "proof",
         "source",
     ]);
     for form in &report.closed_forms {
@@ -56,6 +75,7 @@ fn table(report: &CompareReport) -> String {
             form.samples.to_string(),
             largest(form),
             verdict(form.verdict).to_owned(),
+            proof(form).to_owned(),
             form.source.clone().unwrap_or_default(),
         ]);
     }
@@ -121,6 +141,85 @@ fn verdict(verdict: Verdict) -> &'static str {
         Verdict::Agrees => "agrees",
         Verdict::Disagrees => "disagrees",
         Verdict::NotTried => "not tried",
+    }
+}
+
+/// What was proved of a form as a whole: the least that was proved of its components.
+fn proof(form: &FormReport) -> &'static str {
+    let proofs = || form.components.iter().map(|component| &component.proof);
+    if proofs().any(|proof| matches!(proof, Proof::Different(_))) {
+        return "refuted";
+    }
+    match proofs().filter(|proof| proof.proved()).count() {
+        0 => "none",
+        n if n < form.components.len() => "in part",
+        _ if proofs().any(|proof| *proof == Proof::IdenticalForTheseDimensions) => {
+            "for these dimensions"
+        }
+        _ if proofs().any(|proof| *proof == Proof::FollowsFromClosures) => "from closures",
+        _ => "identical",
+    }
+}
+
+/// The exact difference of every component that has one, and why others are not decided.
+fn exact(notation: &Notation, form: &FormReport) -> String {
+    let mut text = String::new();
+    let mut undecided: Vec<(Reason, Vec<&str>)> = Vec::new();
+    for component in &form.components {
+        match &component.proof {
+            Proof::Different(difference) => {
+                let Difference {
+                    closed_form,
+                    chains,
+                    difference,
+                } = &**difference;
+                let print = |expression| notation.print(expression);
+                let (own, theirs) = (print(closed_form), print(chains));
+                let place = format!("{}, {}", form.name, component.name);
+                let given = match component.quantity {
+                    Quantity::Identity => "a closure has",
+                    _ => "the chains give",
+                };
+                text += &match (closed_form.is_zero(), chains.is_zero()) {
+                    (false, true) => {
+                        format!("\n{place}: the form has {own}, which is not in the chains")
+                    }
+                    (true, false) => format!("\n{place}: the form lacks {theirs}"),
+                    _ => format!("\n{place}: the form has {own} where {given} {theirs}"),
+                };
+                text += &format!("; difference {}.\n", print(difference));
+                if component.agree {
+                    text += "  The difference is below the tolerance of the numbers.\n";
+                }
+            }
+            Proof::NotDecided { reason } => {
+                match undecided.iter_mut().find(|(own, _)| own == reason) {
+                    Some((_, names)) => names.push(&component.name),
+                    None => undecided.push((*reason, vec![&component.name])),
+                }
+            }
+            _ => {}
+        }
+    }
+    for (reason, names) in undecided {
+        text += &format!(
+            "\n{}, {}: no proof, for {}; the numbers stand alone.\n",
+            form.name,
+            names.join(", "),
+            why(reason)
+        );
+    }
+    text
+}
+
+fn why(reason: Reason) -> &'static str {
+    match reason {
+        Reason::NotPolynomial => "roots or inverse functions stand in it",
+        Reason::NeedsElimination => {
+            "it holds only when assembled and is no sum of multiples of the closure equations"
+        }
+        Reason::NeedsPlatform => "it depends on where a platform stands when assembled",
+        Reason::TooLong => "it is too long to be multiplied out",
     }
 }
 

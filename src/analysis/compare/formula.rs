@@ -1,28 +1,53 @@
 //! The values of a closed form's formulas.
 
+use std::borrow::Cow;
+
 use crate::algebra::{EvaluationError, Node, Operator};
 use crate::mechanism::{ClosedForm, Formula, Mechanism, Symbol};
 use crate::number::{Dual, Number};
 
 /// What the names in a closed form stand for at some joint values.
-pub(super) struct Values<'a, T> {
-    mechanism: &'a Mechanism,
-    joints: &'a [T],
+pub(super) struct Values<'a, T: Number> {
+    parameters: Vec<T>,
+    joints: Cow<'a, [T]>,
     locals: Vec<Result<T, EvaluationError>>,
 }
 
 impl<'a, T: Number> Values<'a, T> {
-    pub fn new(mechanism: &'a Mechanism, form: &ClosedForm, joints: &'a [T]) -> Self {
-        let mut values = Values {
-            mechanism,
-            joints,
+    pub fn new(mechanism: &Mechanism, form: &ClosedForm, joints: &'a [T]) -> Self {
+        let parameters = mechanism.parameters().iter();
+        let values = Values {
+            parameters: parameters.map(|p| T::from_f64(p.value)).collect(),
+            joints: Cow::Borrowed(joints),
             locals: Vec::with_capacity(form.locals.len()),
         };
-        for (_, formula) in &form.locals {
-            let value = values.of(formula);
-            values.locals.push(value);
+        values.with_locals(form, &[])
+    }
+
+    /// For given values of parameters and joints, and of some local names.
+    pub fn over(
+        form: &ClosedForm,
+        parameters: Vec<T>,
+        joints: Vec<T>,
+        replaced: &[Option<T>],
+    ) -> Self {
+        let values = Values {
+            parameters,
+            joints: Cow::Owned(joints),
+            locals: Vec::with_capacity(form.locals.len()),
+        };
+        values.with_locals(form, replaced)
+    }
+
+    fn with_locals(mut self, form: &ClosedForm, replaced: &[Option<T>]) -> Self {
+        for (i, (_, formula)) in form.locals.iter().enumerate() {
+            let value = match replaced.get(i) {
+                Some(Some(value)) => Ok(*value),
+                _ => self.of(formula),
+            };
+            self.locals.push(value);
         }
-        values
+        self
     }
 
     /// The value of a formula. A local name without a value is to blame only where it is used.
@@ -33,7 +58,7 @@ impl<'a, T: Number> Values<'a, T> {
             }
         }
         formula.evaluate(&|symbol| match *symbol {
-            Symbol::Parameter(i) => T::from_f64(self.mechanism.parameters()[i].value),
+            Symbol::Parameter(i) => self.parameters[i],
             Symbol::Joint(i) => self.joints[i],
             Symbol::Local(i) => (self.locals[i].clone()).unwrap_or(T::from_f64(f64::NAN)),
         })

@@ -1,0 +1,590 @@
+//! Normal form → the expression a textbook would print.
+//!
+//! The normal form is a sum over waves. An angle that always occurs together with another one of the same sign, as
+//! θ₂ with θ₃ when their axes are parallel, is merged with it; products of the remaining angles are multiplied out again:
+//! cos(θ₁ + θ₂ + θ₃)/2 + cos(θ₁ − θ₂ − θ₃)/2 is printed c₁ c₂₃. The sum over waves is printed instead where it
+//! is shorter. What several terms have in common is taken out, letters first.
+
+use std::collections::BTreeMap;
+
+use num_bigint::BigInt;
+use num_rational::{BigRational, Ratio};
+use num_traits::{One, Signed, ToPrimitive, Zero};
+
+use super::trigonometric::{Atom, Key, Powers, Trigonometric, Wave};
+use super::{Constant, Expression, Function, Node, Operator, Unit};
+
+/// Products that are multiplied out at most; beyond, the sum over waves is printed as it is.
+const MOST_PRODUCTS: usize = 20_000;
+
+/// Sums of formulas as expressions, and whether none of them was too long to be simplified.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Arranged {
+    /// One for each formula.
+    pub expressions: Vec<Expression>,
+    /// Whether product forms were tried for all of them.
+    pub complete: bool,
+}
+
+/// Expressions for formulas that are printed together, as the entries of one matrix. `name` names the symbols.
+pub fn arrange(formulas: &[&Trigonometric], name: &dyn Fn(u32) -> String) -> Arranged {
+    let blocks = blocks(formulas);
+    let mut complete = true;
+    let expressions = formulas.iter().map(|formula| {
+        let sum = nested(products(formula, &|_| 0), name);
+        let longest = 1 << blocks.values().max().map_or(0, |last| last + 1).min(16);
+        if formula.len().saturating_mul(longest) > MOST_PRODUCTS {
+            complete = false;
+            return sum;
+        }
+        let block = |angle: &Powers| blocks.get(angle).copied().unwrap_or(0);
+        let product = nested(products(formula, &block), name);
+        let length = |expression: &Expression| expression.to_string().chars().count();
+        match length(&sum) < length(&product) {
+            true => sum,
+            false => product,
+        }
+    });
+    let expressions = expressions.collect();
+    Arranged {
+        expressions,
+        complete,
+    }
+}
+
+/// Angles of the same number are merged: some wave has both, and no two waves have them with different relative signs.
+fn blocks(formulas: &[&Trigonometric]) -> BTreeMap<Powers, usize> {
+    let waves = || {
+        formulas
+            .iter()
+            .flat_map(|f| f.terms())
+            .map(|(key, _)| &key.wave)
+    };
+    let mut signs: BTreeMap<(&Powers, &Powers), (bool, bool)> = BTreeMap::new();
+    let mut angles: BTreeMap<&Powers, usize> = BTreeMap::new();
+    for wave in waves() {
+        for (i, (a, k)) in wave.0.iter().enumerate() {
+            angles.insert(a, 0);
+            for (b, l) in &wave.0[i + 1..] {
+                let seen = signs.entry((a, b)).or_default();
+                match k.is_positive() == l.is_positive() {
+                    true => seen.0 = true,
+                    false => seen.1 = true,
+                }
+            }
+        }
+    }
+    let seen = |a: &Powers, b: &Powers| {
+        let mut both = [(a, b), (b, a)].into_iter();
+        both.find_map(|pair| signs.get(&pair).copied())
+            .unwrap_or_default()
+    };
+    let mut merged: Vec<Vec<&Powers>> = Vec::new();
+    let mut found = BTreeMap::new();
+    for &angle in angles.keys() {
+        let fits = |block: &Vec<&Powers>| {
+            let mut pairs = block.iter().map(|other| seen(angle, *other));
+            let together = block
+                .iter()
+                .any(|other| seen(angle, *other) != (false, false));
+            together && pairs.all(|pair| pair != (true, true))
+        };
+        let place = merged.iter().position(fits).unwrap_or_else(|| {
+            merged.push(Vec::new());
+            merged.len() - 1
+        });
+        merged[place].push(angle);
+        found.insert(angle.clone(), place);
+    }
+    found
+}
+
+/// A sine or cosine.
+#[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
+struct Circular {
+    angle: Wave,
+    sine: bool,
+}
+
+/// A product of letters, sines and cosines.
+#[derive(Clone, Debug, PartialEq)]
+struct Product {
+    coefficient: BigRational,
+    root: u64,
+    powers: Powers,
+    circular: Vec<Circular>,
+}
+
+/// The factors e^iw = cos w + i sin w of a wave, one for each block.
+fn factors(wave: &Wave, block: &dyn Fn(&Powers) -> usize) -> Vec<(Wave, i32)> {
+    let mut parts: BTreeMap<usize, Wave> = BTreeMap::new();
+    for (angle, k) in &wave.0 {
+        let part = parts.entry(block(angle)).or_default();
+        part.0.push((angle.clone(), *k));
+    }
+    let mut parts: Vec<Wave> = parts.into_values().collect();
+    parts.sort();
+    let signed = parts.into_iter().map(|part| {
+        // the sign of the first letter; of π only if there is no other
+        let lead = part.0.iter().find(|(angle, _)| *angle != [(Atom::Pi, 1)]);
+        let negative = lead
+            .or(part.0.first())
+            .is_some_and(|(_, k)| k.is_negative());
+        match negative {
+            true => (part.times(-1), -1),
+            false => (part, 1),
+        }
+    });
+    signed.collect()
+}
+
+fn products(formula: &Trigonometric, block: &dyn Fn(&Powers) -> usize) -> Vec<Product> {
+    type Place = (Powers, u64, Vec<Circular>, bool);
+    let mut sums: BTreeMap<Place, BigRational> = BTreeMap::new();
+    for (key, coefficient) in formula.terms() {
+        let Key {
+            wave,
+            powers,
+            root,
+            imaginary,
+        } = key;
+        // (sines and cosines, power of i, sign)
+        let mut expanded: Vec<(Vec<Circular>, u32, i32)> = vec![(vec![], u32::from(*imaginary), 1)];
+        for (angle, sign) in factors(wave, block) {
+            let mut longer = Vec::with_capacity(2 * expanded.len());
+            for (circular, turns, s) in expanded {
+                for sine in [false, true] {
+                    let mut circular = circular.clone();
+                    circular.push(Circular {
+                        angle: angle.clone(),
+                        sine,
+                    });
+                    let sign = if sine { s * sign } else { s };
+                    longer.push((circular, turns + u32::from(sine), sign));
+                }
+            }
+            expanded = longer;
+        }
+        for (circular, turns, sign) in expanded {
+            let sign = if turns % 4 >= 2 { -sign } else { sign };
+            let place = (powers.clone(), *root, circular, turns % 2 == 1);
+            let sum = sums.entry(place).or_insert_with(BigRational::zero);
+            *sum += coefficient * BigInt::from(sign);
+        }
+    }
+    // a formula is real: its imaginary parts cancel
+    let real = sums
+        .into_iter()
+        .filter(|((.., imaginary), sum)| !imaginary && !sum.is_zero());
+    let products = real.map(|((powers, root, circular, _), coefficient)| Product {
+        coefficient,
+        root,
+        powers,
+        circular,
+    });
+    products.collect()
+}
+
+/// A factor that several products may have.
+#[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
+enum Factor {
+    Letter(Atom, i32),
+    Circular(Circular),
+}
+
+impl Product {
+    /// Where it stands in a sum: letters alone first, then long products before short ones.
+    fn rank(&self) -> impl Ord + use<> {
+        let length = self.circular.len();
+        (
+            length != 0,
+            std::cmp::Reverse(length),
+            self.circular.clone(),
+            self.powers.clone(),
+            self.root,
+        )
+    }
+
+    fn factors(&self) -> impl Iterator<Item = Factor> {
+        let letters = self.powers.iter().filter(|(_, power)| *power > 0);
+        let letters = letters.map(|(atom, power)| Factor::Letter(atom.clone(), *power));
+        letters.chain(self.circular.iter().cloned().map(Factor::Circular))
+    }
+
+    fn has(&self, factor: &Factor) -> bool {
+        self.factors().any(|own| own == *factor)
+    }
+
+    fn without(&self, factor: &Factor) -> Product {
+        let mut rest = self.clone();
+        match factor {
+            Factor::Letter(atom, _) => rest.powers.retain(|(own, _)| own != atom),
+            Factor::Circular(circular) => rest.circular.retain(|own| own != circular),
+        }
+        rest
+    }
+}
+
+type Name<'a> = &'a dyn Fn(u32) -> String;
+
+/// A signed summand.
+struct Summand {
+    negative: bool,
+    expression: Expression,
+}
+
+fn nested(products: Vec<Product>, name: Name) -> Expression {
+    sum(summands(products, name))
+}
+
+fn sum(summands: Vec<Summand>) -> Expression {
+    let mut summands = summands.into_iter();
+    let Some(first) = summands.next() else {
+        return Expression::number(0.0);
+    };
+    let mut sum = first.expression;
+    if first.negative {
+        sum = negated(sum);
+    }
+    for Summand {
+        negative,
+        expression,
+    } in summands
+    {
+        let operator = if negative {
+            Operator::Subtract
+        } else {
+            Operator::Add
+        };
+        sum = binary(operator, sum, expression);
+    }
+    sum
+}
+
+/// −(a·b) reads (−a)·b, as it is written.
+fn negated(expression: Expression) -> Expression {
+    match expression.node {
+        Node::Binary(operator @ (Operator::Multiply | Operator::Divide), x, y) => {
+            binary(operator, negated(*x), *y)
+        }
+        node => Node::Negate(Box::new(node.at(0..0))).at(0..0),
+    }
+}
+
+fn binary(operator: Operator, x: Expression, y: Expression) -> Expression {
+    Node::Binary(operator, Box::new(x), Box::new(y)).at(0..0)
+}
+
+fn summands(mut products: Vec<Product>, name: Name) -> Vec<Summand> {
+    products.sort_by_key(Product::rank);
+    let mut counts: BTreeMap<Factor, usize> = BTreeMap::new();
+    for product in &products {
+        product
+            .factors()
+            .for_each(|factor| *counts.entry(factor).or_default() += 1);
+    }
+    // the first of those that occur most
+    let best =
+        counts.iter().fold(
+            None,
+            |best: Option<(&Factor, usize)>, (factor, &count)| match best {
+                Some((_, most)) if most >= count => best,
+                _ => Some((factor, count)),
+            },
+        );
+    let common = best.filter(|(_, count)| *count > 1 && products.len() > 1);
+    let Some((factor, _)) = common else {
+        let single = |product: Product| written(&product, None, name);
+        return products.into_iter().map(single).collect();
+    };
+    let first = products[0].has(factor);
+    let (with, without): (Vec<Product>, Vec<Product>) = products
+        .iter()
+        .cloned()
+        .partition(|product| product.has(factor));
+    let inside: Vec<Product> = with.iter().map(|product| product.without(factor)).collect();
+    let mut taken = vec![taken_out(factor, inside, name)];
+    let rest = match without.is_empty() {
+        true => vec![],
+        false => summands(without, name),
+    };
+    match first {
+        true => {
+            taken.extend(rest);
+            taken
+        }
+        false => rest.into_iter().chain(taken).collect(),
+    }
+}
+
+/// factor·(…)
+fn taken_out(factor: &Factor, mut inside: Vec<Product>, name: Name) -> Summand {
+    inside.sort_by_key(Product::rank);
+    // −s₁(c₂ − c₃) rather than s₁(−c₂ + c₃)
+    let negative = inside[0].coefficient.is_negative();
+    if negative {
+        inside
+            .iter_mut()
+            .for_each(|p| p.coefficient = -p.coefficient.clone());
+    }
+    let mut outside = Product {
+        coefficient: BigRational::one(),
+        root: 1,
+        powers: vec![],
+        circular: vec![],
+    };
+    // what all have in common goes out with it
+    let mut common = vec![factor.clone()];
+    loop {
+        let shared = inside[0]
+            .factors()
+            .find(|f| inside.iter().all(|p| p.has(f)));
+        let Some(shared) = shared else {
+            break;
+        };
+        inside = inside
+            .iter()
+            .map(|product| product.without(&shared))
+            .collect();
+        common.push(shared);
+    }
+    for factor in common {
+        match factor {
+            Factor::Letter(atom, power) => outside.powers.push((atom, power)),
+            Factor::Circular(circular) => outside.circular.push(circular),
+        }
+    }
+    outside.powers.sort();
+    outside.circular.sort();
+    let inside = nested(inside, name);
+    let Summand { expression, .. } = written(&outside, Some(inside), name);
+    Summand {
+        negative,
+        expression,
+    }
+}
+
+/// A product, times a sum if there is one.
+fn written(product: &Product, sum: Option<Expression>, name: Name) -> Summand {
+    let mut top: Vec<Expression> = Vec::new();
+    let mut bottom: Vec<Expression> = Vec::new();
+    for (atom, power) in &product.powers {
+        let (base, power) = letter(atom, *power, name);
+        let raised = match power.unsigned_abs() {
+            1 => base,
+            n => binary(Operator::Power, base, Expression::number(f64::from(n))),
+        };
+        if power > 0 { &mut top } else { &mut bottom }.push(raised);
+    }
+    for Circular { angle, sine } in &product.circular {
+        let function = if *sine { Function::Sin } else { Function::Cos };
+        top.push(Node::Call(function, vec![angle_of(angle, name)]).at(0..0));
+    }
+    top.extend(sum);
+    let magnitude = product.coefficient.abs();
+    if !magnitude.is_one() || product.root != 1 || top.is_empty() {
+        top.insert(0, constant(&magnitude, product.root));
+    }
+    let times = |factors: Vec<Expression>| {
+        let factors = factors.into_iter();
+        factors.reduce(|x, y| binary(Operator::Multiply, x, y))
+    };
+    let top = times(top).unwrap_or_else(|| Expression::number(1.0));
+    let expression = match times(bottom) {
+        Some(bottom) => binary(Operator::Divide, top, bottom),
+        None => top,
+    };
+    Summand {
+        negative: product.coefficient.is_negative(),
+        expression,
+    }
+}
+
+fn letter(atom: &Atom, power: i32, name: Name) -> (Expression, i32) {
+    let inner = |sum: &Trigonometric| arrange(&[sum], name).expressions.remove(0);
+    match atom {
+        Atom::Pi => (Node::Constant(Constant::Pi).at(0..0), power),
+        Atom::Symbol(symbol) => (Expression::name(name(*symbol)), power),
+        Atom::Inverse(sum) => (inner(sum), -power),
+        Atom::Root(sum) => (Node::Call(Function::Sqrt, vec![inner(sum)]).at(0..0), power),
+        Atom::Call(function, arguments) => {
+            let arguments = arguments.iter().map(inner).collect();
+            (Node::Call(*function, arguments).at(0..0), power)
+        }
+    }
+}
+
+/// Denominators up to this are printed as fractions, larger ones as decimals where these end.
+const LARGEST_DENOMINATOR: i64 = 64;
+
+/// q √s for q > 0.
+fn constant(q: &BigRational, root: u64) -> Expression {
+    let number = |x: &BigInt| Expression::number(x.to_f64().unwrap_or(f64::INFINITY));
+    if q.is_zero() {
+        return Expression::number(0.0);
+    }
+    let root = (root != 1).then(|| {
+        let inside = Expression::number(root as f64);
+        Node::Call(Function::Sqrt, vec![inside]).at(0..0)
+    });
+    let decimal = q
+        .to_f64()
+        .filter(|&x| super::trigonometric::is_decimal(q, x));
+    if let Some(decimal) = decimal
+        && !q.is_integer()
+        && *q.denom() > BigInt::from(LARGEST_DENOMINATOR)
+    {
+        let decimal = Expression::number(decimal);
+        return match root {
+            Some(root) => binary(Operator::Multiply, decimal, root),
+            None => decimal,
+        };
+    }
+    let top = match (root, q.numer().is_one()) {
+        (Some(root), true) => root,
+        (Some(root), false) => binary(Operator::Multiply, number(q.numer()), root),
+        (None, _) => number(q.numer()),
+    };
+    match q.is_integer() {
+        true => top,
+        false => binary(Operator::Divide, top, number(q.denom())),
+    }
+}
+
+/// Σ k m, the letters before the constant.
+fn angle_of(angle: &Wave, name: Name) -> Expression {
+    let mut terms: Vec<Summand> = Vec::new();
+    let is_constant = |powers: &Powers| powers.is_empty() || *powers == [(Atom::Pi, 1)];
+    let (constants, letters): (Vec<_>, Vec<_>) =
+        angle.0.iter().partition(|(powers, _)| is_constant(powers));
+    for (powers, k) in letters {
+        let product = Product {
+            coefficient: big(*k),
+            root: 1,
+            powers: powers.clone(),
+            circular: vec![],
+        };
+        terms.push(written(&product, None, name));
+    }
+    for (powers, k) in constants {
+        let size = k.abs();
+        let expression = match powers.is_empty() {
+            true => constant(&big(size), 1),
+            false => degrees(size),
+        };
+        terms.push(Summand {
+            negative: k.is_negative(),
+            expression,
+        });
+    }
+    sum(terms)
+}
+
+/// kπ as a number of degrees, or as a multiple of π if it has no end.
+fn degrees(k: Ratio<i64>) -> Expression {
+    let degrees = big(k) * BigInt::from(180);
+    match degrees
+        .to_f64()
+        .filter(|&x| super::trigonometric::is_decimal(&degrees, x))
+    {
+        Some(value) => Node::Quantity(value, Unit::Degree).at(0..0),
+        None => {
+            let pi = Node::Constant(Constant::Pi).at(0..0);
+            binary(Operator::Multiply, constant(&big(k), 1), pi)
+        }
+    }
+}
+
+fn big(k: Ratio<i64>) -> BigRational {
+    BigRational::new(BigInt::from(*k.numer()), BigInt::from(*k.denom()))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::Budget;
+    use super::super::symbolic::{Symbolic, with_letters};
+    use super::*;
+
+    const LETTERS: [&str; 9] = ["a", "b", "l", "t1", "t2", "t3", "t4", "t5", "t6"];
+
+    fn printed(texts: &[&str]) -> Vec<String> {
+        let budget = Budget { products: 100_000 };
+        with_letters(vec![1.0; LETTERS.len()], budget, || {
+            let number = |name: &String| LETTERS.iter().position(|l| l == name).unwrap() as u32;
+            let formulas: Vec<Trigonometric> = (texts.iter())
+                .map(|text| {
+                    let expression = Expression::parse(text).unwrap();
+                    let value = expression.evaluate(&|n: &String| Symbolic::symbol(number(n)));
+                    (*value.unwrap().formula().unwrap()).clone()
+                })
+                .collect();
+            let formulas: Vec<&Trigonometric> = formulas.iter().collect();
+            let arranged = arrange(&formulas, &|symbol| LETTERS[symbol as usize].into());
+            arranged.expressions.iter().map(|e| e.to_string()).collect()
+        })
+    }
+
+    #[test]
+    fn parallel_axes_are_merged_and_others_multiplied_out() {
+        let c23 = "(cos(t2)*cos(t3) - sin(t2)*sin(t3))";
+        let r11 = format!("cos(t1)*{c23}");
+        assert_eq!(
+            printed(&[&r11, "a*cos(t1)*cos(t2)"]),
+            ["cos(t1)*cos(t2 + t3)", "a*cos(t1)*cos(t2)"]
+        );
+        assert_eq!(
+            printed(&["l*cos(t1) + a*cos(t1)*cos(t2) - a*sin(t1)*sin(t2)"]),
+            ["l*cos(t1) + a*cos(t1 + t2)"]
+        );
+    }
+
+    #[test]
+    fn what_terms_have_in_common_is_taken_out() {
+        assert_eq!(
+            printed(&["b*cos(t1)*(l + a*cos(t2))"]),
+            ["b*cos(t1)*(l + a*cos(t2))"]
+        );
+        assert_eq!(
+            printed(&[
+                "cos(t1)*(cos(t4)*cos(t5)*cos(t6) - sin(t4)*sin(t6)) + sin(t1)*sin(t5)*cos(t6)"
+            ]),
+            ["cos(t1)*(cos(t4)*cos(t5)*cos(t6) - sin(t4)*sin(t6)) + sin(t1)*sin(t5)*cos(t6)"]
+        );
+        assert_eq!(printed(&["-a*cos(t1) - a*b"]), ["-a*(b + cos(t1))"]);
+    }
+
+    #[test]
+    fn constants_are_exact_and_in_front() {
+        assert_eq!(
+            printed(&[
+                "sqrt(3)/2*b - l*cos(t1)*sin(60 deg)",
+                "0.4318*a",
+                "a/3",
+                "cos(t1 + 20 deg)"
+            ]),
+            [
+                "sqrt(3)/2*b - sqrt(3)/2*l*cos(t1)",
+                "0.4318*a",
+                "1/3*a",
+                "cos(t1 + 20 deg)"
+            ]
+        );
+        assert_eq!(printed(&["0", "-1", "a - a"]), ["0", "-1", "0"]);
+    }
+
+    #[test]
+    fn quotients_and_roots_are_printed_as_such() {
+        assert_eq!(
+            printed(&["a/(b*l)", "sqrt(a + b)*l", "a/(1 + cos(t1))", "a^2/b^2"]),
+            ["a/(b*l)", "l*sqrt(a + b)", "a/(1 + cos(t1))", "a^2/b^2"]
+        );
+    }
+
+    #[test]
+    fn half_angles_and_products_with_letters_are_angles() {
+        assert_eq!(
+            printed(&["cos(t1/2)", "cos(b*t1 - t2)"]),
+            ["cos(1/2*t1)", "cos(b*t1 - t2)"]
+        );
+    }
+}

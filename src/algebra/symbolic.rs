@@ -1,0 +1,343 @@
+//! Formulas as numbers: the kinematics run over letters.
+//!
+//! [`Number`] is `Copy`, and the kernels of the kinematics rely on it: relaxing it to `Clone` would put a clone into every
+//! product of every number for the sake of the one that is no plain value. A [`Symbolic`] is therefore a
+//! handle to a [`Trigonometric`] kept in an arena of its thread. [`with_letters`] opens the arena, runs the work and
+//! drops everything in it; what is to last is taken out with [`Symbolic::formula`]. The arena counts its work
+//! against a [`Budget`]; what would exceed it becomes *undefined*, as NaN does, and
+//! [`Number::is_finite`] tells.
+//!
+//! Equal formulas have equal handles, so that what is structurally zero is found to be zero.
+
+use std::cell::RefCell;
+use std::collections::HashMap;
+use std::ops::{Add, AddAssign, Div, Mul, MulAssign, Neg, Sub, SubAssign};
+use std::sync::Arc;
+
+use super::Function;
+use super::trigonometric::{Budget, Trigonometric};
+use crate::number::Number;
+
+/// A formula, as long as the arena it was made in is open.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Symbolic {
+    place: u32,
+    /// Which arena it belongs to.
+    arena: u32,
+}
+
+/// What has no formula: too long, infinite or from another arena.
+const UNDEFINED: Symbolic = Symbolic {
+    place: u32::MAX,
+    arena: 0,
+};
+
+struct Arena {
+    number: u32,
+    formulas: Vec<Arc<Trigonometric>>,
+    places: HashMap<Arc<Trigonometric>, u32>,
+    budget: Budget,
+    values: Vec<f64>,
+}
+
+thread_local! {
+    static OPEN: RefCell<Option<Arena>> = const { RefCell::new(None) };
+    static OPENED: std::cell::Cell<u32> = const { std::cell::Cell::new(0) };
+}
+
+/// Closes the arena, also when the work panics, and opens the one around it again.
+struct Closing(Option<Arena>);
+
+impl Drop for Closing {
+    fn drop(&mut self) {
+        OPEN.with(|open| *open.borrow_mut() = self.0.take());
+    }
+}
+
+/// Runs `work` with an open arena. `values` are those of the symbols 0, 1, …: what [`Number::real`] tells.
+pub fn with_letters<R>(values: Vec<f64>, budget: Budget, work: impl FnOnce() -> R) -> R {
+    let number = OPENED.with(|opened| {
+        let next = opened.get().wrapping_add(1).max(1);
+        opened.set(next);
+        next
+    });
+    let mut arena = Arena {
+        number,
+        formulas: Vec::new(),
+        places: HashMap::new(),
+        budget,
+        values,
+    };
+    arena.keep(Trigonometric::zero());
+    arena.keep(Trigonometric::one());
+    let around = OPEN.with(|open| open.borrow_mut().replace(arena));
+    let _closing = Closing(around);
+    work()
+}
+
+impl Arena {
+    fn keep(&mut self, formula: Trigonometric) -> Symbolic {
+        let arena = self.number;
+        if let Some(&place) = self.places.get(&formula) {
+            return Symbolic { place, arena };
+        }
+        let Ok(place) = u32::try_from(self.formulas.len()) else {
+            return UNDEFINED;
+        };
+        let formula = Arc::new(formula);
+        self.formulas.push(formula.clone());
+        self.places.insert(formula, place);
+        Symbolic { place, arena }
+    }
+
+    fn formula(&self, of: Symbolic) -> Option<Arc<Trigonometric>> {
+        let own = of.arena == self.number;
+        own.then(|| self.formulas.get(of.place as usize).cloned())?
+    }
+}
+
+/// Makes a formula in the open arena; undefined if there is none, or it cannot be made.
+fn made(make: impl FnOnce(&mut Arena) -> Option<Trigonometric>) -> Symbolic {
+    OPEN.with(|open| {
+        let mut open = open.borrow_mut();
+        let Some(arena) = open.as_mut() else {
+            return UNDEFINED;
+        };
+        match make(arena) {
+            Some(formula) => arena.keep(formula),
+            None => UNDEFINED,
+        }
+    })
+}
+
+impl Symbolic {
+    /// A formula as a number of the open arena.
+    pub fn new(formula: Trigonometric) -> Self {
+        made(|_| Some(formula))
+    }
+
+    /// The letter of that number.
+    pub fn symbol(symbol: u32) -> Self {
+        Symbolic::new(Trigonometric::symbol(symbol))
+    }
+
+    /// What it is; `None` if it is undefined or its arena is closed.
+    pub fn formula(self) -> Option<Arc<Trigonometric>> {
+        OPEN.with(|open| open.borrow().as_ref()?.formula(self))
+    }
+
+    fn of(self, f: impl FnOnce(&Trigonometric, &mut Budget) -> Option<Trigonometric>) -> Self {
+        made(|arena| f(&*arena.formula(self)?, &mut arena.budget))
+    }
+
+    fn with(
+        self,
+        other: Self,
+        f: impl FnOnce(&Trigonometric, &Trigonometric, &mut Budget) -> Option<Trigonometric>,
+    ) -> Self {
+        made(|arena| {
+            let (a, b) = (arena.formula(self)?, arena.formula(other)?);
+            f(&a, &b, &mut arena.budget)
+        })
+    }
+
+    fn called(self, function: Function) -> Self {
+        self.of(|x, _| Some(Trigonometric::call(function, std::slice::from_ref(x))))
+    }
+
+    fn is_zero(self) -> bool {
+        self.place == 0
+    }
+
+    fn is_one(self) -> bool {
+        self.place == 1
+    }
+}
+
+impl Add for Symbolic {
+    type Output = Self;
+    fn add(self, other: Self) -> Self {
+        match (self.is_zero(), other.is_zero()) {
+            (true, _) => other,
+            (_, true) => self,
+            _ => self.with(other, |a, b, _| Some(a.plus(b))),
+        }
+    }
+}
+
+impl Sub for Symbolic {
+    type Output = Self;
+    fn sub(self, other: Self) -> Self {
+        match other.is_zero() {
+            true => self,
+            false => self.with(other, |a, b, _| Some(a.minus(b))),
+        }
+    }
+}
+
+impl Mul for Symbolic {
+    type Output = Self;
+    fn mul(self, other: Self) -> Self {
+        if other.is_one() {
+            return self;
+        }
+        if self.is_one() {
+            return other;
+        }
+        self.with(other, |a, b, budget| a.times(b, budget))
+    }
+}
+
+impl Div for Symbolic {
+    type Output = Self;
+    fn div(self, other: Self) -> Self {
+        self.with(other, |a, b, budget| {
+            let inverse = b.inverse(budget)?;
+            a.times(&inverse, budget)
+        })
+    }
+}
+
+impl Neg for Symbolic {
+    type Output = Self;
+    fn neg(self) -> Self {
+        match self.is_zero() {
+            true => self,
+            false => self.of(|x, _| Some(x.negated())),
+        }
+    }
+}
+
+impl AddAssign for Symbolic {
+    fn add_assign(&mut self, other: Self) {
+        *self = *self + other;
+    }
+}
+
+impl SubAssign for Symbolic {
+    fn sub_assign(&mut self, other: Self) {
+        *self = *self - other;
+    }
+}
+
+impl MulAssign for Symbolic {
+    fn mul_assign(&mut self, other: Self) {
+        *self = *self * other;
+    }
+}
+
+impl Number for Symbolic {
+    fn from_f64(x: f64) -> Self {
+        made(|_| Trigonometric::decimal(x))
+    }
+    fn pi() -> Self {
+        Symbolic::new(Trigonometric::atom(super::trigonometric::Atom::Pi))
+    }
+    fn degrees(angle: f64) -> Self {
+        Self::pi() * Self::from_f64(angle) / Self::from_f64(180.0)
+    }
+    /// The value at the values of the symbols.
+    fn real(self) -> f64 {
+        OPEN.with(|open| {
+            let open = open.borrow();
+            let value = open.as_ref().and_then(|arena| {
+                let formula = arena.formula(self)?;
+                let values = &arena.values;
+                let of = |symbol: u32| values.get(symbol as usize).copied().unwrap_or(f64::NAN);
+                Some(formula.value(&of))
+            });
+            value.unwrap_or(f64::NAN)
+        })
+    }
+    fn sin_cos(self) -> (Self, Self) {
+        let mut cos = UNDEFINED;
+        let sin = made(|arena| {
+            let formula = arena.formula(self)?;
+            let (sin, cosine) = formula.sin_cos(&mut arena.budget)?;
+            cos = arena.keep(cosine);
+            Some(sin)
+        });
+        (sin, cos)
+    }
+    fn sqrt(self) -> Self {
+        self.of(|x, budget| x.root(budget))
+    }
+    fn asin(self) -> Self {
+        match self.is_zero() {
+            true => self,
+            false => self.called(Function::Asin),
+        }
+    }
+    fn acos(self) -> Self {
+        match self.is_one() {
+            true => Self::zero(),
+            false => self.called(Function::Acos),
+        }
+    }
+    fn atan(self) -> Self {
+        match self.is_zero() {
+            true => self,
+            false => self.called(Function::Atan),
+        }
+    }
+    fn atan2(self, x: Self) -> Self {
+        self.with(x, |y, x, _| {
+            Some(Trigonometric::call(
+                Function::Atan2,
+                &[y.clone(), x.clone()],
+            ))
+        })
+    }
+    fn exp(self) -> Self {
+        match self.is_zero() {
+            true => Self::one(),
+            false => self.called(Function::Exp),
+        }
+    }
+    fn ln(self) -> Self {
+        match self.is_one() {
+            true => Self::zero(),
+            false => self.called(Function::Ln),
+        }
+    }
+    /// The sign of a letter is not known, whatever its value at home.
+    fn abs(self) -> Self {
+        self.of(|x, _| {
+            use num_traits::Signed;
+            Some(match x.as_rational() {
+                Some(value) => Trigonometric::rational(value.abs()),
+                None => Trigonometric::call(Function::Abs, std::slice::from_ref(x)),
+            })
+        })
+    }
+    fn lesser(self, other: Self) -> Self {
+        self.extreme(other, Function::Min)
+    }
+    fn greater(self, other: Self) -> Self {
+        self.extreme(other, Function::Max)
+    }
+    fn powf(self, exponent: Self) -> Self {
+        let half = Self::from_f64(0.5);
+        match exponent == half {
+            true => self.sqrt(),
+            false => (self.ln() * exponent).exp(),
+        }
+    }
+    fn is_finite(self) -> bool {
+        self.formula().is_some()
+    }
+}
+
+impl Symbolic {
+    fn extreme(self, other: Self, function: Function) -> Self {
+        self.with(other, |x, y, _| {
+            Some(match (x.as_rational(), y.as_rational()) {
+                (Some(x), Some(y)) => Trigonometric::rational(match function {
+                    Function::Min => x.min(y),
+                    _ => x.max(y),
+                }),
+                _ => Trigonometric::call(function, &[x.clone(), y.clone()]),
+            })
+        })
+    }
+}

@@ -1,0 +1,404 @@
+//! Trigonometric polynomials in normal form.
+//!
+//! A [`Trigonometric`] is a finite sum
+//!
+//! > Σ q · √s · iᵉ · x₁ᵖ¹ x₂ᵖ² … · exp(i (k₁ m₁ + k₂ m₂ + …))
+//!
+//! with rational q and k, squarefree s, e ∈ {0, 1}, whole powers p of letters x, and angles m that are
+//! products of letters. Products of sines and cosines become sums (Fourier), so that no identity between
+//! sines and cosines is left: exponentials of different linear forms are linearly independent over
+//! the polynomials, and square roots of different squarefree numbers over the rationals. Two values are equal
+//! if and only if their terms are, as far as letters are independent of one another; how constant angles that
+//! are not multiples of 15° are told apart is said at [`Trigonometric::vanishes`].
+//!
+//! What is no trigonometric polynomial, as 1/(1 + cos θ) or an arc tangent, enters as a letter of its own
+//! ([`Atom::Inverse`], [`Atom::Root`], [`Atom::Call`]); then sameness is still proof of equality, but difference is not
+//! proof of the contrary.
+
+mod constants;
+mod cyclotomic;
+mod term;
+mod value;
+
+use std::collections::BTreeMap;
+use std::sync::Arc;
+
+use num_bigint::BigInt;
+use num_rational::{BigRational, Ratio};
+use num_traits::{One, Signed, ToPrimitive, Zero};
+
+use super::Function;
+pub(super) use constants::is_decimal;
+pub use term::{Atom, Key, Powers, Wave};
+
+/// A sum in normal form.
+#[derive(Clone, Debug, Default, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub struct Trigonometric {
+    terms: BTreeMap<Key, BigRational>,
+}
+
+/// How much work is left: products of two terms. Counted, not timed, so that the same question stops at the same place.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Budget {
+    /// Products of two terms that may still be made.
+    pub products: usize,
+}
+
+/// The most terms a sum may have.
+const MOST_TERMS: usize = 20_000;
+
+impl Trigonometric {
+    /// Zero.
+    pub fn zero() -> Self {
+        Trigonometric::default()
+    }
+
+    /// One.
+    pub fn one() -> Self {
+        Trigonometric::rational(BigRational::one())
+    }
+
+    /// A rational number.
+    pub fn rational(value: BigRational) -> Self {
+        Trigonometric::term(Key::default(), value)
+    }
+
+    /// The rational number whose shortest decimal is that of `value`: 0.4318 becomes 4318/10000, as typed. `None` if it is
+    /// not finite.
+    pub fn decimal(value: f64) -> Option<Self> {
+        Some(Trigonometric::rational(constants::decimal(value)?))
+    }
+
+    /// A letter.
+    pub fn atom(atom: Atom) -> Self {
+        let key = Key {
+            powers: vec![(atom, 1)],
+            ..Key::default()
+        };
+        Trigonometric::term(key, BigRational::one())
+    }
+
+    /// The letter of that number.
+    pub fn symbol(symbol: u32) -> Self {
+        Trigonometric::atom(Atom::Symbol(symbol))
+    }
+
+    pub(crate) fn term(key: Key, coefficient: BigRational) -> Self {
+        let mut sum = Trigonometric::zero();
+        sum.add_term(key, coefficient);
+        sum
+    }
+
+    /// The terms with their coefficients, in the order of their keys.
+    pub fn terms(&self) -> impl Iterator<Item = (&Key, &BigRational)> {
+        self.terms.iter()
+    }
+
+    /// The coefficient of a term; `None` if there is no such term.
+    pub fn coefficient(&self, key: &Key) -> Option<&BigRational> {
+        self.terms.get(key)
+    }
+
+    /// How many terms there are.
+    pub fn len(&self) -> usize {
+        self.terms.len()
+    }
+
+    /// Whether there are no terms.
+    pub fn is_empty(&self) -> bool {
+        self.terms.is_empty()
+    }
+
+    /// The value, if it is a rational number.
+    pub fn as_rational(&self) -> Option<BigRational> {
+        match self.terms.len() {
+            0 => Some(BigRational::zero()),
+            1 => self.terms.get(&Key::default()).cloned(),
+            _ => None,
+        }
+    }
+
+    /// Whether letters stand in it that are no polynomial of others: inverses, roots, inverse functions.
+    pub fn is_opaque(&self) -> bool {
+        self.terms.keys().any(Key::is_opaque)
+    }
+
+    /// The symbols in it, also inside roots and inverses.
+    pub fn symbols(&self) -> std::collections::BTreeSet<u32> {
+        let mut found = std::collections::BTreeSet::new();
+        self.terms.keys().for_each(|key| key.symbols(&mut found));
+        found
+    }
+
+    /// The terms whose keys the other has too.
+    pub fn restricted_to(&self, other: &Self) -> Self {
+        let mut kept = self.clone();
+        kept.terms.retain(|key, _| other.terms.contains_key(key));
+        kept
+    }
+
+    pub(crate) fn add_term(&mut self, key: Key, coefficient: BigRational) {
+        use std::collections::btree_map::Entry;
+        if coefficient.is_zero() {
+            return;
+        }
+        match self.terms.entry(key) {
+            Entry::Vacant(place) => {
+                place.insert(coefficient);
+            }
+            Entry::Occupied(mut place) => {
+                *place.get_mut() += coefficient;
+                if place.get().is_zero() {
+                    place.remove();
+                }
+            }
+        }
+    }
+
+    /// self + other
+    pub fn plus(&self, other: &Self) -> Self {
+        let mut sum = self.clone();
+        for (key, coefficient) in &other.terms {
+            sum.add_term(key.clone(), coefficient.clone());
+        }
+        sum
+    }
+
+    /// self − other
+    pub fn minus(&self, other: &Self) -> Self {
+        let mut sum = self.clone();
+        for (key, coefficient) in &other.terms {
+            sum.add_term(key.clone(), -coefficient.clone());
+        }
+        sum
+    }
+
+    /// −self
+    pub fn negated(&self) -> Self {
+        self.scaled(&-BigRational::one())
+    }
+
+    /// self times a rational number
+    pub fn scaled(&self, factor: &BigRational) -> Self {
+        let mut scaled = Trigonometric::zero();
+        for (key, coefficient) in &self.terms {
+            scaled.add_term(key.clone(), coefficient * factor);
+        }
+        scaled
+    }
+
+    /// self · other; `None` if that is more work or longer than allowed.
+    pub fn times(&self, other: &Self, budget: &mut Budget) -> Option<Self> {
+        let mut product = Trigonometric::zero();
+        let work = self.terms.len().checked_mul(other.terms.len())?;
+        budget.products = budget.products.checked_sub(work)?;
+        for (a, p) in &self.terms {
+            for (b, q) in &other.terms {
+                let parts = a.times(b, p * q)?;
+                for (key, coefficient) in parts {
+                    if key.has_square_of_root() {
+                        let expanded = Trigonometric::without_squares(key, coefficient, budget)?;
+                        product = product.plus(&expanded);
+                    } else {
+                        product.add_term(key, coefficient);
+                    }
+                }
+            }
+            if product.terms.len() > MOST_TERMS {
+                return None;
+            }
+        }
+        Some(product)
+    }
+
+    /// √P · √P = P
+    fn without_squares(
+        mut key: Key,
+        coefficient: BigRational,
+        budget: &mut Budget,
+    ) -> Option<Self> {
+        let squares = key.take_squares_of_roots();
+        let mut product = Trigonometric::term(key, coefficient);
+        for (inside, power) in squares {
+            let factor = match power > 0 {
+                true => inside.to_power(power, budget)?,
+                false => inside.to_power(-power, budget)?.inverse(budget)?,
+            };
+            product = product.times(&factor, budget)?;
+        }
+        Some(product)
+    }
+
+    /// A whole power.
+    pub fn to_power(&self, power: i32, budget: &mut Budget) -> Option<Self> {
+        let mut result = Trigonometric::one();
+        for _ in 0..power.unsigned_abs() {
+            result = result.times(self, budget)?;
+        }
+        match power < 0 {
+            true => result.inverse(budget),
+            false => Some(result),
+        }
+    }
+
+    /// 1/self; `None` for zero.
+    pub fn inverse(&self, budget: &mut Budget) -> Option<Self> {
+        let (lead, coefficient) = self.terms.iter().next()?;
+        if self.terms.len() == 1 && lead.is_invertible() {
+            let (key, factor) = lead.inverse();
+            return Some(Trigonometric::term(key, factor / coefficient));
+        }
+        if let Some(inverse) = self.inverse_of_constant(budget) {
+            return Some(inverse);
+        }
+        // 1/(c P) = 1/c · 1/P, so that multiples of one another have the same letter
+        let normal = self.scaled(&coefficient.recip());
+        let letter = Trigonometric::atom(Atom::Inverse(Arc::new(normal)));
+        Some(letter.scaled(&coefficient.recip()))
+    }
+
+    /// 1/(a + b√s) = (a − b√s)/(a² − b²s), once for every root.
+    fn inverse_of_constant(&self, budget: &mut Budget) -> Option<Self> {
+        if !self.terms.keys().all(Key::is_real_constant) {
+            return None;
+        }
+        let (mut top, mut bottom) = (Trigonometric::one(), self.clone());
+        while let Some(prime) = bottom
+            .terms
+            .keys()
+            .find_map(|key| constants::prime_of(key.root))
+        {
+            let mut conjugate = Trigonometric::zero();
+            for (key, coefficient) in &bottom.terms {
+                let sign = if key.root % prime == 0 {
+                    -coefficient
+                } else {
+                    coefficient.clone()
+                };
+                conjugate.add_term(key.clone(), sign);
+            }
+            top = top.times(&conjugate, budget)?;
+            bottom = bottom.times(&conjugate, budget)?;
+        }
+        let bottom = bottom.as_rational().filter(|b| !b.is_zero())?;
+        Some(top.scaled(&bottom.recip()))
+    }
+
+    /// (sin, cos) of self as an angle in radians.
+    pub fn sin_cos(&self, budget: &mut Budget) -> Option<(Self, Self)> {
+        if let Some(known) = self.sin_cos_of_inverse(budget) {
+            return known;
+        }
+        let Some(wave) = self.as_wave() else {
+            let call = |function| {
+                let arguments = Arc::from([self.clone()]);
+                Trigonometric::atom(Atom::Call(function, arguments))
+            };
+            return Some((call(Function::Sin), call(Function::Cos)));
+        };
+        let half = BigRational::new(BigInt::one(), BigInt::from(2));
+        let (mut sin, mut cos) = (Trigonometric::zero(), Trigonometric::zero());
+        for sign in [1, -1] {
+            // cos x = (e^ix + e^−ix)/2, sin x = (−i e^ix + i e^−ix)/2
+            let key = Key {
+                wave: wave.times(sign),
+                ..Key::default()
+            };
+            for (key, coefficient) in Key::default().times(&key, half.clone())? {
+                cos.add_term(key.clone(), coefficient.clone());
+                let (key, turned) = key.times_i();
+                sin.add_term(key, coefficient * turned * BigInt::from(-sign));
+            }
+        }
+        Some((sin, cos))
+    }
+
+    /// As the exponent of a wave: rational multiples of letters, of π and of 1 rad.
+    fn as_wave(&self) -> Option<Wave> {
+        let mut angles = Vec::new();
+        for (key, coefficient) in &self.terms {
+            let plain = key.wave.0.is_empty() && key.root == 1 && !key.imaginary;
+            let factor = Ratio::new(coefficient.numer().to_i64()?, coefficient.denom().to_i64()?);
+            if !plain || !term::is_small(&factor) {
+                return None;
+            }
+            angles.push((key.powers.clone(), factor));
+        }
+        angles.sort();
+        Some(Wave(angles))
+    }
+
+    /// cos(acos x) = x and its like: what a triangle of sides 1, x and √(1 − x²) says.
+    fn sin_cos_of_inverse(&self, budget: &mut Budget) -> Option<Option<(Self, Self)>> {
+        let (key, coefficient) = self.terms.iter().next().filter(|_| self.terms.len() == 1)?;
+        let [(Atom::Call(function, arguments), 1)] = key.powers.as_slice() else {
+            return None;
+        };
+        let plain = key.wave.0.is_empty() && key.root == 1 && !key.imaginary;
+        if !plain || !coefficient.abs().is_one() {
+            return None;
+        }
+        let triangle = Trigonometric::triangle(*function, arguments, budget)?;
+        let signed = |(sin, cos): (Self, Self)| match coefficient.is_negative() {
+            true => (sin.negated(), cos),
+            false => (sin, cos),
+        };
+        Some(triangle.map(signed))
+    }
+
+    fn triangle(
+        function: Function,
+        arguments: &[Self],
+        budget: &mut Budget,
+    ) -> Option<Option<(Self, Self)>> {
+        let x = &arguments[0];
+        let mut third = |sign: bool| {
+            let square = x.times(x, budget)?;
+            let one = Trigonometric::one();
+            match sign {
+                true => one.plus(&square).root(budget),
+                false => one.minus(&square).root(budget),
+            }
+        };
+        Some(match function {
+            Function::Asin => third(false).map(|cos| (x.clone(), cos)),
+            Function::Acos => third(false).map(|sin| (sin, x.clone())),
+            Function::Atan => third(true).and_then(|long| {
+                let inverse = long.inverse(budget)?;
+                Some((x.times(&inverse, budget)?, inverse))
+            }),
+            Function::Atan2 => {
+                let (y, x) = (x, arguments.get(1)?);
+                let mut ratios = || {
+                    let squares = x.times(x, budget)?.plus(&y.times(y, budget)?);
+                    let inverse = squares.root(budget)?.inverse(budget)?;
+                    Some((y.times(&inverse, budget)?, x.times(&inverse, budget)?))
+                };
+                ratios()
+            }
+            _ => return None,
+        })
+    }
+
+    /// The square root that is not negative; exact for rational numbers of moderate size.
+    pub fn root(&self, _budget: &mut Budget) -> Option<Self> {
+        if let Some(value) = self.as_rational()
+            && let Some((factor, root)) = constants::square_root(&value)
+        {
+            let key = Key {
+                root,
+                ..Key::default()
+            };
+            return Some(Trigonometric::term(key, factor));
+        }
+        Some(Trigonometric::atom(Atom::Root(Arc::new(self.clone()))))
+    }
+
+    /// A function that is kept as it is.
+    pub fn call(function: Function, arguments: &[Self]) -> Self {
+        Trigonometric::atom(Atom::Call(function, Arc::from(arguments)))
+    }
+}
+
+#[cfg(test)]
+mod tests;

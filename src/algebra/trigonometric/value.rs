@@ -1,0 +1,64 @@
+//! Trigonometric polynomial → real number.
+
+use num_traits::ToPrimitive;
+
+use super::super::Function;
+use super::{Atom, Powers, Trigonometric};
+use crate::number::Number;
+
+impl Trigonometric {
+    /// The real part of the value, with `value_of` giving that of each symbol.
+    pub fn value(&self, value_of: &impl Fn(u32) -> f64) -> f64 {
+        let mut sum = 0.0;
+        for (key, coefficient) in &self.terms {
+            let angles = key.wave.0.iter();
+            let angle: f64 = angles
+                .map(|(m, k)| product(m, value_of) * (*k.numer() as f64) / (*k.denom() as f64))
+                .sum();
+            let (sin, cos) = Number::sin_cos(angle);
+            let wave = if key.imaginary { -sin } else { cos };
+            let factor = coefficient.to_f64().unwrap_or(f64::NAN) * (key.root as f64).sqrt();
+            sum += factor * product(&key.powers, value_of) * wave;
+        }
+        sum
+    }
+}
+
+fn product(powers: &Powers, value_of: &impl Fn(u32) -> f64) -> f64 {
+    let mut product = 1.0;
+    for (atom, power) in powers {
+        product *= atom.value(value_of).powi(*power);
+    }
+    product
+}
+
+impl Atom {
+    fn value(&self, value_of: &impl Fn(u32) -> f64) -> f64 {
+        match self {
+            Atom::Pi => std::f64::consts::PI,
+            Atom::Symbol(symbol) => value_of(*symbol),
+            Atom::Inverse(inside) => 1.0 / inside.value(value_of),
+            Atom::Root(inside) => inside.value(value_of).sqrt(),
+            Atom::Call(function, arguments) => {
+                let x = arguments[0].value(value_of);
+                let y = arguments.get(1).map_or(x, |y| y.value(value_of));
+                match function {
+                    Function::Sin => Number::sin_cos(x).0,
+                    Function::Cos => Number::sin_cos(x).1,
+                    Function::Tan => Number::tan(x),
+                    Function::Asin => Number::asin(x),
+                    Function::Acos => Number::acos(x),
+                    Function::Atan => Number::atan(x),
+                    Function::Atan2 => Number::atan2(x, y),
+                    Function::Sqrt => x.sqrt(),
+                    Function::Exp => Number::exp(x),
+                    Function::Ln => Number::ln(x),
+                    Function::Abs => x.abs(),
+                    Function::Hypot => (x * x + y * y).sqrt(),
+                    Function::Min => x.min(y),
+                    Function::Max => x.max(y),
+                }
+            }
+        }
+    }
+}

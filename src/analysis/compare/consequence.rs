@@ -1,0 +1,246 @@
+//! Whether a formula vanishes because others do.
+
+use std::collections::{BTreeMap, BTreeSet, HashMap};
+
+use num_rational::BigRational;
+use num_traits::{One, Zero};
+
+use crate::algebra::{Atom, Budget, Key, Powers, Trigonometric};
+
+/// Rows of the elimination at most.
+const MOST_ROWS: usize = 2_000;
+/// Terms of all equations together at most; those of spatial loops have thousands.
+const MOST_TERMS: usize = 120;
+/// Common factors of a formula that are tried.
+const MOST_FACTORS: usize = 48;
+
+/// Linear combinations of formulas, brought to echelon form term by term.
+pub(super) struct Span {
+    columns: HashMap<Key, usize>,
+    /// By the column of the first entry, which is 1.
+    rows: BTreeMap<usize, BTreeMap<usize, BigRational>>,
+}
+
+impl Span {
+    /// The combinations of the formulas with coefficients a + b√3.
+    pub fn new(formulas: &[Trigonometric]) -> Self {
+        let mut span = Span {
+            columns: HashMap::new(),
+            rows: BTreeMap::new(),
+        };
+        formulas.iter().for_each(|formula| span.add(formula));
+        span
+    }
+
+    fn add(&mut self, formula: &Trigonometric) {
+        let mut budget = Budget { products: 100_000 };
+        let root = root_of_three();
+        for turned in [Some(formula.clone()), formula.times(&root, &mut budget)] {
+            let Some(row) = turned.map(|formula| self.row(&formula)) else {
+                continue;
+            };
+            let row = self.reduced(row);
+            if self.rows.len() < MOST_ROWS
+                && let Some((&first, lead)) = row.iter().next()
+            {
+                let inverse = lead.recip();
+                let row = row.into_iter().map(|(column, x)| (column, x * &inverse));
+                self.rows.insert(first, row.collect());
+            }
+        }
+    }
+
+    fn row(&mut self, formula: &Trigonometric) -> BTreeMap<usize, BigRational> {
+        let mut row = BTreeMap::new();
+        for (key, coefficient) in formula.terms() {
+            let next = self.columns.len();
+            let column = *self.columns.entry(key.clone()).or_insert(next);
+            row.insert(column, coefficient.clone());
+        }
+        row
+    }
+
+    fn reduced(&self, mut row: BTreeMap<usize, BigRational>) -> BTreeMap<usize, BigRational> {
+        let mut from = 0;
+        while let Some((&column, factor)) = row.range(from..).next() {
+            from = column + 1;
+            let Some(pivot) = self.rows.get(&column) else {
+                continue;
+            };
+            let factor = factor.clone();
+            for (column, x) in pivot {
+                let entry = row.entry(*column).or_insert_with(BigRational::zero);
+                *entry -= x * &factor;
+                if entry.is_zero() {
+                    row.remove(column);
+                }
+            }
+        }
+        row
+    }
+
+    /// Whether the formula is such a combination.
+    pub fn contains(&mut self, formula: &Trigonometric) -> bool {
+        let row = self.row(formula);
+        self.reduced(row).is_empty()
+    }
+}
+
+fn root_of_three() -> Trigonometric {
+    let key = Key {
+        root: 3,
+        ..Key::default()
+    };
+    Trigonometric::term(key, BigRational::one())
+}
+
+fn is_platform(atom: &Atom, first: u32) -> bool {
+    matches!(atom, Atom::Symbol(symbol) if *symbol >= first)
+}
+
+/// The terms of the equations as factors: products of letters times a sine or cosine.
+fn factors(equations: &[Trigonometric]) -> Vec<Trigonometric> {
+    let mut keys: BTreeSet<Key> = BTreeSet::new();
+    for (key, _) in equations.iter().flat_map(Trigonometric::terms) {
+        let bare = Key {
+            root: 1,
+            imaginary: false,
+            ..key.clone()
+        };
+        let opposite = Key {
+            wave: bare.wave.times(-1),
+            ..bare.clone()
+        };
+        keys.insert(bare.min(opposite));
+    }
+    let mut factors = Vec::new();
+    for key in keys {
+        let one = |key: Key| Trigonometric::term(key, BigRational::one());
+        if key.wave.0.is_empty() {
+            factors.push(one(key));
+            continue;
+        }
+        let opposite = Key {
+            wave: key.wave.times(-1),
+            ..key.clone()
+        };
+        let turned = |key: &Key| {
+            one(Key {
+                imaginary: true,
+                ..key.clone()
+            })
+        };
+        factors.push(one(key.clone()).plus(&one(opposite.clone())));
+        factors.push(turned(&key).minus(&turned(&opposite)));
+    }
+    factors
+}
+
+/// What the axes n, s, a of platforms obey, times squares of the lengths they are multiplied with. `first` is the symbol
+/// of the first letter of the first platform, which has twelve.
+fn orthogonality(equations: &[Trigonometric], first: u32) -> Vec<Trigonometric> {
+    let mut lengths: BTreeSet<Powers> = BTreeSet::new();
+    let mut platforms: BTreeSet<u32> = BTreeSet::new();
+    for (key, _) in equations.iter().flat_map(Trigonometric::terms) {
+        let (own, others): (Powers, Powers) = key
+            .powers
+            .iter()
+            .cloned()
+            .partition(|(atom, _)| is_platform(atom, first));
+        for (atom, _) in &own {
+            if let Atom::Symbol(symbol) = atom {
+                platforms.insert((symbol - first) / 12);
+                lengths.insert(others.clone());
+            }
+        }
+    }
+    let mut budget = Budget { products: 100_000 };
+    let product = |powers: &Powers| {
+        let key = Key {
+            powers: powers.clone(),
+            ..Key::default()
+        };
+        Trigonometric::term(key, BigRational::one())
+    };
+    let mut relations = Vec::new();
+    for platform in platforms {
+        let letter = |k: u32| Trigonometric::symbol(first + 12 * platform + k);
+        for (i, j) in [(0, 0), (1, 1), (2, 2), (0, 1), (1, 2), (0, 2)] {
+            let mut sum = match i == j {
+                true => Trigonometric::one().negated(),
+                false => Trigonometric::zero(),
+            };
+            for k in 0..3 {
+                let term = letter(3 * i + k).times(&letter(3 * j + k), &mut budget);
+                sum = sum.plus(&term.unwrap_or_default());
+            }
+            for x in &lengths {
+                for y in lengths.iter().filter(|y| *y >= x) {
+                    let square = product(x).times(&product(y), &mut budget);
+                    let relation = square.and_then(|square| sum.times(&square, &mut budget));
+                    relations.extend(relation);
+                }
+            }
+        }
+    }
+    relations
+}
+
+/// Whether a formula, perhaps times a product of letters, is Σ tₖ gₖ where the gₖ are the equations and the tₖ combinations
+/// of the terms that occur in these: enough to square and add equations, as one does to eliminate an angle or a platform.
+pub(super) fn follows(
+    formula: &Trigonometric,
+    equations: &[Trigonometric],
+    first_platform: u32,
+    budget: &mut Budget,
+) -> bool {
+    if equations.iter().map(Trigonometric::len).sum::<usize>() > MOST_TERMS {
+        return false;
+    }
+    let mut generators: Vec<Trigonometric> = equations.to_vec();
+    for factor in factors(equations) {
+        for equation in equations {
+            match equation.times(&factor, budget) {
+                Some(product) => generators.push(product),
+                None => return false,
+            }
+        }
+    }
+    generators.extend(orthogonality(equations, first_platform));
+    if 2 * generators.len() > MOST_ROWS {
+        return false;
+    }
+    let mut span = Span::new(&generators);
+    candidates(formula, &generators).iter().any(|factor| {
+        let product = formula.times(factor, budget);
+        product.is_some_and(|product| span.contains(&product))
+    })
+}
+
+/// Products of letters that bring a term of the formula to a term of the generators.
+fn candidates(formula: &Trigonometric, generators: &[Trigonometric]) -> Vec<Trigonometric> {
+    let mut found: BTreeSet<Powers> = BTreeSet::from([Powers::new()]);
+    let Some((lead, _)) = formula.terms().next() else {
+        return vec![];
+    };
+    for (key, _) in generators.iter().flat_map(Trigonometric::terms) {
+        if key.wave != lead.wave || key.imaginary != lead.imaginary {
+            continue;
+        }
+        let mut ratio: BTreeMap<Atom, i32> = key.powers.iter().cloned().collect();
+        for (atom, power) in &lead.powers {
+            *ratio.entry(atom.clone()).or_default() -= power;
+        }
+        found.insert(ratio.into_iter().filter(|(_, power)| *power != 0).collect());
+    }
+    let mut found: Vec<Powers> = found.into_iter().collect();
+    found.sort_by_key(|powers| powers.iter().map(|(_, power)| power.abs()).sum::<i32>());
+    let product = |powers: Powers| {
+        let key = Key {
+            powers,
+            ..Key::default()
+        };
+        Trigonometric::term(key, BigRational::one())
+    };
+    found.into_iter().take(MOST_FACTORS).map(product).collect()
+}

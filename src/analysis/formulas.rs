@@ -1,0 +1,396 @@
+//! A mechanism multiplied out: transforms, closure equations and Jacobians as closed forms.
+//!
+//! The one kinematics runs over letters; nothing is derived a second time.
+
+use serde::Serialize;
+
+use crate::algebra::{
+    Budget, EvaluationError, Expression, Symbolic, Trigonometric, arrange, with_letters,
+};
+use crate::geometry::{Pose, Vector3};
+use crate::mechanism::{ClosureKind, Formal, Frame, JointKind, Letters, Mechanism};
+
+/// What is asked for, and how much work it may be.
+#[derive(Clone, Debug, PartialEq)]
+pub struct FormulasSettings {
+    /// One transform, of the first frame seen from the second; `None` for everything the mechanism has.
+    pub transform: Option<(Frame, Frame)>,
+    /// Products of two terms made at most for each formula that is multiplied out. What would take more is left out,
+    /// and said so.
+    pub most_products: usize,
+    /// Terms of the longest formula that is printed.
+    pub most_terms: usize,
+}
+
+impl Default for FormulasSettings {
+    fn default() -> Self {
+        FormulasSettings {
+            transform: None,
+            most_products: 60_000,
+            most_terms: 400,
+        }
+    }
+}
+
+/// A mechanism in closed form. Lengths are in m and angles in rad.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct FormulasReport {
+    /// Every letter that stands in a formula.
+    pub letters: Vec<Letter>,
+    /// From link to link, chain by chain.
+    pub links: Vec<TransformFormula>,
+    /// The tip of every chain in ground, or the transform asked for.
+    pub transforms: Vec<TransformFormula>,
+    /// The closure equations.
+    pub closures: Vec<ClosureFormula>,
+    /// The screw Jacobians of the transforms.
+    pub jacobians: Vec<JacobianFormula>,
+    /// What was left out because it would be too long.
+    pub left_out: Vec<String>,
+    /// Whether everything was simplified as far as it can be.
+    pub simplified: bool,
+}
+
+/// What a name in the formulas stands for.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Letter {
+    /// Its name.
+    pub name: String,
+    /// What it is.
+    pub meaning: Meaning,
+    /// The value at home: m, rad or without unit.
+    pub value: f64,
+}
+
+/// What kind of thing a letter is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Meaning {
+    /// A named constant.
+    Parameter,
+    /// A joint variable that is an angle.
+    Angle,
+    /// A joint variable that is a length.
+    Slide,
+    /// A joint variable that is an angle and slides too.
+    Screw,
+    /// A component of the axes n, s, a or of the origin p of a platform.
+    Platform,
+}
+
+/// ⁱⱼT in closed form.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct TransformFormula {
+    /// The frame.
+    pub of: String,
+    /// The frame it is seen from.
+    #[serde(rename = "in")]
+    pub relative_to: String,
+    /// Rows of the rotation matrix: columns are the axes n, s, a of the frame.
+    pub rotation: [[Expression; 3]; 3],
+    /// Its origin, in m.
+    pub position: [Expression; 3],
+}
+
+/// What a closure asks for.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct ClosureFormula {
+    /// Its name.
+    pub name: String,
+    /// The joint it restores.
+    pub kind: &'static str,
+    /// The frames it joins.
+    pub between: [String; 2],
+    /// Expressions that vanish where it is closed, without those that vanish everywhere.
+    pub equations: Vec<Expression>,
+    /// How many more there are that vanish for all joint values, as those out of the plane of a planar loop.
+    pub identically_zero: usize,
+    /// Of a `Distance` whose equation is long: the vector g between its ends and its length s, g·g = s².
+    pub distance: Option<([Expression; 3], Expression)>,
+    /// Of a `Rigid` closure with a platform: the axes of both frames are equal too, which takes three more equations.
+    pub same_axes: bool,
+    /// Whether the equations also admit the joint put together the wrong way round.
+    pub admits_flipped: bool,
+}
+
+/// The screw Jacobian of a frame: its twist is the sum of these columns times the joint rates.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct JacobianFormula {
+    /// The frame, whose origin's velocity is taken.
+    pub of: String,
+    /// The frame it is seen from.
+    #[serde(rename = "in")]
+    pub relative_to: String,
+    /// One for each joint that moves the frame.
+    pub columns: Vec<TwistFormula>,
+}
+
+/// The twist for a unit rate of a joint variable.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct TwistFormula {
+    /// The joint.
+    pub joint: String,
+    /// Velocity of the origin: m/s per rad/s or per m/s.
+    pub velocity: [Expression; 3],
+    /// Rotation rate: rad/s per rad/s or per m/s.
+    pub omega: [Expression; 3],
+}
+
+/// Everything a mechanism has in closed form, or one transform of it.
+///
+/// # Errors
+/// If an expression of the file has no value in letters.
+pub fn formulas(
+    mechanism: &Mechanism,
+    settings: &FormulasSettings,
+) -> Result<FormulasReport, EvaluationError> {
+    let mut writer = Writer {
+        mechanism,
+        settings,
+        used: Default::default(),
+        report: FormulasReport {
+            letters: vec![],
+            links: vec![],
+            transforms: vec![],
+            closures: vec![],
+            jacobians: vec![],
+            left_out: vec![],
+            simplified: true,
+        },
+    };
+    match settings.transform {
+        Some((of, relative_to)) => writer.transform_and_jacobian(relative_to, of)?,
+        None => writer.everything()?,
+    }
+    Ok(writer.finish())
+}
+
+struct Writer<'a> {
+    mechanism: &'a Mechanism,
+    settings: &'a FormulasSettings,
+    used: std::collections::BTreeSet<u32>,
+    report: FormulasReport,
+}
+
+impl Writer<'_> {
+    /// Runs some work over letters, with a budget of its own.
+    fn over_letters<R>(
+        &mut self,
+        work: impl FnOnce(&mut Self, &Formal) -> R,
+    ) -> Result<R, EvaluationError> {
+        let letters = Letters(self.mechanism);
+        let budget = Budget {
+            products: self.settings.most_products,
+        };
+        with_letters(letters.values(), budget, || {
+            let formal = Formal::new(self.mechanism, &letters.parameters(), letters.joints())?;
+            Ok(work(self, &formal))
+        })
+    }
+
+    /// Expressions for numbers printed together; `None` if one of them has no formula.
+    fn arranged(&mut self, values: &[Symbolic]) -> Option<Vec<Expression>> {
+        let formulas = values.iter().map(|value| value.formula());
+        let formulas: Vec<_> = formulas.collect::<Option<_>>()?;
+        let sums: Vec<&Trigonometric> = formulas.iter().map(|formula| &**formula).collect();
+        if sums.iter().any(|sum| sum.len() > self.settings.most_terms) {
+            return None;
+        }
+        let letters = Letters(self.mechanism);
+        let arranged = arrange(&sums, &|symbol| letters.name(symbol));
+        sums.iter().for_each(|sum| self.used.extend(sum.symbols()));
+        self.report.simplified &= arranged.complete;
+        Some(arranged.expressions)
+    }
+
+    fn transform(
+        &mut self,
+        relative_to: Frame,
+        of: Frame,
+    ) -> Result<Option<TransformFormula>, EvaluationError> {
+        let names = [of, relative_to].map(|frame| self.mechanism.frame_name(frame));
+        let entries = self.over_letters(|writer, formal| {
+            let pose = formal.transform(relative_to, of);
+            writer.arranged(&entries(&pose))
+        })?;
+        let [of, relative_to] = names;
+        let Some(entries) = entries else {
+            let what = format!("the transform of {of} in {relative_to}");
+            self.report.left_out.push(what);
+            return Ok(None);
+        };
+        let at = |row: usize, column: usize| entries[3 * row + column].clone();
+        Ok(Some(TransformFormula {
+            of,
+            relative_to,
+            rotation: [0, 1, 2].map(|row| [0, 1, 2].map(|column| at(row, column))),
+            position: [0, 1, 2].map(|row| entries[9 + row].clone()),
+        }))
+    }
+
+    fn jacobian(&mut self, relative_to: Frame, of: Frame) -> Result<(), EvaluationError> {
+        let names = [of, relative_to].map(|frame| self.mechanism.frame_name(frame));
+        let columns = self.over_letters(|writer, formal| {
+            let twists = formal.twists(relative_to, of)?;
+            let values = twists.iter().flat_map(|t| [t.velocity.0, t.omega.0]);
+            let values: Vec<Symbolic> = values.flatten().collect();
+            let joints: Vec<usize> = twists.iter().map(|twist| twist.joint).collect();
+            Some((joints, writer.arranged(&values)))
+        })?;
+        let [of, relative_to] = names;
+        match columns {
+            Some((joints, Some(values))) if !joints.is_empty() => {
+                let triple = |k: usize| [0, 1, 2].map(|i| values[3 * k + i].clone());
+                let columns = joints.iter().enumerate().map(|(k, joint)| TwistFormula {
+                    joint: self.mechanism.joints()[*joint].name.clone(),
+                    velocity: triple(2 * k),
+                    omega: triple(2 * k + 1),
+                });
+                let columns = columns.collect();
+                self.report.jacobians.push(JacobianFormula {
+                    of,
+                    relative_to,
+                    columns,
+                });
+            }
+            Some((_, None)) => {
+                let what = format!("the Jacobian of {of} in {relative_to}");
+                self.report.left_out.push(what);
+            }
+            _ => {}
+        }
+        Ok(())
+    }
+
+    fn transform_and_jacobian(
+        &mut self,
+        relative_to: Frame,
+        of: Frame,
+    ) -> Result<(), EvaluationError> {
+        let transform = self.transform(relative_to, of)?;
+        self.report.transforms.extend(transform);
+        self.jacobian(relative_to, of)
+    }
+
+    fn everything(&mut self) -> Result<(), EvaluationError> {
+        for (chain, part) in self.mechanism.chains().iter().enumerate() {
+            let link = |row| Frame::Link { chain, row };
+            let mut steps = Vec::new();
+            if !part.base.is_empty() && !part.rows.is_empty() {
+                steps.push((part.on, link(0)));
+            }
+            steps.extend((1..=part.rows.len()).map(|row| (link(row - 1), link(row))));
+            if !part.tip.is_empty() && !part.rows.is_empty() {
+                steps.push((link(part.rows.len()), Frame::Tip { chain }));
+            }
+            for (relative_to, of) in steps {
+                let transform = self.transform(relative_to, of)?;
+                self.report.links.extend(transform);
+            }
+            self.transform_and_jacobian(Frame::Ground, Frame::Tip { chain })?;
+        }
+        for closure in 0..self.mechanism.closures().len() {
+            self.closure(closure)?;
+        }
+        Ok(())
+    }
+
+    fn closure(&mut self, closure: usize) -> Result<(), EvaluationError> {
+        let own = &self.mechanism.closures()[closure];
+        let carried = own
+            .frames
+            .iter()
+            .any(|frame| self.mechanism.carrier(*frame).is_some());
+        let same_axes = own.kind == ClosureKind::Rigid && carried;
+        let found = self.over_letters(|writer, formal| {
+            let mut found = formal.closure(closure);
+            if same_axes {
+                found.conditions.truncate(3);
+            }
+            let zero = |value: &Symbolic| value.formula().is_some_and(|sum| sum.is_empty());
+            let all = found.conditions.len();
+            let open: Vec<Symbolic> = found
+                .conditions
+                .into_iter()
+                .filter(|value| !zero(value))
+                .collect();
+            let equations = writer.arranged(&open);
+            let identically_zero = all - open.len();
+            let distance = match own.kind {
+                ClosureKind::Distance => {
+                    let gap = writer.arranged(&found.gap.0);
+                    gap.zip(writer.arranged(&[found.length]))
+                }
+                _ => None,
+            };
+            // of a distance the one form or the other may be too long
+            let any = equations.is_some() || distance.is_some();
+            any.then_some((equations, identically_zero, distance))
+        })?;
+        let Some((equations, identically_zero, distance)) = found else {
+            self.report.left_out.push(format!("closure {}", own.name));
+            return Ok(());
+        };
+        let written = |expressions: &[Expression]| {
+            let lengths = expressions.iter().map(|e| e.to_string().chars().count());
+            lengths.sum::<usize>()
+        };
+        let mut vector = None;
+        if let Some((gap, mut length)) = distance
+            && equations
+                .as_ref()
+                .is_none_or(|equations| written(&gap) + written(&length) + 12 < written(equations))
+            && let ([x, y, z], Some(length)) = (gap.as_slice(), length.pop())
+        {
+            vector = Some(([x.clone(), y.clone(), z.clone()], length));
+        }
+        let equations = match vector {
+            Some(_) => vec![],
+            None => equations.unwrap_or_default(),
+        };
+        self.report.closures.push(ClosureFormula {
+            name: own.name.clone(),
+            kind: own.kind.word(),
+            between: own.frames.map(|frame| self.mechanism.frame_name(frame)),
+            equations,
+            identically_zero,
+            distance: vector,
+            same_axes,
+            admits_flipped: !same_axes
+                && !matches!(
+                    own.kind,
+                    ClosureKind::Spherical | ClosureKind::Universal | ClosureKind::Distance
+                ),
+        });
+        Ok(())
+    }
+
+    fn finish(mut self) -> FormulasReport {
+        let letters = Letters(self.mechanism);
+        let values = letters.values();
+        for symbol in self.used {
+            let meaning = match letters.joint_of(symbol) {
+                Some(joint) => match self.mechanism.joints()[joint].kind {
+                    JointKind::Revolute => Meaning::Angle,
+                    JointKind::Prismatic => Meaning::Slide,
+                    JointKind::Helical => Meaning::Screw,
+                },
+                None if (symbol as usize) < self.mechanism.parameters().len() => Meaning::Parameter,
+                None => Meaning::Platform,
+            };
+            self.report.letters.push(Letter {
+                name: letters.name(symbol),
+                meaning,
+                value: values[symbol as usize],
+            });
+        }
+        self.report
+    }
+}
+
+/// The rotation row by row, then the position.
+fn entries(pose: &Pose<Symbolic>) -> Vec<Symbolic> {
+    let rows = pose.rotation.rows();
+    let Vector3(position) = pose.position;
+    rows.into_iter().flatten().chain(position).collect()
+}

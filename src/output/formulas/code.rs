@@ -1,0 +1,287 @@
+//! Formulas as Rust functions.
+
+use std::collections::{BTreeMap, BTreeSet};
+
+use super::notes;
+use crate::algebra::{Constant, Expression, Function, Node, Operator};
+use crate::analysis::formulas::{ClosureFormula, FormulasReport, Letter, Meaning};
+use crate::mechanism::Mechanism;
+
+/// One function for each transform, closure and Jacobian; they need nothing but `f64`.
+pub fn rust(mechanism: &Mechanism, report: &FormulasReport) -> String {
+    let mut writer = Writer {
+        arguments: arguments(&report.letters),
+        functions: BTreeSet::new(),
+    };
+    let mut text = format!(
+        "// {}, by linkwork. Lengths in m, angles in rad.\n",
+        one_line(mechanism.name())
+    );
+    notes(report)
+        .iter()
+        .for_each(|note| text += &format!("// {}\n", one_line(note)));
+    for transform in report.links.iter().chain(&report.transforms) {
+        let (of, relative_to) = (&transform.of, &transform.relative_to);
+        let rows = transform.rotation.iter().zip(&transform.position);
+        let rows = rows
+            .map(|([n, s, a], p)| vec![n, s, a, p])
+            .collect::<Vec<_>>();
+        text += &writer.function(
+            &format!("{of}_in_{relative_to}"),
+            &format!("{of} in {relative_to}: rows of [R | p]."),
+            "[[f64; 4]; 3]",
+            &rows,
+        );
+    }
+    for closure in &report.closures {
+        text += &writer.closure(closure);
+    }
+    for jacobian in &report.jacobians {
+        let (of, relative_to) = (&jacobian.of, &jacobian.relative_to);
+        let columns = jacobian.columns.iter();
+        let rows: Vec<Vec<&Expression>> = columns
+            .map(|c| c.velocity.iter().chain(&c.omega).collect())
+            .collect();
+        let joints: Vec<&str> = jacobian.columns.iter().map(|c| c.joint.as_str()).collect();
+        text += &writer.function(
+            &format!("{of}_in_{relative_to}_jacobian"),
+            &format!(
+                "Twists (v, ω) of {of} in {relative_to} for unit rates of {}; v is the velocity of its origin.",
+                joints.join(", ")
+            ),
+            &format!("[[f64; 6]; {}]", rows.len()),
+            &rows,
+        );
+    }
+    text
+}
+
+fn one_line(text: &str) -> String {
+    text.chars()
+        .map(|c| if c.is_control() { ' ' } else { c })
+        .collect()
+}
+
+/// Letters as identifiers: of ASCII letters and digits, none twice, none a keyword or a name the functions use.
+fn arguments(letters: &[Letter]) -> BTreeMap<String, (String, Meaning)> {
+    let mut taken: BTreeSet<String> = BTreeSet::new();
+    let mut arguments = BTreeMap::new();
+    for letter in letters {
+        let name = unique(&identifier(&letter.name), &mut taken);
+        arguments.insert(letter.name.clone(), (name, letter.meaning));
+    }
+    arguments
+}
+
+fn unique(name: &str, taken: &mut BTreeSet<String>) -> String {
+    let mut numbered = name.to_owned();
+    let mut number = 2;
+    while !taken.insert(numbered.clone()) {
+        numbered = format!("{name}_{number}");
+        number += 1;
+    }
+    numbered
+}
+
+fn identifier(name: &str) -> String {
+    const KEYWORDS: [&str; 43] = [
+        "as", "break", "const", "continue", "crate", "else", "enum", "extern", "false", "fn",
+        "for", "if", "impl", "in", "let", "loop", "match", "mod", "move", "mut", "pub", "ref",
+        "return", "self", "static", "struct", "super", "trait", "true", "type", "unsafe", "use",
+        "where", "while", "async", "await", "dyn", "abstract", "become", "box", "do", "final",
+        "gen",
+    ];
+    let mut plain = String::new();
+    for c in name.chars() {
+        match c {
+            '₀'..='₉' => plain.push(char::from(b'0' + (c as u32 - '₀' as u32) as u8)),
+            c if c.is_alphanumeric() => plain.push(c),
+            _ => plain.push('_'),
+        }
+    }
+    let starts = plain
+        .chars()
+        .next()
+        .is_some_and(|c| c.is_alphabetic() || c == '_');
+    let reserved = KEYWORDS.contains(&plain.as_str())
+        || [
+            "Self", "macro", "override", "priv", "try", "typeof", "unsized", "virtual", "yield",
+            "_",
+        ]
+        .contains(&plain.as_str())
+        || plain.starts_with("sin_")
+        || plain.starts_with("cos_");
+    match starts && !reserved {
+        true => plain,
+        false => format!("x_{plain}"),
+    }
+}
+
+struct Writer {
+    arguments: BTreeMap<String, (String, Meaning)>,
+    functions: BTreeSet<String>,
+}
+
+/// The sines and cosines of a function, by the text of their angle, with their number.
+type Angles = BTreeMap<String, (usize, bool, bool)>;
+
+impl Writer {
+    fn function(
+        &mut self,
+        name: &str,
+        what: &str,
+        gives: &str,
+        rows: &[Vec<&Expression>],
+    ) -> String {
+        let name = unique(&identifier(name), &mut self.functions);
+        let all = || rows.iter().flatten();
+        let used: BTreeSet<&str> = all()
+            .flat_map(|e| e.names())
+            .map(|(name, _)| name.as_str())
+            .collect();
+        let mut given: Vec<String> = Vec::new();
+        // in the order of the letters: parameters, joints, platforms
+        for (letter, (argument, _)) in self.in_order() {
+            if used.contains(letter.as_str()) {
+                given.push(format!("{argument}: f64"));
+            }
+        }
+        let mut angles = Angles::new();
+        let rows: Vec<String> = rows
+            .iter()
+            .map(|row| {
+                let entries: Vec<String> =
+                    row.iter().map(|e| self.code(e, &mut angles).0).collect();
+                format!(
+                    "        [\n            {},\n        ],\n",
+                    entries.join(",\n            ")
+                )
+            })
+            .collect();
+        let mut numbered: Vec<(&String, &(usize, bool, bool))> = angles.iter().collect();
+        numbered.sort_by_key(|(_, (number, ..))| *number);
+        let lets: String = numbered
+            .into_iter()
+            .map(|(angle, (k, sin, cos))| match (sin, cos) {
+                (true, true) => format!("    let (sin_{k}, cos_{k}) = f64::sin_cos({angle});\n"),
+                (true, false) => format!("    let sin_{k} = f64::sin({angle});\n"),
+                _ => format!("    let cos_{k} = f64::cos({angle});\n"),
+            })
+            .collect();
+        format!(
+            "\n/// {}\n#[allow(clippy::all, non_snake_case)]\npub fn {name}({}) -> {gives} {{\n{lets}    [\n{}    ]\n}}\n",
+            one_line(what),
+            given.join(", "),
+            rows.concat()
+        )
+    }
+
+    fn in_order(&self) -> Vec<(&String, &(String, Meaning))> {
+        let rank = |meaning: Meaning| match meaning {
+            Meaning::Parameter => 0,
+            Meaning::Angle | Meaning::Slide | Meaning::Screw => 1,
+            Meaning::Platform => 2,
+        };
+        let mut letters: Vec<_> = self.arguments.iter().collect();
+        letters.sort_by_key(|(_, (_, meaning))| rank(*meaning));
+        letters
+    }
+
+    fn closure(&mut self, closure: &ClosureFormula) -> String {
+        let mut rows: Vec<Vec<&Expression>> = closure.equations.iter().map(|e| vec![e]).collect();
+        let name = format!("closure_{}", closure.name);
+        match &closure.distance {
+            Some((gap, length)) => {
+                rows.extend(gap.iter().chain([length]).map(|e| vec![e]));
+                let what = format!(
+                    "Closure {}: three components of a vector and the length it must have.",
+                    closure.name
+                );
+                self.function(&name, &what, "[[f64; 1]; 4]", &rows)
+            }
+            None if rows.is_empty() => String::new(),
+            None => {
+                let what = format!(
+                    "Closure {}: what vanishes where it is closed.",
+                    closure.name
+                );
+                self.function(&name, &what, &format!("[[f64; 1]; {}]", rows.len()), &rows)
+            }
+        }
+    }
+
+    /// The code of an expression, and whether it is an operand (0), a product (1) or a sum (2).
+    fn code(&self, expression: &Expression, angles: &mut Angles) -> (String, u8) {
+        match &expression.node {
+            Node::Number(value) => (format!("{value:?}_f64"), u8::from(*value < 0.0)),
+            Node::Quantity(value, unit) => (format!("{:?}_f64", unit.to_si(*value)), 0),
+            Node::Constant(Constant::Pi) => ("std::f64::consts::PI".into(), 0),
+            Node::Constant(other) => (format!("{:?}_f64", other.over::<f64>()), 0),
+            Node::Name(name) => {
+                let known = self.arguments.get(name);
+                (
+                    known.map_or_else(|| identifier(name), |(argument, _)| argument.clone()),
+                    0,
+                )
+            }
+            Node::Negate(x) => (format!("-{}", self.part(x, 1, angles)), 1),
+            Node::Binary(operator, x, y) => match operator {
+                Operator::Add => (
+                    format!("{} + {}", self.part(x, 2, angles), self.part(y, 1, angles)),
+                    2,
+                ),
+                Operator::Subtract => (
+                    format!("{} - {}", self.part(x, 2, angles), self.part(y, 1, angles)),
+                    2,
+                ),
+                Operator::Multiply => (
+                    format!("{} * {}", self.part(x, 1, angles), self.part(y, 0, angles)),
+                    1,
+                ),
+                Operator::Divide => (
+                    format!("{} / {}", self.part(x, 1, angles), self.part(y, 0, angles)),
+                    1,
+                ),
+                Operator::Power => {
+                    let base = self.code(x, angles).0;
+                    let whole = y.as_number().filter(|n| n.fract() == 0.0 && n.abs() < 1e6);
+                    match whole {
+                        Some(n) => (format!("f64::powi({base}, {n})"), 0),
+                        None => (format!("f64::powf({base}, {})", self.code(y, angles).0), 0),
+                    }
+                }
+            },
+            Node::Call(function @ (Function::Sin | Function::Cos), arguments) => {
+                let angle = self.code(&arguments[0], angles).0;
+                let next = angles.len() + 1;
+                let (number, sin, cos) = angles.entry(angle).or_insert((next, false, false));
+                match function {
+                    Function::Sin => {
+                        *sin = true;
+                        (format!("sin_{number}"), 0)
+                    }
+                    _ => {
+                        *cos = true;
+                        (format!("cos_{number}"), 0)
+                    }
+                }
+            }
+            Node::Call(function, arguments) => {
+                let arguments: Vec<String> =
+                    arguments.iter().map(|x| self.code(x, angles).0).collect();
+                (
+                    format!("f64::{}({})", function.word(), arguments.join(", ")),
+                    0,
+                )
+            }
+        }
+    }
+
+    fn part(&self, expression: &Expression, loosest: u8, angles: &mut Angles) -> String {
+        let (code, looseness) = self.code(expression, angles);
+        match looseness <= loosest {
+            true => code,
+            false => format!("({code})"),
+        }
+    }
+}

@@ -1,0 +1,481 @@
+//! Expressions as textbooks print them.
+
+use std::collections::BTreeSet;
+
+use crate::algebra::{Constant, Expression, Function, Node, Operator};
+use crate::mechanism::Mechanism;
+
+/// For terminals or for TeX.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(in crate::output) enum Script {
+    Unicode,
+    Latex,
+}
+
+/// How the letters of a mechanism are printed: c₁₂ for cos(θ₁ + θ₂) where all angles have one stem.
+pub(in crate::output) struct Notation {
+    script: Script,
+    /// The stem of all joint angles, as `theta` of theta1, theta2.
+    stem: Option<String>,
+    /// The only platform: its letters need no name.
+    platform: Option<String>,
+}
+
+const GREEK: [(&str, char); 24] = [
+    ("alpha", 'α'),
+    ("beta", 'β'),
+    ("gamma", 'γ'),
+    ("delta", 'δ'),
+    ("epsilon", 'ε'),
+    ("zeta", 'ζ'),
+    ("eta", 'η'),
+    ("theta", 'θ'),
+    ("iota", 'ι'),
+    ("kappa", 'κ'),
+    ("lambda", 'λ'),
+    ("mu", 'μ'),
+    ("nu", 'ν'),
+    ("xi", 'ξ'),
+    ("omicron", 'ο'),
+    ("rho", 'ρ'),
+    ("sigma", 'σ'),
+    ("tau", 'τ'),
+    ("upsilon", 'υ'),
+    ("phi", 'φ'),
+    ("chi", 'χ'),
+    ("psi", 'ψ'),
+    ("omega", 'ω'),
+    ("Gamma", 'Γ'),
+];
+
+const VULGAR: [(f64, f64, char); 9] = [
+    (1.0, 2.0, '½'),
+    (1.0, 3.0, '⅓'),
+    (2.0, 3.0, '⅔'),
+    (1.0, 4.0, '¼'),
+    (3.0, 4.0, '¾'),
+    (1.0, 6.0, '⅙'),
+    (1.0, 8.0, '⅛'),
+    (3.0, 8.0, '⅜'),
+    (1.0, 5.0, '⅕'),
+];
+
+/// A name as a stem and the digits it ends with, in either kind of digits.
+fn parts(name: &str) -> (&str, String) {
+    let digit = |c: char| c.is_ascii_digit() || ('₀'..='₉').contains(&c);
+    let stem = name.trim_end_matches(digit);
+    let plain = |c: char| match c {
+        '₀'..='₉' => char::from(b'0' + (c as u32 - '₀' as u32) as u8),
+        other => other,
+    };
+    (stem, name[stem.len()..].chars().map(plain).collect())
+}
+
+fn lowered(digits: &str) -> String {
+    let lower = |c: char| match c.to_digit(10) {
+        Some(digit) => char::from_u32('₀' as u32 + digit).unwrap_or(c),
+        None => c,
+    };
+    digits.chars().map(lower).collect()
+}
+
+/// Digits below the line.
+pub(super) fn subscript(digits: &str) -> String {
+    lowered(digits)
+}
+
+fn raised(digits: &str) -> String {
+    let raise = |c: char| {
+        c.to_digit(10).map_or(c, |digit| {
+            ['⁰', '¹', '²', '³', '⁴', '⁵', '⁶', '⁷', '⁸', '⁹'][digit as usize]
+        })
+    };
+    digits.chars().map(raise).collect()
+}
+
+/// How tightly something printed binds.
+#[derive(Clone, Copy, PartialEq, PartialOrd)]
+enum Tightness {
+    Sum,
+    Product,
+    Operand,
+}
+
+/// Something printed; two compact factors need no space between them.
+struct Printed {
+    text: String,
+    tightness: Tightness,
+    compact: bool,
+}
+
+fn operand(text: String) -> Printed {
+    Printed {
+        text,
+        tightness: Tightness::Operand,
+        compact: false,
+    }
+}
+
+impl Notation {
+    pub fn new(mechanism: &Mechanism, script: Script) -> Self {
+        let joints = mechanism.joints().iter();
+        let angles = joints.filter(|joint| joint.kind.is_angle());
+        let split: Vec<(&str, String)> = angles.map(|joint| parts(&joint.name)).collect();
+        let stems: BTreeSet<&str> = split.iter().map(|(stem, _)| *stem).collect();
+        // c₁₁ would be both cos θ₁₁ and cos(θ₁ + θ₁); and no other letter may look like c₁
+        let indexed = split.iter().all(|(_, digits)| digits.len() == 1);
+        let joints = mechanism.joints().iter().map(|joint| &joint.name);
+        let parameters = mechanism
+            .parameters()
+            .iter()
+            .map(|parameter| &parameter.name);
+        let taken = joints.chain(parameters).any(|name| {
+            let (stem, digits) = parts(name);
+            ["c", "s"].contains(&stem) && !digits.is_empty()
+        });
+        let stem = match stems.into_iter().collect::<Vec<_>>().as_slice() {
+            [stem] if indexed && !taken => Some((*stem).to_owned()),
+            _ => None,
+        };
+        let platform = match mechanism.platforms() {
+            [only] => Some(only.name.clone()),
+            _ => None,
+        };
+        Notation {
+            script,
+            stem,
+            platform,
+        }
+    }
+
+    /// The indices of an angle that is a plain sum of joint angles with the one stem: `12` of θ₁ + θ₂.
+    pub fn indices(&self, angle: &Expression) -> Option<String> {
+        match &angle.node {
+            Node::Name(name) => {
+                let (stem, digits) = parts(name);
+                (Some(stem) == self.stem.as_deref() && digits.len() == 1).then_some(digits)
+            }
+            Node::Binary(Operator::Add, x, y) => Some(self.indices(x)? + &self.indices(y)?),
+            _ => None,
+        }
+    }
+
+    /// The sines and cosines that are printed as c and s with indices.
+    pub fn shortened<'a>(&self, expression: &'a Expression) -> Vec<(String, &'a Expression)> {
+        let mut found = Vec::new();
+        if let Node::Call(Function::Sin | Function::Cos, arguments) = &expression.node
+            && let Some(indices) = self.indices(&arguments[0])
+        {
+            found.push((indices, &arguments[0]));
+        }
+        found.extend(expression.operands().flat_map(|x| self.shortened(x)));
+        found
+    }
+
+    /// An expression.
+    pub fn print(&self, expression: &Expression) -> String {
+        self.printed(expression).text
+    }
+
+    /// A name.
+    pub fn name(&self, name: &str) -> String {
+        if let Some((platform, vector)) = name.split_once('.') {
+            return self.component(platform, vector);
+        }
+        let (stem, digits) = parts(name);
+        let greek = GREEK
+            .iter()
+            .find(|(word, letter)| *word == stem || stem.chars().eq(std::iter::once(*letter)));
+        let mut letters = stem.chars();
+        let single = letters.next().is_some() && letters.next().is_none();
+        match self.script {
+            Script::Unicode => match (greek, single) {
+                (Some((_, letter)), _) => format!("{letter}{}", lowered(&digits)),
+                (None, true) => format!("{stem}{}", lowered(&digits)),
+                _ => name.to_owned(),
+            },
+            Script::Latex => {
+                let stem = match greek {
+                    Some(("omicron", _)) => "o".into(),
+                    Some((word, _)) => format!("\\{word}"),
+                    None if single && stem.is_ascii() && stem != "_" => stem.to_owned(),
+                    None if stem.is_ascii() => format!("\\mathit{{{}}}", stem.replace('_', "\\_")),
+                    None => format!("\\text{{{}}}", stem.replace('_', "\\_")),
+                };
+                match digits.is_empty() {
+                    true => stem,
+                    false => format!("{stem}_{{{digits}}}"),
+                }
+            }
+        }
+    }
+
+    /// `nx` of a platform
+    fn component(&self, platform: &str, vector: &str) -> String {
+        let only = self.platform.as_deref() == Some(platform);
+        match self.script {
+            Script::Unicode if only => vector.to_owned(),
+            Script::Unicode => format!("{platform}.{vector}"),
+            Script::Latex => {
+                let (vector, axis) = vector.split_at(1);
+                let platform = match only {
+                    true => String::new(),
+                    false => format!("^{{\\mathrm{{{}}}}}", platform.replace('_', "\\_")),
+                };
+                format!("{vector}_{{{axis}}}{platform}")
+            }
+        }
+    }
+
+    fn is_compact(&self, name: &str) -> bool {
+        let text = self.name(name);
+        match self.script {
+            Script::Unicode => parts(&text).0.chars().count() == 1,
+            Script::Latex => !text.starts_with("\\mathit") && !text.starts_with("\\text"),
+        }
+    }
+
+    fn number(&self, value: f64) -> Printed {
+        let text = Expression::<String>::number(value.abs()).to_string();
+        let text = match (text.split_once('e'), self.script) {
+            (Some((mantissa, power)), Script::Latex) => {
+                format!("{mantissa} \\cdot 10^{{{power}}}")
+            }
+            _ => text,
+        };
+        match value.is_sign_negative() && value != 0.0 {
+            true => Printed {
+                text: self.minus().to_owned() + &text,
+                tightness: Tightness::Product,
+                compact: false,
+            },
+            false => operand(text),
+        }
+    }
+
+    fn minus(&self) -> &'static str {
+        match self.script {
+            Script::Unicode => "−",
+            Script::Latex => "-",
+        }
+    }
+
+    fn printed(&self, expression: &Expression) -> Printed {
+        match &expression.node {
+            Node::Number(value) => self.number(*value),
+            Node::Quantity(value, unit) => {
+                let value = self.number(*value).text;
+                operand(match (unit.word(), self.script) {
+                    ("deg", Script::Unicode) => format!("{value}°"),
+                    ("deg", Script::Latex) => format!("{value}^{{\\circ}}"),
+                    (word, Script::Unicode) => format!("{value} {word}"),
+                    (word, Script::Latex) => format!("{value}\\,\\mathrm{{{word}}}"),
+                })
+            }
+            Node::Constant(Constant::Pi) => Printed {
+                compact: true,
+                ..operand(match self.script {
+                    Script::Unicode => "π".into(),
+                    Script::Latex => "\\pi".into(),
+                })
+            },
+            Node::Constant(other) => operand(other.word().into()),
+            Node::Name(name) => Printed {
+                compact: self.is_compact(name),
+                ..operand(self.name(name))
+            },
+            Node::Negate(x) => Printed {
+                text: format!("{}{}", self.minus(), self.part(x, Tightness::Product)),
+                tightness: Tightness::Product,
+                compact: false,
+            },
+            Node::Binary(operator, x, y) => self.operation(*operator, x, y, expression),
+            Node::Call(function, arguments) => self.call(*function, arguments),
+        }
+    }
+
+    fn part(&self, expression: &Expression, tightness: Tightness) -> String {
+        let Printed {
+            text,
+            tightness: own,
+            ..
+        } = self.printed(expression);
+        match own >= tightness {
+            true => text,
+            false => self.enclosed(&text),
+        }
+    }
+
+    fn enclosed(&self, text: &str) -> String {
+        match self.script {
+            Script::Unicode => format!("({text})"),
+            Script::Latex => format!("\\left({text}\\right)"),
+        }
+    }
+
+    fn operation(
+        &self,
+        operator: Operator,
+        x: &Expression,
+        y: &Expression,
+        whole: &Expression,
+    ) -> Printed {
+        let of = |text, tightness| Printed {
+            text,
+            tightness,
+            compact: false,
+        };
+        match operator {
+            Operator::Add => {
+                let (x, y) = (
+                    self.part(x, Tightness::Sum),
+                    self.part(y, Tightness::Product),
+                );
+                of(format!("{x} + {y}"), Tightness::Sum)
+            }
+            Operator::Subtract => {
+                let (x, y) = (
+                    self.part(x, Tightness::Sum),
+                    self.part(y, Tightness::Product),
+                );
+                of(format!("{x} {} {y}", self.minus()), Tightness::Sum)
+            }
+            Operator::Multiply => of(self.product(whole), Tightness::Product),
+            Operator::Divide => self.quotient(x, y),
+            Operator::Power => {
+                let base = self.part(x, Tightness::Operand);
+                let compact = matches!(x.node, Node::Name(_)) && self.printed(x).compact;
+                let whole = y.as_number().filter(|n| n.fract() == 0.0 && *n >= 0.0);
+                let text = match (self.script, whole) {
+                    (Script::Unicode, Some(n)) => format!("{base}{}", raised(&format!("{n}"))),
+                    (Script::Unicode, None) => {
+                        format!("{base}^{}", self.part(y, Tightness::Operand))
+                    }
+                    (Script::Latex, _) => format!("{{{base}}}^{{{}}}", self.print(y)),
+                };
+                Printed {
+                    text,
+                    tightness: Tightness::Operand,
+                    compact,
+                }
+            }
+        }
+    }
+
+    fn quotient(&self, x: &Expression, y: &Expression) -> Printed {
+        if self.script == Script::Latex {
+            let (sign, x) = match &x.node {
+                Node::Negate(x) => ("-", &**x),
+                _ => ("", x),
+            };
+            return Printed {
+                text: format!("{sign}\\frac{{{}}}{{{}}}", self.print(x), self.print(y)),
+                tightness: Tightness::Product,
+                compact: false,
+            };
+        }
+        if let Node::Negate(x) = &x.node {
+            let Printed { text, .. } = self.quotient(x, y);
+            return Printed {
+                text: format!("−{text}"),
+                tightness: Tightness::Product,
+                compact: false,
+            };
+        }
+        let numbers = x.as_number().zip(y.as_number());
+        let vulgar = VULGAR.iter().find(|(p, q, _)| numbers == Some((*p, *q)));
+        if let Some((_, _, sign)) = vulgar {
+            return operand(sign.to_string());
+        }
+        Printed {
+            text: format!(
+                "{}/{}",
+                self.part(x, Tightness::Product),
+                self.part(y, Tightness::Operand)
+            ),
+            tightness: Tightness::Product,
+            compact: false,
+        }
+    }
+
+    fn product(&self, whole: &Expression) -> String {
+        let mut factors = Vec::new();
+        let mut left = whole;
+        while let Node::Binary(Operator::Multiply, x, y) = &left.node {
+            factors.push(&**y);
+            left = x;
+        }
+        factors.push(left);
+        let mut text = String::new();
+        let mut compact = false;
+        for (i, factor) in factors.into_iter().rev().enumerate() {
+            let printed = self.printed(factor);
+            let enclosed = printed.tightness == Tightness::Sum;
+            let own = match enclosed {
+                true => self.enclosed(&printed.text),
+                false => printed.text,
+            };
+            if i > 0 && !(compact && (printed.compact || enclosed)) {
+                text += if self.script == Script::Latex {
+                    " \\, "
+                } else {
+                    " "
+                };
+            } else if i > 0 && self.script == Script::Latex {
+                text.push(' ');
+            }
+            text += &own;
+            compact = printed.compact
+                || matches!(&factor.node, Node::Negate(x) if self.printed(x).compact);
+        }
+        text
+    }
+
+    fn call(&self, function: Function, arguments: &[Expression]) -> Printed {
+        let circular = matches!(function, Function::Sin | Function::Cos);
+        if circular && let Some(indices) = self.indices(&arguments[0]) {
+            let letter = if function == Function::Sin { 's' } else { 'c' };
+            return Printed {
+                compact: true,
+                ..operand(match self.script {
+                    Script::Unicode => format!("{letter}{}", lowered(&indices)),
+                    Script::Latex => format!("{letter}_{{{indices}}}"),
+                })
+            };
+        }
+        let inside: Vec<String> = arguments.iter().map(|x| self.print(x)).collect();
+        let inside = inside.join(", ");
+        let simple = matches!(arguments[0].node, Node::Name(_) | Node::Quantity(..));
+        operand(match (self.script, function) {
+            (Script::Unicode, Function::Sqrt) => match arguments[0].node {
+                Node::Number(_) | Node::Name(_) => format!("√{inside}"),
+                _ => format!("√({inside})"),
+            },
+            (Script::Latex, Function::Sqrt) => format!("\\sqrt{{{inside}}}"),
+            (Script::Unicode, _) if circular && simple => format!("{} {inside}", function.word()),
+            (Script::Unicode, _) => format!("{}({inside})", function.word()),
+            (Script::Latex, _) if circular && simple => {
+                format!("\\{} {inside}", function.word())
+            }
+            (
+                Script::Latex,
+                Function::Sin
+                | Function::Cos
+                | Function::Tan
+                | Function::Exp
+                | Function::Ln
+                | Function::Min
+                | Function::Max,
+            ) => {
+                format!("\\{}{}", function.word(), self.enclosed(&inside))
+            }
+            (Script::Latex, _) => {
+                format!(
+                    "\\operatorname{{{}}}{}",
+                    function.word(),
+                    self.enclosed(&inside)
+                )
+            }
+        })
+    }
+}

@@ -1,0 +1,155 @@
+//! Formulas as closed forms of a mechanism file, to be pasted back.
+
+use std::collections::BTreeMap;
+
+use super::{Notation, Script, needs_platform};
+use crate::algebra::{Expression, Function, Node};
+use crate::analysis::formulas::{ClosureFormula, FormulasReport, TransformFormula};
+use crate::mechanism::Mechanism;
+
+/// The `closed_forms` of a mechanism file.
+pub fn ron(mechanism: &Mechanism, report: &FormulasReport) -> String {
+    let notation = Notation::new(mechanism, Script::Unicode);
+    let mut text = "closed_forms: {\n".to_owned();
+    for transform in report.links.iter().chain(&report.transforms) {
+        text += &transform_of(&notation, report, transform);
+    }
+    for closure in &report.closures {
+        text += &closure_of(&notation, report, closure);
+    }
+    text += "},\n";
+    for note in super::notes(report) {
+        text += &format!("// {note}\n");
+    }
+    text
+}
+
+/// The expression with c12 for cos(theta1 + theta2), and what these stand for.
+fn shortened(
+    notation: &Notation,
+    expression: &Expression,
+    locals: &mut BTreeMap<(usize, String), String>,
+) -> Expression {
+    let mut short = expression.clone();
+    shorten(notation, &mut short, locals);
+    short
+}
+
+fn shorten(
+    notation: &Notation,
+    expression: &mut Expression,
+    locals: &mut BTreeMap<(usize, String), String>,
+) {
+    if let Node::Call(function @ (Function::Sin | Function::Cos), arguments) = &expression.node
+        && let Some(indices) = notation.indices(&arguments[0])
+    {
+        let letter = if *function == Function::Sin { "s" } else { "c" };
+        let name = format!("{letter}{indices}");
+        locals.insert((indices.len(), name.clone()), expression.to_string());
+        expression.node = Node::Name(name);
+        return;
+    }
+    match &mut expression.node {
+        Node::Negate(x) => shorten(notation, x, locals),
+        Node::Binary(_, x, y) => {
+            shorten(notation, x, locals);
+            shorten(notation, y, locals);
+        }
+        Node::Call(_, arguments) => arguments
+            .iter_mut()
+            .for_each(|x| shorten(notation, x, locals)),
+        _ => {}
+    }
+}
+
+fn wheres(locals: &BTreeMap<(usize, String), String>) -> String {
+    if locals.is_empty() {
+        return String::new();
+    }
+    let locals = locals
+        .iter()
+        .map(|((_, name), meaning)| format!("\"{name}\": \"{meaning}\""));
+    format!(
+        "        where: {{ {} }},\n",
+        locals.collect::<Vec<_>>().join(", ")
+    )
+}
+
+fn transform_of(
+    notation: &Notation,
+    report: &FormulasReport,
+    transform: &TransformFormula,
+) -> String {
+    let TransformFormula {
+        of,
+        relative_to,
+        rotation,
+        position,
+    } = transform;
+    let all: Vec<&Expression> = rotation.iter().flatten().chain(position).collect();
+    if needs_platform(report, &all) {
+        return format!("    // {of} in {relative_to} depends on the pose of a platform\n");
+    }
+    let mut locals = BTreeMap::new();
+    let rows: Vec<[String; 4]> = (rotation.iter().zip(position))
+        .map(|([n, s, a], p)| {
+            [n, s, a, p].map(|e| format!("\"{}\"", shortened(notation, e, &mut locals)))
+        })
+        .collect();
+    let rows = rows
+        .iter()
+        .map(|row| format!("            ({}),\n", row.join(", ")));
+    let rows: String = rows.collect();
+    let seen = match relative_to.as_str() {
+        "ground" => String::new(),
+        other => format!(", in: \"{other}\""),
+    };
+    format!(
+        "    \"{}\": (\n        of: \"{of}\"{seen},\n{}        transform: (\n{rows}        ),\n    ),\n",
+        name_of(transform),
+        wheres(&locals)
+    )
+}
+
+fn name_of(transform: &TransformFormula) -> String {
+    let plain = |name: &str| name.replace('.', "_");
+    match transform.relative_to.as_str() {
+        "ground" => plain(&transform.of),
+        other => format!("{}_in_{}", plain(&transform.of), plain(other)),
+    }
+}
+
+fn closure_of(notation: &Notation, report: &FormulasReport, closure: &ClosureFormula) -> String {
+    let mut all: Vec<&Expression> = closure.equations.iter().collect();
+    if let Some((gap, length)) = &closure.distance {
+        all.extend(gap.iter().chain([length]));
+    }
+    if needs_platform(report, &all) {
+        return format!(
+            "    // closure {} depends on the pose of a platform\n",
+            closure.name
+        );
+    }
+    let mut locals = BTreeMap::new();
+    let mut equations: Vec<String> = (closure.equations.iter())
+        .map(|equation| shortened(notation, equation, &mut locals).to_string())
+        .collect();
+    if let Some((gap, length)) = &closure.distance {
+        let mut square = |e: &Expression| format!("({})^2", shortened(notation, e, &mut locals));
+        let gap: Vec<String> = gap.iter().map(&mut square).collect();
+        equations.push(format!("{} - {}", gap.join(" + "), square(length)));
+    }
+    if equations.is_empty() {
+        return String::new();
+    }
+    let lines = equations
+        .iter()
+        .enumerate()
+        .map(|(i, equation)| format!("            \"equation{}\": \"{equation}\",\n", i + 1));
+    let lines: String = lines.collect();
+    format!(
+        "    \"closure_{}\": (\n{}        identities: {{\n{lines}        }},\n    ),\n",
+        closure.name,
+        wheres(&locals)
+    )
+}

@@ -1,0 +1,231 @@
+//! Formulas for a terminal.
+
+use std::collections::BTreeMap;
+
+use super::{Notation, Script, notes};
+use crate::algebra::Expression;
+use crate::analysis::formulas::{
+    ClosureFormula, FormulasReport, JacobianFormula, Meaning, TransformFormula,
+};
+use crate::mechanism::Mechanism;
+
+/// Wider matrices are printed entry by entry.
+const WIDEST: usize = 110;
+
+/// The report for people: matrices, equations, and what the letters mean.
+pub fn text(mechanism: &Mechanism, report: &FormulasReport) -> String {
+    let notation = Notation::new(mechanism, Script::Unicode);
+    let mut text = format!("{}\n", mechanism.name());
+    let mut section = |title: &str, blocks: Vec<String>| {
+        if !blocks.is_empty() {
+            text += &format!("\n{title}\n{}", blocks.join("\n"));
+        }
+    };
+    let transforms = |transforms: &[TransformFormula]| -> Vec<String> {
+        transforms.iter().map(|t| transform(&notation, t)).collect()
+    };
+    section("Links", transforms(&report.links));
+    section("Transforms", transforms(&report.transforms));
+    let closures = report.closures.iter().map(|c| closure(&notation, c));
+    section("Closures", closures.collect());
+    let jacobians = report.jacobians.iter().map(|j| jacobian(&notation, j));
+    section(
+        "Screw Jacobians, in each column v of the origin above ω",
+        jacobians.collect(),
+    );
+    let legend = legend(&notation, report);
+    if !legend.is_empty() {
+        text += &format!("\n{legend}\n");
+    }
+    for note in notes(report) {
+        text += &format!("\n{note}\n");
+    }
+    text
+}
+
+fn transform(notation: &Notation, transform: &TransformFormula) -> String {
+    let TransformFormula {
+        of,
+        relative_to,
+        rotation,
+        position,
+    } = transform;
+    let rows: Vec<Vec<String>> = (rotation.iter().zip(position))
+        .map(|(row, p)| row.iter().chain([p]).map(|e| notation.print(e)).collect())
+        .collect();
+    let names = [
+        ["r11", "r12", "r13", "px"],
+        ["r21", "r22", "r23", "py"],
+        ["r31", "r32", "r33", "pz"],
+    ];
+    let title = format!("  {of} in {relative_to}\n");
+    title
+        + &matrix(&rows).unwrap_or_else(|| {
+            // column after column, as n, s, a and p are read
+            let entries = (0..4).flat_map(|column| (0..3).map(move |row| (row, column)));
+            let entries = entries.map(|(row, column)| {
+                format!("    {} = {}\n", names[row][column], rows[row][column])
+            });
+            entries.collect()
+        })
+}
+
+/// A matrix in brackets; nothing if it would be too wide.
+fn matrix(rows: &[Vec<String>]) -> Option<String> {
+    let columns = rows.first().map_or(0, Vec::len);
+    let width = |text: &String| text.chars().count();
+    let widths: Vec<usize> = (0..columns)
+        .map(|column| {
+            rows.iter()
+                .map(|row| width(&row[column]))
+                .max()
+                .unwrap_or(0)
+        })
+        .collect();
+    if widths.iter().sum::<usize>() + 2 * columns > WIDEST {
+        return None;
+    }
+    let mut text = String::new();
+    for (i, row) in rows.iter().enumerate() {
+        let (left, right) = match i {
+            0 => ('⎡', '⎤'),
+            _ if i + 1 == rows.len() => ('⎣', '⎦'),
+            _ => ('⎢', '⎥'),
+        };
+        let cells = row
+            .iter()
+            .zip(&widths)
+            .map(|(cell, w)| format!("{cell}{}", " ".repeat(w - width(cell))));
+        let cells: Vec<String> = cells.collect();
+        text += &format!("    {left} {} {right}\n", cells.join("  "));
+    }
+    Some(text)
+}
+
+fn closure(notation: &Notation, closure: &ClosureFormula) -> String {
+    let ClosureFormula {
+        name,
+        kind,
+        between: [a, b],
+        equations,
+        identically_zero,
+        distance,
+        same_axes,
+        admits_flipped,
+    } = closure;
+    let mut text = format!("  {name}: {kind} between {a} and {b}\n");
+    for equation in equations {
+        text += &format!("    {} = 0\n", notation.print(equation));
+    }
+    if let Some((gap, length)) = distance {
+        for (axis, component) in ["x", "y", "z"].into_iter().zip(gap) {
+            text += &format!("    g{axis} = {}\n", notation.print(component));
+        }
+        let length = notation.print(length);
+        let length = match length.contains(' ') {
+            true => format!("({length})²"),
+            false => format!("{length}²"),
+        };
+        text += &format!("    gx² + gy² + gz² = {length}\n");
+    }
+    if *identically_zero > 0 {
+        let more = match identically_zero {
+            1 => "1 more equation holds".to_owned(),
+            n => format!("{n} more equations hold"),
+        };
+        text += &format!("    {more} at all joint values\n");
+    }
+    if *same_axes {
+        text += &format!("    and the axes n, s, a of {a} are those of {b}\n");
+    }
+    if *admits_flipped && equations.len() > 3 {
+        text += "    and the axes point the same way: these equations hold for opposite ones too\n";
+    }
+    text
+}
+
+fn jacobian(notation: &Notation, jacobian: &JacobianFormula) -> String {
+    let JacobianFormula {
+        of,
+        relative_to,
+        columns,
+    } = jacobian;
+    let print = |e: &Expression| notation.print(e);
+    let joints: Vec<String> = columns.iter().map(|c| notation.name(&c.joint)).collect();
+    let mut text = format!("  {of} in {relative_to}, columns {}\n", joints.join(", "));
+    let entries: Vec<Vec<String>> = (columns.iter())
+        .map(|c| c.velocity.iter().chain(&c.omega).map(print).collect())
+        .collect();
+    let rows: Vec<Vec<String>> = (0..6)
+        .map(|row| entries.iter().map(|column| column[row].clone()).collect())
+        .collect();
+    text += &matrix(&rows).unwrap_or_else(|| {
+        let mut listed = String::new();
+        for (joint, column) in joints.iter().zip(&entries) {
+            listed += &format!("    {joint}\n");
+            for (name, entry) in ["vx", "vy", "vz", "ωx", "ωy", "ωz"].into_iter().zip(column) {
+                listed += &format!("      {name} = {entry}\n");
+            }
+        }
+        listed
+    });
+    text
+}
+
+/// Every expression of a report.
+fn expressions(report: &FormulasReport) -> impl Iterator<Item = &Expression> {
+    let transforms = report.links.iter().chain(&report.transforms);
+    let transforms = transforms.flat_map(|t| t.rotation.iter().flatten().chain(&t.position));
+    let closures = report.closures.iter().flat_map(|closure| {
+        let distance = closure.distance.iter();
+        let distance = distance.flat_map(|(gap, length)| gap.iter().chain([length]));
+        closure.equations.iter().chain(distance)
+    });
+    let columns = report
+        .jacobians
+        .iter()
+        .flat_map(|jacobian| &jacobian.columns);
+    let columns = columns.flat_map(|column| column.velocity.iter().chain(&column.omega));
+    transforms.chain(closures).chain(columns)
+}
+
+/// What the shorthands stand for.
+fn legend(notation: &Notation, report: &FormulasReport) -> String {
+    let mut short: BTreeMap<String, String> = BTreeMap::new();
+    for expression in expressions(report) {
+        for (indices, angle) in notation.shortened(expression) {
+            short.insert(indices, notation.print(angle));
+        }
+    }
+    let mut lines = Vec::new();
+    // a sum is enclosed in parentheses, and all are explained by one of their kind
+    let mut explained: Vec<String> = Vec::new();
+    if let Some((indices, angle)) = short.iter().find(|(indices, _)| indices.len() == 1) {
+        let lower = super::notation::subscript(indices);
+        explained.push(format!("c{lower} = cos {angle}, s{lower} = sin {angle}"));
+    }
+    if let Some((indices, angle)) = short.iter().find(|(indices, _)| indices.len() > 1) {
+        let lower = super::notation::subscript(indices);
+        explained.push(format!("c{lower} = cos({angle}), s{lower} = sin({angle})"));
+    }
+    if !explained.is_empty() {
+        lines.push(explained.join(", "));
+    }
+    let mut platforms = report
+        .letters
+        .iter()
+        .filter(|l| l.meaning == Meaning::Platform);
+    if let Some(letter) = platforms.next() {
+        let first = letter.name.split('.').next().unwrap_or_default();
+        let all = report
+            .letters
+            .iter()
+            .filter(|l| l.meaning == Meaning::Platform);
+        let several = all.clone().any(|l| l.name.split('.').next() != Some(first));
+        lines.push(match several {
+            true => "n, s, a and p: axes and origin of a platform in ground".into(),
+            false => format!("n, s, a and p: axes and origin of {first} in ground"),
+        });
+    }
+    lines.join("\n")
+}
