@@ -7,11 +7,13 @@
 mod affine;
 mod display;
 mod evaluation;
+mod measure;
 mod parser;
 mod vocabulary;
 
 pub use affine::{Affine, NonAffine};
 pub use evaluation::{EvaluationError, EvaluationErrorKind, LARGEST};
+pub use measure::{Measure, MeasureError, MeasureErrorKind};
 pub use parser::{MAX_HEIGHT, MAX_NESTING, ParseError, ParseErrorKind};
 pub use vocabulary::{Constant, Function, Unit, is_name, is_reserved};
 

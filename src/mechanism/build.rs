@@ -10,7 +10,7 @@ use std::path::Path;
 use super::model::{Chain, FixedStep, Formula, Joint, JointKind, Platform, Row, Symbol};
 use super::names::{Names, definition_order};
 use super::{Frame, Mechanism, inspect};
-use crate::algebra::Affine;
+use crate::algebra::{Affine, Measure};
 use crate::description::{self, Description, Displacement, Draft, Entry, Named, Note};
 use crate::description::{FileError, LoadError, Problem, ProblemKind, Scope, Severity};
 use crate::geometry::{Axis, Pose};
@@ -48,6 +48,8 @@ pub(super) struct Builder<'a> {
     pub problems: Vec<Problem>,
     /// The values of the parameters; NaN where one is not known.
     pub values: Vec<f64>,
+    /// What the parameters measure.
+    pub measures: Vec<Measure>,
     /// Names that may stand for something else than they seem to; what uses them is not judged.
     doubtful: &'a HashSet<String>,
 }
@@ -113,6 +115,7 @@ impl Mechanism {
             names: Names::new(description),
             problems: Vec::new(),
             values: vec![f64::NAN; description.parameters.len()],
+            measures: vec![Measure::Open; description.parameters.len()],
             doubtful,
         };
         let parameters = builder.parameters(description);
@@ -140,6 +143,7 @@ impl Mechanism {
         let refused = |problem: &Problem| problem.severity() == Severity::Error;
         if !builder.problems.iter().any(refused) {
             mechanism.infer_kinds();
+            builder.check_joint_units(description, &mechanism.joints);
             inspect::inspect(&mechanism, description, &mut builder.problems);
         }
         if !builder.problems.iter().any(refused) {
@@ -184,6 +188,45 @@ impl Builder<'_> {
         }
     }
 
+    /// What a name measures; that of a joint shows only when all rows are known.
+    fn measure(&self, symbol: &Symbol) -> Measure {
+        match *symbol {
+            Symbol::Parameter(i) => self.measures[i],
+            Symbol::Joint(_) | Symbol::Local(_) => Measure::Open,
+        }
+    }
+
+    /// Records a unit that does not fit.
+    fn check_unit(&mut self, formula: &Formula, wanted: Measure) {
+        if let Err(error) = formula.check_measure(wanted, &|symbol| self.measure(symbol)) {
+            let problem = ProblemKind::Unit(error.kind).at(error.span);
+            self.problems.push(problem);
+        }
+    }
+
+    /// Homes and limits are angles or lengths as the joints are.
+    fn check_joint_units(&mut self, description: &Description, joints: &[Joint]) {
+        for (Named { value, .. }, joint) in description.joints.iter().zip(joints) {
+            let wanted = match joint.kind.is_angle() {
+                true => Measure::Angle,
+                false => Measure::Length,
+            };
+            let limits = value.limits.iter().flat_map(|(low, high)| [low, high]);
+            for entry in std::iter::once(&value.home).chain(limits) {
+                if let Some(formula) = self.formula(entry, Scope::Parameters, &HashMap::new()) {
+                    self.check_unit(&formula, wanted);
+                }
+            }
+        }
+    }
+
+    /// A formula over parameters that measures what is wanted, with its value.
+    fn measured(&mut self, entry: &Entry, wanted: Measure) -> Option<(Formula, f64)> {
+        let (formula, value) = self.constant(entry)?;
+        self.check_unit(&formula, wanted);
+        Some((formula, value))
+    }
+
     /// A formula over parameters, with its value.
     fn constant(&mut self, entry: &Entry) -> Option<(Formula, f64)> {
         let formula = self.formula(entry, Scope::Parameters, &HashMap::new())?;
@@ -225,8 +268,9 @@ impl Builder<'_> {
     }
 
     /// An entry affine in the joint variables.
-    fn affine(&mut self, entry: &Entry) -> Option<Affine<Symbol>> {
+    fn affine(&mut self, entry: &Entry, wanted: Measure) -> Option<Affine<Symbol>> {
         let formula = self.formula(entry, Scope::ParametersAndJoints, &HashMap::new())?;
+        self.check_unit(&formula, wanted);
         match formula.affine(|symbol| matches!(symbol, Symbol::Joint(_))) {
             Ok(affine) => {
                 let coefficients = affine.terms.iter().map(|(_, coefficient)| coefficient);
@@ -281,13 +325,13 @@ impl Builder<'_> {
             };
             let step = match displacement {
                 Displacement::Translate(along, entry) => self
-                    .constant(entry)
+                    .measured(entry, Measure::Length)
                     .map(|(f, _)| FixedStep::Translate(axis(along), f)),
                 Displacement::Rotate(about, entry) => self
-                    .constant(entry)
+                    .measured(entry, Measure::Angle)
                     .map(|(f, _)| FixedStep::Rotate(axis(about), f)),
                 Displacement::TranslateBy(entries) => {
-                    let [x, y, z] = [0, 1, 2].map(|i| self.constant(&entries[i]));
+                    let [x, y, z] = [0, 1, 2].map(|i| self.measured(&entries[i], Measure::Length));
                     match (x, y, z) {
                         (Some((x, _)), Some((y, _)), Some((z, _))) => {
                             Some(FixedStep::TranslateBy([x, y, z]))
@@ -322,8 +366,10 @@ impl Builder<'_> {
             let base = self.fixed(&value.base);
             let mut rows = Vec::new();
             for row in &value.rows {
-                let (alpha, a) = (self.constant(&row.alpha), self.constant(&row.a));
-                let (d, theta) = (self.affine(&row.d), self.affine(&row.theta));
+                let alpha = self.measured(&row.alpha, Measure::Angle);
+                let a = self.measured(&row.a, Measure::Length);
+                let d = self.affine(&row.d, Measure::Length);
+                let theta = self.affine(&row.theta, Measure::Angle);
                 let entries = [&row.alpha, &row.a, &row.d, &row.theta];
                 let whole = || {
                     Some(Row {

@@ -2,6 +2,7 @@
 
 use super::value::{self, ValueError};
 use super::{Holdable, Question, QuestionError};
+use crate::algebra::Measure;
 use crate::description::nearest;
 
 /// Rates and accelerations of the held coordinates of a question, in m and rad and seconds.
@@ -49,7 +50,7 @@ impl Drive {
     /// If the coordinate is not held or the value has none.
     pub fn rate(mut self, question: &Question, name: &str, text: &str) -> Result<Self, DriveError> {
         let place = self.place(question, name)?;
-        self.rates[place] = number(question, name, text)?;
+        self.rates[place] = number(question, name, text, self.measure(question, place))?;
         self.given = true;
         Ok(self)
     }
@@ -65,9 +66,14 @@ impl Drive {
         text: &str,
     ) -> Result<Self, DriveError> {
         let place = self.place(question, name)?;
-        self.accelerations[place] = number(question, name, text)?;
+        self.accelerations[place] = number(question, name, text, self.measure(question, place))?;
         self.given = true;
         Ok(self)
+    }
+
+    /// A rate has the unit of its coordinate per unit of time, which is not written.
+    fn measure(&self, question: &Question, place: usize) -> Measure {
+        self.coordinates[place].measure(question.mechanism())
     }
 
     fn place(&self, question: &Question, name: &str) -> Result<usize, DriveError> {
@@ -100,8 +106,13 @@ impl Drive {
 }
 
 /// The value of an expression over the parameters.
-pub(super) fn number(question: &Question, name: &str, text: &str) -> Result<f64, DriveError> {
-    let value = value::number(question.mechanism(), text);
+pub(super) fn number(
+    question: &Question,
+    name: &str,
+    text: &str,
+    wanted: Measure,
+) -> Result<f64, DriveError> {
+    let value = value::number(question.mechanism(), text, wanted);
     value.map_err(|error: ValueError| {
         DriveError::Question(QuestionError::Value {
             name: name.into(),

@@ -1,6 +1,7 @@
 use super::Neighbourhood;
 use super::equations::System;
 use super::layout::{Held, HeldPlatform, Unknown};
+use crate::algebra::Measure;
 use crate::geometry::{RollPitchYaw, Vector3};
 use crate::linear::{SPECTRUM_LIMIT, Spectrum, rank};
 use crate::mechanism::{Configuration, Coordinate, Dimensions, Kinematics, Mechanism};
@@ -187,6 +188,24 @@ impl Holdable {
         match self {
             Holdable::Joint(joint) => mechanism.joints()[joint].kind.is_angle(),
             Holdable::Coordinate(_, coordinate) => coordinate.is_angle(),
+        }
+    }
+
+    /// Its value in the home configuration, in m or rad.
+    pub fn home(self, mechanism: &Mechanism) -> f64 {
+        match self {
+            Holdable::Joint(joint) => mechanism.joints()[joint].home,
+            Holdable::Coordinate(platform, coordinate) => {
+                coordinate.of(&mechanism.platforms()[platform].home)
+            }
+        }
+    }
+
+    /// What its value measures.
+    pub fn measure(self, mechanism: &Mechanism) -> Measure {
+        match self.is_angle(mechanism) {
+            true => Measure::Angle,
+            false => Measure::Length,
         }
     }
 

@@ -56,15 +56,14 @@ impl<'a> Question<'a> {
     pub fn hold(mut self, name: &str, value: &str) -> Result<Self, QuestionError> {
         match self.demand(Verb::Hold, name, Some(value))? {
             Target::Joint(joint) => {
-                let value = self.number(name, value, self.mechanism.joints()[joint].home)?;
+                let value = self.number(name, value, Holdable::Joint(joint))?;
                 self.split_changed |= !self.joints[joint];
                 self.joints[joint] = true;
                 self.asked[joint] = true;
                 self.start.joints[joint] = value;
             }
             Target::Coordinate(platform, coordinate) => {
-                let home = coordinate.of(&self.mechanism.platforms()[platform].home);
-                let value = self.number(name, value, home)?;
+                let value = self.number(name, value, Holdable::Coordinate(platform, coordinate))?;
                 self.coordinates[platform][coordinate as usize] = Some(value);
                 self.split_changed = true;
             }
@@ -103,7 +102,7 @@ impl<'a> Question<'a> {
     pub fn guess(mut self, name: &str, value: &str) -> Result<Self, QuestionError> {
         match self.demand(Verb::Guess, name, Some(value))? {
             Target::Joint(joint) => {
-                let value = self.number(name, value, self.mechanism.joints()[joint].home)?;
+                let value = self.number(name, value, Holdable::Joint(joint))?;
                 if !self.joints[joint] {
                     self.start.joints[joint] = value;
                     self.guessed_joints[joint] = true;
@@ -111,8 +110,7 @@ impl<'a> Question<'a> {
                 }
             }
             Target::Coordinate(platform, coordinate) => {
-                let home = coordinate.of(&self.mechanism.platforms()[platform].home);
-                let value = self.number(name, value, home)?;
+                let value = self.number(name, value, Holdable::Coordinate(platform, coordinate))?;
                 let pose = with_coordinates(
                     &self.start.platforms[platform].pose(),
                     [(coordinate, value)],
@@ -269,11 +267,11 @@ impl<'a> Question<'a> {
         Ok(target)
     }
 
-    fn number(&self, name: &str, text: &str, home: f64) -> Result<f64, QuestionError> {
+    fn number(&self, name: &str, text: &str, of: Holdable) -> Result<f64, QuestionError> {
         if text.trim() == "home" {
-            return Ok(home);
+            return Ok(of.home(self.mechanism));
         }
-        value::number(self.mechanism, text).map_err(|error| QuestionError::Value {
+        value::number(self.mechanism, text, of.measure(self.mechanism)).map_err(|error| QuestionError::Value {
             name: name.into(),
             text: text.into(),
             error,
