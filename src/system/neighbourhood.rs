@@ -2,7 +2,7 @@
 
 use super::{ClosureWrenches, FrameTwists, Held, System, Unknown, Work};
 use crate::description::{ClosureKind, Role};
-use crate::linear::{Decomposition, dot, norm, rank_of};
+use crate::linear::{Decomposition, dot, norm, orthonormal, rank_of};
 use crate::mechanism::{Configuration, Frame, Mechanism};
 use crate::solve::{Equations, Newton, Stop};
 
@@ -268,6 +268,25 @@ impl<'a> Neighbourhood<'a> {
 }
 
 impl Tangent {
+    /// The motions of an independent part of the mechanism alone.
+    pub fn within(self, own: &[bool]) -> Tangent {
+        if own.iter().all(|own| *own) {
+            return self;
+        }
+        let parts = |motions: &[Vec<f64>]| {
+            let part = |motion: &Vec<f64>| -> Vec<f64> {
+                let all = motion.iter().zip(own);
+                all.map(|(x, own)| if *own { *x } else { 0.0 }).collect()
+            };
+            orthonormal(&motions.iter().map(part).collect::<Vec<_>>(), 1e-6)
+        };
+        Tangent {
+            motions: parts(&self.motions),
+            idle: parts(&self.idle),
+            ..self
+        }
+    }
+
     /// How many unknowns there are.
     pub fn columns(&self) -> usize {
         match (self.motions.first(), self.idle.first()) {
