@@ -61,6 +61,16 @@ pub fn complaint(error: &QuestionError) -> (Complaint, Part) {
 pub fn driven_complaint(error: &DriveError, option: &str) -> (Complaint, Part) {
     match error {
         DriveError::Question(error) => complaint(error),
+        DriveError::Locked { platform } => {
+            let title = QuestionError::AnglesLocked {
+                platform: platform.clone(),
+            };
+            let help = format!(
+                "give angular velocities about the axes of ground, e.g. {option} {}",
+                quoted(&format!("{platform}.wx=0.1"))
+            );
+            (said(title.title(), "", Some(help)), Part::Name)
+        }
         DriveError::NotHeld { name, held } => {
             let title = format!("`{name}` is not held here, so its rate follows from the others");
             let help = match held.is_empty() {

@@ -23,6 +23,11 @@ pub struct Drive {
 pub enum DriveError {
     /// The name or the value is wrong.
     Question(QuestionError),
+    /// Roll, pitch and yaw do not tell how a platform that is held at a pitch of ±90° turns.
+    Locked {
+        /// The platform.
+        platform: String,
+    },
     /// The coordinate is not held, so that its rate follows.
     NotHeld {
         /// The coordinate.
@@ -91,6 +96,18 @@ impl Drive {
         });
         let known = joints.chain(coordinates).map(|c| c.name(mechanism));
         let known: Vec<String> = known.collect();
+        let locked = self.coordinates.iter().find_map(|held| match *held {
+            Holdable::Turn(platform, _) => {
+                let platform = mechanism.platforms()[platform].name.as_str();
+                let angles = crate::mechanism::Coordinate::ALL.map(|c| (c.is_angle(), c.name()));
+                let asked = name.strip_prefix(platform)?.strip_prefix('.')?;
+                (angles.contains(&(true, asked))).then(|| platform.to_owned())
+            }
+            Holdable::Joint(_) | Holdable::Coordinate(..) => None,
+        });
+        if let Some(platform) = locked {
+            return Err(DriveError::Locked { platform });
+        }
         if known.iter().any(|known| known == name) {
             return Err(DriveError::NotHeld {
                 name: name.into(),

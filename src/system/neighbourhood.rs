@@ -120,6 +120,14 @@ impl<'a> Neighbourhood<'a> {
         (report.stop == Stop::Solved).then_some(at)
     }
 
+    /// Whether motions are idle: links turn about their own lines and nothing else moves.
+    pub fn are_idle(&self, at: &Configuration<f64>, motions: &[Vec<f64>]) -> bool {
+        /// Beside motions of unit norm this is rounding.
+        const ROUNDING: f64 = 1e-6;
+        let felt = self.felt(at, motions);
+        felt.iter().all(|rate| rate.abs() < ROUNDING)
+    }
+
     /// For each motion a column of all that idle freedoms leave at rest: origins of frames,
     /// platforms, driven joints, links that end in something else than a ball, joints that no
     /// closure feels.

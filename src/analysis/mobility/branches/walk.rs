@@ -140,10 +140,23 @@ fn look(
             .filter_map(|direction| Some(arrive(near, &least, direction, step)?.1))
             .collect();
         least.motions = orthonormal(&ways, 0.1);
-        if !least.motions.is_empty() {
+        if !least.motions.is_empty() && fills(near, &least, step, rng) {
             add(near, from, least, false, reach, seen);
         }
     }
+}
+
+/// Whether steps in the span of the motions arrive where they aim: where branches meet they fall
+/// to one or the other.
+fn fills(near: &mut Neighbourhood, at: &Tangent, step: f64, rng: &mut impl Rng) -> bool {
+    const TRIALS: usize = 6;
+    const ALONG: f64 = 0.95;
+    at.motions.len() == 1
+        || (0..TRIALS).all(|_| {
+            let direction = combination(&at.motions, rng);
+            let arrived = arrive(near, at, &direction, step);
+            arrived.is_some_and(|(_, way)| dot(&way, &direction) > ALONG)
+        })
 }
 
 fn add(
