@@ -494,12 +494,18 @@ fn four_equal_vertical_rods_under_a_square_plate_have_three_motions() {
     let turning = (report.branches.iter()).filter_map(|branch| {
         let screws = &branch.twists[0].screws;
         let shift = screws.iter().find(|screw| screw.pitch.is_none())?;
-        screws.iter().any(|s| s.pitch == Some(0.0)).then_some(shift.direction)
+        screws
+            .iter()
+            .any(|s| s.pitch == Some(0.0))
+            .then_some(shift.direction)
     });
     let diagonals: Vec<[f64; 3]> = turning.collect();
     assert_eq!(diagonals.len(), 2);
     for [x, y, z] in diagonals {
-        assert!((x.abs() - y.abs()).abs() < 1e-3 && z.abs() < 1e-3, "{x} {y} {z}");
+        assert!(
+            (x.abs() - y.abs()).abs() < 1e-3 && z.abs() < 1e-3,
+            "{x} {y} {z}"
+        );
     }
 }
 

@@ -108,12 +108,19 @@ pub fn text(mechanism: &Mechanism, report: &StaticsReport) -> String {
         sections.push(format!("{title}\n{}", forces(&report.actuators)));
     }
     if !report.closures.is_empty() {
-        let title = "Closures, axes of ground, moments about the point given, that of the second frame";
-        sections.push(format!("{title}\n{}", reactions(&report.closures, report.normalising_length)));
+        let title =
+            "Closures, axes of ground, moments about the point given, that of the second frame";
+        sections.push(format!(
+            "{title}\n{}",
+            reactions(&report.closures, report.normalising_length)
+        ));
     }
     if !report.joints.is_empty() {
         let title = "Joints, axes of ground, moments about the point given, the origin of the frame after the joint";
-        sections.push(format!("{title}\n{}", reactions(&report.joints, report.normalising_length)));
+        sections.push(format!(
+            "{title}\n{}",
+            reactions(&report.joints, report.normalising_length)
+        ));
     }
     sections.join("\n")
 }

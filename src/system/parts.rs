@@ -27,7 +27,10 @@ pub fn independent_parts(mechanism: &Mechanism, unknowns: &[Unknown]) -> Vec<Vec
         let to = label[first];
         for i in own {
             let from = label[i];
-            label.iter_mut().filter(|l| **l == from).for_each(|l| *l = to);
+            label
+                .iter_mut()
+                .filter(|l| **l == from)
+                .for_each(|l| *l = to);
         }
     }
     let mut parts: Vec<Vec<bool>> = Vec::new();

@@ -280,10 +280,12 @@ impl<'a> Question<'a> {
         if text.trim() == "home" {
             return Ok(of.home(self.mechanism));
         }
-        value::number(self.mechanism, text, of.measure(self.mechanism)).map_err(|error| QuestionError::Value {
-            name: name.into(),
-            text: text.into(),
-            error,
+        value::number(self.mechanism, text, of.measure(self.mechanism)).map_err(|error| {
+            QuestionError::Value {
+                name: name.into(),
+                text: text.into(),
+                error,
+            }
         })
     }
 

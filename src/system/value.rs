@@ -35,8 +35,7 @@ pub fn number(mechanism: &Mechanism, text: &str, wanted: Measure) -> Result<f64,
     let parameters = mechanism.parameters();
     let resolved = expression.try_resolve(|name, _| {
         let found = parameters.iter().find(|parameter| parameter.name == *name);
-        found
-            .ok_or_else(|| name.clone())
+        found.ok_or_else(|| name.clone())
     });
     match resolved {
         Ok(resolved) => {

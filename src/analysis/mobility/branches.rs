@@ -232,9 +232,9 @@ fn singular(
     let cone = Cone::of(near, tangent);
     let mut seen: Vec<Seen> = Vec::new();
     let mut limits: Vec<Vec<Vec<f64>>> = Vec::new();
-    let mut found = (vec![], false);
+    let mut share = 0.0;
     let (mut tried, mut fruitless) = (0, 0);
-    while !found.1 {
+    while share < 1.0 {
         for direction in directions(&cone, tangent, settings.branch_trials, rng) {
             explore(near, own, tangent, &direction, settings, &mut seen, rng);
             tried += 1;
@@ -243,39 +243,37 @@ fn singular(
                 fruitless = 0;
                 let new = &seen[limits.len()..];
                 limits.extend((new.iter()).map(|seen| there(near, own, tangent, seen)));
-                found = branches(&cone, n, &seen, &limits);
-                if found.1 {
+                share = branches(&cone, n, &seen, &limits).1;
+                if share >= 1.0 {
                     break;
                 }
             }
         }
-        let enough = (2 * settings.branch_trials * n).max(4 * seen.len());
+        // where most of what is possible was found, the rest is probably real too
+        let patience = if share >= 0.5 { 4 } else { 1 };
+        let enough = patience * (2 * settings.branch_trials * n).max(4 * seen.len());
         if n < 2 || fruitless >= enough || tried >= LONGEST * settings.branch_trials * n {
             break;
         }
     }
     // joints that were seen to move since
-    let (branches, complete) = branches(&cone, n, &seen, &limits);
+    let (branches, share) = branches(&cone, n, &seen, &limits);
     Part {
         regular: false,
         // a function of one variable that does not vanish on the way has no zero there
-        complete: complete || (n == 1 && branches.is_empty()),
+        complete: share >= 1.0 || (n == 1 && branches.is_empty()),
         branches,
     }
 }
 
-/// The branches that were seen, and whether there are certainly no others.
+/// The branches that were seen, and which share of all that there can be they are: 1 if there are
+/// certainly no others, 0 if that is not known.
 ///
 /// The reduction of Lyapunov and Schmidt leaves k equations with independent quadratic parts and
 /// perhaps more. If each branch has n − k freedoms, the tangent cone is that of a complete
 /// intersection of k quadrics, whose components have degrees that add up to no more than 2ᵏ
 /// (Bézout): a linear space has degree 1, and a single quadric that is curved has 2.
-fn branches(
-    cone: &Cone,
-    n: usize,
-    seen: &[Seen],
-    limits: &[Vec<Vec<f64>>],
-) -> (Vec<Branch>, bool) {
+fn branches(cone: &Cone, n: usize, seen: &[Seen], limits: &[Vec<Vec<f64>>]) -> (Vec<Branch>, f64) {
     let mut branches: Vec<(bool, Branch)> = Vec::new();
     for (seen, motions) in seen.iter().zip(limits) {
         let curved = !cone.contains_all(motions);
@@ -320,8 +318,15 @@ fn branches(
     let even = branches.iter().all(|b| b.freedoms + forms == n);
     let single = forms == 1 || branches.iter().all(|branch| !branch.cone);
     let most = 1usize.checked_shl(forms as u32).unwrap_or(usize::MAX);
-    let complete = (1..16).contains(&forms) && even && single && degrees == most;
-    (branches, complete)
+    let known = (1..16).contains(&forms) && even && single;
+    (
+        branches,
+        if known {
+            degrees as f64 / most as f64
+        } else {
+            0.0
+        },
+    )
 }
 
 /// The branches of the whole: each part is on one of its own. The first of them.

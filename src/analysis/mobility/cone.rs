@@ -65,9 +65,8 @@ impl Cone {
     pub fn contains_all(&self, motions: &[Vec<f64>]) -> bool {
         /// Forms have coefficients of unit norm.
         const ZERO: f64 = 0.03;
-        let on_basis = |motion: &Vec<f64>| -> Vec<f64> {
-            self.basis.iter().map(|b| dot(b, motion)).collect()
-        };
+        let on_basis =
+            |motion: &Vec<f64>| -> Vec<f64> { self.basis.iter().map(|b| dot(b, motion)).collect() };
         let weights: Vec<Vec<f64>> = match self.forms.is_empty() {
             true => return true,
             false => motions.iter().map(on_basis).collect(),

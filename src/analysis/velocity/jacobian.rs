@@ -3,8 +3,8 @@
 use serde::Serialize;
 
 use super::unit;
-use crate::linear::{Decomposition, rank};
 use crate::geometry;
+use crate::linear::{Decomposition, rank};
 use crate::mechanism::{Configuration, Coordinate, Frame, Mechanism, Role};
 use crate::system::{FrameTwists, Holdable, Motion};
 
@@ -73,7 +73,8 @@ pub(super) fn outputs(mechanism: &Mechanism, held: &[Holdable], spinning: &[usiz
         } else if held.iter().filter(|held| of_it(held)).count() < 6 {
             let (angles, shifts): (Vec<Coordinate>, _) =
                 Coordinate::ALL.into_iter().partition(|c| c.is_angle());
-            let coordinate = |c: Coordinate| (!is_held(&c)).then_some(Output::Coordinate(platform, c));
+            let coordinate =
+                |c: Coordinate| (!is_held(&c)).then_some(Output::Coordinate(platform, c));
             match angles.iter().any(is_held) {
                 true => outputs.extend(angles.into_iter().filter_map(coordinate)),
                 false => {

@@ -70,9 +70,7 @@ pub(super) fn transmission(
         let free = one.parts.iter().filter(|part| !known.contains(&part.names));
         free.clone().count() == 3 && free.clone().all(|part| part.twists.len() == 1)
     };
-    while let Some(i) =
-        (0..found.len()).find(|&i| angles[i].is_none() && dyad(&found[i], &known))
-    {
+    while let Some(i) = (0..found.len()).find(|&i| angles[i].is_none() && dyad(&found[i], &known)) {
         angles[i] = Some(of_loop(&found[i], &known, length));
         known.extend(found[i].parts.iter().map(|part| part.names.clone()));
     }
@@ -109,40 +107,42 @@ fn of_loop(found: &MechanismLoop, known: &[Vec<String>], length: f64) -> Vec<Tra
         return vec![];
     };
     let parts = &found.parts;
-    let driven = drivers(found, known).into_iter().filter_map(|(i, forwards)| {
-        let others = (1..parts.len()).map(|k| &parts[(i + k) % parts.len()]);
-        let mut others: Vec<&LoopPart> =
-            others.filter(|part| !known.contains(&part.names)).collect();
-        if !forwards {
-            others.reverse();
-        }
-        let hinge = |part: &LoopPart| {
-            let (omega, velocity) = split(&part.twists[0]);
-            let speed = omega.dot(&omega);
-            (speed > ZERO).then(|| omega.cross(&velocity).times(length / speed))
-        };
-        let (first, second) = (hinge(others[0])?, hinge(others[1])?);
-        let force = second - first;
-        let motion = match hinge(others[2]) {
-            Some(post) => normal.cross(&(second - post)),
-            None => split(&others[2].twists[0]).1,
-        };
-        let sizes = force.norm() * motion.norm();
-        if sizes <= ZERO * length * motion.norm().max(ZERO) {
-            return None;
-        }
-        let along = force.dot(&motion).abs();
-        let across = force.cross(&motion).norm();
-        let pressure_angle = across.atan2(along);
-        Some(Transmission {
-            closure: found.closure.clone(),
-            driven: parts[i].names[0].clone(),
-            output: others[2].names[0].clone(),
-            between: others[1].names[0].clone(),
-            transmission_angle: FRAC_PI_2 - pressure_angle,
-            pressure_angle,
-        })
-    });
+    let driven = drivers(found, known)
+        .into_iter()
+        .filter_map(|(i, forwards)| {
+            let others = (1..parts.len()).map(|k| &parts[(i + k) % parts.len()]);
+            let mut others: Vec<&LoopPart> =
+                others.filter(|part| !known.contains(&part.names)).collect();
+            if !forwards {
+                others.reverse();
+            }
+            let hinge = |part: &LoopPart| {
+                let (omega, velocity) = split(&part.twists[0]);
+                let speed = omega.dot(&omega);
+                (speed > ZERO).then(|| omega.cross(&velocity).times(length / speed))
+            };
+            let (first, second) = (hinge(others[0])?, hinge(others[1])?);
+            let force = second - first;
+            let motion = match hinge(others[2]) {
+                Some(post) => normal.cross(&(second - post)),
+                None => split(&others[2].twists[0]).1,
+            };
+            let sizes = force.norm() * motion.norm();
+            if sizes <= ZERO * length * motion.norm().max(ZERO) {
+                return None;
+            }
+            let along = force.dot(&motion).abs();
+            let across = force.cross(&motion).norm();
+            let pressure_angle = across.atan2(along);
+            Some(Transmission {
+                closure: found.closure.clone(),
+                driven: parts[i].names[0].clone(),
+                output: others[2].names[0].clone(),
+                between: others[1].names[0].clone(),
+                transmission_angle: FRAC_PI_2 - pressure_angle,
+                pressure_angle,
+            })
+        });
     driven.collect()
 }
 

@@ -15,7 +15,8 @@ impl Builder<'_> {
         let mut closures = Vec::new();
         for Named { name, value } in &description.closures {
             let frames = [0, 1].map(|i| self.frame(&value.frames[i]));
-            let length = (value.length.as_ref()).map(|entry| (entry, self.affine(entry, Measure::Length)));
+            let length =
+                (value.length.as_ref()).map(|entry| (entry, self.affine(entry, Measure::Length)));
             if let [Some(a), Some(b)] = frames {
                 self.check_bodies(&name.value, value, [a, b], chains);
                 closures.push(Closure {
