@@ -99,12 +99,11 @@ fn a_unit_that_does_not_fit_is_refused_wherever_a_value_is_given() {
     use linkwork::algebra::MeasureErrorKind;
     use linkwork::system::{Drive, DriveError, Load, LoadError, ValueError};
     let mechanism = load("three_rps");
-    let unit = |error: QuestionError| match error {
-        QuestionError::Value {
-            error: ValueError::Unit(MeasureErrorKind::Wrong { .. }),
-            ..
-        } => true,
-        _ => false,
+    let unit = |error: &QuestionError| {
+        let QuestionError::Value { error, .. } = error else {
+            return false;
+        };
+        matches!(error, ValueError::Unit(MeasureErrorKind::Wrong { .. }))
     };
     let question = || Question::new(&mechanism);
     for (name, wrong, right) in [
@@ -117,33 +116,33 @@ fn a_unit_that_does_not_fit_is_refused_wherever_a_value_is_given() {
         ("l1", "2*(3 deg)", "b/2"),
     ] {
         assert!(
-            unit(question().hold(name, wrong).unwrap_err()),
+            unit(&question().hold(name, wrong).unwrap_err()),
             "{name} {wrong}"
         );
         assert!(
-            unit(question().guess(name, wrong).unwrap_err()),
+            unit(&question().guess(name, wrong).unwrap_err()),
             "{name} {wrong}"
         );
         assert!(question().hold(name, right).is_ok(), "{name} {right}");
     }
     let question = question();
     let still = || Drive::still(&question);
-    let driven = |error| matches!(error, DriveError::Question(error) if unit(error));
-    assert!(driven(still().rate(&question, "l1", "1 deg").unwrap_err()));
+    let driven = |error: &DriveError| matches!(error, DriveError::Question(error) if unit(error));
+    assert!(driven(&still().rate(&question, "l1", "1 deg").unwrap_err()));
     assert!(driven(
-        still().acceleration(&question, "l1", "1 deg").unwrap_err()
+        &still().acceleration(&question, "l1", "1 deg").unwrap_err()
     ));
     assert!(still().rate(&question, "l1", "10 mm").is_ok());
-    let loaded = |error| matches!(error, LoadError::Value(error) if driven(error));
+    let loaded = |error: &LoadError| matches!(error, LoadError::Value(error) if driven(error));
     for wrench in ["0,0,2 mm", "0,0,1,0,0,3 deg"] {
         assert!(loaded(
-            Load::default()
+            &Load::default()
                 .wrench(&question, "top", wrench)
                 .unwrap_err()
         ));
     }
     assert!(loaded(
-        Load::default().joint(&question, "l1", "2 m").unwrap_err()
+        &Load::default().joint(&question, "l1", "2 m").unwrap_err()
     ));
     assert!(Load::default().joint(&question, "l1", "2").is_ok());
 }

@@ -8,7 +8,7 @@ use super::cone::Cone;
 use super::{Character, MobilitySettings};
 use crate::linear::{norm, orthonormal};
 use crate::system::{Neighbourhood, Tangent, independent_parts};
-use walk::{Seen, contains, directions, explore, same, there};
+use walk::{Seen, contains, directions, explore, fills, same, there};
 
 /// A joint that a finite step along free motions moves by more than this moves: at a dead point its
 /// rate is zero, and a step of 0.05 moves it to second order.
@@ -231,7 +231,7 @@ fn singular(
     let n = tangent.motions.len();
     let cone = Cone::of(near, tangent);
     let mut seen: Vec<Seen> = Vec::new();
-    let mut limits: Vec<Vec<Vec<f64>>> = Vec::new();
+    let mut limits: Vec<Limit> = Vec::new();
     let mut share = 0.0;
     let (mut tried, mut fruitless) = (0, 0);
     while share < 1.0 {
@@ -241,8 +241,11 @@ fn singular(
             fruitless += 1;
             if seen.len() > limits.len() {
                 fruitless = 0;
-                let new = &seen[limits.len()..];
-                limits.extend((new.iter()).map(|seen| there(near, own, tangent, seen)));
+                for seen in &seen[limits.len()..] {
+                    let motions = there(near, own, tangent, seen);
+                    let curved = seen.regular && is_curved(near, &cone, tangent, &motions, rng);
+                    limits.push(Limit { motions, curved });
+                }
                 share = branches(&cone, n, &seen, &limits).1;
                 if share >= 1.0 {
                     break;
@@ -266,6 +269,34 @@ fn singular(
     }
 }
 
+/// The motions of a branch at the meeting point.
+struct Limit {
+    motions: Vec<Vec<f64>>,
+    /// Whether they depend on the way there.
+    curved: bool,
+}
+
+/// Whether the tangent of a branch at the meeting point is that of a curved cone there: then not all
+/// of it is on the cone, and steps along it lead elsewhere.
+fn is_curved(
+    near: &mut Neighbourhood,
+    cone: &Cone,
+    tangent: &Tangent,
+    motions: &[Vec<f64>],
+    rng: &mut impl Rng,
+) -> bool {
+    /// Length of the steps.
+    const STEP: f64 = 0.02;
+    if !cone.is_all() {
+        return !cone.contains_all(motions);
+    }
+    let along = Tangent {
+        motions: motions.to_vec(),
+        ..tangent.clone()
+    };
+    !fills(near, &along, STEP, rng)
+}
+
 /// The branches that were seen, and which share of all that there can be they are: 1 if there are
 /// certainly no others, 0 if that is not known.
 ///
@@ -273,11 +304,10 @@ fn singular(
 /// perhaps more. If each branch has n − k freedoms, the tangent cone is that of a complete
 /// intersection of k quadrics, whose components have degrees that add up to no more than 2ᵏ
 /// (Bézout): a linear space has degree 1, and a single quadric that is curved has 2.
-fn branches(cone: &Cone, n: usize, seen: &[Seen], limits: &[Vec<Vec<f64>>]) -> (Vec<Branch>, f64) {
+fn branches(cone: &Cone, n: usize, seen: &[Seen], limits: &[Limit]) -> (Vec<Branch>, f64) {
     let mut branches: Vec<(bool, Branch)> = Vec::new();
-    for (seen, motions) in seen.iter().zip(limits) {
-        let curved = !cone.contains_all(motions);
-        let one = |known: &&mut (bool, Branch)| match curved {
+    for (seen, Limit { motions, curved }) in seen.iter().zip(limits) {
+        let one = |known: &&mut (bool, Branch)| match *curved {
             true => known.1.cone && known.1.freedoms == motions.len(),
             false => !known.1.cone && same(&known.1.motions, motions, SAME_THERE),
         };
@@ -285,7 +315,7 @@ fn branches(cone: &Cone, n: usize, seen: &[Seen], limits: &[Vec<Vec<f64>>]) -> (
             *regular |= seen.regular;
             let all = branch.moved.iter_mut().zip(&seen.moved);
             all.for_each(|(any, moved)| *any |= moved);
-            if curved {
+            if *curved {
                 branch.motions = orthonormal(&[&branch.motions[..], motions].concat(), SAME_THERE);
             }
             continue;
@@ -293,7 +323,7 @@ fn branches(cone: &Cone, n: usize, seen: &[Seen], limits: &[Vec<Vec<f64>>]) -> (
         let branch = Branch {
             freedoms: motions.len(),
             motions: motions.clone(),
-            cone: curved,
+            cone: *curved,
             approximate: !seen.regular && motions.len() > 1,
             moved: seen.moved.clone(),
         };

@@ -148,7 +148,7 @@ fn look(
 
 /// Whether steps in the span of the motions arrive where they aim: where branches meet they fall
 /// to one or the other.
-fn fills(near: &mut Neighbourhood, at: &Tangent, step: f64, rng: &mut impl Rng) -> bool {
+pub(super) fn fills(near: &mut Neighbourhood, at: &Tangent, step: f64, rng: &mut impl Rng) -> bool {
     const TRIALS: usize = 6;
     const ALONG: f64 = 0.95;
     at.motions.len() == 1
