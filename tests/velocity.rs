@@ -351,7 +351,7 @@ fn the_second_loop_of_a_six_bar_is_driven_by_the_rocker_of_the_first() {
     assert!((dyad.transmission_angle - between).abs() < 1e-9, "{dyad:?}");
     assert_eq!(
         (dyad.driven.as_str(), dyad.output.as_str()),
-        ("chi", "theta")
+        ("psi1", "theta")
     );
 }
 
@@ -416,7 +416,11 @@ fn what_is_free_of_a_platform_partly_held_is_an_output() {
         let found = report(&question, &Drive::still(&question))
             .jacobian
             .unwrap();
-        let names: Vec<&str> = found.rows.iter().map(|row| row.name.as_str()).collect();
+        let own = found.rows.len() - found.followed;
+        let names: Vec<&str> = found.rows[..own]
+            .iter()
+            .map(|row| row.name.as_str())
+            .collect();
         assert_eq!(names, rows);
         for (column, input) in found.columns.iter().enumerate() {
             let drive = Drive::still(&question)

@@ -3,7 +3,7 @@
 use super::{ClosureWrenches, FrameTwists, Held, System, Unknown, Work};
 use crate::description::{ClosureKind, Role};
 use crate::linear::{Decomposition, dot, norm, orthonormal, rank_of};
-use crate::mechanism::{Configuration, Frame, Mechanism};
+use crate::mechanism::{Body, Configuration, Frame, Mechanism};
 use crate::solve::{Equations, Newton, Stop};
 
 /// A mechanism with nothing held, to be looked at near assembled configurations.
@@ -145,6 +145,21 @@ impl<'a> Neighbourhood<'a> {
             .filter_map(|frame| frames.iter().position(|f| *f == frame))
             .collect();
         let unfelt = mechanism.unfelt_joints();
+        // platforms on balls apart: what leaves the balls at rest turns them about the line of these
+        let balls = |platform: usize| {
+            let closures = mechanism.closures().iter();
+            let balls = closures
+                .flat_map(|closure| closure.frames)
+                .filter(move |frame| mechanism.body(*frame) == Body::Platform(platform));
+            balls.filter_map(|frame| frames.iter().position(|f| *f == frame))
+        };
+        let apart = |i: usize, j: usize| {
+            let [a, b] = [i, j].map(|k| self.frames.origin(k, &placement));
+            (a - b).norm() > 1e-6 / scale
+        };
+        let rods: Vec<usize> = (0..mechanism.platforms().len())
+            .filter(|&platform| balls(platform).any(|i| balls(platform).any(|j| apart(i, j))))
+            .collect();
         let mut felt = Vec::new();
         for motion in motions {
             for i in 0..frames.len() {
@@ -155,11 +170,14 @@ impl<'a> Neighbourhood<'a> {
                 felt.extend(self.frames.twist(i, &placement, motion).omega.0);
             }
             for (unknown, &rate) in self.system.unknowns().iter().zip(motion) {
-                match *unknown {
-                    Unknown::Joint(joint)
-                        if mechanism.joints()[joint].role == Role::Passive
-                            && !unfelt.contains(&joint) => {}
-                    _ => felt.push(rate),
+                let idle = match *unknown {
+                    Unknown::Joint(joint) => {
+                        mechanism.joints()[joint].role == Role::Passive && !unfelt.contains(&joint)
+                    }
+                    Unknown::Twist { platform, .. } => rods.contains(&platform),
+                };
+                if !idle {
+                    felt.push(rate);
                 }
             }
         }

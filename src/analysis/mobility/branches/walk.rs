@@ -26,7 +26,15 @@ pub(super) fn explore(
     seen: &mut Vec<Seen>,
     rng: &mut impl Rng,
 ) {
-    if let Some((at, _)) = arrive(near, tangent, direction, settings.branch_step) {
+    let reach = settings.branch_step;
+    if let Some((mut at, way)) = arrive(near, tangent, direction, reach) {
+        // too near the meeting point a motion of high order looks finite
+        let distance = norm(&near.system().difference(&tangent.at, &at));
+        if distance < 0.5 * reach
+            && let Some((further, _)) = arrive(near, tangent, &way, reach)
+        {
+            at = further;
+        }
         let beside = near.tangent(at).within(own);
         look(near, own, tangent, beside, settings, seen, rng);
     }
@@ -118,7 +126,7 @@ fn look(
             known.see(near, from, last, reach);
             return;
         }
-        if is_regular(near, last, step, 2, rng) {
+        if is_regular(near, last, reach, 3, rng) {
             let beside = last.clone();
             return add(near, from, beside, true, reach, seen);
         }
