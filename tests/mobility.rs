@@ -558,6 +558,9 @@ fn a_plate_on_six_equal_vertical_rods_shifts_or_turns() {
     for seed in 1..=8 {
         assert_eq!(branches_with_seed(&plate, seed), [2, 1], "{seed}");
     }
+    // shifted the rods are parallel and resist three motions only: shaky, the turn is not finite
+    let report = of(&plate);
+    assert!(report.branches[0].approximate && !report.branches[0].cone);
 }
 
 #[test]
