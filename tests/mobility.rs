@@ -445,6 +445,100 @@ fn freedoms_beside_a_bifurcation_are_added_to_each_of_its_branches() {
 }
 
 #[test]
+fn branches_of_independent_parts_are_counted_whatever_the_seed() {
+    let eight = parallelograms(8, "", "");
+    let nine = parallelograms(9, "", "");
+    for seed in 1..=3 {
+        assert_eq!(branches_with_seed(&eight, seed), [8; 256], "{seed}");
+        let settings = MobilitySettings {
+            seed,
+            ..MobilitySettings::default()
+        };
+        let report = mobility(&Question::new(&nine), &settings).closed().unwrap();
+        assert_eq!((report.mobility, report.branch_count), (9, 512));
+        assert!(report.branches_complete && report.branches.len() == 256);
+    }
+    // each differs from every other by what moves, or by how
+    let report = of(&eight);
+    for (i, a) in report.branches.iter().enumerate() {
+        assert!(report.branches[..i].iter().all(|b| a != b), "{i}");
+    }
+}
+
+#[test]
+fn four_equal_vertical_rods_under_a_square_plate_have_three_motions() {
+    // Rods |R a + t − a|² = h² for a = ±ρx, ±ρy: the sums over opposite corners give
+    // R_xx = R_yy and the length of t, the differences that t is orthogonal to (R − 1)x and
+    // (R − 1)y, so parallel to the axis n of R unless R = 1. Then t has two freedoms, and else
+    // n_x = ±n_y: a turn with a shift along either diagonal. Three surfaces, all smooth, and to
+    // second order nothing tells them from the three infinitesimal freedoms.
+    let (mut chains, mut frames, mut closures) = <(String, String, String)>::default();
+    for i in 0..4 {
+        let place = format!(r#"[Rz("{} deg"), Tx(1)]"#, 90 * i);
+        chains += &format!(r#""A{i}": Chain(base: {place}),"#);
+        frames += &format!(r#""B{i}": {place},"#);
+        closures += &format!(r#""leg{i}": Distance("A{i}", "top.B{i}", 1),"#);
+    }
+    let plate = read(&format!(
+        r#"Mechanism(version: 1, name: "plate", convention: Modified, joints: {{}},
+            chains: {{ {chains} }},
+            platforms: {{ "top": Platform(home: [Tz(1)], frames: {{ {frames} }}) }},
+            closures: {{ {closures} }})"#
+    ));
+    for seed in 1..=8 {
+        assert_eq!(branches_with_seed(&plate, seed), [2, 2, 2], "{seed}");
+    }
+    let report = of(&plate);
+    assert_eq!((report.infinitesimal, report.redundant), (3, 1));
+    assert!(!report.branches_complete);
+    let turning = (report.branches.iter()).filter_map(|branch| {
+        let screws = &branch.twists[0].screws;
+        let shift = screws.iter().find(|screw| screw.pitch.is_none())?;
+        screws
+            .iter()
+            .any(|s| s.pitch == Some(0.0))
+            .then_some(shift.direction)
+    });
+    let diagonals: Vec<[f64; 3]> = turning.collect();
+    assert_eq!(diagonals.len(), 2);
+    for [x, y, z] in diagonals {
+        assert!(
+            (x.abs() - y.abs()).abs() < 1e-3 && z.abs() < 1e-3,
+            "{x} {y} {z}"
+        );
+    }
+}
+
+#[test]
+fn a_flat_five_bar_moves_on_a_cone() {
+    // Links along one line: with rates xᵢ of the direction of each link of length aᵢ (against the
+    // line backwards negative) Σ aᵢxᵢ = 0 and to second order Σ aᵢxᵢ² = 0. Of four links
+    // 3, 4, −1, −1 on posts 5 apart the form has rank 3 and both signs on the space Σ aᵢxᵢ = 0:
+    // a cone of two freedoms, and nothing else.
+    let five = |lengths: [f64; 4]| {
+        let [a, b, c, d] = lengths;
+        read(&format!(
+            r#"Mechanism(version: 1, name: "flat five-bar", convention: Modified,
+                joints: {{ "p": Passive(home: 0), "q": Passive(home: 0), "r": Passive(home: 0), "s": Passive(home: 0) }},
+                chains: {{
+                    "left": Chain(rows: [(theta: "p"), (a: {a}, theta: "q"), (a: {b}, theta: "r"), (a: {c}, theta: "s")], tip: [Tx({d})]),
+                    "post": Chain(base: [Tx(5)]),
+                }},
+                closures: {{ "E": Revolute("left", "post") }})"#
+        ))
+    };
+    let report = of(&five([3.0, 4.0, -1.0, -1.0]));
+    assert_eq!((report.mobility, report.infinitesimal), (2, 3));
+    assert_eq!(report.character, Character::Singular);
+    assert!(report.branches[0].cone && report.branches_complete);
+    assert_eq!(report.moving_joints.len(), 4);
+    // stretched to the full length the form has one sign: it cannot move
+    let report = of(&five([2.0, 1.0, 1.0, 1.0]));
+    assert_eq!((report.mobility, report.infinitesimal), (0, 3));
+    assert_eq!(report.character, Character::Shaky);
+}
+
+#[test]
 fn a_plate_on_six_equal_vertical_rods_shifts_or_turns() {
     // shifted by (x, y) all rods tilt alike; turned about the axis they lean as rulings of a
     // hyperboloid and the plate sinks; both at once would need a different sinking of each rod
@@ -461,9 +555,12 @@ fn a_plate_on_six_equal_vertical_rods_shifts_or_turns() {
             platforms: {{ "top": Platform(home: [Tz(1)], frames: {{ {frames} }}) }},
             closures: {{ {closures} }})"#
     ));
-    for seed in 1..=3 {
+    for seed in 1..=8 {
         assert_eq!(branches_with_seed(&plate, seed), [2, 1], "{seed}");
     }
+    // shifted the rods are parallel and resist three motions only: shaky, the turn is not finite
+    let report = of(&plate);
+    assert!(report.branches[0].approximate && !report.branches[0].cone);
 }
 
 #[test]
@@ -488,6 +585,10 @@ fn three_equal_cranks_in_line_move_whatever_the_seed() {
     for seed in 1..=8 {
         assert_eq!(branches_with_seed(&cranks, seed), [1], "{seed}");
     }
+    // hinges on the line of the cranks move across it: the coupler seems to shift and to turn
+    let report = of(&cranks);
+    assert_eq!(report.character, Character::Singular);
+    assert_eq!((report.mobility, report.infinitesimal), (1, 2));
 }
 
 #[test]

@@ -95,6 +95,59 @@ fn a_whole_pose_has_no_locked_angles() {
 }
 
 #[test]
+fn a_unit_that_does_not_fit_is_refused_wherever_a_value_is_given() {
+    use linkwork::algebra::MeasureErrorKind;
+    use linkwork::system::{Drive, DriveError, Load, LoadError, ValueError};
+    let mechanism = load("three_rps");
+    let unit = |error: &QuestionError| {
+        let QuestionError::Value { error, .. } = error else {
+            return false;
+        };
+        matches!(error, ValueError::Unit(MeasureErrorKind::Wrong { .. }))
+    };
+    let question = || Question::new(&mechanism);
+    for (name, wrong, right) in [
+        ("l1", "2 deg", "700 mm"),
+        ("phi1", "0.1 m", "50 deg"),
+        ("top.z", "1 rad", "50 cm"),
+        ("top.yaw", "3 in", "0.1 rad"),
+        ("top", "[Tz(1 deg)]", "[Tz(1 m), Rx(1 deg)]"),
+        ("top", "[Rx(1 m)]", "home"),
+        ("l1", "2*(3 deg)", "b/2"),
+    ] {
+        assert!(
+            unit(&question().hold(name, wrong).unwrap_err()),
+            "{name} {wrong}"
+        );
+        assert!(
+            unit(&question().guess(name, wrong).unwrap_err()),
+            "{name} {wrong}"
+        );
+        assert!(question().hold(name, right).is_ok(), "{name} {right}");
+    }
+    let question = question();
+    let still = || Drive::still(&question);
+    let driven = |error: &DriveError| matches!(error, DriveError::Question(error) if unit(error));
+    assert!(driven(&still().rate(&question, "l1", "1 deg").unwrap_err()));
+    assert!(driven(
+        &still().acceleration(&question, "l1", "1 deg").unwrap_err()
+    ));
+    assert!(still().rate(&question, "l1", "10 mm").is_ok());
+    let loaded = |error: &LoadError| matches!(error, LoadError::Value(error) if driven(error));
+    for wrench in ["0,0,2 mm", "0,0,1,0,0,3 deg"] {
+        assert!(loaded(
+            &Load::default()
+                .wrench(&question, "top", wrench)
+                .unwrap_err()
+        ));
+    }
+    assert!(loaded(
+        &Load::default().joint(&question, "l1", "2 m").unwrap_err()
+    ));
+    assert!(Load::default().joint(&question, "l1", "2").is_ok());
+}
+
+#[test]
 fn the_closest_approach_keeps_what_is_held() {
     let mechanism = load("planar_2r");
     for (x, gap) in [(3.0, 1.2), (1.9, 0.1)] {

@@ -330,6 +330,31 @@ fn an_arm_carries_a_weight_by_the_transposed_jacobian() {
 }
 
 #[test]
+fn a_pose_held_whole_carries_a_wrench_where_roll_and_yaw_are_one() {
+    let mechanism = load("puma560_modified");
+    let question = Question::new(&mechanism).free("actuated").unwrap();
+    let question = question
+        .hold("hand", "[T(0.4, 0.3, 0.2), Rz(0.3), Ry(90 deg)]")
+        .unwrap();
+    let load = Load::default()
+        .wrench(&question, "hand", "1,2,3,4,5,6")
+        .unwrap();
+    let found = report(&question, &load);
+    let names: Vec<&str> = found.actuators.iter().map(|a| a.name.as_str()).collect();
+    let all = [
+        "hand.x", "hand.y", "hand.z", "hand.wx", "hand.wy", "hand.wz",
+    ];
+    assert_eq!(names, all);
+    for (i, actuator) in found.actuators.iter().enumerate() {
+        assert!(
+            (actuator.force + (i + 1) as f64).abs() < 1e-9,
+            "{actuator:?}"
+        );
+        assert_eq!(actuator.unit, if i < 3 { "N" } else { "N·m" });
+    }
+}
+
+#[test]
 fn a_singular_mechanism_does_not_carry_every_load_and_says_so() {
     let mechanism = load("parallelogram");
     let question = Question::new(&mechanism);

@@ -7,7 +7,8 @@ use linkwork::analysis::assembly::{AssemblyReport, AssemblySettings, Outcome, as
 use linkwork::analysis::velocity::{VelocityReport, VelocitySettings, velocity};
 use linkwork::geometry::Vector3;
 use linkwork::mechanism::{Frame, Mechanism};
-use linkwork::system::{Analysed, Drive, DriveError, Question};
+use linkwork::solve::Newton;
+use linkwork::system::{Analysed, Drive, DriveError, Question, close};
 
 fn folder() -> std::path::PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("mechanisms")
@@ -283,6 +284,176 @@ fn a_four_bar_has_the_transmission_angle_of_the_cosine_rule() {
             (angle.transmission_angle - expected).abs() < 1e-9,
             "{theta}: {angle:?}"
         );
+    }
+}
+
+#[test]
+fn the_second_loop_of_a_six_bar_is_driven_by_the_rocker_of_the_first() {
+    // the cosine rule once more, with the angle at which the first loop puts the second crank
+    let mechanism = load("watt_six_bar");
+    let length = |name: &str| {
+        let found = mechanism.parameters().iter().find(|p| p.name == name);
+        found.unwrap().value
+    };
+    let rule = |names: [&str; 4], theta: f64| {
+        let [d, a, b, c] = names.map(length);
+        let square = a * a + d * d - 2.0 * a * d * theta.cos();
+        let angle = ((b * b + c * c - square) / (2.0 * b * c)).acos();
+        angle.min(PI - angle)
+    };
+    let question = Question::new(&mechanism);
+    let found = report(&question, &Drive::still(&question));
+    let value = |name: &str| found.joints.iter().find(|j| j.name == name).unwrap().value;
+    let [first, second] = &found.transmission[..] else {
+        panic!("{:?}", found.transmission)
+    };
+    let expected = rule(["g1", "a1", "b1", "c1"], value("theta"));
+    assert!(
+        (first.transmission_angle - expected).abs() < 1e-9,
+        "{first:?}"
+    );
+    assert_eq!(
+        (first.driven.as_str(), first.output.as_str()),
+        ("theta", "phi1")
+    );
+    let expected = rule(["g2", "a2", "b2", "c2"], value("phi1") + length("phase"));
+    assert!(
+        (second.transmission_angle - expected).abs() < 1e-9,
+        "{second:?}"
+    );
+    assert_eq!(
+        (second.driven.as_str(), second.output.as_str()),
+        ("phi1", "phi2")
+    );
+    // driven through its dyad the loops of a Stephenson linkage must be solved together; driven by
+    // the crank of the 4-bar the dyad follows
+    let mechanism = load("stephenson_six_bar");
+    let question = Question::new(&mechanism);
+    assert!(
+        report(&question, &Drive::still(&question))
+            .transmission
+            .is_empty()
+    );
+    let at = mechanism.home();
+    let question = question
+        .free("theta")
+        .unwrap()
+        .hold("theta1", "home")
+        .unwrap()
+        .near(&at);
+    let found = report(&question, &Drive::still(&question));
+    let [_, dyad] = &found.transmission[..] else {
+        panic!("{:?}", found.transmission)
+    };
+    // coupler point C, P and the pivot Q: link l against crank r
+    let value = |name: &str| found.joints.iter().find(|j| j.name == name).unwrap().value;
+    let along = value("theta1") + value("psi1") + value("chi");
+    let between = (along - value("theta")).sin().abs().asin();
+    assert!((dyad.transmission_angle - between).abs() < 1e-9, "{dyad:?}");
+    assert_eq!(
+        (dyad.driven.as_str(), dyad.output.as_str()),
+        ("psi1", "theta")
+    );
+}
+
+#[test]
+fn a_pose_held_whole_has_rates_where_roll_and_yaw_are_one() {
+    // against joints solved for a hand turned a little about an axis of ground
+    let mechanism = load("puma560_modified");
+    let at = |turn: f64| format!("[T(0.4, 0.3, 0.2), Rz({turn}), Ry(90 deg)]");
+    let hold = |turn: f64| {
+        let question = Question::new(&mechanism).free("actuated").unwrap();
+        question.hold("hand", &at(turn)).unwrap()
+    };
+    let question = hold(0.0);
+    let drive = Drive::still(&question)
+        .rate(&question, "hand.wz", "1")
+        .unwrap();
+    let found = report(&question, &drive);
+    assert_eq!(found.frames[0].angular_velocity, [0.0, 0.0, 1.0]);
+    let rows = &found.jacobian.as_ref().unwrap().columns;
+    assert_eq!(rows[5].name, "hand.wz");
+    let solved = |turn: f64| -> Vec<f64> {
+        let start = close(&question, &Newton::default(), 40, 1).unwrap();
+        let question = hold(turn).near(&start.configuration);
+        let closed = close(&question, &Newton::default(), 0, 1).unwrap();
+        closed.configuration.joints
+    };
+    let h = 1e-4;
+    let [back, middle, ahead] = [-h, 0.0, h].map(solved);
+    for (i, joint) in found.joints.iter().enumerate() {
+        let rate = (ahead[i] - back[i]) / (2.0 * h);
+        assert!(
+            (joint.rate.unwrap() - rate).abs() < 1e-6,
+            "{joint:?} {rate}"
+        );
+        let change = (ahead[i] - 2.0 * middle[i] + back[i]) / (h * h);
+        assert!(
+            (joint.acceleration.unwrap() - change).abs() < 1e-4,
+            "{joint:?} {change}"
+        );
+    }
+    // an angle of which there is no rate is refused, with what to give instead
+    let refused = Drive::still(&question).rate(&question, "hand.yaw", "1");
+    assert!(matches!(refused, Err(DriveError::Locked { platform }) if platform == "hand"));
+}
+
+#[test]
+fn what_is_free_of_a_platform_partly_held_is_an_output() {
+    // each column is the motion that the frame has when that input alone moves
+    let mechanism = load("three_rps");
+    let question = Question::new(&mechanism).free("l1").unwrap();
+    for (held, rows) in [
+        (
+            "top.z",
+            vec!["top ωx", "top ωy", "top ωz", "top.x", "top.y", "l1"],
+        ),
+        (
+            "top.roll",
+            vec!["top.pitch", "top.yaw", "top.x", "top.y", "top.z", "l1"],
+        ),
+    ] {
+        let question = question.clone().hold(held, "home").unwrap();
+        let found = report(&question, &Drive::still(&question))
+            .jacobian
+            .unwrap();
+        let own = found.rows.len() - found.followed;
+        let names: Vec<&str> = found.rows[..own]
+            .iter()
+            .map(|row| row.name.as_str())
+            .collect();
+        assert_eq!(names, rows);
+        for (column, input) in found.columns.iter().enumerate() {
+            let drive = Drive::still(&question)
+                .rate(&question, &input.name, "1")
+                .unwrap();
+            let moved = report(&question, &drive);
+            let frame = &moved.frames[0];
+            let of = |name: &str| match name {
+                "top ωx" => frame.angular_velocity[0],
+                "top ωy" => frame.angular_velocity[1],
+                "top ωz" => frame.angular_velocity[2],
+                "top.x" => frame.velocity[0],
+                "top.y" => frame.velocity[1],
+                "top.z" => frame.velocity[2],
+                "l1" => moved
+                    .joints
+                    .iter()
+                    .find(|j| j.name == "l1")
+                    .unwrap()
+                    .rate
+                    .unwrap(),
+                _ => f64::NAN,
+            };
+            for (row, name) in names.iter().enumerate() {
+                let (expected, entry) = (of(name), found.entries[row][column]);
+                assert!(entry.is_finite(), "{name}");
+                assert!(
+                    expected.is_nan() || (entry - expected).abs() < 1e-9,
+                    "{held} {name}"
+                );
+            }
+        }
     }
 }
 

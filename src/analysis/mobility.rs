@@ -84,8 +84,13 @@ pub struct MobilityReport {
     pub joints: Vec<f64>,
     /// What kind of point of the configuration space this is.
     pub character: Character,
-    /// The branches through the configuration, if more than the one regular motion.
+    /// The branches through the configuration, if more than the one regular motion; of very many
+    /// the first.
     pub branches: Vec<BranchReport>,
+    /// How many there are, found by steps in many directions.
+    pub branch_count: usize,
+    /// Whether it is certain that there are no more.
+    pub branches_complete: bool,
     /// Another mobility that the mechanism has in another assembly.
     pub elsewhere: Vec<Elsewhere>,
     /// Random starts from which one was sought.
@@ -151,9 +156,13 @@ pub struct BranchReport {
     pub mobility: usize,
     /// Joints that move on it.
     pub moving_joints: Vec<String>,
-    /// Its motions at the configuration, as for the whole; those of a branch that is shaky
-    /// throughout and has several freedoms only to about the length of a step.
+    /// Its motions at the configuration, as for the whole.
     pub twists: Vec<TwistSpace>,
+    /// Whether these motions are a curved cone that its `twists` span: not each of them is possible.
+    pub cone: bool,
+    /// Whether `twists` are known to about the length of a step only: those of a branch of several
+    /// freedoms that is shaky throughout.
+    pub approximate: bool,
 }
 
 /// An assembly of another mobility.
@@ -199,7 +208,9 @@ pub fn mobility(question: &Question, settings: &MobilitySettings) -> Analysed<Mo
         .map(|branch| BranchReport {
             mobility: branch.freedoms,
             moving_joints: moving(&branch.moved),
-            twists: screws::spaces(&near, &carriers, &branch.tangent),
+            twists: screws::spaces(&near, &carriers, &tangent.at, &branch.motions),
+            cone: branch.cone,
+            approximate: branch.approximate,
         })
         .collect();
     let redundancies = redundancy::find(&mut near, &tangent);
@@ -215,8 +226,10 @@ pub fn mobility(question: &Question, settings: &MobilitySettings) -> Analysed<Mo
             .collect(),
         moving_joints,
         joints: closed.configuration.joints.clone(),
-        character: found.character(tangent.motions.len()),
+        character: found.character,
         branches,
+        branch_count: found.count,
+        branches_complete: found.complete,
         elsewhere: Vec::new(),
         elsewhere_starts: if unknowns > ELSEWHERE_LIMIT {
             0
@@ -228,7 +241,7 @@ pub fn mobility(question: &Question, settings: &MobilitySettings) -> Analysed<Mo
         idle_freedoms: idle_freedoms(mechanism, near.system().unknowns(), &tangent),
         loops: loops::count(&mut near, &closed.configuration),
         redundancies,
-        twists: screws::spaces(&near, &carriers, &tangent),
+        twists: screws::spaces(&near, &carriers, &tangent.at, &tangent.motions),
         condition: tangent.decomposition.condition(),
         length: mechanism.characteristic_length(),
         given: closed.given.filter(|gap| gap.size(mechanism) > 1e-9),

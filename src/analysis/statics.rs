@@ -210,10 +210,9 @@ fn direction(
 ) -> Vec<f64> {
     let slope = match coordinate {
         Holdable::Joint(_) => [0.0; 6],
-        Holdable::Coordinate(platform, c) => {
+        Holdable::Coordinate(platform, _) | Holdable::Turn(platform, _) => {
             let pose = at.platforms[platform].pose();
-            c.row(&pose, c.of(&pose), mechanism.characteristic_length())
-                .1
+            coordinate.slope(&pose, mechanism.characteristic_length())
         }
     };
     let rate = |unknown: &Unknown| match (*unknown, coordinate) {
@@ -223,7 +222,7 @@ fn direction(
                 platform,
                 component,
             },
-            Holdable::Coordinate(held, _),
+            Holdable::Coordinate(held, _) | Holdable::Turn(held, _),
         ) if platform == held => slope[component],
         _ => 0.0,
     };

@@ -54,7 +54,8 @@ pub struct VelocityReport {
     pub jacobian: Option<InputOutput>,
     /// What is gained at a singular configuration: it moves although everything held stands still.
     pub gain: Option<Gain>,
-    /// Transmission angles of the planar four-bar loops.
+    /// Transmission angles of the planar loops that are closed one dyad after the other. Loops that
+    /// must be solved together have none.
     pub transmission: Vec<Transmission>,
     /// Instant centres, if all links move in one plane.
     pub centres: Vec<InstantCentre>,

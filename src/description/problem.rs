@@ -3,7 +3,7 @@
 use std::ops::Range;
 
 use super::{AxesProblem, Expected, Found, Structure};
-use crate::algebra::{EvaluationErrorKind, ParseErrorKind};
+use crate::algebra::{EvaluationErrorKind, MeasureErrorKind, ParseErrorKind};
 
 /// Something wrong with a mechanism file.
 #[derive(Debug, Clone, PartialEq)]
@@ -239,6 +239,8 @@ pub enum ProblemKind {
     NotAffine,
     /// An expression that has no value.
     NoValue(EvaluationErrorKind),
+    /// A unit that does not fit.
+    Unit(MeasureErrorKind),
     /// A closure between two frames of one body.
     SameBody {
         /// The closure.

@@ -77,6 +77,7 @@ impl ProblemKind {
                 "the expression is not a constant plus multiples of joint variables".into()
             }
             NoValue(error) => expression::no_value(error),
+            Unit(error) => expression::unit(error),
             SameBody { closure } => {
                 format!("the closure `{closure}` joins two frames of the same body")
             }
@@ -131,6 +132,7 @@ impl ProblemKind {
             NotAffine => "not affine".into(),
             NoValue(EvaluationErrorKind::TooLarge(_)) => "too large".into(),
             NoValue(_) => "has no value".into(),
+            Unit(error) => expression::unit_label(error).into(),
             EmptyClosedForm => "no formula".into(),
             UnfeltJoint { .. } => "moves no closure".into(),
             UnusedJoint { .. } | UnusedParameter { .. } | UnusedPlatform { .. } => {
@@ -166,6 +168,7 @@ impl ProblemKind {
             }
             UnknownName { scope: Scope::Parameters, .. } => "declare it under `parameters`".into(),
             Expression(error) => return expression::help(error),
+            Unit(error) => expression::unit_help(error).into(),
             NotAName { .. } => {
                 "a name begins with a letter or `_` and goes on with letters, digits and `_`".into()
             }

@@ -2,17 +2,18 @@
 
 mod closed_form;
 mod closures;
+mod entries;
 mod parameters;
 
-use std::collections::{HashMap, HashSet};
+use std::collections::HashSet;
 use std::path::Path;
 
-use super::model::{Chain, FixedStep, Formula, Joint, JointKind, Platform, Row, Symbol};
+use super::model::{Chain, FixedStep, Joint, JointKind, Platform, Row};
 use super::names::{Names, definition_order};
 use super::{Frame, Mechanism, inspect};
-use crate::algebra::Affine;
-use crate::description::{self, Description, Displacement, Draft, Entry, Named, Note};
-use crate::description::{FileError, LoadError, Problem, ProblemKind, Scope, Severity};
+use crate::algebra::Measure;
+use crate::description::{self, Description, Displacement, Draft, Named, Note};
+use crate::description::{FileError, LoadError, Problem, ProblemKind, Severity};
 use crate::geometry::{Axis, Pose};
 
 /// A chain as far as it could be resolved.
@@ -48,6 +49,8 @@ pub(super) struct Builder<'a> {
     pub problems: Vec<Problem>,
     /// The values of the parameters; NaN where one is not known.
     pub values: Vec<f64>,
+    /// What the parameters measure.
+    pub measures: Vec<Measure>,
     /// Names that may stand for something else than they seem to; what uses them is not judged.
     doubtful: &'a HashSet<String>,
 }
@@ -113,6 +116,7 @@ impl Mechanism {
             names: Names::new(description),
             problems: Vec::new(),
             values: vec![f64::NAN; description.parameters.len()],
+            measures: vec![Measure::Open; description.parameters.len()],
             doubtful,
         };
         let parameters = builder.parameters(description);
@@ -140,6 +144,7 @@ impl Mechanism {
         let refused = |problem: &Problem| problem.severity() == Severity::Error;
         if !builder.problems.iter().any(refused) {
             mechanism.infer_kinds();
+            builder.check_joint_units(description, &mechanism.joints);
             inspect::inspect(&mechanism, description, &mut builder.problems);
         }
         if !builder.problems.iter().any(refused) {
@@ -163,85 +168,6 @@ impl Mechanism {
 }
 
 impl Builder<'_> {
-    /// The formula of an entry, or `None` with its problems recorded.
-    fn formula(
-        &mut self,
-        entry: &Entry,
-        scope: Scope,
-        locals: &HashMap<&str, usize>,
-    ) -> Option<Formula> {
-        let resolved = (entry.expression).try_resolve(|name, span| {
-            let symbol = self.names.symbol(name, scope, locals);
-            symbol.map_err(|kind| Box::new(kind.at(span.clone())))
-        });
-        match resolved {
-            Ok(formula) => Some(formula),
-            Err(problems) => {
-                self.problems
-                    .extend(problems.into_iter().map(|problem| *problem));
-                None
-            }
-        }
-    }
-
-    /// A formula over parameters, with its value.
-    fn constant(&mut self, entry: &Entry) -> Option<(Formula, f64)> {
-        let formula = self.formula(entry, Scope::Parameters, &HashMap::new())?;
-        let value = self.value(&formula)?;
-        Some((formula, value))
-    }
-
-    /// The value of a formula over parameters; NaN if that of a parameter in it is not known.
-    fn value(&mut self, formula: &Formula) -> Option<f64> {
-        let unknown = |symbol: &Symbol| match *symbol {
-            Symbol::Parameter(i) => self.values[i].is_nan(),
-            Symbol::Joint(_) | Symbol::Local(_) => false,
-        };
-        if formula.names().any(|(symbol, _)| unknown(symbol)) {
-            return Some(f64::NAN);
-        }
-        let values = &self.values;
-        let result = formula.evaluate(&|symbol| match *symbol {
-            Symbol::Parameter(i) => values[i],
-            Symbol::Joint(_) | Symbol::Local(_) => f64::NAN,
-        });
-        match result {
-            Ok(value) => Some(value),
-            Err(error) => {
-                let problem = ProblemKind::NoValue(error.kind).at(error.span);
-                // a divisor stands in the constant and in every coefficient of an entry
-                let known = self
-                    .problems
-                    .iter()
-                    .rev()
-                    .take(8)
-                    .any(|last| *last == problem);
-                if !known {
-                    self.problems.push(problem);
-                }
-                None
-            }
-        }
-    }
-
-    /// An entry affine in the joint variables.
-    fn affine(&mut self, entry: &Entry) -> Option<Affine<Symbol>> {
-        let formula = self.formula(entry, Scope::ParametersAndJoints, &HashMap::new())?;
-        match formula.affine(|symbol| matches!(symbol, Symbol::Joint(_))) {
-            Ok(affine) => {
-                let coefficients = affine.terms.iter().map(|(_, coefficient)| coefficient);
-                let parts: Vec<Option<f64>> = (coefficients.chain([&affine.constant]))
-                    .map(|part| self.value(part))
-                    .collect();
-                parts.iter().all(Option::is_some).then_some(affine)
-            }
-            Err(refusal) => {
-                self.problems.push(ProblemKind::NotAffine.at(refusal.span));
-                None
-            }
-        }
-    }
-
     fn joints(&mut self, description: &Description) -> Vec<Joint> {
         let mut joints = Vec::new();
         for Named { name, value } in &description.joints {
@@ -281,13 +207,13 @@ impl Builder<'_> {
             };
             let step = match displacement {
                 Displacement::Translate(along, entry) => self
-                    .constant(entry)
+                    .measured(entry, Measure::Length)
                     .map(|(f, _)| FixedStep::Translate(axis(along), f)),
                 Displacement::Rotate(about, entry) => self
-                    .constant(entry)
+                    .measured(entry, Measure::Angle)
                     .map(|(f, _)| FixedStep::Rotate(axis(about), f)),
                 Displacement::TranslateBy(entries) => {
-                    let [x, y, z] = [0, 1, 2].map(|i| self.constant(&entries[i]));
+                    let [x, y, z] = [0, 1, 2].map(|i| self.measured(&entries[i], Measure::Length));
                     match (x, y, z) {
                         (Some((x, _)), Some((y, _)), Some((z, _))) => {
                             Some(FixedStep::TranslateBy([x, y, z]))
@@ -322,8 +248,10 @@ impl Builder<'_> {
             let base = self.fixed(&value.base);
             let mut rows = Vec::new();
             for row in &value.rows {
-                let (alpha, a) = (self.constant(&row.alpha), self.constant(&row.a));
-                let (d, theta) = (self.affine(&row.d), self.affine(&row.theta));
+                let alpha = self.measured(&row.alpha, Measure::Angle);
+                let a = self.measured(&row.a, Measure::Length);
+                let d = self.affine(&row.d, Measure::Length);
+                let theta = self.affine(&row.theta, Measure::Angle);
                 let entries = [&row.alpha, &row.a, &row.d, &row.theta];
                 let whole = || {
                     Some(Row {

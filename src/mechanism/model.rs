@@ -1,6 +1,6 @@
 //! The parts of a mechanism, every name resolved.
 
-use crate::algebra::{Affine, Expression};
+use crate::algebra::{Affine, Expression, Measure};
 use crate::description::{ClosureKind, Convention, MatrixEntry, Role};
 use crate::geometry::{Axis, Pose};
 
@@ -27,6 +27,8 @@ pub struct Parameter {
     pub definition: Formula,
     /// Its value, in m or rad or without unit.
     pub value: f64,
+    /// What it measures, as far as units in its definition tell.
+    pub measure: Measure,
 }
 
 /// How a joint moves.

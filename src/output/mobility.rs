@@ -31,15 +31,15 @@ pub struct MobilityJson<'a> {
     pub infinitesimal: usize,
     /// Closure equations that depend on the others.
     pub redundant: usize,
-    /// Joints that stand still in every motion.
-    pub idle_joints: Vec<String>,
+    /// Joints that take no part in the mobility: they stand still, or only spin a link.
+    pub idle_joints: &'a [String],
     /// Joints that move.
     pub moving_joints: &'a [String],
     /// The dependent equations in words, by closure and direction in the closure's first frame.
     pub redundant_constraints: Vec<String>,
     /// The answer in sentences.
     pub explanation: String,
-    /// Joints that only spin a link about its own line.
+    /// Those of the idle joints that spin a link about its own line.
     pub spinning_joints: Vec<String>,
     /// What kind of point of the configuration space this is.
     pub character: Character,
@@ -47,6 +47,10 @@ pub struct MobilityJson<'a> {
     pub joints: Map<String, Value>,
     /// The branches that meet there.
     pub branches: &'a [BranchReport],
+    /// How many there are, at least.
+    pub branch_count: usize,
+    /// Whether there are certainly no more.
+    pub branches_complete: bool,
     /// Assemblies of another mobility.
     pub elsewhere: Vec<ElsewhereJson>,
     /// Random starts from which they were sought.
@@ -102,7 +106,7 @@ impl<'a> MobilityJson<'a> {
             rank: report.rank,
             infinitesimal: report.infinitesimal,
             redundant: report.redundant,
-            idle_joints: words::still(report),
+            idle_joints: &report.idle_joints,
             spinning_joints: words::spinning(report),
             moving_joints: &report.moving_joints,
             redundant_constraints: report.redundancies.iter().map(words::redundancy).collect(),
@@ -110,6 +114,8 @@ impl<'a> MobilityJson<'a> {
             character: report.character,
             joints: joint_map(mechanism, &report.joints),
             branches: &report.branches,
+            branch_count: report.branch_count,
+            branches_complete: report.branches_complete,
             elsewhere: (report.elsewhere.iter())
                 .map(|other| ElsewhereJson {
                     mobility: other.mobility,
@@ -145,6 +151,9 @@ pub fn json(mechanism: &Mechanism, report: &MobilityReport) -> String {
     document(mechanism.name(), &MobilityJson::new(mechanism, report))
 }
 
+/// So many branches are shown with their motions.
+const SHOWN: usize = 8;
+
 /// The report as text.
 pub fn text(mechanism: &Mechanism, report: &MobilityReport) -> String {
     let mut sections = vec![heading(mechanism, report)];
@@ -164,14 +173,30 @@ pub fn text(mechanism: &Mechanism, report: &MobilityReport) -> String {
     if report.branches.is_empty() {
         sections.push(twists("Infinitesimal motions", &report.twists));
     }
-    for (i, branch) in report.branches.iter().enumerate() {
+    for (i, branch) in report.branches.iter().enumerate().take(SHOWN) {
         let moving = match branch.moving_joints.as_slice() {
             [] => String::new(),
             joints => format!(", moving {}", listed(joints)),
         };
         let freedoms = crate::description::count(branch.mobility, "freedom");
-        let title = format!("Branch {}: {freedoms}{moving}", i + 1);
-        sections.push(twists(&title, &branch.twists));
+        let kind = match (branch.cone, branch.approximate) {
+            (true, _) => ", a cone of motions in the span of",
+            (_, true) => ", motions to about 2 %",
+            _ => "",
+        };
+        let title = format!("Branch {}: {freedoms}{moving}{kind}", i + 1);
+        sections.push(match twists(&title, &branch.twists) {
+            none if none.is_empty() => title + "\n",
+            table => table,
+        });
+    }
+    if report.branches.len() > SHOWN {
+        let more = report.branch_count - SHOWN;
+        let listed = match report.branch_count - report.branches.len() {
+            0 => "listed in the JSON",
+            _ => "the first of them listed in the JSON",
+        };
+        sections.push(format!("{more} more branches, {listed}\n"));
     }
     sections.retain(|section| !section.is_empty());
     sections.join("\n")

@@ -61,6 +61,16 @@ pub fn complaint(error: &QuestionError) -> (Complaint, Part) {
 pub fn driven_complaint(error: &DriveError, option: &str) -> (Complaint, Part) {
     match error {
         DriveError::Question(error) => complaint(error),
+        DriveError::Locked { platform } => {
+            let title = QuestionError::AnglesLocked {
+                platform: platform.clone(),
+            };
+            let help = format!(
+                "give angular velocities about the axes of ground, e.g. {option} {}",
+                quoted(&format!("{platform}.wx=0.1"))
+            );
+            (said(title.title(), "", Some(help)), Part::Name)
+        }
         DriveError::NotHeld { name, held } => {
             let title = format!("`{name}` is not held here, so its rate follows from the others");
             let help = match held.is_empty() {
@@ -164,6 +174,7 @@ fn value(text: &str, error: &ValueError) -> (Complaint, Part) {
             (kind, part)
         }
         ValueError::NoValue(kind) => (ProblemKind::NoValue(*kind), Part::WholeValue),
+        ValueError::Unit(kind) => (ProblemKind::Unit(*kind), Part::WholeValue),
         ValueError::NotAPose { .. } => {
             let title = error.to_string();
             let help = "a pose is a list such as [Tz(0.5), Rx(10 deg)], or home".to_owned();

@@ -108,12 +108,19 @@ pub fn text(mechanism: &Mechanism, report: &StaticsReport) -> String {
         sections.push(format!("{title}\n{}", forces(&report.actuators)));
     }
     if !report.closures.is_empty() {
-        let title = "Closures, axes of ground, moments about the point of the second frame";
-        sections.push(format!("{title}\n{}", reactions(&report.closures)));
+        let title =
+            "Closures, axes of ground, moments about the point given, that of the second frame";
+        sections.push(format!(
+            "{title}\n{}",
+            reactions(&report.closures, report.normalising_length)
+        ));
     }
     if !report.joints.is_empty() {
-        let title = "Joints, axes of ground, moments about the origin of the frame after the joint";
-        sections.push(format!("{title}\n{}", reactions(&report.joints)));
+        let title = "Joints, axes of ground, moments about the point given, the origin of the frame after the joint";
+        sections.push(format!(
+            "{title}\n{}",
+            reactions(&report.joints, report.normalising_length)
+        ));
     }
     sections.join("\n")
 }
@@ -137,11 +144,12 @@ fn forces(forces: &[Force]) -> String {
     indented(&table.to_string())
 }
 
-fn reactions(reactions: &[Reaction]) -> String {
+fn reactions(reactions: &[Reaction], length: f64) -> String {
     let header = [
         "",
         "from",
         "on",
+        "at (m)",
         "Fx (N)",
         "Fy (N)",
         "Fz (N)",
@@ -155,13 +163,16 @@ fn reactions(reactions: &[Reaction]) -> String {
             true => reaction.name.clone(),
             false => reaction.variables.join(" "),
         };
-        let mut row = vec![name, reaction.from.clone(), reaction.on.clone()];
+        let clean = |x: f64| if x.abs() < 1e-9 * length { 0.0 } else { x };
+        let point = reaction.point.map(|x| number(clean(x)));
+        let point = format!("({})", point.join(", "));
+        let mut row = vec![name, reaction.from.clone(), reaction.on.clone(), point];
         let values = reaction.force.iter().chain(&reaction.moment);
         let values = values.zip(reaction.unique);
         row.extend(values.map(|(&value, unique)| number(value) + mark(unique)));
         table.add_row(row);
     }
-    align_right(&mut table, 3..9);
+    align_right(&mut table, 4..10);
     indented(&table.to_string())
 }
 

@@ -43,7 +43,7 @@ pub fn check_count(question: &Question) -> Result<Count, QuestionError> {
         .flat_map(|platform| Coordinate::ALL.map(|c| Holdable::Coordinate(platform, c)));
     let (actuated, passive): (Vec<_>, Vec<_>) = joints.partition(|joint| match joint {
         Holdable::Joint(joint) => mechanism.joints()[*joint].role == Role::Actuated,
-        Holdable::Coordinate(..) => false,
+        Holdable::Coordinate(..) | Holdable::Turn(..) => false,
     });
     let candidates: Vec<Holdable> = (held.iter().copied())
         .chain(actuated)

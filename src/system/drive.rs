@@ -2,6 +2,7 @@
 
 use super::value::{self, ValueError};
 use super::{Holdable, Question, QuestionError};
+use crate::algebra::Measure;
 use crate::description::nearest;
 
 /// Rates and accelerations of the held coordinates of a question, in m and rad and seconds.
@@ -22,6 +23,11 @@ pub struct Drive {
 pub enum DriveError {
     /// The name or the value is wrong.
     Question(QuestionError),
+    /// Roll, pitch and yaw do not tell how a platform that is held at a pitch of ±90° turns.
+    Locked {
+        /// The platform.
+        platform: String,
+    },
     /// The coordinate is not held, so that its rate follows.
     NotHeld {
         /// The coordinate.
@@ -49,7 +55,7 @@ impl Drive {
     /// If the coordinate is not held or the value has none.
     pub fn rate(mut self, question: &Question, name: &str, text: &str) -> Result<Self, DriveError> {
         let place = self.place(question, name)?;
-        self.rates[place] = number(question, name, text)?;
+        self.rates[place] = number(question, name, text, self.measure(question, place))?;
         self.given = true;
         Ok(self)
     }
@@ -65,9 +71,14 @@ impl Drive {
         text: &str,
     ) -> Result<Self, DriveError> {
         let place = self.place(question, name)?;
-        self.accelerations[place] = number(question, name, text)?;
+        self.accelerations[place] = number(question, name, text, self.measure(question, place))?;
         self.given = true;
         Ok(self)
+    }
+
+    /// A rate has the unit of its coordinate per unit of time, which is not written.
+    fn measure(&self, question: &Question, place: usize) -> Measure {
+        self.coordinates[place].measure(question.mechanism())
     }
 
     fn place(&self, question: &Question, name: &str) -> Result<usize, DriveError> {
@@ -85,6 +96,18 @@ impl Drive {
         });
         let known = joints.chain(coordinates).map(|c| c.name(mechanism));
         let known: Vec<String> = known.collect();
+        let locked = self.coordinates.iter().find_map(|held| match *held {
+            Holdable::Turn(platform, _) => {
+                let platform = mechanism.platforms()[platform].name.as_str();
+                let angles = crate::mechanism::Coordinate::ALL.map(|c| (c.is_angle(), c.name()));
+                let asked = name.strip_prefix(platform)?.strip_prefix('.')?;
+                (angles.contains(&(true, asked))).then(|| platform.to_owned())
+            }
+            Holdable::Joint(_) | Holdable::Coordinate(..) => None,
+        });
+        if let Some(platform) = locked {
+            return Err(DriveError::Locked { platform });
+        }
         if known.iter().any(|known| known == name) {
             return Err(DriveError::NotHeld {
                 name: name.into(),
@@ -100,8 +123,13 @@ impl Drive {
 }
 
 /// The value of an expression over the parameters.
-pub(super) fn number(question: &Question, name: &str, text: &str) -> Result<f64, DriveError> {
-    let value = value::number(question.mechanism(), text);
+pub(super) fn number(
+    question: &Question,
+    name: &str,
+    text: &str,
+    wanted: Measure,
+) -> Result<f64, DriveError> {
+    let value = value::number(question.mechanism(), text, wanted);
     value.map_err(|error: ValueError| {
         DriveError::Question(QuestionError::Value {
             name: name.into(),

@@ -1,10 +1,10 @@
 use super::Neighbourhood;
 use super::equations::System;
-use super::layout::{Held, HeldPlatform, Unknown};
-use crate::geometry::{RollPitchYaw, Vector3};
+use super::layout::{Held, Unknown};
+use crate::algebra::Measure;
+use crate::geometry::{Axis, Pose, RollPitchYaw, Vector3};
 use crate::linear::{SPECTRUM_LIMIT, Spectrum, rank};
-use crate::mechanism::{Configuration, Coordinate, Dimensions, Kinematics, Mechanism};
-use crate::number::Dual;
+use crate::mechanism::{Configuration, Coordinate, Dimensions, Mechanism};
 use crate::solve::{Equations, Newton, Stop};
 
 /// The infinitesimal motions of a mechanism at a configuration, with some coordinates held.
@@ -103,72 +103,21 @@ impl Freedoms {
     }
 
     /// Whether every motion only turns links about their own lines, as it does a rod between two
-    /// balls: the origin of every frame stays where it is, and frames that turn together have
-    /// origins apart. (A wrist or a platform that turns about one point goes somewhere else.)
+    /// balls. (A wrist or a platform that turns about one point goes somewhere else.)
     pub fn are_idle(&self, mechanism: &Mechanism, at: &Configuration<f64>) -> bool {
-        let dimensions = mechanism.dimensions().map(&mut Dual::constant);
-        let frames = mechanism.frames();
-        let kinematics = Kinematics::new(&dimensions, frames.iter().copied());
-        let mut placement = kinematics.placement();
-        let small = 1e-6 * mechanism.characteristic_length();
-        self.motions.iter().all(|motion| {
-            let moving = self.carried_along(mechanism, at, motion);
-            kinematics.place(&moving, &mut placement);
-            let mut turning: Vec<(Vector3<f64>, Vector3<f64>)> = Vec::new();
-            for &frame in &frames {
-                let Some(pose) = kinematics.pose(frame, &placement) else {
-                    return false;
-                };
-                if pose.position.map(|x| x.slope).norm() >= small {
-                    return false;
-                }
-                // ω = ½ Σ rᵢ × ṙᵢ
-                let halves = pose
-                    .rotation
-                    .0
-                    .map(|r| r.map(|x| x.value).cross(&r.map(|x| x.slope)));
-                let omega = (halves[0] + halves[1] + halves[2]).times(0.5);
-                if omega.norm() >= 1e-6 {
-                    turning.push((omega, pose.position.map(|x| x.value)));
-                }
-            }
-            turning.iter().enumerate().any(|(i, (omega, origin))| {
-                let mut others = turning[..i].iter();
-                others.any(|(w, o)| (*w - *omega).norm() < 1e-6 && (*o - *origin).norm() > small)
-            })
-        })
-    }
-
-    /// The configuration as it moves along a motion: values with their rates.
-    fn carried_along(
-        &self,
-        mechanism: &Mechanism,
-        at: &Configuration<f64>,
-        motion: &[f64],
-    ) -> Configuration<Dual<f64>> {
-        let dimensions = mechanism.dimensions();
-        let mut moving = at.map(Dual::constant);
-        for (joint, value) in moving.joints.iter_mut().enumerate() {
-            value.slope = self.joint_rate(motion, joint) * dimensions.joint_scales[joint];
+        if self.motions.is_empty() {
+            return true;
         }
-        for (platform, pose) in moving.platforms.iter_mut().enumerate() {
-            let first = Unknown::Twist {
-                platform,
-                component: 0,
-            };
-            let Some(first) = self.unknowns.iter().position(|u| *u == first) else {
-                continue;
-            };
-            let rate = |i: usize, factor: f64| Dual {
-                value: 0.0,
-                slope: motion[first + i] * factor,
-            };
-            let omega = Vector3([0, 1, 2].map(|i| rate(i, 1.0)));
-            let length = dimensions.characteristic_length;
-            let shift = Vector3([3, 4, 5].map(|i| rate(i, length)));
-            *pose = pose.moved_by(&omega, shift);
-        }
-        moving
+        let near = Neighbourhood::new(mechanism);
+        let own = near.system().unknowns().iter();
+        let places: Vec<Option<usize>> = own
+            .map(|unknown| self.unknowns.iter().position(|u| u == unknown))
+            .collect();
+        let whole = |motion: &Vec<f64>| {
+            let parts = places.iter().map(|place| place.map_or(0.0, |i| motion[i]));
+            parts.collect()
+        };
+        near.are_idle(at, &self.motions.iter().map(whole).collect::<Vec<_>>())
     }
 }
 
@@ -179,6 +128,9 @@ pub enum Holdable {
     Joint(usize),
     /// A platform coordinate.
     Coordinate(usize, Coordinate),
+    /// A turn of a platform that is held whole about an axis of ground, where roll, pitch and yaw do
+    /// not tell its motion: at a pitch of ±90°. It has a rate, and no value.
+    Turn(usize, Axis),
 }
 
 impl Holdable {
@@ -187,6 +139,37 @@ impl Holdable {
         match self {
             Holdable::Joint(joint) => mechanism.joints()[joint].kind.is_angle(),
             Holdable::Coordinate(_, coordinate) => coordinate.is_angle(),
+            Holdable::Turn(..) => true,
+        }
+    }
+
+    /// Its value in the home configuration, in m or rad.
+    pub fn home(self, mechanism: &Mechanism) -> f64 {
+        match self {
+            Holdable::Joint(joint) => mechanism.joints()[joint].home,
+            Holdable::Coordinate(platform, coordinate) => {
+                coordinate.of(&mechanism.platforms()[platform].home)
+            }
+            Holdable::Turn(..) => 0.0,
+        }
+    }
+
+    /// What its value measures.
+    pub fn measure(self, mechanism: &Mechanism) -> Measure {
+        match self.is_angle(mechanism) {
+            true => Measure::Angle,
+            false => Measure::Length,
+        }
+    }
+
+    /// How fast it changes with a twist (ω; v/L) of its platform, dimensionless.
+    pub fn slope(self, pose: &Pose<f64>, length: f64) -> [f64; 6] {
+        match self {
+            Holdable::Joint(_) => [0.0; 6],
+            Holdable::Coordinate(_, c) => c.row(pose, c.of(pose), length).1,
+            Holdable::Turn(_, axis) => {
+                std::array::from_fn(|i| f64::from(u8::from(i == axis as usize)))
+            }
         }
     }
 
@@ -197,6 +180,10 @@ impl Holdable {
             Holdable::Coordinate(platform, coordinate) => {
                 let platform = &mechanism.platforms()[platform].name;
                 format!("{platform}.{}", coordinate.name())
+            }
+            Holdable::Turn(platform, axis) => {
+                let axis = ["wx", "wy", "wz"][axis as usize];
+                format!("{}.{axis}", mechanism.platforms()[platform].name)
             }
         }
     }
@@ -265,7 +252,7 @@ impl Mobility {
             }
         }
         let (freedoms, at) = fewest?;
-        let idle = idle_freedoms(mechanism, dimensions, &at);
+        let idle = Neighbourhood::new(mechanism).tangent(at.clone()).idle.len();
         Some(Mobility { freedoms, at, idle })
     }
 
@@ -334,17 +321,18 @@ impl Mobility {
                     .map(|motion| self.freedoms.joint_rate(motion, joint))
                     .collect()
             }
-            Holdable::Coordinate(platform, coordinate) => {
-                let length = mechanism.characteristic_length();
+            Holdable::Coordinate(platform, _) | Holdable::Turn(platform, _) => {
                 let pose = self.at.platforms[platform].pose();
-                let slope = match coordinate {
+                let slope = match candidate {
                     // roll and yaw turn about the same line there: only whole orientations are
                     // held, by three angles as good as any
-                    _ if coordinate.is_angle() && RollPitchYaw::is_locked(&pose.rotation) => {
-                        let axis = coordinate as usize - Coordinate::Roll as usize;
+                    Holdable::Coordinate(_, c)
+                        if c.is_angle() && RollPitchYaw::is_locked(&pose.rotation) =>
+                    {
+                        let axis = c as usize - Coordinate::Roll as usize;
                         std::array::from_fn(|i| f64::from(u8::from(i == axis)))
                     }
-                    _ => coordinate.row(&pose, coordinate.of(&pose), length).1,
+                    _ => candidate.slope(&pose, mechanism.characteristic_length()),
                 };
                 let first = Unknown::Twist {
                     platform,
@@ -358,29 +346,6 @@ impl Mobility {
                     .collect()
             }
         }
-    }
-}
-
-/// How many freedoms are left when every frame's origin stays where it is.
-///
-/// Counted as the motions of passive joints with all platforms and actuated joints fixed, if all of
-/// them are idle.
-fn idle_freedoms(
-    mechanism: &Mechanism,
-    dimensions: &Dimensions<f64>,
-    at: &Configuration<f64>,
-) -> usize {
-    let held = Held {
-        joints: (mechanism.joints().iter())
-            .map(|joint| joint.role == crate::description::Role::Actuated)
-            .collect(),
-        platforms: vec![HeldPlatform::Pose; mechanism.platforms().len()],
-    };
-    let freedoms = Freedoms::at(dimensions, &held, at);
-    if freedoms.are_idle(mechanism, at) {
-        freedoms.motions.len()
-    } else {
-        0
     }
 }
 

@@ -2,6 +2,7 @@
 
 use super::drive::number;
 use super::{DriveError, Holdable, Question};
+use crate::algebra::Measure;
 use crate::description::nearest;
 use crate::mechanism::{Body, Frame};
 
@@ -79,16 +80,20 @@ impl Load {
         let inside = inside.strip_prefix(['[', '(']).unwrap_or(inside);
         let inside = inside.strip_suffix([']', ')']).unwrap_or(inside);
         let parts: Vec<&str> = inside.split(',').map(str::trim).collect();
-        let values = (parts.iter())
-            .map(|part| number(question, name, part).map_err(LoadError::Value))
+        let measures = [[Measure::Force; 3], [Measure::Moment; 3]].concat();
+        if ![3, 6].contains(&parts.len()) {
+            let given = parts.len();
+            return Err(LoadError::Components { given });
+        }
+        let values = (parts.iter().zip(measures))
+            .map(|(part, wanted)| number(question, name, part, wanted).map_err(LoadError::Value))
             .collect::<Result<Vec<f64>, _>>()?;
         match values[..] {
             [x, y, z] => self.wrenches.push((frame, [x, y, z], [0.0; 3])),
             [x, y, z, a, b, c] => self.wrenches.push((frame, [x, y, z], [a, b, c])),
             _ => {
-                return Err(LoadError::Components {
-                    given: values.len(),
-                });
+                let given = values.len();
+                return Err(LoadError::Components { given });
             }
         }
         Ok(self)
@@ -108,7 +113,11 @@ impl Load {
                 suggestion,
             });
         };
-        let value = number(question, name, text).map_err(LoadError::Value)?;
+        let wanted = match mechanism.joints()[joint].kind.is_angle() {
+            true => Measure::Moment,
+            false => Measure::Force,
+        };
+        let value = number(question, name, text, wanted).map_err(LoadError::Value)?;
         self.joints.push((joint, value));
         Ok(self)
     }

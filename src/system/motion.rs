@@ -1,10 +1,14 @@
 //! Rates and accelerations of everything for those of what is held.
 
-use super::{FrameTwists, Held, HeldPlatform, Holdable, System, Twist, Unknown, Work};
-use crate::geometry::Vector3;
-use crate::mechanism::{Configuration, Coordinate, Frame, Mechanism, Placement};
+mod frames;
+
+use super::{Held, HeldPlatform, Holdable, System, Unknown, Work};
+use crate::geometry::{Quaternion, Vector3};
+use crate::mechanism::{Configuration, Coordinate, Mechanism, PlatformPose};
 use crate::number::{Dual, Number};
 use crate::solve::Equations;
+
+pub use frames::{FrameMotion, FrameMotions};
 
 /// A number with first and second derivative along a path: 1, ε₁, ε₂, ε₁ε₂.
 type Second = Dual<Dual<f64>>;
@@ -49,6 +53,8 @@ impl Motion {
         for &coordinate in coordinates {
             match coordinate {
                 Holdable::Joint(joint) => held.joints[joint] = true,
+                Holdable::Turn(platform, _) => held.platforms[platform] = HeldPlatform::Pose,
+                Holdable::Coordinate(platform, _) if whole(coordinates, platform) => {}
                 Holdable::Coordinate(platform, coordinate) => {
                     let part = &mut held.platforms[platform];
                     match part {
@@ -162,12 +168,12 @@ impl Motion {
         }
         self.rates.fill(0.0);
         for (&coordinate, &rate) in self.coordinates.iter().zip(given) {
+            if let Some((place, scale)) = self.place(coordinate) {
+                self.rates[place] = rate / scale;
+            }
             match coordinate {
-                Holdable::Joint(joint) => {
-                    self.first_path.joints[joint].slope = rate;
-                    self.rates[joint] = rate / self.scales[joint];
-                }
-                Holdable::Coordinate(platform, c) => {
+                Holdable::Joint(joint) => self.first_path.joints[joint].slope = rate,
+                Holdable::Coordinate(platform, c) if self.place(coordinate).is_none() => {
                     let pose = self.first_path.platforms[platform].pose();
                     let target = Dual {
                         value: c.of(&pose).value,
@@ -175,6 +181,19 @@ impl Motion {
                     };
                     self.first.set_target(platform, c, target);
                 }
+                Holdable::Coordinate(..) | Holdable::Turn(..) => {}
+            }
+        }
+        for platform in 0..self.held.platforms.len() {
+            if self.held.platforms[platform] == HeldPlatform::Pose {
+                let first = self.scales.len() + 6 * platform;
+                let path = &mut self.first_path.platforms[platform];
+                let pose = PlatformPose {
+                    orientation: Quaternion(path.orientation.0.map(|x| x.value)),
+                    position: Vector3(path.position.0.map(|x| x.value)),
+                };
+                let rates = &self.rates[first..first + 6];
+                *path = moved(&pose, self.length, |k| slope(rates[k]));
             }
         }
         self.first.residual(&self.first_path, &mut self.first_work);
@@ -186,6 +205,20 @@ impl Motion {
         let step = self.system.step_of(&self.work);
         scatter(self.system.unknowns(), step, &self.scales, &mut self.rates);
         &self.rates
+    }
+
+    /// The place of a held coordinate among the unknowns, with the scale of its rate there; none for
+    /// single coordinates of a platform, which are equations.
+    fn place(&self, coordinate: Holdable) -> Option<(usize, f64)> {
+        let twist = |platform: usize| self.scales.len() + 6 * platform;
+        match coordinate {
+            Holdable::Joint(joint) => Some((joint, self.scales[joint])),
+            Holdable::Turn(platform, axis) => Some((twist(platform) + axis as usize, 1.0)),
+            Holdable::Coordinate(platform, c) => {
+                let whole = self.held.platforms[platform] == HeldPlatform::Pose;
+                whole.then(|| (twist(platform) + 3 + c as usize, self.length))
+            }
+        }
     }
 
     /// The largest rate, dimensionless, at which a closure would open with the rates last computed:
@@ -204,17 +237,8 @@ impl Motion {
         }
         for (platform, pose) in at.platforms.iter().enumerate() {
             let first = self.scales.len() + 6 * platform;
-            let component = |k: usize, factor: f64| Dual {
-                value: 0.0,
-                slope: self.rates[first + k] * factor,
-            };
-            let omega = Vector3([0, 1, 2].map(|k| component(k, 1.0)));
-            let shift = Vector3([3, 4, 5].map(|k| component(k, self.length)));
-            let still = crate::mechanism::PlatformPose {
-                orientation: crate::geometry::Quaternion(pose.orientation.0.map(Dual::constant)),
-                position: Vector3(pose.position.0.map(Dual::constant)),
-            };
-            self.first_path.platforms[platform] = still.moved_by(&omega, shift);
+            let rates = &self.rates[first..first + 6];
+            self.first_path.platforms[platform] = moved(pose, self.length, |k| slope(rates[k]));
         }
     }
 
@@ -226,43 +250,38 @@ impl Motion {
         rates: &[f64],
         given: &[f64],
     ) -> &[f64] {
+        self.accelerations.fill(0.0);
+        for (&coordinate, &acceleration) in self.coordinates.iter().zip(given) {
+            if let Some((place, scale)) = self.place(coordinate) {
+                self.accelerations[place] = acceleration / scale;
+            }
+        }
         // t as a number with derivatives: the path is x ⊕ t ẋ + t²/2 ḧ
-        let time = |rate: f64| Dual {
-            value: Dual {
-                value: 0.0,
-                slope: rate,
+        let time = |rate: f64, acceleration: f64| Dual {
+            value: slope(rate),
+            slope: Dual {
+                value: rate,
+                slope: acceleration,
             },
-            slope: Dual::constant(rate),
         };
         for (joint, path) in self.second_path.joints.iter_mut().enumerate() {
-            *path = time(self.rates[joint] * self.scales[joint])
+            let scale = self.scales[joint];
+            *path = time(self.rates[joint] * scale, self.accelerations[joint] * scale)
                 + Second::constant(Dual::constant(at.joints[joint]));
         }
         for (platform, pose) in at.platforms.iter().enumerate() {
             let first = self.scales.len() + 6 * platform;
-            let omega = Vector3([0, 1, 2].map(|k| time(self.rates[first + k])));
-            let shift = Vector3([3, 4, 5].map(|k| time(self.rates[first + k] * self.length)));
-            let lift = |x: f64| Second::constant(Dual::constant(x));
-            let still = crate::mechanism::PlatformPose {
-                orientation: crate::geometry::Quaternion(pose.orientation.0.map(lift)),
-                position: Vector3(pose.position.0.map(lift)),
-            };
-            self.second_path.platforms[platform] = still.moved_by(&omega, shift);
+            let (rates, changes) = (&self.rates[first..], &self.accelerations[first..]);
+            self.second_path.platforms[platform] =
+                moved(pose, self.length, |k| time(rates[k], changes[k]));
         }
-        self.accelerations.fill(0.0);
         let asked = self.coordinates.iter().zip(rates).zip(given);
         for ((&coordinate, &rate), &acceleration) in asked {
-            match coordinate {
-                Holdable::Joint(joint) => {
-                    self.second_path.joints[joint].slope.slope = acceleration;
-                    self.accelerations[joint] = acceleration / self.scales[joint];
-                }
-                Holdable::Coordinate(platform, c) => {
-                    let mut target = time(rate);
-                    target.value.value = c.of(&at.platforms[platform].pose());
-                    target.slope.slope = acceleration;
-                    self.second.set_target(platform, c, target);
-                }
+            if let (Holdable::Coordinate(platform, c), None) = (coordinate, self.place(coordinate))
+            {
+                let mut target = time(rate, acceleration);
+                target.value.value = c.of(&at.platforms[platform].pose());
+                self.second.set_target(platform, c, target);
             }
         }
         self.second
@@ -277,6 +296,31 @@ impl Motion {
         scatter(self.system.unknowns(), step, &self.scales, all);
         &self.accelerations
     }
+}
+
+/// Whether a pose is held whole, with turns about the axes of ground.
+fn whole(coordinates: &[Holdable], platform: usize) -> bool {
+    let mut all = coordinates.iter();
+    all.any(|held| matches!(held, Holdable::Turn(of, _) if *of == platform))
+}
+
+fn slope(slope: f64) -> Dual<f64> {
+    Dual { value: 0.0, slope }
+}
+
+/// A pose displaced by a twist (ω; v/L).
+fn moved<T: Number>(
+    pose: &PlatformPose<f64>,
+    length: f64,
+    twist: impl Fn(usize) -> T,
+) -> PlatformPose<T> {
+    let still = PlatformPose {
+        orientation: Quaternion(pose.orientation.0.map(T::from_f64)),
+        position: Vector3(pose.position.0.map(T::from_f64)),
+    };
+    let omega = Vector3([0, 1, 2].map(&twist));
+    let shift = Vector3([3, 4, 5].map(|k| twist(k).scale(length)));
+    still.moved_by(&omega, shift)
 }
 
 /// Puts the steps of free unknowns to their places among all.
@@ -306,65 +350,5 @@ fn lifted<T: Number>(held: &Held<f64>, lift: &impl Fn(f64) -> T) -> Held<T> {
     Held {
         joints: held.joints.clone(),
         platforms: platforms.collect(),
-    }
-}
-
-/// How frames move: positions, twists and their rates of change.
-#[derive(Clone, Debug)]
-pub struct FrameMotions {
-    twists: FrameTwists<Dual<f64>>,
-    placement: Placement<Dual<f64>>,
-    rates: Vec<Dual<f64>>,
-}
-
-/// The motion of a frame in ground, to second order.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct FrameMotion {
-    /// Where its origin is, in m.
-    pub position: Vector3<f64>,
-    /// Its twist.
-    pub twist: Twist<f64>,
-    /// Angular acceleration, and acceleration of the origin.
-    pub change: Twist<f64>,
-}
-
-impl FrameMotions {
-    /// For frames of a mechanism.
-    pub fn new(mechanism: &Mechanism, motion: &Motion, frames: &[Frame]) -> Self {
-        let dimensions = mechanism.dimensions().map(&mut Dual::constant);
-        let twists = FrameTwists::new(&dimensions, motion.unknowns(), frames);
-        FrameMotions {
-            placement: twists.placement(),
-            rates: vec![Dual::constant(0.0); motion.unknowns().len()],
-            twists,
-        }
-    }
-
-    /// Places the frames for the rates and accelerations last computed. Nothing allocates.
-    pub fn place(&mut self, motion: &mut Motion, at: &Configuration<f64>) {
-        motion.follow_rates(at);
-        self.twists.place(&motion.first_path, &mut self.placement);
-        let both = motion.rates.iter().zip(&motion.accelerations);
-        for (rate, (&value, &slope)) in self.rates.iter_mut().zip(both) {
-            *rate = Dual { value, slope };
-        }
-    }
-
-    /// The motion of frame `i` of those asked for. Nothing allocates.
-    pub fn motion(&self, i: usize) -> FrameMotion {
-        let twist = self.twists.twist(i, &self.placement, &self.rates);
-        let value = |v: Vector3<Dual<f64>>| Vector3(v.0.map(|x| x.value));
-        let slope = |v: Vector3<Dual<f64>>| Vector3(v.0.map(|x| x.slope));
-        FrameMotion {
-            position: value(self.twists.origin(i, &self.placement)),
-            twist: Twist {
-                omega: value(twist.omega),
-                velocity: value(twist.velocity),
-            },
-            change: Twist {
-                omega: slope(twist.omega),
-                velocity: slope(twist.velocity),
-            },
-        }
     }
 }

@@ -2,8 +2,8 @@
 
 use super::{ClosureWrenches, FrameTwists, Held, System, Unknown, Work};
 use crate::description::{ClosureKind, Role};
-use crate::linear::{Decomposition, dot, norm, rank_of};
-use crate::mechanism::{Configuration, Frame, Mechanism};
+use crate::linear::{Decomposition, dot, norm, orthonormal, rank_of};
+use crate::mechanism::{Body, Configuration, Frame, Mechanism};
 use crate::solve::{Equations, Newton, Stop};
 
 /// A mechanism with nothing held, to be looked at near assembled configurations.
@@ -120,6 +120,14 @@ impl<'a> Neighbourhood<'a> {
         (report.stop == Stop::Solved).then_some(at)
     }
 
+    /// Whether motions are idle: links turn about their own lines and nothing else moves.
+    pub fn are_idle(&self, at: &Configuration<f64>, motions: &[Vec<f64>]) -> bool {
+        /// Beside motions of unit norm this is rounding.
+        const ROUNDING: f64 = 1e-6;
+        let felt = self.felt(at, motions);
+        felt.iter().all(|rate| rate.abs() < ROUNDING)
+    }
+
     /// For each motion a column of all that idle freedoms leave at rest: origins of frames,
     /// platforms, driven joints, links that end in something else than a ball, joints that no
     /// closure feels.
@@ -137,6 +145,21 @@ impl<'a> Neighbourhood<'a> {
             .filter_map(|frame| frames.iter().position(|f| *f == frame))
             .collect();
         let unfelt = mechanism.unfelt_joints();
+        // platforms on balls apart: what leaves the balls at rest turns them about the line of these
+        let balls = |platform: usize| {
+            let closures = mechanism.closures().iter();
+            let balls = closures
+                .flat_map(|closure| closure.frames)
+                .filter(move |frame| mechanism.body(*frame) == Body::Platform(platform));
+            balls.filter_map(|frame| frames.iter().position(|f| *f == frame))
+        };
+        let apart = |i: usize, j: usize| {
+            let [a, b] = [i, j].map(|k| self.frames.origin(k, &placement));
+            (a - b).norm() > 1e-6 / scale
+        };
+        let rods: Vec<usize> = (0..mechanism.platforms().len())
+            .filter(|&platform| balls(platform).any(|i| balls(platform).any(|j| apart(i, j))))
+            .collect();
         let mut felt = Vec::new();
         for motion in motions {
             for i in 0..frames.len() {
@@ -147,11 +170,14 @@ impl<'a> Neighbourhood<'a> {
                 felt.extend(self.frames.twist(i, &placement, motion).omega.0);
             }
             for (unknown, &rate) in self.system.unknowns().iter().zip(motion) {
-                match *unknown {
-                    Unknown::Joint(joint)
-                        if mechanism.joints()[joint].role == Role::Passive
-                            && !unfelt.contains(&joint) => {}
-                    _ => felt.push(rate),
+                let idle = match *unknown {
+                    Unknown::Joint(joint) => {
+                        mechanism.joints()[joint].role == Role::Passive && !unfelt.contains(&joint)
+                    }
+                    Unknown::Twist { platform, .. } => rods.contains(&platform),
+                };
+                if !idle {
+                    felt.push(rate);
                 }
             }
         }
@@ -268,6 +294,25 @@ impl<'a> Neighbourhood<'a> {
 }
 
 impl Tangent {
+    /// The motions of an independent part of the mechanism alone.
+    pub fn within(self, own: &[bool]) -> Tangent {
+        if own.iter().all(|own| *own) {
+            return self;
+        }
+        let parts = |motions: &[Vec<f64>]| {
+            let part = |motion: &Vec<f64>| -> Vec<f64> {
+                let all = motion.iter().zip(own);
+                all.map(|(x, own)| if *own { *x } else { 0.0 }).collect()
+            };
+            orthonormal(&motions.iter().map(part).collect::<Vec<_>>(), 1e-6)
+        };
+        Tangent {
+            motions: parts(&self.motions),
+            idle: parts(&self.idle),
+            ..self
+        }
+    }
+
     /// How many unknowns there are.
     pub fn columns(&self) -> usize {
         match (self.motions.first(), self.idle.first()) {

@@ -5,7 +5,7 @@ use super::layout::{Held, HeldPlatform};
 use super::question_error::QuestionError;
 use super::value;
 use crate::description::{Role, nearest};
-use crate::geometry::{Pose, RollPitchYaw};
+use crate::geometry::{Axis, Pose, RollPitchYaw};
 use crate::mechanism::{Configuration, Coordinate, Mechanism, PlatformPose};
 
 /// What is asked of a mechanism: which coordinates are held at which values, and where to start.
@@ -56,15 +56,14 @@ impl<'a> Question<'a> {
     pub fn hold(mut self, name: &str, value: &str) -> Result<Self, QuestionError> {
         match self.demand(Verb::Hold, name, Some(value))? {
             Target::Joint(joint) => {
-                let value = self.number(name, value, self.mechanism.joints()[joint].home)?;
+                let value = self.number(name, value, Holdable::Joint(joint))?;
                 self.split_changed |= !self.joints[joint];
                 self.joints[joint] = true;
                 self.asked[joint] = true;
                 self.start.joints[joint] = value;
             }
             Target::Coordinate(platform, coordinate) => {
-                let home = coordinate.of(&self.mechanism.platforms()[platform].home);
-                let value = self.number(name, value, home)?;
+                let value = self.number(name, value, Holdable::Coordinate(platform, coordinate))?;
                 self.coordinates[platform][coordinate as usize] = Some(value);
                 self.split_changed = true;
             }
@@ -103,7 +102,7 @@ impl<'a> Question<'a> {
     pub fn guess(mut self, name: &str, value: &str) -> Result<Self, QuestionError> {
         match self.demand(Verb::Guess, name, Some(value))? {
             Target::Joint(joint) => {
-                let value = self.number(name, value, self.mechanism.joints()[joint].home)?;
+                let value = self.number(name, value, Holdable::Joint(joint))?;
                 if !self.joints[joint] {
                     self.start.joints[joint] = value;
                     self.guessed_joints[joint] = true;
@@ -111,8 +110,7 @@ impl<'a> Question<'a> {
                 }
             }
             Target::Coordinate(platform, coordinate) => {
-                let home = coordinate.of(&self.mechanism.platforms()[platform].home);
-                let value = self.number(name, value, home)?;
+                let value = self.number(name, value, Holdable::Coordinate(platform, coordinate))?;
                 let pose = with_coordinates(
                     &self.start.platforms[platform].pose(),
                     [(coordinate, value)],
@@ -215,13 +213,22 @@ impl<'a> Question<'a> {
     }
 
     /// The held coordinates, those asked for before the joints that are held only because the file
-    /// says so.
+    /// says so. A whole pose pitched by ±90° turns about the axes of ground.
     pub fn held_coordinates(&self) -> Vec<Holdable> {
         let platforms = self.coordinates.iter().enumerate();
         let coordinates = platforms.flat_map(|(platform, values)| {
             let held = Coordinate::ALL.into_iter().zip(values);
-            let held = held.filter(|(_, value)| value.is_some());
-            held.map(move |(c, _)| Holdable::Coordinate(platform, c))
+            let held = held.filter_map(|(c, value)| Some((c, (*value)?)));
+            let held: Vec<(Coordinate, f64)> = held.collect();
+            let pose = with_coordinates(&Pose::identity(), held.iter().copied());
+            let locked = held.len() == 6 && RollPitchYaw::is_locked(&pose.rotation);
+            let holdable = move |(c, _): (Coordinate, f64)| match c {
+                Coordinate::Roll if locked => Holdable::Turn(platform, Axis::X),
+                Coordinate::Pitch if locked => Holdable::Turn(platform, Axis::Y),
+                Coordinate::Yaw if locked => Holdable::Turn(platform, Axis::Z),
+                c => Holdable::Coordinate(platform, c),
+            };
+            held.into_iter().map(holdable)
         });
         let held = (0..self.joints.len()).filter(|&joint| self.joints[joint]);
         let (asked, by_file): (Vec<usize>, Vec<usize>) = held.partition(|&joint| self.asked[joint]);
@@ -269,14 +276,16 @@ impl<'a> Question<'a> {
         Ok(target)
     }
 
-    fn number(&self, name: &str, text: &str, home: f64) -> Result<f64, QuestionError> {
+    fn number(&self, name: &str, text: &str, of: Holdable) -> Result<f64, QuestionError> {
         if text.trim() == "home" {
-            return Ok(home);
+            return Ok(of.home(self.mechanism));
         }
-        value::number(self.mechanism, text).map_err(|error| QuestionError::Value {
-            name: name.into(),
-            text: text.into(),
-            error,
+        value::number(self.mechanism, text, of.measure(self.mechanism)).map_err(|error| {
+            QuestionError::Value {
+                name: name.into(),
+                text: text.into(),
+                error,
+            }
         })
     }
 

@@ -157,6 +157,7 @@ impl Display for ValueError {
         let kind = match self {
             ValueError::Parse(kind) => ProblemKind::Expression(kind.clone()),
             ValueError::NoValue(kind) => ProblemKind::NoValue(*kind),
+            ValueError::Unit(kind) => ProblemKind::Unit(*kind),
             ValueError::UnknownName { name, suggestion } => ProblemKind::UnknownName {
                 name: name.clone(),
                 suggestion: suggestion.clone(),

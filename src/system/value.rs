@@ -1,6 +1,6 @@
 //! Values given beside a file, in the words of the file.
 
-use crate::algebra::{EvaluationErrorKind, Expression, ParseErrorKind};
+use crate::algebra::{EvaluationErrorKind, Expression, Measure, MeasureErrorKind, ParseErrorKind};
 use crate::description::nearest;
 use crate::geometry::{Axis, Pose, Vector3};
 use crate::mechanism::Mechanism;
@@ -19,6 +19,8 @@ pub enum ValueError {
     },
     /// It has no value.
     NoValue(EvaluationErrorKind),
+    /// Its unit does not fit.
+    Unit(MeasureErrorKind),
     /// It is not a list of displacements.
     NotAPose {
         /// The part that is none.
@@ -26,19 +28,21 @@ pub enum ValueError {
     },
 }
 
-/// The value of an expression over the mechanism's parameters, in m or rad.
-pub fn number(mechanism: &Mechanism, text: &str) -> Result<f64, ValueError> {
+/// The value of an expression over the mechanism's parameters, in m, rad, N or N·m, and per unit of
+/// time for a rate.
+pub fn number(mechanism: &Mechanism, text: &str, wanted: Measure) -> Result<f64, ValueError> {
     let expression = Expression::parse(text).map_err(|error| ValueError::Parse(error.kind))?;
     let parameters = mechanism.parameters();
     let resolved = expression.try_resolve(|name, _| {
         let found = parameters.iter().find(|parameter| parameter.name == *name);
-        found
-            .map(|parameter| parameter.value)
-            .ok_or_else(|| name.clone())
+        found.ok_or_else(|| name.clone())
     });
     match resolved {
         Ok(resolved) => {
-            (resolved.evaluate(&|value| *value)).map_err(|error| ValueError::NoValue(error.kind))
+            (resolved.check_measure(wanted, &|parameter| parameter.measure))
+                .map_err(|error| ValueError::Unit(error.kind))?;
+            (resolved.evaluate(&|parameter| parameter.value))
+                .map_err(|error| ValueError::NoValue(error.kind))
         }
         Err(names) => {
             let name = names.into_iter().next().unwrap_or_default();
@@ -63,11 +67,16 @@ pub fn pose(mechanism: &Mechanism, text: &str) -> Result<Pose<f64>, ValueError> 
     for part in split_outside_parentheses(inside) {
         let (word, arguments) = part.trim().split_once('(').ok_or_else(|| refusal(part))?;
         let arguments = arguments.strip_suffix(')').ok_or_else(|| refusal(part))?;
+        let word = word.trim();
+        let wanted = match word.starts_with('R') {
+            true => Measure::Angle,
+            false => Measure::Length,
+        };
         let values = split_outside_parentheses(arguments)
             .into_iter()
-            .map(|value| number(mechanism, value.trim().trim_matches('"')))
+            .map(|value| number(mechanism, value.trim().trim_matches('"'), wanted))
             .collect::<Result<Vec<f64>, _>>()?;
-        let step = match (word.trim(), values.as_slice()) {
+        let step = match (word, values.as_slice()) {
             ("Tx", &[x]) => Pose::translation(Vector3([x, 0.0, 0.0])),
             ("Ty", &[y]) => Pose::translation(Vector3([0.0, y, 0.0])),
             ("Tz", &[z]) => Pose::translation(Vector3([0.0, 0.0, z])),

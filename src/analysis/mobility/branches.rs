@@ -1,33 +1,34 @@
 //! Which infinitesimal freedoms are finite.
 
+mod walk;
+
 use rand::Rng;
 
 use super::cone::Cone;
 use super::{Character, MobilitySettings};
-use crate::linear::{dot, norm, orthonormal, remove};
-use crate::mechanism::Configuration;
-use crate::system::{Neighbourhood, Tangent};
+use crate::linear::{norm, orthonormal};
+use crate::system::{Neighbourhood, Tangent, independent_parts};
+use walk::{Seen, contains, directions, explore, fills, same, there};
 
 /// A joint that a finite step along free motions moves by more than this moves: at a dead point its
 /// rate is zero, and a step of 0.05 moves it to second order.
 const MOVED: f64 = 1e-7;
 
-/// The same beside a singular configuration, over the length of the step: shaky freedoms have slack.
-const MOVED_ON_A_BRANCH: f64 = 1e-3;
-
-/// Branches whose tangents beside the meeting point differ by less than this are one, seen at two
-/// points of a curve.
-const SAME_BRANCH: f64 = 0.15;
-
-/// The same of tangents at the meeting point.
+/// Branches whose tangents at the meeting point differ by less than this are one.
 const SAME_THERE: f64 = 0.02;
+
+/// So many branches are listed at most; more are counted.
+const LISTED: usize = 256;
 
 /// The finite motions through a configuration.
 pub(super) struct Finite {
     pub freedoms: usize,
-    /// Whether every infinitesimal freedom is finite.
-    pub regular: bool,
+    pub character: Character,
     pub branches: Vec<Branch>,
+    /// How many branches there are, of which no more than [`LISTED`] are listed.
+    pub count: usize,
+    /// Whether there are certainly no others.
+    pub complete: bool,
     /// Whether each unknown was seen to move.
     pub moved: Vec<bool>,
     /// What is left of the equations after a finite step.
@@ -35,30 +36,23 @@ pub(super) struct Finite {
 }
 
 /// A branch through a singular configuration.
+#[derive(Clone)]
 pub(super) struct Branch {
     pub freedoms: usize,
-    /// Its motions at the configuration.
-    pub tangent: Tangent,
+    /// Basis of its motions at the configuration.
+    pub motions: Vec<Vec<f64>>,
+    /// Whether its motions are a cone that is no linear space; the basis then spans it.
+    pub cone: bool,
+    /// Whether the motions are known to about the length of a step only.
+    pub approximate: bool,
     pub moved: Vec<bool>,
 }
 
-impl Finite {
-    pub fn character(&self, infinitesimal: usize) -> Character {
-        let several = self.branches.len() > 1;
-        let uneven = several
-            && self
-                .branches
-                .iter()
-                .any(|b| b.freedoms != self.branches[0].freedoms);
-        match () {
-            () if infinitesimal == 0 => Character::Structure,
-            () if self.regular => Character::Regular,
-            () if self.branches.is_empty() => Character::Shaky,
-            () if uneven => Character::Kinematotropic,
-            () if several => Character::Bifurcation,
-            () => Character::Singular,
-        }
-    }
+/// The branches of one independent part of a mechanism.
+struct Part {
+    branches: Vec<Branch>,
+    regular: bool,
+    complete: bool,
 }
 
 /// Finds the finite motions.
@@ -68,42 +62,94 @@ pub(super) fn find(
     settings: &MobilitySettings,
     rng: &mut impl Rng,
 ) -> Finite {
-    let mut finite = Finite {
-        freedoms: tangent.motions.len(),
-        regular: true,
-        branches: vec![],
-        moved: vec![false; tangent.columns()],
-        gap: Some(0.0),
+    let freedoms = tangent.motions.len();
+    let whole = free(near, tangent, settings, rng);
+    let gap = match &whole {
+        Ok((_, gap)) => Some(*gap),
+        Err(gap) => *gap,
     };
-    if tangent.motions.is_empty() {
-        return finite;
+    if let Ok((moved, _)) = whole {
+        return Finite {
+            freedoms,
+            character: match freedoms {
+                0 => Character::Structure,
+                _ => Character::Regular,
+            },
+            branches: vec![],
+            count: freedoms.min(1),
+            complete: true,
+            moved,
+            gap,
+        };
     }
-    for _ in 0..settings.directions.max(1) {
+    let owns = independent_parts(near.mechanism(), near.system().unknowns());
+    let one = owns.len() == 1;
+    let parts = owns.iter().filter_map(|own| {
+        let tangent = tangent.clone().within(own);
+        (!tangent.motions.is_empty()).then(|| part(near, own, &tangent, one, settings, rng))
+    });
+    let parts: Vec<Part> = parts.collect();
+    let gains = |branch: &Branch| branch.freedoms;
+    let most = |part: &Part| part.branches.iter().map(gains).max().unwrap_or(0);
+    let least = |part: &Part| part.branches.iter().map(gains).min().unwrap_or(0);
+    let count = (parts.iter()).fold(1usize, |product, part| {
+        product.saturating_mul(part.branches.len().max(1))
+    });
+    let branches = products(&parts, tangent);
+    let mut moved = vec![false; tangent.columns()];
+    for branch in parts.iter().flat_map(|part| &part.branches) {
+        let all = moved.iter_mut().zip(&branch.moved);
+        all.for_each(|(any, moved)| *any |= moved);
+    }
+    let character = match () {
+        () if parts.iter().all(|part| part.regular) => Character::Regular,
+        () if branches.is_empty() => Character::Shaky,
+        () if parts.iter().any(|part| most(part) != least(part)) => Character::Kinematotropic,
+        () if count > 1 => Character::Bifurcation,
+        () => Character::Singular,
+    };
+    Finite {
+        freedoms: parts.iter().map(most).sum(),
+        complete: parts.iter().all(|part| part.complete),
+        count: match branches.len() {
+            0 => 0,
+            _ => count,
+        },
+        branches: match character {
+            Character::Regular => vec![],
+            _ => branches,
+        },
+        character,
+        moved,
+        gap,
+    }
+}
+
+/// What moves, and the gap that is left, if random directions of motion are all free, so that every
+/// direction is; else the gap of one that is not.
+fn free(
+    near: &mut Neighbourhood,
+    tangent: &Tangent,
+    settings: &MobilitySettings,
+    rng: &mut impl Rng,
+) -> Result<(Vec<bool>, f64), Option<f64>> {
+    let mut moved = vec![false; tangent.columns()];
+    let mut gap: f64 = 0.0;
+    let directions = match tangent.motions.is_empty() {
+        true => 0,
+        false => settings.directions.max(1),
+    };
+    for _ in 0..directions {
         let direction = combination(&tangent.motions, rng);
-        match near.free_step(tangent, &direction, settings.step) {
-            Ok(step) => {
-                finite.gap = finite.gap.map(|gap| gap.max(step.gap));
-                let moved = near.system().difference(&tangent.at, &step.at);
-                see(&mut finite.moved, &moved, MOVED);
-            }
-            Err(gap) => {
-                finite.gap = gap;
-                finite.regular = false;
-                break;
-            }
-        }
+        let step = near.free_step(tangent, &direction, settings.step)?;
+        gap = gap.max(step.gap);
+        see(
+            &mut moved,
+            &near.system().difference(&tangent.at, &step.at),
+            MOVED,
+        );
     }
-    if !finite.regular {
-        finite.branches = branches(near, tangent, settings, rng);
-        let most = finite.branches.iter().map(|branch| branch.freedoms).max();
-        finite.freedoms = most.unwrap_or(0);
-        finite.moved.fill(false);
-        for branch in &finite.branches {
-            let all = finite.moved.iter_mut().zip(&branch.moved);
-            all.for_each(|(any, moved)| *any |= moved);
-        }
-    }
-    finite
+    Ok((moved, gap))
 }
 
 /// Whether random directions of motion are all free, so that every direction is.
@@ -144,101 +190,142 @@ fn see(moved: &mut [bool], step: &[f64], clearly: f64) {
     }
 }
 
-/// Directions that are worth a try: some on the quadratic cone, some between the basis vectors,
-/// and along each of them both ways.
-fn directions(
+/// The branches of an independent part, which is known to be singular if it is the `only` one.
+fn part(
     near: &mut Neighbourhood,
-    at: &Tangent,
-    trials: usize,
+    own: &[bool],
+    tangent: &Tangent,
+    only: bool,
+    settings: &MobilitySettings,
     rng: &mut impl Rng,
-) -> Vec<Vec<f64>> {
-    let basis = &at.motions;
-    let mut directions: Vec<Vec<f64>> = vec![];
-    if basis.len() > 1 {
-        let cone = Cone::of(near, at);
-        let on_cone = match cone.is_all() {
-            true => 0,
-            false => trials * basis.len(),
+) -> Part {
+    if !only && let Ok((moved, _)) = free(near, tangent, settings, rng) {
+        let branch = Branch {
+            freedoms: tangent.motions.len(),
+            motions: tangent.motions.clone(),
+            cone: false,
+            approximate: false,
+            moved,
         };
-        directions.extend((0..on_cone).filter_map(|_| cone.direction(basis, rng)));
-        let between = match directions.is_empty() {
-            true => trials * basis.len(),
-            false => trials,
+        return Part {
+            branches: vec![branch],
+            regular: true,
+            complete: true,
         };
-        directions.extend((0..between).map(|_| combination(basis, rng)));
     }
-    let back = |motion: &Vec<f64>| motion.iter().map(|x| -x).collect();
-    directions.extend(basis.iter().flat_map(|m| [m.clone(), back(m)]));
-    directions
+    singular(near, own, tangent, settings, rng)
 }
 
-/// A branch seen at a point of it that lies on no other.
-struct Seen {
-    /// The tangent there; the motions are those of the branch, of which there may be fewer than
-    /// infinitesimal ones.
-    beside: Tangent,
-    /// Whether every infinitesimal freedom there is finite.
-    regular: bool,
-    moved: Vec<bool>,
-}
-
-impl Seen {
-    fn agrees(&self, other: &Tangent) -> bool {
-        same(&self.beside.motions, &other.motions, SAME_BRANCH)
-    }
-
-    fn see(&mut self, near: &Neighbourhood, from: &Tangent, at: &Tangent, reach: f64) {
-        let way = near.system().difference(&from.at, &at.at);
-        see(&mut self.moved, &way, MOVED_ON_A_BRANCH * reach);
-    }
-}
-
-/// Whether two orthonormal bases span the same but for angles of this sine.
-fn same(a: &[Vec<f64>], b: &[Vec<f64>], sine: f64) -> bool {
-    a.len() == b.len() && contains(a, b, sine)
-}
-
-/// Whether an orthonormal basis spans the vectors of another but for angles of this sine.
-fn contains(space: &[Vec<f64>], vectors: &[Vec<f64>], sine: f64) -> bool {
-    vectors.iter().all(|vector| {
-        let mut out = vector.clone();
-        remove(&mut out, space);
-        norm(&out) < sine
-    })
-}
-
-/// The branches through a singular configuration that small steps in many directions settle on.
-fn branches(
+/// The branches of a singular part that small steps in many directions settle on: in so many that
+/// the last of them find nothing new, or until there can be no more.
+fn singular(
     near: &mut Neighbourhood,
+    own: &[bool],
     tangent: &Tangent,
     settings: &MobilitySettings,
     rng: &mut impl Rng,
-) -> Vec<Branch> {
-    let reach = settings.branch_step;
+) -> Part {
+    /// Steps per infinitesimal freedom and [`MobilitySettings::branch_trials`] after which no more
+    /// branches are sought.
+    const LONGEST: usize = 12;
+    let n = tangent.motions.len();
+    let cone = Cone::of(near, tangent);
     let mut seen: Vec<Seen> = Vec::new();
-    for direction in directions(near, tangent, settings.branch_trials, rng) {
-        if let Some((at, _)) = arrive(near, tangent, &direction, reach) {
-            let beside = near.tangent(at);
-            look(near, tangent, beside, settings, &mut seen, rng);
+    let mut limits: Vec<Limit> = Vec::new();
+    let mut share = 0.0;
+    let (mut tried, mut fruitless) = (0, 0);
+    while share < 1.0 {
+        for direction in directions(&cone, tangent, settings.branch_trials, rng) {
+            explore(near, own, tangent, &direction, settings, &mut seen, rng);
+            tried += 1;
+            fruitless += 1;
+            if seen.len() > limits.len() {
+                fruitless = 0;
+                for seen in &seen[limits.len()..] {
+                    let motions = there(near, own, tangent, seen);
+                    let curved = seen.regular && is_curved(near, &cone, tangent, &motions, rng);
+                    limits.push(Limit { motions, curved });
+                }
+                share = branches(&cone, n, &seen, &limits).1;
+                if share >= 1.0 {
+                    break;
+                }
+            }
+        }
+        // where most of what is possible was found, the rest is probably real too
+        let patience = if share >= 0.5 { 4 } else { 1 };
+        let enough = patience * (2 * settings.branch_trials * n).max(4 * seen.len());
+        if n < 2 || fruitless >= enough || tried >= LONGEST * settings.branch_trials * n {
+            break;
         }
     }
+    // joints that were seen to move since
+    let (branches, share) = branches(&cone, n, &seen, &limits);
+    Part {
+        regular: false,
+        // a function of one variable that does not vanish on the way has no zero there
+        complete: share >= 1.0 || (n == 1 && branches.is_empty()),
+        branches,
+    }
+}
+
+/// The motions of a branch at the meeting point.
+struct Limit {
+    motions: Vec<Vec<f64>>,
+    /// Whether they depend on the way there.
+    curved: bool,
+}
+
+/// Whether the tangent of a branch at the meeting point is that of a curved cone there: then not all
+/// of it is on the cone, and steps along it lead elsewhere.
+fn is_curved(
+    near: &mut Neighbourhood,
+    cone: &Cone,
+    tangent: &Tangent,
+    motions: &[Vec<f64>],
+    rng: &mut impl Rng,
+) -> bool {
+    /// Length of the steps.
+    const STEP: f64 = 0.02;
+    if !cone.is_all() {
+        return !cone.contains_all(motions);
+    }
+    let along = Tangent {
+        motions: motions.to_vec(),
+        ..tangent.clone()
+    };
+    !fills(near, &along, STEP, rng)
+}
+
+/// The branches that were seen, and which share of all that there can be they are: 1 if there are
+/// certainly no others, 0 if that is not known.
+///
+/// The reduction of Lyapunov and Schmidt leaves k equations with independent quadratic parts and
+/// perhaps more. If each branch has n − k freedoms, the tangent cone is that of a complete
+/// intersection of k quadrics, whose components have degrees that add up to no more than 2ᵏ
+/// (Bézout): a linear space has degree 1, and a single quadric that is curved has 2.
+fn branches(cone: &Cone, n: usize, seen: &[Seen], limits: &[Limit]) -> (Vec<Branch>, f64) {
     let mut branches: Vec<(bool, Branch)> = Vec::new();
-    for seen in seen {
-        let motions = there(near, tangent, &seen);
-        let one =
-            |known: &&mut (bool, Branch)| same(&known.1.tangent.motions, &motions, SAME_THERE);
-        if let Some((_, branch)) = branches.iter_mut().find(one) {
+    for (seen, Limit { motions, curved }) in seen.iter().zip(limits) {
+        let one = |known: &&mut (bool, Branch)| match *curved {
+            true => known.1.cone && known.1.freedoms == motions.len(),
+            false => !known.1.cone && same(&known.1.motions, motions, SAME_THERE),
+        };
+        if let Some((regular, branch)) = branches.iter_mut().find(one) {
+            *regular |= seen.regular;
             let all = branch.moved.iter_mut().zip(&seen.moved);
             all.for_each(|(any, moved)| *any |= moved);
+            if *curved {
+                branch.motions = orthonormal(&[&branch.motions[..], motions].concat(), SAME_THERE);
+            }
             continue;
         }
         let branch = Branch {
             freedoms: motions.len(),
-            tangent: Tangent {
-                motions,
-                ..tangent.clone()
-            },
-            moved: seen.moved,
+            motions: motions.clone(),
+            cone: *curved,
+            approximate: !seen.regular && motions.len() > 1,
+            moved: seen.moved.clone(),
         };
         branches.push((seen.regular, branch));
     }
@@ -246,180 +333,56 @@ fn branches(
     // what was seen from a special point of a larger branch is part of that
     let within = |i: usize| {
         let (regular, branch) = &branches[i];
-        let motions = &branch.tangent.motions;
         !regular
             && (branches[..i].iter()).any(|(_, larger)| {
                 larger.freedoms > branch.freedoms
-                    && contains(&larger.tangent.motions, motions, SAME_THERE)
+                    && contains(&larger.motions, &branch.motions, SAME_THERE)
             })
     };
     let parts: Vec<bool> = (0..branches.len()).map(within).collect();
     let whole = branches.into_iter().zip(parts).filter(|(_, part)| !part);
-    whole.map(|((_, branch), _)| branch).collect()
+    let branches: Vec<Branch> = whole.map(|((_, branch), _)| branch).collect();
+    let forms = cone.forms();
+    let degree = |branch: &Branch| 1 + usize::from(branch.cone);
+    let degrees: usize = branches.iter().map(degree).sum();
+    let even = branches.iter().all(|b| b.freedoms + forms == n);
+    let single = forms == 1 || branches.iter().all(|branch| !branch.cone);
+    let most = 1usize.checked_shl(forms as u32).unwrap_or(usize::MAX);
+    let known = (1..16).contains(&forms) && even && single;
+    (
+        branches,
+        if known {
+            degrees as f64 / most as f64
+        } else {
+            0.0
+        },
+    )
 }
 
-/// Adds the branch on which a point lies, looked at where it lies on no other: at a point where all
-/// infinitesimal freedoms are finite, which is moved on to if need be.
-fn look(
-    near: &mut Neighbourhood,
-    from: &Tangent,
-    point: Tangent,
-    settings: &MobilitySettings,
-    seen: &mut Vec<Seen>,
-    rng: &mut impl Rng,
-) {
-    let reach = settings.branch_step;
-    let step = 0.3 * reach;
-    if point.motions.is_empty() {
-        return;
+/// The branches of the whole: each part is on one of its own. The first of them.
+fn products(parts: &[Part], tangent: &Tangent) -> Vec<Branch> {
+    let mut products: Vec<Branch> = vec![Branch {
+        freedoms: 0,
+        motions: vec![],
+        cone: false,
+        approximate: false,
+        moved: vec![false; tangent.columns()],
+    }];
+    for part in parts.iter().filter(|part| !part.branches.is_empty()) {
+        let all = products.iter().flat_map(|known| {
+            part.branches.iter().map(|branch| Branch {
+                freedoms: known.freedoms + branch.freedoms,
+                motions: [&known.motions[..], &branch.motions].concat(),
+                cone: known.cone || branch.cone,
+                approximate: known.approximate || branch.approximate,
+                moved: (known.moved.iter().zip(&branch.moved))
+                    .map(|(a, b)| *a || *b)
+                    .collect(),
+            })
+        });
+        products = all.take(LISTED).collect();
     }
-    let mut points = vec![point];
-    for _ in 0..=settings.branch_trials {
-        let Some(last) = points.last() else { return };
-        let known = |seen: &&mut Seen| seen.regular && seen.agrees(last);
-        if let Some(known) = seen.iter_mut().find(known) {
-            known.see(near, from, last, reach);
-            return;
-        }
-        if is_regular(near, last, step, 2, rng) {
-            let beside = last.clone();
-            return add(near, from, beside, true, reach, seen);
-        }
-        // on from where the fewest motions were seen
-        let Some(least) = points.iter().min_by_key(|point| point.motions.len()) else {
-            return;
-        };
-        let direction = combination(&least.motions, rng);
-        if let Some((at, _)) = arrive(near, least, &direction, step) {
-            points.push(near.tangent(at));
-        }
-    }
-    // shaky wherever it was seen
-    let least = points.into_iter().min_by_key(|point| point.motions.len());
-    if let Some(mut least) = least {
-        let ways: Vec<Vec<f64>> = directions(near, &least, settings.branch_trials, rng)
-            .iter()
-            .filter_map(|direction| Some(arrive(near, &least, direction, step)?.1))
-            .collect();
-        least.motions = orthonormal(&ways, 0.1);
-        if !least.motions.is_empty() {
-            add(near, from, least, false, reach, seen);
-        }
-    }
-}
-
-fn add(
-    near: &Neighbourhood,
-    from: &Tangent,
-    beside: Tangent,
-    regular: bool,
-    reach: f64,
-    seen: &mut Vec<Seen>,
-) {
-    let known = |seen: &&mut Seen| seen.regular == regular && seen.agrees(&beside);
-    if let Some(known) = seen.iter_mut().find(known) {
-        return known.see(near, from, &beside, reach);
-    }
-    let mut new = Seen {
-        moved: vec![false; beside.columns()],
-        beside: beside.clone(),
-        regular,
-    };
-    new.see(near, from, &beside, reach);
-    for motion in &beside.motions {
-        see(&mut new.moved, motion, MOVED_ON_A_BRANCH);
-    }
-    seen.push(new);
-}
-
-/// The motions of a branch at the meeting point: the limit of its tangents on the way there, by
-/// extrapolation.
-fn there(near: &mut Neighbourhood, tangent: &Tangent, seen: &Seen) -> Vec<Vec<f64>> {
-    const LEVELS: i32 = 4;
-    let basis = &seen.beside.motions;
-    let mut way = near.system().difference(&tangent.at, &seen.beside.at);
-    remove(&mut way, &tangent.idle);
-    let distance = norm(&way);
-    // distances and the branch's motions there, as parts of the same basis
-    let mut levels: Vec<(f64, Vec<Vec<f64>>)> = vec![];
-    for level in 0..LEVELS {
-        let factor = 0.5f64.powi(level);
-        let step: Vec<f64> = way.iter().map(|x| x * factor).collect();
-        let start = near.system().displaced(&tangent.at, &step);
-        let Some(at) = near.settle(start, factor * distance) else {
-            break;
-        };
-        let mut back = near.system().difference(&tangent.at, &at);
-        remove(&mut back, &tangent.idle);
-        let along = dot(&back, &way) / (distance * distance);
-        if !(0.5 * factor..2.0 * factor).contains(&along) {
-            break;
-        }
-        if seen.regular {
-            let there = near.tangent(at);
-            if there.motions.len() != basis.len() {
-                break;
-            }
-            let part = |motion: &Vec<f64>| {
-                let mut out = motion.clone();
-                remove(&mut out, &there.motions);
-                motion.iter().zip(out).map(|(m, o)| m - o).collect()
-            };
-            levels.push((along, basis.iter().map(part).collect()));
-        } else if basis.len() == 1 {
-            // the tangent is not known apart from shaky motions, but the chord is
-            let length = norm(&back);
-            levels.push((along, vec![back.iter().map(|x| x / length).collect()]));
-        }
-    }
-    let mut limit = match levels.is_empty() {
-        true => basis.clone(),
-        false => vec![vec![0.0; way.len()]; basis.len()],
-    };
-    for (i, (own, motions)) in levels.iter().enumerate() {
-        let others = levels.iter().enumerate().filter(|(j, _)| *j != i);
-        let weight: f64 = others
-            .map(|(_, (other, _))| other / (other - own))
-            .product();
-        for (limit, motion) in limit.iter_mut().zip(motions) {
-            limit
-                .iter_mut()
-                .zip(motion)
-                .for_each(|(l, m)| *l += weight * m);
-        }
-    }
-    // every finite motion starts along an infinitesimal one
-    for motion in &mut limit {
-        let mut out = motion.clone();
-        remove(&mut out, &tangent.motions);
-        motion.iter_mut().zip(out).for_each(|(m, o)| *m -= o);
-    }
-    let found = orthonormal(&limit, 0.1);
-    match found.len() == basis.len() {
-        true => found,
-        false => basis.clone(),
-    }
-}
-
-/// An assembled configuration that a small step settles on, with the unit direction to it; `None`
-/// if it comes back or runs away.
-fn arrive(
-    near: &mut Neighbourhood,
-    from: &Tangent,
-    direction: &[f64],
-    reach: f64,
-) -> Option<(Configuration<f64>, Vec<f64>)> {
-    let start = match near.follow(from, direction, reach) {
-        Some(step) => step.at,
-        None => {
-            let step: Vec<f64> = direction.iter().map(|x| x * reach).collect();
-            near.system().displaced(&from.at, &step)
-        }
-    };
-    let at = near.settle(start, reach)?;
-    let mut way = near.system().difference(&from.at, &at);
-    remove(&mut way, &from.idle);
-    let distance = norm(&way);
-    way.iter_mut().for_each(|x| *x /= distance);
-    (0.05 * reach < distance && distance < 5.0 * reach).then_some((at, way))
+    products.retain(|branch| branch.freedoms > 0);
+    products.sort_by_key(|branch| std::cmp::Reverse(branch.freedoms));
+    products
 }

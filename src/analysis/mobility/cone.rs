@@ -3,7 +3,7 @@
 use rand::Rng;
 
 use super::branches::combination;
-use crate::linear::{Decomposition, norm, orthonormal};
+use crate::linear::{Decomposition, dot, norm, orthonormal};
 use crate::system::{Neighbourhood, Tangent};
 
 /// The quadratic tangent cone: the motions ξ = Σ vᵢ mᵢ with wₖᵀ H(ξ, ξ) = 0 for all wₖ with
@@ -11,6 +11,8 @@ use crate::system::{Neighbourhood, Tangent};
 /// Source: Connelly and Whiteley, SIAM J. Discrete Math. 9, 1996; Müller, Mech. Mach. Theory 2019.
 pub(super) struct Cone {
     freedoms: usize,
+    /// The mᵢ.
+    basis: Vec<Vec<f64>>,
     /// For each independent form its coefficients cᵢⱼ of vᵢ vⱼ with i ≤ j, row by row.
     forms: Vec<Vec<f64>>,
 }
@@ -26,6 +28,7 @@ impl Cone {
         let n = motions.len();
         let mut cone = Cone {
             freedoms: n,
+            basis: motions.clone(),
             forms: vec![],
         };
         if !(2..=LIMIT).contains(&n) {
@@ -53,7 +56,32 @@ impl Cone {
         cone
     }
 
-    /// Whether second order excludes anything.
+    /// How many independent forms there are.
+    pub fn forms(&self) -> usize {
+        self.forms.len()
+    }
+
+    /// Whether all of a space of motions is on the cone, to the accuracy of extrapolated tangents.
+    pub fn contains_all(&self, motions: &[Vec<f64>]) -> bool {
+        /// Forms have coefficients of unit norm.
+        const ZERO: f64 = 0.03;
+        let on_basis =
+            |motion: &Vec<f64>| -> Vec<f64> { self.basis.iter().map(|b| dot(b, motion)).collect() };
+        let weights: Vec<Vec<f64>> = match self.forms.is_empty() {
+            true => return true,
+            false => motions.iter().map(on_basis).collect(),
+        };
+        let zero = |v: &[f64]| self.linearised(v).0.iter().all(|q| q.abs() < ZERO);
+        (0..weights.len()).all(|i| {
+            zero(&weights[i])
+                && weights[..i].iter().all(|other| {
+                    let sum: Vec<f64> = weights[i].iter().zip(other).map(|(a, b)| a + b).collect();
+                    zero(&sum)
+                })
+        })
+    }
+
+    /// Whether second order excludes nothing.
     pub fn is_all(&self) -> bool {
         self.forms.is_empty()
     }

@@ -5,8 +5,8 @@ use serde::Serialize;
 use super::redundancy::axis_aligned;
 use crate::geometry::Vector3;
 use crate::linear::{norm, remove};
-use crate::mechanism::{Body, Frame, Mechanism};
-use crate::system::{Neighbourhood, Tangent};
+use crate::mechanism::{Body, Configuration, Frame, Mechanism};
+use crate::system::Neighbourhood;
 
 /// The infinitesimal motions of a body.
 #[derive(Clone, Debug, PartialEq, Serialize)]
@@ -55,24 +55,25 @@ pub(super) fn carriers(mechanism: &Mechanism) -> Vec<(Body, Frame)> {
     carriers
 }
 
-/// The twist spaces of bodies over the motions of a tangent space.
+/// The twist spaces of bodies over motions at a configuration.
 pub(super) fn spaces(
     near: &Neighbourhood,
     carriers: &[(Body, Frame)],
-    tangent: &Tangent,
+    at: &Configuration<f64>,
+    motions: &[Vec<f64>],
 ) -> Vec<TwistSpace> {
     let mechanism = near.mechanism();
     let length = mechanism.characteristic_length();
     let frames = near.frames();
     let mut placement = frames.placement();
-    frames.place(&tangent.at, &mut placement);
+    frames.place(at, &mut placement);
     let spaces = carriers.iter().map(|&(body, frame)| {
         let place = frames
             .frames()
             .position(|f| f == frame)
             .expect("every frame is planned");
         let origin = frames.origin(place, &placement);
-        let twists: Vec<Vec<f64>> = (tangent.motions.iter())
+        let twists: Vec<Vec<f64>> = (motions.iter())
             .map(|motion| {
                 let twist = frames.twist(place, &placement, motion);
                 let velocity = (twist.velocity - twist.omega.cross(&origin)).times(1.0 / length);

@@ -3,8 +3,9 @@
 use serde::Serialize;
 
 use super::unit;
+use crate::geometry;
 use crate::linear::{Decomposition, rank};
-use crate::mechanism::{Configuration, Frame, Mechanism, Role};
+use crate::mechanism::{Configuration, Coordinate, Frame, Mechanism, Role};
 use crate::system::{FrameTwists, Holdable, Motion};
 
 /// Rates of outputs for unit rates of the inputs, one at a time.
@@ -47,27 +48,56 @@ pub(super) enum Output {
     Point(Frame),
     /// The rate of a joint.
     Joint(usize),
+    /// The rate of a coordinate of a platform.
+    Coordinate(usize, Coordinate),
+    /// A component of the angular velocity of a platform.
+    Turn(usize, geometry::Axis),
 }
 
-/// The outputs of a question: with a platform coordinate held the driven joints that are free, else
-/// the platforms' twists, else the free joints that something determines.
+/// The outputs of a question: what is free of the platforms, and with a platform coordinate held the
+/// driven joints that are free; if there is nothing of that, the free joints that something
+/// determines.
+///
+/// Of a platform that is partly held the angular velocity is free if no angle is held, else the
+/// other angles.
 pub(super) fn outputs(mechanism: &Mechanism, held: &[Holdable], spinning: &[usize]) -> Vec<Output> {
+    let mut outputs = Vec::new();
+    for platform in 0..mechanism.platforms().len() {
+        let is_held = |c: &Coordinate| held.contains(&Holdable::Coordinate(platform, *c));
+        let of_it = |holdable: &Holdable| match holdable {
+            Holdable::Coordinate(of, _) | Holdable::Turn(of, _) => *of == platform,
+            Holdable::Joint(_) => false,
+        };
+        if !held.iter().any(of_it) {
+            outputs.push(Output::Twist(Frame::Platform { platform }));
+        } else if held.iter().filter(|held| of_it(held)).count() < 6 {
+            let (angles, shifts): (Vec<Coordinate>, _) =
+                Coordinate::ALL.into_iter().partition(|c| c.is_angle());
+            let coordinate =
+                |c: Coordinate| (!is_held(&c)).then_some(Output::Coordinate(platform, c));
+            match angles.iter().any(is_held) {
+                true => outputs.extend(angles.into_iter().filter_map(coordinate)),
+                false => {
+                    use geometry::Axis::{X, Y, Z};
+                    outputs.extend([X, Y, Z].map(|axis| Output::Turn(platform, axis)));
+                }
+            }
+            outputs.extend(Vec::into_iter(shifts).filter_map(coordinate));
+        }
+    }
+    let inverse = !held.iter().all(|held| matches!(held, Holdable::Joint(_)));
     let free =
         |joint: &usize| !held.contains(&Holdable::Joint(*joint)) && !spinning.contains(joint);
-    let free: Vec<usize> = (0..mechanism.joints().len()).filter(free).collect();
+    let joints = 0..mechanism.joints().len();
     let driven = |joint: &usize| mechanism.joints()[*joint].role == Role::Actuated;
-    let inverse = held.iter().any(|h| matches!(h, Holdable::Coordinate(..)));
-    let platforms = 0..mechanism.platforms().len();
-    if inverse && free.iter().any(driven) {
-        let driven = free.iter().copied().filter(|joint| driven(joint));
-        driven.map(Output::Joint).collect()
-    } else if !inverse && !platforms.is_empty() {
-        platforms
-            .map(|platform| Output::Twist(Frame::Platform { platform }))
-            .collect()
-    } else {
-        free.into_iter().map(Output::Joint).collect()
+    if inverse {
+        let driven = joints.clone().filter(|joint| free(joint) && driven(joint));
+        outputs.extend(driven.map(Output::Joint));
     }
+    if outputs.is_empty() {
+        outputs.extend(joints.filter(free).map(Output::Joint));
+    }
+    outputs
 }
 
 /// The points followed that are no outputs already, each once.
@@ -91,6 +121,9 @@ pub(super) fn input_output(
     let frames = outputs.iter().filter_map(|output| match output {
         Output::Twist(frame) | Output::Point(frame) => Some(*frame),
         Output::Joint(_) => None,
+        &(Output::Coordinate(platform, _) | Output::Turn(platform, _)) => {
+            Some(Frame::Platform { platform })
+        }
     });
     let frames: Vec<Frame> = frames.collect();
     let twists = FrameTwists::new(mechanism.dimensions(), motion.unknowns(), &frames);
@@ -113,6 +146,23 @@ pub(super) fn input_output(
                     unit: format!("{}/s", unit(joint.kind.is_angle())),
                 });
                 row_scales.push(if joint.kind.is_angle() { 1.0 } else { length });
+                continue;
+            }
+            &Output::Coordinate(platform, c) => {
+                rows.push(Axis {
+                    name: Holdable::Coordinate(platform, c).name(mechanism),
+                    unit: format!("{}/s", unit(c.is_angle())),
+                });
+                row_scales.push(if c.is_angle() { 1.0 } else { length });
+                continue;
+            }
+            &Output::Turn(platform, axis) => {
+                let axis = ["x", "y", "z"][axis as usize];
+                rows.push(Axis {
+                    name: format!("{} ω{axis}", mechanism.platforms()[platform].name),
+                    unit: format!("{}/s", unit(true)),
+                });
+                row_scales.push(1.0);
                 continue;
             }
         };
@@ -150,6 +200,23 @@ pub(super) fn input_output(
                         column.extend(twist.omega.0);
                     }
                     column.extend(twist.velocity.0);
+                    frame += 1;
+                }
+                &Output::Coordinate(platform, c) => {
+                    let twist = twists.twist(frame, &placement, rates);
+                    let slope = Holdable::Coordinate(platform, c)
+                        .slope(&at.platforms[platform].pose(), length);
+                    // the slope is that of the dimensionless coordinate
+                    let scale = if c.is_angle() { 1.0 } else { length };
+                    let turn = twist.omega.0.into_iter();
+                    let shift = twist.velocity.0.into_iter().map(|v| v / length);
+                    let sum: f64 = turn.chain(shift).zip(slope).map(|(t, s)| t * s).sum();
+                    column.push(sum * scale);
+                    frame += 1;
+                }
+                Output::Turn(_, axis) => {
+                    let twist = twists.twist(frame, &placement, rates);
+                    column.push(twist.omega.0[*axis as usize]);
                     frame += 1;
                 }
             }

@@ -10,7 +10,7 @@ use crate::system::{
     Drive, FrameTwists, Holdable, LoopPart, MechanismLoop, Motion, Neighbourhood, Twist, loops,
 };
 
-/// How well a driven joint moves the output link of a four-bar loop in a plane.
+/// How well a driven joint moves the output link of a loop in a plane.
 ///
 /// The coupler passes a force along the line between its hinges. Its *pressure angle* is the one
 /// between that line and the way the output link moves at their hinge; the *transmission angle* is
@@ -19,7 +19,7 @@ use crate::system::{
 pub struct Transmission {
     /// The closure of the loop.
     pub closure: String,
-    /// The driven joint.
+    /// The joint that drives: one that is held, or that another loop settles.
     pub driven: String,
     /// The joint by which the output link is held.
     pub output: String,
@@ -48,6 +48,8 @@ const ZERO: f64 = 1e-9;
 /// Beyond so many bodies only the centres beside the ground are listed.
 const MANY_BODIES: usize = 12;
 
+/// Of each loop in which three joints are left when the held ones, and those that other such loops
+/// settle, are given: the dyads of which planar linkages are built up.
 pub(super) fn transmission(
     near: &mut Neighbourhood,
     at: &Configuration<f64>,
@@ -55,62 +57,92 @@ pub(super) fn transmission(
 ) -> Vec<Transmission> {
     let length = near.mechanism().characteristic_length();
     let found = loops(near, at);
-    found
-        .iter()
-        .flat_map(|one| of_loop(one, held, length))
-        .collect()
+    let is_held = |part: &&LoopPart| {
+        let [joint] = part.joints[..] else {
+            return false;
+        };
+        part.twists.len() == 1 && held.contains(&Holdable::Joint(joint))
+    };
+    let parts = found.iter().flat_map(|one| &one.parts);
+    let mut known: Vec<Vec<String>> = parts.filter(is_held).map(|p| p.names.clone()).collect();
+    let mut angles: Vec<Option<Vec<Transmission>>> = vec![None; found.len()];
+    let dyad = |one: &MechanismLoop, known: &[Vec<String>]| {
+        let free = one.parts.iter().filter(|part| !known.contains(&part.names));
+        free.clone().count() == 3 && free.clone().all(|part| part.twists.len() == 1)
+    };
+    while let Some(i) = (0..found.len()).find(|&i| angles[i].is_none() && dyad(&found[i], &known)) {
+        angles[i] = Some(of_loop(&found[i], &known, length));
+        known.extend(found[i].parts.iter().map(|part| part.names.clone()));
+    }
+    angles.into_iter().flatten().flatten().collect()
 }
 
-/// The driven joints of a loop that has three others.
-fn of_loop(found: &MechanismLoop, held: &[Holdable], length: f64) -> Vec<Transmission> {
+/// The known joints of a loop that has three others, each with whether these follow forwards:
+/// one that is alone drives the link beyond it, the ends of several the links towards the others,
+/// unless that is the ground.
+fn drivers(found: &MechanismLoop, known: &[Vec<String>]) -> Vec<(usize, bool)> {
+    let parts = &found.parts;
+    let count = parts.len();
+    let is_known = |i: usize| known.contains(&parts[i % count].names);
+    let mut drivers = Vec::new();
+    for i in (0..count).filter(|&i| is_known(i)) {
+        let [before, after] = [is_known(i + count - 1), is_known(i + 1)];
+        let moves = |forwards: bool| {
+            let beyond = if forwards { i + 1 } else { i };
+            found.bodies[beyond % count] != Body::Ground
+        };
+        match (before, after) {
+            (true, true) => {}
+            (false, false) => drivers.push((i, found.bodies[i] == parts[i].bodies[0])),
+            (true, false) if moves(true) => drivers.push((i, true)),
+            (false, true) if moves(false) => drivers.push((i, false)),
+            _ => {}
+        }
+    }
+    drivers
+}
+
+fn of_loop(found: &MechanismLoop, known: &[Vec<String>], length: f64) -> Vec<Transmission> {
     let Some(normal) = normal(found.parts.iter().flat_map(|part| &part.twists)) else {
         return vec![];
     };
     let parts = &found.parts;
-    let is_held = |part: &LoopPart| match part.joints[..] {
-        [joint] => held.contains(&Holdable::Joint(joint)),
-        _ => false,
-    };
-    let single = parts.iter().all(|part| part.twists.len() == 1);
-    let free = parts.iter().filter(|part| !is_held(part)).count();
-    if !single || free != 3 {
-        return vec![];
-    }
-    let driven = (0..parts.len()).filter(|&i| is_held(&parts[i]));
-    let driven = driven.filter_map(|i| {
-        let others = (1..parts.len()).map(|k| &parts[(i + k) % parts.len()]);
-        let mut others: Vec<&LoopPart> = others.filter(|part| !is_held(part)).collect();
-        // onwards from the link that the driven joint moves
-        if found.bodies[i] != parts[i].bodies[0] {
-            others.reverse();
-        }
-        let hinge = |part: &LoopPart| {
-            let (omega, velocity) = split(&part.twists[0]);
-            let speed = omega.dot(&omega);
-            (speed > ZERO).then(|| omega.cross(&velocity).times(length / speed))
-        };
-        let (first, second) = (hinge(others[0])?, hinge(others[1])?);
-        let force = second - first;
-        let motion = match hinge(others[2]) {
-            Some(post) => normal.cross(&(second - post)),
-            None => split(&others[2].twists[0]).1,
-        };
-        let sizes = force.norm() * motion.norm();
-        if sizes <= ZERO * length * motion.norm().max(ZERO) {
-            return None;
-        }
-        let along = force.dot(&motion).abs();
-        let across = force.cross(&motion).norm();
-        let pressure_angle = across.atan2(along);
-        Some(Transmission {
-            closure: found.closure.clone(),
-            driven: parts[i].names[0].clone(),
-            output: others[2].names[0].clone(),
-            between: others[1].names[0].clone(),
-            transmission_angle: FRAC_PI_2 - pressure_angle,
-            pressure_angle,
-        })
-    });
+    let driven = drivers(found, known)
+        .into_iter()
+        .filter_map(|(i, forwards)| {
+            let others = (1..parts.len()).map(|k| &parts[(i + k) % parts.len()]);
+            let mut others: Vec<&LoopPart> =
+                others.filter(|part| !known.contains(&part.names)).collect();
+            if !forwards {
+                others.reverse();
+            }
+            let hinge = |part: &LoopPart| {
+                let (omega, velocity) = split(&part.twists[0]);
+                let speed = omega.dot(&omega);
+                (speed > ZERO).then(|| omega.cross(&velocity).times(length / speed))
+            };
+            let (first, second) = (hinge(others[0])?, hinge(others[1])?);
+            let force = second - first;
+            let motion = match hinge(others[2]) {
+                Some(post) => normal.cross(&(second - post)),
+                None => split(&others[2].twists[0]).1,
+            };
+            let sizes = force.norm() * motion.norm();
+            if sizes <= ZERO * length * motion.norm().max(ZERO) {
+                return None;
+            }
+            let along = force.dot(&motion).abs();
+            let across = force.cross(&motion).norm();
+            let pressure_angle = across.atan2(along);
+            Some(Transmission {
+                closure: found.closure.clone(),
+                driven: parts[i].names[0].clone(),
+                output: others[2].names[0].clone(),
+                between: others[1].names[0].clone(),
+                transmission_angle: FRAC_PI_2 - pressure_angle,
+                pressure_angle,
+            })
+        });
     driven.collect()
 }
 

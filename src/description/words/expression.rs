@@ -3,7 +3,8 @@
 use super::syntax::shown;
 use super::{count, nearest, quoted};
 use crate::algebra::{
-    EvaluationErrorKind, Function, LARGEST, MAX_HEIGHT, MAX_NESTING, ParseErrorKind, Unit,
+    EvaluationErrorKind, Function, LARGEST, MAX_HEIGHT, MAX_NESTING, Measure, MeasureErrorKind,
+    ParseErrorKind, Unit,
 };
 
 pub(super) fn title(error: &ParseErrorKind) -> String {
@@ -117,5 +118,52 @@ pub(super) fn no_value(error: &EvaluationErrorKind) -> String {
             format!("the value {x:e} is too large: nothing beyond {LARGEST:e} is analysed")
         }
         NotFinite => "the value is not finite".into(),
+    }
+}
+
+pub(super) fn unit(error: &MeasureErrorKind) -> String {
+    match error {
+        MeasureErrorKind::Wrong { wanted, found } => {
+            let (wanted, found) = (measure(*wanted), measure(*found));
+            format!("{found} stands where {wanted} must stand")
+        }
+        MeasureErrorKind::Mixed => "an angle and a length stand where both must be the same".into(),
+        MeasureErrorKind::LengthAsAngle(function) => {
+            format!("`{}` takes an angle, not a length", function.word())
+        }
+    }
+}
+
+pub(super) fn unit_label(error: &MeasureErrorKind) -> &'static str {
+    match error {
+        MeasureErrorKind::Wrong { found, .. } => measure(*found),
+        MeasureErrorKind::Mixed => "an angle and a length",
+        MeasureErrorKind::LengthAsAngle(_) => "a length",
+    }
+}
+
+pub(super) fn unit_help(error: &MeasureErrorKind) -> &'static str {
+    match error {
+        MeasureErrorKind::Wrong { wanted, .. } => match wanted {
+            Measure::Length => "write m, cm, mm or in; a number without unit is in m",
+            Measure::Angle => "write deg or rad; a number without unit is in rad",
+            Measure::Force => "write the number alone; it is in N",
+            Measure::Moment => "write the number alone; it is in N·m",
+            Measure::Number | Measure::Open => "write the number alone",
+        },
+        MeasureErrorKind::Mixed => "give both the same unit, or none",
+        MeasureErrorKind::LengthAsAngle(_) => {
+            "write deg or rad, or divide by a length; a number without unit is in rad"
+        }
+    }
+}
+
+fn measure(measure: Measure) -> &'static str {
+    match measure {
+        Measure::Number | Measure::Open => "a number",
+        Measure::Angle => "an angle",
+        Measure::Length => "a length",
+        Measure::Force => "a force",
+        Measure::Moment => "a moment",
     }
 }

@@ -3,6 +3,7 @@
 use super::super::model::{Closure, Row};
 use super::super::{Body, Frame};
 use super::{Builder, Draughted};
+use crate::algebra::Measure;
 use crate::description::{ClosureDescription, ClosureKind, Description, Entry, Named, ProblemKind};
 
 impl Builder<'_> {
@@ -14,7 +15,8 @@ impl Builder<'_> {
         let mut closures = Vec::new();
         for Named { name, value } in &description.closures {
             let frames = [0, 1].map(|i| self.frame(&value.frames[i]));
-            let length = (value.length.as_ref()).map(|entry| (entry, self.affine(entry)));
+            let length =
+                (value.length.as_ref()).map(|entry| (entry, self.affine(entry, Measure::Length)));
             if let [Some(a), Some(b)] = frames {
                 self.check_bodies(&name.value, value, [a, b], chains);
                 closures.push(Closure {

@@ -20,17 +20,28 @@ impl Builder<'_> {
             if self.doubtful.contains(&entries[i].name.value) {
                 continue;
             }
+            if let Some(formula) = &formulas[i] {
+                match formula.measure(&|symbol| self.measure(symbol)) {
+                    Ok(measure) => self.measures[i] = measure,
+                    Err(error) => {
+                        self.problems
+                            .push(ProblemKind::Unit(error.kind).at(error.span));
+                    }
+                }
+            }
             // NaN is the value of what is not known, here and in all that is defined through it
             let value = formulas[i].as_ref().and_then(|formula| self.value(formula));
             self.values[i] = value.unwrap_or(f64::NAN);
         }
-        let parts = entries.iter().zip(formulas).zip(&self.values);
+        let known = self.values.iter().zip(&self.measures);
+        let parts = entries.iter().zip(formulas).zip(known);
         parts
-            .filter_map(|((named, definition), &value)| {
+            .filter_map(|((named, definition), (&value, &measure))| {
                 Some(Parameter {
                     name: named.name.value.clone(),
                     definition: definition?,
                     value,
+                    measure,
                 })
             })
             .collect()

@@ -94,30 +94,48 @@ pub(super) fn mobility(report: &MobilityReport) -> String {
         }
         Character::Singular => format!(
             "The mechanism has {} at this singular configuration, where {infinitesimal} {} \
-             infinitesimal.",
+             infinitesimal{}.",
             freedoms(*mobility),
-            if *infinitesimal == 1 { "is" } else { "are" }
+            if *infinitesimal == 1 { "is" } else { "are" },
+            match report.branches_complete {
+                true => "",
+                false => "; at least the one branch shown passes through it",
+            }
         ),
         Character::Bifurcation => format!(
-            "Bifurcation: {} of {} each meet here, where {infinitesimal} freedoms are \
+            "Bifurcation: {}{} branches of {} each meet here, where {infinitesimal} freedoms are \
              infinitesimal; the motion can pass from one to the other.",
-            branches(report.branches.len()),
+            at_least(report),
+            report.branch_count,
             freedoms(*mobility)
         ),
         Character::Kinematotropic => {
             let branches = report.branches.iter();
             let each: Vec<String> = branches.map(|branch| branch.mobility.to_string()).collect();
+            let least = report.branches.iter().map(|branch| branch.mobility).min();
+            let of = match report.branch_count {
+                ..=8 => listed(&each),
+                many => format!("{many} branches, of {} to {mobility}", least.unwrap_or(0)),
+            };
+            let of = match report.branch_count {
+                ..=8 => format!("branches of {of}"),
+                _ => of,
+            };
             format!(
-                "Kinematotropic: branches of {} freedoms meet here, where {infinitesimal} are \
+                "Kinematotropic: {}{of} freedoms meet here, where {infinitesimal} are \
                  infinitesimal, so the mobility depends on the branch.",
-                listed(&each)
+                at_least(report),
             )
         }
     }
 }
 
-fn branches(number: usize) -> String {
-    format!("{number} branches")
+/// What must be said where a step in another direction might find more.
+fn at_least(report: &MobilityReport) -> &'static str {
+    match report.branches_complete {
+        true => "",
+        false => "at least ",
+    }
 }
 
 fn counted(report: &MobilityReport) -> String {

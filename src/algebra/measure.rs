@@ -1,0 +1,225 @@
+//! What an expression measures, as far as the units in it tell.
+
+use std::ops::Range;
+
+use super::{Constant, Expression, Function, Node, Operator, Unit};
+
+/// What a value measures.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub enum Measure {
+    /// A number, which may stand for anything.
+    Number,
+    /// An angle.
+    Angle,
+    /// A length.
+    Length,
+    /// A force; nothing that is written has its unit.
+    Force,
+    /// A moment; nothing that is written has its unit.
+    Moment,
+    /// Not told by units: it may be anything.
+    Open,
+}
+
+/// A unit that does not fit, and which part of an expression has it.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct MeasureError {
+    /// The smallest part that is wrong.
+    pub span: Range<usize>,
+    /// What is wrong with it.
+    pub kind: MeasureErrorKind,
+}
+
+/// Why a unit does not fit.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum MeasureErrorKind {
+    /// The value measures something else than what it stands for.
+    Wrong {
+        /// What must stand here.
+        wanted: Measure,
+        /// What stands here.
+        found: Measure,
+    },
+    /// An angle and a length are added or compared.
+    Mixed,
+    /// A function of an angle is given a length.
+    LengthAsAngle(Function),
+}
+
+impl Unit {
+    /// What a number with this unit measures.
+    pub fn measure(self) -> Measure {
+        match self {
+            Self::Degree | Self::Radian => Measure::Angle,
+            Self::Millimetre | Self::Centimetre | Self::Metre | Self::Inch => Measure::Length,
+        }
+    }
+}
+
+impl<N> Expression<N> {
+    /// Refuses units that do not fit `wanted`; `of` tells what names measure.
+    ///
+    /// Units decide in a number with its unit, in sums, and in products with plain numbers. What
+    /// has a name without a unit as a factor, products and quotients of two units, powers and
+    /// inverse functions are not followed further: they fit anywhere.
+    ///
+    /// # Errors
+    /// With the first part whose unit does not fit.
+    pub fn check_measure(
+        &self,
+        wanted: Measure,
+        of: &impl Fn(&N) -> Measure,
+    ) -> Result<(), MeasureError> {
+        let found = self.measure(of)?;
+        match found == wanted || matches!(found, Measure::Number | Measure::Open) {
+            true => Ok(()),
+            false => Err(self.refused(MeasureErrorKind::Wrong { wanted, found })),
+        }
+    }
+
+    /// What the expression measures.
+    ///
+    /// # Errors
+    /// If an angle meets a length where both must measure the same.
+    pub fn measure(&self, of: &impl Fn(&N) -> Measure) -> Result<Measure, MeasureError> {
+        use Measure::{Length, Number, Open};
+        Ok(match &self.node {
+            Node::Number(_) => Number,
+            Node::Quantity(_, unit) => unit.measure(),
+            Node::Constant(Constant::Pi) => Number,
+            Node::Constant(Constant::Degree | Constant::Radian) => Measure::Angle,
+            // a parameter without unit may be in m or rad
+            Node::Name(name) => match of(name) {
+                Number => Open,
+                known => known,
+            },
+            Node::Negate(x) => x.measure(of)?,
+            Node::Binary(operator, x, y) => {
+                let (x, y) = (x.measure(of)?, y.measure(of)?);
+                match (operator, x, y) {
+                    (Operator::Add | Operator::Subtract, ..) => self.same(x, y)?,
+                    (Operator::Multiply, Number, other) | (Operator::Multiply, other, Number) => {
+                        other
+                    }
+                    (Operator::Divide, other, Number) => other,
+                    (Operator::Power, Number, Number) => Number,
+                    _ => Open,
+                }
+            }
+            Node::Call(function, arguments) => {
+                let measures = arguments.iter().map(|argument| argument.measure(of));
+                let measures = measures.collect::<Result<Vec<Measure>, _>>()?;
+                let all = (measures.iter()).try_fold(Number, |all, &next| self.same(all, next));
+                match function {
+                    Function::Sin | Function::Cos | Function::Tan if measures[0] == Length => {
+                        return Err(self.refused(MeasureErrorKind::LengthAsAngle(*function)));
+                    }
+                    Function::Abs | Function::Hypot | Function::Min | Function::Max => all?,
+                    Function::Atan2 => all.map(|_| Open)?,
+                    Function::Sin | Function::Cos | Function::Tan => Number,
+                    _ => Open,
+                }
+            }
+        })
+    }
+
+    /// What two parts measure that must measure the same.
+    fn same(&self, x: Measure, y: Measure) -> Result<Measure, MeasureError> {
+        match (x, y) {
+            (Measure::Number, other) | (other, Measure::Number) => Ok(other),
+            (Measure::Open, other) | (other, Measure::Open) => Ok(other),
+            _ if x == y => Ok(x),
+            _ => Err(self.refused(MeasureErrorKind::Mixed)),
+        }
+    }
+
+    fn refused(&self, kind: MeasureErrorKind) -> MeasureError {
+        let span = self.span.clone();
+        MeasureError { span, kind }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn check(text: &str, wanted: Measure) -> Result<(), MeasureError> {
+        let of = |name: &String| match name.as_str() {
+            "arm" => Measure::Length,
+            "turn" => Measure::Angle,
+            _ => Measure::Number,
+        };
+        Expression::parse(text).unwrap().check_measure(wanted, &of)
+    }
+
+    #[test]
+    fn what_has_no_unit_fits_anywhere() {
+        for text in ["2", "pi/2", "-b", "2*b + 1", "sqrt(2)", "b^2/3", "sin(b)"] {
+            for wanted in [Measure::Angle, Measure::Length, Measure::Force] {
+                assert_eq!(check(text, wanted), Ok(()), "{text}");
+            }
+        }
+    }
+
+    #[test]
+    fn a_unit_decides_in_sums_and_in_products_with_numbers() {
+        let lengths = [
+            "2 m",
+            "7 in/2",
+            "-3*5 mm",
+            "2 cm + b",
+            "max(b, 1 m)",
+            "2*arm",
+            "hypot(1 m, arm)",
+        ];
+        let angles = [
+            "30 deg",
+            "60*deg",
+            "pi/2 - 1 rad",
+            "b + turn",
+            "abs(-1 deg)",
+            "90 deg - b",
+        ];
+        for (texts, right, wrong) in [
+            (lengths.as_slice(), Measure::Length, Measure::Angle),
+            (angles.as_slice(), Measure::Angle, Measure::Length),
+        ] {
+            for text in texts {
+                assert_eq!(check(text, right), Ok(()), "{text}");
+                let kind = MeasureErrorKind::Wrong {
+                    wanted: wrong,
+                    found: right,
+                };
+                assert_eq!(check(text, wrong).unwrap_err().kind, kind, "{text}");
+                assert!(check(text, Measure::Force).is_err(), "{text}");
+            }
+        }
+    }
+
+    #[test]
+    fn an_arc_and_a_ratio_are_not_judged() {
+        let texts = [
+            "b*30 deg",
+            "(10 mm)*(30 deg)",
+            "arm/(2 m)",
+            "sqrt(arm^2 + 1)",
+            "atan2(arm, 1 m)",
+        ];
+        for text in texts {
+            assert_eq!(check(text, Measure::Length), Ok(()), "{text}");
+            assert_eq!(check(text, Measure::Angle), Ok(()), "{text}");
+        }
+    }
+
+    #[test]
+    fn angles_and_lengths_do_not_add_and_a_length_has_no_sine() {
+        use MeasureErrorKind::{LengthAsAngle, Mixed};
+        let fault = |text| {
+            let MeasureError { span, kind } = check(text, Measure::Length).unwrap_err();
+            (kind, span)
+        };
+        assert_eq!(fault("1 + (2 rad + 1 m)"), (Mixed, 4..17));
+        assert_eq!(fault("atan2(1 deg, arm)"), (Mixed, 0..17));
+        assert_eq!(fault("b*cos(2 mm)"), (LengthAsAngle(Function::Cos), 2..11));
+    }
+}

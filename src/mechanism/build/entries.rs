@@ -1,0 +1,129 @@
+//! Entries of a file as formulas with values, in units that fit.
+
+use std::collections::HashMap;
+
+use super::super::model::{Formula, Joint, Symbol};
+use super::Builder;
+use crate::algebra::{Affine, Measure};
+use crate::description::{Description, Entry, Named, ProblemKind, Scope};
+
+impl Builder<'_> {
+    /// The formula of an entry, or `None` with its problems recorded.
+    pub(super) fn formula(
+        &mut self,
+        entry: &Entry,
+        scope: Scope,
+        locals: &HashMap<&str, usize>,
+    ) -> Option<Formula> {
+        let resolved = (entry.expression).try_resolve(|name, span| {
+            let symbol = self.names.symbol(name, scope, locals);
+            symbol.map_err(|kind| Box::new(kind.at(span.clone())))
+        });
+        match resolved {
+            Ok(formula) => Some(formula),
+            Err(problems) => {
+                self.problems
+                    .extend(problems.into_iter().map(|problem| *problem));
+                None
+            }
+        }
+    }
+
+    /// What a name measures; that of a joint shows only when all rows are known.
+    pub(super) fn measure(&self, symbol: &Symbol) -> Measure {
+        match *symbol {
+            Symbol::Parameter(i) => self.measures[i],
+            Symbol::Joint(_) | Symbol::Local(_) => Measure::Open,
+        }
+    }
+
+    /// Records a unit that does not fit.
+    pub(super) fn check_unit(&mut self, formula: &Formula, wanted: Measure) {
+        if let Err(error) = formula.check_measure(wanted, &|symbol| self.measure(symbol)) {
+            let problem = ProblemKind::Unit(error.kind).at(error.span);
+            self.problems.push(problem);
+        }
+    }
+
+    /// Homes and limits are angles or lengths as the joints are.
+    pub(super) fn check_joint_units(&mut self, description: &Description, joints: &[Joint]) {
+        for (Named { value, .. }, joint) in description.joints.iter().zip(joints) {
+            let wanted = match joint.kind.is_angle() {
+                true => Measure::Angle,
+                false => Measure::Length,
+            };
+            let limits = value.limits.iter().flat_map(|(low, high)| [low, high]);
+            for entry in std::iter::once(&value.home).chain(limits) {
+                if let Some(formula) = self.formula(entry, Scope::Parameters, &HashMap::new()) {
+                    self.check_unit(&formula, wanted);
+                }
+            }
+        }
+    }
+
+    /// A formula over parameters that measures what is wanted, with its value.
+    pub(super) fn measured(&mut self, entry: &Entry, wanted: Measure) -> Option<(Formula, f64)> {
+        let (formula, value) = self.constant(entry)?;
+        self.check_unit(&formula, wanted);
+        Some((formula, value))
+    }
+
+    /// A formula over parameters, with its value.
+    pub(super) fn constant(&mut self, entry: &Entry) -> Option<(Formula, f64)> {
+        let formula = self.formula(entry, Scope::Parameters, &HashMap::new())?;
+        let value = self.value(&formula)?;
+        Some((formula, value))
+    }
+
+    /// The value of a formula over parameters; NaN if that of a parameter in it is not known.
+    pub(super) fn value(&mut self, formula: &Formula) -> Option<f64> {
+        let unknown = |symbol: &Symbol| match *symbol {
+            Symbol::Parameter(i) => self.values[i].is_nan(),
+            Symbol::Joint(_) | Symbol::Local(_) => false,
+        };
+        if formula.names().any(|(symbol, _)| unknown(symbol)) {
+            return Some(f64::NAN);
+        }
+        let values = &self.values;
+        let result = formula.evaluate(&|symbol| match *symbol {
+            Symbol::Parameter(i) => values[i],
+            Symbol::Joint(_) | Symbol::Local(_) => f64::NAN,
+        });
+        match result {
+            Ok(value) => Some(value),
+            Err(error) => {
+                let problem = ProblemKind::NoValue(error.kind).at(error.span);
+                // a divisor stands in the constant and in every coefficient of an entry
+                let known = self
+                    .problems
+                    .iter()
+                    .rev()
+                    .take(8)
+                    .any(|last| *last == problem);
+                if !known {
+                    self.problems.push(problem);
+                }
+                None
+            }
+        }
+    }
+
+    /// An entry affine in the joint variables.
+    pub(super) fn affine(&mut self, entry: &Entry, wanted: Measure) -> Option<Affine<Symbol>> {
+        let formula = self.formula(entry, Scope::ParametersAndJoints, &HashMap::new())?;
+        self.check_unit(&formula, wanted);
+        match formula.affine(|symbol| matches!(symbol, Symbol::Joint(_))) {
+            Ok(affine) => {
+                let coefficients = affine.terms.iter().map(|(_, coefficient)| coefficient);
+                let parts: Vec<Option<f64>> = (coefficients.chain([&affine.constant]))
+                    .map(|part| self.value(part))
+                    .collect();
+                parts.iter().all(Option::is_some).then_some(affine)
+            }
+            Err(refusal) => {
+                self.problems.push(ProblemKind::NotAffine.at(refusal.span));
+                None
+            }
+        }
+    }
+}
