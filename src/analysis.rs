@@ -7,4 +7,5 @@ pub mod compare;
 pub mod mobility;
 pub mod overview;
 pub mod statics;
+pub mod sweep;
 pub mod velocity;

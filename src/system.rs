@@ -45,5 +45,5 @@ pub use search::{Attempt, Search, Searched};
 pub use starts::{random_configuration, sampling_range};
 pub use tracker::Tracker;
 pub use twists::{FrameTwists, Twist};
-pub use value::ValueError;
+pub use value::{ValueError, number as number_of};
 pub use walk::{Event, Leg, Monitor, Walk};

@@ -4,7 +4,7 @@ use std::f64::consts::TAU;
 
 use super::{Held, HeldPlatform, Holdable, System, Unknown, Work};
 use crate::mechanism::{Configuration, Coordinate, Mechanism};
-use crate::solve::{Equations, SolutionCurve};
+use crate::solve::{Equations, Place, SolutionCurve};
 
 /// A coordinate that moves along a segment, in m or rad.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -190,6 +190,34 @@ impl Curve {
                 (gap, slope)
             })
             .collect()
+    }
+
+    /// How far a configuration is from a place along its tangent, and across it. Nothing allocates.
+    #[inline]
+    pub fn offset(&self, from: &Place<Configuration<f64>>, to: &Configuration<f64>) -> (f64, f64) {
+        let (mut along, mut squares) = (0.0, 0.0);
+        let mut take = |i: usize, x: f64| {
+            along += x * from.tangent[i];
+            squares += x * x;
+        };
+        for (i, &unknown) in self.system.unknowns().iter().enumerate() {
+            match unknown {
+                Unknown::Joint(joint) => {
+                    let change = to.joints[joint] - from.at.joints[joint];
+                    take(i, change / self.system.joint_scale(joint));
+                }
+                Unknown::Twist {
+                    platform,
+                    component: 0,
+                } => {
+                    let (a, b) = (&from.at.platforms[platform], &to.platforms[platform]);
+                    let twist = self.system.twist_between(a, b);
+                    (twist.into_iter().enumerate()).for_each(|(k, x)| take(i + k, x));
+                }
+                Unknown::Twist { .. } => {}
+            }
+        }
+        (along, (squares - along * along).max(0.0).sqrt())
     }
 
     /// The step from one configuration to another with whole turns left out, where they change
