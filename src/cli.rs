@@ -10,6 +10,7 @@ mod search;
 mod solve;
 mod source;
 mod statics;
+mod sweep;
 mod velocity;
 
 use std::io::{self, IsTerminal, Write};
@@ -38,6 +39,7 @@ enum Command {
     Mobility(mobility::Mobility),
     Velocity(velocity::Velocity),
     Statics(statics::Statics),
+    Sweep(sweep::Sweep),
 }
 
 /// How an answer is written.
@@ -73,6 +75,7 @@ pub fn run() -> ExitCode {
         Command::Mobility(mobility) => mobility.run(),
         Command::Velocity(velocity) => velocity.run(),
         Command::Statics(statics) => statics.run(),
+        Command::Sweep(sweep) => sweep.run(),
     };
     match answer {
         Ok(answer) => {

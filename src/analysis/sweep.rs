@@ -57,8 +57,8 @@ impl Default for SweepSettings {
 pub struct Row<'a> {
     /// Its number, from 0.
     pub number: usize,
-    /// The part of the inputs' segment; `None` for a motion without inputs.
-    pub part: Option<f64>,
+    /// The number of steps of the inputs' segment; `None` between two of them, and without inputs.
+    pub step: Option<usize>,
     /// The configuration, assembled to rounding.
     pub configuration: &'a Configuration<f64>,
     /// Where the traced points are, in ground, in m.
@@ -201,6 +201,13 @@ pub fn sweep(
             }
             from = place.clone();
             record.meet(&curve, place, event);
+            let special = matches!(
+                event,
+                Event::Fold | Event::Limit { .. } | Event::Branches(_) | Event::Closed
+            );
+            if special && rows.special(place, record.latest(), sink).is_break() {
+                break 'walk Ending::Stopped;
+            }
             let ending = match event {
                 Event::End(end) if *end => Some(Ending::Complete),
                 Event::End(_) => Some(Ending::Returned),
@@ -211,11 +218,6 @@ pub fn sweep(
                 _ => None,
             };
             if let Some(ending) = ending {
-                if !matches!(ending, Ending::Complete | Ending::Returned)
-                    && rows.last(place, record.latest(), sink).is_break()
-                {
-                    break 'walk Ending::Stopped;
-                }
                 break 'walk ending;
             }
         }

@@ -49,7 +49,7 @@ pub fn follow(
         count += 1;
         sink(&Row {
             number: count - 1,
-            part: None,
+            step: None,
             configuration: at,
             points: &paths.at,
             special,

@@ -52,18 +52,23 @@ impl Rows {
     }
 
     pub fn first(&mut self, place: &At, sink: &mut Sink) -> ControlFlow<()> {
-        self.emit(&place.at, Some(0.0), None, sink)
+        self.emit(&place.at, Some(0), None, sink)
     }
 
-    /// The place where the motion ends, between two rows.
-    pub fn last(&mut self, place: &At, kind: Option<&MetKind>, sink: &mut Sink) -> ControlFlow<()> {
+    /// A special place, between two rows.
+    pub fn special(
+        &mut self,
+        place: &At,
+        kind: Option<&MetKind>,
+        sink: &mut Sink,
+    ) -> ControlFlow<()> {
         self.emit(&place.at, None, kind, sink)
     }
 
     fn emit(
         &mut self,
         at: &Configuration<f64>,
-        part: Option<f64>,
+        step: Option<usize>,
         special: Option<&MetKind>,
         sink: &mut Sink,
     ) -> ControlFlow<()> {
@@ -72,7 +77,7 @@ impl Rows {
         self.count += 1;
         sink(&Row {
             number,
-            part,
+            step,
             configuration: at,
             points: &self.paths.at,
             special,
@@ -108,11 +113,12 @@ impl Rows {
                 return ControlFlow::Continue(());
             }
             let reach = *reach.get_or_insert_with(|| Reach::of(curve, from, to));
+            let step = usize::try_from(self.next).ok();
             self.next += if self.forward { 1 } else { -1 };
             if self.track(curve, from, &reach, part) {
                 let tracker = self.tracker.take();
                 let flow = match &tracker {
-                    Some(t) => self.emit(t.configuration(), Some(part), None, sink),
+                    Some(t) => self.emit(t.configuration(), step, None, sink),
                     None => ControlFlow::Continue(()),
                 };
                 self.tracker = tracker;
@@ -136,7 +142,7 @@ impl Rows {
             if let Some(tracker) = &mut self.tracker {
                 tracker.restart(&place.at);
             }
-            self.emit(&place.at, Some(part), None, sink)?;
+            self.emit(&place.at, step, None, sink)?;
         }
     }
 
