@@ -168,6 +168,9 @@ pub fn sweep(
     }
     let method = &settings.continuation;
     let place = match method.settle(&mut curve, start.clone()) {
+        Ok(place) if place.is_beside_a_crossing() => {
+            return record.no_start(&mut curve, &start, Stray::Singular, method);
+        }
         Ok(place) => place,
         Err(stray) => return record.no_start(&mut curve, &start, stray, method),
     };

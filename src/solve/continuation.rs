@@ -61,6 +61,11 @@ impl<P> Place<P> {
         values.first().copied().unwrap_or(1.0)
     }
 
+    /// Whether branches may cross so near that rounding decides which one this is.
+    pub fn is_beside_a_crossing(&self) -> bool {
+        self.least() < 1e-5 * self.largest()
+    }
+
     /// The same place, followed the other way.
     pub fn reversed(mut self) -> Self {
         self.tangent.iter_mut().for_each(|x| *x = -*x);
@@ -142,12 +147,16 @@ impl Continuation {
             let step = back(&decomposition, &residual);
             let size = norm(&step);
             let largest = residual.iter().fold(0.0f64, |m, r| m.max(r.abs()));
-            let settled = size < 1e-14 || (largest <= self.tolerance && size >= 0.25 * before);
-            // one that is regular to rounding only would have any tangent
-            if settled || size.is_nan() || (size > 1e3) {
-                if largest > self.tolerance || !settled {
-                    return Err(Stray::NotClosed);
-                }
+            let closed = largest <= self.tolerance;
+            // what the rank tolerance cuts off has no inverse
+            if closed && rank(decomposition.singular_values()) < regular {
+                return Err(Stray::Singular);
+            }
+            let settled = size < 1e-14 || (closed && size >= 0.25 * before);
+            if !size.is_finite() || size > 1e3 || (settled && !closed) {
+                return Err(Stray::NotClosed);
+            }
+            if settled {
                 let free = unknowns - rank(decomposition.singular_values()).min(unknowns);
                 if free != 1 {
                     return Err(Stray::Singular);

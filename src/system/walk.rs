@@ -130,7 +130,7 @@ impl<'m> Walk<'m> {
             match self.method.step(curve, &self.place, self.length) {
                 Ok((to, changed)) => {
                     let (least, before) = (to.least(), self.place.least());
-                    self.falling = (least < 0.9 * before).then_some((before, self.length));
+                    self.falling = (least < before).then_some((before, self.length));
                     let from = std::mem::replace(&mut self.place, to.clone());
                     self.gone += norm(&curve.difference(&from.at, &to.at));
                     let length = self.length;
@@ -367,7 +367,7 @@ mod tests {
 
     #[test]
     fn the_dead_points_of_a_four_bar_are_exact_and_its_curve_closes() {
-        // a double rocker: cos θ₁ = (l0² + l1² − (l2 ± l3)²)/(2 l0 l1)
+        // its crank swings: cos θ₁ = (l0² + l1² − (l2 ± l3)²)/(2 l0 l1)
         let (l0, l1, l2, l3) = (3.0, 2.5, 2.0, 1.0);
         let names = [("l0", "3"), ("l1", "2.5"), ("l2", "2"), ("l3", "1")];
         let mechanism = mechanism("four_bar", &names);

@@ -152,7 +152,7 @@ pub fn circuits(
             .into_iter()
             .all(|(joint, value)| joint.allows(*value));
         let place = match method.settle(&mut curve, seed) {
-            Ok(place) if within => place,
+            Ok(place) if within && !place.is_beside_a_crossing() => place,
             _ => {
                 unusable += 1;
                 continue;

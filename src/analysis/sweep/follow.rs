@@ -6,7 +6,7 @@ use super::met::Record;
 use super::points::Paths;
 use super::{Ending, MetKind, Row, Sink, SweepReport, SweepSettings};
 use crate::mechanism::{Configuration, Mechanism};
-use crate::solve::Place;
+use crate::solve::{Place, Stray};
 use crate::system::{Curve, Event, Held, Walk};
 
 /// Steps after which a curve without end is given up.
@@ -32,6 +32,9 @@ pub fn follow(
     }
     let method = &settings.continuation;
     let mut place = match method.settle(&mut curve, start.clone()) {
+        Ok(place) if place.is_beside_a_crossing() => {
+            return record.no_start(&mut curve, &start, Stray::Singular, method);
+        }
         Ok(place) => place,
         Err(stray) => return record.no_start(&mut curve, &start, stray, method),
     };

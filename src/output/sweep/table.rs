@@ -57,7 +57,7 @@ impl Table {
         for (i, point) in points.iter().enumerate() {
             for (k, axis) in ["x", "y", "z"].into_iter().enumerate() {
                 columns.push(Column {
-                    name: format!("{}.{axis}", point.name.replace(',', " ")),
+                    name: format!("{}.{axis}", point.name),
                     unit: "m",
                     source: Source::Point(i, k),
                 });
@@ -87,7 +87,15 @@ impl Table {
 
     /// The first line of CSV.
     pub fn csv_header(&self) -> String {
-        format!("mode,{},met\n", self.columns().join(","))
+        // a name with a comma stands in quotes (RFC 4180)
+        let columns = self
+            .columns()
+            .into_iter()
+            .map(|name| match name.contains(',') {
+                true => format!("\"{name}\""),
+                false => name,
+            });
+        format!("mode,{},met\n", columns.collect::<Vec<_>>().join(","))
     }
 
     /// A line of CSV with all digits, added to `to`.

@@ -87,6 +87,10 @@ pub fn sentence(report: &SweepReport) -> String {
                 ),
                 None => String::new(),
             };
+            let place = match (&report.inputs[..], last.map(|met| &met.inputs[..])) {
+                ([input], Some([value])) => quantity(*value, input.unit == "rad"),
+                _ => place,
+            };
             format!(
                 "{} {verb} at {place}: a dead point, where this branch ends{moving}. With --follow \
                  the motion goes round it, back on the other branch.",
