@@ -15,6 +15,9 @@ use linkwork::solve::{Equations, Newton, Stop};
 use linkwork::system::{Curve, Driven, Held, Holdable, System, Walk};
 use serde_json::Value;
 
+/// Rows close to 1e-12 of the characteristic length; positions in m, of some meters, a few times worse.
+const CLOSED: f64 = 2e-11;
+
 fn with(name: &str, parameters: &[(&str, f64)]) -> Mechanism {
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join(format!("mechanisms/{name}.ron"));
     let mut description = Description::read(&std::fs::read_to_string(path).unwrap()).unwrap();
@@ -217,7 +220,7 @@ fn a_slider_crank_moves_as_its_closed_form_says() {
     for (_, at, _) in &swept.rows {
         let (theta, s) = (at.joints[0], at.joints[2]);
         let rise: f64 = theta.sin() - 0.5;
-        assert!((s - theta.cos() - (9.0 - rise * rise).sqrt()).abs() < 1e-12);
+        assert!((s - theta.cos() - (9.0 - rise * rise).sqrt()).abs() < CLOSED);
     }
     // dead points of the slider: crank and rod in one line
     let turns: Vec<f64> = (swept.report.met.iter())
@@ -476,12 +479,12 @@ fn hoekens_point_is_where_the_table_has_it_and_straight_over_half_a_turn() {
         let step = row["crank_deg"].as_f64().unwrap() * 10.0;
         let point = swept.step(step as usize).2[0];
         for (k, x) in point.iter().enumerate().take(2) {
-            assert!((x - row["P"][k].as_f64().unwrap()).abs() < 1e-12, "{row}");
+            assert!((x - row["P"][k].as_f64().unwrap()).abs() < CLOSED, "{row}");
         }
     }
     let straight: Vec<f64> = (900..=2700).map(|step| swept.step(step).2[0][1]).collect();
     let most = straight.iter().copied().fold(0.0, f64::max);
-    assert!(straight.iter().all(|y| *y > 4.0 - 1e-12));
+    assert!(straight.iter().all(|y| *y > 4.0 - CLOSED));
     assert!((most - 4.009753683432732).abs() < 1e-7, "{most}");
     // beyond the half turn it is not straight
     assert!(swept.step(600).2[0][1] > 4.05);
@@ -491,7 +494,13 @@ fn hoekens_point_is_where_the_table_has_it_and_straight_over_half_a_turn() {
 fn chebyshevs_point_touches_its_line_three_times() {
     let mechanism = mechanism("chebyshev");
     let upright = PI / 2.0;
-    let inputs = [joint(&mechanism, "theta1", upright, (0.8_f64).acos())];
+    // acos 0.8, where the other arm stands upright, is a dead point
+    let inputs = [joint(
+        &mechanism,
+        "theta1",
+        upright,
+        (0.8_f64).acos() + 1e-3,
+    )];
     let settings = tracing(&mechanism, 1000, "left+-1");
     let swept = run(
         &mechanism,
@@ -505,7 +514,7 @@ fn chebyshevs_point_touches_its_line_three_times() {
     for (_, at, points) in &swept.rows {
         let (a, b) = (at.joints[0], at.joints[2]);
         let middle = 0.5 * (5.0 * a.sin() + 5.0 * b.sin());
-        assert!((middle - points[0][1]).abs() < 1e-12);
+        assert!((middle - points[0][1]).abs() < CLOSED);
     }
     let table = data("chebyshev");
     for row in table["answer"]["table"].as_array().unwrap() {
@@ -534,9 +543,9 @@ fn chebyshevs_point_touches_its_line_three_times() {
     let (low, high) = heights
         .iter()
         .fold((9.0f64, 0.0f64), |(l, h), y| (l.min(*y), h.max(*y)));
-    assert!(low > 4.0 - 1e-12 && high < 4.0102, "{low} {high}");
+    assert!(low > 4.0 - CLOSED && high < 4.0102, "{low} {high}");
     // touched at x = 0, 2 and 4
-    assert!((heights[0] - 4.0).abs() < 1e-12);
+    assert!((heights[0] - 4.0).abs() < CLOSED);
 }
 
 #[test]
@@ -602,10 +611,10 @@ fn peaucelliers_point_moves_on_an_exact_line() {
     let swept = run(&mechanism, &inputs, &[], &settings);
     assert_eq!(swept.ending(), Ending::Complete);
     for (_, at, points) in &swept.rows {
-        assert!((points[0][0] - 4.2).abs() < 1e-12, "{points:?}");
+        assert!((points[0][0] - 4.2).abs() < CLOSED, "{points:?}");
         let c = (2.5 + 2.5 * at.joints[0].cos(), 2.5 * at.joints[0].sin());
         let product = c.0.hypot(c.1) * points[0][0].hypot(points[0][1]);
-        assert!((product - 21.0).abs() < 1e-11);
+        assert!((product - 21.0).abs() < 10.0 * CLOSED);
     }
     let crossing = swept
         .report
@@ -631,10 +640,10 @@ fn peaucelliers_point_moves_on_an_exact_line() {
         let swept = run(&mechanism, &inputs, &[], &settings);
         let point = swept.step(1).2[0];
         for (k, x) in point.iter().enumerate().take(2) {
-            assert!((x - row["D"][k].as_f64().unwrap()).abs() < 1e-11, "{row}");
+            assert!((x - row["D"][k].as_f64().unwrap()).abs() < CLOSED, "{row}");
         }
     }
-    // with arms of unequal length the line is bent
+    // another crank moves the line, as the formula has it
     let bent = with("peaucellier", &[("g", 2.4)]);
     let inputs = [joint(&bent, "theta", 0.3, -0.3)];
     let swept = run(&bent, &inputs, &[], &tracing(&bent, 10, "upper"));

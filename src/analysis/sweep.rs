@@ -227,6 +227,10 @@ pub fn sweep(
         if rows.between(&mut curve, &from, &leg.to, sink).is_break() {
             break Ending::Stopped;
         }
+        // an end that was passed unseen is worse than one that was not reached
+        if !(-1e-6..=1.0 + 1e-6).contains(&curve.part(&leg.to.at)) {
+            break Ending::Lost;
+        }
     };
     record.report(ending, rows.count(), walk.gone())
 }
