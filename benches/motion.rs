@@ -16,10 +16,16 @@ const ROUNDS: usize = 7;
 
 fn main() {
     measure("four_bar", &[("theta1", 0.5, 0.5 + std::f64::consts::TAU)]);
-    measure("watt_six_bar", &[("theta", 1.3, 1.3 + std::f64::consts::TAU)]);
+    measure(
+        "watt_six_bar",
+        &[("theta", 1.3, 1.3 + std::f64::consts::TAU)],
+    );
     measure("jansen_leg", &[("theta", 1.5, 1.5 + std::f64::consts::TAU)]);
     measure("three_rps", &[("l1", 0.6, 0.75), ("l2", 0.65, 0.6)]);
-    measure("stewart_gough_6sps", &[("l1", 1.0, 1.05), ("l2", 1.0, 0.97)]);
+    measure(
+        "stewart_gough_6sps",
+        &[("l1", 1.0, 1.05), ("l2", 1.0, 0.97)],
+    );
 }
 
 fn measure(name: &str, moved: &[(&str, f64, f64)]) {
@@ -113,5 +119,8 @@ fn whole(
         ControlFlow::Continue(())
     });
     assert_eq!(report.ending, Ending::Complete, "{report:?}");
-    (begun.elapsed().as_secs_f64() * 1e9 / STEPS as f64, report.sure_steps)
+    (
+        begun.elapsed().as_secs_f64() * 1e9 / STEPS as f64,
+        report.sure_steps,
+    )
 }
