@@ -68,9 +68,12 @@ fn start(mechanism: &Mechanism, inputs: &[Driven], guess: &[(&str, f64)]) -> Con
     at
 }
 
+/// The number of the step, the configuration, the traced points.
+type SweptRow = (Option<usize>, Configuration<f64>, Vec<[f64; 3]>);
+
 struct Swept {
     report: SweepReport,
-    rows: Vec<(Option<usize>, Configuration<f64>, Vec<[f64; 3]>)>,
+    rows: Vec<SweptRow>,
 }
 
 impl Swept {
@@ -79,7 +82,7 @@ impl Swept {
     }
 
     /// The row of a step, the first time it comes.
-    fn step(&self, step: usize) -> &(Option<usize>, Configuration<f64>, Vec<[f64; 3]>) {
+    fn step(&self, step: usize) -> &SweptRow {
         self.rows.iter().find(|row| row.0 == Some(step)).unwrap()
     }
 

@@ -90,6 +90,9 @@ enum Format {
     Csv,
 }
 
+/// The number of a mode, if one was asked for, and its configuration where the inputs begin.
+type Start = (Option<usize>, Configuration<f64>);
+
 /// Steps made at most, and kept at most.
 const MOST_STEPS: usize = 1_000_000_000;
 const MOST_KEPT: usize = 1_000_000;
@@ -320,10 +323,7 @@ impl Sweep {
     }
 
     /// Assembled configurations where the inputs begin, with the numbers of their modes.
-    fn starts(
-        &self,
-        question: &Question,
-    ) -> Result<Vec<(Option<usize>, Configuration<f64>)>, Refusal> {
+    fn starts(&self, question: &Question) -> Result<Vec<Start>, Refusal> {
         if self.mode.is_none() && !self.all_modes {
             let newton = Newton::default();
             let found = NearbySearch::new(question, &newton).run(20, self.search.seed);
