@@ -10,4 +10,5 @@ pub mod formulas;
 pub mod mobility;
 pub mod overview;
 pub mod statics;
+pub mod sweep;
 pub mod velocity;

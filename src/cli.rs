@@ -16,6 +16,7 @@ mod solve;
 mod source;
 mod statics;
 mod store;
+mod sweep;
 mod velocity;
 
 use std::io::{self, IsTerminal, Write};
@@ -49,6 +50,7 @@ enum Command {
     Mobility(mobility::Mobility),
     Velocity(velocity::Velocity),
     Statics(statics::Statics),
+    Sweep(sweep::Sweep),
 }
 
 /// How an answer is written.
@@ -89,6 +91,7 @@ pub fn run() -> ExitCode {
         Command::Mobility(mobility) => mobility.run(),
         Command::Velocity(velocity) => velocity.run(),
         Command::Statics(statics) => statics.run(),
+        Command::Sweep(sweep) => sweep.run(),
     };
     match answer {
         Ok(answer) => {

@@ -26,6 +26,8 @@ pub mod mobility;
 pub mod option;
 #[cfg(feature = "cli")]
 pub mod overview;
+#[cfg(feature = "plot")]
+pub mod plot;
 #[cfg(feature = "cli")]
 mod quantity;
 #[cfg(feature = "cli")]
@@ -34,5 +36,7 @@ pub mod question;
 pub mod solution;
 #[cfg(feature = "cli")]
 pub mod statics;
+#[cfg(feature = "cli")]
+pub mod sweep;
 #[cfg(feature = "cli")]
 pub mod velocity;

@@ -3,12 +3,16 @@
 //! Nothing here knows joints: a problem offers its residual, a least-squares step and a way to move
 //! along it ([`Equations`]), and is told where and why the iteration stopped ([`Stop`]).
 
+mod branching;
+mod continuation;
 mod endgame;
 mod homotopy;
 mod minimum;
 mod newton;
 mod warm;
 
+pub use branching::{BranchPoint, Contact};
+pub use continuation::{Continuation, Place, SolutionCurve, Stray};
 pub use endgame::{Ending, Turning, ending};
 pub use homotopy::{Arrival, Homotopy, Stages, Track, Tracker};
 pub use minimum::walk_down;

@@ -4,6 +4,7 @@
 
 mod closing;
 mod count;
+mod curve;
 mod demand;
 mod displacement;
 mod drive;
@@ -23,10 +24,12 @@ mod starts;
 mod tracker;
 mod twists;
 mod value;
+mod walk;
 mod way;
 
 pub use closing::{Analysed, Closed, NotClosed, WidestGap, close, fit, too_large};
 pub use count::{Count, check_angles, check_count};
+pub use curve::{Curve, Driven};
 pub use demand::{Demand, Verb};
 pub use drive::{Drive, DriveError};
 pub use equations::{ClosureWrenches, System, Work};
@@ -44,4 +47,5 @@ pub use search::{Attempt, Search, Searched};
 pub use starts::{random_configuration, sampling_range};
 pub use tracker::Tracker;
 pub use twists::{FrameTwists, Twist};
-pub use value::ValueError;
+pub use value::{ValueError, number as number_of};
+pub use walk::{Event, Leg, Monitor, Walk};

@@ -22,7 +22,16 @@ pub struct Split {
 impl Split {
     /// What is freed is freed first, so that `--free actuated --hold l1=1` holds one joint.
     pub fn question<'a>(&self, mechanism: &'a Mechanism) -> Result<Question<'a>, Refusal> {
-        let mut question = Question::new(mechanism);
+        self.put(Question::new(mechanism))
+    }
+
+    /// The same for a mechanism whose joints are held only if --hold says so.
+    pub fn released<'a>(&self, mechanism: &'a Mechanism) -> Result<Question<'a>, Refusal> {
+        let released = Question::new(mechanism).free("actuated");
+        self.put(released.map_err(|error| refusal(&error, None))?)
+    }
+
+    fn put<'a>(&self, mut question: Question<'a>) -> Result<Question<'a>, Refusal> {
         for name in &self.free {
             let given = Given {
                 option: "--free",

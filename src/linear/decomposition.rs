@@ -15,6 +15,15 @@ pub struct Decomposition {
 impl Decomposition {
     /// Decomposes a column-major matrix.
     pub fn of(rows: usize, columns: usize, entries: &[f64]) -> Self {
+        Decomposition::cut(rows, columns, entries, rank)
+    }
+
+    /// The same, cut at a rank that is known: what lies beyond it is treated as zero, however large.
+    pub fn of_rank(rows: usize, columns: usize, entries: &[f64], rank: usize) -> Self {
+        Decomposition::cut(rows, columns, entries, |values| rank.min(values.len()))
+    }
+
+    fn cut(rows: usize, columns: usize, entries: &[f64], rank: impl Fn(&[f64]) -> usize) -> Self {
         if rows == 0 || columns == 0 {
             return Decomposition {
                 rows,

@@ -149,7 +149,7 @@ fn quoted(word: &str) -> String {
     }
 }
 
-fn value(text: &str, error: &ValueError) -> (Complaint, Part) {
+pub(super) fn value(text: &str, error: &ValueError) -> (Complaint, Part) {
     // a value that is one expression tells where it is wrong
     let parsed = Expression::parse(text);
     let (kind, part) = match error {

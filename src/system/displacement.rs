@@ -2,7 +2,7 @@ use super::layout::Unknown;
 use super::{System, Work};
 use crate::geometry::{Quaternion, Vector3};
 use crate::linear::Factorable;
-use crate::mechanism::Configuration;
+use crate::mechanism::{Configuration, PlatformPose};
 use crate::solve::Equations;
 
 impl<T: Factorable> System<T> {
@@ -45,20 +45,24 @@ impl<T: Factorable> System<T> {
                     component: 0,
                 } => {
                     let (from, to) = (&from.platforms[platform], &to.platforms[platform]);
-                    // q_to q_from* = (1 + ω/2)/‖·‖, the Cayley map turned round
-                    let [w, x, y, z] = from.orientation.0;
-                    let back = Quaternion([w, -x, -y, -z]);
-                    let [w, x, y, z] = to.orientation.then_left(&back).0;
-                    let shift = (to.position - from.position).0;
-                    for (k, part) in [x, y, z].into_iter().enumerate() {
-                        step[i + k] = part.scale(2.0) / w;
-                        step[i + 3 + k] = shift[k].scale(1.0 / self.characteristic_length());
-                    }
+                    step[i..i + 6].copy_from_slice(&self.twist_between(from, to));
                 }
                 Unknown::Twist { .. } => {}
             }
         }
         step
+    }
+
+    /// The dimensionless twist that leads from one pose to another.
+    pub(super) fn twist_between(&self, from: &PlatformPose<T>, to: &PlatformPose<T>) -> [T; 6] {
+        // q_to q_from* = (1 + ω/2)/‖·‖, the Cayley map turned round
+        let [w, x, y, z] = from.orientation.0;
+        let back = Quaternion([w, -x, -y, -z]);
+        let [w, x, y, z] = to.orientation.then_left(&back).0;
+        let turn = [x, y, z].map(|part| part.scale(2.0) / w);
+        let shift = (to.position - from.position).0;
+        let shift = shift.map(|part| part.scale(1.0 / self.characteristic_length()));
+        [turn[0], turn[1], turn[2], shift[0], shift[1], shift[2]]
     }
 }
 

@@ -140,6 +140,26 @@ impl<'a> Question<'a> {
         self
     }
 
+    /// The joint or platform coordinate of that name, and the value of an expression for it, in m
+    /// or rad.
+    ///
+    /// # Errors
+    /// If there is no such joint or coordinate, or the expression has no value.
+    pub fn value(&self, name: &str, text: &str) -> Result<(Holdable, f64), QuestionError> {
+        let (coordinate, home) = match self.target(name)? {
+            Target::Joint(joint) => {
+                let home = self.mechanism.joints()[joint].home;
+                (Holdable::Joint(joint), home)
+            }
+            Target::Coordinate(platform, c) => {
+                let home = c.of(&self.mechanism.platforms()[platform].home);
+                (Holdable::Coordinate(platform, c), home)
+            }
+            Target::Pose(_) => return Err(QuestionError::NotAJoint { name: name.into() }),
+        };
+        Ok((coordinate, self.number(name, text, home)?))
+    }
+
     /// The mechanism that is asked about.
     pub fn mechanism(&self) -> &'a Mechanism {
         self.mechanism

@@ -67,6 +67,12 @@ impl Tracker {
         )
     }
 
+    /// Goes on from another configuration, which ought to be assembled.
+    pub fn restart(&mut self, at: &Configuration<f64>) {
+        self.trail.forget();
+        self.configuration.clone_from(at);
+    }
+
     /// Solves for the held values last asked for by a method that also works from afar, when
     /// [`solve`](Tracker::solve) has failed. The branch found need not be the one followed so far.
     pub fn recover(&mut self, newton: &Newton) -> Report {

@@ -1,0 +1,236 @@
+//! Motion through prescribed inputs, and along the whole curve of a mechanism with one freedom.
+//!
+//! The curve of assembled configurations is followed in steps that cannot change branch unnoticed
+//! (see [`Walk`](crate::system::Walk)); the rows that are asked for are solved between the places
+//! this leads through, and each is checked to lie between the two it belongs to. So a sweep ends where
+//! its branch ends, or where branches cross, and never goes on elsewhere.
+
+mod circuits;
+mod follow;
+mod met;
+mod points;
+mod rows;
+
+pub use circuits::{
+    Branch, Circuit, CircuitsReport, CircuitsSettings, FourBarClass, JointMotion, circuits,
+};
+pub use follow::follow;
+pub use met::{Met, MetKind, Passing};
+pub use points::{PointError, TracedPoint};
+
+use std::ops::ControlFlow;
+
+use serde::Serialize;
+
+use crate::mechanism::{Configuration, Mechanism};
+use crate::solve::{Continuation, Stray};
+use crate::system::{Curve, Driven, Event, Held, Walk};
+use met::Record;
+use rows::Rows;
+
+/// How to sweep.
+#[derive(Clone, Debug, PartialEq)]
+pub struct SweepSettings {
+    /// Into how many equal steps the segment of the inputs is divided: rows are one more.
+    pub steps: usize,
+    /// Whether to go round a fold, where the inputs turn back, and straight through a crossing.
+    pub follow: bool,
+    /// How carefully the curve is followed.
+    pub continuation: Continuation,
+    /// Points whose path is wanted.
+    pub points: Vec<TracedPoint>,
+}
+
+impl Default for SweepSettings {
+    fn default() -> Self {
+        SweepSettings {
+            steps: 100,
+            follow: false,
+            continuation: Continuation::default(),
+            points: Vec::new(),
+        }
+    }
+}
+
+/// One assembled configuration of a motion.
+#[derive(Clone, Copy, Debug)]
+pub struct Row<'a> {
+    /// Its number, from 0.
+    pub number: usize,
+    /// The number of steps of the inputs' segment; `None` between two of them, and without inputs.
+    pub step: Option<usize>,
+    /// The configuration: no closure row exceeds 1e-12 rad or characteristic lengths.
+    pub configuration: &'a Configuration<f64>,
+    /// Where the traced points are, in ground, in m.
+    pub points: &'a [[f64; 3]],
+    /// What is special here: what was met in this very place.
+    pub special: Option<&'a MetKind>,
+}
+
+/// What takes the rows as they come; it may end the motion.
+pub type Sink<'s> = dyn FnMut(&Row) -> ControlFlow<()> + 's;
+
+/// An input of a sweep.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct InputReport {
+    /// Its name.
+    pub name: String,
+    /// rad or m.
+    pub unit: &'static str,
+    /// Its value at the start of the segment.
+    pub from: f64,
+    /// Its value at the end.
+    pub to: f64,
+}
+
+/// How a motion ended.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Ending {
+    /// The inputs went through their whole segment.
+    Complete,
+    /// The inputs came back to where they began, on another branch, having gone round a fold.
+    Returned,
+    /// The curve closed.
+    Closed,
+    /// Both ends of the curve were reached: limits.
+    Limits,
+    /// The branch ends: the inputs would have to turn back.
+    Fold,
+    /// A joint is at its limit.
+    Limit,
+    /// Branches cross, and which to take is not for the sweep to choose.
+    Crossing,
+    /// The start is singular: branches cross there or more than one freedom is left.
+    SingularStart,
+    /// A joint is outside its limits at the start.
+    OutsideLimits,
+    /// The curve ends in a point that no sure step leads to.
+    Lost,
+    /// Whoever took the rows had enough.
+    Stopped,
+}
+
+impl Ending {
+    /// Whether all that was asked for was done.
+    pub fn is_whole(self) -> bool {
+        matches!(
+            self,
+            Ending::Complete | Ending::Returned | Ending::Closed | Ending::Limits
+        )
+    }
+}
+
+/// What a motion came to.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct SweepReport {
+    /// The inputs; none for a motion that follows its curve.
+    pub inputs: Vec<InputReport>,
+    /// How it ended.
+    pub ending: Ending,
+    /// How many rows there are.
+    pub rows: usize,
+    /// Turning points, folds, crossings, limits, in the order in which they were met.
+    pub met: Vec<Met>,
+    /// How many more were met than are listed.
+    pub more_met: usize,
+    /// Sure steps that the curve was followed in.
+    pub sure_steps: usize,
+    /// The length of the curve, in rad and characteristic lengths.
+    pub length: f64,
+    /// The characteristic length in m.
+    pub characteristic_length: f64,
+}
+
+/// Moves the inputs from `start`, assembled where their segment begins, to its end.
+///
+/// `held` holds everything that stands still, and none of the inputs; with the inputs it must leave
+/// no freedom. Rows go to `sink` as they are found; nothing is kept of them.
+pub fn sweep(
+    mechanism: &Mechanism,
+    held: &Held<f64>,
+    inputs: &[Driven],
+    start: &Configuration<f64>,
+    settings: &SweepSettings,
+    sink: &mut Sink,
+) -> SweepReport {
+    let mut curve = Curve::along(mechanism, held, inputs.to_vec());
+    let mut record = Record::new(mechanism, inputs);
+    let mut start = start.clone();
+    Walk::within_limits(mechanism, &mut start);
+    for input in inputs {
+        if let crate::system::Holdable::Joint(joint) = input.coordinate {
+            start.joints[joint] = input.from;
+        }
+    }
+    if let Some(met) = record.outside(&start) {
+        return record.ended(met, Ending::OutsideLimits);
+    }
+    let method = &settings.continuation;
+    let place = match method.settle(&mut curve, start.clone()) {
+        Ok(place) if place.is_beside_a_crossing() => {
+            return record.no_start(&mut curve, &start, Stray::Singular, method);
+        }
+        Ok(place) => place,
+        Err(stray) => return record.no_start(&mut curve, &start, stray, method),
+    };
+    let rate = curve.part_rate(&place.at, &place.tangent);
+    let place = if rate < 0.0 { place.reversed() } else { place };
+    let mut rows = Rows::new(mechanism, held, inputs, &place, settings);
+    if rows.first(&place, sink).is_break() {
+        return record.report(Ending::Stopped, 1, 0.0);
+    }
+    if rate.abs() < 1e-9 {
+        record.meet(&curve, &place, &Event::Fold);
+        return record.report(Ending::Fold, 1, 0.0);
+    }
+    let mut walk = Walk::new(mechanism, &curve, place, method.clone());
+    let ending = 'walk: loop {
+        let leg = match walk.advance(&mut curve) {
+            Ok(leg) => leg,
+            Err(Stray::TooShort | Stray::NotClosed | Stray::Singular) => break Ending::Lost,
+        };
+        record.steps += 1;
+        let mut from = leg.from.clone();
+        for (place, event) in &leg.events {
+            // a turn of the inputs closes the curve and is not the end of the sweep
+            if let Event::Closed = event
+                && curve.part(&place.at).abs() > 1e-9
+            {
+                continue;
+            }
+            if rows.between(&mut curve, &from, place, sink).is_break() {
+                break 'walk Ending::Stopped;
+            }
+            from = place.clone();
+            record.meet(&curve, place, event);
+            let special = matches!(
+                event,
+                Event::Fold | Event::Limit { .. } | Event::Branches(_) | Event::Closed
+            );
+            if special && rows.special(place, record.latest(), sink).is_break() {
+                break 'walk Ending::Stopped;
+            }
+            let ending = match event {
+                Event::End(end) if *end => Some(Ending::Complete),
+                Event::End(_) => Some(Ending::Returned),
+                Event::Closed => Some(Ending::Closed),
+                Event::Limit { .. } => Some(Ending::Limit),
+                Event::Fold if !settings.follow => Some(Ending::Fold),
+                Event::Branches(_) if !settings.follow => Some(Ending::Crossing),
+                _ => None,
+            };
+            if let Some(ending) = ending {
+                break 'walk ending;
+            }
+        }
+        if rows.between(&mut curve, &from, &leg.to, sink).is_break() {
+            break Ending::Stopped;
+        }
+        // an end that was passed unseen is worse than one that was not reached
+        if !(-1e-6..=1.0 + 1e-6).contains(&curve.part(&leg.to.at)) {
+            break Ending::Lost;
+        }
+    };
+    record.report(ending, rows.count(), walk.gone())
+}

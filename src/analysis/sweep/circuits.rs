@@ -1,0 +1,368 @@
+//! All circuits and branches of a mechanism with one freedom.
+//!
+//! A circuit is all that can be reached without taking the mechanism apart, a branch of it what lies
+//! between two dead points of the input.
+//! Source: T. R. Chase and J. A. Mirth, Circuits and branches of single-degree-of-freedom planar
+//! linkages, 1993.
+
+mod described;
+
+use std::f64::consts::TAU;
+
+use serde::Serialize;
+
+use super::follow::forwards;
+use crate::description::Role;
+use crate::linear::norm;
+use crate::mechanism::{Configuration, Mechanism};
+use crate::solve::{BranchPoint, Continuation, Place};
+use crate::system::{Curve, Event, Held, Walk};
+use described::{branches, class};
+
+type At = Place<Configuration<f64>>;
+
+/// How to look for circuits.
+#[derive(Clone, Debug, PartialEq)]
+pub struct CircuitsSettings {
+    /// How carefully curves are followed.
+    pub continuation: Continuation,
+    /// Steps after which a curve is given up.
+    pub most_steps: usize,
+}
+
+impl Default for CircuitsSettings {
+    fn default() -> Self {
+        CircuitsSettings {
+            continuation: Continuation::default(),
+            most_steps: 50_000,
+        }
+    }
+}
+
+/// How a joint moves over a circuit or branch.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct JointMotion {
+    /// Its name.
+    pub name: String,
+    /// rad or m.
+    pub unit: &'static str,
+    /// Whole turns it makes while the circuit is gone round once; 0 if it swings.
+    pub turns: i64,
+    /// The lowest value; of a joint that turns where the circuit was begun.
+    pub low: f64,
+    /// The highest value.
+    pub high: f64,
+}
+
+/// What lies between two dead points of the input.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Branch {
+    /// The lowest value of the input, rad or m.
+    pub low: f64,
+    /// The highest value.
+    pub high: f64,
+    /// Whether the input makes whole turns on it.
+    pub turns: bool,
+}
+
+/// What can be reached without taking the mechanism apart, along one curve.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Circuit {
+    /// Its number, from 1.
+    pub number: usize,
+    /// Whether its curve closes; otherwise it has two ends at limits.
+    pub closed: bool,
+    /// Whether it was followed to its end.
+    pub whole: bool,
+    /// Its length, in rad and characteristic lengths.
+    pub length: f64,
+    /// The joints.
+    pub joints: Vec<JointMotion>,
+    /// Its branches for the input.
+    pub branches: Vec<Branch>,
+    /// Values of all joints, in the order of the file, where it crosses another curve or itself.
+    pub crossings: Vec<Vec<f64>>,
+    /// The circuits it crosses: with them it is one, and which is gone on is decided at the crossing.
+    pub crosses: Vec<usize>,
+    /// How many of the seeds lie on it.
+    pub seeds: usize,
+}
+
+/// The class of a planar 4-bar, as its circuits show it.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "snake_case")]
+pub enum FourBarClass {
+    /// One of the links on ground turns fully.
+    CrankRocker,
+    /// Both do.
+    DoubleCrank,
+    /// Neither does, but the coupler: two circuits.
+    DoubleRocker,
+    /// No link turns fully beside another: one circuit.
+    TripleRocker,
+    /// Branches cross: all links can lie in one line.
+    ChangePoint,
+}
+
+/// The circuits of a mechanism.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct CircuitsReport {
+    /// The joint that is the input.
+    pub input: String,
+    /// The circuits in the order of their first seeds.
+    pub circuits: Vec<Circuit>,
+    /// The class of a planar 4-bar.
+    pub class: Option<FourBarClass>,
+    /// Assembled configurations from which curves were followed.
+    pub seeds: usize,
+    /// Seeds where branches cross or that are not assembled; no curve was begun there.
+    pub unusable: usize,
+    /// The characteristic length in m.
+    pub characteristic_length: f64,
+}
+
+/// One curve as it was followed.
+struct Traced {
+    places: Vec<At>,
+    turnings: Vec<(usize, At)>,
+    crossings: Vec<BranchPoint<Configuration<f64>>>,
+    closed: bool,
+    whole: bool,
+    length: f64,
+    seeds: usize,
+}
+
+/// Follows a curve from every seed that lies on none so far, and from every crossing.
+///
+/// `held` must leave one freedom. Circuits on which no seed lies are not found: take all assemblies
+/// at several values of the input.
+pub fn circuits(
+    mechanism: &Mechanism,
+    held: &Held<f64>,
+    input: usize,
+    seeds: &[Configuration<f64>],
+    settings: &CircuitsSettings,
+) -> CircuitsReport {
+    let mut curve = Curve::new(mechanism, held);
+    let method = &settings.continuation;
+    let mut traced: Vec<Traced> = Vec::new();
+    let mut unusable = 0;
+    for seed in seeds {
+        let mut seed = seed.clone();
+        Walk::within_limits(mechanism, &mut seed);
+        let within = mechanism.joints().iter().zip(&seed.joints);
+        let within = within
+            .into_iter()
+            .all(|(joint, value)| joint.allows(*value));
+        let place = match method.settle(&mut curve, seed) {
+            Ok(place) if within && !place.is_beside_a_crossing() => place,
+            _ => {
+                unusable += 1;
+                continue;
+            }
+        };
+        if let Some(known) = holding(&mut curve, method, &mut traced, &place) {
+            traced[known].seeds += 1;
+            continue;
+        }
+        let place = forwards(mechanism, &curve, place);
+        let mut waiting = vec![(place, 1)];
+        while let Some((place, seeds)) = waiting.pop() {
+            if holding(&mut curve, method, &mut traced, &place).is_some() {
+                continue;
+            }
+            let found = trace(mechanism, &mut curve, place, settings, seeds);
+            for point in &found.crossings {
+                for direction in &point.directions {
+                    if let Some((place, _)) = method.leave(&mut curve, &point.at, direction) {
+                        waiting.push((forwards(mechanism, &curve, place), 0));
+                    }
+                }
+            }
+            traced.push(found);
+        }
+    }
+    let all: Vec<Circuit> = (0..traced.len())
+        .map(|i| described(mechanism, &curve, input, &traced, i))
+        .collect();
+    CircuitsReport {
+        input: mechanism.joints()[input].name.clone(),
+        class: class(mechanism, &all),
+        circuits: all,
+        seeds: seeds.len(),
+        unusable,
+        characteristic_length: mechanism.characteristic_length(),
+    }
+}
+
+/// The curve that a place lies on.
+fn holding(
+    curve: &mut Curve,
+    method: &Continuation,
+    traced: &mut [Traced],
+    place: &At,
+) -> Option<usize> {
+    const SAME: f64 = 1e-6;
+    traced.iter().position(|known| {
+        known.places.iter().any(|node| {
+            let gap = curve.difference_but_turns(&node.at, &place.at);
+            if norm(&gap) > 1.5 * method.longest {
+                return false;
+            }
+            let along = crate::linear::dot(&gap, &node.tangent);
+            let near = |curve: &Curve, at: &At| {
+                norm(&curve.difference_but_turns(&at.at, &place.at)) < SAME
+            };
+            near(curve, node)
+                || (method.step(curve, node, along)).is_ok_and(|(at, _)| near(curve, &at))
+        })
+    })
+}
+
+fn trace(
+    mechanism: &Mechanism,
+    curve: &mut Curve,
+    start: At,
+    settings: &CircuitsSettings,
+    seeds: usize,
+) -> Traced {
+    let mut begin = start.clone();
+    let mut found = Traced {
+        places: Vec::new(),
+        turnings: Vec::new(),
+        crossings: Vec::new(),
+        closed: false,
+        whole: false,
+        length: 0.0,
+        seeds,
+    };
+    // first backwards to an end, if there is one
+    for backwards in [true, false] {
+        let from = match backwards {
+            true => begin.clone().reversed(),
+            false => begin.clone(),
+        };
+        found.places = vec![from.clone()];
+        found.turnings.clear();
+        found.crossings.clear();
+        let mut walk = Walk::new(mechanism, curve, from, settings.continuation.clone());
+        let mut end = None;
+        'steps: for _ in 0..settings.most_steps {
+            let Ok(leg) = walk.advance(curve) else {
+                break;
+            };
+            for (place, event) in leg.events {
+                match event {
+                    Event::Turning(joint) => found.turnings.push((joint, place)),
+                    Event::Branches(point) => found.crossings.push(*point),
+                    Event::Closed | Event::Limit { .. } => {
+                        found.places.push(place.clone());
+                        end = Some((place, matches!(event, Event::Closed)));
+                        break 'steps;
+                    }
+                    _ => {}
+                }
+            }
+            found.places.push(leg.to);
+        }
+        found.length = walk.gone();
+        found.whole = end.is_some();
+        match end {
+            Some((place, false)) => begin = place.reversed(),
+            Some((_, true)) => {
+                found.closed = true;
+                break;
+            }
+            None => {}
+        }
+    }
+    if found.closed {
+        // begun backwards: now in the sense it was to have
+        found.places.reverse();
+        found.turnings.reverse();
+        found.crossings.reverse();
+        found.places = (found.places.into_iter()).map(Place::reversed).collect();
+    }
+    found
+}
+
+fn described(
+    mechanism: &Mechanism,
+    curve: &Curve,
+    input: usize,
+    traced: &[Traced],
+    i: usize,
+) -> Circuit {
+    const SAME: f64 = 1e-6;
+    let found = &traced[i];
+    let value = |place: &At, joint: usize| place.at.joints[joint];
+    let of_joint = |joint: usize| {
+        let turnings = found.turnings.iter().filter(|(j, _)| *j == joint);
+        let turnings = turnings.map(|(_, place)| value(place, joint));
+        let all = found
+            .places
+            .iter()
+            .map(|place| value(place, joint))
+            .chain(turnings);
+        let (low, high) = all.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), x| {
+            (low.min(x), high.max(x))
+        });
+        let ends = found.places.first().zip(found.places.last());
+        let net = ends.map_or(0.0, |(a, b)| value(b, joint) - value(a, joint));
+        let whole = found.closed && mechanism.repeats(joint);
+        let turns = if whole { (net / TAU).round() as i64 } else { 0 };
+        let of = &mechanism.joints()[joint];
+        // swings are named where angles are usually measured
+        let middle = 0.5 * (low + high);
+        let shift = match mechanism.repeats(joint) && of.limits.is_none() {
+            true => TAU * (middle / TAU).round(),
+            false => 0.0,
+        };
+        JointMotion {
+            name: of.name.clone(),
+            unit: if of.kind.is_angle() { "rad" } else { "m" },
+            turns,
+            low: low - shift,
+            high: high - shift,
+        }
+    };
+    let moves = |joint: &usize| curve.column(*joint).is_some();
+    let joints: Vec<JointMotion> = (0..mechanism.joints().len())
+        .filter(moves)
+        .map(of_joint)
+        .collect();
+    let crossings = &found.crossings;
+    let meets = |other: &Traced| {
+        other.crossings.iter().any(|point| {
+            (crossings.iter())
+                .any(|own| norm(&curve.difference_but_turns(&own.at, &point.at)) < SAME)
+        })
+    };
+    Circuit {
+        number: i + 1,
+        closed: found.closed,
+        whole: found.whole,
+        length: found.length,
+        branches: branches(mechanism, input, found),
+        joints,
+        crossings: crossings
+            .iter()
+            .map(|point| point.at.joints.clone())
+            .collect(),
+        crosses: (0..traced.len())
+            .filter(|&other| other != i && meets(&traced[other]))
+            .map(|other| other + 1)
+            .collect(),
+        seeds: found.seeds,
+    }
+}
+
+impl CircuitsReport {
+    /// The joint that is followed by default: the driven one.
+    pub fn input_of(mechanism: &Mechanism) -> Option<usize> {
+        mechanism
+            .joints()
+            .iter()
+            .position(|joint| joint.role == Role::Actuated)
+    }
+}

@@ -1,0 +1,282 @@
+//! What a motion met on its way.
+
+use serde::Serialize;
+
+use super::{Ending, InputReport, SweepReport};
+use crate::mechanism::{Configuration, Mechanism};
+use crate::solve::{Continuation, Place, Stray};
+use crate::system::{Curve, Driven, Event, Unknown};
+
+/// Something special that was met, with where it is.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Met {
+    /// What it is.
+    #[serde(flatten)]
+    pub kind: MetKind,
+    /// The part of the inputs' segment that was gone; `null` without inputs.
+    pub part: Option<f64>,
+    /// The inputs there, rad or m, in their order.
+    pub inputs: Vec<f64>,
+    /// All joints there, rad or m, in the order of the file.
+    pub joints: Vec<f64>,
+    /// The type of C. Gosselin and J. Angeles 1990 (Singularity analysis of closed-loop kinematic
+    /// chains): 1 an output stands still while the inputs move, 2 the inputs stand still while the
+    /// mechanism moves, 3 both Jacobians lose rank; `null` for what is no singularity.
+    pub singularity: Option<u8>,
+}
+
+/// What can be met.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+#[serde(rename_all = "snake_case", tag = "met")]
+pub enum MetKind {
+    /// A joint turns back: driven, it would lock here.
+    Turning {
+        /// The joint.
+        joint: String,
+    },
+    /// The inputs turn back: driven, they lock here.
+    Fold {
+        /// The inputs.
+        locked: Vec<String>,
+        /// The joint that moves fastest here while they stand still.
+        moving: Option<String>,
+    },
+    /// A joint is at a limit.
+    Limit {
+        /// The joint.
+        joint: String,
+        /// The limit, rad or m.
+        limit: f64,
+        /// rad or m.
+        unit: &'static str,
+        /// Whether it is the upper one.
+        upper: bool,
+    },
+    /// The inputs are at an end of their segment.
+    End,
+    /// The curve has closed.
+    Closed,
+    /// Branches meet.
+    Crossing {
+        /// How many infinitesimal freedoms there are.
+        freedoms: usize,
+        /// The branches that pass.
+        branches: Vec<Passing>,
+    },
+}
+
+/// A branch that passes through a crossing.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Passing {
+    /// Whether it is the one that was followed.
+    pub followed: bool,
+    /// How fast each joint moves along it, in the order of the file: the components of the unit
+    /// tangent, lengths over the characteristic length.
+    pub rates: Vec<f64>,
+}
+
+/// Keeps what was met, up to a number: a motion may be of any length.
+pub(super) struct Record<'m> {
+    mechanism: &'m Mechanism,
+    inputs: Vec<Driven>,
+    met: Vec<Met>,
+    more: usize,
+    pub steps: usize,
+}
+
+/// What is listed at most.
+const MOST: usize = 1000;
+
+impl<'m> Record<'m> {
+    pub fn new(mechanism: &'m Mechanism, inputs: &[Driven]) -> Self {
+        Record {
+            mechanism,
+            inputs: inputs.to_vec(),
+            met: Vec::new(),
+            more: 0,
+            steps: 0,
+        }
+    }
+
+    pub fn meet(&mut self, curve: &Curve, place: &Place<Configuration<f64>>, event: &Event) {
+        let mechanism = self.mechanism;
+        let name = |joint: usize| mechanism.joints()[joint].name.clone();
+        let driven = |joint: usize| {
+            let mut inputs = self.inputs.iter();
+            inputs.any(|input| input.coordinate == crate::system::Holdable::Joint(joint))
+        };
+        let (kind, singularity) = match event {
+            // told as a fold
+            Event::Turning(joint) if driven(*joint) => return,
+            Event::Turning(joint) => {
+                let actuated =
+                    mechanism.joints()[*joint].role == crate::description::Role::Actuated;
+                let kind = if actuated && self.inputs.is_empty() {
+                    2
+                } else {
+                    1
+                };
+                (
+                    MetKind::Turning {
+                        joint: name(*joint),
+                    },
+                    Some(kind),
+                )
+            }
+            Event::Fold => {
+                let inputs = self.inputs.iter();
+                let moving = curve.system().unknowns().iter().zip(&place.tangent);
+                let moving = moving.filter_map(|(unknown, rate)| match *unknown {
+                    Unknown::Joint(joint) => Some((joint, rate.abs())),
+                    Unknown::Twist { .. } => None,
+                });
+                let fastest = moving.max_by(|a, b| a.1.total_cmp(&b.1));
+                let kind = MetKind::Fold {
+                    locked: inputs
+                        .map(|input| input.coordinate.name(mechanism))
+                        .collect(),
+                    moving: fastest
+                        .filter(|(_, rate)| *rate > 1e-6)
+                        .map(|(j, _)| name(j)),
+                };
+                (kind, Some(2))
+            }
+            Event::Limit {
+                joint,
+                value,
+                upper,
+            } => (self.limit(*joint, *value, *upper), None),
+            Event::End(_) => (MetKind::End, None),
+            Event::Closed => (MetKind::Closed, None),
+            Event::Root(_) => return,
+            Event::Branches(point) => {
+                let along = |d: &Vec<f64>| crate::linear::dot(d, &place.tangent).abs();
+                let most = point.directions.iter().map(along).fold(0.0, f64::max);
+                let branches = point.directions.iter().map(|direction| Passing {
+                    followed: along(direction) == most,
+                    rates: (0..mechanism.joints().len())
+                        .map(|joint| curve.column(joint).map_or(0.0, |column| direction[column]))
+                        .collect(),
+                });
+                let kind = MetKind::Crossing {
+                    freedoms: point.freedoms,
+                    branches: branches.collect(),
+                };
+                (kind, Some(3))
+            }
+        };
+        self.add(curve, &place.at, kind, singularity);
+    }
+
+    fn add(
+        &mut self,
+        curve: &Curve,
+        at: &Configuration<f64>,
+        kind: MetKind,
+        singularity: Option<u8>,
+    ) {
+        if self.met.len() >= MOST {
+            self.more += 1;
+            return;
+        }
+        let part = (!self.inputs.is_empty()).then(|| curve.part(at));
+        let inputs = self.inputs.iter().map(|input| match input.coordinate {
+            crate::system::Holdable::Joint(joint) => at.joints[joint],
+            crate::system::Holdable::Coordinate(platform, c) => {
+                c.of(&at.platforms[platform].pose())
+            }
+        });
+        self.met.push(Met {
+            kind,
+            part,
+            inputs: inputs.collect(),
+            joints: at.joints.clone(),
+            singularity,
+        });
+    }
+
+    fn limit(&self, joint: usize, limit: f64, upper: bool) -> MetKind {
+        let of = &self.mechanism.joints()[joint];
+        MetKind::Limit {
+            joint: of.name.clone(),
+            limit,
+            unit: if of.kind.is_angle() { "rad" } else { "m" },
+            upper,
+        }
+    }
+
+    pub fn latest(&self) -> Option<&MetKind> {
+        self.met.last().map(|met| &met.kind)
+    }
+
+    /// The first joint that is outside its limits.
+    pub fn outside(&self, at: &Configuration<f64>) -> Option<Met> {
+        let joints = self.mechanism.joints().iter().zip(&at.joints).enumerate();
+        let mut outside = joints.filter(|(_, (joint, value))| !joint.allows(**value));
+        let (joint, (of, value)) = outside.next()?;
+        let (low, high) = of.limits?;
+        let upper = *value > 0.5 * (low + high);
+        Some(Met {
+            kind: self.limit(joint, if upper { high } else { low }, upper),
+            part: (!self.inputs.is_empty()).then_some(0.0),
+            inputs: self.inputs.iter().map(|input| input.from).collect(),
+            joints: at.joints.clone(),
+            singularity: None,
+        })
+    }
+
+    pub fn ended(mut self, met: Met, ending: Ending) -> SweepReport {
+        self.met.push(met);
+        self.report(ending, 0, 0.0)
+    }
+
+    /// Why the motion cannot begin: branches may cross where it starts.
+    pub fn no_start(
+        mut self,
+        curve: &mut Curve,
+        start: &Configuration<f64>,
+        stray: Stray,
+        method: &Continuation,
+    ) -> SweepReport {
+        if stray == Stray::NotClosed {
+            return self.report(Ending::Lost, 0, 0.0);
+        }
+        if let Some(point) = method.branch_point(curve, start, 1e-3) {
+            let place = point.place(curve, &vec![0.0; curve.system().unknowns().len()]);
+            self.meet(curve, &place, &Event::Branches(Box::new(point)));
+            if let Some(Met {
+                kind: MetKind::Crossing { branches, .. },
+                ..
+            }) = self.met.last_mut()
+            {
+                branches
+                    .iter_mut()
+                    .for_each(|branch| branch.followed = false);
+            }
+        }
+        self.report(Ending::SingularStart, 0, 0.0)
+    }
+
+    pub fn report(self, ending: Ending, rows: usize, length: f64) -> SweepReport {
+        let mechanism = self.mechanism;
+        let inputs = self.inputs.iter().map(|input| InputReport {
+            name: input.coordinate.name(mechanism),
+            unit: match input.coordinate.is_angle(mechanism) {
+                true => "rad",
+                false => "m",
+            },
+            from: input.from,
+            to: input.to,
+        });
+        SweepReport {
+            inputs: inputs.collect(),
+            ending,
+            rows,
+            met: self.met,
+            more_met: self.more,
+            sure_steps: self.steps,
+            length,
+            characteristic_length: mechanism.characteristic_length(),
+        }
+    }
+}

@@ -1,0 +1,240 @@
+//! The rows of a sweep, between the places its curve is followed through.
+
+use std::ops::ControlFlow;
+
+use super::points::Paths;
+use super::{MetKind, Row, Sink, SweepSettings};
+use crate::mechanism::{Configuration, Mechanism};
+use crate::solve::Place;
+use crate::system::{Curve, Driven, Held, HeldPlatform, Holdable, System, Tracker};
+
+type At = Place<Configuration<f64>>;
+
+/// Produces the rows at equal parts of the segment.
+pub(super) struct Rows {
+    /// Solves with the inputs held; none if it cannot hold them by value.
+    tracker: Option<Tracker>,
+    inputs: Vec<Driven>,
+    steps: usize,
+    /// The next row ahead, as a number of steps from the start of the segment.
+    next: i64,
+    /// Whether the inputs move towards the end of the segment.
+    forward: bool,
+    paths: Paths,
+    count: usize,
+    longest: f64,
+}
+
+impl Rows {
+    pub fn new(
+        mechanism: &Mechanism,
+        held: &Held<f64>,
+        inputs: &[Driven],
+        start: &At,
+        settings: &SweepSettings,
+    ) -> Self {
+        let tracker = holding(held, inputs)
+            .map(|held| Tracker::new(System::new(mechanism.dimensions(), &held), start.at.clone()));
+        Rows {
+            tracker,
+            inputs: inputs.to_vec(),
+            steps: settings.steps,
+            next: 1,
+            forward: true,
+            paths: Paths::new(mechanism, &settings.points),
+            count: 0,
+            longest: settings.continuation.longest,
+        }
+    }
+
+    pub fn count(&self) -> usize {
+        self.count
+    }
+
+    pub fn first(&mut self, place: &At, sink: &mut Sink) -> ControlFlow<()> {
+        self.emit(&place.at, Some(0), None, sink)
+    }
+
+    /// A special place, between two rows.
+    pub fn special(
+        &mut self,
+        place: &At,
+        kind: Option<&MetKind>,
+        sink: &mut Sink,
+    ) -> ControlFlow<()> {
+        self.emit(&place.at, None, kind, sink)
+    }
+
+    fn emit(
+        &mut self,
+        at: &Configuration<f64>,
+        step: Option<usize>,
+        special: Option<&MetKind>,
+        sink: &mut Sink,
+    ) -> ControlFlow<()> {
+        self.paths.place(at);
+        let number = self.count;
+        self.count += 1;
+        sink(&Row {
+            number,
+            step,
+            configuration: at,
+            points: &self.paths.at,
+            special,
+        })
+    }
+
+    /// The rows between two places with no fold between them.
+    pub fn between(
+        &mut self,
+        curve: &mut Curve,
+        from: &At,
+        to: &At,
+        sink: &mut Sink,
+    ) -> ControlFlow<()> {
+        /// Parts of the segment this near are the same.
+        const SAME: f64 = 1e-12;
+        let (first, last) = (curve.part(&from.at), curve.part(&to.at));
+        let forward = last > first;
+        if forward != self.forward && (last - first).abs() > SAME {
+            // the same inputs come again, on the other side of the fold
+            self.next += if forward { 1 } else { -1 };
+            self.forward = forward;
+        }
+        let steps = self.steps as f64;
+        let mut reach = None;
+        loop {
+            let part = self.next as f64 / steps;
+            let ahead = match self.forward {
+                true => part <= last + SAME,
+                false => part >= last - SAME,
+            };
+            if !ahead || self.next < 0 || self.next > self.steps as i64 {
+                return ControlFlow::Continue(());
+            }
+            let reach = *reach.get_or_insert_with(|| Reach::of(curve, from, to));
+            let step = usize::try_from(self.next).ok();
+            self.next += if self.forward { 1 } else { -1 };
+            if self.track(curve, from, &reach, part) {
+                let tracker = self.tracker.take();
+                let flow = match &tracker {
+                    Some(t) => self.emit(t.configuration(), step, None, sink),
+                    None => ControlFlow::Continue(()),
+                };
+                self.tracker = tracker;
+                flow?;
+                continue;
+            }
+            // exactly, from the places themselves: from the regular one if the other is singular
+            let mut between = |c: &mut Curve, p: &At| c.part(&p.at) - part;
+            let mut place = match reach.singular_from {
+                true => {
+                    let (from, to) = (to.clone().reversed(), from.clone().reversed());
+                    self.method().root(curve, &from, &to, &mut between)
+                }
+                false => self.method().root(curve, from, to, &mut between),
+            };
+            for input in &self.inputs {
+                if let Holdable::Joint(joint) = input.coordinate {
+                    place.at.joints[joint] = input.at(part);
+                }
+            }
+            if let Some(tracker) = &mut self.tracker {
+                tracker.restart(&place.at);
+            }
+            self.emit(&place.at, step, None, sink)?;
+        }
+    }
+
+    fn method(&self) -> crate::solve::Continuation {
+        crate::solve::Continuation {
+            longest: self.longest,
+            ..Default::default()
+        }
+    }
+
+    /// Solves with the inputs held, starting from the row before. True if the solution lies between
+    /// the two places: on each plane across the tangent there is only one (see
+    /// [`Continuation`](crate::solve::Continuation)).
+    #[inline]
+    fn track(&mut self, curve: &Curve, from: &At, reach: &Reach, part: f64) -> bool {
+        let Some(tracker) = &mut self.tracker else {
+            return false;
+        };
+        if reach.singular_from || reach.singular_to {
+            return false;
+        }
+        for input in &self.inputs {
+            if let Holdable::Coordinate(platform, coordinate) = input.coordinate {
+                tracker.set_target(platform, coordinate, input.at(part));
+            }
+        }
+        let inputs = &self.inputs;
+        let report = tracker.solve(|at| {
+            for input in inputs {
+                if let Holdable::Joint(joint) = input.coordinate {
+                    at.joints[joint] = input.at(part);
+                }
+            }
+        });
+        if !report.solved {
+            return false;
+        }
+        let (along, across) = curve.offset(from, tracker.configuration());
+        let slack = 1e-9 + 1e-6 * reach.along;
+        along >= -slack && along <= reach.along + slack && across <= reach.across
+    }
+}
+
+/// How far rows between two places may be from the first of them.
+#[derive(Clone, Copy)]
+struct Reach {
+    along: f64,
+    across: f64,
+    singular_from: bool,
+    singular_to: bool,
+}
+
+impl Reach {
+    fn of(curve: &Curve, from: &At, to: &At) -> Self {
+        let (along, across) = curve.offset(from, &to.at);
+        let singular = |p: &At| p.least() <= 1e-9 * p.largest();
+        Reach {
+            along,
+            // the curve bends, and by the change allowed of the Jacobian no more than this
+            across: 2.0 * across + 0.1 * along + 1e-9,
+            singular_from: singular(from),
+            singular_to: singular(to),
+        }
+    }
+}
+
+/// What is held with the inputs held too; `None` where a coordinate belongs to a whole orientation.
+fn holding(held: &Held<f64>, inputs: &[Driven]) -> Option<Held<f64>> {
+    let mut held = held.clone();
+    for input in inputs {
+        match input.coordinate {
+            Holdable::Joint(joint) => held.joints[joint] = true,
+            Holdable::Coordinate(platform, coordinate) => {
+                let part = &mut held.platforms[platform];
+                match part {
+                    HeldPlatform::Free => {
+                        *part = HeldPlatform::Partly {
+                            coordinates: vec![(coordinate, input.from)],
+                            orientation: None,
+                        };
+                    }
+                    HeldPlatform::Partly {
+                        coordinates,
+                        orientation: None,
+                    } => coordinates.push((coordinate, input.from)),
+                    HeldPlatform::Partly { coordinates, .. } if !coordinate.is_angle() => {
+                        coordinates.push((coordinate, input.from));
+                    }
+                    _ => return None,
+                }
+            }
+        }
+    }
+    Some(held)
+}

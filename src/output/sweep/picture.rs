@@ -1,0 +1,241 @@
+//! Motions drawn: input–output curves, or the paths of points.
+
+use crate::analysis::sweep::{MetKind, Row, TracedPoint};
+use crate::mechanism::{Configuration, Mechanism};
+use crate::output::plot::{Chart, Marks, Series, svg};
+use crate::system::{Driven, Holdable};
+
+/// Collects what is to be drawn; of a long motion only as many points as can be told apart.
+#[derive(Clone, Debug)]
+pub struct Picture {
+    title: String,
+    points: Vec<TracedPoint>,
+    input: Option<Driven>,
+    input_label: String,
+    /// Joints that are drawn over the input: index, name, whether it is an angle.
+    outputs: Vec<(usize, String, bool)>,
+    motions: Vec<Drawn>,
+}
+
+#[derive(Clone, Debug, Default)]
+struct Drawn {
+    mode: Option<usize>,
+    /// Abscissa, joints drawn, then points.
+    rows: Vec<Vec<f64>>,
+    marks: Vec<(&'static str, Vec<f64>)>,
+    every: usize,
+    seen: usize,
+}
+
+/// Points of one curve at most.
+const MOST: usize = 4000;
+
+impl Picture {
+    /// Of a motion of these inputs; without points, joints are drawn over the first input.
+    pub fn new(mechanism: &Mechanism, inputs: &[Driven], points: &[TracedPoint]) -> Self {
+        let joint = |joint: usize| Driven {
+            coordinate: Holdable::Joint(joint),
+            from: 0.0,
+            to: 1.0,
+        };
+        let driven = crate::analysis::sweep::CircuitsReport::input_of(mechanism).map(joint);
+        let input = inputs.first().copied().or(driven);
+        let label = |of: Holdable| {
+            let unit = if of.is_angle(mechanism) { "°" } else { "m" };
+            format!("{} ({unit})", of.name(mechanism))
+        };
+        let moved = |i: usize| {
+            inputs
+                .iter()
+                .chain(&input)
+                .any(|d| d.coordinate == Holdable::Joint(i))
+        };
+        let joints = mechanism.joints().iter().enumerate();
+        Picture {
+            title: mechanism.name().to_owned(),
+            points: points.to_vec(),
+            input_label: input.map_or(String::new(), |input| label(input.coordinate)),
+            input,
+            outputs: joints
+                .filter(|(i, _)| !moved(*i))
+                .map(|(i, joint)| (i, joint.name.clone(), joint.kind.is_angle()))
+                .collect(),
+            motions: Vec::new(),
+        }
+    }
+
+    /// Begins the motion of another mode.
+    pub fn begin(&mut self, mode: Option<usize>) {
+        self.motions.push(Drawn {
+            mode,
+            every: 1,
+            ..Drawn::default()
+        });
+    }
+
+    /// Takes in a row of the motion begun last.
+    pub fn take(&mut self, mechanism: &Mechanism, row: &Row) {
+        let wanted =
+            (self.motions.last()).is_some_and(|drawn| drawn.seen.is_multiple_of(drawn.every));
+        let values = (wanted || row.special.is_some()).then(|| self.values(mechanism, row));
+        let Some(drawn) = self.motions.last_mut() else {
+            return;
+        };
+        if let Some(values) = values {
+            let mark = row.special.map(|kind| match kind {
+                MetKind::Fold { .. } => "dead point of the input",
+                MetKind::Turning { .. } => "turning point",
+                MetKind::Limit { .. } => "limit",
+                MetKind::Crossing { .. } => "branches cross",
+                MetKind::End | MetKind::Closed => "",
+            });
+            if let Some(mark) = mark.filter(|mark| !mark.is_empty()) {
+                drawn.marks.push((mark, values.clone()));
+            }
+            drawn.rows.push(values);
+            if drawn.rows.len() > MOST {
+                let mut keep = false;
+                drawn.rows.retain(|_| {
+                    keep = !keep;
+                    keep
+                });
+                drawn.every *= 2;
+            }
+        }
+        drawn.seen += 1;
+    }
+
+    fn values(&self, mechanism: &Mechanism, row: &Row) -> Vec<f64> {
+        let at: &Configuration<f64> = row.configuration;
+        let shown = |of: Holdable| {
+            let value = match of {
+                Holdable::Joint(joint) => at.joints[joint],
+                Holdable::Coordinate(platform, c) => c.of(&at.platforms[platform].pose()),
+            };
+            match of.is_angle(mechanism) {
+                true => value.to_degrees(),
+                false => value,
+            }
+        };
+        let input = self.input.map_or(f64::NAN, |input| shown(input.coordinate));
+        let outputs = self
+            .outputs
+            .iter()
+            .map(|(joint, _, _)| shown(Holdable::Joint(*joint)));
+        let points = row.points.iter().flatten().copied();
+        std::iter::once(input)
+            .chain(outputs)
+            .chain(points)
+            .collect()
+    }
+
+    /// The picture as SVG.
+    pub fn svg(&self) -> String {
+        let charts = match self.points.is_empty() {
+            true => self.outputs_over_input(),
+            false => vec![self.paths()],
+        };
+        svg(&charts)
+    }
+
+    fn label(&self, name: &str, mode: Option<usize>) -> String {
+        match mode {
+            Some(mode) if self.motions.len() > 1 => format!("{name}, mode {mode}"),
+            _ => name.to_owned(),
+        }
+    }
+
+    /// Curves of column pairs with their names, and marks on all of them.
+    fn chart(&self, pairs: &[(String, usize, usize)]) -> (Vec<Series>, Vec<Marks>) {
+        let mut series = Vec::new();
+        let mut marks: Vec<Marks> = Vec::new();
+        for drawn in &self.motions {
+            for (name, x, y) in pairs {
+                series.push(Series {
+                    label: self.label(name, drawn.mode),
+                    points: drawn.rows.iter().map(|row| (row[*x], row[*y])).collect(),
+                });
+                for (label, values) in &drawn.marks {
+                    let point = (values[*x], values[*y]);
+                    match marks.iter_mut().find(|marks| marks.label == *label) {
+                        Some(known) => known.points.push(point),
+                        None => marks.push(Marks {
+                            label: (*label).to_owned(),
+                            points: vec![point],
+                        }),
+                    }
+                }
+            }
+        }
+        (series, marks)
+    }
+
+    fn outputs_over_input(&self) -> Vec<Chart> {
+        let mut charts = Vec::new();
+        for angles in [true, false] {
+            let outputs = self
+                .outputs
+                .iter()
+                .enumerate()
+                .filter(|(_, o)| o.2 == angles);
+            let pairs: Vec<(String, usize, usize)> = outputs
+                .map(|(i, (_, name, _))| (name.clone(), 0, i + 1))
+                .collect();
+            if pairs.is_empty() {
+                continue;
+            }
+            let (series, marks) = self.chart(&pairs);
+            let unit = if angles { "°" } else { "m" };
+            charts.push(Chart {
+                title: self.title.clone(),
+                x: self.input_label.clone(),
+                y: match &pairs[..] {
+                    [(name, _, _)] => format!("{name} ({unit})"),
+                    _ => format!(
+                        "{} ({unit})",
+                        if angles { "joint angles" } else { "slides" }
+                    ),
+                },
+                equal: false,
+                series,
+                marks,
+            });
+        }
+        charts
+    }
+
+    /// Paths seen along the axis along which they extend least.
+    fn paths(&self) -> Chart {
+        let first = 1 + self.outputs.len();
+        let extent = |axis: usize| {
+            let values = self.motions.iter().flat_map(|drawn| &drawn.rows);
+            let values = values.flat_map(|row| row[first..].iter().skip(axis).step_by(3));
+            let (low, high) = values.fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), x| {
+                (l.min(*x), h.max(*x))
+            });
+            high - low
+        };
+        let flat = (0..3)
+            .rev()
+            .min_by(|&a, &b| extent(a).total_cmp(&extent(b)))
+            .unwrap_or(2);
+        let (x, y) = match flat {
+            0 => (1, 2),
+            1 => (0, 2),
+            _ => (0, 1),
+        };
+        let pairs: Vec<(String, usize, usize)> = (self.points.iter().enumerate())
+            .map(|(i, point)| (point.name.clone(), first + 3 * i + x, first + 3 * i + y))
+            .collect();
+        let (series, marks) = self.chart(&pairs);
+        let axis = ["x (m)", "y (m)", "z (m)"];
+        Chart {
+            title: self.title.clone(),
+            x: axis[x].into(),
+            y: axis[y].into(),
+            equal: true,
+            series,
+            marks,
+        }
+    }
+}

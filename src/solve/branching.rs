@@ -1,0 +1,420 @@
+//! Points where branches of a curve of solutions cross: there the Jacobian loses rank.
+
+use super::continuation::{Continuation, Place, SolutionCurve};
+use crate::linear::{Decomposition, dot, norm};
+
+/// A point where the Jacobian of a curve loses rank.
+#[derive(Clone, Debug)]
+pub struct BranchPoint<P> {
+    /// The point.
+    pub at: P,
+    /// How many infinitesimal freedoms there are: 2 or more.
+    pub freedoms: usize,
+    /// Unit tangents of the branches that pass, each once; none if no branch could be told apart.
+    pub directions: Vec<Vec<f64>>,
+    /// The rank defect that is left there, beside the largest singular value: rounding.
+    pub defect: f64,
+}
+
+/// How the branches at a [`BranchPoint`] meet.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Contact {
+    /// Two branches or more cross.
+    Crossing,
+    /// Only the branch followed was found: others touch it, are complex, or have higher order.
+    Single,
+}
+
+impl<P> BranchPoint<P> {
+    /// How the branches meet.
+    pub fn contact(&self) -> Contact {
+        match self.directions.len() {
+            0 | 1 => Contact::Single,
+            _ => Contact::Crossing,
+        }
+    }
+}
+
+/// Step of the differences of the Jacobian: their error, of second order, only delays convergence.
+const STEP: f64 = 1e-5;
+
+impl Continuation {
+    /// The branch point near a point, by Newton's method on the augmented system
+    ///
+    /// F(x) = 0, wᵢᵀ J(x) vⱼ = 0
+    ///
+    /// for bases w and v of the left and right null space that the point has with k singular values
+    /// fewer, renewed in every step; there are more equations than unknowns, all of which hold at a
+    /// branch point. `None` if there is none within `reach`.
+    ///
+    /// Source: Griewank and Reddien 1984 (borders); Leykin, Verschelde and Zhao 2006 (deflation).
+    pub fn branch_point<C: SolutionCurve>(
+        &self,
+        curve: &mut C,
+        near: &C::Point,
+        reach: f64,
+    ) -> Option<BranchPoint<C::Point>> {
+        let unknowns = curve.unknowns();
+        (1..unknowns).take(4).find_map(|lost| {
+            let found = self.rank_drop(curve, near, reach, lost)?;
+            // of higher order than asked for: Newton's method was slow, and its end uncertain
+            let (free, _) = freedoms(curve, &found, 1e-5);
+            (free == lost + 1).then(|| self.described(curve, found, free))
+        })
+    }
+
+    fn rank_drop<C: SolutionCurve>(
+        &self,
+        curve: &mut C,
+        near: &C::Point,
+        reach: f64,
+        lost: usize,
+    ) -> Option<C::Point> {
+        const STEPS: usize = 25;
+        let unknowns = curve.unknowns();
+        let regular = unknowns.checked_sub(1 + lost)?;
+        let mut at = near.clone();
+        let mut before = f64::INFINITY;
+        for _ in 0..STEPS {
+            let (residual, jacobian) = curve.linearise(&at);
+            let rows = residual.len();
+            let here = Decomposition::of_rank(rows, unknowns, &jacobian, regular);
+            let (left, right) = (here.left_null_space(), here.null_space());
+            let values = here.singular_values();
+            let defect = values.get(regular).copied().unwrap_or(0.0);
+            // rows of the augmented matrix, with what they are to become zero
+            let mut matrix: Vec<Vec<f64>> = Vec::new();
+            let mut wanted = residual.clone();
+            for i in 0..rows {
+                matrix.push((0..unknowns).map(|j| jacobian[j * rows + i]).collect());
+            }
+            for v in &right {
+                let bent = bent(curve, &at, v);
+                let along = times(&jacobian, rows, v);
+                for w in &left {
+                    matrix.push((bent.chunks_exact(rows.max(1)).map(|c| dot(w, c))).collect());
+                    wanted.push(dot(w, &along));
+                }
+            }
+            let entries: Vec<f64> = (0..unknowns)
+                .flat_map(|j| matrix.iter().map(move |row| row[j]))
+                .collect();
+            let augmented = Decomposition::of(matrix.len(), unknowns, &entries);
+            let mut step = augmented.solve(&wanted);
+            step.iter_mut().for_each(|x| *x = -*x);
+            let size = norm(&step);
+            let largest = residual.iter().fold(0.0f64, |m, r| m.max(r.abs()));
+            let there = largest <= self.tolerance
+                && defect <= 1e-9 * values.first().copied().unwrap_or(1.0).max(1e-9);
+            if there && (size < 1e-14 || size >= 0.5 * before) {
+                let gone = norm(&curve.difference(near, &at));
+                return (gone <= reach).then_some(at);
+            }
+            if !size.is_finite() || size > 2.0 * reach {
+                return None;
+            }
+            before = size;
+            at = curve.displaced(&at, &step);
+        }
+        None
+    }
+
+    fn described<C: SolutionCurve>(
+        &self,
+        curve: &mut C,
+        at: C::Point,
+        freedoms: usize,
+    ) -> BranchPoint<C::Point> {
+        let unknowns = curve.unknowns();
+        let (residual, jacobian) = curve.linearise(&at);
+        let rows = residual.len();
+        let here = Decomposition::of_rank(rows, unknowns, &jacobian, unknowns - freedoms);
+        let values = here.singular_values();
+        let defect = values.get(unknowns - freedoms).copied().unwrap_or(0.0);
+        let (left, right) = (here.left_null_space(), here.null_space());
+        let forms = forms(curve, &at, &left, &right);
+        let directions = zeros(&forms, right.len()).into_iter().map(|weights| {
+            let mut direction = vec![0.0; unknowns];
+            for (v, weight) in right.iter().zip(&weights) {
+                direction
+                    .iter_mut()
+                    .zip(v)
+                    .for_each(|(d, v)| *d += weight * v);
+            }
+            direction
+        });
+        let mut found: Vec<Vec<f64>> = Vec::new();
+        for direction in directions {
+            if self.leave(curve, &at, &direction).is_some() {
+                found.push(direction);
+            }
+        }
+        BranchPoint {
+            at,
+            freedoms,
+            directions: found,
+            defect: defect
+                / values
+                    .first()
+                    .copied()
+                    .unwrap_or(1.0)
+                    .max(f64::MIN_POSITIVE),
+        }
+    }
+
+    /// A regular place a little way from a branch point along one of its directions, with the
+    /// distance to it. `None` if no branch leaves that way.
+    pub fn leave<C: SolutionCurve>(
+        &self,
+        curve: &mut C,
+        from: &C::Point,
+        direction: &[f64],
+    ) -> Option<(Place<C::Point>, f64)> {
+        /// The branch must still point there: the cosine of the angle.
+        const ALIGNED: f64 = 0.98;
+        let mut length = 0.2 * self.longest;
+        for _ in 0..8 {
+            let ahead: Vec<f64> = direction.iter().map(|x| x * length).collect();
+            let start = curve.displaced(from, &ahead);
+            if let Ok(place) = self.settle(curve, start) {
+                let place = place.towards(direction);
+                let gone = curve.difference(from, &place.at);
+                let straight = dot(&gone, direction) >= ALIGNED * norm(&gone);
+                if straight
+                    && dot(&place.tangent, direction) >= ALIGNED
+                    && norm(&gone) >= 0.5 * length
+                {
+                    return Some((place, norm(&gone)));
+                }
+            }
+            length *= 0.35;
+        }
+        None
+    }
+}
+
+impl<P: Clone> BranchPoint<P> {
+    /// The point as a place of the branch along one of its directions, for bracketing only: its
+    /// Jacobian is singular.
+    pub fn place<C: SolutionCurve<Point = P>>(&self, curve: &mut C, direction: &[f64]) -> Place<P> {
+        let (residual, jacobian) = curve.linearise(&self.at);
+        let regular = direction.len().saturating_sub(self.freedoms);
+        Place {
+            at: self.at.clone(),
+            tangent: direction.to_vec(),
+            decomposition: Decomposition::of_rank(
+                residual.len(),
+                direction.len(),
+                &jacobian,
+                regular,
+            ),
+            jacobian,
+        }
+    }
+}
+
+/// How many directions the Jacobian maps to nearly nothing, and the singular value that counts last.
+fn freedoms<C: SolutionCurve>(curve: &mut C, at: &C::Point, tolerance: f64) -> (usize, f64) {
+    let unknowns = curve.unknowns();
+    let (residual, jacobian) = curve.linearise(at);
+    let here = Decomposition::of(residual.len(), unknowns, &jacobian);
+    let values = here.singular_values();
+    let largest = values.first().copied().unwrap_or(0.0);
+    let counted = values.iter().take_while(|v| **v > tolerance * largest);
+    let counted = counted.count();
+    let last = counted.checked_sub(1).map_or(0.0, |last| values[last]);
+    (unknowns - counted, last)
+}
+
+/// dJ along v, column-major, by central differences.
+fn bent<C: SolutionCurve>(curve: &mut C, at: &C::Point, v: &[f64]) -> Vec<f64> {
+    let mut side = |h: f64| {
+        let step: Vec<f64> = v.iter().map(|x| x * h).collect();
+        let at = curve.displaced(at, &step);
+        curve.linearise(&at).1
+    };
+    let (after, before) = (side(STEP), side(-STEP));
+    let both = after.iter().zip(&before);
+    both.map(|(a, b)| (a - b) / (2.0 * STEP)).collect()
+}
+
+/// J v.
+fn times(jacobian: &[f64], rows: usize, v: &[f64]) -> Vec<f64> {
+    let mut product = vec![0.0; rows];
+    for (column, v) in jacobian.chunks_exact(rows.max(1)).zip(v) {
+        product
+            .iter_mut()
+            .zip(column)
+            .for_each(|(p, c)| *p += c * v);
+    }
+    product
+}
+
+/// For every left null vector w the symmetric form wᵀ H(vᵢ, vⱼ), row after row.
+fn forms<C: SolutionCurve>(
+    curve: &mut C,
+    at: &C::Point,
+    left: &[Vec<f64>],
+    right: &[Vec<f64>],
+) -> Vec<Vec<f64>> {
+    let n = right.len();
+    let mut forms = vec![vec![0.0; n * n]; left.len()];
+    for (i, v) in right.iter().enumerate() {
+        let bent = bent(curve, at, v);
+        let rows = bent.len() / curve.unknowns();
+        for (j, u) in right.iter().enumerate() {
+            let along = times(&bent, rows, u);
+            for (form, w) in forms.iter_mut().zip(left) {
+                let half = 0.5 * dot(w, &along);
+                form[i * n + j] += half;
+                form[j * n + i] += half;
+            }
+        }
+    }
+    forms
+}
+
+/// Unit vectors on which all quadratic forms vanish, each once up to its sign, where they are
+/// isolated: Newton's method from points spread over the sphere.
+fn zeros(forms: &[Vec<f64>], n: usize) -> Vec<Vec<f64>> {
+    /// Forms below this are rounding of the differences.
+    const NOTHING: f64 = 1e-7;
+    let largest = forms.iter().map(|form| norm(form)).fold(0.0, f64::max);
+    let forms: Vec<&Vec<f64>> = forms
+        .iter()
+        .filter(|f| norm(f) > NOTHING.max(1e-5 * largest))
+        .collect();
+    if forms.is_empty() || n < 2 {
+        return Vec::new();
+    }
+    let slope = |form: &[f64], a: &[f64]| -> Vec<f64> {
+        (0..n)
+            .map(|i| 2.0 * dot(&form[i * n..(i + 1) * n], a))
+            .collect()
+    };
+    let starts = match n {
+        2 => 32,
+        _ => 150 * (n - 1),
+    };
+    let mut found: Vec<Vec<f64>> = Vec::new();
+    for k in 0..starts {
+        let mut a: Vec<f64> = match n {
+            2 => {
+                let angle = std::f64::consts::PI * k as f64 / f64::from(starts as u32);
+                vec![angle.cos(), angle.sin()]
+            }
+            _ => (0..n)
+                .map(|i| (12.9898 * (k * n + i + 1) as f64).sin() * 43758.5453 % 1.0)
+                .collect(),
+        };
+        let mut best = f64::INFINITY;
+        for _ in 0..40 {
+            let size = norm(&a);
+            a.iter_mut().for_each(|x| *x /= size);
+            // the forms, and a·da = 0
+            let mut rows: Vec<Vec<f64>> = forms.iter().map(|form| slope(form, &a)).collect();
+            let mut values: Vec<f64> = rows.iter().map(|row| 0.5 * dot(row, &a)).collect();
+            best = norm(&values) / largest;
+            rows.push(a.clone());
+            values.push(0.0);
+            let entries: Vec<f64> = (0..n)
+                .flat_map(|j| rows.iter().map(move |r| r[j]))
+                .collect();
+            let here = Decomposition::of(rows.len(), n, &entries);
+            let step = here.solve(&values);
+            a.iter_mut().zip(&step).for_each(|(a, s)| *a -= s);
+            if norm(&step) < 1e-15 {
+                break;
+            }
+        }
+        let size = norm(&a);
+        a.iter_mut().for_each(|x| *x /= size);
+        let new = found.iter().all(|b| dot(&a, b).abs() < 1.0 - 1e-8);
+        if best < 1e-7 && new && a.iter().all(|x| x.is_finite()) {
+            found.push(a);
+        }
+    }
+    for a in &mut found {
+        let first = a.iter().copied().find(|x| x.abs() > 1e-9);
+        if first.is_some_and(|x| x < 0.0) {
+            a.iter_mut().for_each(|x| *x = -*x);
+        }
+    }
+    found.sort_by(|a, b| b.partial_cmp(a).unwrap_or(std::cmp::Ordering::Equal));
+    found
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::continuation::tests::Plain;
+    use super::*;
+
+    #[test]
+    fn a_crossing_is_located_to_rounding_with_both_branches() {
+        // (y − x)(y + x/2 − 1) = 0, with a second, redundant row, and z = x²
+        let lines = |x: &[f64]| {
+            let (a, b) = (x[1] - x[0], x[1] + 0.5 * x[0] - 1.0);
+            let r = a * b;
+            let d = [-b + 0.5 * a, b + a, 0.0];
+            let columns = [
+                [d[0], 3.0 * d[0], -2.0 * x[0]],
+                [d[1], 3.0 * d[1], 0.0],
+                [0.0, 0.0, 1.0],
+            ];
+            (vec![r, 3.0 * r, x[2] - x[0] * x[0]], columns.concat())
+        };
+        let mut curve = Plain(3, lines);
+        let method = Continuation::default();
+        let point = method
+            .branch_point(&mut curve, &vec![0.6, 0.61, 0.36], 0.2)
+            .unwrap();
+        let exact = [2.0 / 3.0, 2.0 / 3.0, 4.0 / 9.0];
+        for (x, exact) in point.at.iter().zip(exact) {
+            assert!((x - exact).abs() < 1e-14, "{:?}", point.at);
+        }
+        assert_eq!((point.freedoms, point.directions.len()), (2, 2));
+        assert_eq!(point.contact(), Contact::Crossing);
+        for direction in &point.directions {
+            let slope = direction[1] / direction[0];
+            assert!(
+                (slope - 1.0).abs() < 1e-8 || (slope + 0.5).abs() < 1e-8,
+                "{slope}"
+            );
+        }
+    }
+
+    #[test]
+    fn an_avoided_crossing_is_none() {
+        // y² − x² = 1e-4: two branches that come near
+        let near = |x: &[f64]| {
+            (
+                vec![x[1] * x[1] - x[0] * x[0] - 1e-4],
+                vec![-2.0 * x[0], 2.0 * x[1]],
+            )
+        };
+        let method = Continuation::default();
+        assert!(
+            method
+                .branch_point(&mut Plain(2, near), &vec![0.02, 0.025], 0.2)
+                .is_none()
+        );
+    }
+
+    #[test]
+    fn three_lines_in_space_through_one_point_are_told_apart() {
+        // xy = 0, yz = 0, zx = 0: the axes
+        let axes = |x: &[f64]| {
+            let residual = vec![x[0] * x[1], x[1] * x[2], x[2] * x[0]];
+            (
+                residual,
+                vec![x[1], 0.0, x[2], x[0], x[2], 0.0, 0.0, x[1], x[0]],
+            )
+        };
+        let method = Continuation::default();
+        let point = method
+            .branch_point(&mut Plain(3, axes), &vec![0.05, 0.0, 0.0], 0.2)
+            .unwrap();
+        assert!(norm(&point.at) < 1e-12);
+        assert_eq!((point.freedoms, point.directions.len()), (3, 3));
+    }
+}

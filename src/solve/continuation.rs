@@ -1,0 +1,421 @@
+//! Following a curve of solutions: F(x) = 0 with one freedom left.
+//!
+//! Nothing here knows joints: a curve offers its residual, its Jacobian and its manifold
+//! ([`SolutionCurve`]). Rows may be redundant, as long as the rank at a regular place is one less
+//! than the number of unknowns.
+//!
+//! Predictor: the tangent. Corrector: Newton's method in the plane across it with the Jacobian of the
+//! place the step starts from (pseudo-arclength continuation; Keller 1977).
+//!
+//! **When a step is accepted.** With J⁺ of the place x₀ it starts from, both the correction must
+//! contract and ‖J⁺(J(x₁) − J(x₀))‖ ≤ [`Continuation::change`] < 1 must hold at its end x₁ (Frobenius
+//! norm, so an upper bound of the spectral one). As long as the same holds between them, x ↦ J⁺F(x) is
+//! one to one on each plane across the tangent (the affine covariant theorem of Newton and
+//! Kantorovich; Deuflhard, Newton Methods for Nonlinear Problems, 2004, §2.1): there is no other
+//! solution for the step to end at. No step passes a point where branches cross: there J⁺ is
+//! infinite, steps become shorter in geometric progression and the point must be located and left by
+//! name ([`BranchPoint`](super::BranchPoint)).
+
+use crate::linear::{Decomposition, dot, norm, rank};
+
+/// A set of solutions with one freedom, on a manifold of points with tangent coordinates.
+pub trait SolutionCurve {
+    /// A point of the manifold.
+    type Point: Clone;
+
+    /// Number of tangent coordinates.
+    fn unknowns(&self) -> usize;
+    /// F at a point, every row dimensionless.
+    fn residual(&mut self, at: &Self::Point) -> Vec<f64>;
+    /// F and its Jacobian at a point, column-major, rows × unknowns.
+    fn linearise(&mut self, at: &Self::Point) -> (Vec<f64>, Vec<f64>);
+    /// at ⊕ step.
+    fn displaced(&self, at: &Self::Point, step: &[f64]) -> Self::Point;
+    /// The step that leads from one point to another.
+    fn difference(&self, from: &Self::Point, to: &Self::Point) -> Vec<f64>;
+}
+
+/// A regular point of a curve with its tangent.
+#[derive(Clone, Debug)]
+pub struct Place<P> {
+    /// The point.
+    pub at: P,
+    /// Unit tangent, in the direction the curve is followed.
+    pub tangent: Vec<f64>,
+    pub(super) jacobian: Vec<f64>,
+    pub(super) decomposition: Decomposition,
+}
+
+impl<P> Place<P> {
+    /// The smallest singular value of the Jacobian across the tangent: it vanishes where branches
+    /// cross.
+    pub fn least(&self) -> f64 {
+        let values = self.decomposition.singular_values();
+        let across = self.tangent.len().wrapping_sub(2);
+        values.get(across).copied().unwrap_or(1.0)
+    }
+
+    /// The largest singular value of the Jacobian.
+    pub fn largest(&self) -> f64 {
+        let values = self.decomposition.singular_values();
+        values.first().copied().unwrap_or(1.0)
+    }
+
+    /// Whether branches may cross so near that rounding decides which one this is.
+    pub fn is_beside_a_crossing(&self) -> bool {
+        self.least() < 1e-5 * self.largest()
+    }
+
+    /// The same place, followed the other way.
+    pub fn reversed(mut self) -> Self {
+        self.tangent.iter_mut().for_each(|x| *x = -*x);
+        self
+    }
+
+    /// The same place, followed so that it advances along a direction.
+    pub fn towards(self, direction: &[f64]) -> Self {
+        match dot(&self.tangent, direction) < 0.0 {
+            true => self.reversed(),
+            false => self,
+        }
+    }
+
+    /// The same with the point exchanged for another description of it.
+    pub fn renamed(mut self, rename: impl FnOnce(&mut P)) -> Self {
+        rename(&mut self.at);
+        self
+    }
+}
+
+/// Why there is no regular place.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Stray {
+    /// Newton's method does not lead to the curve.
+    NotClosed,
+    /// Branches cross here, or more than one freedom is left.
+    Singular,
+    /// The step would have to be shorter than [`Continuation::shortest`].
+    TooShort,
+}
+
+/// How carefully a curve is followed.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Continuation {
+    /// A point is on the curve when no row exceeds this.
+    pub tolerance: f64,
+    /// The longest step, in rad and characteristic lengths.
+    pub longest: f64,
+    /// Steps shorter than this are not tried.
+    pub shortest: f64,
+    /// How much the Jacobian may change along a step, beside itself: below 1.
+    pub change: f64,
+}
+
+impl Default for Continuation {
+    fn default() -> Self {
+        Continuation {
+            tolerance: 1e-12,
+            longest: 0.1,
+            shortest: 1e-10,
+            change: 0.25,
+        }
+    }
+}
+
+impl Continuation {
+    /// The regular place of the curve nearest to a point, by Gauss–Newton steps of least length.
+    /// The tangent's sense is arbitrary; see [`Place::towards`].
+    ///
+    /// # Errors
+    /// If the steps do not arrive, or the point they arrive at is not regular.
+    pub fn settle<C: SolutionCurve>(
+        &self,
+        curve: &mut C,
+        mut at: C::Point,
+    ) -> Result<Place<C::Point>, Stray> {
+        const STEPS: usize = 30;
+        let unknowns = curve.unknowns();
+        let mut before = f64::INFINITY;
+        for _ in 0..STEPS {
+            let (residual, jacobian) = curve.linearise(&at);
+            let rows = residual.len();
+            if !jacobian.iter().chain(&residual).all(|x| x.is_finite()) {
+                return Err(Stray::NotClosed);
+            }
+            let regular = unknowns.saturating_sub(1);
+            let decomposition = Decomposition::of_rank(rows, unknowns, &jacobian, regular);
+            let step = back(&decomposition, &residual);
+            let size = norm(&step);
+            let largest = residual.iter().fold(0.0f64, |m, r| m.max(r.abs()));
+            let closed = largest <= self.tolerance;
+            // what the rank tolerance cuts off has no inverse
+            if closed && rank(decomposition.singular_values()) < regular {
+                return Err(Stray::Singular);
+            }
+            let settled = size < 1e-14 || (closed && size >= 0.25 * before);
+            if !size.is_finite() || size > 1e3 || (settled && !closed) {
+                return Err(Stray::NotClosed);
+            }
+            if settled {
+                let free = unknowns - rank(decomposition.singular_values()).min(unknowns);
+                if free != 1 {
+                    return Err(Stray::Singular);
+                }
+                // too short to change the Jacobian, but it takes the last digits in
+                if size < 1e-8 {
+                    at = curve.displaced(&at, &step);
+                }
+                let tangent = decomposition.null_space().swap_remove(0);
+                return Ok(Place {
+                    at,
+                    tangent,
+                    jacobian,
+                    decomposition,
+                });
+            }
+            before = size;
+            at = curve.displaced(&at, &step);
+        }
+        Err(Stray::NotClosed)
+    }
+
+    /// The place at the distance `length` along the tangent, if the way there is sure.
+    ///
+    /// # Errors
+    /// [`Stray::TooShort`] if it is not: try half the length.
+    pub fn step<C: SolutionCurve>(
+        &self,
+        curve: &mut C,
+        from: &Place<C::Point>,
+        length: f64,
+    ) -> Result<(Place<C::Point>, f64), Stray> {
+        let to = self.across(curve, from, length).ok_or(Stray::TooShort)?;
+        let change = change(from, &to);
+        match change <= self.change && dot(&from.tangent, &to.tangent) > 0.5 {
+            true => Ok((to, change)),
+            false => Err(Stray::TooShort),
+        }
+    }
+
+    /// The place in the plane across the tangent at a distance, by simplified Newton steps.
+    pub(super) fn across<C: SolutionCurve>(
+        &self,
+        curve: &mut C,
+        from: &Place<C::Point>,
+        length: f64,
+    ) -> Option<Place<C::Point>> {
+        const STEPS: usize = 40;
+        const CONTRACTION: f64 = 0.5;
+        let ahead: Vec<f64> = from.tangent.iter().map(|x| x * length).collect();
+        let mut at = curve.displaced(&from.at, &ahead);
+        let mut before = f64::INFINITY;
+        for _ in 0..STEPS {
+            let residual = curve.residual(&at);
+            let step = back(&from.decomposition, &residual);
+            let size = norm(&step);
+            if size < 1e-13 || (size < 1e-11 && size >= CONTRACTION * before) {
+                break;
+            }
+            // a NaN is refused too
+            let sure = size <= 0.5 * length.abs() && size < CONTRACTION * before;
+            if !sure {
+                return None;
+            }
+            before = size;
+            at = curve.displaced(&at, &step);
+        }
+        let place = self.settle(curve, at).ok()?;
+        Some(place.towards(&from.tangent))
+    }
+
+    /// The place between two where a function of places vanishes, to rounding: `f` must have
+    /// different signs at both. `to` must have been reached from `from` by one step.
+    ///
+    /// Regula falsi with the weights of Anderson and Björck 1973, halving when that does not.
+    pub fn root<C: SolutionCurve>(
+        &self,
+        curve: &mut C,
+        from: &Place<C::Point>,
+        to: &Place<C::Point>,
+        f: &mut dyn FnMut(&mut C, &Place<C::Point>) -> f64,
+    ) -> Place<C::Point> {
+        const EVALUATIONS: usize = 80;
+        let end = dot(&curve.difference(&from.at, &to.at), &from.tangent);
+        let (mut low, mut high) = ((0.0, f(curve, from)), (end, f(curve, to)));
+        let mut best = match low.1.abs() < high.1.abs() {
+            true => (low.1.abs(), from.clone()),
+            false => (high.1.abs(), to.clone()),
+        };
+        let (mut width, mut slow) = (end.abs(), 0);
+        for _ in 0..EVALUATIONS {
+            if best.0 == 0.0 || (high.0 - low.0).abs() <= 4.0 * f64::EPSILON * end.abs() {
+                break;
+            }
+            let mut s = (low.0 * high.1 - high.0 * low.1) / (high.1 - low.1);
+            let within = (s - low.0) * (high.0 - s) > 0.0;
+            if slow >= 3 || !within {
+                s = 0.5 * (low.0 + high.0);
+                slow = 0;
+            }
+            if s == low.0 || s == high.0 {
+                break;
+            }
+            let Some(place) = self.across(curve, from, s) else {
+                break;
+            };
+            let value = f(curve, &place);
+            if value.abs() < best.0 {
+                best = (value.abs(), place);
+            }
+            if value.signum() == low.1.signum() {
+                let weight = 1.0 - value / low.1;
+                high.1 *= if weight > 0.0 { weight } else { 0.5 };
+                low = (s, value);
+            } else {
+                let weight = 1.0 - value / high.1;
+                low.1 *= if weight > 0.0 { weight } else { 0.5 };
+                high = (s, value);
+            }
+            let now = (high.0 - low.0).abs();
+            slow = if now > 0.5 * width { slow + 1 } else { 0 };
+            width = now;
+        }
+        best.1
+    }
+
+    /// A length for the next step, from that of the last and how much the Jacobian changed along it.
+    pub fn next_length(&self, length: f64, changed: f64) -> f64 {
+        let wanted = 0.7 * self.change / changed.max(1e-3);
+        (length * wanted.clamp(0.5, 2.0)).min(self.longest)
+    }
+}
+
+/// How much the Jacobian changes between two places, beside itself: ‖J⁺(J₁ − J₀)‖.
+pub(super) fn change<P>(from: &Place<P>, to: &Place<P>) -> f64 {
+    let rows = match from.tangent.len() {
+        0 => return 0.0,
+        n => from.jacobian.len() / n,
+    };
+    let columns =
+        (from.jacobian.chunks_exact(rows.max(1))).zip(to.jacobian.chunks_exact(rows.max(1)));
+    let squares = columns.map(|(before, after)| {
+        let moved: Vec<f64> = after.iter().zip(before).map(|(a, b)| a - b).collect();
+        let beside = from.decomposition.solve(&moved);
+        dot(&beside, &beside)
+    });
+    squares.sum::<f64>().sqrt()
+}
+
+/// −J⁺r.
+fn back(decomposition: &Decomposition, residual: &[f64]) -> Vec<f64> {
+    let mut step = decomposition.solve(residual);
+    step.iter_mut().for_each(|x| *x = -*x);
+    step
+}
+
+#[cfg(test)]
+pub(super) mod tests {
+    use super::*;
+
+    /// A curve in Rⁿ given by a function with its derivative by columns.
+    pub struct Plain<F>(pub usize, pub F);
+
+    impl<F: Fn(&[f64]) -> (Vec<f64>, Vec<f64>)> SolutionCurve for Plain<F> {
+        type Point = Vec<f64>;
+        fn unknowns(&self) -> usize {
+            self.0
+        }
+        fn residual(&mut self, at: &Vec<f64>) -> Vec<f64> {
+            self.1(at).0
+        }
+        fn linearise(&mut self, at: &Vec<f64>) -> (Vec<f64>, Vec<f64>) {
+            self.1(at)
+        }
+        fn displaced(&self, at: &Vec<f64>, step: &[f64]) -> Vec<f64> {
+            at.iter().zip(step).map(|(a, b)| a + b).collect()
+        }
+        fn difference(&self, from: &Vec<f64>, to: &Vec<f64>) -> Vec<f64> {
+            to.iter().zip(from).map(|(a, b)| a - b).collect()
+        }
+    }
+
+    /// x²/4 + y² = 1 twice over, so that the rows are redundant.
+    fn ellipse(x: &[f64]) -> (Vec<f64>, Vec<f64>) {
+        let r = 0.25 * x[0] * x[0] + x[1] * x[1] - 1.0;
+        (
+            vec![r, 2.0 * r],
+            vec![0.5 * x[0], x[0], 2.0 * x[1], 4.0 * x[1]],
+        )
+    }
+
+    #[test]
+    fn a_closed_curve_with_redundant_rows_is_followed_round_and_its_turning_points_are_exact() {
+        let mut curve = Plain(2, ellipse);
+        let method = Continuation::default();
+        let start = method.settle(&mut curve, vec![0.3, 1.1]).unwrap();
+        let mut place = start.towards(&[1.0, 0.0]);
+        let (mut length, mut turned, mut folds) = (0.05, 0.0f64, Vec::new());
+        while turned < std::f64::consts::TAU {
+            let Ok((next, changed)) = method.step(&mut curve, &place, length) else {
+                length *= 0.5;
+                assert!(length > 1e-6);
+                continue;
+            };
+            length = method.next_length(length, changed);
+            if place.tangent[0] * next.tangent[0] < 0.0 {
+                let fold = method.root(&mut curve, &place, &next, &mut |_, p| p.tangent[0]);
+                folds.push(fold.at);
+            }
+            let angle = |p: &[f64]| (2.0 * p[1]).atan2(p[0]);
+            let moved = angle(&place.at) - angle(&next.at);
+            turned += moved.rem_euclid(std::f64::consts::TAU);
+            place = next;
+        }
+        assert_eq!(folds.len(), 2);
+        for (fold, x) in folds.iter().zip([2.0, -2.0]) {
+            assert!(
+                (fold[0] - x).abs() < 1e-15 && fold[1].abs() < 1e-14,
+                "{fold:?}"
+            );
+        }
+    }
+
+    #[test]
+    fn a_step_to_a_neighbouring_branch_is_refused() {
+        // (y − 1e-3)(y + 1e-3) = x²·1e-12: two nearly straight lines close by
+        let lines = |x: &[f64]| {
+            let r = x[1] * x[1] - 1e-6 - 1e-12 * x[0] * x[0];
+            (vec![r], vec![-2e-12 * x[0], 2.0 * x[1]])
+        };
+        // bent lines: y = ±(1e-3 + …) with a bend that the tangent misses
+        let bent = |x: &[f64]| {
+            let y = x[1] - 0.5 * x[0] * x[0];
+            let r = y * y - 1e-4;
+            (vec![r], vec![-2.0 * y * x[0], 2.0 * y])
+        };
+        let method = Continuation::default();
+        let mut straight = Plain(2, lines);
+        let place = method.settle(&mut straight, vec![0.0, 1e-3]).unwrap();
+        let place = place.towards(&[1.0, 0.0]);
+        assert!(method.step(&mut straight, &place, 0.1).is_ok());
+        let mut curve = Plain(2, bent);
+        let place = method.settle(&mut curve, vec![-0.3, 0.055]).unwrap();
+        let mut place = place.towards(&[1.0, 0.0]);
+        assert!(
+            method.step(&mut curve, &place, 0.5).is_err(),
+            "a step across the other line"
+        );
+        let mut length = 0.1;
+        while place.at[0] < 0.3 {
+            match method.step(&mut curve, &place, length) {
+                Ok((next, changed)) => {
+                    length = method.next_length(length, changed);
+                    place = next;
+                }
+                Err(_) => length *= 0.5,
+            }
+            let y = place.at[1] - 0.5 * place.at[0] * place.at[0];
+            assert!((y - 1e-2).abs() < 1e-9, "{y}");
+        }
+    }
+}

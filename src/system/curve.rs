@@ -1,0 +1,311 @@
+//! The assembled configurations of a mechanism with one freedom left, as a curve.
+
+use std::f64::consts::TAU;
+
+use super::{Held, HeldPlatform, Holdable, System, Unknown, Work};
+use crate::mechanism::{Configuration, Coordinate, Mechanism};
+use crate::solve::{Equations, Place, SolutionCurve};
+
+/// A coordinate that moves along a segment, in m or rad.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Driven {
+    /// The coordinate.
+    pub coordinate: Holdable,
+    /// Its value at the start of the segment.
+    pub from: f64,
+    /// Its value at the end.
+    pub to: f64,
+}
+
+impl Driven {
+    /// The value where a part of the segment is gone; the ends themselves without rounding.
+    pub fn at(&self, part: f64) -> f64 {
+        match part {
+            0.0 => self.from,
+            1.0 => self.to,
+            _ => self.from + part * (self.to - self.from),
+        }
+    }
+}
+
+/// The closure equations with one freedom left: nothing but that freedom is to be chosen.
+///
+/// Where several inputs move together along a segment, they are unknowns too, tied by one row less
+/// than there are inputs. Unknowns are those of [`System`]: rad and characteristic lengths.
+#[derive(Clone, Debug)]
+pub struct Curve {
+    system: System<f64>,
+    work: Work<f64>,
+    inputs: Vec<Driven>,
+    /// The input that measures the part of the segment that is gone.
+    measure: usize,
+    repeats: Vec<bool>,
+}
+
+impl Curve {
+    /// The curve that is left when `held` is held. It must leave one freedom.
+    pub fn new(mechanism: &Mechanism, held: &Held<f64>) -> Self {
+        Curve::along(mechanism, held, Vec::new())
+    }
+
+    /// The curve on which the inputs move together along a segment. `held` holds none of them.
+    pub fn along(mechanism: &Mechanism, held: &Held<f64>, inputs: Vec<Driven>) -> Self {
+        let system = System::new(mechanism.dimensions(), held);
+        // an angle of a platform jumps, a joint does not
+        let length = mechanism.characteristic_length();
+        let measures = |input: &Driven| match input.coordinate {
+            Holdable::Joint(joint) => {
+                2.0 * (input.to - input.from).abs() / system.joint_scale(joint)
+            }
+            Holdable::Coordinate(_, c) if c.is_angle() => 0.1 * (input.to - input.from).abs(),
+            Holdable::Coordinate(..) => (input.to - input.from).abs() / length,
+        };
+        let measure = (0..inputs.len())
+            .max_by(|&i, &j| measures(&inputs[i]).total_cmp(&measures(&inputs[j])))
+            .unwrap_or(0);
+        Curve {
+            work: system.work(),
+            system,
+            inputs,
+            measure,
+            repeats: (0..mechanism.joints().len())
+                .map(|joint| mechanism.repeats(joint))
+                .collect(),
+        }
+    }
+
+    /// The closure equations.
+    pub fn system(&self) -> &System<f64> {
+        &self.system
+    }
+
+    /// The inputs that move along the segment.
+    pub fn inputs(&self) -> &[Driven] {
+        &self.inputs
+    }
+
+    /// The part of the segment that is gone; 0 without inputs.
+    pub fn part(&self, at: &Configuration<f64>) -> f64 {
+        let Some(input) = self.inputs.get(self.measure) else {
+            return 0.0;
+        };
+        let change = input.to - input.from;
+        match input.coordinate {
+            Holdable::Joint(joint) => (at.joints[joint] - input.from) / change,
+            Holdable::Coordinate(platform, c) => {
+                let middle = 0.5 * (input.from + input.to);
+                let length = self.system.characteristic_length();
+                let unit = if c.is_angle() { 1.0 } else { length };
+                let (gap, _) = c.row(&at.platforms[platform].pose(), middle, length);
+                0.5 + gap * unit / change
+            }
+        }
+    }
+
+    /// How fast the part of the segment that is gone grows along a tangent; 0 without inputs.
+    pub fn part_rate(&self, at: &Configuration<f64>, tangent: &[f64]) -> f64 {
+        self.inputs.get(self.measure).map_or(0.0, |input| {
+            self.rate(at, tangent, input.coordinate) * self.unit(input.coordinate)
+                / (input.to - input.from)
+        })
+    }
+
+    /// How fast a coordinate changes along a tangent, in rad or characteristic lengths; 0 if it is
+    /// held.
+    pub fn rate(&self, at: &Configuration<f64>, tangent: &[f64], of: Holdable) -> f64 {
+        let slope = self.slope_of(at, of);
+        slope
+            .iter()
+            .map(|&(column, slope)| slope * tangent[column])
+            .sum()
+    }
+
+    /// Whether a tangent moves the joint more than rounding does, and where it stands in it.
+    pub fn column(&self, joint: usize) -> Option<usize> {
+        let mut unknowns = self.system.unknowns().iter();
+        unknowns.position(|unknown| *unknown == Unknown::Joint(joint))
+    }
+
+    /// rad or m in one unit of the scaled coordinate.
+    fn unit(&self, of: Holdable) -> f64 {
+        match of {
+            Holdable::Joint(joint) => self.system.joint_scale(joint),
+            Holdable::Coordinate(_, c) if c.is_angle() => 1.0,
+            Holdable::Coordinate(..) => self.system.characteristic_length(),
+        }
+    }
+
+    /// The derivative of a scaled coordinate by the unknowns it depends on.
+    fn slope_of(&self, at: &Configuration<f64>, of: Holdable) -> Vec<(usize, f64)> {
+        match of {
+            Holdable::Joint(joint) => self.column(joint).map(|c| (c, 1.0)).into_iter().collect(),
+            Holdable::Coordinate(platform, coordinate) => {
+                let first = Unknown::Twist {
+                    platform,
+                    component: 0,
+                };
+                let first = self.system.unknowns().iter().position(|u| *u == first);
+                let Some(first) = first else {
+                    return Vec::new();
+                };
+                let pose = at.platforms[platform].pose();
+                let length = self.system.characteristic_length();
+                let (_, slope) = coordinate.row(&pose, coordinate.of(&pose), length);
+                slope
+                    .into_iter()
+                    .enumerate()
+                    .map(|(k, s)| (first + k, s))
+                    .collect()
+            }
+        }
+    }
+
+    /// The rows that tie the inputs together: each is where the segment has it.
+    fn ties(&self, at: &Configuration<f64>) -> Vec<(f64, Vec<(usize, f64)>)> {
+        let part = self.part(at);
+        let measure = self.inputs.get(self.measure);
+        let others = self
+            .inputs
+            .iter()
+            .enumerate()
+            .filter(|(i, _)| *i != self.measure);
+        others
+            .map(|(_, input)| {
+                let unit = self.unit(input.coordinate);
+                let wanted = input.from + part * (input.to - input.from);
+                let gap = match input.coordinate {
+                    Holdable::Joint(joint) => (at.joints[joint] - wanted) / unit,
+                    Holdable::Coordinate(platform, c) => {
+                        let length = self.system.characteristic_length();
+                        c.row(&at.platforms[platform].pose(), wanted, length).0
+                    }
+                };
+                let mut slope = self.slope_of(at, input.coordinate);
+                if let Some(measure) = measure {
+                    let ratio = (input.to - input.from) / unit * self.unit(measure.coordinate)
+                        / (measure.to - measure.from);
+                    let other = self.slope_of(at, measure.coordinate);
+                    slope.extend(other.into_iter().map(|(c, s)| (c, -ratio * s)));
+                }
+                (gap, slope)
+            })
+            .collect()
+    }
+
+    /// How far a configuration is from a place along its tangent, and across it. Nothing allocates.
+    #[inline]
+    pub fn offset(&self, from: &Place<Configuration<f64>>, to: &Configuration<f64>) -> (f64, f64) {
+        let (mut along, mut squares) = (0.0, 0.0);
+        let mut take = |i: usize, x: f64| {
+            along += x * from.tangent[i];
+            squares += x * x;
+        };
+        for (i, &unknown) in self.system.unknowns().iter().enumerate() {
+            match unknown {
+                Unknown::Joint(joint) => {
+                    let change = to.joints[joint] - from.at.joints[joint];
+                    take(i, change / self.system.joint_scale(joint));
+                }
+                Unknown::Twist {
+                    platform,
+                    component: 0,
+                } => {
+                    let (a, b) = (&from.at.platforms[platform], &to.platforms[platform]);
+                    let twist = self.system.twist_between(a, b);
+                    (twist.into_iter().enumerate()).for_each(|(k, x)| take(i + k, x));
+                }
+                Unknown::Twist { .. } => {}
+            }
+        }
+        (along, (squares - along * along).max(0.0).sqrt())
+    }
+
+    /// The step from one configuration to another with whole turns left out, where they change
+    /// nothing.
+    pub fn difference_but_turns(
+        &self,
+        from: &Configuration<f64>,
+        to: &Configuration<f64>,
+    ) -> Vec<f64> {
+        let mut step = self.system.difference(from, to);
+        for (x, unknown) in step.iter_mut().zip(self.system.unknowns()) {
+            if let Unknown::Joint(joint) = *unknown
+                && self.repeats[joint]
+            {
+                *x -= TAU * (*x / TAU).round();
+            }
+        }
+        step
+    }
+}
+
+impl SolutionCurve for Curve {
+    type Point = Configuration<f64>;
+
+    fn unknowns(&self) -> usize {
+        self.system.unknowns().len()
+    }
+
+    fn residual(&mut self, at: &Configuration<f64>) -> Vec<f64> {
+        self.system.residual(at, &mut self.work);
+        let mut residual = self.system.residual_of(&self.work).to_vec();
+        if self.inputs.len() > 1 {
+            residual.extend(self.ties(at).into_iter().map(|(gap, _)| gap));
+        }
+        residual
+    }
+
+    fn linearise(&mut self, at: &Configuration<f64>) -> (Vec<f64>, Vec<f64>) {
+        self.system.linearise(at, &mut self.work);
+        let mut residual = self.system.residual_of(&self.work).to_vec();
+        let jacobian = self.system.dense_jacobian(&mut self.work);
+        if self.inputs.len() < 2 {
+            return (residual, jacobian);
+        }
+        let ties = self.ties(at);
+        let (rows, more) = (residual.len(), ties.len());
+        let mut extended = vec![0.0; (rows + more) * self.unknowns()];
+        let columns = extended.chunks_exact_mut(rows + more);
+        for (to, from) in columns.zip(jacobian.chunks_exact(rows.max(1))) {
+            to[..rows].copy_from_slice(&from[..rows]);
+        }
+        for (i, (gap, slope)) in ties.into_iter().enumerate() {
+            residual.push(gap);
+            for (column, slope) in slope {
+                extended[column * (rows + more) + rows + i] += slope;
+            }
+        }
+        (residual, extended)
+    }
+
+    fn displaced(&self, at: &Configuration<f64>, step: &[f64]) -> Configuration<f64> {
+        self.system.displaced(at, step)
+    }
+
+    fn difference(&self, from: &Configuration<f64>, to: &Configuration<f64>) -> Vec<f64> {
+        self.system.difference(from, to)
+    }
+}
+
+impl Held<f64> {
+    /// The same without one coordinate.
+    pub fn without(mut self, coordinate: Holdable) -> Self {
+        match coordinate {
+            Holdable::Joint(joint) => self.joints[joint] = false,
+            Holdable::Coordinate(platform, without) => {
+                let part = &mut self.platforms[platform];
+                if let HeldPlatform::Partly {
+                    coordinates,
+                    orientation,
+                } = part
+                {
+                    coordinates.retain(|(c, _): &(Coordinate, f64)| *c != without);
+                    if coordinates.is_empty() && orientation.is_none() {
+                        *part = HeldPlatform::Free;
+                    }
+                }
+            }
+        }
+        self
+    }
+}
