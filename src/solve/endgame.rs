@@ -96,12 +96,14 @@ fn circle<H: Turning>(
     radius: f64,
     stages: &mut Stages,
 ) -> Option<(Vec<Vec<C>>, bool)> {
-    let mut x = start.to_vec();
     let mut samples = Vec::new();
     let place = |k: usize| {
         let phi = TAU * k as f64 / SAMPLES as f64;
         C::new(1.0 - radius * phi.cos(), -radius * phi.sin())
     };
+    let mut x = start.to_vec();
+    settle(h, place(0), &mut x);
+    let start = x.clone();
     for turn in 1..=MOST_TURNS {
         for k in 0..SAMPLES {
             samples.push(x.clone());
@@ -109,10 +111,11 @@ fn circle<H: Turning>(
             if tracker.track(h, way, &mut x, stages).arrival != Arrival::There {
                 return None;
             }
+            settle(h, way.1, &mut x);
         }
-        let (apart, turned) = h.apart(&x, start);
+        let (apart, turned) = h.apart(&x, &start);
         // solutions on the circle are at least some root of the radius apart
-        if apart < 1e-7 * (1.0 + norm(start)) {
+        if apart < 1e-7 * (1.0 + norm(&start)) {
             return Some((samples, turned));
         }
         if turn == MOST_TURNS {
@@ -120,6 +123,23 @@ fn circle<H: Turning>(
         }
     }
     None
+}
+
+/// Newton steps to the last digits: the mean over the circle is as good as its samples.
+fn settle<H: Turning>(h: &mut H, s: C, x: &mut [C]) {
+    const STEPS: usize = 3;
+    let mut to = x.to_vec();
+    for _ in 0..STEPS {
+        let step = h.correct(s, &mut to);
+        // a tracked point is near enough for that; what goes further has left its path
+        if !step.is_finite() || step > 1e-4 {
+            return;
+        }
+        x.copy_from_slice(&to);
+        if step < 1e-14 * (1.0 + norm(x)) {
+            return;
+        }
+    }
 }
 
 /// The term of power −k/w, times its size on the circle.

@@ -21,6 +21,9 @@ use crate::solve::{Arrival, Homotopy, Newton, Stages, Stop, Tracker};
 /// many (or of several that always coincide).
 const REGULAR: f64 = 1e-7;
 
+/// Newton's last step at a solution that is not multiple: at a multiple one steps only halve.
+pub(super) const SETTLED: f64 = 1e-9;
+
 /// All solutions of a generic member, kept to be carried to any inputs.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct GenericSolutions {
@@ -37,6 +40,10 @@ pub struct GenericSolutions {
     pub seeds: usize,
     /// Seeds that met a set of solutions which is not isolated.
     pub not_isolated: usize,
+    /// Seeds that met a solution which is multiple at the generic member already. No path follows
+    /// it.
+    #[serde(default)]
+    pub multiple: usize,
     /// Monodromy loops, each followed by every solution known.
     pub loops: usize,
     /// Seeds since the last discovery.
@@ -121,6 +128,8 @@ pub struct Progress {
     pub seeds: usize,
     /// Monodromy loops gone.
     pub loops: usize,
+    /// Paths followed to the inputs asked, each as often as it was followed; 0 while searching.
+    pub followed: usize,
 }
 
 struct Search<'a> {
@@ -133,6 +142,7 @@ struct Search<'a> {
     freedom: Option<usize>,
     seeds: usize,
     not_isolated: usize,
+    multiple: usize,
     loops: usize,
     quiet_seeds: usize,
     quiet_loops: usize,
@@ -141,6 +151,7 @@ struct Search<'a> {
 enum Seed {
     Nothing,
     Isolated(Vec<C>),
+    Multiple,
     Free(usize),
 }
 
@@ -169,6 +180,7 @@ pub(super) fn search(
         freedom: None,
         seeds: 0,
         not_isolated: 0,
+        multiple: 0,
         loops: 0,
         quiet_seeds: 0,
         quiet_loops: 0,
@@ -182,6 +194,7 @@ pub(super) fn search(
         freedom: search.freedom.unwrap_or(0),
         seeds: search.seeds,
         not_isolated: search.not_isolated,
+        multiple: search.multiple,
         loops: search.loops,
         quiet_seeds: search.quiet_seeds,
         quiet_loops: search.quiet_loops,
@@ -253,6 +266,7 @@ impl Search<'_> {
             found: self.found.len(),
             seeds: self.seeds,
             loops: self.loops,
+            followed: 0,
         });
     }
 
@@ -268,6 +282,7 @@ impl Search<'_> {
             self.seeds += 1;
             match end {
                 Seed::Nothing => {}
+                Seed::Multiple => self.multiple += 1,
                 Seed::Isolated(x) => {
                     let new = self.add(x);
                     self.quiet_seeds = if new { 0 } else { self.quiet_seeds + 1 };
@@ -312,7 +327,7 @@ impl Search<'_> {
             return;
         };
         for x in points.into_iter().flatten() {
-            if still.regularity(C::from_f64(1.0), &x) > REGULAR {
+            if is_simple(&mut still, C::from_f64(1.0), &x) {
                 self.add(x);
             }
         }
@@ -346,6 +361,12 @@ pub(super) fn polish(way: &mut Way<'_>, s: C, x: &mut [C]) -> bool {
     way.residual(s, x) <= 1e-10 * (1.0 + size(x).powi(2))
 }
 
+/// Whether a solution of a generic member is one by itself.
+fn is_simple(way: &mut Way<'_>, s: C, x: &[C]) -> bool {
+    let step = way.correct(s, &mut x.to_vec());
+    step < SETTLED * (1.0 + size(x)) && way.regularity(s, x) > REGULAR
+}
+
 fn sow_one(way: &mut Way<'_>, rng: &mut Pcg64) -> Seed {
     let start = way.family.random_point(rng);
     let zero = C::from_f64(0.0);
@@ -364,7 +385,7 @@ fn sow_one(way: &mut Way<'_>, rng: &mut Pcg64) -> Seed {
     if size(&x).is_nan() || size(&x) > 1e3 {
         return Seed::Nothing;
     }
-    if way.regularity(zero, &x) > REGULAR {
+    if is_simple(way, zero, &x) {
         return Seed::Isolated(x);
     }
     // Newton's method from beside a set of solutions ends elsewhere on it, but from beside solutions
@@ -374,8 +395,9 @@ fn sow_one(way: &mut Way<'_>, rng: &mut Pcg64) -> Seed {
     let report = newton.solve(&way.system, &mut beside, &mut trial, &mut way.work);
     let beside = way.family.coordinates.flatten(&beside);
     let apart = way.family.coordinates.difference(&x, &beside);
-    match report.stop == Stop::Solved && apart > 1e-3 && apart < 1.0 {
-        true => Seed::Free(way.freedom(zero, &x, 1e-5)),
-        false => Seed::Nothing,
+    match (report.stop == Stop::Solved, apart) {
+        (true, 1e-3..1.0) => Seed::Free(way.freedom(zero, &x, 1e-5)),
+        (true, ..1e-3) => Seed::Multiple,
+        _ => Seed::Nothing,
     }
 }
