@@ -46,6 +46,8 @@ pub(super) struct Found {
 struct Group {
     x: Vec<C>,
     paths: usize,
+    /// How many solutions meet there: as many as paths, or more where that can be seen.
+    multiplicity: usize,
     singular: bool,
     /// The dimension of the set of solutions through it.
     dimension: usize,
@@ -84,7 +86,7 @@ impl Question<'_> {
                 Some(point) => gathered.found.push(Found {
                     key: key(&point, self.coordinates),
                     point,
-                    multiplicity: group.paths,
+                    multiplicity: group.multiplicity,
                     dimension: 0,
                 }),
                 None if wanted.all_complex => {
@@ -298,16 +300,26 @@ impl Question<'_> {
                 false => self.coordinates.same(x, y),
             };
             match (groups.iter_mut()).find(|g| g.singular == singular && near(&g.x)) {
-                Some(group) => group.paths += 1,
-                None => groups.push(Group {
-                    x: x.clone(),
-                    paths: 1,
-                    singular,
-                    dimension: match (&mut way, singular) {
-                        (Some(way), true) => Local::new(way, false).dimension(x),
-                        _ => 0,
-                    },
-                }),
+                Some(group) => {
+                    group.paths += 1;
+                    group.multiplicity = group.multiplicity.max(group.paths);
+                }
+                None => {
+                    let (dimension, multiplicity) = match (&mut way, singular) {
+                        (Some(way), true) => {
+                            let mut local = Local::new(way, false);
+                            (local.dimension(x), local.order(x))
+                        }
+                        _ => (0, 1),
+                    };
+                    groups.push(Group {
+                        x: x.clone(),
+                        paths: 1,
+                        multiplicity,
+                        singular,
+                        dimension,
+                    });
+                }
             }
         }
         groups

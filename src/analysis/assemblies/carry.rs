@@ -233,7 +233,10 @@ fn follow(way: &mut Way<'_>, tracker: &Tracker, bend: f64, from: &[C]) -> Follow
             arrival = leg(way, &mut x, &mut stages, from_here, end);
             arrived(way, arrival, far, &x)
         }
-        Arrival::Diverged(_) | Arrival::Stuck(_) => Some(End::Lost),
+        // a corner of the way is no special place: only what is far out cannot get there
+        Arrival::Diverged(_) => Some(End::Infinite),
+        Arrival::Stuck(_) if size(&x) > FAR => Some(End::Infinite),
+        Arrival::Stuck(_) => Some(End::Lost),
     };
     let end = found.unwrap_or_else(|| {
         // an end that is not regular: stop short of it and go round
@@ -242,6 +245,7 @@ fn follow(way: &mut Way<'_>, tracker: &Tracker, bend: f64, from: &[C]) -> Follow
         match leg(way, &mut x, &mut stages, from_here, short) {
             Arrival::There => go_round(way, tracker, far, &x, &mut stages),
             Arrival::Diverged(_) => End::Infinite,
+            Arrival::Stuck(_) if size(&x) > FAR => End::Infinite,
             Arrival::Stuck(_) => End::Lost,
         }
     });

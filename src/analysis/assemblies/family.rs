@@ -162,9 +162,9 @@ impl Family {
         x
     }
 
-    /// A point beside another one, some hundredths away in every coordinate.
-    pub fn shaken(&self, x: &[C], rng: &mut Pcg64) -> Vec<C> {
-        let mut x: Vec<C> = x.iter().map(|x| x + complex(rng) * 0.03).collect();
+    /// A point beside another one, up to about `distance` away in every coordinate.
+    pub fn shaken(&self, x: &[C], distance: f64, rng: &mut Pcg64) -> Vec<C> {
+        let mut x: Vec<C> = x.iter().map(|x| x + complex(rng) * distance).collect();
         self.coordinates.settle(&mut x);
         x
     }
