@@ -249,11 +249,7 @@ fn a_hand_held_a_thousand_kilometres_away_is_reached() {
     let question = asked(
         &robot,
         &["actuated"],
-        &[
-            ("hand.x", "1e6"),
-            ("hand.y", "2e6"),
-            ("hand.z", "3e6"),
-        ],
+        &[("hand.x", "1e6"), ("hand.y", "2e6"), ("hand.z", "3e6")],
     );
     if check_count(&question).is_err() {
         panic!("the file has another hand");
@@ -297,7 +293,10 @@ fn tables(name: &str, seed: &str, threads: &str) -> String {
     );
     let text = String::from_utf8(output.stdout).unwrap();
     assert!(text.contains("Complex solutions"), "{name}: {text}");
-    let start = text.find("\nAssemblies").or(text.find("\nComplex")).unwrap();
+    let start = text
+        .find("\nAssemblies")
+        .or(text.find("\nComplex"))
+        .unwrap();
     text[start..].to_string()
 }
 
