@@ -242,6 +242,19 @@ fn a_leg_of_a_thousand_kilometres_loses_no_path() {
     assert_eq!(report.complex + report.at_infinity, 40);
 }
 
+/// A hand held over the first axis of an arm with an offset shoulder: no rotation of the first joint
+/// brings the arm there, and its complex angle is infinite.
+#[test]
+fn a_hand_that_no_angle_reaches_has_its_solutions_at_infinity() {
+    let puma = with("puma560_corke", &[]);
+    let over = |pose: &str| answer(&asked(&puma, &["actuated"], &[("hand", pose)]), 1);
+    let report = over("[T(0, 0, 1), Rx(30 deg), Ry(20 deg)]");
+    assert_eq!((report.real, report.at_infinity), (0, 8));
+    // a centimetre beside it the angles are complex and finite
+    let report = over("[T(0.01, 0, 1), Rx(30 deg), Ry(20 deg)]");
+    assert_eq!((report.real, report.complex), (0, 8));
+}
+
 /// What is far away because it was asked for there is not at infinity.
 #[test]
 fn a_hand_held_a_thousand_kilometres_away_is_reached() {

@@ -22,6 +22,7 @@ mod generic;
 mod local;
 mod real;
 mod report;
+mod simple;
 mod starts;
 mod threads;
 mod way;

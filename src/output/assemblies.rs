@@ -156,7 +156,7 @@ fn accounting(mechanism: &Mechanism, report: &AssembliesReport) -> String {
 
 fn nearest(mechanism: &Mechanism, closest: &ClosestApproach) -> String {
     let mut text = match closest.is_closed() {
-        true => "One assembly of infinitely many\n".into(),
+        true => "An assembly to which no path led\n".into(),
         false => format!("Closest approach: closure {} gapes most\n", closest.worst),
     };
     for (name, gap) in &closest.gaps.0 {

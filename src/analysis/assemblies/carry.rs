@@ -4,8 +4,9 @@ use std::cell::Cell;
 
 use super::coordinates::{C, size};
 use super::family::{Family, Member};
-use super::generic::{Progress, SETTLED, polish};
+use super::generic::{Progress, polish};
 use super::local::Local;
+use super::simple::SETTLED;
 use super::threads;
 use super::way::Way;
 use crate::number::Number;
@@ -36,9 +37,11 @@ const SINGULAR: f64 = 1e-7;
 /// Two paths that end at the same solution with a smaller quotient of pivots than this end at two
 /// solutions nearer to each other than can be told.
 const NEARLY_SINGULAR: f64 = 1e-4;
-/// The residual up to which solutions meet, beside the square of their size: what Newton's method
-/// calls solved. Where more is left they pass each other.
+/// The residual up to which solutions meet: what Newton's method calls solved. Where more is left
+/// they pass each other.
 const MEETING: f64 = 1e-12;
+/// Rounding beside the square of the size of a solution.
+const ROUNDING: f64 = 1e-15;
 /// Solutions larger than this count as infinite: rounding errors of ε in the dimensions bring a
 /// solution that is m-fold at infinity back to ε^(−1/m), some 1e4 for m = 4. Held lengths beyond the
 /// characteristic length reach as much further.
@@ -46,6 +49,8 @@ const FAR: f64 = 1e3;
 /// Where the endgame starts, as distance from the end of the way.
 const NEAR_END: f64 = 0.03;
 
+/// How far apart two solutions may be that leave a residual of [`MEETING`] half way between them.
+const NEAR_MEETING: f64 = 2e-5;
 /// Paths between two words about how far it is.
 const BATCH: usize = 64;
 
@@ -157,6 +162,26 @@ fn straight(
     // of paths that still end at one regular solution only one can be right, unless several
     // solutions are there that cannot be told apart
     let mut at_end = way.clone();
+    let singular = |i: usize, ends: &[End]| match &ends[i] {
+        End::Singular(y) => Some(y.clone()),
+        _ => None,
+    };
+    // the last digits may take one of two paths to where both meet and the other past it
+    for i in 0..ends.len() {
+        let Some(y) = singular(i, &ends) else {
+            continue;
+        };
+        let at_y = |x: &[C]| coordinates.difference(x, &y) < NEAR_MEETING;
+        let alone = (0..ends.len()).all(|k| k == i || singular(k, &ends).is_none_or(|x| !at_y(&x)));
+        for end in ends.iter_mut().filter(|_| alone) {
+            if let End::Regular(x) = end
+                && at_y(x)
+                && at_end.regularity(C::from_f64(1.0), x) < NEARLY_SINGULAR
+            {
+                *end = End::Singular(y.clone());
+            }
+        }
+    }
     let mut kept: Vec<usize> = Vec::new();
     for i in 0..ends.len() {
         let End::Regular(x) = &ends[i] else { continue };
@@ -299,7 +324,7 @@ fn go_round(way: &mut Way<'_>, tracker: &Tracker, far: f64, x: &[C], stages: &mu
                 return End::Infinite;
             }
             let x = Local::new(way, false).refined(&x);
-            match way.residual(end, &x) <= MEETING * (1.0 + size(&x)).powi(2) {
+            match way.residual(end, &x) <= MEETING.max(ROUNDING * size(&x).powi(2)) {
                 true => End::Singular(x),
                 false => End::Lost,
             }

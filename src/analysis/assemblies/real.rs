@@ -9,9 +9,12 @@ use crate::system::{System, Work};
 
 use super::report::{Named, PoseReport};
 
-/// The residual up to which a multiple solution is real, beside the square of its size: what
-/// Newton's method calls solved. Where more is left, the solutions that nearly meet are complex.
-const MEETING: f64 = 1e-12;
+/// The residual up to which a multiple solution is real: what Newton's method calls solved, and what
+/// is left half way between two that are too near to be told apart. Where more is left, the
+/// solutions that nearly meet are complex.
+const MEETING: f64 = 1e-11;
+/// Rounding beside the size of a solution.
+const ROUNDING: f64 = 1e-14;
 
 /// The real configuration at a complex solution, refined; `None` if it is not real.
 ///
@@ -37,10 +40,15 @@ pub(super) fn real_solution(
     }
     if singular {
         let left = system.residual(&point, work).largest;
-        return (left <= MEETING * scale * scale).then(|| tidied(point, coordinates));
+        return (left <= MEETING.max(ROUNDING * scale)).then(|| tidied(point, coordinates));
     }
     let mut trial = point.clone();
-    let report = Newton::default().solve(system, &mut point, &mut trial, work);
+    // far away rounding leaves more
+    let newton = Newton {
+        tolerance: Newton::default().tolerance.max(ROUNDING * scale),
+        ..Newton::default()
+    };
+    let report = newton.solve(system, &mut point, &mut trial, work);
     let reached = coordinates.flatten(&point.map(C::from_f64));
     let near = coordinates.difference(x, &reached) <= 2e-5 * scale;
     (report.stop == Stop::Solved && near).then(|| tidied(point, coordinates))
