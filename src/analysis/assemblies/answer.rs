@@ -23,6 +23,9 @@ const MANY_STARTS: usize = 400;
 const SAMPLES: usize = 6;
 const APART: f64 = 1e-3;
 
+/// Points that Newton's method reached from starts with these numbers.
+type Starts<'a> = dyn Fn(Range<usize>) -> Vec<Configuration<f64>> + 'a;
+
 /// The question in real numbers.
 pub(super) struct Question<'a> {
     pub mechanism: &'a Mechanism,
@@ -72,10 +75,7 @@ impl Question<'_> {
         generic: &GenericSolutions,
         fit: Fit,
         ends: &Ends,
-        (mut way, starts): (
-            Option<Way<'_>>,
-            &dyn Fn(Range<usize>) -> Vec<Configuration<f64>>,
-        ),
+        (mut way, starts): (Option<Way<'_>>, &Starts<'_>),
         wanted: Wanted,
     ) -> AssembliesReport {
         let mut work = self.system.work();
@@ -173,7 +173,7 @@ impl Question<'_> {
         gathered: &mut Gathered,
         (fit, generic, wanted): (&Fit, &GenericSolutions, Wanted),
         way: &mut Way<'_>,
-        starts: &dyn Fn(Range<usize>) -> Vec<Configuration<f64>>,
+        starts: &Starts<'_>,
     ) {
         let many = matches!(fit, Fit::TooManyHeld | Fit::AlwaysMultiple) || generic.multiple > 0;
         let first = if many { MANY_STARTS } else { STARTS };
