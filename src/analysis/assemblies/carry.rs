@@ -54,6 +54,9 @@ const NEAR_MEETING: f64 = 2e-5;
 /// Paths between two words about how far it is.
 const BATCH: usize = 64;
 
+/// Ways longer than this, in rad or characteristic lengths, are gone in parts.
+const LONG: f64 = 10.0;
+
 struct Followed {
     end: End,
     steps: usize,
@@ -237,7 +240,7 @@ fn follow(way: &mut Way<'_>, tracker: &Tracker, bend: f64, from: &[C]) -> Follow
     let mut from_here = start;
     let mut arrival = Arrival::There;
     // a long way is gone in parts, each ten times as long as all before it
-    let decades = way.length().log10().ceil().clamp(0.0, 12.0) as i32;
+    let decades = (way.length() / LONG).log10().ceil().clamp(0.0, 12.0) as i32;
     let mut corners: Vec<C> = (1..=decades)
         .rev()
         .map(|k| C::new(1.0, bend) * 0.1f64.powi(k))
