@@ -111,6 +111,7 @@ fn stored(criterion: &mut Criterion) {
         );
         for (what, certificates) in [("certified", true), ("not certified", false)] {
             let wanted = Wanted {
+                starts: false,
                 certificates,
                 all_complex: false,
             };

@@ -13,12 +13,17 @@ mod answer;
 mod bound;
 mod carry;
 mod certificate;
+mod closest;
 mod coordinates;
+mod describe;
 mod family;
 mod follow;
 mod generic;
+mod local;
 mod real;
 mod report;
+mod simple;
+mod starts;
 mod store;
 mod threads;
 mod way;
@@ -26,18 +31,14 @@ mod way;
 pub use follow::{Fold, Followed};
 pub use generic::{GenericSolutions, Progress};
 pub use report::{
-    AssembliesReport, Assembly, ClosestApproach, ComplexAssembly, Fit, Named, PoseReport,
+    AssembliesReport, Assembly, ClosestApproach, ComplexAssembly, Continuum, Fit, Named, PoseReport,
 };
 pub use store::StoredError;
 
 use std::f64::consts::TAU;
 
-use rand::SeedableRng;
-use rand_pcg::Pcg64;
-
 use crate::mechanism::{Configuration, Mechanism};
 use crate::number::Number;
-use crate::solve::{Newton, Stop};
 use crate::system::{Held, HeldPlatform, System};
 use answer::Question;
 use coordinates::C;
@@ -81,6 +82,9 @@ pub struct Wanted {
     pub certificates: bool,
     /// The complex solutions that are not real.
     pub all_complex: bool,
+    /// A look from other starts for what no path leads to: sets of infinitely many assemblies apart
+    /// from all others, and assemblies that the search missed.
+    pub starts: bool,
 }
 
 impl Default for Wanted {
@@ -88,6 +92,7 @@ impl Default for Wanted {
         Wanted {
             certificates: true,
             all_complex: false,
+            starts: true,
         }
     }
 }
@@ -250,6 +255,17 @@ impl AssemblySolver {
         held: &Held<f64>,
         wanted: Wanted,
     ) -> AssembliesReport {
+        self.at_targets_watched(asked, held, wanted, &|_| {})
+    }
+
+    /// The same, telling how far it is again and again.
+    pub fn at_targets_watched(
+        &self,
+        asked: &Configuration<f64>,
+        held: &Held<f64>,
+        wanted: Wanted,
+        watch: &dyn Fn(Progress),
+    ) -> AssembliesReport {
         // whole turns of an input change nothing but the way to it
         let mut asked = asked.clone();
         for (i, value) in asked.joints.iter_mut().enumerate() {
@@ -267,73 +283,38 @@ impl AssemblySolver {
         };
         let fit = match (self.solutions.is_empty(), self.generic.freedom) {
             (false, 0) => Fit::Finite,
+            (true, 0) if self.generic.multiple > 0 => Fit::AlwaysMultiple,
             (true, 0) => Fit::TooManyHeld,
             (_, freedom) => Fit::FreedomLeft(freedom),
         };
+        let member = self.member(asked, held);
         let ends = match self.solutions.is_empty() {
             true => None,
-            false => self.carried(asked, held),
+            false => carry::carry(
+                &self.family,
+                &self.generic.member(),
+                &member,
+                &self.solutions,
+                watch,
+            ),
         };
-        let starts = match fit {
-            Fit::Finite if ends.is_some() => Vec::new(),
-            _ => self.newton_from_many_starts(&question.system, asked, fit.clone()),
-        };
+        let starts = |which| starts::solved(&self.family, &question.system, asked, which);
         question.answer(
             &self.generic,
             fit,
             &ends.unwrap_or_default(),
-            starts,
+            (self.family.way(&member, &member), &starts),
             wanted,
         )
     }
 
-    fn carried(&self, asked: &Configuration<f64>, held: &Held<f64>) -> Option<carry::Ends> {
+    /// The member with the mechanism's own dimensions and the inputs asked.
+    fn member(&self, asked: &Configuration<f64>, held: &Held<f64>) -> Member {
         let inputs = self.family.coordinates.inputs(asked, held);
-        let asked = Member {
+        Member {
             parameters: self.family.parameters.clone(),
             inputs: inputs.into_iter().map(C::from_f64).collect(),
-        };
-        carry::carry(
-            &self.family,
-            &self.generic.member(),
-            &asked,
-            &self.solutions,
-        )
-    }
-
-    /// Assembled configurations reached by Newton's method from the asked configuration and from
-    /// random ones.
-    fn newton_from_many_starts(
-        &self,
-        system: &System<f64>,
-        asked: &Configuration<f64>,
-        fit: Fit,
-    ) -> Vec<Configuration<f64>> {
-        let (starts, enough) = match fit {
-            Fit::FreedomLeft(_) => (40, 6),
-            _ => (400, usize::MAX),
-        };
-        let storage = (system.work(), asked.clone());
-        let points = threads::each(starts, &storage, |(work, trial), i| {
-            let mut point = asked.clone();
-            if i > 0 {
-                let mut rng = Pcg64::seed_from_u64(i as u64);
-                let x = self.family.random_point(&mut rng);
-                let mut lifted = asked.map(C::from_f64);
-                self.family.coordinates.unflatten(&x, &mut lifted);
-                for &j in &self.family.coordinates.free_joints {
-                    point.joints[j] = lifted.joints[j].re;
-                }
-                for &p in &self.family.coordinates.free_platforms {
-                    point.platforms[p].position.0 = lifted.platforms[p].position.0.map(|z| z.re);
-                    let q = lifted.platforms[p].orientation.0.map(|z| z.re);
-                    point.platforms[p].orientation = crate::geometry::Quaternion(q).normalised();
-                }
-            }
-            let report = Newton::default().solve(system, &mut point, trial, work);
-            (report.stop == Stop::Solved).then_some(point)
-        });
-        points.into_iter().flatten().take(enough).collect()
+        }
     }
 
     /// Follows mode `mode` of the home configuration to the inputs of `asked`.
@@ -354,6 +335,7 @@ impl AssemblySolver {
             Wanted {
                 certificates: false,
                 all_complex: false,
+                starts: false,
             },
         );
         let found = modes.assemblies.iter().find(|a| a.mode == mode);

@@ -7,7 +7,7 @@ use linkwork::output::question::complaint;
 use linkwork::system::{QuestionError, check_count};
 
 use super::asked::{Split, refusal};
-use super::search::Search;
+use super::search::{Search, teller};
 use super::source::Source;
 use super::{Answer, Format, Refusal, style};
 
@@ -15,7 +15,8 @@ use super::{Answer, Format, Refusal, style};
 ///
 /// The actuated joints are held at home and the rest is solved, unless --hold and --free say otherwise, as for
 /// `solve`. The list says how complete it is: how many complex solutions there are, how they were searched for, and
-/// whether a bound is known. Exit code 1 means that there is no real assembly, or that the list may be incomplete.
+/// whether a bound is known. Where infinitely many assemblies are connected, their dimension is told and samples stand
+/// for them. Exit code 1 means that there is no real assembly, or that one that is isolated may be missing.
 #[derive(Args)]
 #[command(after_help = "Examples:\n  \
     linkwork assemblies mechanisms/four_bar.ron --hold theta1=\"60 deg\"\n  \
@@ -52,15 +53,20 @@ impl Assemblies {
         let wanted = Wanted {
             certificates: true,
             all_complex: self.all_complex,
+            ..Wanted::default()
         };
-        let report = solver.at_targets(&question.start(), &question.held(), wanted);
+        let tell = teller();
+        let report = solver.at_targets_watched(&question.start(), &question.held(), wanted, &tell);
         Ok(Answer {
             data: match self.format {
                 Format::Text => assemblies::text(&question, &report),
                 Format::Json => assemblies::json(&question, &report),
             },
             remarks,
-            yes: report.real > 0 && report.lost == 0 && report.fit != Fit::TooManyHeld,
+            yes: report.real > 0
+                && report.lost == 0
+                && report.unexpected == 0
+                && matches!(report.fit, Fit::Finite | Fit::FreedomLeft(_)),
         })
     }
 }

@@ -48,13 +48,7 @@ impl Search {
             seed: self.seed,
             ..AssembliesSettings::default()
         };
-        let told = Cell::new(Instant::now());
-        let tell = |now: Progress| {
-            if told.get().elapsed() > Duration::from_secs(1) {
-                told.set(Instant::now());
-                say(&progress(&now));
-            }
-        };
+        let tell = teller();
         let solver = AssemblySolver::watched(mechanism, &held, &settings, &tell)
             .map_err(|error| Refusal(format!("error: {error}\n")))?;
         // the answer is not lost with its store
@@ -67,5 +61,16 @@ impl Search {
             ));
         }
         Ok(solver)
+    }
+}
+
+/// Says every second how far it is.
+pub fn teller() -> impl Fn(Progress) {
+    let told = Cell::new(Instant::now());
+    move |now: Progress| {
+        if told.get().elapsed() > Duration::from_secs(1) {
+            told.set(Instant::now());
+            say(&progress(&now));
+        }
     }
 }

@@ -2,23 +2,22 @@
 
 use std::fmt::Write;
 
-use comfy_table::{Table, presets};
 use serde::Serialize;
+
+mod tables;
 
 use super::closing;
 use super::json::document;
-use super::layout::{align_right, indented};
-use super::quantity::{degrees, number, quantity, size};
+use super::layout::indented;
+use super::quantity::{number, quantity};
 use crate::analysis::assemblies::{
-    AssembliesReport, Assembly, ClosestApproach, ComplexAssembly, Fit, Fold, Progress,
+    AssembliesReport, ClosestApproach, Continuum, Fit, Fold, Progress,
 };
 use crate::description::count;
 use crate::description::listed;
 use crate::mechanism::{Coordinate, Mechanism};
-use crate::system::{HeldPlatform, Question};
-
-/// Columns of joint values that stand beside each other.
-const ABREAST: usize = 8;
+use crate::system::Question;
+use tables::{complex, joints, overview, platforms, reasons, times};
 
 /// The report as text.
 pub fn text(question: &Question, report: &AssembliesReport) -> String {
@@ -56,7 +55,8 @@ pub fn sentence(report: &AssembliesReport) -> String {
                 n => format!("{n} freedoms are"),
             }
         ),
-        (Fit::TooManyHeld, _) => format!("{real} found."),
+        (Fit::TooManyHeld | Fit::AlwaysMultiple, _) => format!("{real} found."),
+        (Fit::Finite, _) if !report.continua.is_empty() => infinitely_many(report),
         (Fit::Finite, 0)
             if report
                 .closest
@@ -64,9 +64,9 @@ pub fn sentence(report: &AssembliesReport) -> String {
                 .is_some_and(ClosestApproach::is_closed) =>
         {
             format!(
-                "0 isolated real of {} complex, but the mechanism assembles: at these inputs \
-                 infinitely many assemblies are connected, and one of them is given.",
-                report.complex
+                "No path of {} led to a real assembly, but the mechanism assembles: one assembly \
+                 is given, and others may be missing.",
+                report.generic
             )
         }
         (Fit::Finite, 0) => format!("0 real of {} complex: no assembly.", report.complex),
@@ -75,6 +75,31 @@ pub fn sentence(report: &AssembliesReport) -> String {
             report.real, report.complex
         ),
     }
+}
+
+/// The answer where assemblies are connected at the inputs asked.
+fn infinitely_many(report: &AssembliesReport) -> String {
+    let isolated = report.assemblies.iter().filter(|a| a.multiplicity > 0);
+    let sets = report.continua.iter().map(|set: &Continuum| {
+        let paths = count(set.paths, "path");
+        let ends = if set.paths == 1 { "ends" } else { "end" };
+        match set.samples.len() {
+            0 => format!(
+                "a complex set of dimension {} on which {paths} {ends}, of which no real assembly was met",
+                set.dimension
+            ),
+            samples => format!(
+                "a set of dimension {} on which {paths} {ends}, with {}",
+                set.dimension,
+                count(samples, "sample")
+            ),
+        }
+    });
+    let isolated = count(isolated.count(), "isolated assembly").replace("assemblys", "assemblies");
+    format!(
+        "{isolated} and infinitely many connected ones at these inputs: {}.",
+        listed(&sets.collect::<Vec<_>>())
+    )
 }
 
 fn accounting(mechanism: &Mechanism, report: &AssembliesReport) -> String {
@@ -90,6 +115,9 @@ fn accounting(mechanism: &Mechanism, report: &AssembliesReport) -> String {
         );
         if !doubles.is_empty() {
             let _ = write!(text, " ({})", listed(&doubles));
+        }
+        if report.not_isolated > 0 {
+            let _ = write!(text, "; {} not isolated", report.not_isolated);
         }
         let _ = writeln!(
             text,
@@ -126,190 +154,9 @@ fn accounting(mechanism: &Mechanism, report: &AssembliesReport) -> String {
     text
 }
 
-fn times(multiplicity: usize) -> String {
-    match multiplicity {
-        2 => "double".into(),
-        n => format!("{n}-fold"),
-    }
-}
-
-fn table(header: &[String]) -> Table {
-    let mut table = Table::new();
-    table.load_style(presets::NOTHING).add_row(header);
-    if let Some(first) = table.column_mut(0) {
-        first.set_padding((0, 1));
-    }
-    table
-}
-
-fn overview(report: &AssembliesReport) -> String {
-    let header = ["mode", "condition", "side", "limits", "certificate", ""];
-    let mut table = table(&header.map(String::from));
-    for a in &report.assemblies {
-        let certificate = match (a.radius, a.multiplicity) {
-            (Some(radius), _) => format!("unique within {radius:.1e}"),
-            (None, 0) => "none: a sample".into(),
-            (None, 1) => "none".into(),
-            (None, n) => format!("none: {}", times(n)),
-        };
-        let shared: Vec<String> = a
-            .shares_platform_pose_with
-            .iter()
-            .map(usize::to_string)
-            .collect();
-        table.add_row([
-            a.mode.to_string(),
-            a.condition.map_or("infinite".into(), size),
-            match a.determinant_sign {
-                1 => "+",
-                -1 => "-",
-                _ => "0",
-            }
-            .into(),
-            if a.within_limits { "within" } else { "outside" }.into(),
-            certificate,
-            match shared.is_empty() {
-                true => String::new(),
-                false => format!("same platform pose as {}", listed(&shared)),
-            },
-        ]);
-    }
-    align_right(&mut table, [0, 1]);
-    format!("Assemblies\n{}", indented(&table.to_string()))
-}
-
-/// Values of the joints that are not held.
-fn joints(question: &Question, report: &AssembliesReport) -> Vec<String> {
-    let mechanism = question.mechanism();
-    let held = question.held();
-    let free: Vec<usize> = (0..held.joints.len())
-        .filter(|&j| !held.joints[j])
-        .collect();
-    let blocks = free.chunks(ABREAST).enumerate();
-    let blocks = blocks.map(|(block, free)| {
-        let names = free.iter().map(|&j| mechanism.joints()[j].name.clone());
-        let header: Vec<String> = std::iter::once("mode".into()).chain(names).collect();
-        let mut table = table(&header);
-        for a in &report.assemblies {
-            let values = free.iter().map(|&j| {
-                let angle = mechanism.joints()[j].kind.is_angle();
-                quantity(a.joints.0[j].1, angle)
-            });
-            table.add_row(std::iter::once(a.mode.to_string()).chain(values));
-        }
-        align_right(&mut table, 0..header.len());
-        let title = if block == 0 {
-            "Joints"
-        } else {
-            "Further joints"
-        };
-        format!("{title}\n{}", indented(&table.to_string()))
-    });
-    blocks.collect()
-}
-
-/// Poses of the platforms that are not held.
-fn platforms(question: &Question, report: &AssembliesReport) -> Vec<String> {
-    let held = question.held();
-    let parts = question
-        .mechanism()
-        .platforms()
-        .iter()
-        .zip(&held.platforms)
-        .enumerate();
-    let parts = parts.filter(|(_, (_, held))| **held != HeldPlatform::Pose);
-    let parts = parts.map(|(p, (part, _))| {
-        let header = ["mode", "x", "y", "z", "roll", "pitch", "yaw"];
-        let mut table = table(&header.map(String::from));
-        for a in &report.assemblies {
-            let (_, pose) = &a.platforms.0[p];
-            let position = pose.position.map(|x| quantity(x, false));
-            let angles = pose.roll_pitch_yaw.map(degrees);
-            table.add_row(
-                std::iter::once(a.mode.to_string())
-                    .chain(position)
-                    .chain(angles),
-            );
-        }
-        align_right(&mut table, 0..7);
-        format!("Platform {}\n{}", part.name, indented(&table.to_string()))
-    });
-    parts.collect()
-}
-
-/// Why assemblies are not certified, each reason once.
-fn reasons(report: &AssembliesReport) -> Option<String> {
-    let mut reasons: Vec<(&str, Vec<String>)> = Vec::new();
-    for Assembly {
-        mode,
-        uncertified_because,
-        ..
-    } in &report.assemblies
-    {
-        let Some(reason) = uncertified_because else {
-            continue;
-        };
-        match reasons.iter_mut().find(|(r, _)| r == reason) {
-            Some((_, modes)) => modes.push(mode.to_string()),
-            None => reasons.push((reason, vec![mode.to_string()])),
-        }
-    }
-    let lines = reasons
-        .iter()
-        .map(|(reason, modes)| format!("{}: {reason}\n", listed(modes)));
-    let lines = lines.collect::<String>();
-    (!lines.is_empty()).then(|| format!("Not certified\n{}", indented(&lines)))
-}
-
-fn complex(mechanism: &Mechanism, report: &AssembliesReport) -> String {
-    let mut text = String::from("Complex solutions that are not real\n");
-    for (
-        i,
-        ComplexAssembly {
-            joints,
-            platforms,
-            multiplicity,
-        },
-    ) in report.complex_assemblies.iter().enumerate()
-    {
-        let multiple = match multiplicity {
-            1 => String::new(),
-            n => format!(", {}", times(*n)),
-        };
-        let _ = writeln!(text, "  {}{multiple}", i + 1);
-        for ((name, [re, im]), joint) in joints.0.iter().zip(mechanism.joints()) {
-            let (re, im) = match joint.kind.is_angle() {
-                true => (re.to_degrees(), im.to_degrees()),
-                false => (*re, *im),
-            };
-            let unit = if joint.kind.is_angle() { "°" } else { " m" };
-            let _ = writeln!(text, "    {name} = {}{unit}", complex_number(re, im));
-        }
-        for (name, numbers) in &platforms.0 {
-            let parts: Vec<String> = numbers
-                .iter()
-                .map(|[re, im]| complex_number(*re, *im))
-                .collect();
-            let (position, quaternion) = parts.split_at(3.min(parts.len()));
-            let _ = writeln!(
-                text,
-                "    {name}: position {} m, quaternion {}",
-                position.join(", "),
-                quaternion.join(", ")
-            );
-        }
-    }
-    text
-}
-
-fn complex_number(re: f64, im: f64) -> String {
-    let sign = if im < 0.0 { '-' } else { '+' };
-    format!("({} {sign} {}i)", number(re), number(im.abs()))
-}
-
 fn nearest(mechanism: &Mechanism, closest: &ClosestApproach) -> String {
     let mut text = match closest.is_closed() {
-        true => "One assembly of infinitely many\n".into(),
+        true => "An assembly to which no path led\n".into(),
         false => format!("Closest approach: closure {} gapes most\n", closest.worst),
     };
     for (name, gap) in &closest.gaps.0 {
@@ -327,6 +174,13 @@ fn nearest(mechanism: &Mechanism, closest: &ClosestApproach) -> String {
 
 /// `searching: 37 solutions after 480 seeds and 5 loops`
 pub fn progress(now: &Progress) -> String {
+    if now.followed > 0 {
+        return format!(
+            "following: {} to the inputs, {} begun so far, some again\n",
+            count(now.found, "path"),
+            now.followed
+        );
+    }
     format!(
         "searching: {} after {} and {}\n",
         count(now.found, "solution"),

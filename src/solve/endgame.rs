@@ -47,6 +47,9 @@ const GROWING: f64 = 1e-3;
 /// centre, which looks the same until a smaller circle leaves it out.
 const IN_A_ROW: usize = 3;
 
+/// From one circle to the next.
+const SHRINK: f64 = 6.0;
+
 /// Goes round s = 1 on ever smaller circles from a point `x` at s = 1 − `radius`.
 pub fn ending<H: Turning>(
     h: &mut H,
@@ -68,17 +71,19 @@ pub fn ending<H: Turning>(
             if let Some((previous, was)) = &before {
                 let outwards = turned || (negative > GROWING * scale && negative > 1.05 * was);
                 growing = if outwards { growing + 1 } else { 0 };
-                if growing == IN_A_ROW {
+                let gap: Vec<C> = mean.iter().zip(previous).map(|(a, b)| a - b).collect();
+                let logarithmic = turned && grows_as_logarithm(&gap, winding);
+                // which no other meeting point looks like
+                if growing == IN_A_ROW || (logarithmic && growing + 1 == IN_A_ROW) {
                     return Ending::Infinite;
                 }
-                let gap: Vec<C> = mean.iter().zip(previous).map(|(a, b)| a - b).collect();
                 if !turned && negative < 1e-7 * scale && norm(&gap) < 1e-8 * scale {
                     return Ending::Finite { x: mean, winding };
                 }
             }
             before = Some((mean, negative));
         }
-        let smaller = radius / 6.0;
+        let smaller = radius / SHRINK;
         let way = (C::new(1.0 - radius, 0.0), C::new(1.0 - smaller, 0.0));
         if tracker.track(h, way, &mut at, stages).arrival != Arrival::There {
             break;
@@ -86,6 +91,14 @@ pub fn ending<H: Turning>(
         radius = smaller;
     }
     Ending::Undecided { x: at }
+}
+
+/// Whether an angle, k/w times i ln(1 − s) and terms that vanish with 1 − s, goes to infinity: its
+/// mean moves by just that from circle to circle.
+fn grows_as_logarithm(gap: &[C], winding: usize) -> bool {
+    let most = gap.iter().map(|z| z.im.abs()).fold(0.0, f64::max);
+    let times = most * winding as f64 / SHRINK.ln();
+    times > 0.5 && (times - times.round()).abs() < 1e-3
 }
 
 /// Samples on the circle until the solution returns, and whether angles gained turns.
@@ -96,12 +109,14 @@ fn circle<H: Turning>(
     radius: f64,
     stages: &mut Stages,
 ) -> Option<(Vec<Vec<C>>, bool)> {
-    let mut x = start.to_vec();
     let mut samples = Vec::new();
     let place = |k: usize| {
         let phi = TAU * k as f64 / SAMPLES as f64;
         C::new(1.0 - radius * phi.cos(), -radius * phi.sin())
     };
+    let mut x = start.to_vec();
+    settle(h, place(0), &mut x);
+    let start = x.clone();
     for turn in 1..=MOST_TURNS {
         for k in 0..SAMPLES {
             samples.push(x.clone());
@@ -109,10 +124,11 @@ fn circle<H: Turning>(
             if tracker.track(h, way, &mut x, stages).arrival != Arrival::There {
                 return None;
             }
+            settle(h, way.1, &mut x);
         }
-        let (apart, turned) = h.apart(&x, start);
+        let (apart, turned) = h.apart(&x, &start);
         // solutions on the circle are at least some root of the radius apart
-        if apart < 1e-7 * (1.0 + norm(start)) {
+        if apart < 1e-7 * (1.0 + norm(&start)) {
             return Some((samples, turned));
         }
         if turn == MOST_TURNS {
@@ -120,6 +136,23 @@ fn circle<H: Turning>(
         }
     }
     None
+}
+
+/// Newton steps to the last digits: the mean over the circle is as good as its samples.
+fn settle<H: Turning>(h: &mut H, s: C, x: &mut [C]) {
+    const STEPS: usize = 3;
+    let mut to = x.to_vec();
+    for _ in 0..STEPS {
+        let step = h.correct(s, &mut to);
+        // a tracked point is near enough for that; what goes further has left its path
+        if !step.is_finite() || step > 1e-4 {
+            return;
+        }
+        x.copy_from_slice(&to);
+        if step < 1e-14 * (1.0 + norm(x)) {
+            return;
+        }
+    }
 }
 
 /// The term of power −k/w, times its size on the circle.
@@ -137,4 +170,70 @@ fn coefficient(samples: &[Vec<C>], winding: usize, k: usize) -> Vec<C> {
 
 fn norm(x: &[C]) -> f64 {
     x.iter().map(|z| z.norm_sqr()).fold(0.0, f64::max).sqrt()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// An angle x with e^{ix} (c − s) = 1: at s = c it is infinite.
+    struct Exponential {
+        c: f64,
+    }
+
+    impl Homotopy for Exponential {
+        fn settle(&self, _: &mut [C]) {}
+        fn velocity(&mut self, s: C, _: &[C], out: &mut [C]) -> bool {
+            out[0] = C::new(0.0, -1.0) / (C::new(self.c, 0.0) - s);
+            out[0].re.is_finite()
+        }
+        fn correct(&mut self, s: C, x: &mut [C]) -> f64 {
+            let value = (C::new(0.0, 1.0) * x[0]).exp() * (C::new(self.c, 0.0) - s);
+            let step = (value - 1.0) / (value * C::new(0.0, 1.0));
+            x[0] -= step;
+            step.norm()
+        }
+        fn residual(&mut self, s: C, x: &[C]) -> f64 {
+            ((C::new(0.0, 1.0) * x[0]).exp() * (C::new(self.c, 0.0) - s) - 1.0).norm()
+        }
+    }
+
+    impl Turning for Exponential {
+        fn apart(&self, x: &[C], y: &[C]) -> (f64, bool) {
+            let mut gap = x[0] - y[0];
+            let turns = (gap.re / TAU).round();
+            gap.re -= turns * TAU;
+            (gap.norm(), turns != 0.0)
+        }
+    }
+
+    /// e^{ix} (c − s) = 1 gives x = i ln(c − s).
+    fn end(c: f64) -> Ending {
+        let radius = 0.03;
+        let x = [C::new(0.0, f64::ln(c - 1.0 + radius))];
+        ending(
+            &mut Exponential { c },
+            &Tracker::default(),
+            &x,
+            radius,
+            &mut Stages::new(1),
+        )
+    }
+
+    #[test]
+    fn an_angle_that_goes_to_infinity_as_a_logarithm_is_infinite() {
+        assert_eq!(end(1.0), Ending::Infinite);
+    }
+
+    #[test]
+    fn an_angle_that_would_go_to_infinity_later_is_finite() {
+        for beyond in [0.5, 0.1, 0.01] {
+            match end(1.0 + beyond) {
+                Ending::Finite { x, winding: 1 } => {
+                    assert!((x[0] - C::new(0.0, beyond.ln())).norm() < 1e-12, "{x:?}");
+                }
+                other => panic!("{beyond}: {other:?}"),
+            }
+        }
+    }
 }

@@ -2,11 +2,12 @@
 
 use serde::Serialize;
 
-use super::{HeldPlatform, Holdable, Mobility, Question, QuestionError};
+use super::{HeldPlatform, Holdable, Mobility, Question, QuestionError, System};
 use crate::description::Role;
 use crate::geometry::RollPitchYaw;
 use crate::linear::RANK_TOLERANCE;
 use crate::mechanism::{Configuration, Coordinate};
+use crate::solve::{Newton, Stop};
 
 /// What is held beside what the mechanism allows.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
@@ -19,21 +20,59 @@ pub struct Count {
 
 /// Compares what is held with what the mechanism allows.
 ///
+/// A mechanism may have other freedoms elsewhere, so it is looked at near the start, at the
+/// assembly that Newton's method reaches from there with everything held, and at home. What can be
+/// held at one of these is a good question.
+///
 /// # Errors
-/// If more or less is held than the mechanism has freedoms, or what is held depends on itself.
+/// If everywhere more or less is held than the mechanism has freedoms, or what is held depends on
+/// itself.
 pub fn check_count(question: &Question) -> Result<Count, QuestionError> {
     let mechanism = question.mechanism();
-    let held = question.held_coordinates();
     let start = question.start();
     check_locked(question, &start)?;
-    let mobility =
-        Mobility::near(mechanism, &start).or_else(|| Mobility::near(mechanism, &mechanism.home()));
-    let Some(mobility) = mobility else {
-        return Ok(Count {
+    let near = Mobility::near(mechanism, &start);
+    let first = near.map(|mobility| compared(question, &start, &mobility));
+    if let Some(Ok(count)) = first {
+        return Ok(count);
+    }
+    let home = mechanism.home();
+    let others = [asked(question, &start), Some(home)];
+    let mut refused = first;
+    for at in others.into_iter().flatten() {
+        let Some(mobility) = Mobility::near(mechanism, &at) else {
+            continue;
+        };
+        let verdict = compared(question, &at, &mobility);
+        if verdict.is_ok() {
+            return verdict;
+        }
+        refused = refused.or(Some(verdict));
+    }
+    refused.unwrap_or_else(|| {
+        Ok(Count {
             mobility: None,
-            held: held.len(),
-        });
-    };
+            held: question.held_coordinates().len(),
+        })
+    })
+}
+
+/// The assembled configuration that is reached from a start with everything held.
+fn asked(question: &Question, start: &Configuration<f64>) -> Option<Configuration<f64>> {
+    let system = System::new(question.mechanism().dimensions(), &question.held());
+    let (mut at, mut trial) = (start.clone(), start.clone());
+    let report = Newton::default().solve(&system, &mut at, &mut trial, &mut system.work());
+    (report.stop == Stop::Solved).then_some(at)
+}
+
+/// Compares what is held with the freedoms at a configuration.
+fn compared(
+    question: &Question,
+    start: &Configuration<f64>,
+    mobility: &Mobility,
+) -> Result<Count, QuestionError> {
+    let mechanism = question.mechanism();
+    let held = question.held_coordinates();
     let count = Count {
         mobility: Some(mobility.count()),
         held: held.len(),
@@ -65,7 +104,7 @@ pub fn check_count(question: &Question) -> Result<Count, QuestionError> {
     // what depends on itself at a singular configuration only is for the analysis to tell
     if !free.is_empty()
         && !hold.is_empty()
-        && Mobility::beside(mechanism, &start)
+        && Mobility::beside(mechanism, start)
             .is_some_and(|beside| beside.independent(mechanism, &held).len() == held.len())
     {
         return Ok(count);

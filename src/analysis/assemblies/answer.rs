@@ -1,18 +1,30 @@
 //! From the ends of the paths to the report.
 
+use std::ops::Range;
+
 use super::Wanted;
 use super::bound::known_bound;
 use super::carry::{End, Ends};
-use super::certificate::{Certificate, Certifier, independent_rows};
-use super::coordinates::{C, Coordinates};
+use super::coordinates::{C, Coordinates, size};
 use super::generic::GenericSolutions;
-use super::real::{key, named_joints, named_poses, order, real_solution};
-use super::report::{AssembliesReport, Assembly, ClosestApproach, ComplexAssembly, Fit, Named};
-use crate::linear::Spectrum;
+use super::local::Local;
+use super::real::{complex_key, key, order, real_solution, tidied_complex};
+use super::report::{AssembliesReport, ComplexAssembly, Continuum, Fit, Named};
+use super::way::Way;
 use crate::mechanism::{Configuration, Mechanism};
 use crate::number::Number;
-use crate::solve::{Equations, Newton};
-use crate::system::{Gap, Held, System, Work};
+use crate::system::{Held, System, Work};
+
+/// Starts from which what no path leads to is sought at every question, and where there is a reason
+/// to expect it.
+const STARTS: usize = 40;
+const MANY_STARTS: usize = 400;
+/// Samples of a set of one dimension, and how far they are apart at least.
+const SAMPLES: usize = 6;
+const APART: f64 = 1e-3;
+
+/// Points that Newton's method reached from starts with these numbers.
+type Starts<'a> = dyn Fn(Range<usize>) -> Vec<Configuration<f64>> + 'a;
 
 /// The question in real numbers.
 pub(super) struct Question<'a> {
@@ -24,100 +36,221 @@ pub(super) struct Question<'a> {
 }
 
 /// A real solution before it gets its number.
-struct Found {
-    point: Configuration<f64>,
-    key: Vec<f64>,
+pub(super) struct Found {
+    pub point: Configuration<f64>,
+    pub key: Vec<f64>,
+    /// 0 for a sample of a set.
+    pub multiplicity: usize,
+    /// The dimension of the set it belongs to.
+    pub dimension: usize,
+}
+
+/// A distinct finite end with the number of paths that lead there.
+struct Group {
+    x: Vec<C>,
+    paths: usize,
+    /// How many solutions meet there: as many as paths, or more where that can be seen.
     multiplicity: usize,
+    singular: bool,
+    /// The dimension of the set of solutions through it.
+    dimension: usize,
+}
+
+/// What was gathered for a report.
+#[derive(Default)]
+struct Gathered {
+    found: Vec<Found>,
+    complex: Vec<(Vec<f64>, ComplexAssembly)>,
+    /// Real solutions by themselves to which no path led.
+    unexpected: usize,
+    /// Multiple solutions to which no path led.
+    multiple: usize,
 }
 
 impl Question<'_> {
-    /// The report for the ends of all paths, and for points that Newton's method reached from many
-    /// starts where paths are not the whole answer.
+    /// The report for the ends of all paths, and for points that Newton's method reached from
+    /// starts with the given numbers. `way` stays at the asked inputs.
     pub fn answer(
         &self,
         generic: &GenericSolutions,
         fit: Fit,
         ends: &Ends,
-        starts: Vec<Configuration<f64>>,
+        (mut way, starts): (Option<Way<'_>>, &Starts<'_>),
         wanted: Wanted,
     ) -> AssembliesReport {
         let mut work = self.system.work();
-        let grouped = self.grouped(&ends.ends);
-        let mut found: Vec<Found> = Vec::new();
-        let mut complex_assemblies = Vec::new();
-        let real = |x: &[C], singular: bool, work: &mut Work<f64>| {
-            real_solution(
-                x,
-                singular,
-                self.coordinates,
-                &self.system,
-                work,
-                self.asked,
-            )
-        };
-        for (x, multiplicity, singular) in &grouped {
-            match real(x, *singular, &mut work) {
-                Some(point) => found.push(Found {
+        let groups = self.grouped(&ends.ends, way.as_mut());
+        let mut gathered = Gathered::default();
+        for group in groups.iter().filter(|g| g.dimension == 0) {
+            match self.real(&group.x, group.singular, &mut work) {
+                Some(point) => gathered.found.push(Found {
                     key: key(&point, self.coordinates),
                     point,
-                    multiplicity: *multiplicity,
+                    multiplicity: group.multiplicity,
+                    dimension: 0,
                 }),
                 None if wanted.all_complex => {
-                    complex_assemblies.push(self.complex(x, *multiplicity));
+                    let x = tidied_complex(&group.x, self.coordinates);
+                    let solution = self.complex(&x, group.paths);
+                    gathered.complex.push((complex_key(&x), solution));
                 }
                 None => {}
             }
         }
-        let multiplicity = usize::from(fit == Fit::TooManyHeld);
-        for point in starts {
-            let x = self.coordinates.flatten(&point.map(C::from_f64));
-            if let Some(point) = real(&x, false, &mut work)
-                && !found.iter().any(|f| self.same(&f.point, &point))
-            {
-                let key = key(&point, self.coordinates);
-                found.push(Found {
-                    point,
-                    key,
-                    multiplicity,
-                });
+        let mut report = self.empty(generic);
+        let sets: Vec<&Group> = groups.iter().filter(|g| g.dimension > 0).collect();
+        if let Some(way) = &mut way {
+            self.look_elsewhere(&mut gathered, (&fit, generic, wanted), way, starts);
+            let sampled = gathered.found.iter().any(|f| f.dimension > 0);
+            if !sampled && !sets.is_empty() {
+                // a set that attracts no start: from the ends themselves
+                let points = sets.iter().filter_map(|g| self.beside(&g.x, way)).collect();
+                self.add(&mut gathered, points, way, (&fit, false));
             }
         }
+        let Gathered {
+            mut found,
+            mut complex,
+            unexpected,
+            multiple,
+        } = gathered;
         // what is isolated comes first
         found.sort_by(|a, b| {
             let sample = |f: &Found| f.multiplicity == 0;
-            sample(a)
-                .cmp(&sample(b))
+            (sample(a).cmp(&sample(b)))
+                .then(b.dimension.cmp(&a.dimension))
                 .then_with(|| order(&a.key, &b.key))
         });
-        let mut report = self.empty(generic);
+        complex.sort_by(|a, b| order(&a.0, &b.0));
         let infinite = |e: &&End| **e == End::Infinite;
+        let isolated = groups.iter().filter(|g| g.dimension == 0);
         report.complex = match fit {
-            Fit::TooManyHeld => found.len(),
-            _ => grouped
-                .iter()
-                .map(|(_, multiplicity, _)| multiplicity)
-                .sum(),
+            Fit::TooManyHeld | Fit::AlwaysMultiple => found.iter().map(|f| f.multiplicity).sum(),
+            _ => isolated.clone().map(|g| g.paths).sum(),
+        };
+        report.continua = continua(&sets, &found);
+        report.not_isolated = sets.iter().map(|g| g.paths).sum();
+        report.unexpected = match fit {
+            Fit::Finite => unexpected,
+            _ => 0,
         };
         report.fit = fit;
         report.at_infinity = ends.ends.iter().filter(infinite).count();
         report.lost = ends.ends.iter().filter(|e| **e == End::Lost).count();
-        report.singular = grouped.iter().filter(|(.., singular)| *singular).count();
+        report.singular = isolated.filter(|g| g.singular).count() + multiple;
         report.retried = ends.retries;
         report.steps = ends.steps;
         report.evaluations = ends.evaluations;
-        report.complex_assemblies = complex_assemblies;
+        report.complex_assemblies = complex.into_iter().map(|(_, solution)| solution).collect();
         self.describe(&mut report, found, wanted.certificates, &mut work);
         if report.assemblies.is_empty() {
-            let starts: Vec<&Vec<C>> = grouped.iter().map(|(x, ..)| x).collect();
+            let starts: Vec<&Vec<C>> = groups.iter().map(|g| &g.x).collect();
             report.closest = self.closest(&starts, &mut work);
         }
         report.complete = report.completeness();
         report
     }
 
-    fn same(&self, a: &Configuration<f64>, b: &Configuration<f64>) -> bool {
-        let flat = |c: &Configuration<f64>| self.coordinates.flatten(&c.map(C::from_f64));
-        self.coordinates.same(&flat(a), &flat(b))
+    fn real(&self, x: &[C], singular: bool, work: &mut Work<f64>) -> Option<Configuration<f64>> {
+        real_solution(
+            x,
+            singular,
+            self.coordinates,
+            &self.system,
+            work,
+            self.asked,
+        )
+    }
+
+    fn is_at(&self, x: &[C], found: &Found) -> bool {
+        let y = self.coordinates.flatten(&found.point.map(C::from_f64));
+        self.coordinates.same(x, &y)
+    }
+
+    /// Adds what Newton's method finds at the asked inputs itself.
+    fn look_elsewhere(
+        &self,
+        gathered: &mut Gathered,
+        (fit, generic, wanted): (&Fit, &GenericSolutions, Wanted),
+        way: &mut Way<'_>,
+        starts: &Starts<'_>,
+    ) {
+        let many = matches!(fit, Fit::TooManyHeld | Fit::AlwaysMultiple) || generic.multiple > 0;
+        let first = if many { MANY_STARTS } else { STARTS };
+        if !(many || wanted.starts || matches!(fit, Fit::FreedomLeft(_))) {
+            return;
+        }
+        let expected = many || *fit != Fit::Finite;
+        self.add(gathered, starts(0..first), way, (fit, expected));
+    }
+
+    /// A real solution beside a complex point.
+    fn beside(&self, x: &[C], way: &mut Way<'_>) -> Option<Configuration<f64>> {
+        let mut start: Vec<C> = x.iter().map(|z| C::from_f64(z.re)).collect();
+        self.coordinates.settle(&mut start);
+        if start.iter().any(|z| !z.re.is_finite()) {
+            return None;
+        }
+        let x = Local::new(way, true).settled(start)?;
+        let mut at = self.asked.map(C::from_f64);
+        self.coordinates.unflatten(&x, &mut at);
+        Some(at.map(|z| z.re))
+    }
+
+    /// Adds solved points: by themselves, or as samples of a set.
+    fn add(
+        &self,
+        gathered: &mut Gathered,
+        points: Vec<Configuration<f64>>,
+        way: &mut Way<'_>,
+        (fit, expected): (&Fit, bool),
+    ) {
+        let mut work = self.system.work();
+        for point in points {
+            let x = self.coordinates.flatten(&point.map(C::from_f64));
+            let samples: Vec<&Found> = gathered.found.iter().filter(|f| f.dimension > 0).collect();
+            if *fit != Fit::Finite && samples.len() >= SAMPLES {
+                break;
+            }
+            let apart = |f: &Found, x: &[C]| {
+                let y = self.coordinates.flatten(&f.point.map(C::from_f64));
+                self.coordinates.difference(x, &y)
+            };
+            if gathered
+                .found
+                .iter()
+                .any(|f| f.dimension == 0 && self.is_at(&x, f))
+            {
+                continue;
+            }
+            let mut local = Local::new(way, true);
+            let dimension = local.dimension(&x);
+            let order_of = local.order(&x);
+            let (x, multiplicity) = match (dimension, order_of) {
+                (0, 1) => (x, 1),
+                (0, n) => (local.refined(&x), n),
+                _ => (x, 0),
+            };
+            let alike = samples.iter().filter(|f| f.dimension == dimension);
+            let enough = dimension > 0
+                && (alike.clone().count() >= SAMPLES
+                    || alike.clone().any(|f| apart(f, &x) < APART));
+            let known = (gathered.found.iter()).any(|f| f.dimension == 0 && self.is_at(&x, f));
+            if enough || known {
+                continue;
+            }
+            let Some(point) = self.real(&x, multiplicity != 1, &mut work) else {
+                continue;
+            };
+            gathered.multiple += usize::from(multiplicity > 1);
+            gathered.unexpected += usize::from(dimension == 0 && !expected);
+            gathered.found.push(Found {
+                key: key(&point, self.coordinates),
+                point,
+                multiplicity,
+                dimension,
+            });
+        }
     }
 
     fn empty(&self, generic: &GenericSolutions) -> AssembliesReport {
@@ -129,6 +262,10 @@ impl Question<'_> {
             real: 0,
             at_infinity: 0,
             singular: 0,
+            not_isolated: 0,
+            continua: Vec::new(),
+            unexpected: 0,
+            multiple: generic.multiple,
             lost: 0,
             retried: 0,
             generic: generic.count(),
@@ -148,9 +285,9 @@ impl Question<'_> {
         }
     }
 
-    /// Distinct finite ends with their multiplicity and whether solutions meet there.
-    fn grouped(&self, ends: &[End]) -> Vec<(Vec<C>, usize, bool)> {
-        let mut groups: Vec<(Vec<C>, usize, bool)> = Vec::new();
+    /// Distinct finite ends.
+    fn grouped(&self, ends: &[End], mut way: Option<&mut Way<'_>>) -> Vec<Group> {
+        let mut groups: Vec<Group> = Vec::new();
         for end in ends {
             let (x, singular) = match end {
                 End::Regular(x) => (x, false),
@@ -158,16 +295,31 @@ impl Question<'_> {
                 End::Infinite | End::Lost => continue,
             };
             let near = |y: &[C]| match singular {
-                // the endgame gives about half the digits
-                true => self.coordinates.difference(x, y) < 1e-5,
+                // an end that could not be refined has half the digits
+                true => self.coordinates.difference(x, y) < 1e-5 * (1.0 + size(x)),
                 false => self.coordinates.same(x, y),
             };
-            match groups
-                .iter_mut()
-                .find(|(y, _, s)| *s == singular && near(y))
-            {
-                Some(group) => group.1 += 1,
-                None => groups.push((x.clone(), 1, singular)),
+            match (groups.iter_mut()).find(|g| g.singular == singular && near(&g.x)) {
+                Some(group) => {
+                    group.paths += 1;
+                    group.multiplicity = group.multiplicity.max(group.paths);
+                }
+                None => {
+                    let (dimension, multiplicity) = match (&mut way, singular) {
+                        (Some(way), true) => {
+                            let mut local = Local::new(way, false);
+                            (local.dimension(x), local.order(x))
+                        }
+                        _ => (0, 1),
+                    };
+                    groups.push(Group {
+                        x: x.clone(),
+                        paths: 1,
+                        multiplicity,
+                        singular,
+                        dimension,
+                    });
+                }
             }
         }
         groups
@@ -189,158 +341,23 @@ impl Question<'_> {
             multiplicity,
         }
     }
-
-    /// Numbers, conditions, determinants and certificates.
-    fn describe(
-        &self,
-        report: &mut AssembliesReport,
-        found: Vec<Found>,
-        certify: bool,
-        work: &mut Work<f64>,
-    ) {
-        let (rows, columns) = (self.system.rows(), self.system.unknowns().len());
-        let jacobians: Vec<Vec<f64>> = (found.iter())
-            .map(|f| {
-                self.system.linearise(&f.point, work);
-                self.system.dense_jacobian(work)
-            })
-            .collect();
-        // one choice of rows for all assemblies, or signs could not be compared
-        let chosen = (jacobians.iter())
-            .map(|dense| independent_rows(rows, columns, dense))
-            .max_by(|a, b| a.len().cmp(&b.len()).then(b.cmp(a)))
-            .unwrap_or_default();
-        if rows > columns && chosen.len() == columns {
-            report.independent_rows = Some((columns, rows));
-        }
-        let mut certifier = match certify && chosen.len() == columns {
-            true => Certifier::new(self.mechanism, self.held, &chosen),
-            false => None,
-        };
-        for (k, (f, dense)) in found.iter().zip(&jacobians).enumerate() {
-            let values = Spectrum::of(rows, columns, dense).values;
-            let (first, last) = (values.first().copied(), values.last().copied());
-            let condition = match (first, last) {
-                (Some(a), Some(b)) if rows >= columns && b > 1e-12 * a && f.multiplicity == 1 => {
-                    Some(a / b)
-                }
-                (None, _) => Some(1.0),
-                _ => None,
-            };
-            let sign = match chosen.len() == columns && f.multiplicity == 1 {
-                true => determinant_sign(rows, columns, dense, &chosen),
-                false => 0,
-            };
-            // half the way to the next assembly keeps the boxes apart
-            let others = found.iter().enumerate().filter(|(i, _)| *i != k);
-            let gap = others
-                .map(|(_, o)| gap(self.coordinates, &f.point, &o.point))
-                .fold(f64::INFINITY, f64::min);
-            let certificate = match (&mut certifier, f.multiplicity) {
-                (_, 0) => {
-                    Certificate::Failed("one of infinitely many: others are arbitrarily near")
-                }
-                (_, 2..) => Certificate::Failed("singular: solutions meet here"),
-                (Some(certifier), _) => certifier.certify(&f.point, (0.49 * gap).min(0.01)),
-                (None, _) if certify => {
-                    Certificate::Failed("singular: too few independent closure rows")
-                }
-                (None, _) => Certificate::Failed("not asked for"),
-            };
-            let joints = self.mechanism.joints().iter().zip(&f.point.joints);
-            report.assemblies.push(Assembly {
-                mode: k + 1,
-                joints: named_joints(self.mechanism, &f.point),
-                platforms: named_poses(self.mechanism, &f.point),
-                condition,
-                determinant_sign: sign,
-                multiplicity: f.multiplicity,
-                certified: matches!(certificate, Certificate::Unique(_)),
-                radius: match certificate {
-                    Certificate::Unique(radius) => Some(radius),
-                    Certificate::Failed(_) => None,
-                },
-                uncertified_because: match certificate {
-                    Certificate::Unique(_) => None,
-                    Certificate::Failed(reason) => Some(reason.into()),
-                },
-                within_limits: joints
-                    .into_iter()
-                    .all(|(joint, value)| joint.allows(*value)),
-                shares_platform_pose_with: (0..found.len())
-                    .filter(|&i| i != k && shares_pose(self.coordinates, &f.key, &found[i].key))
-                    .map(|i| i + 1)
-                    .collect(),
-            });
-        }
-        report.real = report.assemblies.len();
-    }
-
-    /// The smallest gaps that Newton's method from many real starts leaves.
-    fn closest(&self, starts: &[&Vec<C>], work: &mut Work<f64>) -> Option<ClosestApproach> {
-        let newton = Newton::default();
-        let mut best: Option<(f64, Configuration<f64>)> = None;
-        let lifted = starts.iter().map(|x| {
-            let mut at = self.asked.map(C::from_f64);
-            self.coordinates.unflatten(x, &mut at);
-            let mut point = at.map(|z| z.re);
-            for pose in &mut point.platforms {
-                let q = pose.orientation.normalised();
-                if q.0.iter().all(|x| x.is_finite()) {
-                    pose.orientation = q;
-                }
-            }
-            point
-        });
-        for mut point in std::iter::once(self.asked.clone()).chain(lifted) {
-            let mut trial = point.clone();
-            let report = newton.solve(&self.system, &mut point, &mut trial, work);
-            // ties are settled by the order of starts; a clearly smaller gap wins
-            if report.size.squares.is_finite()
-                && best
-                    .as_ref()
-                    .is_none_or(|(least, _)| report.size.squares < least * (1.0 - 1e-6))
-            {
-                best = Some((report.size.squares, point));
-            }
-        }
-        let (_, point) = best?;
-        let gaps = Gap::of(self.mechanism, &point);
-        let width = |gap: &Gap| gap.size(self.mechanism);
-        let names = self.mechanism.closures().iter().map(|c| c.name.clone());
-        let gaps: Vec<(String, Gap)> = names.zip(gaps).collect();
-        let worst = gaps
-            .iter()
-            .max_by(|a, b| width(&a.1).total_cmp(&width(&b.1)))?;
-        let worst = worst.0.clone();
-        Some(ClosestApproach {
-            gaps: Named(gaps),
-            worst,
-            joints: named_joints(self.mechanism, &point),
-            platforms: named_poses(self.mechanism, &point),
-        })
-    }
 }
 
-fn gap(coordinates: &Coordinates, a: &Configuration<f64>, b: &Configuration<f64>) -> f64 {
-    let flat = |c: &Configuration<f64>| coordinates.flatten(&c.map(C::from_f64));
-    coordinates.difference(&flat(a), &flat(b))
-}
-
-fn shares_pose(coordinates: &Coordinates, a: &[f64], b: &[f64]) -> bool {
-    let joints = coordinates.free_joints.len();
-    !coordinates.free_platforms.is_empty()
-        && (a[joints..].iter().zip(&b[joints..])).all(|(a, b)| (a - b).abs() < 1e-6)
-}
-
-fn determinant_sign(rows: usize, columns: usize, dense: &[f64], chosen: &[usize]) -> i8 {
-    let square = nalgebra::DMatrix::from_fn(columns, columns, |i, j| dense[j * rows + chosen[i]]);
-    let determinant = square.determinant();
-    if determinant > 0.0 {
-        1
-    } else if determinant < 0.0 {
-        -1
-    } else {
-        0
-    }
+/// Sets of solutions by dimension, the largest first.
+fn continua(sets: &[&Group], found: &[Found]) -> Vec<Continuum> {
+    let dimensions = (sets.iter().map(|g| g.dimension)).chain(found.iter().map(|f| f.dimension));
+    let mut dimensions: Vec<usize> = dimensions.filter(|d| *d > 0).collect();
+    dimensions.sort_by(|a, b| b.cmp(a));
+    dimensions.dedup();
+    let continua = dimensions.into_iter().map(|dimension| Continuum {
+        dimension,
+        paths: (sets.iter().filter(|g| g.dimension == dimension))
+            .map(|g| g.paths)
+            .sum(),
+        samples: (found.iter().enumerate())
+            .filter(|(_, f)| f.dimension == dimension)
+            .map(|(i, _)| i + 1)
+            .collect(),
+    });
+    continua.collect()
 }

@@ -122,6 +122,23 @@ impl Family {
         inputs
     }
 
+    /// What each input is measured by: 1 rad or the characteristic length.
+    pub fn input_lengths(&self) -> Vec<f64> {
+        let c = &self.coordinates;
+        let unit = |is_angle: bool| if is_angle { 1.0 } else { c.length };
+        let joints = c.held_joints.iter();
+        let mut lengths: Vec<f64> = joints
+            .map(|&j| unit(self.mechanism.joints()[j].kind.is_angle()))
+            .collect();
+        for _ in &c.held_poses {
+            lengths.extend([1.0; 4]);
+            lengths.extend([c.length; 3]);
+        }
+        lengths.extend(c.targets.iter().map(|(_, target)| unit(target.is_angle())));
+        lengths.extend(c.orientations.iter().flat_map(|_| [1.0; 4]));
+        lengths
+    }
+
     /// A random complex point, far from assembled.
     pub fn random_point(&self, rng: &mut Pcg64) -> Vec<C> {
         let c = &self.coordinates;
@@ -145,9 +162,9 @@ impl Family {
         x
     }
 
-    /// A point beside another one, some hundredths away in every coordinate.
-    pub fn shaken(&self, x: &[C], rng: &mut Pcg64) -> Vec<C> {
-        let mut x: Vec<C> = x.iter().map(|x| x + complex(rng) * 0.03).collect();
+    /// A point beside another one, up to about `distance` away in every coordinate.
+    pub fn shaken(&self, x: &[C], distance: f64, rng: &mut Pcg64) -> Vec<C> {
+        let mut x: Vec<C> = x.iter().map(|x| x + complex(rng) * distance).collect();
         self.coordinates.settle(&mut x);
         x
     }

@@ -12,14 +12,11 @@ use serde::{Deserialize, Serialize};
 
 use super::coordinates::{C, size};
 use super::family::{Family, Member};
+use super::simple::is_simple;
 use super::way::Way;
 use super::{AssembliesSettings, threads};
 use crate::number::Number;
 use crate::solve::{Arrival, Homotopy, Newton, Stages, Stop, Tracker};
-
-/// The quotient of pivots below which a solution of a generic member counts as one of infinitely
-/// many (or of several that always coincide).
-const REGULAR: f64 = 1e-7;
 
 /// All solutions of a generic member, kept to be carried to any inputs.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -37,6 +34,10 @@ pub struct GenericSolutions {
     pub seeds: usize,
     /// Seeds that met a set of solutions which is not isolated.
     pub not_isolated: usize,
+    /// Seeds that met a solution which is multiple at the generic member already. No path follows
+    /// it.
+    #[serde(default)]
+    pub multiple: usize,
     /// Monodromy loops, each followed by every solution known.
     pub loops: usize,
     /// Seeds since the last discovery.
@@ -85,6 +86,8 @@ pub struct Progress {
     pub seeds: usize,
     /// Monodromy loops gone.
     pub loops: usize,
+    /// Paths followed to the inputs asked, each as often as it was followed; 0 while searching.
+    pub followed: usize,
 }
 
 struct Search<'a> {
@@ -97,6 +100,7 @@ struct Search<'a> {
     freedom: Option<usize>,
     seeds: usize,
     not_isolated: usize,
+    multiple: usize,
     loops: usize,
     quiet_seeds: usize,
     quiet_loops: usize,
@@ -105,6 +109,7 @@ struct Search<'a> {
 enum Seed {
     Nothing,
     Isolated(Vec<C>),
+    Multiple,
     Free(usize),
 }
 
@@ -133,6 +138,7 @@ pub(super) fn search(
         freedom: None,
         seeds: 0,
         not_isolated: 0,
+        multiple: 0,
         loops: 0,
         quiet_seeds: 0,
         quiet_loops: 0,
@@ -146,6 +152,7 @@ pub(super) fn search(
         freedom: search.freedom.unwrap_or(0),
         seeds: search.seeds,
         not_isolated: search.not_isolated,
+        multiple: search.multiple,
         loops: search.loops,
         quiet_seeds: search.quiet_seeds,
         quiet_loops: search.quiet_loops,
@@ -217,6 +224,7 @@ impl Search<'_> {
             found: self.found.len(),
             seeds: self.seeds,
             loops: self.loops,
+            followed: 0,
         });
     }
 
@@ -232,6 +240,7 @@ impl Search<'_> {
             self.seeds += 1;
             match end {
                 Seed::Nothing => {}
+                Seed::Multiple => self.multiple += 1,
                 Seed::Isolated(x) => {
                     let new = self.add(x);
                     self.quiet_seeds = if new { 0 } else { self.quiet_seeds + 1 };
@@ -276,7 +285,7 @@ impl Search<'_> {
             return;
         };
         for x in points.into_iter().flatten() {
-            if still.regularity(C::from_f64(1.0), &x) > REGULAR {
+            if is_simple(&mut still, C::from_f64(1.0), &x, &mut rng) {
                 self.add(x);
             }
         }
@@ -328,18 +337,19 @@ fn sow_one(way: &mut Way<'_>, rng: &mut Pcg64) -> Seed {
     if size(&x).is_nan() || size(&x) > 1e3 {
         return Seed::Nothing;
     }
-    if way.regularity(zero, &x) > REGULAR {
+    if is_simple(way, zero, &x, rng) {
         return Seed::Isolated(x);
     }
     // Newton's method from beside a set of solutions ends elsewhere on it, but from beside solutions
     // that coincide at the same point again
-    way.linearise(zero, &way.family.shaken(&x, rng));
+    way.linearise(zero, &way.family.shaken(&x, 0.03, rng));
     let mut beside = way.at.clone();
     let report = newton.solve(&way.system, &mut beside, &mut trial, &mut way.work);
     let beside = way.family.coordinates.flatten(&beside);
     let apart = way.family.coordinates.difference(&x, &beside);
-    match report.stop == Stop::Solved && apart > 1e-3 && apart < 1.0 {
-        true => Seed::Free(way.freedom(zero, &x, 1e-5)),
-        false => Seed::Nothing,
+    match (report.stop == Stop::Solved, apart) {
+        (true, 1e-3..1.0) => Seed::Free(way.freedom(zero, &x, 1e-5)),
+        (true, ..1e-3) => Seed::Multiple,
+        _ => Seed::Nothing,
     }
 }

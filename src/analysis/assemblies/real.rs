@@ -9,10 +9,16 @@ use crate::system::{System, Work};
 
 use super::report::{Named, PoseReport};
 
+/// The residual up to which a multiple solution is real: what Newton's method calls solved, and what
+/// is left half way between two that are too near to be told apart. Where more is left, the
+/// solutions that nearly meet are complex.
+const MEETING: f64 = 1e-11;
+/// Rounding beside the size of a solution.
+const ROUNDING: f64 = 1e-14;
+
 /// The real configuration at a complex solution, refined; `None` if it is not real.
 ///
-/// `singular` ends are known to the accuracy of the endgame only, and Newton's method cannot
-/// improve them.
+/// Newton's method cannot improve `singular` ends; they are refined already.
 pub(super) fn real_solution(
     x: &[C],
     singular: bool,
@@ -33,17 +39,26 @@ pub(super) fn real_solution(
         point.platforms[p].orientation = point.platforms[p].orientation.normalised();
     }
     if singular {
-        return (system.residual(&point, work).largest < 1e-7).then(|| tidied(point, coordinates));
+        let left = system.residual(&point, work).largest;
+        return (left <= MEETING.max(ROUNDING * scale)).then(|| tidied(point, coordinates));
     }
     let mut trial = point.clone();
-    let report = Newton::default().solve(system, &mut point, &mut trial, work);
+    // far away rounding leaves more
+    let newton = Newton {
+        tolerance: Newton::default().tolerance.max(ROUNDING * scale),
+        ..Newton::default()
+    };
+    let report = newton.solve(system, &mut point, &mut trial, work);
     let reached = coordinates.flatten(&point.map(C::from_f64));
     let near = coordinates.difference(x, &reached) <= 2e-5 * scale;
     (report.stop == Stop::Solved && near).then(|| tidied(point, coordinates))
 }
 
 /// Angles in (−π, π], quaternions with their first component that is not zero positive.
-fn tidied(mut point: Configuration<f64>, coordinates: &Coordinates) -> Configuration<f64> {
+pub(super) fn tidied(
+    mut point: Configuration<f64>,
+    coordinates: &Coordinates,
+) -> Configuration<f64> {
     use std::f64::consts::{PI, TAU};
     for &j in &coordinates.free_joints {
         let value = &mut point.joints[j];
@@ -63,6 +78,39 @@ fn tidied(mut point: Configuration<f64>, coordinates: &Coordinates) -> Configura
         }
     }
     point
+}
+
+/// Complex angles with their real part in (−π, π], complex quaternions with the first component that
+/// is not zero on the right half of the complex plane.
+pub(super) fn tidied_complex(x: &[C], coordinates: &Coordinates) -> Vec<C> {
+    use std::f64::consts::{PI, TAU};
+    const ROUNDING: f64 = 1e-7;
+    let mut x = x.to_vec();
+    for (z, &j) in x.iter_mut().zip(&coordinates.free_joints) {
+        if coordinates.periodic[j] {
+            z.re -= TAU * (z.re / TAU).round();
+            if z.re <= -PI + ROUNDING {
+                z.re += TAU;
+            }
+        }
+    }
+    for pose in x[coordinates.free_joints.len()..].chunks_exact_mut(7) {
+        let first = pose[..4].iter().find(|z| z.norm() > ROUNDING);
+        let left = first.is_some_and(|z| match z.re.abs() > ROUNDING {
+            true => z.re < 0.0,
+            false => z.im < 0.0,
+        });
+        if left {
+            pose[..4].iter_mut().for_each(|z| *z = -*z);
+        }
+    }
+    x
+}
+
+/// What complex solutions are ordered by: real and imaginary part of one unknown after the other, in
+/// the order of [`key`].
+pub(super) fn complex_key(x: &[C]) -> Vec<f64> {
+    x.iter().flat_map(|z| [z.re, z.im]).collect()
 }
 
 /// What solutions are numbered by: unknown joints in the order of the file, then position and

@@ -58,6 +58,8 @@ pub struct Assembly {
     pub determinant_sign: i8,
     /// How many solutions meet here: 1, or 2 at a dead point; 0 for a sample of infinitely many.
     pub multiplicity: usize,
+    /// The dimension of the set of assemblies that this one is a sample of; 0 if it is isolated.
+    pub dimension: usize,
     /// Whether an interval test has proved that a box of `radius` holds exactly one solution.
     pub certified: bool,
     /// Half the side of that box in the dimensionless unknowns, rad or characteristic lengths.
@@ -119,6 +121,21 @@ pub enum Fit {
     /// No generic solution was found, perhaps because more inputs are held than can be chosen
     /// freely; what is listed was found by starting from many guesses and need not be complete.
     TooManyHeld,
+    /// All generic solutions that were met are multiple, as in a shaky structure. No path follows
+    /// them; what is listed was found by starting from many guesses and need not be complete.
+    AlwaysMultiple,
+}
+
+/// Assemblies that are connected, infinitely many, at the inputs asked.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize)]
+pub struct Continuum {
+    /// How many coordinates can be chosen freely on it.
+    pub dimension: usize,
+    /// Paths that end on it.
+    pub paths: usize,
+    /// Numbers of the assemblies that are samples of it. Sets of the same dimension are not told
+    /// apart. None if only complex points of it were met.
+    pub samples: Vec<usize>,
 }
 
 /// All assemblies for the inputs asked.
@@ -131,13 +148,23 @@ pub struct AssembliesReport {
     pub complex_assemblies: Vec<ComplexAssembly>,
     /// Finite complex solutions, counted with multiplicity, the real ones among them.
     pub complex: usize,
-    /// Real assemblies, each once.
+    /// Real assemblies listed: those that are isolated, each once, and samples of sets.
     pub real: usize,
     /// Solutions of the generic member that go to infinity for these inputs, or beyond 1000
     /// characteristic lengths: so far out, rounding of the dimensions decides where they are.
     pub at_infinity: usize,
-    /// Points where solutions meet, real or complex, each once.
+    /// Isolated points where solutions meet, real or complex, each once.
     pub singular: usize,
+    /// Paths that end on a set of infinitely many solutions.
+    pub not_isolated: usize,
+    /// Those sets by dimension, the largest first; empty if all assemblies are isolated.
+    pub continua: Vec<Continuum>,
+    /// Isolated real assemblies that were found from other starts and to which no path led. Anything
+    /// but 0 means that the list may be incomplete.
+    pub unexpected: usize,
+    /// Seeds that met a solution which is multiple for all inputs. No path follows such a solution;
+    /// they are sought from many starts.
+    pub multiple: usize,
     /// Paths whose end could not be decided. Anything but 0 means that the list may be incomplete.
     pub lost: usize,
     /// Paths that had to be followed again with greater care.
@@ -204,8 +231,14 @@ impl AssembliesReport {
                 );
             }
             Fit::TooManyHeld => {
-                return "nearby complex inputs have no solution that could be found: perhaps more is held \
-                        than can be chosen freely; the list comes from many starts and may be \
+                return "no solution could be found for complex inputs nearby: either more is held than can be \
+                        chosen freely, or the dimensions differ too much in size for the search; the list comes \
+                        from many starts and may be incomplete"
+                    .into();
+            }
+            Fit::AlwaysMultiple => {
+                return "every solution that was met is multiple for all inputs, as in a shaky structure, and \
+                        cannot be followed from input to input; the list comes from many starts and may be \
                         incomplete"
                     .into();
             }
@@ -227,6 +260,21 @@ impl AssembliesReport {
             Some(bound) => format!("the known bound for this structure is {bound}"),
             None => "no bound is known for this structure".into(),
         };
+        if let Some(largest) = self.continua.first() {
+            sentence += &format!(
+                "; at these inputs there are infinitely many assemblies, in a set of dimension {}: of isolated ones the list is complete as said, of the others it has samples",
+                largest.dimension
+            );
+        }
+        if self.multiple > 0 {
+            sentence += "; others are multiple for all inputs and were sought from many starts only: of them some may be missing";
+        }
+        if self.unexpected > 0 {
+            sentence += &format!(
+                "; no path led to {} found from other starts: the list may be incomplete",
+                count(self.unexpected, "assembly").replace("assemblys", "assemblies")
+            );
+        }
         if self.lost > 0 {
             sentence += &format!("; {} could not be decided", count(self.lost, "path"));
         }

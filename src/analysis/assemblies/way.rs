@@ -130,6 +130,54 @@ impl Way<'_> {
         }
     }
 
+    /// How far it is: the largest change of an input, in rad or characteristic lengths.
+    pub fn length(&self) -> f64 {
+        self.measured(&self.change.inputs)
+    }
+
+    /// The largest length held at the end, in characteristic lengths, and no less than 1.
+    pub fn reach(&self) -> f64 {
+        let inputs = self.from.inputs.iter().zip(&self.change.inputs);
+        let end: Vec<C> = inputs.map(|(a, d)| a + d).collect();
+        self.measured(&end).max(1.0)
+    }
+
+    fn measured(&self, inputs: &[C]) -> f64 {
+        let scales = self.family.input_lengths();
+        let sizes = inputs.iter().zip(scales).map(|(x, l)| (x / l).norm());
+        sizes.fold(0.0, f64::max)
+    }
+
+    /// Number of dimensionless steps that move a point.
+    pub fn unknowns(&self) -> usize {
+        self.system.unknowns().len()
+    }
+
+    /// Residual and dense Jacobian at a point, column-major.
+    pub fn evaluated(&mut self, s: C, x: &[C]) -> (Vec<C>, Vec<C>) {
+        self.load(s, x);
+        self.system.linearise(&self.at, &mut self.work);
+        let jacobian = self.system.dense_jacobian(&mut self.work);
+        (self.system.residual_of(&self.work).to_vec(), jacobian)
+    }
+
+    /// A point moved by dimensionless steps of the unknowns.
+    pub fn moved(&mut self, s: C, x: &[C], step: &[C]) -> Vec<C> {
+        self.load(s, x);
+        let moved = self.system.displaced(&self.at, step);
+        let mut moved = self.family.coordinates.flatten(&moved);
+        self.settle(&mut moved);
+        moved
+    }
+
+    /// The step that leads from one point to another.
+    pub fn step_between(&mut self, s: C, x: &[C], y: &[C]) -> Vec<C> {
+        self.load(s, x);
+        let from = self.at.clone();
+        self.load(s, y);
+        self.system.difference(&from, &self.at)
+    }
+
     /// How many directions are free at a point.
     pub fn freedom(&mut self, s: C, x: &[C], tolerance: f64) -> usize {
         self.load(s, x);

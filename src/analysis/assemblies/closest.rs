@@ -1,0 +1,62 @@
+//! How near a mechanism comes to being assembled, where it cannot be.
+
+use super::answer::Question;
+use super::coordinates::C;
+use super::real::{named_joints, named_poses, tidied};
+use super::report::{ClosestApproach, Named};
+use crate::mechanism::Configuration;
+use crate::number::Number;
+use crate::solve::Newton;
+use crate::system::{Gap, Work};
+
+impl Question<'_> {
+    /// The smallest gaps that Newton's method from many real starts leaves.
+    pub(super) fn closest(
+        &self,
+        starts: &[&Vec<C>],
+        work: &mut Work<f64>,
+    ) -> Option<ClosestApproach> {
+        let newton = Newton::default();
+        let mut best: Option<(f64, Configuration<f64>)> = None;
+        let lifted = starts.iter().map(|x| {
+            let mut at = self.asked.map(C::from_f64);
+            self.coordinates.unflatten(x, &mut at);
+            let mut point = at.map(|z| z.re);
+            for pose in &mut point.platforms {
+                let q = pose.orientation.normalised();
+                if q.0.iter().all(|x| x.is_finite()) {
+                    pose.orientation = q;
+                }
+            }
+            point
+        });
+        for mut point in std::iter::once(self.asked.clone()).chain(lifted) {
+            let mut trial = point.clone();
+            let report = newton.solve(&self.system, &mut point, &mut trial, work);
+            // ties are settled by the order of starts; a clearly smaller gap wins
+            if report.size.squares.is_finite()
+                && best
+                    .as_ref()
+                    .is_none_or(|(least, _)| report.size.squares < least * (1.0 - 1e-6))
+            {
+                best = Some((report.size.squares, point));
+            }
+        }
+        let (_, point) = best?;
+        let point = tidied(point, self.coordinates);
+        let gaps = Gap::of(self.mechanism, &point);
+        let width = |gap: &Gap| gap.size(self.mechanism);
+        let names = self.mechanism.closures().iter().map(|c| c.name.clone());
+        let gaps: Vec<(String, Gap)> = names.zip(gaps).collect();
+        let worst = gaps
+            .iter()
+            .max_by(|a, b| width(&a.1).total_cmp(&width(&b.1)))?;
+        let worst = worst.0.clone();
+        Some(ClosestApproach {
+            gaps: Named(gaps),
+            worst,
+            joints: named_joints(self.mechanism, &point),
+            platforms: named_poses(self.mechanism, &point),
+        })
+    }
+}

@@ -1,0 +1,124 @@
+//! What is said of each assembly: its number, condition, side and certificate.
+
+use super::answer::{Found, Question};
+use super::certificate::{Certificate, Certifier, independent_rows};
+use super::coordinates::{C, Coordinates};
+use super::real::{named_joints, named_poses};
+use super::report::{AssembliesReport, Assembly};
+use crate::linear::Spectrum;
+use crate::mechanism::Configuration;
+use crate::number::Number;
+use crate::solve::Equations;
+use crate::system::Work;
+
+impl Question<'_> {
+    /// Numbers, conditions, determinants and certificates.
+    pub(super) fn describe(
+        &self,
+        report: &mut AssembliesReport,
+        found: Vec<Found>,
+        certify: bool,
+        work: &mut Work<f64>,
+    ) {
+        let (rows, columns) = (self.system.rows(), self.system.unknowns().len());
+        let jacobians: Vec<Vec<f64>> = (found.iter())
+            .map(|f| {
+                self.system.linearise(&f.point, work);
+                self.system.dense_jacobian(work)
+            })
+            .collect();
+        // one choice of rows for all assemblies, or signs could not be compared
+        let chosen = (jacobians.iter())
+            .map(|dense| independent_rows(rows, columns, dense))
+            .max_by(|a, b| a.len().cmp(&b.len()).then(b.cmp(a)))
+            .unwrap_or_default();
+        if rows > columns && chosen.len() == columns {
+            report.independent_rows = Some((columns, rows));
+        }
+        let mut certifier = match certify && chosen.len() == columns {
+            true => Certifier::new(self.mechanism, self.held, &chosen),
+            false => None,
+        };
+        for (k, (f, dense)) in found.iter().zip(&jacobians).enumerate() {
+            let values = Spectrum::of(rows, columns, dense).values;
+            let (first, last) = (values.first().copied(), values.last().copied());
+            let condition = match (first, last) {
+                (Some(a), Some(b)) if rows >= columns && b > 1e-12 * a && f.multiplicity == 1 => {
+                    Some(a / b)
+                }
+                (None, _) => Some(1.0),
+                _ => None,
+            };
+            let sign = match chosen.len() == columns && f.multiplicity == 1 {
+                true => determinant_sign(rows, columns, dense, &chosen),
+                false => 0,
+            };
+            // half the way to the next assembly keeps the boxes apart
+            let others = found.iter().enumerate().filter(|(i, _)| *i != k);
+            let gap = others
+                .map(|(_, o)| gap(self.coordinates, &f.point, &o.point))
+                .fold(f64::INFINITY, f64::min);
+            let certificate = match (&mut certifier, f.multiplicity) {
+                (_, 0) => {
+                    Certificate::Failed("one of infinitely many: others are arbitrarily near")
+                }
+                (_, 2..) => Certificate::Failed("singular: solutions meet here"),
+                (Some(certifier), _) => certifier.certify(&f.point, (0.49 * gap).min(0.01)),
+                (None, _) if certify => {
+                    Certificate::Failed("singular: too few independent closure rows")
+                }
+                (None, _) => Certificate::Failed("not asked for"),
+            };
+            let joints = self.mechanism.joints().iter().zip(&f.point.joints);
+            report.assemblies.push(Assembly {
+                mode: k + 1,
+                joints: named_joints(self.mechanism, &f.point),
+                platforms: named_poses(self.mechanism, &f.point),
+                condition,
+                determinant_sign: sign,
+                multiplicity: f.multiplicity,
+                dimension: f.dimension,
+                certified: matches!(certificate, Certificate::Unique(_)),
+                radius: match certificate {
+                    Certificate::Unique(radius) => Some(radius),
+                    Certificate::Failed(_) => None,
+                },
+                uncertified_because: match certificate {
+                    Certificate::Unique(_) => None,
+                    Certificate::Failed(reason) => Some(reason.into()),
+                },
+                within_limits: joints
+                    .into_iter()
+                    .all(|(joint, value)| joint.allows(*value)),
+                shares_platform_pose_with: (0..found.len())
+                    .filter(|&i| i != k && shares_pose(self.coordinates, &f.key, &found[i].key))
+                    .map(|i| i + 1)
+                    .collect(),
+            });
+        }
+        report.real = report.assemblies.len();
+    }
+}
+
+fn gap(coordinates: &Coordinates, a: &Configuration<f64>, b: &Configuration<f64>) -> f64 {
+    let flat = |c: &Configuration<f64>| coordinates.flatten(&c.map(C::from_f64));
+    coordinates.difference(&flat(a), &flat(b))
+}
+
+fn shares_pose(coordinates: &Coordinates, a: &[f64], b: &[f64]) -> bool {
+    let joints = coordinates.free_joints.len();
+    !coordinates.free_platforms.is_empty()
+        && (a[joints..].iter().zip(&b[joints..])).all(|(a, b)| (a - b).abs() < 1e-6)
+}
+
+fn determinant_sign(rows: usize, columns: usize, dense: &[f64], chosen: &[usize]) -> i8 {
+    let square = nalgebra::DMatrix::from_fn(columns, columns, |i, j| dense[j * rows + chosen[i]]);
+    let determinant = square.determinant();
+    if determinant > 0.0 {
+        1
+    } else if determinant < 0.0 {
+        -1
+    } else {
+        0
+    }
+}

@@ -1,0 +1,330 @@
+//! All assemblies at inputs where they are not what they are elsewhere: where two meet, where
+//! infinitely many are connected, far away, beside what is asked first.
+
+use std::f64::consts::{PI, TAU};
+use std::path::{Path, PathBuf};
+use std::process::{Command, Output};
+
+use linkwork::analysis::assemblies::{
+    AssembliesReport, AssembliesSettings, AssemblySolver, Fit, Wanted,
+};
+use linkwork::description::Description;
+use linkwork::mechanism::Mechanism;
+use linkwork::system::{Question, check_count};
+
+fn path_of(name: &str) -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join(format!("mechanisms/{name}.ron"))
+}
+
+fn with(name: &str, values: &[(&str, &str)]) -> Mechanism {
+    let text = std::fs::read_to_string(path_of(name)).unwrap();
+    let mut description = Description::read(&text).unwrap();
+    for (parameter, value) in values {
+        description = description.with_parameter(parameter, value).unwrap();
+    }
+    Mechanism::new(&description).unwrap()
+}
+
+fn asked<'a>(mechanism: &'a Mechanism, free: &[&str], held: &[(&str, &str)]) -> Question<'a> {
+    let mut question = Question::new(mechanism);
+    for name in free {
+        question = question.free(name).unwrap();
+    }
+    for (name, value) in held {
+        question = question.hold(name, value).unwrap();
+    }
+    question
+}
+
+fn answer(question: &Question, seed: u64) -> AssembliesReport {
+    let settings = AssembliesSettings {
+        seed,
+        ..AssembliesSettings::default()
+    };
+    let solver = AssemblySolver::new(question.mechanism(), &question.held(), &settings).unwrap();
+    let report = solver.at_targets(&question.start(), &question.held(), Wanted::default());
+    assert_eq!((report.lost, report.unexpected), (0, 0), "seed {seed}");
+    report
+}
+
+fn turn(a: f64, b: f64) -> f64 {
+    ((a - b + PI).rem_euclid(TAU) - PI).abs()
+}
+
+fn joint(report: &AssembliesReport, k: usize, name: &str) -> f64 {
+    *report.assemblies[k].joints.get(name).unwrap()
+}
+
+/// The hand of the PUMA where its joints have these values in degrees: the file's table written out.
+fn hand(theta: [f64; 6]) -> String {
+    let [t1, t2, t3, t4, t5, t6] = theta;
+    format!(
+        "[Rz({t1} deg), Tz(d1), Rx(90 deg), Rz({t2} deg), Tx(a2), Rz({t3} deg), Tz(d3), Tx(a3), Rx(-90 deg), \
+         Rz({t4} deg), Tz(d4), Rx(90 deg), Rz({t5} deg), Rx(-90 deg), Rz({t6} deg)]"
+    )
+}
+
+fn inverse(theta: [f64; 6], seed: u64) -> AssembliesReport {
+    let puma = with("puma560_corke", &[]);
+    answer(
+        &asked(&puma, &["actuated"], &[("hand", &hand(theta))]),
+        seed,
+    )
+}
+
+/// With the wrist stretched, joints 4 and 6 turn about one line: only the sum of their angles is
+/// determined. The other three ways to reach the wrist's place leave it bent.
+#[test]
+fn a_stretched_wrist_has_infinitely_many_postures_beside_six() {
+    for seed in [1, 2] {
+        let report = inverse([30.0, 45.0, -135.0, 20.0, 0.0, 10.0], seed);
+        assert_eq!(report.fit, Fit::Finite);
+        assert_eq!((report.complex, report.not_isolated), (6, 2), "seed {seed}");
+        let [set] = &report.continua[..] else {
+            panic!("one set, not {:?}", report.continua)
+        };
+        assert_eq!((set.dimension, set.paths), (1, 2));
+        assert!(set.samples.len() > 1);
+        for (k, a) in report.assemblies.iter().enumerate() {
+            let sample = set.samples.contains(&a.mode);
+            assert_eq!(a.dimension, usize::from(sample));
+            assert_eq!(a.multiplicity, usize::from(!sample));
+            assert_eq!(a.certified, !sample);
+            assert_eq!(turn(joint(&report, k, "theta5"), 0.0) < 1e-9, sample);
+            if sample {
+                let sum = joint(&report, k, "theta4") + joint(&report, k, "theta6");
+                assert!(turn(sum, 30f64.to_radians()) < 1e-9);
+            }
+        }
+        assert!(report.complete.contains("infinitely many"));
+    }
+    // bent by two degrees it has eight
+    let report = inverse([30.0, 45.0, -135.0, 20.0, 2.0, 10.0], 1);
+    assert_eq!((report.complex, report.real), (8, 8));
+    assert!(report.continua.is_empty());
+}
+
+/// The crank on the ground leaves both couplers to turn freely about the common post; lifted by four
+/// degrees, each has its two positions: parallel to the ground or back on the crank.
+#[test]
+fn rhombi_with_the_crank_on_the_ground_have_a_set_of_dimension_two() {
+    let rhombi = with("two_rhombi", &[]);
+    for seed in 1..=3 {
+        let report = answer(&Question::new(&rhombi), seed);
+        assert_eq!((report.complex, report.not_isolated), (0, 4));
+        assert_eq!(report.continua.len(), 1);
+        assert_eq!(report.continua[0].dimension, 2);
+        assert!(!report.continua[0].samples.is_empty());
+        for k in 0..report.real {
+            for i in ["1", "2"] {
+                let [phi, psi] =
+                    ["phi", "psi"].map(|name| joint(&report, k, &format!("{name}{i}")));
+                assert!(turn(phi, psi) < 1e-9);
+            }
+        }
+    }
+    let question = asked(&rhombi, &[], &[("theta", "4 deg")]);
+    check_count(&question).expect("the crank can be chosen");
+    let report = answer(&question, 1);
+    assert_eq!((report.complex, report.real), (4, 4));
+    assert!(report.continua.is_empty());
+    for k in 0..4 {
+        for phi in ["phi1", "phi2"].map(|name| joint(&report, k, name)) {
+            let parallel = turn(phi, -4f64.to_radians()) < 1e-9;
+            assert!(parallel || turn(phi, PI) < 1e-9);
+        }
+    }
+}
+
+/// Both wrists of a shoulder stretched out along the first axis: the first joint is free too.
+#[test]
+fn a_wrist_over_the_shoulder_is_not_denied() {
+    // without the shoulder's offset the wrist can stand on the first axis
+    let puma = with("puma560_corke", &[("d3", "0"), ("a3", "0")]);
+    let question = asked(
+        &puma,
+        &["actuated"],
+        &[("hand", "[Tz(d1 + 0.5), Rz(20 deg), Ry(35 deg)]")],
+    );
+    let report = answer(&question, 1);
+    assert_eq!(report.continua.first().map(|set| set.dimension), Some(1));
+    assert!(report.real > 0);
+    let report = answer(
+        &asked(
+            &puma,
+            &["actuated"],
+            &[("hand", "[T(0.1, 0.2, d1 + 0.5), Rz(20 deg), Ry(35 deg)]")],
+        ),
+        1,
+    );
+    assert!(report.continua.is_empty());
+    assert_eq!(report.real, 8);
+}
+
+const STRETCHED: [(&str, &str); 4] = [("l0", "4"), ("l1", "2"), ("l2", "2"), ("l3", "3")];
+
+/// Crank at cos θ = −5/16: coupler and rocker in one line, the rocker's direction is that from its
+/// post to the end of the crank.
+#[test]
+fn two_assemblies_that_meet_are_one_to_the_last_digits() {
+    let mechanism = with("four_bar", &STRETCHED);
+    let question = asked(&mechanism, &[], &[("theta1", "acos(-5/16)")]);
+    let theta = f64::acos(-5.0 / 16.0);
+    let rocker = (2.0 * theta.sin()).atan2(2.0 * theta.cos() - 4.0);
+    for seed in 1..=12 {
+        let report = answer(&question, seed);
+        assert_eq!((report.complex, report.real, report.singular), (2, 1, 1));
+        assert_eq!(report.assemblies[0].multiplicity, 2, "seed {seed}");
+        let found = joint(&report, 0, "phi1");
+        assert!(turn(found, rocker) < 1e-12, "seed {seed}: {found}");
+        assert!(report.continua.is_empty());
+    }
+}
+
+/// Beyond the dead point by however little there is none; before it there are two.
+#[test]
+fn beside_a_dead_point_there_are_two_or_none() {
+    let mechanism = with("four_bar", &STRETCHED);
+    for little in ["1e-5", "1e-7", "1e-8", "1e-9", "1e-10"] {
+        let at = |sign: &str, seed: u64| {
+            let value = format!("acos(-5/16) {sign} {little}");
+            answer(&asked(&mechanism, &[], &[("theta1", &value)]), seed)
+        };
+        for seed in [1, 2, 3] {
+            let before = at("-", seed);
+            assert_eq!((before.real, before.complex), (2, 2), "{little}");
+            assert!(before.assemblies.iter().all(|a| a.multiplicity == 1));
+            let beyond = at("+", seed);
+            assert_eq!((beyond.real, beyond.complex), (0, 2), "{little}");
+        }
+    }
+}
+
+/// A triangle gone flat is two circles that touch: one double point, for all lengths.
+#[test]
+fn a_shaky_structure_is_one_double_assembly_for_every_seed() {
+    let flat = with("flat_triangle", &[]);
+    for seed in 1..=12 {
+        let report = answer(&Question::new(&flat), seed);
+        assert_eq!(report.real, 1, "seed {seed}");
+        let only = &report.assemblies[0];
+        assert_eq!((only.multiplicity, only.dimension), (2, 0), "seed {seed}");
+        assert!(!only.certified && only.condition.is_none());
+        for (name, value) in &only.joints.0 {
+            assert!(value.abs() < 1e-12, "seed {seed}: {name} = {value}");
+        }
+    }
+    // a triangle with a height has two, mirror images of one another
+    let high = answer(&Question::new(&with("triangle", &[])), 1);
+    assert_eq!((high.real, high.singular), (2, 0));
+}
+
+#[test]
+fn a_crank_far_from_home_is_no_mistake() {
+    let loop_of_six = with("bricard_line", &[]);
+    let question = asked(&loop_of_six, &[], &[("theta1", "-140 deg")]);
+    check_count(&question).expect("the crank can be chosen");
+    let report = answer(&question, 1);
+    assert!(report.real > 0);
+    // half a turn about the line of symmetry takes hinge i to hinge i + 3
+    for k in 0..report.real {
+        assert!(turn(joint(&report, k, "theta4"), -140f64.to_radians()) < 1e-9);
+    }
+    let both = asked(&loop_of_six, &[], &[("theta2", "1")]);
+    assert!(check_count(&both).is_err(), "one freedom, two held");
+}
+
+#[test]
+fn a_leg_of_a_thousand_kilometres_loses_no_path() {
+    let platform = with("stewart_gough_6sps", &[]);
+    let report = answer(&asked(&platform, &[], &[("l1", "1e6")]), 1);
+    assert_eq!(report.real, 0);
+    assert_eq!(report.complex + report.at_infinity, 40);
+}
+
+/// A hand held over the first axis of an arm with an offset shoulder: no rotation of the first joint
+/// brings the arm there, and its complex angle is infinite.
+#[test]
+fn a_hand_that_no_angle_reaches_has_its_solutions_at_infinity() {
+    let puma = with("puma560_corke", &[]);
+    let over = |pose: &str| answer(&asked(&puma, &["actuated"], &[("hand", pose)]), 1);
+    let report = over("[T(0, 0, 1), Rx(30 deg), Ry(20 deg)]");
+    assert_eq!((report.real, report.at_infinity), (0, 8));
+    // a centimetre beside it the angles are complex and finite
+    let report = over("[T(0.01, 0, 1), Rx(30 deg), Ry(20 deg)]");
+    assert_eq!((report.real, report.complex), (0, 8));
+}
+
+/// What is far away because it was asked for there is not at infinity.
+#[test]
+fn a_hand_held_a_thousand_kilometres_away_is_reached() {
+    let robot = with("cylindrical_rpp", &[]);
+    let question = asked(
+        &robot,
+        &["actuated"],
+        &[("hand.x", "1e6"), ("hand.y", "2e6"), ("hand.z", "3e6")],
+    );
+    if check_count(&question).is_err() {
+        panic!("the file has another hand");
+    }
+    let report = answer(&question, 1);
+    assert!(report.real > 0, "{}", report.complete);
+}
+
+#[test]
+fn the_closest_approach_is_within_one_turn() {
+    for (name, held) in [("four_bar", "theta1"), ("three_rps", "l1")] {
+        let mechanism = with(name, &[]);
+        let value = if name == "four_bar" { "1" } else { "3" };
+        let mechanism = match name {
+            "four_bar" => with("four_bar", &[("l1", "50")]),
+            _ => mechanism,
+        };
+        for seed in 1..=5 {
+            let report = answer(&asked(&mechanism, &[], &[(held, value)]), seed);
+            let closest = report.closest.expect("out of reach");
+            for ((_, value), joint) in closest.joints.0.iter().zip(mechanism.joints()) {
+                assert!(!joint.kind.is_angle() || value.abs() <= PI, "{value}");
+            }
+        }
+    }
+}
+
+fn run(arguments: &[&str], threads: &str) -> Output {
+    let mut command = Command::new(env!("CARGO_BIN_EXE_linkwork"));
+    let command = command.args(arguments).env("RAYON_NUM_THREADS", threads);
+    command.output().unwrap()
+}
+
+/// From the table on: what stands above it tells how the search went.
+fn tables(name: &str, seed: &str, threads: &str) -> String {
+    let path = path_of(name);
+    let path = path.to_str().unwrap();
+    let output = run(
+        &["assemblies", path, "--all-complex", "--seed", seed],
+        threads,
+    );
+    let text = String::from_utf8(output.stdout).unwrap();
+    assert!(text.contains("Complex solutions"), "{name}: {text}");
+    let start = text
+        .find("\nAssemblies")
+        .or(text.find("\nComplex"))
+        .unwrap();
+    text[start..].to_string()
+}
+
+/// Chance and threads decide the way; what is printed is the same.
+#[test]
+fn complex_solutions_are_printed_alike_for_every_seed_and_number_of_threads() {
+    for name in ["three_rps", "stewart_gough_6sps", "three_fingered_hand"] {
+        let reference = tables(name, "1", "1");
+        assert_eq!(tables(name, "1", "3"), reference, "{name}");
+        for seed in ["2", "3", "7", "23"] {
+            let other = tables(name, seed, "2");
+            let mut lines = other.lines().zip(reference.lines());
+            if let Some((a, b)) = lines.find(|(a, b)| a != b) {
+                panic!("{name}, seed {seed}: `{a}` is not `{b}`");
+            }
+        }
+    }
+}
