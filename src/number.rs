@@ -1,4 +1,5 @@
-//! The numbers that run through the one kinematics: reals, complex numbers and duals.
+//! The numbers that run through the one kinematics: reals, complex numbers, duals, intervals and
+//! several reals side by side.
 //!
 //! A joint enters the algebra only through (cos, sin) or a slide, so chain products, closure
 //! residuals and their Jacobians are written once over [`Number`].
@@ -6,6 +7,7 @@
 mod complex;
 mod dual;
 mod interval;
+mod lanes;
 mod real;
 mod trigonometry;
 
@@ -14,6 +16,7 @@ use std::ops::{Add, AddAssign, Div, Mul, MulAssign, Neg, Sub, SubAssign};
 
 pub use dual::Dual;
 pub use interval::Interval;
+pub use lanes::{LANES, Lanes};
 pub use num_complex::Complex;
 
 /// A number the kinematics can be evaluated over.
@@ -124,8 +127,25 @@ pub trait Number:
 /// A dual has the size of its value, so that everything solved over duals takes the same way as over
 /// its inner number and carries derivatives along.
 pub trait Field: Number {
+    /// What sizes are measured by.
+    type Size: Extent;
     /// Complex conjugate; the number itself for reals.
     fn conjugate(self) -> Self;
     /// Squared absolute value |z|².
-    fn norm_squared(self) -> f64;
+    fn norm_squared(self) -> Self::Size;
+    /// The direction z/|z|, 1 for zero.
+    fn phase(self) -> Self;
+    /// `self` times a real size.
+    fn stretched(self, factor: Self::Size) -> Self;
+}
+
+/// The size of a number: one real, or one for each of several numbers side by side.
+///
+/// Decisions are made once for all of them: what must be large enough goes by the least, what must
+/// be small enough by the greatest.
+pub trait Extent: Number {
+    /// The smallest real.
+    fn least(self) -> f64;
+    /// The largest real, NaN if any is.
+    fn greatest(self) -> f64;
 }

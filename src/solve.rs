@@ -19,10 +19,12 @@ pub use minimum::walk_down;
 pub use newton::{Newton, Report, Stop};
 pub use warm::{Trail, Warm, WarmReport};
 
+use crate::number::{Extent, Field, Number};
+
 /// Equations r(x) = 0 on a manifold, with a least-squares step at a point.
 pub trait Equations {
     /// The number of a row or an unknown.
-    type Number: crate::number::Field;
+    type Number: Field;
     /// A point of the manifold.
     type Point;
     /// Storage for residual, factors and step, so that no iteration allocates.
@@ -55,13 +57,14 @@ pub struct Size {
 impl Size {
     /// The size of the given rows. A NaN anywhere gives an infinite size.
     #[inline]
-    pub fn of<T: crate::number::Field>(rows: &[T]) -> Self {
-        let (mut largest, mut squares) = (0.0f64, 0.0);
+    pub fn of<T: Field>(rows: &[T]) -> Self {
+        let (mut largest, mut squares) = (0.0f64, T::Size::zero());
         for row in rows {
             let square = row.norm_squared();
             squares += square;
-            largest = largest.max(square);
+            largest = largest.max(square.greatest());
         }
+        let squares = squares.greatest();
         if squares.is_finite() {
             Size {
                 largest: largest.sqrt(),

@@ -42,7 +42,7 @@ pub struct Bordered<T: Factorable> {
 const TRUSTED_PIVOT: f64 = 1e-3;
 
 #[derive(Clone, Debug)]
-struct Factor<T> {
+struct Factor<T: Field> {
     layout: Block,
     /// Places of the block's shared unknowns in the border.
     border_places: Vec<usize>,

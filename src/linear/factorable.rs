@@ -1,7 +1,7 @@
 use std::fmt::Debug;
 
 use super::Block;
-use crate::number::{Complex, Dual, Field, Interval};
+use crate::number::{Complex, Dual, Field, Interval, Lanes};
 
 /// A number for which least-squares steps can be computed, with its way to do so when the matrix is
 /// large and sparse.
@@ -83,5 +83,9 @@ impl<T: Field> Factorable for Dual<T> {
 }
 
 impl Factorable for Interval {
+    type Sparse = DenseOnly;
+}
+
+impl Factorable for Lanes {
     type Sparse = DenseOnly;
 }

@@ -1,4 +1,4 @@
-use crate::number::Field;
+use crate::number::{Extent, Field};
 
 /// Gaussian elimination with row exchanges of a square matrix: three times cheaper than an
 /// orthogonal factorisation, but a poor judge of rank, so it reports its smallest pivot and leaves
@@ -47,9 +47,9 @@ fn eliminate<T: Field>(n: usize, a: &mut [T], exchanges: &mut [usize]) -> f64 {
     let (a, exchanges) = (&mut a[..n * n], &mut exchanges[..n]);
     let mut smallest = f64::INFINITY;
     for k in 0..n {
-        let (mut best, mut size) = (k, a[k * n + k].norm_squared());
+        let (mut best, mut size) = (k, a[k * n + k].norm_squared().least());
         for i in k + 1..n {
-            let other = a[k * n + i].norm_squared();
+            let other = a[k * n + i].norm_squared().least();
             if other > size {
                 (best, size) = (i, other);
             }

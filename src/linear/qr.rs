@@ -1,5 +1,5 @@
 use super::RANK_TOLERANCE;
-use crate::number::Field;
+use crate::number::{Extent, Field, Number};
 
 /// Householder factorisation with column pivoting of the first columns of a matrix, the remaining
 /// columns being carried along: Qᴴ·[A | B] = [R | QᴴB].
@@ -7,13 +7,13 @@ use crate::number::Field;
 /// Storage is column-major with a fixed capacity; nothing allocates after [`Qr::new`].
 /// Source: Businger and Golub 1965; the reflectors are those of Golub and Van Loan, §5.1.
 #[derive(Clone, Debug)]
-pub struct Qr<T> {
+pub struct Qr<T: Field> {
     rows: usize,
     pivots: usize,
     columns: usize,
     entries: Vec<T>,
     heads: Vec<T>,
-    scales: Vec<f64>,
+    scales: Vec<T::Size>,
     order: Vec<usize>,
     rank: usize,
 }
@@ -27,7 +27,7 @@ impl<T: Field> Qr<T> {
             columns: pivots + carried,
             entries: vec![T::zero(); rows * (pivots + carried)],
             heads: vec![T::zero(); pivots],
-            scales: vec![0.0; pivots],
+            scales: vec![T::Size::zero(); pivots],
             order: (0..pivots).collect(),
             rank: 0,
         }
@@ -108,10 +108,11 @@ impl<T: Field> Qr<T> {
         for k in 0..pivots.min(rows) {
             let (best, norm_squared) = self.longest_column(rows, pivots, k);
             let norm = norm_squared.sqrt();
+            let least = norm.least();
             if k == 0 {
-                largest = largest.max(norm);
+                largest = largest.max(least);
             }
-            if norm <= RANK_TOLERANCE * largest || norm == 0.0 {
+            if least <= RANK_TOLERANCE * largest || least == 0.0 {
                 break;
             }
             if best != k {
@@ -124,13 +125,17 @@ impl<T: Field> Qr<T> {
     }
 
     #[inline(always)]
-    fn longest_column(&self, rows: usize, pivots: usize, k: usize) -> (usize, f64) {
-        let mut best = (k, -1.0);
+    fn longest_column(&self, rows: usize, pivots: usize, k: usize) -> (usize, T::Size) {
+        let (mut best, mut most) = ((k, T::Size::zero()), -1.0);
         for j in k..pivots {
             let column = &self.entries[j * rows..(j + 1) * rows];
-            let norm_squared = column[k..].iter().map(|x| x.norm_squared()).sum();
-            if norm_squared > best.1 {
-                best = (j, norm_squared);
+            let mut norm_squared = T::Size::zero();
+            for x in &column[k..] {
+                norm_squared += x.norm_squared();
+            }
+            let least = norm_squared.least();
+            if least > most {
+                (best, most) = ((j, norm_squared), least);
             }
         }
         best
@@ -144,18 +149,13 @@ impl<T: Field> Qr<T> {
 
     /// Reflects column `k` onto its first entry from row `k` and every later column with it.
     #[inline(always)]
-    fn reflect(&mut self, rows: usize, k: usize, norm: f64) {
+    fn reflect(&mut self, rows: usize, k: usize, norm: T::Size) {
         let (left, right) = self.entries[..rows * self.columns].split_at_mut((k + 1) * rows);
         let v = &mut left[k * rows + k..];
         let size = v[0].norm_squared().sqrt();
-        let phase = if size == 0.0 {
-            T::one()
-        } else {
-            v[0].scale(1.0 / size)
-        };
-        let diagonal = -phase.scale(norm);
+        let diagonal = -v[0].phase().stretched(norm);
         v[0] -= diagonal;
-        let scale = 1.0 / (norm * (norm + size));
+        let scale = T::Size::one() / (norm * (norm + size));
         for column in right.chunks_exact_mut(rows) {
             reflect_one(v, scale, &mut column[k..]);
         }
@@ -188,7 +188,7 @@ impl<T: Field> Qr<T> {
             for (v, x) in tail.iter().zip(&*rest) {
                 sum += v.conjugate() * *x;
             }
-            let sum = sum.scale(scales[k]);
+            let sum = sum.stretched(scales[k]);
             *first -= sum * heads[k];
             for (v, x) in tail.iter().zip(rest) {
                 *x -= sum * *v;
@@ -215,12 +215,12 @@ impl<T: Field> Qr<T> {
 }
 
 #[inline(always)]
-fn reflect_one<T: Field>(v: &[T], scale: f64, column: &mut [T]) {
+fn reflect_one<T: Field>(v: &[T], scale: T::Size, column: &mut [T]) {
     let mut sum = T::zero();
     for (v, x) in v.iter().zip(&*column) {
         sum += v.conjugate() * *x;
     }
-    let sum = sum.scale(scale);
+    let sum = sum.stretched(scale);
     for (v, x) in v.iter().zip(column) {
         *x -= sum * *v;
     }
@@ -254,7 +254,10 @@ mod tests {
             qr.rotate(&mut b);
             qr.back_substitute(&mut b, &mut x);
             for j in 0..3 {
-                assert!((x[j] - solution[j]).norm_squared() < 1e-26, "{x:?}");
+                assert!(
+                    (x[j] - solution[j]).norm_squared().greatest() < 1e-26,
+                    "{x:?}"
+                );
             }
         }
         let real = |i: usize, j: usize| ((3 * i + 5 * j + i * j * j) % 7) as f64 - 2.5;

@@ -1,5 +1,5 @@
 use crate::geometry::{Pose, Quaternion, Vector3};
-use crate::number::Number;
+use crate::number::{LANES, Lanes, Number};
 
 /// The pose of a platform as the solver keeps it: orientation by a unit quaternion.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -49,6 +49,34 @@ pub struct Configuration<T> {
     pub joints: Vec<T>,
     /// Platform poses in the order of the mechanism's platforms.
     pub platforms: Vec<PlatformPose<T>>,
+}
+
+impl Configuration<Lanes> {
+    /// Several configurations of one mechanism side by side, one for each lane.
+    pub fn beside<'a>(of: impl Fn(usize) -> &'a Configuration<f64>) -> Self {
+        let mut all = of(0).map(Lanes::from_f64);
+        for lane in 0..LANES {
+            all.set_lane(lane, of(lane));
+        }
+        all
+    }
+
+    /// Puts a configuration into one lane.
+    pub fn set_lane(&mut self, lane: usize, to: &Configuration<f64>) {
+        for (x, &value) in self.joints.iter_mut().zip(&to.joints) {
+            x.0[lane] = value;
+        }
+        for (pose, to) in self.platforms.iter_mut().zip(&to.platforms) {
+            let parts = (pose.orientation.0.iter_mut()).chain(&mut pose.position.0);
+            let values = to.orientation.0.iter().chain(&to.position.0);
+            parts.zip(values).for_each(|(x, &value)| x.0[lane] = value);
+        }
+    }
+
+    /// The configuration in one lane.
+    pub fn lane(&self, lane: usize) -> Configuration<f64> {
+        self.map(|x| x.0[lane])
+    }
 }
 
 impl<T: Number> Configuration<T> {

@@ -51,6 +51,7 @@ impl Number for Complex<f64> {
 }
 
 impl Field for Complex<f64> {
+    type Size = f64;
     #[inline(always)]
     fn conjugate(self) -> Self {
         self.conj()
@@ -58,5 +59,16 @@ impl Field for Complex<f64> {
     #[inline(always)]
     fn norm_squared(self) -> f64 {
         self.norm_sqr()
+    }
+    #[inline(always)]
+    fn phase(self) -> Self {
+        match self.norm_sqr().sqrt() {
+            0.0 => Complex::new(1.0, 0.0),
+            size => Number::scale(self, 1.0 / size),
+        }
+    }
+    #[inline(always)]
+    fn stretched(self, factor: f64) -> Self {
+        Number::scale(self, factor)
     }
 }

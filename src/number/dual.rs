@@ -1,6 +1,6 @@
 use std::ops::{Add, AddAssign, Div, Mul, MulAssign, Neg, Sub, SubAssign};
 
-use super::{Field, Number};
+use super::{Extent, Field, Number};
 
 /// A value with its derivative along one direction: a + a′ε with ε² = 0 (Clifford 1873).
 ///
@@ -161,13 +161,26 @@ impl<T: Number> Number for Dual<T> {
 }
 
 impl<T: Field> Field for Dual<T> {
+    type Size = T::Size;
     fn conjugate(self) -> Self {
         Dual {
             value: self.value.conjugate(),
             slope: self.slope.conjugate(),
         }
     }
-    fn norm_squared(self) -> f64 {
+    fn norm_squared(self) -> T::Size {
         self.value.norm_squared()
+    }
+    fn phase(self) -> Self {
+        match self.value.norm_squared() {
+            size if size.least() == 0.0 => Dual::constant(self.value.phase()),
+            size => self.stretched(T::Size::one() / size.sqrt()),
+        }
+    }
+    fn stretched(self, factor: T::Size) -> Self {
+        Dual {
+            value: self.value.stretched(factor),
+            slope: self.slope.stretched(factor),
+        }
     }
 }

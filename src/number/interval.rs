@@ -304,6 +304,7 @@ impl Number for Interval {
 }
 
 impl Field for Interval {
+    type Size = f64;
     fn conjugate(self) -> Self {
         self
     }
@@ -311,6 +312,15 @@ impl Field for Interval {
     fn norm_squared(self) -> f64 {
         let m = self.magnitude();
         (m * m).next_up()
+    }
+    fn phase(self) -> Self {
+        match self.norm_squared() {
+            0.0 => Interval::point(1.0),
+            size => self / Interval::point(size).sqrt(),
+        }
+    }
+    fn stretched(self, factor: f64) -> Self {
+        self * Interval::point(factor)
     }
 }
 

@@ -1,4 +1,4 @@
-use super::{Field, Number, trigonometry};
+use super::{Extent, Field, Number, trigonometry};
 
 /// Nothing comes from the platform's C library, so that the same input gives the same bytes on every
 /// machine.
@@ -50,6 +50,7 @@ impl Number for f64 {
 }
 
 impl Field for f64 {
+    type Size = f64;
     #[inline(always)]
     fn conjugate(self) -> Self {
         self
@@ -57,5 +58,24 @@ impl Field for f64 {
     #[inline(always)]
     fn norm_squared(self) -> f64 {
         self * self
+    }
+    #[inline(always)]
+    fn phase(self) -> Self {
+        1.0f64.copysign(self)
+    }
+    #[inline(always)]
+    fn stretched(self, factor: f64) -> Self {
+        self * factor
+    }
+}
+
+impl Extent for f64 {
+    #[inline(always)]
+    fn least(self) -> f64 {
+        self
+    }
+    #[inline(always)]
+    fn greatest(self) -> f64 {
+        self
     }
 }

@@ -34,7 +34,36 @@ pub(crate) fn sin_cos(x: f64) -> (f64, f64) {
     if x.abs() >= REDUCIBLE || x.is_nan() {
         return pxfm::f_sincos(x);
     }
-    let k = round(x * std::f64::consts::FRAC_2_PI);
+    reduced(x)
+}
+
+/// The same for each of several angles, by vector instructions where there are some.
+#[inline(always)]
+pub(crate) fn sin_cos_of_each<const N: usize>(x: [f64; N]) -> ([f64; N], [f64; N]) {
+    let (mut sin, mut cos) = (x, x);
+    for i in 0..N {
+        (sin[i], cos[i]) = reduced(x[i]);
+    }
+    let mut reducible = true;
+    for angle in x {
+        reducible &= angle.abs() < REDUCIBLE;
+    }
+    if !reducible {
+        for i in 0..N {
+            (sin[i], cos[i]) = sin_cos(x[i]);
+        }
+    }
+    (sin, cos)
+}
+
+/// For |x| below [`REDUCIBLE`].
+#[inline(always)]
+fn reduced(x: f64) -> (f64, f64) {
+    // nearest whole number of quarter turns, by letting the sum with 3·2⁵¹ round: its last bits
+    // are those of the number
+    let shifted = x * std::f64::consts::FRAC_2_PI + SHIFT;
+    let quadrant = shifted.to_bits();
+    let k = shifted - SHIFT;
     let r = ((x - k * P1) - k * P2) - k * P3;
     let z = r * r;
     let w = z * z;
@@ -43,23 +72,17 @@ pub(crate) fn sin_cos(x: f64) -> (f64, f64) {
     let c = (C[0] + z * C[1]) + w * ((C[2] + z * C[3]) + w * (C[4] + z * C[5]));
     let sin = r + r * z * s;
     let cos = (1.0 - 0.5 * z) + w * c;
-    let quadrant = k as i32;
-    let (a, b) = if quadrant & 1 == 0 {
-        (sin, cos)
-    } else {
-        (cos, sin)
-    };
-    let sign =
-        |bit: i32, value: f64| f64::from_bits(value.to_bits() ^ (((bit >> 1) as u64 & 1) << 63));
-    (sign(quadrant, a), sign(quadrant + 1, b))
+    // choices by bits: there is no branch to mispredict and none in the way of vectors
+    let odd = (quadrant & 1).wrapping_neg();
+    let swapped = (sin.to_bits() ^ cos.to_bits()) & odd;
+    let sign = |quadrant: u64| (quadrant & 2) << 62;
+    (
+        f64::from_bits(sin.to_bits() ^ swapped ^ sign(quadrant)),
+        f64::from_bits(cos.to_bits() ^ swapped ^ sign(quadrant.wrapping_add(1))),
+    )
 }
 
-/// Nearest whole number for |x| < 2⁵¹, by letting the sum with 3·2⁵¹ round.
-#[inline(always)]
-fn round(x: f64) -> f64 {
-    const SHIFT: f64 = 6_755_399_441_055_744.0;
-    (x + SHIFT) - SHIFT
-}
+const SHIFT: f64 = 6_755_399_441_055_744.0;
 
 #[cfg(test)]
 mod tests {

@@ -1,5 +1,5 @@
 use super::Equations;
-use crate::number::{Field, Number};
+use crate::number::{Extent, Field, Number};
 
 /// Newton's method for following a motion: each point starts from the ones before it.
 ///
@@ -95,7 +95,7 @@ impl<P, T: Field> Trail<P, T> {
         for (differences, &moved) in self.differences.iter_mut().zip(&self.moved) {
             let mut latest = moved;
             for (difference, error) in differences.iter_mut().zip(&mut errors) {
-                *error += latest.norm_squared();
+                *error += latest.norm_squared().greatest();
                 (*difference, latest) = (latest, latest - *difference);
             }
         }
@@ -160,7 +160,7 @@ impl Warm {
                 *moved = differences[..order]
                     .iter()
                     .fold(E::Number::zero(), |sum, &d| sum + d);
-                longest = longest.max(moved.norm_squared());
+                longest = longest.max(moved.norm_squared().greatest());
             }
             longest_step = longest_step.min(longest.sqrt());
         } else {

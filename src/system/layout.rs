@@ -1,4 +1,4 @@
-use crate::geometry::Rotation;
+use crate::geometry::{Rotation, Vector3};
 use crate::linear::{Block, DENSE_LIMIT, Factorable, SparseStep};
 use crate::mechanism::{Closure, Coordinate};
 use crate::number::Number;
@@ -26,6 +26,27 @@ pub struct Held<T> {
     pub joints: Vec<bool>,
     /// For each platform what is held of it.
     pub platforms: Vec<HeldPlatform<T>>,
+}
+
+impl<T: Number> Held<T> {
+    /// The same over another number.
+    pub fn map<U: Number>(&self, mut f: impl FnMut(T) -> U) -> Held<U> {
+        let platforms = self.platforms.iter().map(|part| match part {
+            HeldPlatform::Free => HeldPlatform::Free,
+            HeldPlatform::Pose => HeldPlatform::Pose,
+            HeldPlatform::Partly {
+                coordinates,
+                orientation,
+            } => HeldPlatform::Partly {
+                coordinates: coordinates.iter().map(|&(c, x)| (c, f(x))).collect(),
+                orientation: orientation.map(|r| Rotation(r.0.map(|v| Vector3(v.0.map(&mut f))))),
+            },
+        });
+        Held {
+            joints: self.joints.clone(),
+            platforms: platforms.collect(),
+        }
+    }
 }
 
 /// A scalar unknown. All are dimensionless: lengths are divided by the characteristic length.

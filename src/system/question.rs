@@ -6,6 +6,7 @@ use super::question_error::QuestionError;
 use super::value;
 use crate::description::{Role, nearest};
 use crate::geometry::{Axis, Pose, RollPitchYaw};
+use crate::linear::Factorable;
 use crate::mechanism::{Configuration, Coordinate, Mechanism, PlatformPose};
 
 /// What is asked of a mechanism: which coordinates are held at which values, and where to start.
@@ -196,7 +197,13 @@ impl<'a> Question<'a> {
 
     /// The equations of the question.
     pub fn system(&self) -> System<f64> {
-        System::new(self.mechanism.dimensions(), &self.held())
+        self.system_over()
+    }
+
+    /// The equations over another number, as [`Lanes`](crate::number::Lanes).
+    pub fn system_over<T: Factorable>(&self) -> System<T> {
+        let dimensions = self.mechanism.dimensions().map(&mut T::from_f64);
+        System::new(&dimensions, &self.held().map(T::from_f64))
     }
 
     /// Where the search starts: guesses, held values and for the rest the home configuration.

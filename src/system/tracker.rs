@@ -1,4 +1,5 @@
 use super::{System, Work};
+use crate::linear::Factorable;
 use crate::mechanism::{Configuration, Coordinate};
 use crate::solve::{Newton, Report, Trail, Warm, WarmReport};
 
@@ -13,17 +14,17 @@ use crate::solve::{Newton, Report, Trail, Warm, WarmReport};
 /// }
 /// ```
 #[derive(Clone, Debug)]
-pub struct Tracker {
-    system: System<f64>,
+pub struct Tracker<T: Factorable = f64> {
+    system: System<T>,
     warm: Warm,
-    configuration: Configuration<f64>,
-    work: Work<f64>,
-    trail: Trail<Configuration<f64>, f64>,
+    configuration: Configuration<T>,
+    work: Work<T>,
+    trail: Trail<Configuration<T>, T>,
 }
 
-impl Tracker {
+impl<T: Factorable> Tracker<T> {
     /// Follows from `start`, which ought to be assembled or nearly so.
-    pub fn new(system: System<f64>, start: Configuration<f64>) -> Self {
+    pub fn new(system: System<T>, start: Configuration<T>) -> Self {
         Tracker {
             work: system.work(),
             trail: Trail::new(&start, system.unknowns().len()),
@@ -39,25 +40,25 @@ impl Tracker {
     }
 
     /// The equations that are solved.
-    pub fn system(&self) -> &System<f64> {
+    pub fn system(&self) -> &System<T> {
         &self.system
     }
 
     /// The latest solution; after a solve that failed, the one before it with the held values that
     /// were asked for.
-    pub fn configuration(&self) -> &Configuration<f64> {
+    pub fn configuration(&self) -> &Configuration<T> {
         &self.configuration
     }
 
     /// Asks for another value, in m or rad, of a platform coordinate held alone.
-    pub fn set_target(&mut self, platform: usize, coordinate: Coordinate, value: f64) {
+    pub fn set_target(&mut self, platform: usize, coordinate: Coordinate, value: T) {
         self.system.set_target(platform, coordinate, value);
     }
 
     /// Lets `hold` change the values of held joints and poses, and finds the free ones. Nothing
     /// allocates. `solved` is said only of a residual evaluated at the configuration returned.
     #[inline]
-    pub fn solve(&mut self, hold: impl FnOnce(&mut Configuration<f64>)) -> WarmReport {
+    pub fn solve(&mut self, hold: impl FnOnce(&mut Configuration<T>)) -> WarmReport {
         hold(&mut self.configuration);
         (self.warm).solve(
             &self.system,

@@ -3,6 +3,7 @@
 use super::{System, Work};
 use crate::geometry::Rotation;
 use crate::linear::{Factorable, Qr};
+use crate::number::Extent;
 use crate::solve::Equations;
 use crate::system::layout::HoldRow;
 
@@ -40,7 +41,7 @@ impl<T: Factorable> System<T> {
         let mut dense = self.dense_jacobian(work);
         for r in 0..rows {
             let squares: f64 = (0..columns)
-                .map(|j| dense[j * rows + r].norm_squared())
+                .map(|j| dense[j * rows + r].norm_squared().greatest())
                 .sum();
             if squares > 1.0 {
                 let factor = 1.0 / squares.sqrt();
@@ -48,7 +49,7 @@ impl<T: Factorable> System<T> {
             }
         }
         for column in dense.chunks_exact_mut(rows.max(1)) {
-            let squares: f64 = column.iter().map(|x| x.norm_squared()).sum();
+            let squares: f64 = column.iter().map(|x| x.norm_squared().greatest()).sum();
             if squares > 1.0 {
                 let factor = 1.0 / squares.sqrt();
                 column.iter_mut().for_each(|x| *x = x.scale(factor));
@@ -60,7 +61,7 @@ impl<T: Factorable> System<T> {
             (qr.column_mut(j)).copy_from_slice(&dense[j * rows..(j + 1) * rows]);
         }
         qr.factorise(0.0);
-        let size = |k: usize| qr.column(k)[k].norm_squared().sqrt();
+        let size = |k: usize| qr.column(k)[k].norm_squared().greatest().sqrt();
         match (columns, qr.rank()) {
             (0, _) => (1.0, 1.0),
             (n, rank) if rank == n => (size(0), size(n - 1)),
@@ -80,7 +81,7 @@ impl<T: Factorable> System<T> {
             (qr.column_mut(j)).copy_from_slice(&dense[j * rows..(j + 1) * rows]);
         }
         qr.factorise(0.0);
-        let size = |k: usize| qr.column(k)[k].norm_squared().sqrt();
+        let size = |k: usize| qr.column(k)[k].norm_squared().greatest().sqrt();
         let rank = (0..qr.rank()).filter(|&k| size(k) > tolerance * size(0));
         columns - rank.count()
     }
