@@ -11,11 +11,11 @@ pub mod conversion;
 #[cfg(feature = "cli")]
 pub mod diagnostics;
 #[cfg(feature = "cli")]
+pub mod formulas;
+#[cfg(feature = "cli")]
 pub mod frames;
 #[cfg(feature = "cli")]
 pub mod import;
-#[cfg(feature = "cli")]
-pub mod formulas;
 #[cfg(feature = "cli")]
 mod json;
 #[cfg(feature = "cli")]

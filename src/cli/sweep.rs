@@ -340,6 +340,7 @@ impl Sweep {
         let wanted = Wanted {
             certificates: false,
             all_complex: false,
+            starts: true,
         };
         let report = solver.at_targets(&question.start(), &question.held(), wanted);
         let like = question.start();

@@ -59,6 +59,8 @@ impl Curve {
             }
             Holdable::Coordinate(_, c) if c.is_angle() => 0.1 * (input.to - input.from).abs(),
             Holdable::Coordinate(..) => (input.to - input.from).abs() / length,
+            // never an input: it has no value to go to
+            Holdable::Turn(..) => 0.0,
         };
         let measure = (0..inputs.len())
             .max_by(|&i, &j| measures(&inputs[i]).total_cmp(&measures(&inputs[j])))
@@ -99,6 +101,7 @@ impl Curve {
                 let (gap, _) = c.row(&at.platforms[platform].pose(), middle, length);
                 0.5 + gap * unit / change
             }
+            Holdable::Turn(..) => 0.0,
         }
     }
 
@@ -130,8 +133,8 @@ impl Curve {
     fn unit(&self, of: Holdable) -> f64 {
         match of {
             Holdable::Joint(joint) => self.system.joint_scale(joint),
-            Holdable::Coordinate(_, c) if c.is_angle() => 1.0,
-            Holdable::Coordinate(..) => self.system.characteristic_length(),
+            Holdable::Coordinate(_, c) if !c.is_angle() => self.system.characteristic_length(),
+            Holdable::Coordinate(..) | Holdable::Turn(..) => 1.0,
         }
     }
 
@@ -139,7 +142,7 @@ impl Curve {
     fn slope_of(&self, at: &Configuration<f64>, of: Holdable) -> Vec<(usize, f64)> {
         match of {
             Holdable::Joint(joint) => self.column(joint).map(|c| (c, 1.0)).into_iter().collect(),
-            Holdable::Coordinate(platform, coordinate) => {
+            Holdable::Coordinate(platform, _) | Holdable::Turn(platform, _) => {
                 let first = Unknown::Twist {
                     platform,
                     component: 0,
@@ -150,8 +153,7 @@ impl Curve {
                 };
                 let pose = at.platforms[platform].pose();
                 let length = self.system.characteristic_length();
-                let (_, slope) = coordinate.row(&pose, coordinate.of(&pose), length);
-                slope
+                of.slope(&pose, length)
                     .into_iter()
                     .enumerate()
                     .map(|(k, s)| (first + k, s))
@@ -179,6 +181,7 @@ impl Curve {
                         let length = self.system.characteristic_length();
                         c.row(&at.platforms[platform].pose(), wanted, length).0
                     }
+                    Holdable::Turn(..) => 0.0,
                 };
                 let mut slope = self.slope_of(at, input.coordinate);
                 if let Some(measure) = measure {
@@ -305,6 +308,8 @@ impl Held<f64> {
                     }
                 }
             }
+            // held only with its whole pose
+            Holdable::Turn(platform, _) => self.platforms[platform] = HeldPlatform::Free,
         }
         self
     }

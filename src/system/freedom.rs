@@ -154,6 +154,15 @@ impl Holdable {
         }
     }
 
+    /// Its value in a configuration, in m or rad.
+    pub fn of(self, at: &Configuration<f64>) -> f64 {
+        match self {
+            Holdable::Joint(joint) => at.joints[joint],
+            Holdable::Coordinate(platform, c) => c.of(&at.platforms[platform].pose()),
+            Holdable::Turn(..) => 0.0,
+        }
+    }
+
     /// What its value measures.
     pub fn measure(self, mechanism: &Mechanism) -> Measure {
         match self.is_angle(mechanism) {

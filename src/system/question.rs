@@ -147,18 +147,12 @@ impl<'a> Question<'a> {
     /// # Errors
     /// If there is no such joint or coordinate, or the expression has no value.
     pub fn value(&self, name: &str, text: &str) -> Result<(Holdable, f64), QuestionError> {
-        let (coordinate, home) = match self.target(name)? {
-            Target::Joint(joint) => {
-                let home = self.mechanism.joints()[joint].home;
-                (Holdable::Joint(joint), home)
-            }
-            Target::Coordinate(platform, c) => {
-                let home = c.of(&self.mechanism.platforms()[platform].home);
-                (Holdable::Coordinate(platform, c), home)
-            }
+        let coordinate = match self.target(name)? {
+            Target::Joint(joint) => Holdable::Joint(joint),
+            Target::Coordinate(platform, c) => Holdable::Coordinate(platform, c),
             Target::Pose(_) => return Err(QuestionError::NotAJoint { name: name.into() }),
         };
-        Ok((coordinate, self.number(name, text, home)?))
+        Ok((coordinate, self.number(name, text, coordinate)?))
     }
 
     /// The mechanism that is asked about.

@@ -69,7 +69,7 @@ impl<T: Factorable> Tracker<T> {
     }
 
     /// Goes on from another configuration, which ought to be assembled.
-    pub fn restart(&mut self, at: &Configuration<f64>) {
+    pub fn restart(&mut self, at: &Configuration<T>) {
         self.trail.forget();
         self.configuration.clone_from(at);
     }

@@ -180,12 +180,7 @@ impl<'m> Record<'m> {
             return;
         }
         let part = (!self.inputs.is_empty()).then(|| curve.part(at));
-        let inputs = self.inputs.iter().map(|input| match input.coordinate {
-            crate::system::Holdable::Joint(joint) => at.joints[joint],
-            crate::system::Holdable::Coordinate(platform, c) => {
-                c.of(&at.platforms[platform].pose())
-            }
-        });
+        let inputs = self.inputs.iter().map(|input| input.coordinate.of(at));
         self.met.push(Met {
             kind,
             part,

@@ -1,5 +1,6 @@
 //! Points of bodies whose paths are traced.
 
+use crate::algebra::Measure;
 use crate::geometry::Vector3;
 use crate::mechanism::{Configuration, Frame, Kinematics, Mechanism, Placement};
 use crate::system::{ValueError, number_of};
@@ -49,10 +50,11 @@ impl TracedPoint {
         }
         let mut offset = [0.0; 3];
         for (to, text) in offset.iter_mut().zip(offsets) {
-            *to = number_of(mechanism, text).map_err(|error| PointError::Value {
-                text: text.trim().into(),
-                error,
-            })?;
+            *to =
+                number_of(mechanism, text, Measure::Length).map_err(|error| PointError::Value {
+                    text: text.trim().into(),
+                    error,
+                })?;
         }
         Ok(TracedPoint {
             name: text.trim().into(),

@@ -234,6 +234,7 @@ fn holding(held: &Held<f64>, inputs: &[Driven]) -> Option<Held<f64>> {
                     _ => return None,
                 }
             }
+            Holdable::Turn(..) => return None,
         }
     }
     Some(held)

@@ -68,6 +68,7 @@ fn seeds(
     let wanted = Wanted {
         certificates: false,
         all_complex: false,
+        starts: true,
     };
     let mut seeds = Vec::new();
     for k in 0..=VALUES {

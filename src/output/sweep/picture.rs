@@ -107,15 +107,9 @@ impl Picture {
 
     fn values(&self, mechanism: &Mechanism, row: &Row) -> Vec<f64> {
         let at: &Configuration<f64> = row.configuration;
-        let shown = |of: Holdable| {
-            let value = match of {
-                Holdable::Joint(joint) => at.joints[joint],
-                Holdable::Coordinate(platform, c) => c.of(&at.platforms[platform].pose()),
-            };
-            match of.is_angle(mechanism) {
-                true => value.to_degrees(),
-                false => value,
-            }
+        let shown = |of: Holdable| match of.is_angle(mechanism) {
+            true => of.of(at).to_degrees(),
+            false => of.of(at),
         };
         let input = self.input.map_or(f64::NAN, |input| shown(input.coordinate));
         let outputs = self
