@@ -687,7 +687,7 @@ fn damaged(text: String) -> impl Strategy<Value = String> {
         0..9_u8,
         any::<prop::sample::Index>(),
     );
-    prop::collection::vec(change, 1..6).prop_map(move |changes| {
+    prop::collection::vec(change, 1..4).prop_map(move |changes| {
         let mut text: Vec<char> = text.chars().collect();
         for (at, length, word, kind, other) in changes {
             if text.is_empty() {
@@ -716,16 +716,14 @@ fn damaged(text: String) -> impl Strategy<Value = String> {
                 }
                 // a number or name is exchanged for another
                 _ => {
-                    let quote = |from: usize| {
-                        text[from..]
-                            .iter()
-                            .position(|c| *c == '"')
-                            .map(|i| from + i)
+                    let find = |from: usize, end: &[char]| {
+                        let mut windows = text[from..].windows(end.len());
+                        windows.position(|window| window == end).map(|i| from + i)
                     };
-                    if let Some((start, end)) =
-                        quote(at).and_then(|start| Some((start, quote(start + 1)?)))
-                    {
-                        text.splice(start + 1..end, word.chars().filter(|c| *c != '"'));
+                    let start = find(at, &['=', '"']).map(|start| start + 2);
+                    let end = start.and_then(|start| find(start, &['"']));
+                    if let (Some(start), Some(end)) = (start, end) {
+                        text.splice(start..end, word.chars().filter(|c| *c != '"'));
                     }
                 }
             }
