@@ -460,7 +460,9 @@ fn mjcf_of_others_is_read_as_mujoco_reads_it() {
     // hinge limits in degrees, a slide's in m
     let joint = |name: &str| &mechanism.joints()[mechanism.joint(name).unwrap()];
     let (low, high) = joint("swing").limits.unwrap();
-    assert!((low + 1.0471975511965976).abs() < 1e-12 && (high - 1.5707963267948966).abs() < 1e-12);
+    assert!(
+        (low + 60_f64.to_radians()).abs() < 1e-12 && (high - 90_f64.to_radians()).abs() < 1e-12
+    );
     assert_eq!(joint("lift").limits, Some((0.0, 0.4)));
     let data: Value = serde_json::from_str(&file("others.json")).unwrap();
     let mut compared = 0;
@@ -687,7 +689,7 @@ fn damaged(text: String) -> impl Strategy<Value = String> {
         0..9_u8,
         any::<prop::sample::Index>(),
     );
-    prop::collection::vec(change, 1..6).prop_map(move |changes| {
+    prop::collection::vec(change, 1..4).prop_map(move |changes| {
         let mut text: Vec<char> = text.chars().collect();
         for (at, length, word, kind, other) in changes {
             if text.is_empty() {
@@ -716,16 +718,14 @@ fn damaged(text: String) -> impl Strategy<Value = String> {
                 }
                 // a number or name is exchanged for another
                 _ => {
-                    let quote = |from: usize| {
-                        text[from..]
-                            .iter()
-                            .position(|c| *c == '"')
-                            .map(|i| from + i)
+                    let find = |from: usize, end: &[char]| {
+                        let mut windows = text[from..].windows(end.len());
+                        windows.position(|window| window == end).map(|i| from + i)
                     };
-                    if let Some((start, end)) =
-                        quote(at).and_then(|start| Some((start, quote(start + 1)?)))
-                    {
-                        text.splice(start + 1..end, word.chars().filter(|c| *c != '"'));
+                    let start = find(at, &['=', '"']).map(|start| start + 2);
+                    let end = start.and_then(|start| find(start, &['"']));
+                    if let (Some(start), Some(end)) = (start, end) {
+                        text.splice(start..end, word.chars().filter(|c| *c != '"'));
                     }
                 }
             }

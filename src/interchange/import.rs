@@ -148,11 +148,7 @@ pub fn import(
             (read, None)
         }
         "mujoco" => {
-            let spliced =
-                mjcf::splice(name, text, files).map_err(|(files, file, problem)| WrongFile {
-                    files,
-                    problems: vec![(file, problem)],
-                })?;
+            let spliced = mjcf::splice(name, text, files)?;
             let read = mjcf::read(&spliced.text).map_err(|problems| {
                 let located = problems.into_iter().map(|problem| match &problem.span {
                     None => (0, problem),

@@ -4,6 +4,7 @@ mod check;
 mod constraints;
 mod hinges;
 mod include;
+mod joint;
 mod read;
 mod sliders;
 mod write;

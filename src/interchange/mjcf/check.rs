@@ -108,7 +108,10 @@ pub(super) fn look<'a>(
         let parallel = |v: &[f64]| {
             let [a, b] =
                 [&v[..3], &v[3..]].map(|v| Vector3([v[0], v[1], v[2]]).times(1.0 / size(v)));
-            !(a.cross(&b).norm() > 1e-9)
+            {
+                let across = a.cross(&b).norm();
+                across.is_nan() || across <= 1e-9
+            }
         };
         let nothing = match name {
             "quat" | "zaxis" => size(&numbers) < 1e-12,

@@ -101,12 +101,8 @@ impl<'r, 'i> Constraints<'_, 'r, 'i> {
     /// The site of that name.
     fn site(&mut self, node: Node, attribute: &str, name: &str) -> Option<Attachment> {
         for (body, entry) in self.model.bodies.iter().enumerate() {
-            for site in entry
-                .body
-                .sites
-                .iter()
-                .filter(|site| site.name.as_deref() == Some(name))
-            {
+            let mut sites = entry.body.sites.iter();
+            if let Some(site) = sites.find(|site| site.name.as_deref() == Some(name)) {
                 return Some(Attachment {
                     body: *self.parts[body].last()?,
                     frame: name.to_owned(),

@@ -2,6 +2,7 @@
 
 use std::ops::Range;
 
+use crate::interchange::import::WrongFile;
 use crate::interchange::page::{document, tag};
 use crate::interchange::problem::{ImportProblem, ImportProblemKind};
 
@@ -43,11 +44,7 @@ impl Spliced {
 }
 
 /// The text of a file with all it includes; or what is wrong, and in which file.
-pub(crate) fn splice(
-    name: &str,
-    text: &str,
-    files: Files,
-) -> Result<Spliced, (Vec<(String, String)>, usize, ImportProblem)> {
+pub(crate) fn splice(name: &str, text: &str, files: Files) -> Result<Spliced, WrongFile> {
     let mut spliced = Spliced {
         text: String::new(),
         pieces: Vec::new(),
@@ -55,7 +52,10 @@ pub(crate) fn splice(
     };
     match expand(&mut spliced, files, 0, &mut vec![0]) {
         Ok(()) => Ok(spliced),
-        Err((file, problem)) => Err((spliced.files, file, problem)),
+        Err(wrong) => Err(WrongFile {
+            files: spliced.files,
+            problems: vec![wrong],
+        }),
     }
 }
 

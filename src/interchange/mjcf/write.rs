@@ -11,6 +11,7 @@
 //! | Prismatic, Cylindrical, Planar | a body on A that slides and turns as the joint allows, and a `weld` of it to B |
 //! | Distance | a `tendon` of that length; a joint in the length is a second, fixed tendon |
 
+use super::joint::{joint_attributes, joint_tag};
 use super::sliders::with_sliders;
 use crate::description::ClosureKind;
 use crate::geometry::{Quaternion, Vector3};
@@ -385,27 +386,4 @@ fn actuated(tree: &Tree) -> Vec<&Joint> {
 fn rounded(value: f64) -> f64 {
     let short = format!("{value:.2e}").parse();
     short.unwrap_or(value)
-}
-
-fn joint_tag(joint: &Joint) -> &'static str {
-    match joint.motion {
-        Motion::Free => "freejoint",
-        _ => "joint",
-    }
-}
-
-fn joint_attributes(joint: &Joint) -> Vec<(&'static str, String)> {
-    let mut attributes = vec![("name", joint.name.clone())];
-    let kind = match joint.motion {
-        Motion::Free => return attributes,
-        Motion::Turn => "hinge",
-        Motion::Slide => "slide",
-        Motion::Ball => "ball",
-    };
-    attributes.push(("type", kind.into()));
-    attributes.push(("axis", vector(&joint.axis)));
-    if let Some((low, high)) = joint.limits {
-        attributes.push(("range", numbers([low, high])));
-    }
-    attributes
 }
