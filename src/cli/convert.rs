@@ -19,7 +19,7 @@ pub struct Convert {
     #[command(flatten)]
     source: Source,
     /// The convention of all chains
-    #[arg(long, value_enum, required_unless_present = "cut")]
+    #[arg(long, value_enum)]
     convention: Option<Named>,
     /// Break the mechanism at this joint; a closure of its loop becomes rows with variables of its own
     #[arg(long, value_name = "JOINT")]
@@ -29,6 +29,9 @@ pub struct Convert {
 impl Convert {
     pub fn run(&self) -> Result<Answer, Refusal> {
         let loaded = self.source.load()?;
+        if self.convention.is_none() && self.cut.is_none() {
+            return Err(Refusal(conversion::nothing_asked().render(style())));
+        }
         let settings = ConvertSettings {
             convention: self.convention.map(Convention::from),
             cut: self.cut.clone(),

@@ -36,6 +36,15 @@ pub fn notes(notes: &[ConversionNote]) -> String {
     notes.iter().map(line).collect()
 }
 
+/// What is said where neither a convention nor a cut is asked for.
+pub fn nothing_asked() -> Complaint {
+    Complaint {
+        title: "nothing is asked for: the file would come out as it is".into(),
+        label: String::new(),
+        help: Some("give --convention modified or standard, or --cut JOINT, or both".into()),
+    }
+}
+
 /// Why a mechanism is not converted, unless it is what came out that is wrong.
 pub fn complaint(error: &ConvertError) -> Complaint {
     let (title, help) = match error {
