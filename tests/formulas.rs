@@ -268,10 +268,10 @@ fn columns_of_jacobians_are_the_derivatives_of_the_transforms() {
                         .map(|k| slope(k) * here.rotation.0[k].0[i])
                         .sum::<f64>()
                 });
-                for i in 0..3 {
-                    let found = evaluated(&column.omega[i], &values);
+                for (formula, omega) in column.omega.iter().zip(omega) {
+                    let found = evaluated(formula, &values);
                     assert!(
-                        (found - omega[i]).abs() < 1e-8,
+                        (found - omega).abs() < 1e-8,
                         "{name} {} {}",
                         jacobian.of,
                         column.joint
