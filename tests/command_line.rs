@@ -670,3 +670,27 @@ fn a_joint_used_nowhere_is_neither_hinge_nor_slide() {
         "{said}"
     );
 }
+
+#[test]
+fn formulas_are_written_in_every_script_and_unknown_frames_are_refused() {
+    let of = ["formulas", FOUR_BAR, "--of", "left"];
+    let with = |option: &[&str]| answer(&[&of[..], option].concat());
+    assert!(with(&[]).contains("l₁ cos θ₁ + l₂ cos(θ₁ + φ₂)"));
+    assert_eq!(with(&[]), with(&["--unicode"]));
+    assert!(with(&["--latex"]).contains("l_{1} \\, \\cos \\theta_{1}"));
+    assert!(with(&["--ron"]).contains("\"l1*cos(theta1) + l2*cos(theta1 + phi2)\""));
+    assert!(with(&["--rust"]).contains("pub fn left_in_ground(l1: f64, l2: f64,"));
+    let json: Value = serde_json::from_str(&with(&["--format", "json"])).unwrap();
+    let x = &json["transforms"][0]["position"][0];
+    assert_eq!(x, "l1*cos(theta1) + l2*cos(theta1 + phi2)");
+    for (arguments, complaint) in [
+        (&["--of", "lfet"][..], "did you mean `left`?"),
+        (&["--of", "left", "--in", "left.7"], "is not a frame"),
+        (&["--in", "left"], "add --of FRAME"),
+        (&["--latex", "--rust"], "cannot be used with"),
+    ] {
+        let output = run(&[&["formulas", FOUR_BAR], arguments].concat());
+        assert_eq!(output.status.code(), Some(2), "{arguments:?}");
+        assert!(stderr(&output).contains(complaint), "{}", stderr(&output));
+    }
+}

@@ -5,6 +5,7 @@ use std::collections::BTreeMap;
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::Command;
+use std::sync::OnceLock;
 
 use linkwork::algebra::Expression;
 use linkwork::analysis::compare::{CompareSettings, compare};
@@ -39,6 +40,18 @@ fn load(name: &str) -> Mechanism {
 
 fn read(text: &str) -> Mechanism {
     Mechanism::new(&Description::read(text).unwrap()).unwrap()
+}
+
+/// Every shipped mechanism with all its formulas, written once.
+fn all() -> &'static [(String, Mechanism, FormulasReport)] {
+    static ALL: OnceLock<Vec<(String, Mechanism, FormulasReport)>> = OnceLock::new();
+    ALL.get_or_init(|| {
+        let written = shipped().into_iter().map(|(name, mechanism)| {
+            let report = everything(&mechanism);
+            (name, mechanism, report)
+        });
+        written.collect()
+    })
 }
 
 fn everything(mechanism: &Mechanism) -> FormulasReport {
@@ -187,8 +200,7 @@ fn evaluated(expression: &Expression, values: &BTreeMap<String, f64>) -> f64 {
 
 #[test]
 fn formulas_of_every_shipped_mechanism_are_complete_and_have_the_values_of_the_chains() {
-    for (name, mechanism) in shipped() {
-        let report = everything(&mechanism);
+    for (name, mechanism, report) in all() {
         // the loops of general 6R linkages, with all twists as letters, have thousands of terms
         match name.as_str() {
             "bricard_line" | "bricard_plane" | "goldberg_5r" => {
@@ -199,8 +211,8 @@ fn formulas_of_every_shipped_mechanism_are_complete_and_have_the_values_of_the_c
                 assert!(report.simplified, "{name}");
             }
         }
-        let values = values(&report);
-        let at = configuration(&mechanism, &values);
+        let values = values(report);
+        let at = configuration(mechanism, &values);
         for transform in report.links.iter().chain(&report.transforms) {
             let frame = |name: &str| mechanism.frame(name).unwrap();
             let pose =
@@ -268,10 +280,10 @@ fn columns_of_jacobians_are_the_derivatives_of_the_transforms() {
                         .map(|k| slope(k) * here.rotation.0[k].0[i])
                         .sum::<f64>()
                 });
-                for i in 0..3 {
-                    let found = evaluated(&column.omega[i], &values);
+                for (formula, omega) in column.omega.iter().zip(omega) {
+                    let found = evaluated(formula, &values);
                     assert!(
-                        (found - omega[i]).abs() < 1e-8,
+                        (found - omega).abs() < 1e-8,
                         "{name} {} {}",
                         jacobian.of,
                         column.joint
@@ -284,12 +296,12 @@ fn columns_of_jacobians_are_the_derivatives_of_the_transforms() {
 
 #[test]
 fn ron_pastes_back_and_is_proved() {
-    for (name, mechanism) in shipped() {
+    for (name, mechanism, report) in all() {
         let path = format!("{}/mechanisms/{name}.ron", env!("CARGO_MANIFEST_DIR"));
         let mut description = Description::read(&fs::read_to_string(path).unwrap()).unwrap();
         description.closed_forms.clear();
         let text = description.to_ron().unwrap();
-        let ron = output::ron(&mechanism, &everything(&mechanism));
+        let ron = output::ron(mechanism, report);
         let end = text.trim_end().strip_suffix(')').unwrap();
         let comma = if end.trim_end().ends_with(',') {
             ""
@@ -342,10 +354,9 @@ fn rust_functions_compile_and_agree_with_the_chains() {
     let mut program = String::new();
     let mut main = String::new();
     let mut expected: Vec<(String, f64)> = Vec::new();
-    for (name, mechanism) in shipped() {
-        let report = everything(&mechanism);
-        let values = values(&report);
-        let text = output::rust(&mechanism, &report);
+    for (name, mechanism, report) in all() {
+        let values = values(report);
+        let text = output::rust(mechanism, report);
         let plain: BTreeMap<String, f64> = values
             .iter()
             .map(|(name, value)| (name.replace('.', "_"), *value))
@@ -367,7 +378,7 @@ fn rust_functions_compile_and_agree_with_the_chains() {
             let function =
                 format!("{}_in_{}", transform.of, transform.relative_to).replace('.', "_");
             call(&function);
-            let at = configuration(&mechanism, &values);
+            let at = configuration(mechanism, &values);
             let frame = |name: &str| mechanism.frame(name).unwrap();
             let pose =
                 mechanism.transform(frame(&transform.relative_to), frame(&transform.of), &at);
@@ -447,8 +458,8 @@ fn latex_is_set_by_katex() {
             .output()
     };
     let mut whole = String::new();
-    for (_, mechanism) in shipped() {
-        whole += &output::latex(&mechanism, &everything(&mechanism));
+    for (_, mechanism, report) in all() {
+        whole += &output::latex(mechanism, report);
     }
     let displays = whole.lines().filter(|line| *line == "\\[").count();
     assert!(displays > 300, "{displays}");

@@ -83,10 +83,10 @@ fn blocks(formulas: &[&Trigonometric]) -> BTreeMap<Powers, usize> {
     let mut found = BTreeMap::new();
     for &angle in angles.keys() {
         let fits = |block: &Vec<&Powers>| {
-            let mut pairs = block.iter().map(|other| seen(angle, *other));
+            let mut pairs = block.iter().map(|other| seen(angle, other));
             let together = block
                 .iter()
-                .any(|other| seen(angle, *other) != (false, false));
+                .any(|other| seen(angle, other) != (false, false));
             together && pairs.all(|pair| pair != (true, true))
         };
         let place = merged.iter().position(fits).unwrap_or_else(|| {

@@ -88,5 +88,5 @@ pub(super) fn square_root(value: &BigRational) -> Option<(BigRational, u64)> {
 
 /// The smallest prime factor of a root, if there is a root.
 pub(super) fn prime_of(root: u64) -> Option<u64> {
-    (2..=root).find(|prime| root % prime == 0)
+    (2..=root).find(|prime| root.is_multiple_of(*prime))
 }
