@@ -8,7 +8,7 @@ use super::cone::Cone;
 use super::{Character, MobilitySettings};
 use crate::linear::{norm, orthonormal};
 use crate::system::{Neighbourhood, Tangent, independent_parts};
-use walk::{Seen, contains, directions, explore, fills, same, there};
+use walk::{Seen, contains, directions, explore, fills, on_cone, same, there};
 
 /// A joint that a finite step along free motions moves by more than this moves: at a dead point its
 /// rate is zero, and a step of 0.05 moves it to second order.
@@ -235,10 +235,25 @@ fn singular(
     let mut share = 0.0;
     let (mut tried, mut fruitless) = (0, 0);
     while share < 1.0 {
-        for direction in directions(&cone, tangent, settings.branch_trials, rng) {
-            explore(near, own, tangent, &direction, settings, &mut seen, rng);
+        let ahead = match tried == 0 || cone.is_all() {
+            true => directions(&cone, tangent, settings.branch_trials, rng),
+            false => on_cone(&cone, tangent, settings.branch_trials, rng),
+        };
+        if ahead.is_empty() {
+            break;
+        }
+        for direction in ahead {
             tried += 1;
             fruitless += 1;
+            // on the cone a step along a branch that is known leads onto that
+            let known = |limit: &Limit| {
+                let direction = std::slice::from_ref(&direction);
+                !limit.curved && contains(&limit.motions, direction, SAME_THERE)
+            };
+            if !cone.is_all() && limits.iter().any(known) {
+                continue;
+            }
+            explore(near, own, tangent, &direction, settings, &mut seen, rng);
             if seen.len() > limits.len() {
                 fruitless = 0;
                 for seen in &seen[limits.len()..] {

@@ -51,11 +51,7 @@ pub(super) fn directions(
     let basis = &at.motions;
     let mut directions: Vec<Vec<f64>> = vec![];
     if basis.len() > 1 {
-        let on_cone = match cone.is_all() {
-            true => 0,
-            false => trials * basis.len(),
-        };
-        directions.extend((0..on_cone).filter_map(|_| cone.direction(basis, rng)));
+        directions.extend(on_cone(cone, at, trials, rng));
         let between = match directions.is_empty() {
             true => trials * basis.len(),
             false => trials,
@@ -65,6 +61,21 @@ pub(super) fn directions(
     let back = |motion: &Vec<f64>| motion.iter().map(|x| -x).collect();
     directions.extend(basis.iter().flat_map(|m| [m.clone(), back(m)]));
     directions
+}
+
+/// Directions on the quadratic cone; none where second order excludes nothing.
+pub(super) fn on_cone(
+    cone: &Cone,
+    at: &Tangent,
+    trials: usize,
+    rng: &mut impl Rng,
+) -> Vec<Vec<f64>> {
+    let number = match cone.is_all() {
+        true => 0,
+        false => trials * at.motions.len(),
+    };
+    let directions = (0..number).filter_map(|_| cone.direction(&at.motions, rng));
+    directions.collect()
 }
 
 /// A branch seen at a point of it that lies on no other.
