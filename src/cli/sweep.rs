@@ -22,14 +22,14 @@ use linkwork::system::{
     Driven, Held, Holdable, Question, QuestionError, Search as NearbySearch, check_count,
 };
 
+use self::written::Lines;
+#[cfg(feature = "plot")]
+use self::written::save;
 use super::asked::{Split, refusal};
 use super::progress::Progress;
 use super::search::Search;
 use super::source::{Assignment, Source, once};
 use super::{Answer, Refusal, style};
-use written::Lines;
-#[cfg(feature = "plot")]
-use written::save;
 
 /// Move the inputs and see what happens: one branch, never another without a word.
 ///
