@@ -108,7 +108,7 @@ fn differences(mechanism: &Mechanism, a: &AssembliesReport, b: &AssembliesReport
 
 /// Mechanisms whose answer still depends on the seed, or takes minutes, with the reason. An entry goes when its reason
 /// does.
-const OPEN: [(&str, &str); 4] = [
+const OPEN: [(&str, &str); 3] = [
     (
         "bricard_trihedral",
         "seed 23 finds 2 of 4 generic solutions",
@@ -116,10 +116,6 @@ const OPEN: [(&str, &str); 4] = [
     (
         "delta",
         "seeds 10, 26, 30, 38 and 42 find fewer than 40 generic solutions",
-    ),
-    (
-        "flat_triangle",
-        "its one double solution is counted as 1, 2 or 3",
     ),
     ("stewart_gough_6ups", "a search takes minutes"),
 ];
