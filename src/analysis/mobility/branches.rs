@@ -269,7 +269,8 @@ fn singular(
         }
         // where most of what is possible was found, the rest is probably real too
         let patience = if share >= 0.5 { 4 } else { 1 };
-        let enough = patience * (2 * settings.branch_trials * n).max(4 * seen.len());
+        let rounds = if cone.is_all() { 2 } else { 1 };
+        let enough = patience * (rounds * settings.branch_trials * n).max(4 * seen.len());
         if n < 2 || fruitless >= enough || tried >= LONGEST * settings.branch_trials * n {
             break;
         }

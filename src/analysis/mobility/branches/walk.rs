@@ -54,9 +54,13 @@ pub(super) fn directions(
         directions.extend(on_cone(cone, at, trials, rng));
         let between = match directions.is_empty() {
             true => trials * basis.len(),
-            false => trials,
+            // none should be needed: every motion starts on the cone
+            false => basis.len(),
         };
         directions.extend((0..between).map(|_| combination(basis, rng)));
+    }
+    if directions.len() > basis.len() && !cone.is_all() {
+        return directions;
     }
     let back = |motion: &Vec<f64>| motion.iter().map(|x| -x).collect();
     directions.extend(basis.iter().flat_map(|m| [m.clone(), back(m)]));
