@@ -6,7 +6,7 @@ use super::coordinates::{C, size};
 use super::family::{Family, Member};
 use super::generic::{Progress, polish};
 use super::local::Local;
-use super::simple::SETTLED;
+use super::simple::{SETTLED, steepness};
 use super::threads;
 use super::way::Way;
 use crate::number::Number;
@@ -297,14 +297,8 @@ fn settles(way: &mut Way<'_>, x: &mut [C]) -> bool {
         return false;
     }
     let step = way.correct(end, &mut x.to_vec());
-    step < SETTLED * (1.0 + size(x)) && is_regular(way, x)
-}
-
-/// Pivots of solutions far out are small beside the largest as the inverse square of their size,
-/// without others being near.
-fn is_regular(way: &mut Way<'_>, x: &[C]) -> bool {
-    let out = (size(x) / 30.0).max(1.0);
-    way.regularity(C::from_f64(1.0), x) > SINGULAR / (out * out)
+    step < SETTLED * (1.0 + size(x)) * steepness(x)
+        && way.regularity(end, x) > SINGULAR / steepness(x)
 }
 
 fn go_round(way: &mut Way<'_>, tracker: &Tracker, far: f64, x: &[C], stages: &mut Stages) -> End {

@@ -122,20 +122,19 @@ impl Family {
         inputs
     }
 
-    /// What each input is measured by: 1 rad or the characteristic length.
-    pub fn input_lengths(&self) -> Vec<f64> {
+    /// Which inputs are lengths.
+    pub fn lengths_among_inputs(&self) -> Vec<bool> {
         let c = &self.coordinates;
-        let unit = |is_angle: bool| if is_angle { 1.0 } else { c.length };
         let joints = c.held_joints.iter();
-        let mut lengths: Vec<f64> = joints
-            .map(|&j| unit(self.mechanism.joints()[j].kind.is_angle()))
+        let mut lengths: Vec<bool> = joints
+            .map(|&j| !self.mechanism.joints()[j].kind.is_angle())
             .collect();
         for _ in &c.held_poses {
-            lengths.extend([1.0; 4]);
-            lengths.extend([c.length; 3]);
+            lengths.extend([false; 4]);
+            lengths.extend([true; 3]);
         }
-        lengths.extend(c.targets.iter().map(|(_, target)| unit(target.is_angle())));
-        lengths.extend(c.orientations.iter().flat_map(|_| [1.0; 4]));
+        lengths.extend(c.targets.iter().map(|(_, target)| !target.is_angle()));
+        lengths.extend(c.orientations.iter().flat_map(|_| [false; 4]));
         lengths
     }
 

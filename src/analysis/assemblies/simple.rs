@@ -13,6 +13,12 @@ const REGULAR: f64 = 1e-7;
 /// Newton's last step at a solution that is not multiple: at a multiple one steps only halve.
 pub(super) const SETTLED: f64 = 1e-9;
 
+/// How much smaller pivots of solutions far out are beside the largest, without others being near,
+/// and how much larger rounding is: as the square of their size.
+pub(super) fn steepness(x: &[C]) -> f64 {
+    (size(x) / 30.0).max(1.0).powi(2)
+}
+
 /// Whether a solution of a generic member is one by itself.
 ///
 /// Rounding leaves the closures of a multiple solution unseen some 1e-7 about it, where the quotient
@@ -22,8 +28,9 @@ pub(super) fn is_simple(way: &mut Way<'_>, s: C, x: &[C], rng: &mut Pcg64) -> bo
     const PLAIN: f64 = 1e-5;
     const DISTANCE: f64 = 1e-6;
     let regularity = way.regularity(s, x);
-    if regularity <= REGULAR || regularity > PLAIN {
-        return regularity > PLAIN;
+    let plain = PLAIN / steepness(x);
+    if regularity <= REGULAR || regularity > plain {
+        return regularity > plain;
     }
     (0..3).all(|_| {
         let mut beside = way.family.shaken(x, DISTANCE, rng);
@@ -32,6 +39,6 @@ pub(super) fn is_simple(way: &mut Way<'_>, s: C, x: &[C], rng: &mut Pcg64) -> bo
                 return false;
             }
         }
-        way.family.coordinates.difference(x, &beside) < SETTLED * (1.0 + size(x))
+        way.family.coordinates.difference(x, &beside) < SETTLED * (1.0 + size(x)) * steepness(x)
     })
 }

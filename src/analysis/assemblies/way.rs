@@ -132,20 +132,28 @@ impl Way<'_> {
 
     /// How far it is: the largest change of an input, in rad or characteristic lengths.
     pub fn length(&self) -> f64 {
-        self.measured(&self.change.inputs)
+        self.measured(&self.change.inputs, |_| true)
     }
 
     /// The largest length held at the end, in characteristic lengths, and no less than 1.
     pub fn reach(&self) -> f64 {
         let inputs = self.from.inputs.iter().zip(&self.change.inputs);
         let end: Vec<C> = inputs.map(|(a, d)| a + d).collect();
-        self.measured(&end).max(1.0)
+        self.measured(&end, |length| length).max(1.0)
     }
 
-    fn measured(&self, inputs: &[C]) -> f64 {
-        let scales = self.family.input_lengths();
-        let sizes = inputs.iter().zip(scales).map(|(x, l)| (x / l).norm());
-        sizes.fold(0.0, f64::max)
+    /// The largest of inputs, lengths or not, of those wanted.
+    fn measured(&self, inputs: &[C], wanted: impl Fn(bool) -> bool) -> f64 {
+        let unit = |length: &bool| {
+            if *length {
+                self.family.coordinates.length
+            } else {
+                1.0
+            }
+        };
+        let lengths = self.family.lengths_among_inputs();
+        let inputs = inputs.iter().zip(&lengths).filter(|(_, l)| wanted(**l));
+        (inputs.map(|(x, l)| (x / unit(l)).norm())).fold(0.0, f64::max)
     }
 
     /// Number of dimensionless steps that move a point.
