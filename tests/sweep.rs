@@ -538,7 +538,7 @@ fn chebyshevs_point_touches_its_line_three_times() {
             let point = swept.step(1).2[0];
             for (k, x) in point.iter().enumerate().take(2) {
                 assert!(
-                    (x - row["midpoint"][k].as_f64().unwrap()).abs() < 1e-12,
+                    (x - row["midpoint"][k].as_f64().unwrap()).abs() < CLOSED,
                     "{row}"
                 );
             }
