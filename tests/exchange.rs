@@ -266,6 +266,7 @@ fn what_is_written_as_mjcf_and_read_again_has_as_many_assemblies() {
         let wanted = Wanted {
             certificates: false,
             all_complex: false,
+            starts: false,
         };
         let report = solver.at_targets(&question.start(), &question.held(), wanted);
         (report.real, report.complex, report.lost)

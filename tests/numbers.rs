@@ -1,6 +1,6 @@
 //! One suite run over every number: whatever the kinematics is evaluated with obeys the same laws.
 
-use linkwork::number::{Complex, Dual, Extent, Field, LANES, Lanes, Number};
+use linkwork::number::{Complex, Dual, Extent, Field, Lanes, Number};
 
 /// A number with generic parts, derived from a real part and a seed.
 trait Sample: Field {
