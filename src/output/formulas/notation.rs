@@ -1,9 +1,13 @@
 //! Expressions as textbooks print them.
 
+mod characters;
+
 use std::collections::BTreeSet;
 
 use crate::algebra::{Constant, Expression, Function, Node, Operator};
 use crate::mechanism::Mechanism;
+pub(super) use characters::lowered;
+use characters::{GREEK, VULGAR, parts, raised};
 
 /// For terminals or for TeX.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -19,78 +23,6 @@ pub(in crate::output) struct Notation {
     stem: Option<String>,
     /// The only platform: its letters need no name.
     platform: Option<String>,
-}
-
-const GREEK: [(&str, char); 24] = [
-    ("alpha", 'α'),
-    ("beta", 'β'),
-    ("gamma", 'γ'),
-    ("delta", 'δ'),
-    ("epsilon", 'ε'),
-    ("zeta", 'ζ'),
-    ("eta", 'η'),
-    ("theta", 'θ'),
-    ("iota", 'ι'),
-    ("kappa", 'κ'),
-    ("lambda", 'λ'),
-    ("mu", 'μ'),
-    ("nu", 'ν'),
-    ("xi", 'ξ'),
-    ("omicron", 'ο'),
-    ("rho", 'ρ'),
-    ("sigma", 'σ'),
-    ("tau", 'τ'),
-    ("upsilon", 'υ'),
-    ("phi", 'φ'),
-    ("chi", 'χ'),
-    ("psi", 'ψ'),
-    ("omega", 'ω'),
-    ("Gamma", 'Γ'),
-];
-
-const VULGAR: [(f64, f64, char); 9] = [
-    (1.0, 2.0, '½'),
-    (1.0, 3.0, '⅓'),
-    (2.0, 3.0, '⅔'),
-    (1.0, 4.0, '¼'),
-    (3.0, 4.0, '¾'),
-    (1.0, 6.0, '⅙'),
-    (1.0, 8.0, '⅛'),
-    (3.0, 8.0, '⅜'),
-    (1.0, 5.0, '⅕'),
-];
-
-/// A name as a stem and the digits it ends with, in either kind of digits.
-fn parts(name: &str) -> (&str, String) {
-    let digit = |c: char| c.is_ascii_digit() || ('₀'..='₉').contains(&c);
-    let stem = name.trim_end_matches(digit);
-    let plain = |c: char| match c {
-        '₀'..='₉' => char::from(b'0' + (c as u32 - '₀' as u32) as u8),
-        other => other,
-    };
-    (stem, name[stem.len()..].chars().map(plain).collect())
-}
-
-fn lowered(digits: &str) -> String {
-    let lower = |c: char| match c.to_digit(10) {
-        Some(digit) => char::from_u32('₀' as u32 + digit).unwrap_or(c),
-        None => c,
-    };
-    digits.chars().map(lower).collect()
-}
-
-/// Digits below the line.
-pub(super) fn subscript(digits: &str) -> String {
-    lowered(digits)
-}
-
-fn raised(digits: &str) -> String {
-    let raise = |c: char| {
-        c.to_digit(10).map_or(c, |digit| {
-            ['⁰', '¹', '²', '³', '⁴', '⁵', '⁶', '⁷', '⁸', '⁹'][digit as usize]
-        })
-    };
-    digits.chars().map(raise).collect()
 }
 
 /// How tightly something printed binds.

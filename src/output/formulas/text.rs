@@ -201,11 +201,11 @@ fn legend(notation: &Notation, report: &FormulasReport) -> String {
     // a sum is enclosed in parentheses, and all are explained by one of their kind
     let mut explained: Vec<String> = Vec::new();
     if let Some((indices, angle)) = short.iter().find(|(indices, _)| indices.len() == 1) {
-        let lower = super::notation::subscript(indices);
+        let lower = super::notation::lowered(indices);
         explained.push(format!("c{lower} = cos {angle}, s{lower} = sin {angle}"));
     }
     if let Some((indices, angle)) = short.iter().find(|(indices, _)| indices.len() > 1) {
-        let lower = super::notation::subscript(indices);
+        let lower = super::notation::lowered(indices);
         explained.push(format!("c{lower} = cos({angle}), s{lower} = sin({angle})"));
     }
     if !explained.is_empty() {
