@@ -25,6 +25,8 @@ mod quantity;
 #[cfg(feature = "cli")]
 pub mod question;
 #[cfg(feature = "cli")]
+mod screws;
+#[cfg(feature = "cli")]
 pub mod solution;
 #[cfg(feature = "cli")]
 pub mod statics;

@@ -77,6 +77,29 @@ impl Decomposition {
         x
     }
 
+    /// det(Uᵀ B V Σ⁻¹) of another matrix B of the same shape, column-major; 1 for A itself.
+    pub fn determinant_beside(&self, entries: &[f64]) -> f64 {
+        let rank = self.rank();
+        let images: Vec<Vec<f64>> = (self.right.iter())
+            .map(|v| {
+                let mut image = vec![0.0; self.rows];
+                for (x, column) in v.iter().zip(entries.chunks_exact(self.rows.max(1))) {
+                    add(&mut image, *x, column);
+                }
+                image
+            })
+            .collect();
+        nalgebra::DMatrix::from_fn(rank, rank, |i, j| {
+            dot(&self.left[i], &images[j]) / self.values[j]
+        })
+        .determinant()
+    }
+
+    /// The direction that A shortens most, of those within its rank.
+    pub fn weakest(&self) -> Option<&[f64]> {
+        self.right.last().map(Vec::as_slice)
+    }
+
     /// Orthonormal basis of the vectors with A x = 0.
     pub fn null_space(&self) -> Vec<Vec<f64>> {
         complement(&self.right, self.columns)
