@@ -6,6 +6,7 @@ pub mod assembly;
 pub mod compare;
 pub mod mobility;
 pub mod overview;
+pub mod singularities;
 pub mod statics;
 pub mod sweep;
 pub mod velocity;

@@ -86,6 +86,12 @@ impl Neighbourhood<'_> {
     }
 }
 
+/// Principal screws of a space of wrenches (f; m/L) about the origin of ground: `direction` is that
+/// of the force, or of the moment where there is no force.
+pub fn wrench_screws(wrenches: &[Vec<f64>], length: f64) -> Vec<Screw> {
+    principal_screws(wrenches, length)
+}
+
 /// Principal screws of a space of twists (ω; v/L) at the origin, then its translations.
 ///
 /// Twists are made unique by taking the part of v that is orthogonal to the translations; the
