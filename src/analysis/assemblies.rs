@@ -19,14 +19,16 @@ mod follow;
 mod generic;
 mod real;
 mod report;
+mod store;
 mod threads;
 mod way;
 
 pub use follow::{Fold, Followed};
-pub use generic::{GenericSolutions, Progress, StoredError};
+pub use generic::{GenericSolutions, Progress};
 pub use report::{
     AssembliesReport, Assembly, ClosestApproach, ComplexAssembly, Fit, Named, PoseReport,
 };
+pub use store::StoredError;
 
 use std::f64::consts::TAU;
 
@@ -204,7 +206,8 @@ impl AssemblySolver {
         let sizes = fits(family.parameters.len(), &stored.parameters)
             && fits(family.coordinates.input_count(), &stored.inputs)
             && (stored.solutions.iter()).all(|x| fits(family.coordinates.count(), x));
-        match sizes && stored.question == question(mechanism, &family) {
+        let asked = stored.question == question(mechanism, &family);
+        match sizes && asked && stored.solves(&family) {
             true => Ok(Self::with(mechanism, held, family, stored)),
             false => Err(AssembliesError::StoredForAnotherQuestion),
         }

@@ -59,7 +59,7 @@ pub struct Row<'a> {
     pub number: usize,
     /// The number of steps of the inputs' segment; `None` between two of them, and without inputs.
     pub step: Option<usize>,
-    /// The configuration, assembled to rounding.
+    /// The configuration: no closure row exceeds 1e-12 rad or characteristic lengths.
     pub configuration: &'a Configuration<f64>,
     /// Where the traced points are, in ground, in m.
     pub points: &'a [[f64; 3]],
@@ -226,6 +226,10 @@ pub fn sweep(
         }
         if rows.between(&mut curve, &from, &leg.to, sink).is_break() {
             break Ending::Stopped;
+        }
+        // an end that was passed unseen is worse than one that was not reached
+        if !(-1e-6..=1.0 + 1e-6).contains(&curve.part(&leg.to.at)) {
+            break Ending::Lost;
         }
     };
     record.report(ending, rows.count(), walk.gone())

@@ -1,15 +1,15 @@
 //! `linkwork sweep`
 
-use std::f64::consts::TAU;
-use std::io::{self, Write};
+mod circuits;
+mod written;
+
 use std::ops::ControlFlow;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 use clap::{Args, ValueEnum};
-use linkwork::analysis::assemblies::{AssemblySolver, Wanted};
+use linkwork::analysis::assemblies::Wanted;
 use linkwork::analysis::sweep::{
-    CircuitsReport, CircuitsSettings, Row, SweepReport, SweepSettings, TracedPoint, circuits,
-    follow, sweep,
+    CircuitsReport, Row, SweepReport, SweepSettings, TracedPoint, follow, sweep,
 };
 use linkwork::mechanism::{Configuration, Mechanism};
 use linkwork::output::option::{Given, Part};
@@ -20,7 +20,6 @@ use linkwork::output::sweep::{Motion, Sampled, Table};
 use linkwork::solve::Newton;
 use linkwork::system::{
     Driven, Held, Holdable, Question, QuestionError, Search as NearbySearch, check_count,
-    sampling_range,
 };
 
 use super::asked::{Split, refusal};
@@ -28,6 +27,9 @@ use super::progress::Progress;
 use super::search::Search;
 use super::source::{Assignment, Source, once};
 use super::{Answer, Refusal, style};
+use written::Lines;
+#[cfg(feature = "plot")]
+use written::save;
 
 /// Move the inputs and see what happens: one branch, never another without a word.
 ///
@@ -87,6 +89,9 @@ enum Format {
     /// Rows as they come, in metres and radians with all digits.
     Csv,
 }
+
+/// The number of a mode, if one was asked for, and its configuration where the inputs begin.
+type Start = (Option<usize>, Configuration<f64>);
 
 /// Steps made at most, and kept at most.
 const MOST_STEPS: usize = 1_000_000_000;
@@ -318,10 +323,7 @@ impl Sweep {
     }
 
     /// Assembled configurations where the inputs begin, with the numbers of their modes.
-    fn starts(
-        &self,
-        question: &Question,
-    ) -> Result<Vec<(Option<usize>, Configuration<f64>)>, Refusal> {
+    fn starts(&self, question: &Question) -> Result<Vec<Start>, Refusal> {
         if self.mode.is_none() && !self.all_modes {
             let newton = Newton::default();
             let found = NearbySearch::new(question, &newton).run(20, self.search.seed);
@@ -356,80 +358,6 @@ impl Sweep {
         }
         Ok(modes)
     }
-
-    fn list(&self, mechanism: &Mechanism) -> Result<Answer, Refusal> {
-        let released = self.one_freedom(mechanism)?;
-        let question = self.split.question(mechanism)?;
-        check_count(&question).map_err(|error| refusal(&error, None))?;
-        let kept = released.held_coordinates();
-        let let_go = question.held_coordinates();
-        let mut let_go = let_go.into_iter().filter(|held| !kept.contains(held));
-        let (Some(Holdable::Joint(input)), None) = (let_go.next(), let_go.next()) else {
-            return Err(Refusal(output::what_moves(None).render(style())));
-        };
-        let solver = self.search.solver(&question)?;
-        let seeds = seeds(mechanism, &question, &solver, input);
-        let report = circuits(
-            mechanism,
-            &released.held(),
-            input,
-            &seeds,
-            &CircuitsSettings::default(),
-        );
-        let whole = report.circuits.iter().all(|circuit| circuit.whole);
-        Ok(Answer {
-            data: match self.format {
-                Format::Json => output::circuits_json(mechanism, &report),
-                Format::Text => output::circuits_text(mechanism, &report),
-                Format::Csv => {
-                    return Err(Refusal(
-                        "error: circuits are listed as text or JSON; rows of one are written by \
-                         --follow --format csv\n"
-                            .into(),
-                    ));
-                }
-            },
-            remarks: String::new(),
-            yes: whole && !report.circuits.is_empty(),
-        })
-    }
-}
-
-/// All assemblies at home and at values of the input spread over its range.
-fn seeds(
-    mechanism: &Mechanism,
-    question: &Question,
-    solver: &AssemblySolver,
-    input: usize,
-) -> Vec<Configuration<f64>> {
-    const VALUES: u32 = 12;
-    let joint = &mechanism.joints()[input];
-    let (low, high) = match joint.limits {
-        Some(limits) => limits,
-        None if mechanism.repeats(input) => (joint.home, joint.home + TAU),
-        None => sampling_range(joint, mechanism.characteristic_length()),
-    };
-    let wanted = Wanted {
-        certificates: false,
-        all_complex: false,
-    };
-    let mut seeds = Vec::new();
-    for k in 0..=VALUES {
-        let mut at = question.start();
-        if k > 0 {
-            // uneven, so that nothing special is hit
-            let part = (f64::from(k) - 0.618_034) / f64::from(VALUES);
-            at.joints[input] = low + part * (high - low);
-        }
-        let report = solver.at_targets(&at, &question.held(), wanted);
-        seeds.extend(
-            report
-                .assemblies
-                .iter()
-                .map(|assembly| assembly.configuration(&at)),
-        );
-    }
-    seeds
 }
 
 fn from_length(value: &str) -> usize {
@@ -442,74 +370,4 @@ fn within(error: &QuestionError, assignment: &Assignment, text: &str, at: usize)
     let part = Part::Value(at..at + text.len());
     let given = assignment.given("--input");
     Refusal(complaint.render_in(&given, &part, style()))
-}
-
-/// Whole lines to stdout, as they come.
-struct Lines {
-    wanted: bool,
-    waiting: String,
-    failed: Option<io::Error>,
-}
-
-impl Lines {
-    /// Bytes written at once.
-    const MANY: usize = 1 << 16;
-
-    fn new(wanted: bool) -> Self {
-        Lines {
-            wanted,
-            waiting: String::new(),
-            failed: None,
-        }
-    }
-
-    fn add(&mut self, line: &str) {
-        if self.wanted {
-            self.waiting.push_str(line);
-            if self.waiting.len() >= Self::MANY {
-                self.flush();
-            }
-        }
-    }
-
-    fn flush(&mut self) {
-        let mut stdout = io::stdout().lock();
-        let written = stdout
-            .write_all(self.waiting.as_bytes())
-            .and_then(|()| stdout.flush());
-        self.waiting.clear();
-        if let Err(error) = written {
-            self.failed.get_or_insert(error);
-        }
-    }
-
-    /// Whether somebody still reads.
-    fn open(&self) -> bool {
-        self.failed.is_none()
-    }
-
-    /// A reader who has seen enough, as `head` does, is no error.
-    fn finish(mut self) -> Result<(), Refusal> {
-        self.flush();
-        match self.failed {
-            Some(error) if error.kind() != io::ErrorKind::BrokenPipe => Err(Refusal(format!(
-                "error: the rows cannot be written: {error}\n"
-            ))),
-            _ => Ok(()),
-        }
-    }
-}
-
-/// Written beside and then put in its place, so that it is never half written.
-#[cfg(feature = "plot")]
-fn save(path: &Path, picture: &str) -> Result<(), Refusal> {
-    let mut beside = path.as_os_str().to_owned();
-    beside.push(".part");
-    let written = std::fs::write(&beside, picture).and_then(|()| std::fs::rename(&beside, path));
-    written.map_err(|error| {
-        Refusal(format!(
-            "error: {} cannot be written: {error}\n",
-            path.display()
-        ))
-    })
 }

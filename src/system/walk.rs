@@ -206,23 +206,14 @@ impl<'m> Walk<'m> {
         self.tried = f64::INFINITY;
         self.length = 0.3 * length;
         self.place = to.clone();
-        // bracketed from the regular end
-        let backwards = self.leg(curve, to.reversed(), from.clone().reversed());
-        let events = backwards.events.into_iter().rev();
-        Ok(Leg {
-            from,
-            to: backwards.from.reversed(),
-            events: events
-                .map(|(place, event)| (place.reversed(), event))
-                .collect(),
-        })
+        Ok(self.leg(curve, from, to))
     }
 
     /// What is met between two places.
     fn leg(&mut self, curve: &mut Curve, from: At, to: At) -> Leg {
         /// Rates below this are those of joints that do not move.
         const STILL: f64 = 1e-10;
-        let method = self.method.clone();
+        let method = Regular(self.method.clone());
         let mut events: Vec<(At, Event)> = Vec::new();
         let changes = |a: f64, b: f64| (a < 0.0) != (b < 0.0) && a.abs().max(b.abs()) > STILL;
         for joint in 0..to.at.joints.len() {
@@ -306,9 +297,31 @@ impl<'m> Walk<'m> {
         if !(a < 0.0 && b >= 0.0) {
             return None;
         }
-        let place = self.method.root(curve, from, to, &mut |c, p| ahead(c, p));
+        let place = Regular(self.method.clone()).root(curve, from, to, &mut |c, p| ahead(c, p));
         let apart = norm(&curve.difference_but_turns(&start.at, &place.at));
         (apart < SAME && dot(&place.tangent, &start.tangent) > 0.5).then_some(place)
+    }
+}
+
+/// Roots between two places, of which the first may be a branch point.
+struct Regular(Continuation);
+
+impl Regular {
+    fn root(
+        &self,
+        curve: &mut Curve,
+        from: &At,
+        to: &At,
+        f: &mut dyn FnMut(&mut Curve, &At) -> f64,
+    ) -> At {
+        match from.least() > 1e-9 * from.largest() {
+            true => self.0.root(curve, from, to, f),
+            // bracketed from the regular end
+            false => {
+                let (from, to) = (to.clone().reversed(), from.clone().reversed());
+                self.0.root(curve, &from, &to, f).reversed()
+            }
+        }
     }
 }
 

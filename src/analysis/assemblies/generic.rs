@@ -56,30 +56,6 @@ pub(super) fn numbers(x: &[[f64; 2]]) -> Vec<C> {
 }
 
 impl GenericSolutions {
-    /// From what [`GenericSolutions::to_text`] wrote.
-    ///
-    /// # Errors
-    /// If it is something else.
-    pub fn from_text(text: &str) -> Result<Self, StoredError> {
-        let stored: Self = ron::from_str(text).map_err(|e| StoredError(e.to_string()))?;
-        let sizes = stored
-            .solutions
-            .windows(2)
-            .all(|w| w[0].len() == w[1].len());
-        let numbers = (stored.solutions.iter().flatten())
-            .chain(&stored.parameters)
-            .chain(&stored.inputs);
-        match sizes && numbers.flatten().all(|x| x.is_finite()) {
-            true => Ok(stored),
-            false => Err(StoredError("numbers are missing".into())),
-        }
-    }
-
-    /// All digits, as RON.
-    pub fn to_text(&self) -> String {
-        ron::to_string(self).expect("lists of numbers have a RON form")
-    }
-
     /// How many isolated complex solutions a generic member has.
     pub fn count(&self) -> usize {
         self.solutions.len()
@@ -99,18 +75,6 @@ fn generator(seed: u64, stream: u64) -> Pcg64 {
             .wrapping_add(stream),
     )
 }
-
-/// What is wrong with stored solutions.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct StoredError(String);
-
-impl std::fmt::Display for StoredError {
-    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        f.write_str(&self.0)
-    }
-}
-
-impl std::error::Error for StoredError {}
 
 /// How far a search is.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

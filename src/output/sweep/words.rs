@@ -199,7 +199,10 @@ pub(super) fn met(mechanism: &Mechanism, report: &SweepReport) -> String {
                     if *upper { "upper" } else { "lower" }
                 )
             }
-            MetKind::Crossing { branches, .. } => format!("{} branches cross", branches.len()),
+            MetKind::Crossing { branches, .. } => match branches.len() {
+                0 | 1 => "branches meet".into(),
+                n => format!("{n} branches cross"),
+            },
             MetKind::End | MetKind::Closed => String::new(),
         };
         let kind = met

@@ -1,0 +1,101 @@
+//! Branches of a circuit, and the class of a 4-bar.
+
+use std::f64::consts::TAU;
+
+use super::{At, Branch, Circuit, FourBarClass, Traced};
+use crate::description::ClosureKind;
+use crate::mechanism::{Frame, JointKind, Mechanism};
+
+/// Pieces between turning points of the input.
+pub(super) fn branches(mechanism: &Mechanism, input: usize, found: &Traced) -> Vec<Branch> {
+    let value = |place: &At| place.at.joints[input];
+    let mut cuts: Vec<f64> = (found.turnings.iter())
+        .filter(|(joint, _)| *joint == input)
+        .map(|(_, place)| value(place))
+        .collect();
+    let ends = found.places.first().zip(found.places.last());
+    let Some((first, last)) = ends.map(|(a, b)| (value(a), value(b))) else {
+        return Vec::new();
+    };
+    let joint = &mechanism.joints()[input];
+    let repeats = mechanism.repeats(input) && joint.limits.is_none();
+    let piece = |(a, b): (f64, f64)| {
+        let (low, high) = (a.min(b), a.max(b));
+        let shift = match repeats {
+            true => TAU * (0.5 * (low + high) / TAU).round(),
+            false => 0.0,
+        };
+        Branch {
+            low: low - shift,
+            high: high - shift,
+            turns: false,
+        }
+    };
+    if found.closed {
+        let Some(&again) = cuts.first() else {
+            return vec![Branch {
+                low: first.min(last),
+                high: first.max(last),
+                turns: true,
+            }];
+        };
+        // once round, with the turns it made on the way
+        cuts.push(again + last - first);
+        return cuts
+            .windows(2)
+            .map(|pair| piece((pair[0], pair[1])))
+            .collect();
+    }
+    let all: Vec<f64> = std::iter::once(first).chain(cuts).chain([last]).collect();
+    all.windows(2)
+        .map(|pair| piece((pair[0], pair[1])))
+        .collect()
+}
+
+/// The class of a planar 4-bar whose two joints on ground are joint variables.
+pub(super) fn class(mechanism: &Mechanism, circuits: &[Circuit]) -> Option<FourBarClass> {
+    let [closure] = mechanism.closures() else {
+        return None;
+    };
+    let joints = mechanism.joints();
+    let limits = joints.iter().any(|joint| joint.limits.is_some());
+    let revolute = joints.iter().all(|joint| joint.kind == JointKind::Revolute);
+    if closure.kind != ClosureKind::Revolute || joints.len() != 3 || !revolute || limits {
+        return None;
+    }
+    let home = mechanism.home();
+    let axes = mechanism
+        .frames()
+        .into_iter()
+        .map(|frame| mechanism.transform(Frame::Ground, frame, &home).rotation.0[2]);
+    let axes: Vec<_> = axes.collect();
+    let planar = axes.iter().all(|axis| axis.cross(&axes[0]).norm() < 1e-9);
+    let chains = mechanism
+        .chains()
+        .iter()
+        .zip(&mechanism.dimensions().chains);
+    let grounded: Vec<usize> = chains
+        .filter(|(_, of)| of.on == Frame::Ground)
+        .filter_map(|(_, of)| of.rows.first()?.turn.0.first().map(|(joint, _)| *joint))
+        .collect();
+    if !planar || grounded.len() != 2 || circuits.iter().any(|c| !c.whole) || circuits.is_empty() {
+        return None;
+    }
+    if circuits.iter().any(|circuit| !circuit.crossings.is_empty()) {
+        return Some(FourBarClass::ChangePoint);
+    }
+    let turns = |joint: usize| circuits[0].joints.get(joint).is_some_and(|j| j.turns != 0);
+    Some(
+        match (
+            grounded.iter().filter(|&&joint| turns(joint)).count(),
+            circuits.len(),
+        ) {
+            (2, 2) => FourBarClass::DoubleCrank,
+            (1, 2) => FourBarClass::CrankRocker,
+            (0, 2) => FourBarClass::DoubleRocker,
+            (0, 1) => FourBarClass::TripleRocker,
+            // nothing a 4-bar does: a circuit was not found
+            _ => return None,
+        },
+    )
+}

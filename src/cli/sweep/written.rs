@@ -1,0 +1,77 @@
+//! What a sweep writes beside its answer: rows as they come, and pictures.
+
+use std::io::{self, Write};
+#[cfg(feature = "plot")]
+use std::path::Path;
+
+use super::super::Refusal;
+
+/// Whole lines to stdout, as they come.
+pub struct Lines {
+    wanted: bool,
+    waiting: String,
+    failed: Option<io::Error>,
+}
+
+impl Lines {
+    /// Bytes written at once.
+    const MANY: usize = 1 << 16;
+
+    pub fn new(wanted: bool) -> Self {
+        Lines {
+            wanted,
+            waiting: String::new(),
+            failed: None,
+        }
+    }
+
+    pub fn add(&mut self, line: &str) {
+        if self.wanted {
+            self.waiting.push_str(line);
+            if self.waiting.len() >= Self::MANY {
+                self.flush();
+            }
+        }
+    }
+
+    fn flush(&mut self) {
+        let mut stdout = io::stdout().lock();
+        let written = stdout
+            .write_all(self.waiting.as_bytes())
+            .and_then(|()| stdout.flush());
+        self.waiting.clear();
+        if let Err(error) = written {
+            self.failed.get_or_insert(error);
+        }
+    }
+
+    /// Whether somebody still reads.
+    pub fn open(&self) -> bool {
+        self.failed.is_none()
+    }
+
+    /// A reader who has seen enough, as `head` does, is no error.
+    pub fn finish(mut self) -> Result<(), Refusal> {
+        self.flush();
+        match self.failed {
+            Some(error) if error.kind() != io::ErrorKind::BrokenPipe => Err(Refusal(format!(
+                "error: the rows cannot be written: {error}\n"
+            ))),
+            _ => Ok(()),
+        }
+    }
+}
+
+/// Written beside and then put in its place, so that it is never half written.
+#[cfg(feature = "plot")]
+pub fn save(path: &Path, picture: &str) -> Result<(), Refusal> {
+    let mut beside = path.as_os_str().to_owned();
+    beside.push(".part");
+    let written = std::fs::write(&beside, picture).and_then(|()| std::fs::rename(&beside, path));
+    written.map_err(|error| {
+        Refusal(format!(
+            "error: {} cannot be written: {error}\n",
+            path.display()
+        ))
+    })
+}
