@@ -6,13 +6,16 @@ mod check;
 mod compare;
 mod mobility;
 mod progress;
+mod range;
 mod search;
+mod singularities;
 mod solve;
 mod source;
 mod statics;
 mod store;
 mod sweep;
 mod velocity;
+mod written;
 
 use std::io::{self, IsTerminal, Write};
 use std::process::ExitCode;
@@ -41,6 +44,7 @@ enum Command {
     Velocity(velocity::Velocity),
     Statics(statics::Statics),
     Sweep(sweep::Sweep),
+    Singularities(singularities::Singularities),
 }
 
 /// How an answer is written.
@@ -77,6 +81,7 @@ pub fn run() -> ExitCode {
         Command::Velocity(velocity) => velocity.run(),
         Command::Statics(statics) => statics.run(),
         Command::Sweep(sweep) => sweep.run(),
+        Command::Singularities(singularities) => singularities.run(),
     };
     match answer {
         Ok(answer) => {

@@ -27,6 +27,8 @@ pub mod question;
 #[cfg(feature = "cli")]
 mod screws;
 #[cfg(feature = "cli")]
+pub mod singularities;
+#[cfg(feature = "cli")]
 pub mod solution;
 #[cfg(feature = "cli")]
 pub mod statics;

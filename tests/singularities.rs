@@ -11,7 +11,7 @@ use linkwork::description::Description;
 use linkwork::mechanism::{Configuration, Mechanism};
 use linkwork::solve::Newton;
 use linkwork::system::{Driven, Lock, Question, Search};
-use nalgebra::{DMatrix, Vector3};
+use nalgebra::{DMatrix, Matrix3, Matrix4, Vector3};
 
 fn mechanism(name: &str, parameters: &[(&str, &str)]) -> Mechanism {
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join(format!("mechanisms/{name}.ron"));
@@ -66,12 +66,25 @@ fn moved(
     to: f64,
     settings: &SingularitiesSettings,
 ) -> linkwork::analysis::singularities::AlongReport {
-    let question = Question::new(mechanism).hold(name, &format!("{from:?}")).unwrap();
+    let question = Question::new(mechanism)
+        .hold(name, &format!("{from:?}"))
+        .unwrap();
     let (coordinate, _) = question.value(name, "0").unwrap();
     let start = assembled(&question);
     let held = question.held().without(coordinate);
-    let moved = [Driven { coordinate, from, to }];
-    along(mechanism, &held, &moved, &inputs_of(&question), &start, settings)
+    let moved = [Driven {
+        coordinate,
+        from,
+        to,
+    }];
+    along(
+        mechanism,
+        &held,
+        &moved,
+        &inputs_of(&question),
+        &start,
+        settings,
+    )
 }
 
 /// The loci in two coordinates, with other values held.
@@ -84,14 +97,26 @@ fn locus(
     let question = holding(mechanism, held);
     let sides = sides.map(|(name, from, to)| {
         let (coordinate, _) = question.value(name, "0").unwrap();
-        Driven { coordinate, from, to }
+        Driven {
+            coordinate,
+            from,
+            to,
+        }
     });
     let inputs = inputs_of(&Question::new(mechanism));
     let settings = SingularitiesSettings {
         starts,
         ..SingularitiesSettings::default()
     };
-    loci(mechanism, &question.held(), sides, &inputs, &question.start(), &settings).unwrap()
+    loci(
+        mechanism,
+        &question.held(),
+        sides,
+        &inputs,
+        &question.start(),
+        &settings,
+    )
+    .unwrap()
 }
 
 /// The smallest singular value of lines through points along directions, beside the largest.
@@ -99,7 +124,9 @@ fn dependence(lines: &[(Vector3<f64>, Vector3<f64>)]) -> f64 {
     let columns = lines.iter().flat_map(|(point, direction)| {
         let direction = direction.normalize();
         let moment = point.cross(&direction);
-        [direction, moment].into_iter().flat_map(|v| [v.x, v.y, v.z])
+        [direction, moment]
+            .into_iter()
+            .flat_map(|v| [v.x, v.y, v.z])
     });
     let matrix = DMatrix::from_iterator(6, lines.len(), columns);
     let values = matrix.singular_values();
@@ -128,7 +155,11 @@ fn the_crank_of_a_double_rocker_folds_where_coupler_and_rocker_are_in_line() {
         assert_eq!(types[..], wanted);
         assert!(last.singularity.distances.direct.unwrap() < 1e-7);
         // everything before is regular
-        assert!(report.crossings[..report.crossings.len() - 1].iter().all(|c| !c.fold));
+        assert!(
+            report.crossings[..report.crossings.len() - 1]
+                .iter()
+                .all(|c| !c.fold)
+        );
     }
 }
 
@@ -138,7 +169,7 @@ fn the_rocker_of_a_crank_rocker_is_dead_where_crank_and_coupler_are_in_line() {
     let settings = SingularitiesSettings::default();
     let report = moved(&mechanism, "theta1", 0.2, 0.2 + 2.0 * PI, &settings);
     assert_eq!(report.ending, Ending::Complete);
-    let published = data("change_points")["dead_points_of_crank_rocker_5_1_3_4"].clone();
+    let published = data("change_points")["answer"]["dead_points_of_crank_rocker_5_1_3_4"].clone();
     let published: Vec<f64> = match published {
         serde_json::Value::Array(points) => points
             .iter()
@@ -155,7 +186,10 @@ fn the_rocker_of_a_crank_rocker_is_dead_where_crank_and_coupler_are_in_line() {
         // |OB| = l2 ± l1 with B at the end of the rocker
         let phi: f64 = crossing.joints[2];
         let reach = (5.0 + 4.0 * phi.cos()).hypot(4.0 * phi.sin());
-        assert!((reach - 4.0).abs().min((reach - 2.0).abs()) < 1e-12, "{reach}");
+        assert!(
+            (reach - 4.0).abs().min((reach - 2.0).abs()) < 1e-12,
+            "{reach}"
+        );
         let theta = theta.rem_euclid(2.0 * PI);
         let near = published.iter().any(|x| (x - theta).abs() < 1e-10);
         assert!(near, "{theta} {published:?}");
@@ -168,9 +202,17 @@ fn the_rocker_of_a_crank_rocker_is_dead_where_crank_and_coupler_are_in_line() {
 
 #[test]
 fn home_of_every_shipped_four_bar_is_regular() {
-    for name in ["four_bar", "four_bar_cut1", "four_bar_cut2", "four_bar_cut4"] {
+    for name in [
+        "four_bar",
+        "four_bar_cut1",
+        "four_bar_cut2",
+        "four_bar_cut4",
+    ] {
         let mechanism = mechanism(name, &[]);
-        let report = report(&Question::new(&mechanism), &SingularitiesSettings::default());
+        let report = report(
+            &Question::new(&mechanism),
+            &SingularitiesSettings::default(),
+        );
         assert!(!report.singularity.is_singular(), "{name} {report:?}");
         assert!(report.singularity.compared);
     }
@@ -197,9 +239,9 @@ const RPR: &str = r#"Mechanism(
     version: 1, name: "3-RPR", convention: Modified,
     parameters: { "R": 1.0, "r": 0.5 },
     joints: {
-        "t1": Passive(home: "180 deg"), "p1": Actuated(home: 0.5),
-        "t2": Passive(home: "-60 deg"), "p2": Actuated(home: 0.5),
-        "t3": Passive(home: "60 deg"), "p3": Actuated(home: 0.5),
+        "t1": Passive(home: "180 deg"), "p1": Actuated(home: 0.5, limits: (0.01, 5)),
+        "t2": Passive(home: "-60 deg"), "p2": Actuated(home: 0.5, limits: (0.01, 5)),
+        "t3": Passive(home: "60 deg"), "p3": Actuated(home: 0.5, limits: (0.01, 5)),
     },
     chains: {
         "a": Chain(base: [Tx("R")], rows: [(theta: "t1 - 90 deg"), (alpha: "-90 deg", d: "p1")], tip: [Rx("90 deg")]),
@@ -237,7 +279,10 @@ fn a_planar_3_rpr_is_singular_on_its_published_circle_and_regular_beside_it() {
             ("top.y", of("y")),
             ("top.yaw", of("phi_deg").to_radians()),
         ];
-        let found = report(&holding(&mechanism, &held), &SingularitiesSettings::default());
+        let found = report(
+            &holding(&mechanism, &held),
+            &SingularitiesSettings::default(),
+        );
         assert_eq!(found.inputs, ["p1", "p2", "p3"]);
         let singular = of("det") == 0.0;
         assert_eq!(found.singularity.is_singular(), singular, "{found:?}");
@@ -247,7 +292,9 @@ fn a_planar_3_rpr_is_singular_on_its_published_circle_and_regular_beside_it() {
             let [space] = &found.singularity.gained.as_ref().unwrap().twists[..] else {
                 panic!("{found:?}")
             };
-            let [screw] = &space.screws[..] else { panic!("{space:?}") };
+            let [screw] = &space.screws[..] else {
+                panic!("{space:?}")
+            };
             let centre = screw.point.unwrap();
             assert_eq!((screw.direction, screw.pitch), ([0.0, 0.0, 1.0], Some(0.0)));
             let phi = of("phi_deg").to_radians();
@@ -260,7 +307,10 @@ fn a_planar_3_rpr_is_singular_on_its_published_circle_and_regular_beside_it() {
                     of("y") + 0.5 * turned.sin(),
                     0.0,
                 );
-                let off = (b - a).normalize().cross(&(Vector3::from(centre) - a)).norm();
+                let off = (b - a)
+                    .normalize()
+                    .cross(&(Vector3::from(centre) - a))
+                    .norm();
                 assert!(off < 1e-6, "{off}");
             }
         }
@@ -273,7 +323,11 @@ fn the_locus_of_a_planar_3_rpr_at_one_orientation_is_the_published_circle() {
     let phi = 40f64.to_radians();
     let sides = [("top.x", -1.5, 1.5), ("top.y", -1.5, 1.5)];
     let report = locus(&mechanism, sides, &[("top.yaw", phi)], 12);
-    let direct: Vec<_> = report.loci.iter().filter(|l| l.kind == Kind::Direct).collect();
+    let direct: Vec<_> = report
+        .loci
+        .iter()
+        .filter(|l| l.kind == Kind::Direct)
+        .collect();
     let [circle] = &direct[..] else {
         panic!("{} curves", direct.len());
     };
@@ -291,7 +345,10 @@ fn the_locus_of_a_planar_3_rpr_at_one_orientation_is_the_published_circle() {
     assert_eq!(circle.singularity.gosselin_angeles, Some(2));
     // beside it nothing is singular
     let beside = [("top.x", radius + 0.01), ("top.y", 0.0), ("top.yaw", phi)];
-    let beside = singularities(&holding(&mechanism, &beside), &SingularitiesSettings::default());
+    let beside = singularities(
+        &holding(&mechanism, &beside),
+        &SingularitiesSettings::default(),
+    );
     let beside = beside.unwrap().closed().unwrap();
     assert!(!beside.singularity.is_singular());
 }
@@ -303,7 +360,11 @@ fn loci_of_a_general_3_rpr_in_two_legs_make_its_leg_lines_dependent() {
     let report = locus(&mechanism, sides, &[("rho3", 12.0)], 12);
     assert!(!report.loci.is_empty());
     let anchors = [[0.0, 0.0], [15.91, 0.0], [0.0, 10.0]];
-    for curve in report.loci.iter().filter(|locus| locus.kind == Kind::Direct) {
+    for curve in report
+        .loci
+        .iter()
+        .filter(|locus| locus.kind == Kind::Direct)
+    {
         for joints in &curve.joints {
             let columns = (0..3).flat_map(|k| {
                 let theta: f64 = joints[2 * k];
@@ -432,7 +493,14 @@ fn fichters_quarter_turn_is_singular_and_no_other_yaw_of_the_table() {
     let question = holding(&mechanism, &still);
     let start = assembled(&question.clone().hold("top.yaw", "0.3").unwrap());
     let inputs = inputs_of(&Question::new(&mechanism));
-    let report = along(&mechanism, &question.held(), &[yaw(2.5)], &inputs, &start, &settings);
+    let report = along(
+        &mechanism,
+        &question.held(),
+        &[yaw(2.5)],
+        &inputs,
+        &start,
+        &settings,
+    );
     assert_eq!(report.ending, Ending::Complete);
     let [crossing] = &report.crossings[..] else {
         panic!("{report:?}")
@@ -446,10 +514,15 @@ fn hunts_platform_turns_about_the_line_that_all_legs_meet() {
     // two legs to each corner of a triangle; the plane of the platform contains both legs to P1, so
     // that all six lines meet the side P2 P3 (K. H. Hunt 1978)
     let s = 3f64.sqrt() / 2.0;
-    let top = [[0.5, 0.0, 0.0], [-0.25, 0.5 * s, 0.0], [-0.25, -0.5 * s, 0.0]];
+    let top = [
+        [0.5, 0.0, 0.0],
+        [-0.25, 0.5 * s, 0.0],
+        [-0.25, -0.5 * s, 0.0],
+    ];
     let pairs = [0, 0, 1, 1, 2, 2].map(|k| top[k]);
     // base triangle, corners half-way between; legs of P1 end at corners 0 and 5 …
-    let corners = [60.0f64, -60.0, 180.0].map(|a| [a.to_radians().cos(), a.to_radians().sin(), 0.0]);
+    let corners =
+        [60.0f64, -60.0, 180.0].map(|a| [a.to_radians().cos(), a.to_radians().sin(), 0.0]);
     let base = [0, 1, 0, 2, 2, 1].map(|k| corners[k]);
     let mechanism = platform(&base, &pairs);
     // P1's legs lie in the plane through corners 0 and 1, x = ½, and P1; the platform is turned
@@ -464,12 +537,17 @@ fn hunts_platform_turns_about_the_line_that_all_legs_meet() {
     let [space] = &found.gained.as_ref().unwrap().twists[..] else {
         panic!("{found:?}")
     };
-    let [screw] = &space.screws[..] else { panic!("{space:?}") };
+    let [screw] = &space.screws[..] else {
+        panic!("{space:?}")
+    };
     // P2 P3 is parallel to y, a quarter below the centre of the turned platform
     let expected = ([0.0, 1.0, 0.0], Some([0.5, 0.0, 0.45]), Some(0.0));
     let close = |a: [f64; 3], b: [f64; 3]| a.iter().zip(b).all(|(a, b)| (a - b).abs() < 1e-7);
     assert!(close(screw.direction, expected.0), "{screw:?}");
-    assert!(close(screw.point.unwrap(), expected.1.unwrap()), "{screw:?}");
+    assert!(
+        close(screw.point.unwrap(), expected.1.unwrap()),
+        "{screw:?}"
+    );
     assert!(screw.pitch.unwrap().abs() < 1e-7);
     assert!(!at(-80.0).is_singular());
 }
@@ -497,35 +575,60 @@ fn an_orthogonal_3r_arm_is_regular_at_its_published_solutions_and_singular_betwe
         }
         report(&question, &settings).singularity
     };
+    // position Jacobian z × (p − o) from the table, multiplied out here
+    let determinant = |q: [f64; 3]| {
+        let row = |alpha: f64, a: f64, d: f64, theta: f64| {
+            let ((sa, ca), (st, ct)) = (alpha.sin_cos(), theta.sin_cos());
+            Matrix4::new(
+                ct,
+                -st,
+                0.0,
+                a,
+                st * ca,
+                ct * ca,
+                -sa,
+                -d * sa,
+                st * sa,
+                ct * sa,
+                ca,
+                d * ca,
+                0.0,
+                0.0,
+                0.0,
+                1.0,
+            )
+        };
+        let first = row(0.0, 0.0, 0.0, q[0]);
+        let second = first * row(-PI / 2.0, 1.0, 1.0, q[1]);
+        let third = second * row(PI / 2.0, 2.0, 0.0, q[2]);
+        let tip = (third * nalgebra::Vector4::new(1.5, 0.0, 0.0, 1.0)).xyz();
+        let columns = [first, second, third].map(|t| {
+            let axis: Vector3<f64> = t.fixed_view::<3, 1>(0, 2).into();
+            let origin: Vector3<f64> = t.fixed_view::<3, 1>(0, 3).into();
+            axis.cross(&(tip - origin))
+        });
+        Matrix3::from_columns(&columns).determinant()
+    };
     for solution in published["answer"]["solutions"].as_array().unwrap() {
         let q = [0, 1, 2].map(|i| solution["q_deg"][i].as_f64().unwrap().to_radians());
-        let found = at(q);
-        assert!(!found.is_singular(), "{found:?}");
+        let det = solution["det"].as_f64().unwrap();
+        assert!(
+            (determinant(q) - det).abs() < 1e-9,
+            "{} {det}",
+            determinant(q)
+        );
+        assert!(!at(q).is_singular());
     }
-    // det ∝ (d3 + d4 c3)(s3 (d2 + c2 (d3 …)) …): it vanishes where d3 + d4 cos θ3 = 0
-    let folded = (-2.0f64 / 1.5).abs();
-    assert!(folded > 1.0, "that factor never vanishes for these dimensions");
-    let wanted = SingularitiesSettings {
-        outputs: settings.outputs.clone(),
-        ..SingularitiesSettings::default()
-    };
-    let report = moved(&mechanism, "q3", -2.0, 2.0, &wanted);
+    let report = moved(&mechanism, "q3", -2.0, 2.0, &settings);
     assert_eq!(report.ending, Ending::Complete);
-    // the tip's Jacobian by differences of the closed form loses rank just there
-    let tip = |q: [f64; 3]| {
-        let (x3, y3) = (2.0 + 1.5 * q[2].cos(), 1.5 * q[2].sin());
-        // frame 3 turns about z₃, which lies along −y₂ turned back: α = 90°
-        let v2 = Vector3::new(x3, 0.0, y3);
-        let rotate = |v: Vector3<f64>, a: f64| {
-            Vector3::new(v.x * a.cos() - v.y * a.sin(), v.x * a.sin() + v.y * a.cos(), v.z)
-        };
-        let v1 = rotate(Vector3::new(v2.x, -v2.z, 0.0), q[1]) + Vector3::z();
-        let v0 = Vector3::new(1.0 + v1.x, v1.z, -v1.y);
-        rotate(v0, q[0])
-    };
-    let _ = tip;
+    // with q1 = q2 = 0: as many changes of sign as crossings, each at a zero
+    let det = |k: i32| determinant([0.0, 0.0, f64::from(k) / 500.0]);
+    let changes = (-1000..1000).filter(|&k| (det(k) < 0.0) != (det(k + 1) < 0.0));
+    assert_eq!(report.crossings.len(), changes.count());
     assert!(!report.crossings.is_empty());
     for crossing in &report.crossings {
+        let q = [0, 1, 2].map(|i| crossing.joints[i]);
+        assert!(determinant(q).abs() < 1e-12, "{}", determinant(q));
         assert_eq!(crossing.singularity.gosselin_angeles, Some(1));
         assert_eq!(crossing.singularity.loss, 1);
     }

@@ -111,7 +111,9 @@ pub fn default_outputs(mechanism: &Mechanism, inputs: &[Holdable]) -> Vec<Lock> 
     }
     if mechanism.closures().is_empty() {
         let tips = 0..mechanism.chains().len();
-        return tips.map(|chain| Lock::Frame(Frame::Tip { chain })).collect();
+        return tips
+            .map(|chain| Lock::Frame(Frame::Tip { chain }))
+            .collect();
     }
     let mut grounded: Vec<Holdable> = Vec::new();
     for chain in mechanism.chains() {
@@ -127,7 +129,9 @@ pub fn default_outputs(mechanism: &Mechanism, inputs: &[Holdable]) -> Vec<Lock> 
         return grounded.into_iter().map(Lock::Coordinate).collect();
     }
     let closures = mechanism.closures().iter();
-    closures.map(|closure| Lock::Point(closure.frames[0])).collect()
+    closures
+        .map(|closure| Lock::Point(closure.frames[0]))
+        .collect()
 }
 
 fn outputs_of(
@@ -146,7 +150,10 @@ fn names(mechanism: &Mechanism, inputs: &[Holdable]) -> Vec<String> {
 }
 
 fn output_names(mechanism: &Mechanism, outputs: &[Lock]) -> Vec<String> {
-    outputs.iter().map(|output| output.name(mechanism)).collect()
+    outputs
+        .iter()
+        .map(|output| output.name(mechanism))
+        .collect()
 }
 
 /// Tells whether and how the assembled configuration near the start of a question is singular.
@@ -171,8 +178,14 @@ pub fn singularities(
         Err(open) => return Ok(Analysed::NotClosed(open)),
     };
     let at = &closed.configuration;
-    check_angles(question, at)?;
     let inputs = inputs_of(question);
+    // angles that only say where the platform is are not differentiated
+    if inputs
+        .iter()
+        .any(|input| matches!(input, Holdable::Coordinate(..)))
+    {
+        check_angles(question, at)?;
+    }
     let outputs = outputs_of(mechanism, &inputs, settings);
     let mut classifier = Classifier::new(mechanism, &inputs, &outputs, at);
     Ok(Analysed::Closed(SingularitiesReport {

@@ -90,8 +90,8 @@ impl Locked {
         let closures = self.system.dense_jacobian(&mut self.work);
         let (first, rows) = (self.system.rows(), self.rows());
         let mut entries = vec![0.0; rows * self.columns()];
-        for (to, from) in (entries.chunks_exact_mut(rows.max(1)))
-            .zip(closures.chunks_exact(first.max(1)))
+        for (to, from) in
+            (entries.chunks_exact_mut(rows.max(1))).zip(closures.chunks_exact(first.max(1)))
         {
             to[..first].copy_from_slice(from);
         }
@@ -143,7 +143,12 @@ impl Locked {
                 let (_, slope) = coordinate.row(&pose, coordinate.of(&pose), self.length);
                 let first = first.into_iter();
                 first
-                    .flat_map(|first| slope.into_iter().enumerate().map(move |(k, s)| (first + k, s)))
+                    .flat_map(|first| {
+                        slope
+                            .into_iter()
+                            .enumerate()
+                            .map(move |(k, s)| (first + k, s))
+                    })
                     .collect()
             }
         }

@@ -266,7 +266,9 @@ impl<'m> Classifier<'m> {
     ) -> Movement {
         /// Below this a component of a unit motion is rounding.
         const ROUNDING: f64 = 1e-6;
-        motions.iter_mut().for_each(|motion| remove(motion, without));
+        motions
+            .iter_mut()
+            .for_each(|motion| remove(motion, without));
         let mut motions = orthonormal(&motions, 1e-3);
         let mechanism = self.near.mechanism();
         // one sense of two, the same on every machine

@@ -241,7 +241,11 @@ impl Search<'_> {
                 .copied()
                 .fold([f64::INFINITY; 2], |a, b| if b < a { b } else { a })
         };
-        loci.sort_by(|a, b| order(a).partial_cmp(&order(b)).unwrap_or(std::cmp::Ordering::Equal));
+        loci.sort_by(|a, b| {
+            order(a)
+                .partial_cmp(&order(b))
+                .unwrap_or(std::cmp::Ordering::Equal)
+        });
         (loci, arrived, last)
     }
 
@@ -272,7 +276,10 @@ impl Search<'_> {
         let at = &mut place.at.at;
         for (joint, value) in at.joints.iter_mut().enumerate() {
             if self.mechanism.repeats(joint) {
-                let side = self.sides.iter().find(|s| s.coordinate == Holdable::Joint(joint));
+                let side = self
+                    .sides
+                    .iter()
+                    .find(|s| s.coordinate == Holdable::Joint(joint));
                 let middle = side.map_or(0.0, |side| 0.5 * (side.from + side.to));
                 let turn = std::f64::consts::TAU;
                 *value -= turn * ((*value - middle) / turn).round();
@@ -425,9 +432,8 @@ impl Search<'_> {
 
     fn locus(&mut self, kind: Kind, traced: Traced) -> Locus {
         let sides = self.sides;
-        let coordinates = |search: &Self, place: &At| {
-            sides.map(|side| search.side(&place.at.at, &side))
-        };
+        let coordinates =
+            |search: &Self, place: &At| sides.map(|side| search.side(&place.at.at, &side));
         let middle = &traced.places[traced.places.len() / 2];
         let singularity = self.classifier.at(&middle.at.at);
         let poses = |place: &At| {
@@ -443,11 +449,17 @@ impl Search<'_> {
             kind,
             closed: traced.ends[1] == LocusEnd::Closed,
             ends: traced.ends,
-            points: (traced.places.iter()).map(|p| coordinates(self, p)).collect(),
-            joints: (traced.places.iter()).map(|p| p.at.at.joints.clone()).collect(),
+            points: (traced.places.iter())
+                .map(|p| coordinates(self, p))
+                .collect(),
+            joints: (traced.places.iter())
+                .map(|p| p.at.at.joints.clone())
+                .collect(),
             poses: traced.places.iter().map(poses).collect(),
             singularity,
-            crossings: (traced.crossings.iter()).map(|p| coordinates(self, p)).collect(),
+            crossings: (traced.crossings.iter())
+                .map(|p| coordinates(self, p))
+                .collect(),
         }
     }
 }
@@ -483,9 +495,8 @@ fn settled(curve: &mut LocusCurve, mut point: Singular, method: &Continuation) -
 /// Whether a curve passes through a place.
 fn passes(curve: &mut LocusCurve, traced: &Traced, place: &At, method: &Continuation) -> bool {
     const SAME: f64 = 1e-6;
-    let distance = |curve: &LocusCurve, i: usize| {
-        norm(&curve.apart(&traced.places[i].at, &place.at))
-    };
+    let distance =
+        |curve: &LocusCurve, i: usize| norm(&curve.apart(&traced.places[i].at, &place.at));
     let nearest = (0..traced.places.len())
         .map(|i| (i, distance(curve, i)))
         .min_by(|a, b| a.1.total_cmp(&b.1));
@@ -499,9 +510,8 @@ fn passes(curve: &mut LocusCurve, traced: &Traced, place: &At, method: &Continua
     let freedoms = curve.closed().unknowns();
     let foot = |curve: &mut LocusCurve, from: &At, to: &At| {
         let tangent = from.tangent[..freedoms].to_vec();
-        let mut ahead = |curve: &mut LocusCurve, p: &At| {
-            dot(&curve.apart(&p.at, &place.at), &tangent)
-        };
+        let mut ahead =
+            |curve: &mut LocusCurve, p: &At| dot(&curve.apart(&p.at, &place.at), &tangent);
         if (ahead(curve, from) < 0.0) == (ahead(curve, to) < 0.0) {
             return false;
         }
@@ -529,8 +539,7 @@ fn closed(
     }
     let freedoms = curve.closed().unknowns();
     let tangent = start.tangent[..freedoms].to_vec();
-    let mut ahead =
-        |curve: &mut LocusCurve, p: &At| dot(&curve.apart(&start.at, &p.at), &tangent);
+    let mut ahead = |curve: &mut LocusCurve, p: &At| dot(&curve.apart(&start.at, &p.at), &tangent);
     if !(ahead(curve, from) < 0.0 && ahead(curve, to) >= 0.0) {
         return None;
     }
