@@ -633,3 +633,142 @@ fn an_orthogonal_3r_arm_is_regular_at_its_published_solutions_and_singular_betwe
         assert_eq!(crossing.singularity.loss, 1);
     }
 }
+
+// ---- the command
+
+fn run(arguments: &[&str]) -> (i32, String, String) {
+    let output = assert_cmd::Command::cargo_bin("linkwork")
+        .unwrap()
+        .current_dir(env!("CARGO_MANIFEST_DIR"))
+        .arg("singularities")
+        .args(arguments)
+        .output()
+        .unwrap();
+    let text = |bytes: Vec<u8>| String::from_utf8(bytes).unwrap();
+    let code = output.status.code().unwrap();
+    (code, text(output.stdout), text(output.stderr))
+}
+
+#[test]
+fn questions_that_make_no_sense_are_told_what_to_ask_instead() {
+    let rps = "mechanisms/three_rps.ron";
+    for (arguments, said) in [
+        (
+            &[rps, "--locus", "l9=0..1", "--locus", "l2=0.4..1"][..],
+            "did you mean",
+        ),
+        (&[rps, "--locus", "l1=0.4..1"], "--input"),
+        (
+            &[
+                rps,
+                "--locus",
+                "l1=0.4..1",
+                "--locus",
+                "l2=0.4..1",
+                "--locus",
+                "l3=0.4..1",
+            ],
+            "--hold",
+        ),
+        (
+            &[rps, "--locus", "l1=1..0.4", "--locus", "l2=0.4..1"],
+            "the box is empty",
+        ),
+        (
+            &[rps, "--locus", "l1=1", "--locus", "l2=0.4..1"],
+            "--locus l1=FROM..TO",
+        ),
+        (
+            &[rps, "--locus", "phi1=0..1", "--locus", "phi2=0..1"],
+            "--free",
+        ),
+        (&[rps, "--input", "l1=0.4"], "--input l1=FROM..TO"),
+        (&[rps, "--output", "tpo"], "did you mean `top`?"),
+        (&[rps, "--point", "tpo"], "did you mean"),
+        (&[rps, "--starts", "0"], "--starts from 1"),
+        (&[rps, "--format", "csv"], "--input"),
+        (&["mechanisms/triangle.ron"], "linkwork mobility"),
+        (
+            &[
+                "mechanisms/stewart_gough_6ups.ron",
+                "--locus",
+                "l1=0.8..1.2",
+                "--locus",
+                "l2=0.8..1.2",
+            ],
+            "Distance",
+        ),
+    ] {
+        let (code, stdout, stderr) = run(arguments);
+        assert_eq!((code, stdout.as_str()), (2, ""), "{arguments:?} {stderr}");
+        assert!(stderr.contains(said), "{arguments:?}: {stderr}");
+    }
+}
+
+#[test]
+fn formats_agree_and_hold_no_nan() {
+    let rps = "mechanisms/three_rps.ron";
+    let sides = [
+        "--locus",
+        "l1=0.4..1",
+        "--locus",
+        "l2=0.4..1",
+        "--starts",
+        "4",
+    ];
+    let with = |more: &[&str]| {
+        let (code, stdout, stderr) = run(&[&[rps][..], &sides, more].concat());
+        assert_eq!(code, 0, "{stderr}");
+        assert!(
+            !stdout.contains("NaN") && !stdout.contains("inf"),
+            "{stdout}"
+        );
+        stdout
+    };
+    let json: serde_json::Value = serde_json::from_str(&with(&["--format", "json"])).unwrap();
+    let points = json["loci"].as_array().unwrap().iter();
+    let points: usize = points.map(|l| l["points"].as_array().unwrap().len()).sum();
+    let folder = tempfile::tempdir().unwrap();
+    let picture = folder.path().join("loci.svg");
+    let csv = with(&["--format", "csv", "--svg", picture.to_str().unwrap()]);
+    assert_eq!(csv.lines().count(), points + 1);
+    let columns = csv.lines().next().unwrap().split(',').count();
+    assert!(csv.lines().all(|line| line.split(',').count() == columns));
+    let svg = std::fs::read_to_string(&picture).unwrap();
+    assert!(svg.starts_with("<svg") && svg.contains("l1 (m)") && svg.contains("l2 (m)"));
+    assert!(!svg.contains("NaN"));
+    // the same question, the same bytes
+    assert_eq!(with(&["--format", "csv"]), csv);
+}
+
+#[test]
+fn no_report_of_a_shipped_mechanism_holds_nan() {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("mechanisms");
+    let mut paths: Vec<_> = folder
+        .read_dir()
+        .unwrap()
+        .map(|f| f.unwrap().path())
+        .collect();
+    paths.sort();
+    let mut told = 0;
+    for path in paths {
+        let mechanism = Mechanism::load(&path).unwrap();
+        let question = Question::new(&mechanism);
+        let Ok(answer) = singularities(&question, &SingularitiesSettings::default()) else {
+            continue;
+        };
+        let Some(report) = answer.closed() else {
+            continue;
+        };
+        let text = linkwork::output::singularities::text(&mechanism, &report);
+        let json = linkwork::output::singularities::json(&mechanism, &report);
+        for written in [text, json] {
+            assert!(
+                !written.contains("NaN") && !written.contains("inf "),
+                "{written}"
+            );
+        }
+        told += 1;
+    }
+    assert!(told > 30, "{told}");
+}

@@ -8,6 +8,7 @@ mod along;
 mod classify;
 mod curve;
 mod locus;
+mod trace;
 
 pub use along::{AlongReport, Crossing, Ending, along};
 pub use classify::{Distances, Movement, Resisted, Singularity, Zlatanov};

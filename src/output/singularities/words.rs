@@ -219,11 +219,14 @@ pub(super) fn loci(report: &LocusReport) -> String {
         1 => format!("1 curve of {word} singularities"),
         n => format!("{n} curves of {word} singularities"),
     };
+    let inverse = match report.sought[1] {
+        true => curves(of(Kind::Inverse), "inverse"),
+        false => "inverse ones not sought, because the outputs determine the inputs nowhere".into(),
+    };
     format!(
-        "In the box {}: {} and {}.",
+        "In the box {}: {} and {inverse}.",
         listed(&in_box),
         curves(of(Kind::Direct), "direct"),
-        curves(of(Kind::Inverse), "inverse")
     )
 }
 
