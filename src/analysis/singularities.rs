@@ -53,7 +53,7 @@ impl Default for SingularitiesSettings {
             seed: 1,
             outputs: Vec::new(),
             follow: false,
-            starts: 100,
+            starts: 400,
             continuation: Continuation::default(),
         }
     }

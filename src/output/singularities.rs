@@ -264,7 +264,10 @@ pub fn locus_text(mechanism: &Mechanism, report: &LocusReport) -> String {
                     (l.min(x), h.max(x))
                 });
                 let angle = report.bounds[k].unit == "rad";
-                format!("{} to {}", quantity(low, angle), quantity(high, angle))
+                match high - low < 1e-9 {
+                    true => quantity(low, angle),
+                    false => format!("{} to {}", quantity(low, angle), quantity(high, angle)),
+                }
             };
             let kind = locus.singularity.gosselin_angeles;
             table.add_row([

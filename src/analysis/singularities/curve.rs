@@ -3,7 +3,7 @@
 use crate::linear::dot;
 use crate::mechanism::{Configuration, Mechanism};
 use crate::solve::SolutionCurve;
-use crate::system::{Curve, Held, Lock, Locked};
+use crate::system::{Curve, Held, Holdable, Lock, Locked, Unknown};
 
 /// An assembled configuration with a motion that leaves the locked things at rest.
 #[derive(Clone, Debug)]
@@ -23,15 +23,42 @@ pub(super) struct Singular {
 pub(super) struct LocusCurve {
     closed: Curve,
     locked: Locked,
+    /// The unknowns that are seen from outside.
+    seen: Vec<bool>,
 }
 
 impl LocusCurve {
-    /// `held` leaves two freedoms.
-    pub fn new(mechanism: &Mechanism, held: &Held<f64>, locks: &[Lock]) -> Self {
+    /// `held` leaves two freedoms; `locks` stand still in the motion.
+    pub fn new(
+        mechanism: &Mechanism,
+        held: &Held<f64>,
+        inputs: &[Holdable],
+        locks: &[Lock],
+    ) -> Self {
+        let closed = Curve::along(mechanism, held, Vec::new());
+        let whole = mechanism.platforms().is_empty();
+        let seen = closed
+            .system()
+            .unknowns()
+            .iter()
+            .map(|unknown| match *unknown {
+                Unknown::Joint(joint) => whole || inputs.contains(&Holdable::Joint(joint)),
+                Unknown::Twist { .. } => true,
+            });
         LocusCurve {
-            closed: Curve::along(mechanism, held, Vec::new()),
+            seen: seen.collect(),
+            closed,
             locked: Locked::new(mechanism, locks),
         }
+    }
+
+    /// The part of a step that is seen from outside: of the platforms and the inputs. Legs that are
+    /// folded the other way about their passive joints do not make another locus.
+    pub fn seen(&self, step: &[f64]) -> Vec<f64> {
+        let parts = step.iter().zip(&self.seen);
+        parts
+            .map(|(x, seen)| if *seen { *x } else { 0.0 })
+            .collect()
     }
 
     /// The assembled configurations with two freedoms.

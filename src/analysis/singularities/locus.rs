@@ -66,6 +66,8 @@ pub enum Kind {
 pub struct Locus {
     /// Which matrix loses rank on it.
     pub kind: Kind,
+    /// How many random starts led to it.
+    pub met: usize,
     /// Whether it closes.
     pub closed: bool,
     /// How its first and its last point end it; the same if it closes.
@@ -123,6 +125,7 @@ pub fn loci(
             method: &settings.continuation,
         },
         start: start.clone(),
+        inputs: inputs.to_vec(),
         settings,
         classifier: Classifier::new(mechanism, inputs, &outputs, start),
     };
@@ -173,16 +176,18 @@ pub fn loci(
 struct Search<'m> {
     region: Region<'m>,
     start: Configuration<f64>,
+    inputs: Vec<Holdable>,
     settings: &'m SingularitiesSettings,
     classifier: Classifier<'m>,
 }
 
 impl Search<'_> {
     fn of(&mut self, kind: Kind, locks: &[Lock]) -> (Vec<Locus>, usize, Option<usize>) {
-        let mut curve = LocusCurve::new(self.region.mechanism, self.region.held, locks);
+        let mut curve =
+            LocusCurve::new(self.region.mechanism, self.region.held, &self.inputs, locks);
         let system = System::new(self.region.mechanism.dimensions(), self.region.held);
         let (mut arrived, mut last) = (0, None);
-        let mut known: Vec<Traced> = Vec::new();
+        let mut known: Vec<(Traced, usize)> = Vec::new();
         let mut rng = Pcg64Mcg::seed_from_u64(self.settings.seed);
         let method = &self.settings.continuation;
         for number in 1..=self.settings.starts {
@@ -214,21 +219,22 @@ impl Search<'_> {
                 continue;
             }
             arrived += 1;
-            if known
-                .iter()
-                .any(|traced| passes(&mut curve, traced, &place, method))
+            let mut curves = known.iter_mut();
+            if let Some((_, met)) =
+                curves.find(|(traced, _)| passes(&mut curve, traced, &place, method))
             {
+                *met += 1;
                 continue;
             }
             let traced = self.region.traced(&mut curve, place);
             if traced.places.len() > 1 {
                 last = Some(number);
-                known.push(traced);
+                known.push((traced, 1));
             }
         }
         let mut loci: Vec<Locus> = known
             .into_iter()
-            .map(|traced| self.locus(kind, traced))
+            .map(|(traced, met)| self.locus(kind, traced, met))
             .collect();
         let order = |locus: &Locus| {
             locus
@@ -282,7 +288,7 @@ impl Search<'_> {
         Walk::within_limits(self.region.mechanism, at);
     }
 
-    fn locus(&mut self, kind: Kind, traced: Traced) -> Locus {
+    fn locus(&mut self, kind: Kind, traced: Traced, met: usize) -> Locus {
         let sides = self.region.sides;
         let coordinates =
             |search: &Self, place: &At| sides.map(|side| search.region.side(&place.at.at, &side));
@@ -299,6 +305,7 @@ impl Search<'_> {
         };
         Locus {
             kind,
+            met,
             closed: traced.ends[1] == LocusEnd::Closed,
             ends: traced.ends,
             points: (traced.places.iter())

@@ -198,8 +198,9 @@ pub(super) fn passes(
     method: &Continuation,
 ) -> bool {
     const SAME: f64 = 1e-6;
-    let distance =
-        |curve: &LocusCurve, i: usize| norm(&curve.apart(&traced.places[i].at, &place.at));
+    let distance = |curve: &LocusCurve, i: usize| {
+        norm(&curve.seen(&curve.apart(&traced.places[i].at, &place.at)))
+    };
     let nearest = (0..traced.places.len())
         .map(|i| (i, distance(curve, i)))
         .min_by(|a, b| a.1.total_cmp(&b.1));
@@ -212,14 +213,14 @@ pub(super) fn passes(
     // the foot of the place on the pieces beside the nearest point
     let freedoms = curve.closed().unknowns();
     let foot = |curve: &mut LocusCurve, from: &At, to: &At| {
-        let tangent = from.tangent[..freedoms].to_vec();
+        let tangent = curve.seen(&from.tangent[..freedoms]);
         let mut ahead =
             |curve: &mut LocusCurve, p: &At| dot(&curve.apart(&p.at, &place.at), &tangent);
         if (ahead(curve, from) < 0.0) == (ahead(curve, to) < 0.0) {
             return false;
         }
         let foot = method.root(curve, from, to, &mut ahead);
-        norm(&curve.apart(&foot.at, &place.at)) < SAME
+        norm(&curve.seen(&curve.apart(&foot.at, &place.at))) < SAME
     };
     let places = &traced.places;
     (i > 0 && foot(curve, &places[i - 1], &places[i]))

@@ -238,10 +238,31 @@ pub fn completeness(report: &LocusReport) -> String {
         Some(last) => format!("the last new curve came from start {last}"),
         None => "none led to a curve".into(),
     };
+    let once = report.loci.iter().filter(|locus| locus.met == 1).count();
+    let sure = match (report.loci.len(), once) {
+        (0, _) => "That there is none is likely, not proven",
+        (_, 0) => {
+            "Every curve was met by several starts; that none is missing is likely, not proven"
+        }
+        (_, 1) => "1 curve was met by one start only, so that others may be missing",
+        (_, once) => {
+            return format!(
+                "{} {once} curves were met by one start only, so that others may be missing: \
+                 --starts makes more.",
+                sought(report, [direct, inverse], &last)
+            );
+        }
+    };
+    format!(
+        "{} {sure}: --starts makes more.",
+        sought(report, [direct, inverse], &last)
+    )
+}
+
+fn sought(report: &LocusReport, [direct, inverse]: [usize; 2], last: &str) -> String {
     format!(
         "Sought from {} (seed {}): {direct} led to direct and {inverse} to inverse singularities in \
-         the box, {last}. A curve that no start led to may be missing: --starts makes more, and a \
-         finding that repeats is likely whole.",
+         the box, {last}.",
         count(report.starts, "random start"),
         report.seed
     )
