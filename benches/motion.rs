@@ -21,10 +21,10 @@ fn main() {
         &[("theta", 1.3, 1.3 + std::f64::consts::TAU)],
     );
     measure("jansen_leg", &[("theta", 1.5, 1.5 + std::f64::consts::TAU)]);
-    measure("three_rps", &[("l1", 0.6, 0.75), ("l2", 0.65, 0.6)]);
+    measure("three_rps", &[("l1", 0.6, 0.66), ("l2", 0.6, 0.62)]);
     measure(
         "stewart_gough_6sps",
-        &[("l1", 1.0, 1.05), ("l2", 1.0, 0.97)],
+        &[("l1", 1.0, 1.02), ("l2", 1.0, 0.99)],
     );
 }
 

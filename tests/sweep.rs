@@ -538,7 +538,7 @@ fn chebyshevs_point_touches_its_line_three_times() {
             let point = swept.step(1).2[0];
             for (k, x) in point.iter().enumerate().take(2) {
                 assert!(
-                    (x - row["midpoint"][k].as_f64().unwrap()).abs() < 1e-12,
+                    (x - row["midpoint"][k].as_f64().unwrap()).abs() < CLOSED,
                     "{row}"
                 );
             }
@@ -547,7 +547,11 @@ fn chebyshevs_point_touches_its_line_three_times() {
     let (low, high) = heights
         .iter()
         .fold((9.0f64, 0.0f64), |(l, h), y| (l.min(*y), h.max(*y)));
-    assert!(low > 4.0 - CLOSED && high < 4.0102, "{low} {high}");
+    // as far off as Hoeken's point: the two linkages are cognates (Chebyshev and Roberts)
+    assert!(
+        low > 4.0 - CLOSED && (high - 4.009753683432732).abs() < 1e-6,
+        "{low} {high}"
+    );
     // touched at x = 0, 2 and 4
     assert!((heights[0] - 4.0).abs() < CLOSED);
 }

@@ -20,8 +20,7 @@ pub(super) struct Rows {
     next: i64,
     /// Whether the inputs move towards the end of the segment.
     forward: bool,
-    paths: Paths,
-    count: usize,
+    sent: Sent,
     longest: f64,
 }
 
@@ -41,18 +40,20 @@ impl Rows {
             steps: settings.steps,
             next: 1,
             forward: true,
-            paths: Paths::new(mechanism, &settings.points),
-            count: 0,
+            sent: Sent {
+                paths: Paths::new(mechanism, &settings.points),
+                count: 0,
+            },
             longest: settings.continuation.longest,
         }
     }
 
     pub fn count(&self) -> usize {
-        self.count
+        self.sent.count
     }
 
     pub fn first(&mut self, place: &At, sink: &mut Sink) -> ControlFlow<()> {
-        self.emit(&place.at, Some(0), None, sink)
+        self.sent.row(&place.at, Some(0), None, sink)
     }
 
     /// A special place, between two rows.
@@ -62,26 +63,7 @@ impl Rows {
         kind: Option<&MetKind>,
         sink: &mut Sink,
     ) -> ControlFlow<()> {
-        self.emit(&place.at, None, kind, sink)
-    }
-
-    fn emit(
-        &mut self,
-        at: &Configuration<f64>,
-        step: Option<usize>,
-        special: Option<&MetKind>,
-        sink: &mut Sink,
-    ) -> ControlFlow<()> {
-        self.paths.place(at);
-        let number = self.count;
-        self.count += 1;
-        sink(&Row {
-            number,
-            step,
-            configuration: at,
-            points: &self.paths.at,
-            special,
-        })
+        self.sent.row(&place.at, None, kind, sink)
     }
 
     /// The rows between two places with no fold between them.
@@ -116,13 +98,9 @@ impl Rows {
             let step = usize::try_from(self.next).ok();
             self.next += if self.forward { 1 } else { -1 };
             if self.track(curve, from, &reach, part) {
-                let tracker = self.tracker.take();
-                let flow = match &tracker {
-                    Some(t) => self.emit(t.configuration(), step, None, sink),
-                    None => ControlFlow::Continue(()),
-                };
-                self.tracker = tracker;
-                flow?;
+                if let Some(tracker) = &self.tracker {
+                    (self.sent).row(tracker.configuration(), step, None, sink)?;
+                }
                 continue;
             }
             // exactly, from the places themselves: from the regular one if the other is singular
@@ -142,7 +120,7 @@ impl Rows {
             if let Some(tracker) = &mut self.tracker {
                 tracker.restart(&place.at);
             }
-            self.emit(&place.at, step, None, sink)?;
+            self.sent.row(&place.at, step, None, sink)?;
         }
     }
 
@@ -183,6 +161,34 @@ impl Rows {
         let (along, across) = curve.offset(from, tracker.configuration());
         let slack = 1e-9 + 1e-6 * reach.along;
         along >= -slack && along <= reach.along + slack && across <= reach.across
+    }
+}
+
+/// Counts rows as they go out, with the traced points.
+struct Sent {
+    paths: Paths,
+    count: usize,
+}
+
+impl Sent {
+    #[inline]
+    fn row(
+        &mut self,
+        at: &Configuration<f64>,
+        step: Option<usize>,
+        special: Option<&MetKind>,
+        sink: &mut Sink,
+    ) -> ControlFlow<()> {
+        self.paths.place(at);
+        let number = self.count;
+        self.count += 1;
+        sink(&Row {
+            number,
+            step,
+            configuration: at,
+            points: &self.paths.at,
+            special,
+        })
     }
 }
 
