@@ -9,6 +9,7 @@ pub mod formulas;
 pub mod frames;
 pub mod mobility;
 pub mod overview;
+pub mod singularities;
 pub mod statics;
 pub mod sweep;
 pub mod velocity;

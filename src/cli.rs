@@ -11,13 +11,16 @@ mod frames;
 mod import;
 mod mobility;
 mod progress;
+mod range;
 mod search;
+mod singularities;
 mod solve;
 mod source;
 mod statics;
 mod store;
 mod sweep;
 mod velocity;
+mod written;
 
 use std::io::{self, IsTerminal, Write};
 use std::process::ExitCode;
@@ -51,6 +54,7 @@ enum Command {
     Velocity(velocity::Velocity),
     Statics(statics::Statics),
     Sweep(sweep::Sweep),
+    Singularities(singularities::Singularities),
 }
 
 /// How an answer is written.
@@ -92,6 +96,7 @@ pub fn run() -> ExitCode {
         Command::Velocity(velocity) => velocity.run(),
         Command::Statics(statics) => statics.run(),
         Command::Sweep(sweep) => sweep.run(),
+        Command::Singularities(singularities) => singularities.run(),
     };
     match answer {
         Ok(answer) => {

@@ -4,6 +4,7 @@
 //! ones and one border, the shape a closed mechanism gives its Jacobian: each leg's passive joints
 //! appear in that leg's closures only, and the platforms tie the legs together.
 
+mod aligned;
 mod bordered;
 mod decomposition;
 mod factorable;
@@ -12,6 +13,7 @@ mod qr;
 #[cfg(feature = "sparse")]
 mod sparse;
 
+pub use aligned::axis_aligned;
 pub use bordered::{Block, Bordered};
 pub use decomposition::{Decomposition, complement, dot, norm, orthonormal, remove};
 pub use factorable::{DenseOnly, Factorable, SparseStep};

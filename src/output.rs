@@ -33,6 +33,10 @@ mod quantity;
 #[cfg(feature = "cli")]
 pub mod question;
 #[cfg(feature = "cli")]
+mod screws;
+#[cfg(feature = "cli")]
+pub mod singularities;
+#[cfg(feature = "cli")]
 pub mod solution;
 #[cfg(feature = "cli")]
 pub mod statics;

@@ -9,22 +9,21 @@ mod branches;
 mod cone;
 mod loops;
 mod redundancy;
-mod screws;
 
 use rand::SeedableRng;
 use rand_pcg::Pcg64Mcg;
 use serde::Serialize;
 
+use crate::linear::axis_aligned;
 use crate::mechanism::{ClosureKind, Mechanism};
 use crate::solve::Newton;
 use crate::system::{
-    Analysed, Neighbourhood, Question, Tangent, Unknown, WidestGap, close, random_configuration,
-    too_large,
+    Analysed, Neighbourhood, Question, Tangent, TwistSpace, Unknown, WidestGap, close,
+    random_configuration, too_large,
 };
 
 pub use loops::LoopCount;
 pub use redundancy::{Redundancy, Wrench};
-pub use screws::{Screw, TwistSpace};
 
 /// How to look for freedoms.
 #[derive(Clone, Debug, PartialEq)]
@@ -192,7 +191,6 @@ pub fn mobility(question: &Question, settings: &MobilitySettings) -> Analysed<Mo
     let tangent = near.tangent(closed.configuration.clone());
     let mut rng = Pcg64Mcg::seed_from_u64(settings.seed);
     let found = branches::find(&mut near, &tangent, settings, &mut rng);
-    let carriers = screws::carriers(mechanism);
     let (rows, unknowns) = (near.system().rows(), near.system().unknowns().len());
     let moving = |moved: &[bool]| -> Vec<String> {
         let unknowns = near.system().unknowns().iter().zip(moved);
@@ -208,7 +206,7 @@ pub fn mobility(question: &Question, settings: &MobilitySettings) -> Analysed<Mo
         .map(|branch| BranchReport {
             mobility: branch.freedoms,
             moving_joints: moving(&branch.moved),
-            twists: screws::spaces(&near, &carriers, &tangent.at, &branch.motions),
+            twists: near.twist_spaces(&tangent.at, &branch.motions),
             cone: branch.cone,
             approximate: branch.approximate,
         })
@@ -241,7 +239,7 @@ pub fn mobility(question: &Question, settings: &MobilitySettings) -> Analysed<Mo
         idle_freedoms: idle_freedoms(mechanism, near.system().unknowns(), &tangent),
         loops: loops::count(&mut near, &closed.configuration),
         redundancies,
-        twists: screws::spaces(&near, &carriers, &tangent.at, &tangent.motions),
+        twists: near.twist_spaces(&tangent.at, &tangent.motions),
         condition: tangent.decomposition.condition(),
         length: mechanism.characteristic_length(),
         given: closed.given.filter(|gap| gap.size(mechanism) > 1e-9),
@@ -298,7 +296,7 @@ fn idle_freedoms(
 ) -> Vec<IdleFreedom> {
     /// Below this a component of a unit motion is rounding.
     const ROUNDING: f64 = 1e-6;
-    let spins = redundancy::axis_aligned(&tangent.idle);
+    let spins = axis_aligned(&tangent.idle);
     let joints = |motion: &Vec<f64>| {
         let turning = (unknowns.iter().zip(motion)).filter(|(_, rate)| rate.abs() > ROUNDING);
         let names = turning.filter_map(|(unknown, _)| match *unknown {

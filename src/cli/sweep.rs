@@ -1,7 +1,6 @@
 //! `linkwork sweep`
 
 mod circuits;
-mod written;
 
 use std::ops::ControlFlow;
 use std::path::PathBuf;
@@ -22,13 +21,14 @@ use linkwork::system::{
     Driven, Held, Holdable, Question, QuestionError, Search as NearbySearch, check_count,
 };
 
-use self::written::Lines;
-#[cfg(feature = "plot")]
-use self::written::save;
 use super::asked::{Split, refusal};
 use super::progress::Progress;
+use super::range::{RangeWords, ranges};
 use super::search::Search;
-use super::source::{Assignment, Source, once};
+use super::source::{Assignment, Source};
+use super::written::Lines;
+#[cfg(feature = "plot")]
+use super::written::save;
 use super::{Answer, Refusal, style};
 
 /// Move the inputs and see what happens: one branch, never another without a word.
@@ -237,36 +237,17 @@ impl Sweep {
 
     /// The inputs with their ranges.
     fn inputs(&self, mechanism: &Mechanism) -> Result<Vec<Driven>, Refusal> {
-        once("--input", &self.input)?;
-        let question = Question::new(mechanism);
-        let mut inputs = Vec::new();
-        for assignment in &self.input {
-            let given = assignment.given("--input");
-            let refused = |error: &QuestionError| refusal(error, Some(given));
-            // a wrong name is the first thing to say
-            let name = &assignment.name;
-            (question.value(name, "home")).map_err(|error| refused(&error))?;
-            let Some((from, to)) = assignment.value.split_once("..") else {
-                let (complaint, part) = output::no_range(name);
-                return Err(Refusal(complaint.render_in(&given, &part, style())));
-            };
-            let end = |text: &str, at: usize| {
-                (question.value(name, text)).map_err(|error| within(&error, assignment, text, at))
-            };
-            let (coordinate, from) = end(from, 0)?;
-            let (_, to) = end(to, from_length(&assignment.value))?;
-            if from == to {
-                let text = assignment.value.split("..").next().unwrap_or_default();
-                let (complaint, part) = output::nothing_moves(name, text);
-                return Err(Refusal(complaint.render_in(&given, &part, style())));
-            }
-            inputs.push(Driven {
-                coordinate,
-                from,
-                to,
-            });
-        }
-        Ok(inputs)
+        let words = RangeWords {
+            no_range: output::no_range,
+            refused: output::nothing_moves,
+        };
+        ranges(
+            mechanism,
+            "--input",
+            &self.input,
+            |from, to| from == to,
+            &words,
+        )
     }
 
     fn check_limits(
@@ -359,16 +340,4 @@ impl Sweep {
         }
         Ok(modes)
     }
-}
-
-fn from_length(value: &str) -> usize {
-    value.find("..").map_or(0, |at| at + 2)
-}
-
-/// A wrong end of a range, underlined where it stands.
-fn within(error: &QuestionError, assignment: &Assignment, text: &str, at: usize) -> Refusal {
-    let (complaint, _) = linkwork::output::question::complaint(error);
-    let part = Part::Value(at..at + text.len());
-    let given = assignment.given("--input");
-    Refusal(complaint.render_in(&given, &part, style()))
 }

@@ -10,13 +10,14 @@ use serde_json::{Map, Value};
 use super::closing;
 use super::json::document;
 use super::layout::{align_right, indented, plain};
-use super::quantity::{number, quantity, short, signed, size};
+use super::quantity::{number, signed, size};
+use super::screws::twists;
 use crate::analysis::mobility::{
-    BranchReport, Character, IdleFreedom, LoopCount, MobilityReport, Redundancy, Screw, TwistSpace,
+    BranchReport, Character, IdleFreedom, LoopCount, MobilityReport, Redundancy,
 };
 use crate::description::listed;
 use crate::mechanism::Mechanism;
-use crate::system::WidestGap;
+use crate::system::{TwistSpace, WidestGap};
 
 /// The report as it is written. A number that is not finite is written as `null`.
 #[derive(Clone, Debug, PartialEq, Serialize)]
@@ -264,34 +265,4 @@ fn loops(loops: &[LoopCount]) -> String {
     }
     align_right(&mut table, 2..6);
     format!("Loops\n{}", indented(&table.to_string()))
-}
-
-fn twists(title: &str, spaces: &[TwistSpace]) -> String {
-    let mut table = plain(["body", "motion", "along", "through (m)", "pitch"]);
-    let mut rows = 0;
-    for TwistSpace { body, screws } in spaces {
-        for screw in screws {
-            let [kind, along, through, pitch] = screw_words(screw);
-            table.add_row([body.as_str(), kind.as_str(), &along, &through, &pitch]);
-            rows += 1;
-        }
-    }
-    match rows {
-        0 => String::new(),
-        _ => format!("{title}\n{}", indented(&table.to_string())),
-    }
-}
-
-/// Kind, direction, point and pitch of a screw.
-fn screw_words(screw: &Screw) -> [String; 4] {
-    let triple = |v: &[f64; 3]| format!("({})", v.map(short).join(", "));
-    let along = triple(&screw.direction);
-    match (&screw.point, screw.pitch) {
-        (Some(point), Some(0.0)) => ["turn".into(), along, triple(point), String::new()],
-        (Some(point), Some(pitch)) => {
-            let pitch = format!("{}/rad", quantity(pitch, false));
-            ["screw".into(), along, triple(point), pitch]
-        }
-        _ => ["shift".into(), along, String::new(), String::new()],
-    }
 }

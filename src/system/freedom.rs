@@ -265,6 +265,11 @@ impl Mobility {
         Some(Mobility { freedoms, at, idle })
     }
 
+    /// The configuration whose freedoms they are.
+    pub fn at(&self) -> &Configuration<f64> {
+        &self.at
+    }
+
     /// The number of freedoms, without those that only turn a link about its own line.
     pub fn count(&self) -> usize {
         self.freedoms.motions.len() - self.idle.min(self.freedoms.motions.len())

@@ -354,7 +354,7 @@ impl<'a> Question<'a> {
 }
 
 /// The pose with some coordinates exchanged.
-fn with_coordinates(
+pub fn with_coordinates(
     pose: &Pose<f64>,
     values: impl IntoIterator<Item = (Coordinate, f64)>,
 ) -> Pose<f64> {

@@ -1,10 +1,10 @@
-//! What a sweep writes beside its answer: rows as they come, and pictures.
+//! What is written beside an answer: rows as they come, and pictures.
 
 use std::io::{self, Write};
 #[cfg(feature = "plot")]
 use std::path::Path;
 
-use super::super::Refusal;
+use super::Refusal;
 
 /// Whole lines to stdout, as they come.
 pub struct Lines {

@@ -2,11 +2,10 @@
 
 use serde::Serialize;
 
-use super::redundancy::axis_aligned;
+use super::Neighbourhood;
 use crate::geometry::Vector3;
-use crate::linear::{norm, remove};
+use crate::linear::{axis_aligned, norm, remove};
 use crate::mechanism::{Body, Configuration, Frame, Mechanism};
-use crate::system::Neighbourhood;
 
 /// The infinitesimal motions of a body.
 #[derive(Clone, Debug, PartialEq, Serialize)]
@@ -33,7 +32,7 @@ pub struct Screw {
 const ZERO: f64 = 1e-7;
 
 /// The bodies whose motions are of interest: platforms, or else the links that closures join.
-pub(super) fn carriers(mechanism: &Mechanism) -> Vec<(Body, Frame)> {
+fn carriers(mechanism: &Mechanism) -> Vec<(Body, Frame)> {
     let platforms = 0..mechanism.platforms().len();
     let mut carriers: Vec<(Body, Frame)> = platforms
         .map(|platform| (Body::Platform(platform), Frame::Platform { platform }))
@@ -55,37 +54,42 @@ pub(super) fn carriers(mechanism: &Mechanism) -> Vec<(Body, Frame)> {
     carriers
 }
 
-/// The twist spaces of bodies over motions at a configuration.
-pub(super) fn spaces(
-    near: &Neighbourhood,
-    carriers: &[(Body, Frame)],
-    at: &Configuration<f64>,
-    motions: &[Vec<f64>],
-) -> Vec<TwistSpace> {
-    let mechanism = near.mechanism();
-    let length = mechanism.characteristic_length();
-    let frames = near.frames();
-    let mut placement = frames.placement();
-    frames.place(at, &mut placement);
-    let spaces = carriers.iter().map(|&(body, frame)| {
-        let place = frames
-            .frames()
-            .position(|f| f == frame)
-            .expect("every frame is planned");
-        let origin = frames.origin(place, &placement);
-        let twists: Vec<Vec<f64>> = (motions.iter())
-            .map(|motion| {
-                let twist = frames.twist(place, &placement, motion);
-                let velocity = (twist.velocity - twist.omega.cross(&origin)).times(1.0 / length);
-                [twist.omega.0, velocity.0].concat()
-            })
-            .collect();
-        TwistSpace {
-            body: mechanism.body_name(body),
-            screws: principal_screws(&twists, length),
-        }
-    });
-    spaces.collect()
+impl Neighbourhood<'_> {
+    /// The twists that bodies have over a space of infinitesimal motions at a configuration: those
+    /// of the platforms, or else of the links that closures join.
+    pub fn twist_spaces(&self, at: &Configuration<f64>, motions: &[Vec<f64>]) -> Vec<TwistSpace> {
+        let mechanism = self.mechanism();
+        let length = mechanism.characteristic_length();
+        let frames = self.frames();
+        let mut placement = frames.placement();
+        frames.place(at, &mut placement);
+        let spaces = carriers(mechanism).into_iter().map(|(body, frame)| {
+            let place = frames
+                .frames()
+                .position(|f| f == frame)
+                .expect("every frame is planned");
+            let origin = frames.origin(place, &placement);
+            let twists: Vec<Vec<f64>> = (motions.iter())
+                .map(|motion| {
+                    let twist = frames.twist(place, &placement, motion);
+                    let velocity =
+                        (twist.velocity - twist.omega.cross(&origin)).times(1.0 / length);
+                    [twist.omega.0, velocity.0].concat()
+                })
+                .collect();
+            TwistSpace {
+                body: mechanism.body_name(body),
+                screws: principal_screws(&twists, length),
+            }
+        });
+        spaces.collect()
+    }
+}
+
+/// Principal screws of a space of wrenches (f; m/L) about the origin of ground: `direction` is that
+/// of the force, or of the moment where there is no force.
+pub fn wrench_screws(wrenches: &[Vec<f64>], length: f64) -> Vec<Screw> {
+    principal_screws(wrenches, length)
 }
 
 /// Principal screws of a space of twists (ω; v/L) at the origin, then its translations.

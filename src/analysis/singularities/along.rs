@@ -1,0 +1,363 @@
+//! Every singularity on the way of the inputs along a segment.
+
+use serde::Serialize;
+
+use super::classify::{Classifier, Singularity};
+use super::{SingularitiesSettings, names, output_names, outputs_of};
+use crate::linear::norm;
+use crate::mechanism::{Configuration, Mechanism};
+use crate::solve::{Continuation, Place, SolutionCurve, Stray};
+use crate::system::{Curve, Driven, Event, Held, Holdable, Leg, Locked, Walk};
+
+type At = Place<Configuration<f64>>;
+
+/// What a motion along a segment of inputs met.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct AlongReport {
+    /// The inputs that singularities are told of.
+    pub inputs: Vec<String>,
+    /// The outputs.
+    pub outputs: Vec<String>,
+    /// What is moved: name, unit (rad or m), from, to.
+    pub moved: Vec<Moved>,
+    /// How the motion ended.
+    pub ending: Ending,
+    /// The joint whose limit was reached, if one was.
+    pub limit: Option<String>,
+    /// The part of the segment that was gone at the end.
+    pub part: f64,
+    /// The singularities, in the order in which they were met.
+    pub crossings: Vec<Crossing>,
+    /// Sure steps the curve was followed in.
+    pub sure_steps: usize,
+    /// The length that makes the matrices dimensionless, in m.
+    pub normalising_length: f64,
+}
+
+/// What is moved.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Moved {
+    /// Its name.
+    pub name: String,
+    /// rad or m.
+    pub unit: &'static str,
+    /// Its value at the start.
+    pub from: f64,
+    /// Its value at the end.
+    pub to: f64,
+}
+
+/// A singularity that was met.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Crossing {
+    /// The part of the segment that was gone.
+    pub part: f64,
+    /// What is moved there, rad or m.
+    pub moved: Vec<f64>,
+    /// The joints there, rad or m, in the order of the file.
+    pub joints: Vec<f64>,
+    /// Whether what is moved turns back here: driven, it locks.
+    pub fold: bool,
+    /// Whether branches cross here.
+    pub branches: bool,
+    /// What it is.
+    pub singularity: Singularity,
+}
+
+/// How a motion ended.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Ending {
+    /// The whole segment was gone through.
+    Complete,
+    /// It came back to where it began, on another branch, round a fold.
+    Returned,
+    /// The curve closed.
+    Closed,
+    /// The branch ends: what is moved would have to turn back.
+    Fold,
+    /// Branches cross, and which to take is not clear.
+    Branches,
+    /// A joint is at its limit.
+    Limit,
+    /// A joint is outside its limits at the start.
+    OutsideLimits,
+    /// The start is singular.
+    SingularStart,
+    /// No step is short enough to be sure.
+    Lost,
+}
+
+/// Moves the inputs from `start`, assembled where their segment begins, to its end, and locates every
+/// singularity on the way to rounding.
+///
+/// `held` holds what stands still, none of what is moved; `inputs` are those that singularities are
+/// told of. Where the direct or inverse matrix loses ranks along the curve, as many of
+/// [`Locked::real_parts`] change sign; their zeros are found, and what vanishes there is classified.
+pub fn along(
+    mechanism: &Mechanism,
+    held: &Held<f64>,
+    moved: &[Driven],
+    inputs: &[Holdable],
+    start: &Configuration<f64>,
+    settings: &SingularitiesSettings,
+) -> AlongReport {
+    let outputs = outputs_of(mechanism, inputs, settings);
+    let mut report = AlongReport {
+        inputs: names(mechanism, inputs),
+        outputs: output_names(mechanism, &outputs),
+        moved: (moved.iter())
+            .map(|input| Moved {
+                name: input.coordinate.name(mechanism),
+                unit: unit(input.coordinate.is_angle(mechanism)),
+                from: input.from,
+                to: input.to,
+            })
+            .collect(),
+        ending: Ending::Lost,
+        limit: None,
+        part: 0.0,
+        crossings: Vec::new(),
+        sure_steps: 0,
+        normalising_length: mechanism.characteristic_length(),
+    };
+    let mut start = start.clone();
+    Walk::within_limits(mechanism, &mut start);
+    for input in moved {
+        if let Holdable::Joint(joint) = input.coordinate {
+            start.joints[joint] = input.from;
+        }
+    }
+    let joints = mechanism.joints().iter().zip(&start.joints);
+    let outside = joints.filter(|(joint, value)| !joint.allows(**value));
+    if let Some((joint, _)) = outside.into_iter().next() {
+        report.limit = Some(joint.name.clone());
+        report.ending = Ending::OutsideLimits;
+        return report;
+    }
+    let mut curve = Curve::along(mechanism, held, moved.to_vec());
+    let mut search = Tests {
+        classifier: Classifier::new(mechanism, inputs, &outputs, &start),
+        moved: moved.to_vec(),
+    };
+    let method = &settings.continuation;
+    let place = match method.settle(&mut curve, start.clone()) {
+        Ok(place) if !place.is_beside_a_crossing() => place,
+        Err(Stray::NotClosed) => return report,
+        _ => {
+            let found = search.crossing(&curve, &start, false, true);
+            report.crossings.extend(found);
+            report.ending = Ending::SingularStart;
+            return report;
+        }
+    };
+    let rate = curve.part_rate(&place.at, &place.tangent);
+    let place = if rate < 0.0 { place.reversed() } else { place };
+    let first = search.crossing(&curve, &place.at, rate.abs() < 1e-9, false);
+    report.crossings.extend(first);
+    if rate.abs() < 1e-9 {
+        report.ending = Ending::Fold;
+        return report;
+    }
+    let mut walk = Walk::new(mechanism, &curve, place, method.clone());
+    report.ending = 'walk: loop {
+        let Ok(leg) = walk.advance(&mut curve) else {
+            report.part = curve.part(&walk.place().at);
+            break Ending::Lost;
+        };
+        report.sure_steps += 1;
+        report.part = curve.part(&leg.to.at);
+        for met in search.met(&mut curve, &leg, method) {
+            report.part = curve.part(&met.place.at);
+            let known = report.crossings.last().is_some_and(|last| {
+                let apart = (last.joints.iter().zip(&met.place.at.joints))
+                    .map(|(a, b)| (a - b).abs())
+                    .fold(0.0, f64::max);
+                apart < 1e-9 && last.part == report.part
+            });
+            if !known && (met.fold || met.branches || met.vanishes) {
+                let found = search.crossing(&curve, &met.place.at, met.fold, met.branches);
+                report.crossings.extend(found);
+            }
+            let ending = match met.end {
+                Some(Event::End(true)) => Some(Ending::Complete),
+                Some(Event::End(false)) => Some(Ending::Returned),
+                Some(Event::Closed) => Some(Ending::Closed),
+                Some(Event::Limit { joint, .. }) => {
+                    report.limit = Some(mechanism.joints()[joint].name.clone());
+                    Some(Ending::Limit)
+                }
+                _ if met.fold && !settings.follow => Some(Ending::Fold),
+                _ if met.branches && !settings.follow => Some(Ending::Branches),
+                _ => None,
+            };
+            if let Some(ending) = ending {
+                break 'walk ending;
+            }
+        }
+    };
+    report
+}
+
+fn unit(is_angle: bool) -> &'static str {
+    match is_angle {
+        true => "rad",
+        false => "m",
+    }
+}
+
+/// Something on a leg.
+struct Met {
+    place: At,
+    along: f64,
+    fold: bool,
+    branches: bool,
+    /// The direct or the inverse matrix loses rank.
+    vanishes: bool,
+    /// What ends the motion.
+    end: Option<Event>,
+}
+
+struct Tests<'m> {
+    classifier: Classifier<'m>,
+    moved: Vec<Driven>,
+}
+
+impl Tests<'_> {
+    /// What is met on a leg, in order; things at the same place are one.
+    fn met(&mut self, curve: &mut Curve, leg: &Leg, method: &Continuation) -> Vec<Met> {
+        /// Places this near are the same.
+        const SAME: f64 = 1e-7;
+        let mut found: Vec<Met> = Vec::new();
+        for (place, event) in &leg.events {
+            let ends = match event {
+                // a turn of what is moved closes the curve and is not the end of the motion
+                Event::Closed => curve.part(&place.at).abs() < 1e-9,
+                event => event.ends(),
+            };
+            let (fold, branches) = (
+                matches!(event, Event::Fold),
+                matches!(event, Event::Branches(_)),
+            );
+            if ends || fold || branches {
+                found.push(Met {
+                    place: place.clone(),
+                    along: 0.0,
+                    fold,
+                    branches,
+                    vanishes: false,
+                    end: ends.then(|| event.clone()),
+                });
+            }
+        }
+        for place in self.vanishing(curve, leg, method) {
+            let near = |met: &&mut Met| {
+                met.end.is_none() && norm(&curve.difference(&met.place.at, &place.at)) < SAME
+            };
+            match found.iter_mut().find(near) {
+                Some(met) => met.vanishes = true,
+                None => found.push(Met {
+                    place,
+                    along: 0.0,
+                    fold: false,
+                    branches: false,
+                    vanishes: true,
+                    end: None,
+                }),
+            }
+        }
+        for met in &mut found {
+            met.along = norm(&curve.difference(&leg.from.at, &met.place.at));
+        }
+        found.sort_by(|a, b| a.along.total_cmp(&b.along));
+        found
+    }
+
+    /// Places between two where the direct or the inverse matrix loses rank.
+    fn vanishing(&mut self, curve: &mut Curve, leg: &Leg, method: &Continuation) -> Vec<At> {
+        /// What is rounding beside the other end.
+        const ROUNDING: f64 = 1e-9;
+        let ranks = self.classifier.regular_ranks();
+        let singular = |place: &At| place.least() <= 1e-9 * place.largest();
+        let (from, to) = match singular(&leg.from) {
+            true => (leg.to.clone().reversed(), leg.from.clone().reversed()),
+            false => (leg.from.clone(), leg.to.clone()),
+        };
+        let locked = [&mut self.classifier.direct, &mut self.classifier.inverse];
+        let mut places = Vec::new();
+        for (locked, rank) in locked.into_iter().zip(ranks) {
+            let least = |locked: &mut Locked, place: &At| {
+                let decomposition = Classifier::regular(locked, rank, &place.at);
+                let values = decomposition.singular_values();
+                let last = rank.checked_sub(1).and_then(|last| values.get(last));
+                let least = last.copied().unwrap_or(0.0);
+                (least, values.first().copied().unwrap_or(0.0), decomposition)
+            };
+            let (a, size, before) = least(locked, &from);
+            let (b, _, after) = least(locked, &to);
+            if a.max(b) <= ROUNDING * size {
+                continue;
+            }
+            // from the end that is further from singular to the other
+            let (near, other) = if a >= b {
+                (before, &to)
+            } else {
+                (after, &from)
+            };
+            if locked.change(&near, &other.at) < 1.0 {
+                continue;
+            }
+            let Some(parts) = locked.real_parts(&near, &other.at) else {
+                continue;
+            };
+            // just at the end of the leg: the next one begins there and does not tell it again
+            let at_end = parts.iter().any(|x| x.abs() < ROUNDING);
+            if at_end && a >= b && !singular(&to) {
+                places.push(to.clone());
+            }
+            let lost = parts.iter().filter(|x| **x <= -ROUNDING).count();
+            for k in 0..lost {
+                let mut test = |_: &mut Curve, place: &At| {
+                    let parts = locked.real_parts(&near, &place.at);
+                    parts.and_then(|parts| parts.get(k).copied()).unwrap_or(0.0)
+                };
+                let place = method.root(curve, &from, &to, &mut test);
+                // where eigenvalues are complex, or turn without vanishing, a sign means nothing
+                let (least, size, _) = least(locked, &place);
+                if least <= 1e-6 * size {
+                    places.push(place);
+                }
+            }
+        }
+        places
+    }
+
+    /// What is singular at a place, if something is.
+    fn crossing(
+        &mut self,
+        curve: &Curve,
+        at: &Configuration<f64>,
+        fold: bool,
+        branches: bool,
+    ) -> Option<Crossing> {
+        let singularity = self.classifier.at(at);
+        (singularity.is_singular() || fold || branches).then(|| Crossing {
+            part: curve.part(at),
+            moved: (self.moved.iter())
+                .map(|input| value(at, input.coordinate))
+                .collect(),
+            joints: at.joints.clone(),
+            fold,
+            branches,
+            singularity,
+        })
+    }
+}
+
+/// The value of a coordinate, in rad or m.
+pub(super) fn value(at: &Configuration<f64>, of: Holdable) -> f64 {
+    match of {
+        Holdable::Joint(joint) => at.joints[joint],
+        Holdable::Coordinate(platform, c) => c.of(&at.platforms[platform].pose()),
+    }
+}

@@ -1,0 +1,324 @@
+//! Singularities in two inputs: loci as curves.
+
+use rand::{Rng, SeedableRng};
+use rand_pcg::Pcg64Mcg;
+use serde::Serialize;
+
+use super::classify::{Classifier, Singularity};
+use super::curve::{LocusCurve, Singular};
+use super::trace::{At, Region, Traced, passes, settled};
+use super::{SingularitiesSettings, names, output_names, outputs_of};
+use crate::mechanism::{Configuration, Mechanism, PlatformPose};
+use crate::system::{
+    Driven, Held, Holdable, Lock, System, Walk, random_configuration, with_coordinates,
+};
+
+/// The singularity loci in a box of two coordinates.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct LocusReport {
+    /// The inputs that singularities are told of.
+    pub inputs: Vec<String>,
+    /// The outputs.
+    pub outputs: Vec<String>,
+    /// The box.
+    pub bounds: [Bound; 2],
+    /// The curves, those of direct singularities first, sorted by where they begin.
+    pub loci: Vec<Locus>,
+    /// Random starts that were made for each kind.
+    pub starts: usize,
+    /// Starts that led to a singular configuration in the box, direct and inverse.
+    pub arrived: [usize; 2],
+    /// Whether direct and inverse singularities were sought: not where they are everywhere.
+    pub sought: [bool; 2],
+    /// The start that led to the curve found last, direct and inverse.
+    pub last_new: [Option<usize>; 2],
+    /// The seed of the starts.
+    pub seed: u64,
+    /// The length that makes the matrices dimensionless, in m.
+    pub normalising_length: f64,
+}
+
+/// A side of the box.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Bound {
+    /// The coordinate.
+    pub name: String,
+    /// rad or m.
+    pub unit: &'static str,
+    /// Its least value.
+    pub from: f64,
+    /// Its greatest value.
+    pub to: f64,
+}
+
+/// Which matrix loses rank.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Kind {
+    /// [J; H]: freedoms are gained while the inputs stand still.
+    Direct,
+    /// [J; O]: inputs move while the outputs stand still.
+    Inverse,
+}
+
+/// A curve of singular configurations.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Locus {
+    /// Which matrix loses rank on it.
+    pub kind: Kind,
+    /// How many random starts led to it.
+    pub met: usize,
+    /// Whether it closes.
+    pub closed: bool,
+    /// How its first and its last point end it; the same if it closes.
+    pub ends: [LocusEnd; 2],
+    /// Its points: the two coordinates, rad or m.
+    pub points: Vec<[f64; 2]>,
+    /// The joints at its points, rad or m, in the order of the file.
+    pub joints: Vec<Vec<f64>>,
+    /// Positions (m) and quaternions (w, x, y, z) of the platforms at its points.
+    pub poses: Vec<Vec<[f64; 7]>>,
+    /// What is singular in its middle.
+    pub singularity: Singularity,
+    /// Where other loci cross it: the two coordinates.
+    pub crossings: Vec<[f64; 2]>,
+}
+
+/// How a curve ends.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "snake_case")]
+pub enum LocusEnd {
+    /// Where it began.
+    Closed,
+    /// At an edge of the box.
+    Box,
+    /// At a limit of a joint.
+    Limit,
+    /// In a point that no sure step leads beyond.
+    Lost,
+}
+
+/// Finds the singularity loci in a box of two coordinates.
+///
+/// `held` holds what stands still and leaves the two coordinates free; `inputs` are those that
+/// singularities are told of. Random configurations are brought onto the augmented system closure and
+/// singularity condition by Gauss–Newton steps, and the curve through each that is not on a known one
+/// is followed both ways: to its own beginning, an edge of the box or a limit.
+///
+/// # Errors
+/// If links spin about their own lines: then the motion that is gained is not unique. The number of
+/// such freedoms is given.
+pub fn loci(
+    mechanism: &Mechanism,
+    held: &Held<f64>,
+    sides: [Driven; 2],
+    inputs: &[Holdable],
+    start: &Configuration<f64>,
+    settings: &SingularitiesSettings,
+) -> Result<LocusReport, usize> {
+    let outputs = outputs_of(mechanism, inputs, settings);
+    let mut search = Search {
+        region: Region {
+            mechanism,
+            held,
+            sides,
+            method: &settings.continuation,
+        },
+        start: start.clone(),
+        inputs: inputs.to_vec(),
+        settings,
+        classifier: Classifier::new(mechanism, inputs, &outputs, start),
+    };
+    let [direct, _] = search.classifier.regular_ranks();
+    let spins = search.classifier.direct.columns() - direct;
+    if spins > 0 {
+        return Err(spins);
+    }
+    let mut report = LocusReport {
+        inputs: names(mechanism, inputs),
+        outputs: output_names(mechanism, &outputs),
+        bounds: sides.map(|side| Bound {
+            name: side.coordinate.name(mechanism),
+            unit: match side.coordinate.is_angle(mechanism) {
+                true => "rad",
+                false => "m",
+            },
+            from: side.from,
+            to: side.to,
+        }),
+        loci: Vec::new(),
+        starts: settings.starts,
+        arrived: [0; 2],
+        sought: [false; 2],
+        last_new: [None; 2],
+        seed: settings.seed,
+        normalising_length: mechanism.characteristic_length(),
+    };
+    let inputs: Vec<Lock> = inputs.iter().copied().map(Lock::Coordinate).collect();
+    for (i, (kind, locks)) in [(Kind::Direct, &inputs), (Kind::Inverse, &outputs)]
+        .into_iter()
+        .enumerate()
+    {
+        // outputs that leave some motion undetermined everywhere have no such locus
+        let regular = search.classifier.regular_ranks()[i];
+        if regular < search.classifier.direct.columns() {
+            continue;
+        }
+        report.sought[i] = true;
+        let (found, arrived, last) = search.of(kind, locks);
+        report.loci.extend(found);
+        report.arrived[i] = arrived;
+        report.last_new[i] = last;
+    }
+    Ok(report)
+}
+
+struct Search<'m> {
+    region: Region<'m>,
+    start: Configuration<f64>,
+    inputs: Vec<Holdable>,
+    settings: &'m SingularitiesSettings,
+    classifier: Classifier<'m>,
+}
+
+impl Search<'_> {
+    fn of(&mut self, kind: Kind, locks: &[Lock]) -> (Vec<Locus>, usize, Option<usize>) {
+        let mut curve =
+            LocusCurve::new(self.region.mechanism, self.region.held, &self.inputs, locks);
+        let system = System::new(self.region.mechanism.dimensions(), self.region.held);
+        let (mut arrived, mut last) = (0, None);
+        let mut known: Vec<(Traced, usize)> = Vec::new();
+        let mut rng = Pcg64Mcg::seed_from_u64(self.settings.seed);
+        let method = &self.settings.continuation;
+        for number in 1..=self.settings.starts {
+            let mut at = match number {
+                1 => self.start.clone(),
+                _ => self.random(&mut rng),
+            };
+            let mut trial = at.clone();
+            let mut work = system.work();
+            // where it cannot close the gap it ends in a singular point as well
+            (self.settings.newton).solve(&system, &mut at, &mut trial, &mut work);
+            let poses = at.platforms.iter();
+            let mut parts =
+                poses.flat_map(|pose| pose.position.0.into_iter().chain(pose.orientation.0));
+            if !at.joints.iter().all(|x| x.is_finite()) || !parts.all(f64::is_finite) {
+                continue;
+            }
+            let columns = curve.locked().columns();
+            let decomposition = curve.locked().of_rank(&at, columns);
+            let Some(motion) = decomposition.weakest().map(<[f64]>::to_vec) else {
+                continue;
+            };
+            let Some(place) = settled(&mut curve, Singular { at, motion }, method) else {
+                continue;
+            };
+            let mut place = place;
+            self.bring_home(&mut place);
+            if !self.region.inside(&place.at.at) {
+                continue;
+            }
+            arrived += 1;
+            let mut curves = known.iter_mut();
+            if let Some((_, met)) =
+                curves.find(|(traced, _)| passes(&mut curve, traced, &place, method))
+            {
+                *met += 1;
+                continue;
+            }
+            let traced = self.region.traced(&mut curve, place);
+            if traced.places.len() > 1 {
+                last = Some(number);
+                known.push((traced, 1));
+            }
+        }
+        let mut loci: Vec<Locus> = known
+            .into_iter()
+            .map(|(traced, met)| self.locus(kind, traced, met))
+            .collect();
+        let order = |locus: &Locus| {
+            locus
+                .points
+                .iter()
+                .copied()
+                .fold([f64::INFINITY; 2], |a, b| if b < a { b } else { a })
+        };
+        loci.sort_by(|a, b| {
+            order(a)
+                .partial_cmp(&order(b))
+                .unwrap_or(std::cmp::Ordering::Equal)
+        });
+        (loci, arrived, last)
+    }
+
+    /// A random configuration with the two coordinates in the box.
+    fn random(&self, rng: &mut Pcg64Mcg) -> Configuration<f64> {
+        let mut at = random_configuration(self.region.mechanism, &self.start, rng);
+        for (joint, value) in at.joints.iter_mut().enumerate() {
+            if self.region.held.joints[joint] {
+                *value = self.start.joints[joint];
+            }
+        }
+        for side in self.region.sides {
+            let value = side.from + (side.to - side.from) * rng.random::<f64>();
+            match side.coordinate {
+                Holdable::Joint(joint) => at.joints[joint] = value,
+                Holdable::Coordinate(platform, coordinate) => {
+                    let pose = at.platforms[platform].pose();
+                    let pose = with_coordinates(&pose, [(coordinate, value)]);
+                    at.platforms[platform] = PlatformPose::from_pose(&pose);
+                }
+            }
+        }
+        at
+    }
+
+    /// Brings angles into the box and within limits by whole turns.
+    fn bring_home(&self, place: &mut At) {
+        let at = &mut place.at.at;
+        for (joint, value) in at.joints.iter_mut().enumerate() {
+            if self.region.mechanism.repeats(joint) {
+                let side =
+                    (self.region.sides.iter()).find(|s| s.coordinate == Holdable::Joint(joint));
+                let middle = side.map_or(0.0, |side| 0.5 * (side.from + side.to));
+                let turn = std::f64::consts::TAU;
+                *value -= turn * ((*value - middle) / turn).round();
+            }
+        }
+        Walk::within_limits(self.region.mechanism, at);
+    }
+
+    fn locus(&mut self, kind: Kind, traced: Traced, met: usize) -> Locus {
+        let sides = self.region.sides;
+        let coordinates =
+            |search: &Self, place: &At| sides.map(|side| search.region.side(&place.at.at, &side));
+        let middle = &traced.places[traced.places.len() / 2];
+        let singularity = self.classifier.at(&middle.at.at);
+        let poses = |place: &At| {
+            let platforms = place.at.at.platforms.iter();
+            platforms
+                .map(|pose| {
+                    let ([x, y, z], [w, i, j, k]) = (pose.position.0, pose.orientation.0);
+                    [x, y, z, w, i, j, k]
+                })
+                .collect()
+        };
+        Locus {
+            kind,
+            met,
+            closed: traced.ends[1] == LocusEnd::Closed,
+            ends: traced.ends,
+            points: (traced.places.iter())
+                .map(|p| coordinates(self, p))
+                .collect(),
+            joints: (traced.places.iter())
+                .map(|p| p.at.at.joints.clone())
+                .collect(),
+            poses: traced.places.iter().map(poses).collect(),
+            singularity,
+            crossings: (traced.crossings.iter())
+                .map(|p| coordinates(self, p))
+                .collect(),
+        }
+    }
+}

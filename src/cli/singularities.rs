@@ -1,0 +1,316 @@
+//! `linkwork singularities`
+
+use std::path::PathBuf;
+
+use clap::{Args, ValueEnum};
+use linkwork::analysis::assemblies::Wanted;
+use linkwork::analysis::singularities::{
+    Ending, SingularitiesSettings, along, inputs_of, loci, singularities,
+};
+use linkwork::mechanism::{Configuration, Mechanism};
+use linkwork::output::option::Given;
+use linkwork::output::{closing as analysed, singularities as output, sweep as motion};
+use linkwork::solve::Newton;
+use linkwork::system::{
+    Driven, Held, Holdable, Lock, Question, Search as NearbySearch, check_count, too_large,
+};
+
+use super::asked::{Asked, frame, refusal};
+use super::range::{RangeWords, ranges};
+use super::search::Search;
+use super::source::{Assignment, Source};
+#[cfg(feature = "plot")]
+use super::written::save;
+use super::{Answer, Refusal, style};
+
+/// Find singularities: at a configuration, along inputs, or as curves in two inputs.
+///
+/// The inputs are the joints that are held; where platform coordinates are held, the actuated joints of the file. The
+/// outputs are the platforms; without platforms the joints on the ground that are not driven, or else the points where
+/// chains are joined. Every singularity is located to rounding and told by its types (Gosselin and Angeles 1, 2, 3;
+/// Zlatanov, Fenton and Benhabib), by the freedoms lost and gained, and by what moves.
+#[derive(Args)]
+#[command(after_help = "Examples:\n  \
+    linkwork singularities mechanisms/parallelogram.ron --hold theta1=0\n  \
+    linkwork singularities mechanisms/four_bar.ron --input theta1=0deg..360deg\n  \
+    linkwork singularities mechanisms/three_rps.ron --locus l1=0.4..1 --locus l2=0.4..1 --svg loci.svg")]
+pub struct Singularities {
+    #[command(flatten)]
+    source: Source,
+    #[command(flatten)]
+    asked: Asked,
+    /// Move a joint or coordinate, e.g. --input theta1=0deg..360deg; several move together
+    #[arg(long, value_name = "NAME=FROM..TO")]
+    input: Vec<Assignment>,
+    /// A side of the box for loci: give it twice, e.g. --locus l1=0.4..1 --locus l2=0.4..1
+    #[arg(long, value_name = "NAME=FROM..TO", conflicts_with_all = ["input", "mode", "follow"])]
+    locus: Vec<Assignment>,
+    /// An output: a joint, a platform coordinate or a frame with its orientation
+    #[arg(long, value_name = "NAME")]
+    output: Vec<String>,
+    /// An output: the origin of a frame alone
+    #[arg(long, value_name = "FRAME")]
+    point: Vec<String>,
+    /// Begin in this mode, numbered as `assemblies` lists it
+    #[arg(long, value_name = "NUMBER")]
+    mode: Option<usize>,
+    /// Go round folds and straight through crossings of branches
+    #[arg(long, requires = "input")]
+    follow: bool,
+    /// Random starts from which loci are sought
+    #[arg(long, value_name = "NUMBER", default_value_t = SingularitiesSettings::default().starts)]
+    starts: usize,
+    #[command(flatten)]
+    search: Search,
+    /// How to write the answer
+    #[arg(long, value_enum, default_value_t = Format::Text)]
+    format: Format,
+    /// Draw the loci to a file
+    #[arg(long, value_name = "FILE", requires = "locus")]
+    svg: Option<PathBuf>,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+enum Format {
+    /// To be read by people.
+    Text,
+    /// To be read by programs: metres and radians with all digits.
+    Json,
+    /// Singularities along inputs, or points of loci, as rows.
+    Csv,
+}
+
+/// Random starts made at most.
+const MOST_STARTS: usize = 1_000_000;
+
+impl Singularities {
+    pub fn run(&self) -> Result<Answer, Refusal> {
+        let loaded = self.source.load()?;
+        let mechanism = &loaded.mechanism;
+        if self.starts == 0 || self.starts > MOST_STARTS {
+            return Err(Refusal(format!(
+                "error: {} random starts are sought from: give --starts from 1 to {MOST_STARTS}\n",
+                self.starts
+            )));
+        }
+        let settings = SingularitiesSettings {
+            seed: self.search.seed,
+            starts: self.starts,
+            follow: self.follow,
+            outputs: self.outputs(mechanism)?,
+            ..SingularitiesSettings::default()
+        };
+        let answer = match (self.input.is_empty(), self.locus.is_empty()) {
+            (_, false) => self.loci(mechanism, &settings)?,
+            (false, true) => self.along(mechanism, &settings)?,
+            (true, true) => self.here(mechanism, &settings)?,
+        };
+        Ok(Answer {
+            remarks: loaded.warnings() + &answer.remarks,
+            ..answer
+        })
+    }
+
+    /// The outputs that are asked for.
+    fn outputs(&self, mechanism: &Mechanism) -> Result<Vec<Lock>, Refusal> {
+        let question = Question::new(mechanism);
+        let named = self.output.iter().map(|name| {
+            if let Ok((coordinate, _)) = question.value(name, "home") {
+                return Ok(Lock::Coordinate(coordinate));
+            }
+            mechanism.frame(name).map(Lock::Frame).ok_or_else(|| {
+                let given = Given {
+                    option: "--output",
+                    name,
+                    value: None,
+                };
+                let (complaint, part) = output::unknown_output(mechanism, name);
+                Refusal(complaint.render_in(&given, &part, style()))
+            })
+        });
+        let points = self.point.iter();
+        let points = points.map(|name| frame(mechanism, name, "--point").map(Lock::Point));
+        named.chain(points).collect()
+    }
+
+    /// The inputs of a question, of which there must be some.
+    fn inputs(&self, question: &Question) -> Result<Vec<Holdable>, Refusal> {
+        let inputs = inputs_of(question);
+        match inputs.is_empty() {
+            true => Err(Refusal(output::nothing_to_drive().render(style()))),
+            false => Ok(inputs),
+        }
+    }
+
+    fn here(
+        &self,
+        mechanism: &Mechanism,
+        settings: &SingularitiesSettings,
+    ) -> Result<Answer, Refusal> {
+        let mut question = self.asked.question(mechanism)?;
+        check_count(&question).map_err(|error| refusal(&error, None))?;
+        self.inputs(&question)?;
+        if self.mode.is_some() {
+            let start = self.start(&question)?;
+            question = question.near(&start);
+        }
+        let report = singularities(&question, settings).map_err(|error| refusal(&error, None))?;
+        let (data, found) = match self.format {
+            Format::Text => analysed::text(mechanism, &report, output::text),
+            Format::Json => analysed::json(mechanism, &report, output::json),
+            Format::Csv => {
+                return Err(Refusal(
+                    "error: one configuration is told as text or JSON; rows are written of --input \
+                     and --locus\n"
+                        .into(),
+                ));
+            }
+        };
+        Ok(Answer {
+            data,
+            remarks: found.map(output::limits_remark).unwrap_or_default(),
+            yes: found.is_some(),
+        })
+    }
+
+    fn along(
+        &self,
+        mechanism: &Mechanism,
+        settings: &SingularitiesSettings,
+    ) -> Result<Answer, Refusal> {
+        let words = RangeWords {
+            no_range: motion::no_range,
+            refused: motion::nothing_moves,
+        };
+        let moved = ranges(mechanism, "--input", &self.input, |a, b| a == b, &words)?;
+        let ends = moved.iter().map(|input| input.from);
+        let question = self.holding(mechanism, "--input", &self.input, ends)?;
+        let inputs = self.inputs(&question)?;
+        let held = self.still(mechanism, &moved)?;
+        let start = self.start(&question)?;
+        let report = along(mechanism, &held, &moved, &inputs, &start, settings);
+        let yes = matches!(
+            report.ending,
+            Ending::Complete | Ending::Returned | Ending::Closed
+        );
+        Ok(Answer {
+            data: match self.format {
+                Format::Text => output::along_text(mechanism, &report),
+                Format::Json => output::along_json(mechanism, &report),
+                Format::Csv => output::along_csv(mechanism, &report),
+            },
+            remarks: match self.format {
+                Format::Csv if !yes => format!("note: {}\n", output::ending(&report)),
+                _ => String::new(),
+            },
+            yes,
+        })
+    }
+
+    fn loci(
+        &self,
+        mechanism: &Mechanism,
+        settings: &SingularitiesSettings,
+    ) -> Result<Answer, Refusal> {
+        let words = RangeWords {
+            no_range: output::no_side,
+            refused: |name, _| output::empty_side(name),
+        };
+        let sides = ranges(mechanism, "--locus", &self.locus, |a, b| a >= b, &words)?;
+        let [a, b] = sides[..] else {
+            return Err(Refusal(output::not_two_sides(sides.len()).render(style())));
+        };
+        let middles = sides.iter().map(|side| 0.5 * (side.from + side.to));
+        let question = self.holding(mechanism, "--locus", &self.locus, middles)?;
+        if let Some(unknowns) = too_large(mechanism) {
+            return Err(Refusal(format!(
+                "error: the mechanism has {unknowns} unknowns, too many for loci: ask about a part of it\n"
+            )));
+        }
+        let inputs = self.inputs(&question)?;
+        let held = self.still(mechanism, &sides)?;
+        #[cfg(not(feature = "plot"))]
+        if self.svg.is_some() {
+            return Err(Refusal(
+                "error: built without feature `plot`, which draws\n".into(),
+            ));
+        }
+        let start = question.start();
+        let report = loci(mechanism, &held, [a, b], &inputs, &start, settings)
+            .map_err(|spins| Refusal(output::spinning(spins).render(style())))?;
+        #[cfg(feature = "plot")]
+        if let Some(path) = &self.svg {
+            save(path, &output::svg(mechanism, &report))?;
+        }
+        Ok(Answer {
+            data: match self.format {
+                Format::Text => output::locus_text(mechanism, &report),
+                Format::Json => output::locus_json(mechanism, &report),
+                Format::Csv => output::locus_csv(mechanism, &report),
+            },
+            remarks: match self.format {
+                Format::Csv => format!("note: {}\n", output::completeness(&report)),
+                _ => String::new(),
+            },
+            yes: !report.loci.is_empty(),
+        })
+    }
+
+    /// The question with what moves held at values, which must leave no freedom.
+    fn holding<'a>(
+        &self,
+        mechanism: &'a Mechanism,
+        option: &str,
+        moved: &[Assignment],
+        values: impl Iterator<Item = f64>,
+    ) -> Result<Question<'a>, Refusal> {
+        let mut question = self.asked.question(mechanism)?;
+        for (assignment, value) in moved.iter().zip(values) {
+            // all digits, so that the value is the one that was read
+            let held = question.hold(&assignment.name, &format!("{value:?}"));
+            question = held.map_err(|error| refusal(&error, Some(assignment.given(option))))?;
+        }
+        check_count(&question).map_err(|error| refusal(&error, None))?;
+        Ok(question)
+    }
+
+    /// What is held while these move.
+    fn still(&self, mechanism: &Mechanism, moved: &[Driven]) -> Result<Held<f64>, Refusal> {
+        let held = self.asked.question(mechanism)?.held();
+        let without = |held: Held<f64>, input: &Driven| held.without(input.coordinate);
+        Ok(moved.iter().fold(held, without))
+    }
+
+    /// The assembled configuration of the mode that is asked for, or near the start.
+    fn start(&self, question: &Question) -> Result<Configuration<f64>, Refusal> {
+        let Some(mode) = self.mode else {
+            let newton = Newton::default();
+            let found = NearbySearch::new(question, &newton).run(20, self.search.seed);
+            return match found.assembles() {
+                true => Ok(found.attempt.at),
+                false => Err(Refusal(format!(
+                    "error: the mechanism does not assemble where the motion is to begin\n  \
+                     = help: `linkwork solve` says how near it comes: {}\n",
+                    question.held_names().join(", ")
+                ))),
+            };
+        };
+        let solver = self.search.solver(question)?;
+        let wanted = Wanted {
+            certificates: false,
+            all_complex: false,
+        };
+        let like = question.start();
+        let report = solver.at_targets(&like, &question.held(), wanted);
+        let mut modes = report.assemblies.iter();
+        let wanted = modes.find(|assembly| assembly.mode == mode);
+        wanted
+            .map(|assembly| assembly.configuration(&like))
+            .ok_or_else(|| {
+                Refusal(match report.real {
+                    0 => "error: there is no assembly with these inputs\n".into(),
+                    n => format!("error: there is no mode {mode}: with these inputs there are modes 1 to {n}\n"),
+                })
+            })
+    }
+}

@@ -1,0 +1,36 @@
+//! Twists in words and numbers.
+
+use super::layout::{indented, plain};
+use super::quantity::{quantity, short};
+use crate::system::{Screw, TwistSpace};
+
+/// A table of twists under a title; nothing if there are none.
+pub(super) fn twists(title: &str, spaces: &[TwistSpace]) -> String {
+    let mut table = plain(["body", "motion", "along", "through (m)", "pitch"]);
+    let mut rows = 0;
+    for TwistSpace { body, screws } in spaces {
+        for screw in screws {
+            let [kind, along, through, pitch] = screw_words(screw);
+            table.add_row([body.as_str(), kind.as_str(), &along, &through, &pitch]);
+            rows += 1;
+        }
+    }
+    match rows {
+        0 => String::new(),
+        _ => format!("{title}\n{}", indented(&table.to_string())),
+    }
+}
+
+/// Kind, direction, point and pitch of a screw.
+pub(super) fn screw_words(screw: &Screw) -> [String; 4] {
+    let triple = |v: &[f64; 3]| format!("({})", v.map(short).join(", "));
+    let along = triple(&screw.direction);
+    match (&screw.point, screw.pitch) {
+        (Some(point), Some(0.0)) => ["turn".into(), along, triple(point), String::new()],
+        (Some(point), Some(pitch)) => {
+            let pitch = format!("{}/rad", quantity(pitch, false));
+            ["screw".into(), along, triple(point), pitch]
+        }
+        _ => ["shift".into(), along, String::new(), String::new()],
+    }
+}

@@ -1,0 +1,62 @@
+//! Loci drawn in their box.
+
+use crate::analysis::singularities::{Kind, LocusReport};
+use crate::mechanism::Mechanism;
+use crate::output::plot::{self, Chart, Marks, Series};
+
+/// The loci as SVG.
+pub fn svg(mechanism: &Mechanism, report: &LocusReport) -> String {
+    let shown = |k: usize, x: f64| match report.bounds[k].unit {
+        "rad" => x.to_degrees(),
+        _ => x,
+    };
+    let point = |p: &[f64; 2]| (shown(0, p[0]), shown(1, p[1]));
+    let [x, y] = report.bounds.each_ref().map(|bound| {
+        let unit = if bound.unit == "rad" { "°" } else { "m" };
+        format!("{} ({unit})", bound.name)
+    });
+    let series = report.loci.iter().enumerate().map(|(i, locus)| Series {
+        label: format!(
+            "{} {}",
+            match locus.kind {
+                Kind::Direct => "direct",
+                Kind::Inverse => "inverse",
+            },
+            i + 1
+        ),
+        points: locus.points.iter().map(point).collect(),
+    });
+    let crossings = report.loci.iter().flat_map(|locus| &locus.crossings);
+    let crossings: Vec<(f64, f64)> = crossings.map(point).collect();
+    let corner = |k: usize| {
+        let bound = &report.bounds[k];
+        [shown(k, bound.from), shown(k, bound.to)]
+    };
+    let ([left, right], [low, high]) = (corner(0), corner(1));
+    let mut series: Vec<Series> = series.collect();
+    series.push(Series {
+        label: "box".into(),
+        points: vec![
+            (left, low),
+            (right, low),
+            (right, high),
+            (left, high),
+            (left, low),
+        ],
+    });
+    let marks = match crossings.is_empty() {
+        true => Vec::new(),
+        false => vec![Marks {
+            label: "loci cross".into(),
+            points: crossings,
+        }],
+    };
+    plot::svg(&[Chart {
+        title: format!("{}: singularities", mechanism.name()),
+        x,
+        y,
+        equal: report.bounds[0].unit == report.bounds[1].unit,
+        series,
+        marks,
+    }])
+}

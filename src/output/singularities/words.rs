@@ -1,0 +1,370 @@
+//! What is said about singularities.
+
+use super::names;
+use crate::analysis::singularities::{
+    AlongReport, Crossing, Ending, Kind, Locus, LocusEnd, LocusReport, Singularity, Zlatanov,
+};
+use crate::description::{count, listed, nearest};
+use crate::mechanism::Mechanism;
+use crate::output::option::{Complaint, Part};
+use crate::output::quantity::quantity;
+
+/// What is driven and what moves out.
+pub(super) fn split(inputs: &[String], outputs: &[String]) -> String {
+    let number = |names: &[String], word: &str| match names.len() {
+        1 => format!("{word} {}", names[0]),
+        _ => format!("{word}s {}", self::names(names)),
+    };
+    format!(
+        "{}; {}.",
+        number(inputs, "Input"),
+        number(outputs, "output")
+    )
+}
+
+/// Whether a configuration is singular, and how, in a sentence or two.
+pub(super) fn sentence(singularity: &Singularity, inputs: &[String], outputs: &[String]) -> String {
+    let stand = |names: &[String]| match names.len() {
+        1 => format!("{} stands still", names[0]),
+        _ => format!("{} stand still", names_of(names)),
+    };
+    let mut sentences = Vec::new();
+    match singularity.gosselin_angeles {
+        None if singularity.zlatanov.is_empty() => {
+            sentences.push("Regular: nothing is gained, nothing is lost.".to_owned());
+        }
+        None => sentences.push("Singular.".into()),
+        Some(kind) => sentences.push(format!(
+            "Singular, type {kind} of Gosselin and Angeles ({}).",
+            match kind {
+                1 => "inverse",
+                2 => "direct",
+                _ => "inverse and direct",
+            }
+        )),
+    }
+    if singularity.gain > 0 {
+        let moves = singularity.gained.as_ref().map(|gained| {
+            let mut moving: Vec<String> = (gained.twists.iter())
+                .filter(|space| !space.screws.is_empty())
+                .map(|space| space.body.clone())
+                .collect();
+            if moving.is_empty() {
+                moving = gained.joints.iter().map(|m| m.joint.clone()).collect();
+            }
+            moving
+        });
+        sentences.push(format!(
+            "{} gained: {} can move while {}.",
+            counted(singularity.gain),
+            listed(&moves.unwrap_or_default()),
+            stand(inputs)
+        ));
+    }
+    if singularity.loss > 0 {
+        sentences.push(format!("{} lost.", counted(singularity.loss)));
+    }
+    if let Some(idle) = &singularity.idle_inputs {
+        let moving: Vec<String> = idle.joints.iter().map(|m| m.joint.clone()).collect();
+        let verb = if moving.len() == 1 { "moves" } else { "move" };
+        sentences.push(format!(
+            "{} {verb} while {}.",
+            listed(&moving),
+            stand(outputs)
+        ));
+    }
+    if singularity.more_mobility > 0 {
+        sentences.push(format!(
+            "The closures themselves lose rank: {} more with nothing held than beside it.",
+            count(singularity.more_mobility, "infinitesimal freedom")
+        ));
+    }
+    if !singularity.compared {
+        sentences.push(
+            "No configuration beside it was found to compare with: what is singular everywhere does \
+             not show."
+                .into(),
+        );
+    }
+    sentences.join(" ")
+}
+
+fn names_of(names: &[String]) -> String {
+    self::names(names)
+}
+
+fn counted(freedoms: usize) -> String {
+    match freedoms {
+        1 => "1 freedom is".into(),
+        n => format!("{n} freedoms are"),
+    }
+}
+
+/// The letters of a type.
+pub(super) fn letters(kind: Zlatanov) -> &'static str {
+    match kind {
+        Zlatanov::RedundantInput => "RI",
+        Zlatanov::RedundantOutput => "RO",
+        Zlatanov::ImpossibleInput => "II",
+        Zlatanov::ImpossibleOutput => "IO",
+        Zlatanov::IncreasedMobility => "IIM",
+        Zlatanov::PassiveMotion => "RPM",
+    }
+}
+
+/// A type of Zlatanov, Fenton and Benhabib.
+pub(super) fn zlatanov(kind: Zlatanov) -> String {
+    let meaning = match kind {
+        Zlatanov::RedundantInput => "redundant input: inputs move while the outputs stand still",
+        Zlatanov::RedundantOutput => "redundant output: outputs move while the inputs stand still",
+        Zlatanov::ImpossibleInput => "impossible input: some rates of the inputs cannot be",
+        Zlatanov::ImpossibleOutput => "impossible output: some rates of the outputs cannot be",
+        Zlatanov::IncreasedMobility => "increased instantaneous mobility: a constraint singularity",
+        Zlatanov::PassiveMotion => {
+            "redundant passive motion: passive joints move while inputs and outputs stand still"
+        }
+    };
+    format!("{} {meaning}", letters(kind))
+}
+
+/// `theta1 = 60° and l2 = 0.5 m`
+pub(super) fn place(report: &AlongReport, moved: &[f64]) -> String {
+    let values = report.moved.iter().zip(moved);
+    let values = values.map(|(m, x)| format!("{} = {}", m.name, quantity(*x, m.unit == "rad")));
+    listed(&values.collect::<Vec<_>>())
+}
+
+/// What a crossing is.
+pub(super) fn crossing(crossing: &Crossing, report: &AlongReport) -> String {
+    let mut said = sentence(&crossing.singularity, &report.inputs, &report.outputs);
+    if crossing.fold {
+        let names: Vec<String> = report.moved.iter().map(|m| m.name.clone()).collect();
+        let verb = if names.len() == 1 {
+            "turns back and locks"
+        } else {
+            "turn back and lock"
+        };
+        said = format!("{} {verb}, a fold. {said}", listed(&names));
+    }
+    if crossing.branches {
+        said = format!("Branches cross. {said}");
+    }
+    said
+}
+
+/// How a motion ended, in a sentence.
+pub fn ending(report: &AlongReport) -> String {
+    let way = report.moved.iter().map(|m| {
+        let value = |x| quantity(x, m.unit == "rad");
+        format!("{} from {} to {}", m.name, value(m.from), value(m.to))
+    });
+    let way = listed(&way.collect::<Vec<_>>());
+    let found = match report.crossings.len() {
+        0 => "no singularity".to_owned(),
+        1 => "1 singularity".into(),
+        n => format!("{n} singularities"),
+    };
+    let here: Vec<f64> = (report.moved.iter())
+        .map(|m| m.from + report.part * (m.to - m.from))
+        .collect();
+    let here = place(report, &here);
+    let joint = report.limit.as_deref().unwrap_or_default();
+    match report.ending {
+        Ending::Complete => format!("{way}: complete, {found}."),
+        Ending::Returned => format!(
+            "{way}: the end is not reached, the curve comes back to where it began; {found}."
+        ),
+        Ending::Closed => format!("{way}: the curve closes, {found}."),
+        Ending::Fold => format!(
+            "{way}: it locks at {here}, where this branch ends; {found}. With --follow the motion \
+             goes round the fold, back on the other branch."
+        ),
+        Ending::Branches => format!(
+            "{way}: branches cross at {here}; {found}. With --follow the motion goes straight on."
+        ),
+        Ending::Limit => format!("{way}: {joint} reaches its limit at {here}; {found}."),
+        Ending::OutsideLimits => format!(
+            "{way}: {joint} is outside its limits where the motion is to begin. Begin elsewhere, or \
+             in another mode with --mode."
+        ),
+        Ending::SingularStart => format!(
+            "{way}: the start is singular, so that the branch is not clear. Begin beside it."
+        ),
+        Ending::Lost => {
+            format!("{way}: beyond {here} no step is short enough to be sure; {found} before.")
+        }
+    }
+}
+
+/// How many loci there are.
+pub(super) fn loci(report: &LocusReport) -> String {
+    let of = |kind: Kind| {
+        report
+            .loci
+            .iter()
+            .filter(|locus| locus.kind == kind)
+            .count()
+    };
+    let in_box = report.bounds.each_ref().map(|bound| {
+        let value = |x| quantity(x, bound.unit == "rad");
+        format!(
+            "{} from {} to {}",
+            bound.name,
+            value(bound.from),
+            value(bound.to)
+        )
+    });
+    let curves = |number: usize, word: &str| match number {
+        0 => format!("no {word} singularities"),
+        1 => format!("1 curve of {word} singularities"),
+        n => format!("{n} curves of {word} singularities"),
+    };
+    let inverse = match report.sought[1] {
+        true => curves(of(Kind::Inverse), "inverse"),
+        false => "inverse ones not sought, because the outputs determine the inputs nowhere".into(),
+    };
+    format!(
+        "In the box {}: {} and {inverse}.",
+        listed(&in_box),
+        curves(of(Kind::Direct), "direct"),
+    )
+}
+
+/// How sure it is that none is missing.
+pub fn completeness(report: &LocusReport) -> String {
+    let [direct, inverse] = report.arrived;
+    let last = report.last_new.iter().flatten().max();
+    let last = match last {
+        Some(last) => format!("the last new curve came from start {last}"),
+        None => "none led to a curve".into(),
+    };
+    let once = report.loci.iter().filter(|locus| locus.met == 1).count();
+    let sure = match (report.loci.len(), once) {
+        (0, _) => "That there is none is likely, not proven",
+        (_, 0) => {
+            "Every curve was met by several starts; that none is missing is likely, not proven"
+        }
+        (_, 1) => "1 curve was met by one start only, so that others may be missing",
+        (_, once) => {
+            return format!(
+                "{} {once} curves were met by one start only, so that others may be missing: \
+                 --starts makes more.",
+                sought(report, [direct, inverse], &last)
+            );
+        }
+    };
+    format!(
+        "{} {sure}: --starts makes more.",
+        sought(report, [direct, inverse], &last)
+    )
+}
+
+fn sought(report: &LocusReport, [direct, inverse]: [usize; 2], last: &str) -> String {
+    format!(
+        "Sought from {} (seed {}): {direct} led to direct and {inverse} to inverse singularities in \
+         the box, {last}.",
+        count(report.starts, "random start"),
+        report.seed
+    )
+}
+
+/// How a locus ends.
+pub(super) fn ends(locus: &Locus) -> String {
+    let end = |end: LocusEnd| match end {
+        LocusEnd::Closed => "closed",
+        LocusEnd::Box => "box",
+        LocusEnd::Limit => "limit",
+        LocusEnd::Lost => "lost",
+    };
+    match locus.ends {
+        [a, b] if a == b => end(a).into(),
+        [a, b] => format!("{}, {}", end(a), end(b)),
+    }
+}
+
+fn complaint(title: String, label: &str, help: String) -> Complaint {
+    Complaint {
+        title,
+        label: label.into(),
+        help: Some(help),
+    }
+}
+
+/// A side of a box without a range.
+pub fn no_side(name: &str) -> (Complaint, Part) {
+    let said = complaint(
+        format!("the side `{name}` of the box has no range"),
+        "no range",
+        format!("write --locus {name}=FROM..TO, e.g. --locus {name}=0deg..360deg"),
+    );
+    (said, Part::WholeValue)
+}
+
+/// A box without an inside.
+pub fn empty_side(name: &str) -> (Complaint, Part) {
+    let said = complaint(
+        format!("the box is empty: the range of `{name}` does not end above its beginning"),
+        "empty",
+        "write the lower end first; for one value hold it with --hold, and for singularities along \
+         the other coordinate use --input"
+            .into(),
+    );
+    (said, Part::WholeValue)
+}
+
+/// Not two coordinates for a locus.
+pub fn not_two_sides(given: usize) -> Complaint {
+    let help = match given {
+        1 => "for singularities along one coordinate use --input NAME=FROM..TO",
+        _ => "hold the others with --hold",
+    };
+    complaint(
+        format!(
+            "a locus is a curve in two coordinates, and {} given",
+            match given {
+                1 => "1 is".to_owned(),
+                n => format!("{n} are"),
+            }
+        ),
+        "",
+        format!("give --locus twice, e.g. --locus a=0..1 --locus b=0..1; {help}"),
+    )
+}
+
+/// Nothing can be driven.
+pub fn nothing_to_drive() -> Complaint {
+    complaint(
+        "nothing is driven: singularities are told of inputs".into(),
+        "",
+        "hold the joints that are driven with --hold; whether a mechanism without freedoms is shaky \
+         says `linkwork mobility`"
+            .into(),
+    )
+}
+
+/// Links spin about their own lines.
+pub fn spinning(spins: usize) -> Complaint {
+    complaint(
+        format!(
+            "{} of the mechanism stay whatever the inputs do, links that spin about their own lines",
+            count(spins, "freedom")
+        ),
+        "",
+        "a locus needs a motion that is unique: write legs between two balls as `Distance` closures, \
+         or hold a joint of each spinning leg"
+            .into(),
+    )
+}
+
+/// An output that is neither a joint, a coordinate nor a frame.
+pub fn unknown_output(mechanism: &Mechanism, name: &str) -> (Complaint, Part) {
+    let frames = mechanism.frames().into_iter();
+    let mut known: Vec<String> = frames.map(|frame| mechanism.frame_name(frame)).collect();
+    known.extend(mechanism.joints().iter().map(|joint| joint.name.clone()));
+    let help = match nearest(name, known.iter().map(String::as_str)) {
+        Some(meant) => format!("did you mean `{meant}`?"),
+        None => "an output is a joint, a platform coordinate such as `top.x`, or a frame".into(),
+    };
+    let said = complaint(format!("`{name}` is not an output"), "not known", help);
+    (said, Part::Name)
+}

@@ -1,0 +1,817 @@
+//! Singularities against determinants of lines, closed forms and published configurations.
+
+use std::f64::consts::PI;
+use std::path::Path;
+
+use linkwork::analysis::singularities::{
+    Ending, Kind, LocusEnd, LocusReport, SingularitiesReport, SingularitiesSettings, Zlatanov,
+    along, inputs_of, loci, singularities,
+};
+use linkwork::description::Description;
+use linkwork::mechanism::{Configuration, Mechanism};
+use linkwork::solve::Newton;
+use linkwork::system::{Driven, Lock, Question, Search};
+use nalgebra::{DMatrix, Matrix3, Matrix4, Vector3};
+
+fn mechanism(name: &str, parameters: &[(&str, &str)]) -> Mechanism {
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join(format!("mechanisms/{name}.ron"));
+    let mut description = Description::read(&std::fs::read_to_string(path).unwrap()).unwrap();
+    for (name, value) in parameters {
+        description = description.with_parameter(name, value).unwrap();
+    }
+    Mechanism::new(&description).unwrap()
+}
+
+fn written(text: &str) -> Mechanism {
+    let description = Description::read(text).unwrap();
+    Mechanism::new(&description).unwrap_or_else(|problems| panic!("{problems:?}"))
+}
+
+fn data(name: &str) -> serde_json::Value {
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join(format!("tests/data/{name}.json"));
+    serde_json::from_str(&std::fs::read_to_string(path).unwrap()).unwrap()
+}
+
+/// With coordinates held, all actuated joints free.
+fn holding<'a>(mechanism: &'a Mechanism, held: &[(&str, f64)]) -> Question<'a> {
+    let mut question = Question::new(mechanism).free("actuated").unwrap();
+    for (name, value) in held {
+        question = question.hold(name, &format!("{value:?}")).unwrap();
+    }
+    question
+}
+
+fn report(question: &Question, settings: &SingularitiesSettings) -> SingularitiesReport {
+    let answer = singularities(question, settings).unwrap();
+    let report = answer.closed().expect("closes");
+    let distances = report.singularity.distances;
+    for distance in [distances.constraint, distances.direct, distances.inverse] {
+        assert!(distance.is_none_or(|d| d.is_finite() && d >= 0.0));
+    }
+    report
+}
+
+fn assembled(question: &Question) -> Configuration<f64> {
+    let newton = Newton::default();
+    let found = Search::new(question, &newton).run(20, 1);
+    assert!(found.assembles());
+    found.attempt.at
+}
+
+/// Moves one joint from a value to another, everything else as in the file.
+fn moved(
+    mechanism: &Mechanism,
+    name: &str,
+    from: f64,
+    to: f64,
+    settings: &SingularitiesSettings,
+) -> linkwork::analysis::singularities::AlongReport {
+    let question = Question::new(mechanism)
+        .hold(name, &format!("{from:?}"))
+        .unwrap();
+    let (coordinate, _) = question.value(name, "0").unwrap();
+    let start = assembled(&question);
+    let held = question.held().without(coordinate);
+    let moved = [Driven {
+        coordinate,
+        from,
+        to,
+    }];
+    along(
+        mechanism,
+        &held,
+        &moved,
+        &inputs_of(&question),
+        &start,
+        settings,
+    )
+}
+
+/// The loci in two coordinates, with other values held.
+fn locus(
+    mechanism: &Mechanism,
+    sides: [(&str, f64, f64); 2],
+    held: &[(&str, f64)],
+    starts: usize,
+) -> LocusReport {
+    let question = holding(mechanism, held);
+    let sides = sides.map(|(name, from, to)| {
+        let (coordinate, _) = question.value(name, "0").unwrap();
+        Driven {
+            coordinate,
+            from,
+            to,
+        }
+    });
+    let inputs = inputs_of(&Question::new(mechanism));
+    let settings = SingularitiesSettings {
+        starts,
+        ..SingularitiesSettings::default()
+    };
+    loci(
+        mechanism,
+        &question.held(),
+        sides,
+        &inputs,
+        &question.start(),
+        &settings,
+    )
+    .unwrap()
+}
+
+/// The smallest singular value of lines through points along directions, beside the largest.
+fn dependence(lines: &[(Vector3<f64>, Vector3<f64>)]) -> f64 {
+    let columns = lines.iter().flat_map(|(point, direction)| {
+        let direction = direction.normalize();
+        let moment = point.cross(&direction);
+        [direction, moment]
+            .into_iter()
+            .flat_map(|v| [v.x, v.y, v.z])
+    });
+    let matrix = DMatrix::from_iterator(6, lines.len(), columns);
+    let values = matrix.singular_values();
+    values.min() / values.max()
+}
+
+// ---- four-bar
+
+#[test]
+fn the_crank_of_a_double_rocker_folds_where_coupler_and_rocker_are_in_line() {
+    // cos θ₁ = (l0² + l1² − (l2 ± l3)²)/(2 l0 l1)
+    let (l0, l1, l2, l3): (f64, f64, f64, f64) = (3.0, 2.5, 2.0, 1.0);
+    let names = [("l0", "3"), ("l1", "2.5"), ("l2", "2"), ("l3", "1")];
+    let mechanism = mechanism("four_bar", &names);
+    let limit = |s: f64| ((l0 * l0 + l1 * l1 - s * s) / (2.0 * l0 * l1)).acos();
+    let settings = SingularitiesSettings::default();
+    for (to, exact) in [(PI, limit(l2 + l3)), (0.0, limit(l2 - l3))] {
+        let report = moved(&mechanism, "theta1", 0.9, to, &settings);
+        assert_eq!(report.ending, Ending::Fold);
+        let last = report.crossings.last().unwrap();
+        assert!((last.moved[0] - exact).abs() < 1e-10, "{report:?} {exact}");
+        assert!(last.fold && last.singularity.gain == 1);
+        let types = &last.singularity.zlatanov;
+        assert_eq!(last.singularity.gosselin_angeles, Some(2));
+        let wanted = [Zlatanov::RedundantOutput, Zlatanov::ImpossibleInput];
+        assert_eq!(types[..], wanted);
+        assert!(last.singularity.distances.direct.unwrap() < 1e-7);
+        // everything before is regular
+        assert!(
+            report.crossings[..report.crossings.len() - 1]
+                .iter()
+                .all(|c| !c.fold)
+        );
+    }
+}
+
+#[test]
+fn the_rocker_of_a_crank_rocker_is_dead_where_crank_and_coupler_are_in_line() {
+    let mechanism = mechanism("four_bar", &[]);
+    let settings = SingularitiesSettings::default();
+    let report = moved(&mechanism, "theta1", 0.2, 0.2 + 2.0 * PI, &settings);
+    assert_eq!(report.ending, Ending::Complete);
+    let published = data("change_points")["answer"]["dead_points_of_crank_rocker_5_1_3_4"].clone();
+    let published: Vec<f64> = match published {
+        serde_json::Value::Array(points) => points
+            .iter()
+            .map(|point| point["theta1"].as_f64().unwrap().rem_euclid(2.0 * PI))
+            .collect(),
+        _ => Vec::new(),
+    };
+    assert_eq!(report.crossings.len(), 2, "{report:?}");
+    for crossing in &report.crossings {
+        let singularity = &crossing.singularity;
+        assert_eq!(singularity.gosselin_angeles, Some(1));
+        assert_eq!((singularity.gain, singularity.loss), (0, 1));
+        let theta = crossing.joints[0];
+        // |OB| = l2 ± l1 with B at the end of the rocker
+        let phi: f64 = crossing.joints[2];
+        let reach = (5.0 + 4.0 * phi.cos()).hypot(4.0 * phi.sin());
+        assert!(
+            (reach - 4.0).abs().min((reach - 2.0).abs()) < 1e-12,
+            "{reach}"
+        );
+        let theta = theta.rem_euclid(2.0 * PI);
+        let near = published.iter().any(|x| (x - theta).abs() < 1e-10);
+        assert!(near, "{theta} {published:?}");
+        // the rocker stands still while crank and coupler move
+        let moving = singularity.idle_inputs.as_ref().unwrap();
+        let names: Vec<&str> = moving.joints.iter().map(|m| m.joint.as_str()).collect();
+        assert_eq!(names, ["theta1", "phi2"]);
+    }
+}
+
+#[test]
+fn legs_that_stretch_at_once_are_told_at_once() {
+    // moved symmetrically both legs of the 5-bar are straight where cos θ₁ = (g/2)/(r + c)
+    let mechanism = mechanism("five_bar", &[]);
+    let question = Question::new(&mechanism);
+    let ends = [
+        ("theta1", PI / 3.0, 1.8),
+        ("theta2", 2.0 * PI / 3.0, PI - 1.8),
+    ];
+    let moved = ends.map(|(name, from, to)| Driven {
+        coordinate: question.value(name, "0").unwrap().0,
+        from,
+        to,
+    });
+    let held = moved
+        .iter()
+        .fold(question.held(), |held, m| held.without(m.coordinate));
+    let start = assembled(&question);
+    let settings = SingularitiesSettings::default();
+    let report = along(
+        &mechanism,
+        &held,
+        &moved,
+        &inputs_of(&question),
+        &start,
+        &settings,
+    );
+    assert_eq!(report.ending, Ending::Complete);
+    let [crossing] = &report.crossings[..] else {
+        panic!("{report:?}")
+    };
+    let exact = (0.1f64 / 0.7).acos();
+    assert!(
+        (crossing.moved[0] - exact).abs() < 1e-8,
+        "{crossing:?} {exact}"
+    );
+    let found = &crossing.singularity;
+    assert_eq!(
+        (found.gosselin_angeles, found.loss, found.gain),
+        (Some(1), 2, 0)
+    );
+}
+
+#[test]
+fn home_of_every_shipped_four_bar_is_regular() {
+    for name in [
+        "four_bar",
+        "four_bar_cut1",
+        "four_bar_cut2",
+        "four_bar_cut4",
+    ] {
+        let mechanism = mechanism(name, &[]);
+        let report = report(
+            &Question::new(&mechanism),
+            &SingularitiesSettings::default(),
+        );
+        assert!(!report.singularity.is_singular(), "{name} {report:?}");
+        assert!(report.singularity.compared);
+    }
+}
+
+#[test]
+fn a_flat_parallelogram_gains_mobility() {
+    let mechanism = mechanism("parallelogram", &[]);
+    let joint = mechanism.joints()[0].name.clone();
+    let settings = SingularitiesSettings::default();
+    let at = |value: &str| {
+        let question = Question::new(&mechanism).hold(&joint, value).unwrap();
+        report(&question, &settings)
+    };
+    let flat = at("0").singularity;
+    assert_eq!((flat.more_mobility, flat.gain), (1, 1), "{flat:?}");
+    assert!(flat.zlatanov.contains(&Zlatanov::IncreasedMobility));
+    assert!(!at("0.3").singularity.is_singular());
+}
+
+// ---- 3-RPR
+
+const RPR: &str = r#"Mechanism(
+    version: 1, name: "3-RPR", convention: Modified,
+    parameters: { "R": 1.0, "r": 0.5 },
+    joints: {
+        "t1": Passive(home: "180 deg"), "p1": Actuated(home: 0.5),
+        "t2": Passive(home: "-60 deg"), "p2": Actuated(home: 0.5),
+        "t3": Passive(home: "60 deg"), "p3": Actuated(home: 0.5),
+    },
+    chains: {
+        "a": Chain(base: [Tx("R")], rows: [(theta: "t1 - 90 deg"), (alpha: "-90 deg", d: "p1")], tip: [Rx("90 deg")]),
+        "b": Chain(base: [T("-R/2", "R*sqrt(3)/2", 0)], rows: [(theta: "t2 - 90 deg"), (alpha: "-90 deg", d: "p2")], tip: [Rx("90 deg")]),
+        "c": Chain(base: [T("-R/2", "-R*sqrt(3)/2", 0)], rows: [(theta: "t3 - 90 deg"), (alpha: "-90 deg", d: "p3")], tip: [Rx("90 deg")]),
+    },
+    platforms: { "top": Platform(home: [Rz("20 deg")], frames: {
+        "A": [Tx("r")], "B": [T("-r/2", "r*sqrt(3)/2", 0)], "C": [T("-r/2", "-r*sqrt(3)/2", 0)] }) },
+    closures: { "A": Revolute("a", "top.A"), "B": Revolute("b", "top.B"), "C": Revolute("c", "top.C") },
+)"#;
+
+/// The determinant of the three leg lines in the plane, each (cos, sin, moment).
+fn leg_lines(x: f64, y: f64, phi: f64) -> f64 {
+    let columns = (0..3).flat_map(|k| {
+        let angle = 2.0 * PI / 3.0 * f64::from(k);
+        let a = [angle.cos(), angle.sin()];
+        let b = [
+            x + 0.5 * (angle + phi).cos() - a[0],
+            y + 0.5 * (angle + phi).sin() - a[1],
+        ];
+        let size = b[0].hypot(b[1]);
+        [b[0] / size, b[1] / size, (a[0] * b[1] - a[1] * b[0]) / size]
+    });
+    DMatrix::from_iterator(3, 3, columns).determinant()
+}
+
+#[test]
+fn a_planar_3_rpr_is_singular_on_its_published_circle_and_regular_beside_it() {
+    let mechanism = written(RPR);
+    let published = data("planar_3rpr_equilateral");
+    for point in published["answer"]["numeric"].as_array().unwrap() {
+        let of = |name: &str| point[name].as_f64().unwrap();
+        let held = [
+            ("top.x", of("x")),
+            ("top.y", of("y")),
+            ("top.yaw", of("phi_deg").to_radians()),
+        ];
+        let found = report(
+            &holding(&mechanism, &held),
+            &SingularitiesSettings::default(),
+        );
+        assert_eq!(found.inputs, ["p1", "p2", "p3"]);
+        let singular = of("det") == 0.0;
+        assert_eq!(found.singularity.is_singular(), singular, "{found:?}");
+        if singular {
+            assert_eq!(found.singularity.gosselin_angeles, Some(2));
+            // the platform turns about the point where the leg lines meet
+            let [space] = &found.singularity.gained.as_ref().unwrap().twists[..] else {
+                panic!("{found:?}")
+            };
+            let [screw] = &space.screws[..] else {
+                panic!("{space:?}")
+            };
+            let centre = screw.point.unwrap();
+            assert_eq!((screw.direction, screw.pitch), ([0.0, 0.0, 1.0], Some(0.0)));
+            let phi = of("phi_deg").to_radians();
+            for k in 0..3 {
+                let angle = 2.0 * PI / 3.0 * f64::from(k);
+                let a = Vector3::new(angle.cos(), angle.sin(), 0.0);
+                let turned = angle + phi;
+                let b = Vector3::new(
+                    of("x") + 0.5 * turned.cos(),
+                    of("y") + 0.5 * turned.sin(),
+                    0.0,
+                );
+                let off = (b - a)
+                    .normalize()
+                    .cross(&(Vector3::from(centre) - a))
+                    .norm();
+                assert!(off < 1e-6, "{off}");
+            }
+        }
+    }
+}
+
+#[test]
+fn the_locus_of_a_planar_3_rpr_at_one_orientation_is_the_published_circle() {
+    let mechanism = written(RPR);
+    let phi = 40f64.to_radians();
+    let sides = [("top.x", -1.5, 1.5), ("top.y", -1.5, 1.5)];
+    let report = locus(&mechanism, sides, &[("top.yaw", phi)], 12);
+    let direct: Vec<_> = report
+        .loci
+        .iter()
+        .filter(|l| l.kind == Kind::Direct)
+        .collect();
+    // a leg passes through zero length three times on it, so that it is there more than once
+    assert!(!direct.is_empty());
+    let radius = (1.0 + 0.25 - phi.cos()).sqrt();
+    for circle in direct {
+        assert!(circle.closed, "{:?}", circle.ends);
+        let mut turned = 0.0;
+        for pair in circle.points.windows(2) {
+            let [x, y] = pair[0];
+            assert!((x.hypot(y) - radius).abs() < 1e-10, "{x} {y}");
+            let [u, v] = pair[1];
+            turned += (x * v - y * u).atan2(x * u + y * v);
+        }
+        let turns = turned.abs() / (2.0 * PI);
+        assert!(
+            turns > 0.5 && (turns - turns.round()).abs() < 1e-6,
+            "{turns}"
+        );
+        // off the three points where a leg has no length and its line is none
+        let mut points = circle.points.iter().zip(&circle.joints);
+        let whole = |joints: &Vec<f64>| [1, 3, 5].iter().all(|&k| joints[k].abs() > 1e-3);
+        assert!(
+            points.all(|([x, y], joints)| !whole(joints) || leg_lines(*x, *y, phi).abs() < 1e-10)
+        );
+        assert_eq!(circle.singularity.gosselin_angeles, Some(2));
+    }
+    // beside it nothing is singular
+    let beside = [("top.x", radius + 0.01), ("top.y", 0.0), ("top.yaw", phi)];
+    let beside = singularities(
+        &holding(&mechanism, &beside),
+        &SingularitiesSettings::default(),
+    );
+    let beside = beside.unwrap().closed().unwrap();
+    assert!(!beside.singularity.is_singular());
+}
+
+#[test]
+fn loci_of_a_general_3_rpr_in_two_legs_make_its_leg_lines_dependent() {
+    let mechanism = mechanism("planar_3rpr", &[]);
+    let sides = [("rho1", 10.0, 20.0), ("rho2", 10.0, 20.0)];
+    let report = locus(&mechanism, sides, &[("rho3", 12.0)], 12);
+    assert!(!report.loci.is_empty());
+    let anchors = [[0.0, 0.0], [15.91, 0.0], [0.0, 10.0]];
+    for curve in report
+        .loci
+        .iter()
+        .filter(|locus| locus.kind == Kind::Direct)
+    {
+        for joints in &curve.joints {
+            let columns = (0..3).flat_map(|k| {
+                let theta: f64 = joints[2 * k];
+                let [x, y] = anchors[k];
+                let (c, s) = (theta.cos(), theta.sin());
+                [c, s, (x * s - y * c) / 10.0]
+            });
+            let det = DMatrix::from_iterator(3, 3, columns).determinant();
+            assert!(det.abs() < 1e-10, "{det}");
+        }
+        assert_ne!(curve.ends[0], LocusEnd::Lost);
+        assert_ne!(curve.ends[1], LocusEnd::Lost);
+    }
+}
+
+// ---- 3-RPS
+
+#[test]
+fn loci_of_a_3_rps_make_its_leg_forces_and_hinge_forces_dependent() {
+    // with the lengths locked, leg k resists forces along itself and forces through its ball along
+    // the axis of its hinge (A. Ghosal; Joshi and Tsai 2002)
+    let mechanism = mechanism("three_rps", &[]);
+    let lines = |joints: &[f64]| {
+        let mut lines = Vec::new();
+        for k in 0..3 {
+            let turn = 2.0 * PI / 3.0 * k as f64;
+            let (phi, l) = (joints[2 * k], joints[2 * k + 1]);
+            let radial = Vector3::new(turn.cos(), turn.sin(), 0.0);
+            let axis = Vector3::new(turn.sin(), -turn.cos(), 0.0);
+            // the balls are in radial planes: base radius 1
+            let (u, w) = leg(phi);
+            let along = radial * u + Vector3::z() * w;
+            let ball = radial + along * l;
+            lines.push((ball, along));
+            lines.push((ball, axis));
+        }
+        lines
+    };
+    let home = assembled(&Question::new(&mechanism));
+    assert!(dependence(&lines(&home.joints)) > 1e-3);
+    let settings = SingularitiesSettings::default();
+    let regular = report(&Question::new(&mechanism), &settings);
+    assert!(!regular.singularity.is_singular(), "{regular:?}");
+    let sides = [("l1", 0.4, 1.0), ("l2", 0.4, 1.0)];
+    let found = locus(&mechanism, sides, &[("l3", 0.75)], 10);
+    let direct = found.loci.iter().filter(|l| l.kind == Kind::Direct);
+    let mut points = 0;
+    for curve in direct {
+        for joints in &curve.joints {
+            let least = dependence(&lines(joints));
+            assert!(least < 1e-9, "{least}");
+            points += 1;
+        }
+    }
+    assert!(points > 10, "{points}");
+}
+
+/// Radial and vertical component of a leg of the 3-RPS at its hinge angle.
+fn leg(phi: f64) -> (f64, f64) {
+    // S = (b − l cos(90° − φ)…): see the closed form in the file
+    let theta = PI / 2.0 - phi;
+    (-theta.cos(), theta.sin())
+}
+
+// ---- Stewart–Gough
+
+fn platform(base: &[[f64; 3]], top: &[[f64; 3]]) -> Mechanism {
+    let point = |p: &[f64; 3]| format!("T({:?}, {:?}, {:?})", p[0], p[1], p[2]);
+    let each = |write: &dyn Fn(usize) -> String| (0..6).map(write).collect::<Vec<_>>().join(", ");
+    written(&format!(
+        r#"Mechanism(version: 1, name: "6-SPS", convention: Modified,
+        joints: {{ {} }}, chains: {{ {} }},
+        platforms: {{ "top": Platform(home: [Tz(1)], frames: {{ {} }}) }},
+        closures: {{ {} }})"#,
+        each(&|k| format!("\"l{k}\": Actuated(home: 1.0)")),
+        each(&|k| format!("\"A{k}\": Chain(base: [{}])", point(&base[k]))),
+        each(&|k| format!("\"B{k}\": [{}]", point(&top[k]))),
+        each(&|k| format!("\"leg{k}\": Distance(\"A{k}\", \"top.B{k}\", \"l{k}\")")),
+    ))
+}
+
+fn points(of: &serde_json::Value) -> Vec<[f64; 3]> {
+    let points = of.as_array().unwrap().iter();
+    points
+        .map(|p| [0, 1, 2].map(|i| p[i].as_f64().unwrap()))
+        .collect()
+}
+
+fn posed<'a>(mechanism: &'a Mechanism, pose: &str) -> Question<'a> {
+    let question = Question::new(mechanism).free("actuated").unwrap();
+    question.hold("top", pose).unwrap()
+}
+
+#[test]
+fn fichters_quarter_turn_is_singular_and_no_other_yaw_of_the_table() {
+    let published = data("stewart_yaw90");
+    let geometry = &published["geometry"];
+    let (base, top) = (
+        points(&geometry["base_points"]),
+        points(&geometry["platform_points"]),
+    );
+    let mechanism = platform(&base, &top);
+    let settings = SingularitiesSettings::default();
+    for row in published["answer"]["table"].as_array().unwrap() {
+        let yaw = row["yaw_deg"].as_f64().unwrap();
+        let p = [0, 1, 2].map(|i| row["p"][i].as_f64().unwrap());
+        let pose = format!("[T({:?}, {:?}, {:?}), Rz({yaw:?} deg)]", p[0], p[1], p[2]);
+        let found = report(&posed(&mechanism, &pose), &settings).singularity;
+        let singular = yaw.abs() == 90.0;
+        assert_eq!(found.is_singular(), singular, "{yaw} {found:?}");
+        assert_eq!(found.gosselin_angeles, singular.then_some(2));
+    }
+    // a turn of the platform with everything else held goes straight through it
+    let yaw = |to: f64| Driven {
+        coordinate: posed(&mechanism, "home").value("top.yaw", "0").unwrap().0,
+        from: 0.3,
+        to,
+    };
+    let still = [
+        ("top.x", 0.2),
+        ("top.y", -0.1),
+        ("top.z", 0.8),
+        ("top.roll", 0.0),
+        ("top.pitch", 0.0),
+    ];
+    let question = holding(&mechanism, &still);
+    let start = assembled(&question.clone().hold("top.yaw", "0.3").unwrap());
+    let inputs = inputs_of(&Question::new(&mechanism));
+    let report = along(
+        &mechanism,
+        &question.held(),
+        &[yaw(2.5)],
+        &inputs,
+        &start,
+        &settings,
+    );
+    assert_eq!(report.ending, Ending::Complete);
+    let [crossing] = &report.crossings[..] else {
+        panic!("{report:?}")
+    };
+    assert!((crossing.moved[0] - PI / 2.0).abs() < 1e-12, "{crossing:?}");
+    assert_eq!(crossing.singularity.gain, 1);
+}
+
+#[test]
+fn hunts_platform_turns_about_the_line_that_all_legs_meet() {
+    // two legs to each corner of a triangle; the plane of the platform contains both legs to P1, so
+    // that all six lines meet the side P2 P3 (K. H. Hunt 1978)
+    let s = 3f64.sqrt() / 2.0;
+    let top = [
+        [0.5, 0.0, 0.0],
+        [-0.25, 0.5 * s, 0.0],
+        [-0.25, -0.5 * s, 0.0],
+    ];
+    let pairs = [0, 0, 1, 1, 2, 2].map(|k| top[k]);
+    // base triangle, corners half-way between; legs of P1 end at corners 0 and 5 …
+    let corners =
+        [60.0f64, -60.0, 180.0].map(|a| [a.to_radians().cos(), a.to_radians().sin(), 0.0]);
+    let base = [0, 1, 0, 2, 2, 1].map(|k| corners[k]);
+    let mechanism = platform(&base, &pairs);
+    // P1's legs lie in the plane through corners 0 and 1, x = ½, and P1; the platform is turned
+    // about y until its plane is that one: pitch so that its x axis points along the plane x = ½
+    let settings = SingularitiesSettings::default();
+    let at = |degrees: f64| {
+        let pose = format!("[T(0.5, 0.0, 0.7), Ry({degrees:?} deg)]");
+        report(&posed(&mechanism, &pose), &settings).singularity
+    };
+    let found = at(-90.0);
+    assert_eq!(found.gain, 1, "{found:?}");
+    let [space] = &found.gained.as_ref().unwrap().twists[..] else {
+        panic!("{found:?}")
+    };
+    let [screw] = &space.screws[..] else {
+        panic!("{space:?}")
+    };
+    // P2 P3 is parallel to y, a quarter below the centre of the turned platform
+    let expected = ([0.0, 1.0, 0.0], Some([0.5, 0.0, 0.45]), Some(0.0));
+    let close = |a: [f64; 3], b: [f64; 3]| a.iter().zip(b).all(|(a, b)| (a - b).abs() < 1e-7);
+    assert!(close(screw.direction, expected.0), "{screw:?}");
+    assert!(
+        close(screw.point.unwrap(), expected.1.unwrap()),
+        "{screw:?}"
+    );
+    assert!(screw.pitch.unwrap().abs() < 1e-7);
+    assert!(!at(-80.0).is_singular());
+}
+
+// ---- open chains
+
+#[test]
+fn an_orthogonal_3r_arm_is_regular_at_its_published_solutions_and_singular_between_them() {
+    let published = data("cuspidal_3r");
+    let mechanism = written(
+        r#"Mechanism(version: 1, name: "3R", convention: Modified,
+        joints: { "q1": Actuated(home: 0), "q2": Actuated(home: 0), "q3": Actuated(home: 0) },
+        chains: { "arm": Chain(rows: [
+            (theta: "q1"), (alpha: "-90 deg", a: 1, d: 1, theta: "q2"), (alpha: "90 deg", a: 2, theta: "q3"),
+        ], tip: [Tx(1.5)]) })"#,
+    );
+    let settings = SingularitiesSettings {
+        outputs: vec![Lock::Point(mechanism.frame("arm").unwrap())],
+        ..SingularitiesSettings::default()
+    };
+    let at = |q: [f64; 3]| {
+        let mut question = Question::new(&mechanism);
+        for (name, value) in ["q1", "q2", "q3"].into_iter().zip(q) {
+            question = question.hold(name, &format!("{value:?}")).unwrap();
+        }
+        report(&question, &settings).singularity
+    };
+    // position Jacobian z × (p − o) from the table, multiplied out here
+    let determinant = |q: [f64; 3]| {
+        let row = |alpha: f64, a: f64, d: f64, theta: f64| {
+            let ((sa, ca), (st, ct)) = (alpha.sin_cos(), theta.sin_cos());
+            Matrix4::new(
+                ct,
+                -st,
+                0.0,
+                a,
+                st * ca,
+                ct * ca,
+                -sa,
+                -d * sa,
+                st * sa,
+                ct * sa,
+                ca,
+                d * ca,
+                0.0,
+                0.0,
+                0.0,
+                1.0,
+            )
+        };
+        let first = row(0.0, 0.0, 0.0, q[0]);
+        let second = first * row(-PI / 2.0, 1.0, 1.0, q[1]);
+        let third = second * row(PI / 2.0, 2.0, 0.0, q[2]);
+        let tip = (third * nalgebra::Vector4::new(1.5, 0.0, 0.0, 1.0)).xyz();
+        let columns = [first, second, third].map(|t| {
+            let axis: Vector3<f64> = t.fixed_view::<3, 1>(0, 2).into();
+            let origin: Vector3<f64> = t.fixed_view::<3, 1>(0, 3).into();
+            axis.cross(&(tip - origin))
+        });
+        Matrix3::from_columns(&columns).determinant()
+    };
+    for solution in published["answer"]["solutions"].as_array().unwrap() {
+        let q = [0, 1, 2].map(|i| solution["q_deg"][i].as_f64().unwrap().to_radians());
+        let det = solution["det"].as_f64().unwrap();
+        assert!(
+            (determinant(q) - det).abs() < 1e-8,
+            "{} {det}",
+            determinant(q)
+        );
+        assert!(!at(q).is_singular());
+    }
+    let report = moved(&mechanism, "q3", -2.0, 2.0, &settings);
+    assert_eq!(report.ending, Ending::Complete);
+    // with q1 = q2 = 0: as many changes of sign as crossings, each at a zero
+    let det = |k: i32| determinant([0.0, 0.0, f64::from(k) / 500.0]);
+    let changes = (-1000..1000).filter(|&k| (det(k) < 0.0) != (det(k + 1) < 0.0));
+    assert_eq!(report.crossings.len(), changes.count());
+    assert!(!report.crossings.is_empty());
+    for crossing in &report.crossings {
+        let q = [0, 1, 2].map(|i| crossing.joints[i]);
+        assert!(determinant(q).abs() < 1e-12, "{}", determinant(q));
+        assert_eq!(crossing.singularity.gosselin_angeles, Some(1));
+        assert_eq!(crossing.singularity.loss, 1);
+    }
+}
+
+// ---- the command
+
+fn run(arguments: &[&str]) -> (i32, String, String) {
+    let output = assert_cmd::Command::cargo_bin("linkwork")
+        .unwrap()
+        .current_dir(env!("CARGO_MANIFEST_DIR"))
+        .arg("singularities")
+        .args(arguments)
+        .output()
+        .unwrap();
+    let text = |bytes: Vec<u8>| String::from_utf8(bytes).unwrap();
+    let code = output.status.code().unwrap();
+    (code, text(output.stdout), text(output.stderr))
+}
+
+#[test]
+fn questions_that_make_no_sense_are_told_what_to_ask_instead() {
+    let rps = "mechanisms/three_rps.ron";
+    for (arguments, said) in [
+        (
+            &[rps, "--locus", "l9=0..1", "--locus", "l2=0.4..1"][..],
+            "did you mean",
+        ),
+        (&[rps, "--locus", "l1=0.4..1"], "--input"),
+        (
+            &[
+                rps,
+                "--locus",
+                "l1=0.4..1",
+                "--locus",
+                "l2=0.4..1",
+                "--locus",
+                "l3=0.4..1",
+            ],
+            "--hold",
+        ),
+        (
+            &[rps, "--locus", "l1=1..0.4", "--locus", "l2=0.4..1"],
+            "the box is empty",
+        ),
+        (
+            &[rps, "--locus", "l1=1", "--locus", "l2=0.4..1"],
+            "--locus l1=FROM..TO",
+        ),
+        (
+            &[rps, "--locus", "phi1=0..1", "--locus", "phi2=0..1"],
+            "--free",
+        ),
+        (&[rps, "--input", "l1=0.4"], "--input l1=FROM..TO"),
+        (&[rps, "--output", "tpo"], "did you mean `top`?"),
+        (&[rps, "--point", "tpo"], "did you mean"),
+        (&[rps, "--starts", "0"], "--starts from 1"),
+        (&[rps, "--format", "csv"], "--input"),
+        (&["mechanisms/triangle.ron"], "linkwork mobility"),
+    ] {
+        let (code, stdout, stderr) = run(arguments);
+        assert_eq!((code, stdout.as_str()), (2, ""), "{arguments:?} {stderr}");
+        assert!(stderr.contains(said), "{arguments:?}: {stderr}");
+    }
+}
+
+#[test]
+fn formats_agree_and_hold_no_nan() {
+    let rps = "mechanisms/three_rps.ron";
+    let sides = [
+        "--locus",
+        "l1=0.4..1",
+        "--locus",
+        "l2=0.4..1",
+        "--starts",
+        "4",
+    ];
+    let with = |more: &[&str]| {
+        let (code, stdout, stderr) = run(&[&[rps][..], &sides, more].concat());
+        assert_eq!(code, 0, "{stderr}");
+        assert!(
+            !stdout.contains("NaN") && !stdout.contains("inf"),
+            "{stdout}"
+        );
+        stdout
+    };
+    let json: serde_json::Value = serde_json::from_str(&with(&["--format", "json"])).unwrap();
+    let points = json["loci"].as_array().unwrap().iter();
+    let points: usize = points.map(|l| l["points"].as_array().unwrap().len()).sum();
+    let folder = tempfile::tempdir().unwrap();
+    let picture = folder.path().join("loci.svg");
+    let csv = with(&["--format", "csv", "--svg", picture.to_str().unwrap()]);
+    assert_eq!(csv.lines().count(), points + 1);
+    let columns = csv.lines().next().unwrap().split(',').count();
+    assert!(csv.lines().all(|line| line.split(',').count() == columns));
+    let svg = std::fs::read_to_string(&picture).unwrap();
+    assert!(svg.starts_with("<svg") && svg.contains("l1 (m)") && svg.contains("l2 (m)"));
+    assert!(!svg.contains("NaN"));
+    // the same question, the same bytes
+    assert_eq!(with(&["--format", "csv"]), csv);
+}
+
+#[test]
+fn no_report_of_a_shipped_mechanism_holds_nan() {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("mechanisms");
+    let mut paths: Vec<_> = folder
+        .read_dir()
+        .unwrap()
+        .map(|f| f.unwrap().path())
+        .collect();
+    paths.sort();
+    let mut told = 0;
+    for path in paths {
+        let mechanism = Mechanism::load(&path).unwrap();
+        let question = Question::new(&mechanism);
+        let Ok(answer) = singularities(&question, &SingularitiesSettings::default()) else {
+            continue;
+        };
+        let Some(report) = answer.closed() else {
+            continue;
+        };
+        let text = linkwork::output::singularities::text(&mechanism, &report);
+        let json = linkwork::output::singularities::json(&mechanism, &report);
+        for written in [text, json] {
+            assert!(
+                !written.contains("NaN") && !written.contains("inf "),
+                "{written}"
+            );
+        }
+        told += 1;
+    }
+    assert!(told > 30, "{told}");
+}
