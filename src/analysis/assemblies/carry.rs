@@ -261,9 +261,10 @@ fn follow(way: &mut Way<'_>, tracker: &Tracker, bend: f64, from: &[C]) -> Follow
             arrival = leg(way, &mut x, &mut stages, from_here, end);
             arrived(way, arrival, far, &x)
         }
-        // a corner of the way is no special place: only what is far out cannot get there
+        // a corner of the way is no special place: only what is far out cannot get there, and does
+        // not come back on a way as long as all before it
         Arrival::Diverged(_) => Some(End::Infinite),
-        Arrival::Stuck(_) if size(&x) > FAR => Some(End::Infinite),
+        Arrival::Stuck(_) if decades > 0 && size(&x) > FAR => Some(End::Infinite),
         Arrival::Stuck(_) => Some(End::Lost),
     };
     let end = found.unwrap_or_else(|| {
@@ -273,7 +274,7 @@ fn follow(way: &mut Way<'_>, tracker: &Tracker, bend: f64, from: &[C]) -> Follow
         match leg(way, &mut x, &mut stages, from_here, short) {
             Arrival::There => go_round(way, tracker, far, &x, &mut stages),
             Arrival::Diverged(_) => End::Infinite,
-            Arrival::Stuck(_) if size(&x) > FAR => End::Infinite,
+            Arrival::Stuck(_) if decades > 0 && size(&x) > FAR => End::Infinite,
             Arrival::Stuck(_) => End::Lost,
         }
     });
