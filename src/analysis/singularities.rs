@@ -87,7 +87,7 @@ pub fn inputs_of(question: &Question) -> Vec<Holdable> {
         let mut held = held;
         held.sort_by_key(|h| match h {
             Holdable::Joint(joint) => *joint,
-            Holdable::Coordinate(..) => usize::MAX,
+            Holdable::Coordinate(..) | Holdable::Turn(..) => usize::MAX,
         });
         return held;
     }

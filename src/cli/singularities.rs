@@ -299,6 +299,7 @@ impl Singularities {
         let wanted = Wanted {
             certificates: false,
             all_complex: false,
+            starts: false,
         };
         let like = question.start();
         let report = solver.at_targets(&like, &question.held(), wanted);

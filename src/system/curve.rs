@@ -116,7 +116,7 @@ impl Curve {
     /// How fast a coordinate changes along a tangent, in rad or characteristic lengths; 0 if it is
     /// held.
     pub fn rate(&self, at: &Configuration<f64>, tangent: &[f64], of: Holdable) -> f64 {
-        let slope = self.slope_of(at, of);
+        let slope = of.slope_in(&self.system, at);
         slope
             .iter()
             .map(|&(column, slope)| slope * tangent[column])
@@ -135,30 +135,6 @@ impl Curve {
             Holdable::Joint(joint) => self.system.joint_scale(joint),
             Holdable::Coordinate(_, c) if !c.is_angle() => self.system.characteristic_length(),
             Holdable::Coordinate(..) | Holdable::Turn(..) => 1.0,
-        }
-    }
-
-    /// The derivative of a scaled coordinate by the unknowns it depends on.
-    fn slope_of(&self, at: &Configuration<f64>, of: Holdable) -> Vec<(usize, f64)> {
-        match of {
-            Holdable::Joint(joint) => self.column(joint).map(|c| (c, 1.0)).into_iter().collect(),
-            Holdable::Coordinate(platform, _) | Holdable::Turn(platform, _) => {
-                let first = Unknown::Twist {
-                    platform,
-                    component: 0,
-                };
-                let first = self.system.unknowns().iter().position(|u| *u == first);
-                let Some(first) = first else {
-                    return Vec::new();
-                };
-                let pose = at.platforms[platform].pose();
-                let length = self.system.characteristic_length();
-                of.slope(&pose, length)
-                    .into_iter()
-                    .enumerate()
-                    .map(|(k, s)| (first + k, s))
-                    .collect()
-            }
         }
     }
 
@@ -183,11 +159,11 @@ impl Curve {
                     }
                     Holdable::Turn(..) => 0.0,
                 };
-                let mut slope = self.slope_of(at, input.coordinate);
+                let mut slope = input.coordinate.slope_in(&self.system, at);
                 if let Some(measure) = measure {
                     let ratio = (input.to - input.from) / unit * self.unit(measure.coordinate)
                         / (measure.to - measure.from);
-                    let other = self.slope_of(at, measure.coordinate);
+                    let other = measure.coordinate.slope_in(&self.system, at);
                     slope.extend(other.into_iter().map(|(c, s)| (c, -ratio * s)));
                 }
                 (gap, slope)

@@ -182,6 +182,27 @@ impl Holdable {
         }
     }
 
+    /// Its derivative by the unknowns of a system it depends on, dimensionless; none where it is held.
+    pub fn slope_in(self, system: &System<f64>, at: &Configuration<f64>) -> Vec<(usize, f64)> {
+        let column = |unknown| system.unknowns().iter().position(|u| *u == unknown);
+        match self {
+            Holdable::Joint(joint) => {
+                let column = column(Unknown::Joint(joint));
+                column.map(|c| (c, 1.0)).into_iter().collect()
+            }
+            Holdable::Coordinate(platform, _) | Holdable::Turn(platform, _) => {
+                let first = column(Unknown::Twist {
+                    platform,
+                    component: 0,
+                });
+                let pose = at.platforms[platform].pose();
+                let slope = self.slope(&pose, system.characteristic_length());
+                let places = first.into_iter().flat_map(|first| first..first + 6);
+                places.zip(slope).collect()
+            }
+        }
+    }
+
     /// Its name in questions.
     pub fn name(self, mechanism: &Mechanism) -> String {
         match self {

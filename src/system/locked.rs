@@ -1,7 +1,7 @@
 //! A mechanism with some of its coordinates and frames kept at rest.
 
 use super::equations::{System, Work};
-use super::layout::{Held, Unknown};
+use super::layout::Held;
 use super::{FrameTwists, Holdable};
 use crate::linear::Decomposition;
 use crate::mechanism::{Configuration, Frame, Mechanism};
@@ -101,7 +101,7 @@ impl Locked {
         let mut rates = vec![0.0; self.columns()];
         for lock in &self.locks {
             if let Lock::Coordinate(coordinate) = *lock {
-                for (column, slope) in self.slope_of(at, coordinate) {
+                for (column, slope) in coordinate.slope_in(&self.system, at) {
                     entries[column * rows + row] = slope;
                 }
             } else {
@@ -124,34 +124,6 @@ impl Locked {
             row += lock.rows();
         }
         entries
-    }
-
-    /// The derivative of a scaled coordinate by the unknowns it depends on.
-    fn slope_of(&self, at: &Configuration<f64>, of: Holdable) -> Vec<(usize, f64)> {
-        let column = |unknown| self.system.unknowns().iter().position(|u| *u == unknown);
-        match of {
-            Holdable::Joint(joint) => {
-                let column = column(Unknown::Joint(joint));
-                column.map(|c| (c, 1.0)).into_iter().collect()
-            }
-            Holdable::Coordinate(platform, coordinate) => {
-                let first = column(Unknown::Twist {
-                    platform,
-                    component: 0,
-                });
-                let pose = at.platforms[platform].pose();
-                let (_, slope) = coordinate.row(&pose, coordinate.of(&pose), self.length);
-                let first = first.into_iter();
-                first
-                    .flat_map(|first| {
-                        slope
-                            .into_iter()
-                            .enumerate()
-                            .map(move |(k, s)| (first + k, s))
-                    })
-                    .collect()
-            }
-        }
     }
 
     /// M decomposed at a configuration, cut at the rank tolerance.

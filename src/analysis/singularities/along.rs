@@ -344,20 +344,12 @@ impl Tests<'_> {
         (singularity.is_singular() || fold || branches).then(|| Crossing {
             part: curve.part(at),
             moved: (self.moved.iter())
-                .map(|input| value(at, input.coordinate))
+                .map(|input| input.coordinate.of(at))
                 .collect(),
             joints: at.joints.clone(),
             fold,
             branches,
             singularity,
         })
-    }
-}
-
-/// The value of a coordinate, in rad or m.
-pub(super) fn value(at: &Configuration<f64>, of: Holdable) -> f64 {
-    match of {
-        Holdable::Joint(joint) => at.joints[joint],
-        Holdable::Coordinate(platform, c) => c.of(&at.platforms[platform].pose()),
     }
 }

@@ -268,6 +268,8 @@ impl Search<'_> {
                     let pose = with_coordinates(&pose, [(coordinate, value)]);
                     at.platforms[platform] = PlatformPose::from_pose(&pose);
                 }
+                // never a side: it has no value
+                Holdable::Turn(..) => {}
             }
         }
         at

@@ -1,6 +1,5 @@
 //! A locus followed from a place on it.
 
-use super::along::value;
 use super::curve::{LocusCurve, Singular};
 use super::locus::LocusEnd;
 use crate::linear::{Decomposition, dot, norm};
@@ -28,7 +27,7 @@ pub(super) struct Region<'m> {
 impl Region<'_> {
     /// A coordinate of the box at a configuration; angles of platforms near the middle of the box.
     pub fn side(&self, at: &Configuration<f64>, side: &Driven) -> f64 {
-        let x = value(at, side.coordinate);
+        let x = side.coordinate.of(at);
         match side.coordinate {
             Holdable::Coordinate(_, c) if c.is_angle() => {
                 let middle = 0.5 * (side.from + side.to);
