@@ -77,8 +77,8 @@ impl Decomposition {
         x
     }
 
-    /// Uᵀ B V Σ⁻¹ of another matrix B of the same shape, column-major; the identity for A itself.
-    fn beside(&self, entries: &[f64]) -> nalgebra::DMatrix<f64> {
+    /// det(Uᵀ B V Σ⁻¹) of another matrix B of the same shape, column-major; 1 for A itself.
+    pub fn determinant_beside(&self, entries: &[f64]) -> f64 {
         let rank = self.rank();
         let images: Vec<Vec<f64>> = (self.right.iter())
             .map(|v| {
@@ -92,27 +92,7 @@ impl Decomposition {
         nalgebra::DMatrix::from_fn(rank, rank, |i, j| {
             dot(&self.left[i], &images[j]) / self.values[j]
         })
-    }
-
-    /// ‖Uᵀ B V Σ⁻¹ − 1‖_F of another matrix B: below 1 it has the rank of A.
-    pub fn change_to(&self, entries: &[f64]) -> f64 {
-        let matrix = self.beside(entries);
-        let rank = matrix.nrows();
-        (matrix - nalgebra::DMatrix::identity(rank, rank)).norm()
-    }
-
-    /// Real parts of the eigenvalues of Uᵀ B V Σ⁻¹ for another matrix B, least first: 1 for A itself;
-    /// a real one changes sign where B loses rank. `None` if the eigenvalues do not converge.
-    pub fn real_parts(&self, entries: &[f64]) -> Option<Vec<f64>> {
-        let matrix = self.beside(entries);
-        if matrix.is_empty() {
-            return Some(Vec::new());
-        }
-        let schur = nalgebra::Schur::try_new(matrix, f64::EPSILON, 10_000)?;
-        let values = schur.complex_eigenvalues();
-        let mut parts: Vec<f64> = values.iter().map(|value| value.re).collect();
-        parts.sort_by(f64::total_cmp);
-        Some(parts)
+        .determinant()
     }
 
     /// The direction that A shortens most, of those within its rank.

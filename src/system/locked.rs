@@ -138,24 +138,13 @@ impl Locked {
         Decomposition::of_rank(self.rows(), self.columns(), &entries, rank)
     }
 
-    /// How far M has changed from where it was decomposed: below 1 it has lost no rank
-    /// ([`Decomposition::change_to`]).
-    pub fn change(&mut self, from: &Decomposition, at: &Configuration<f64>) -> f64 {
-        let entries = self.jacobian(at);
-        from.change_to(&entries)
-    }
-
-    /// Real parts of eigenvalues, least first: 1 where M was decomposed. As many change sign as M
-    /// loses ranks ([`Decomposition::real_parts`]).
+    /// det(Uᵀ M V Σ⁻¹) with the decomposition U Σ Vᵀ of M at a configuration nearby: 1 there, and it
+    /// changes sign where M loses an odd number of ranks.
     ///
-    /// Unlike singular values they are smooth functions of the configuration through zero, and
-    /// redundant rows do no harm to them.
-    pub fn real_parts(
-        &mut self,
-        near: &Decomposition,
-        at: &Configuration<f64>,
-    ) -> Option<Vec<f64>> {
+    /// Unlike singular values it is a smooth function of the configuration, and redundant rows do no
+    /// harm to it.
+    pub fn orientation(&mut self, near: &Decomposition, at: &Configuration<f64>) -> f64 {
         let entries = self.jacobian(at);
-        near.real_parts(&entries)
+        near.determinant_beside(&entries)
     }
 }

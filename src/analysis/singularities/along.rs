@@ -92,8 +92,10 @@ pub enum Ending {
 /// singularity on the way to rounding.
 ///
 /// `held` holds what stands still, none of what is moved; `inputs` are those that singularities are
-/// told of. Where the direct or inverse matrix loses ranks along the curve, as many of
-/// [`Locked::real_parts`] change sign; their zeros are found, and what vanishes there is classified.
+/// told of. Where the direct or inverse matrix loses rank along the curve, the determinant of
+/// [`Locked::orientation`] changes sign; its zero is found, and what vanishes there is classified. Two
+/// ranks that are lost in the same place, as in symmetric motions, are found only at a fold, a crossing
+/// of branches or a start: the determinant touches zero there without a change of sign.
 pub fn along(
     mechanism: &Mechanism,
     held: &Held<f64>,
@@ -298,35 +300,22 @@ impl Tests<'_> {
             if a.max(b) <= ROUNDING * size {
                 continue;
             }
-            // from the end that is further from singular to the other
-            let (near, other) = if a >= b {
-                (before, &to)
-            } else {
-                (after, &from)
-            };
-            if locked.change(&near, &other.at) < 1.0 {
-                continue;
-            }
-            let Some(parts) = locked.real_parts(&near, &other.at) else {
-                continue;
-            };
+            let near = if a >= b { before } else { after };
+            let mut test = |_: &mut Curve, place: &At| locked.orientation(&near, &place.at);
+            let (x, y) = (test(curve, &from), test(curve, &to));
             // just at the end of the leg: the next one begins there and does not tell it again
-            let at_end = parts.iter().any(|x| x.abs() < ROUNDING);
-            if at_end && a >= b && !singular(&to) {
+            if y.abs() < ROUNDING && x.abs() >= ROUNDING && !singular(&to) {
                 places.push(to.clone());
+                continue;
             }
-            let lost = parts.iter().filter(|x| **x <= -ROUNDING).count();
-            for k in 0..lost {
-                let mut test = |_: &mut Curve, place: &At| {
-                    let parts = locked.real_parts(&near, &place.at);
-                    parts.and_then(|parts| parts.get(k).copied()).unwrap_or(0.0)
-                };
-                let place = method.root(curve, &from, &to, &mut test);
-                // where eigenvalues are complex, or turn without vanishing, a sign means nothing
-                let (least, size, _) = least(locked, &place);
-                if least <= 1e-6 * size {
-                    places.push(place);
-                }
+            if (x < 0.0) == (y < 0.0) || x.abs().min(y.abs()) < ROUNDING {
+                continue;
+            }
+            let place = method.root(curve, &from, &to, &mut test);
+            // where the smallest singular values turn without vanishing, a sign means nothing
+            let (least, size, _) = least(locked, &place);
+            if least <= 1e-6 * size {
+                places.push(place);
             }
         }
         places
