@@ -19,6 +19,7 @@ mod follow;
 mod generic;
 mod real;
 mod report;
+mod stances;
 mod threads;
 mod way;
 
@@ -40,6 +41,7 @@ use crate::system::{Held, HeldPlatform, System};
 use answer::Question;
 use coordinates::C;
 use family::{Family, Member};
+use stances::Stance;
 
 /// How hard to search.
 #[derive(Clone, Debug, PartialEq)]
@@ -142,7 +144,7 @@ pub struct AssemblySolver {
     held: Held<f64>,
     family: Family,
     generic: GenericSolutions,
-    solutions: Vec<Vec<C>>,
+    stances: Vec<Stance<C>>,
 }
 
 impl AssemblySolver {
@@ -203,7 +205,7 @@ impl AssemblySolver {
         let fits = |count: usize, stored: &[[f64; 2]]| stored.len() == count;
         let sizes = fits(family.parameters.len(), &stored.parameters)
             && fits(family.coordinates.input_count(), &stored.inputs)
-            && (stored.solutions.iter()).all(|x| fits(family.coordinates.count(), x));
+            && (stored.stances.iter()).all(|stance| stance.fits(&family.coordinates));
         match sizes && stored.question == question(mechanism, &family) {
             true => Ok(Self::with(mechanism, held, family, stored)),
             false => Err(AssembliesError::StoredForAnotherQuestion),
@@ -219,11 +221,7 @@ impl AssemblySolver {
         AssemblySolver {
             mechanism: mechanism.clone(),
             held: held.clone(),
-            solutions: generic
-                .solutions
-                .iter()
-                .map(|x| generic::numbers(x))
-                .collect(),
+            stances: generic.stances(),
             family,
             generic,
         }
@@ -262,12 +260,12 @@ impl AssemblySolver {
             asked,
             system: System::new(self.mechanism.dimensions(), held),
         };
-        let fit = match (self.solutions.is_empty(), self.generic.freedom) {
+        let fit = match (self.stances.is_empty(), self.generic.freedom) {
             (false, 0) => Fit::Finite,
             (true, 0) => Fit::TooManyHeld,
             (_, freedom) => Fit::FreedomLeft(freedom),
         };
-        let ends = match self.solutions.is_empty() {
+        let ends = match self.stances.is_empty() {
             true => None,
             false => self.carried(asked, held),
         };
@@ -294,7 +292,7 @@ impl AssemblySolver {
             &self.family,
             &self.generic.member(),
             &asked,
-            &self.solutions,
+            &self.stances,
         )
     }
 
@@ -315,7 +313,7 @@ impl AssemblySolver {
             let mut point = asked.clone();
             if i > 0 {
                 let mut rng = Pcg64::seed_from_u64(i as u64);
-                let x = self.family.random_point(&mut rng);
+                let x = self.family.random_point(&mut rng, 1.0);
                 let mut lifted = asked.map(C::from_f64);
                 self.family.coordinates.unflatten(&x, &mut lifted);
                 for &j in &self.family.coordinates.free_joints {

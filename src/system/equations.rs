@@ -152,6 +152,15 @@ impl<T: Factorable> System<T> {
         self.plans.iter().map(|plan| plan.row..plan.row + plan.rows)
     }
 
+    /// For each closure the unknown joints that it feels.
+    pub fn felt_joints(&self) -> impl Iterator<Item = Vec<usize>> {
+        self.plans.iter().map(|plan| {
+            let movers = plan.movers.iter().map(|(_, mover, _)| mover.joint);
+            let extensions = plan.extensions.iter().map(|(joint, _)| *joint);
+            movers.chain(extensions).collect()
+        })
+    }
+
     /// Number of rows: closure equations, then held platform coordinates.
     pub fn rows(&self) -> usize {
         self.empty.rows()

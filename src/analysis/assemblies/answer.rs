@@ -103,6 +103,7 @@ impl Question<'_> {
         report.lost = ends.ends.iter().filter(|e| **e == End::Lost).count();
         report.singular = grouped.iter().filter(|(.., singular)| *singular).count();
         report.retried = ends.retries;
+        report.paths = ends.paths;
         report.steps = ends.steps;
         report.evaluations = ends.evaluations;
         report.complex_assemblies = complex_assemblies;
@@ -131,6 +132,7 @@ impl Question<'_> {
             singular: 0,
             lost: 0,
             retried: 0,
+            paths: 0,
             generic: generic.count(),
             bound: bound.as_ref().map(|b| b.count),
             bound_source: bound.map(|b| format!("{}: {}", b.structure, b.source)),
@@ -141,6 +143,7 @@ impl Question<'_> {
             quiet_seeds: generic.quiet_seeds,
             loops: generic.loops,
             quiet_loops: generic.quiet_loops,
+            exhausted: generic.exhausted,
             seed: generic.seed,
             complete: String::new(),
             independent_rows: None,

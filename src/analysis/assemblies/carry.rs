@@ -1,8 +1,9 @@
 //! Carrying the generic solutions to the inputs that are asked for.
 
-use super::coordinates::{C, size};
+use super::coordinates::{C, Coordinates, size};
 use super::family::{Family, Member};
 use super::generic::polish;
+use super::stances::{Stance, learn};
 use super::threads;
 use super::way::Way;
 use crate::number::Number;
@@ -19,10 +20,12 @@ pub(super) enum End {
     Lost,
 }
 
-/// Ends of all paths, and how often they had to be followed.
+/// Ends of all paths, and what following them took.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Ends {
     pub ends: Vec<End>,
+    /// Paths followed, each once: fewer than ends where legs close apart from one another.
+    pub paths: usize,
     pub steps: usize,
     pub evaluations: usize,
     pub retries: usize,
@@ -42,7 +45,9 @@ struct Followed {
     evaluations: usize,
 }
 
-/// As many paths as solutions, from the generic member to the asked one.
+/// From the generic member to the asked one: one path for each way of the leg that has most of them,
+/// for each pose. Where all of these end well the other solutions are combinations of what they show;
+/// where one does not, every solution with that pose is followed by itself.
 ///
 /// A path that is lost, or two that end at the same regular solution (one has jumped), are followed
 /// again with greater care, and if that does not help all of them another way round.
@@ -50,7 +55,7 @@ pub(super) fn carry(
     family: &Family,
     from: &Member,
     to: &Member,
-    solutions: &[Vec<C>],
+    stances: &[Stance<C>],
 ) -> Option<Ends> {
     let way = family.way(from, to)?;
     let mut best: Option<Ends> = None;
@@ -58,9 +63,9 @@ pub(super) fn carry(
     for detour in 0..5 {
         // 0: the straight way; then arcs through complex s to either side
         let bend = [0.0, 0.4, -0.4, 0.8, -0.8][detour];
-        let first = if detour == 0 { 1.0 } else { 0.1 };
-        let mut ends = straight(&way, solutions, bend, first, &mut retries);
-        ends.retries = retries;
+        let care = if detour == 0 { 1.0 } else { 0.1 };
+        let ends = combined(&way, stances, &Manner { bend, care });
+        retries += ends.retries;
         let lost = |ends: &Ends| ends.ends.iter().filter(|e| **e == End::Lost).count();
         let fewer = best.as_ref().is_none_or(|b| lost(&ends) < lost(b));
         if fewer {
@@ -76,47 +81,57 @@ pub(super) fn carry(
     best
 }
 
-fn straight(
-    way: &Way<'_>,
-    solutions: &[Vec<C>],
+/// How paths are followed.
+struct Manner {
+    /// How far the way is bent to the side, through complex s.
     bend: f64,
+    /// The corrections aimed at, beside the usual ones.
     care: f64,
-    retries: &mut usize,
-) -> Ends {
+}
+
+fn combined(way: &Way<'_>, stances: &[Stance<C>], manner: &Manner) -> Ends {
     let coordinates = &way.family.coordinates;
-    let careful = |level: i32| match care * 0.1f64.powi(level) {
-        1.0 => Tracker::default(),
-        factor => Tracker::default().tightened(factor),
-    };
-    let tracker = careful(0);
-    let followed = threads::each(solutions.len(), way, |way, i| {
-        follow(way, &tracker, bend, &solutions[i])
-    });
-    let (mut steps, mut evaluations) = (0, 0);
-    for f in &followed {
-        steps += f.steps;
-        evaluations += f.evaluations;
+    let spanning = stances.iter().flat_map(|s| s.spanning_points(coordinates));
+    let mut all = straight(way, &spanning.collect::<Vec<_>>(), manner);
+    let shown = std::mem::take(&mut all.ends);
+    let mut shown = shown.as_slice();
+    let mut points: Vec<Vec<C>> = Vec::new();
+    let mut combined: Vec<(&Stance<C>, usize)> = Vec::new();
+    let mut apart: Vec<Vec<C>> = Vec::new();
+    for stance in stances {
+        let (of_stance, rest) = shown.split_at(stance.spanning());
+        shown = rest;
+        match combinations(coordinates, stance, of_stance) {
+            _ if stance.count() == stance.spanning() => all.ends.extend_from_slice(of_stance),
+            Some(mut combinations) => {
+                combined.push((stance, combinations.len()));
+                points.append(&mut combinations);
+            }
+            None => apart.append(&mut stance.points(coordinates)),
+        }
     }
-    let mut ends: Vec<End> = followed.into_iter().map(|f| f.end).collect();
-    for level in 1..=2 {
-        let again = doubtful(&ends, |x, y| coordinates.same(x, y));
-        if again.is_empty() {
-            break;
+    let arrivals = threads::each(points.len(), way, |way, i| {
+        arrived(way, Arrival::There, &points[i])
+    });
+    let mut arrivals = arrivals.into_iter();
+    for (stance, count) in combined {
+        let of_stance: Option<Vec<End>> = arrivals.by_ref().take(count).collect();
+        match of_stance {
+            Some(ends) => all.ends.extend(ends),
+            None => apart.append(&mut stance.points(coordinates)),
         }
-        *retries += again.len();
-        let tracker = careful(level);
-        let followed = threads::each(again.len(), way, |way, k| {
-            follow(way, &tracker, bend, &solutions[again[k]])
-        });
-        for (i, f) in again.into_iter().zip(followed) {
-            steps += f.steps;
-            evaluations += f.evaluations;
-            ends[i] = f.end;
-        }
+    }
+    if !apart.is_empty() {
+        let more = straight(way, &apart, manner);
+        all.ends.extend(more.ends);
+        all.paths += more.paths;
+        all.steps += more.steps;
+        all.evaluations += more.evaluations;
+        all.retries += more.retries;
     }
     // of paths that still end at one regular solution only one can be right
     let mut kept: Vec<Vec<C>> = Vec::new();
-    for end in &mut ends {
+    for end in &mut all.ends {
         if let End::Regular(x) = end {
             match kept.iter().any(|y| coordinates.same(x, y)) {
                 true => *end = End::Lost,
@@ -124,12 +139,60 @@ fn straight(
             }
         }
     }
-    Ends {
-        ends,
-        steps,
-        evaluations,
-        retries: 0,
+    all
+}
+
+/// All solutions of a stance from the ends of the paths that show every way of its legs. `None` if
+/// one of these ends is not a solution by itself.
+fn combinations(
+    coordinates: &Coordinates,
+    stance: &Stance<C>,
+    ends: &[End],
+) -> Option<Vec<Vec<C>>> {
+    let mut carried: Vec<Stance<C>> = Vec::new();
+    for end in ends {
+        let End::Regular(x) = end else { return None };
+        learn(&mut carried, coordinates, x);
     }
+    let [carried] = carried.as_slice() else {
+        return None;
+    };
+    let ways = |stance: &Stance<C>| stance.legs.iter().map(Vec::len).collect::<Vec<_>>();
+    (ways(carried) == ways(stance)).then(|| carried.points(coordinates))
+}
+
+/// Follows every solution, those that are lost or share an end again.
+fn straight(way: &Way<'_>, solutions: &[Vec<C>], manner: &Manner) -> Ends {
+    let coordinates = &way.family.coordinates;
+    let careful = |level: i32| match manner.care * 0.1f64.powi(level) {
+        1.0 => Tracker::default(),
+        factor => Tracker::default().tightened(factor),
+    };
+    let mut all = Ends {
+        ends: vec![End::Lost; solutions.len()],
+        paths: solutions.len(),
+        ..Ends::default()
+    };
+    let mut waiting: Vec<usize> = (0..solutions.len()).collect();
+    for level in 0..3 {
+        let tracker = careful(level);
+        let followed = threads::each(waiting.len(), way, |way, k| {
+            follow(way, &tracker, manner.bend, &solutions[waiting[k]])
+        });
+        for (i, f) in waiting.into_iter().zip(followed) {
+            all.steps += f.steps;
+            all.evaluations += f.evaluations;
+            all.ends[i] = f.end;
+        }
+        waiting = doubtful(&all.ends, |x, y| coordinates.same(x, y));
+        if waiting.is_empty() {
+            break;
+        }
+        if level < 2 {
+            all.retries += waiting.len();
+        }
+    }
+    all
 }
 
 /// Paths that were lost, and those that share a regular end.

@@ -122,15 +122,18 @@ impl Family {
         inputs
     }
 
-    /// A random complex point, far from assembled.
-    pub fn random_point(&self, rng: &mut Pcg64) -> Vec<C> {
+    /// A random complex point, far from assembled. `reach` says how far out, as for inputs.
+    pub fn random_point(&self, rng: &mut Pcg64, reach: f64) -> Vec<C> {
         let c = &self.coordinates;
         let mut x = Vec::with_capacity(c.count());
         for &j in &c.free_joints {
             x.push(match self.mechanism.joints()[j].kind.is_angle() {
-                true => C::new(std::f64::consts::PI * uniform(rng), 0.8 * uniform(rng)),
+                true => C::new(
+                    std::f64::consts::PI * uniform(rng),
+                    0.8 * reach.sqrt() * uniform(rng),
+                ),
                 false => {
-                    complex(rng) * (2.0 * (self.home.joints[j] / c.joint_scales[j]).abs().max(0.5))
+                    complex(rng) * (2.0 * reach * (self.home.joints[j] / c.joint_scales[j]).abs().max(0.5))
                 }
             });
         }
@@ -140,7 +143,7 @@ impl Family {
                 .position
                 .0
                 .map(|x| C::from_f64(x / c.length));
-            x.extend(home.map(|x| x + complex(rng)));
+            x.extend(home.map(|x| x + complex(rng) * reach));
         }
         x
     }

@@ -142,6 +142,9 @@ pub struct AssembliesReport {
     pub lost: usize,
     /// Paths that had to be followed again with greater care.
     pub retried: usize,
+    /// Paths followed: as many as generic solutions, or fewer where legs close apart from one another
+    /// and the other solutions are combinations of their ways.
+    pub paths: usize,
     /// Steps along all paths, the last time each was followed.
     pub steps: usize,
     /// Jacobians evaluated for them.
@@ -160,8 +163,10 @@ pub struct AssembliesReport {
     pub quiet_seeds: usize,
     /// Monodromy loops at the generic member.
     pub loops: usize,
-    /// Loops since the last discovery.
+    /// Loops since the last discovery in which no path was lost.
     pub quiet_loops: usize,
+    /// Whether the search ended at its limits and not because nothing more was found.
+    pub exhausted: bool,
     /// The random seed.
     pub seed: u64,
     /// How complete the list is and why.
@@ -211,13 +216,10 @@ impl AssembliesReport {
             }
             Fit::Finite => {}
         }
+        let loops = format!("{} without a lost path", count(self.quiet_loops, "loop"));
         let quiet = match self.quiet_seeds {
-            0 => count(self.quiet_loops, "loop"),
-            seeds => format!(
-                "{} and {}",
-                count(self.quiet_loops, "loop"),
-                count(seeds, "seed")
-            ),
+            0 => loops,
+            seeds => format!("{loops} and {}", count(seeds, "seed")),
         };
         let mut sentence = format!("{} found; {quiet} found no more; ", self.generic);
         sentence += &match self.bound {
@@ -227,6 +229,9 @@ impl AssembliesReport {
             Some(bound) => format!("the known bound for this structure is {bound}"),
             None => "no bound is known for this structure".into(),
         };
+        if self.exhausted {
+            sentence += "; the search ended at its limits and there may be more";
+        }
         if self.lost > 0 {
             sentence += &format!("; {} could not be decided", count(self.lost, "path"));
         }
