@@ -39,6 +39,7 @@ use crate::number::Number;
 use crate::solve::{Newton, Stop};
 use crate::system::{Held, HeldPlatform, System};
 use answer::Question;
+use bound::KnownBound;
 use coordinates::C;
 use family::{Family, Member};
 use stances::Stance;
@@ -143,6 +144,7 @@ pub struct AssemblySolver {
     mechanism: Mechanism,
     held: Held<f64>,
     family: Family,
+    bound: Option<KnownBound>,
     generic: GenericSolutions,
     stances: Vec<Stance<C>>,
 }
@@ -180,7 +182,7 @@ impl AssemblySolver {
             return Err(AssembliesError::SingleAngle);
         }
         let family = Family::new(mechanism, held);
-        let bound = bound::known_bound(mechanism, held).map(|b| b.count);
+        let bound = bound::known_bound(mechanism, &family).map(|b| b.count);
         let generic = generic::search(
             &family,
             question(mechanism, &family),
@@ -221,6 +223,7 @@ impl AssemblySolver {
         AssemblySolver {
             mechanism: mechanism.clone(),
             held: held.clone(),
+            bound: bound::known_bound(mechanism, &family),
             stances: generic.stances(),
             family,
             generic,
@@ -258,6 +261,7 @@ impl AssemblySolver {
             coordinates: &self.family.coordinates,
             held,
             asked,
+            bound: self.bound.as_ref(),
             system: System::new(self.mechanism.dimensions(), held),
         };
         let fit = match (self.stances.is_empty(), self.generic.freedom) {
@@ -288,12 +292,7 @@ impl AssemblySolver {
             parameters: self.family.parameters.clone(),
             inputs: inputs.into_iter().map(C::from_f64).collect(),
         };
-        carry::carry(
-            &self.family,
-            &self.generic.member(),
-            &asked,
-            &self.stances,
-        )
+        carry::carry(&self.family, &self.generic.member(), &asked, &self.stances)
     }
 
     /// Assembled configurations reached by Newton's method from the asked configuration and from

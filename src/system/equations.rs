@@ -1,6 +1,8 @@
+mod axes;
 mod rates;
 mod wrenches;
 
+pub use axes::ClosureAxes;
 pub use wrenches::ClosureWrenches;
 
 use super::layout::{Held, HeldPlatform, HoldRow, Layout, Unknown};

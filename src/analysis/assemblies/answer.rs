@@ -1,7 +1,7 @@
 //! From the ends of the paths to the report.
 
 use super::Wanted;
-use super::bound::known_bound;
+use super::bound::KnownBound;
 use super::carry::{End, Ends};
 use super::certificate::{Certificate, Certifier, independent_rows};
 use super::coordinates::{C, Coordinates};
@@ -20,6 +20,7 @@ pub(super) struct Question<'a> {
     pub coordinates: &'a Coordinates,
     pub held: &'a Held<f64>,
     pub asked: &'a Configuration<f64>,
+    pub bound: Option<&'a KnownBound>,
     pub system: System<f64>,
 }
 
@@ -122,7 +123,6 @@ impl Question<'_> {
     }
 
     fn empty(&self, generic: &GenericSolutions) -> AssembliesReport {
-        let bound = known_bound(self.mechanism, self.held);
         AssembliesReport {
             assemblies: Vec::new(),
             complex_assemblies: Vec::new(),
@@ -134,8 +134,8 @@ impl Question<'_> {
             retried: 0,
             paths: 0,
             generic: generic.count(),
-            bound: bound.as_ref().map(|b| b.count),
-            bound_source: bound.map(|b| format!("{}: {}", b.structure, b.source)),
+            bound: self.bound.map(|b| b.count),
+            bound_source: self.bound.map(|b| format!("{}: {}", b.structure, b.source)),
             steps: 0,
             evaluations: 0,
             fit: Fit::Finite,

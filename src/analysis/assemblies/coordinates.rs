@@ -236,7 +236,8 @@ fn pose_gaps<'a>(x: &'a [C], y: &'a [C]) -> impl Iterator<Item = f64> + 'a {
 fn legs(free_joints: &[usize], system: &System<f64>) -> Vec<Vec<usize>> {
     let mut legs: Vec<Vec<usize>> = (0..free_joints.len()).map(|place| vec![place]).collect();
     for felt in system.felt_joints() {
-        let touched = |leg: &Vec<usize>| leg.iter().any(|&place| felt.contains(&free_joints[place]));
+        let touched =
+            |leg: &Vec<usize>| leg.iter().any(|&place| felt.contains(&free_joints[place]));
         let (joined, apart): (Vec<_>, Vec<_>) = legs.into_iter().partition(touched);
         legs = apart;
         if !joined.is_empty() {

@@ -24,10 +24,14 @@ use super::way::Way;
 use super::{AssembliesSettings, threads};
 use crate::number::Number;
 use crate::solve::{Arrival, Homotopy, Newton, Stages, Stop, Tracker};
+use crate::system::System;
 
 /// The quotient of pivots below which a solution of a generic member counts as one of infinitely
 /// many (or of several that always coincide).
 const REGULAR: f64 = 1e-7;
+
+/// Ends of seeds farther out than this do not count.
+const FAR: f64 = 1e3;
 
 /// All solutions of a generic member, kept to be carried to any inputs.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -150,6 +154,14 @@ struct Search<'a> {
     quiet_loops: usize,
 }
 
+/// For random points: what takes longer rarely ends at a solution.
+fn newton() -> Newton {
+    Newton {
+        max_steps: 60,
+        ..Newton::default()
+    }
+}
+
 enum Seed {
     Nothing,
     Isolated(Vec<C>),
@@ -212,7 +224,8 @@ impl Search<'_> {
     fn run(&mut self) -> Option<bool> {
         let still = self.family.way(&self.base, &self.base)?;
         while self.stances.is_empty() {
-            if self.seeds >= self.settings.hopeless_seeds || self.quiet_seeds >= self.settings.quiet_seeds
+            if self.seeds >= self.settings.hopeless_seeds
+                || self.quiet_seeds >= self.settings.quiet_seeds
             {
                 return Some(false);
             }
@@ -234,17 +247,57 @@ impl Search<'_> {
                 }
                 self.sow(&still);
             }
-            if self.quiet_loops > 0 {
+            if self.quiet_loops > 0 && !self.close_legs(&still) {
                 return Some(false);
             }
         }
     }
 
+    /// Newton iterations for the joints of one leg from random values, with all else as in a known
+    /// solution; whether they found another way to close it.
+    fn close_legs(&mut self, still: &Way<'_>) -> bool {
+        const TRIES: u64 = 16;
+        let Some(dimensions) = self.family.dimensions(&self.base.parameters) else {
+            return false;
+        };
+        let (coordinates, seed) = (&self.family.coordinates, self.settings.seed);
+        let known: Vec<Vec<C>> = (self.stances.iter())
+            .map(|stance| stance.spanning_points(coordinates).swap_remove(0))
+            .collect();
+        let mut new = false;
+        for places in &coordinates.legs {
+            let system = System::new(&dimensions, &self.family.held_but(places));
+            let storage = (system.work(), still.clone());
+            let tries = known.len() as u64 * TRIES;
+            let ends = threads::each(tries as usize, &storage, |(work, way), k| {
+                // streams beyond those of seeds and loops
+                let stream = (1 << 48) + ((places[0] as u64) << 32) + k as u64;
+                let mut x = known[k / TRIES as usize].clone();
+                let random = way.family.random_point(&mut generator(seed, stream), 1.0);
+                places.iter().for_each(|&place| x[place] = random[place]);
+                way.linearise(C::from_f64(0.0), &x);
+                let mut point = way.at.clone();
+                let mut trial = point.clone();
+                let report = newton().solve(&system, &mut point, &mut trial, work);
+                let x = coordinates.flatten(&point);
+                let closed = report.stop == Stop::Solved && size(&x) <= FAR;
+                (closed && way.regularity(C::from_f64(0.0), &x) > REGULAR).then_some(x)
+            });
+            for x in ends.into_iter().flatten() {
+                new |= learn(&mut self.stances, coordinates, &x);
+            }
+        }
+        if new {
+            self.quiet_loops = 0;
+        }
+        new
+    }
+
     /// Where the known bound is reached, one loop confirms it; below it the end is doubted.
     fn enough_loops(&self) -> usize {
-        let quiet = self.settings.quiet_loops;
+        let quiet = self.settings.quiet_loops.max(1);
         match self.bound.map(|bound| count(&self.stances).cmp(&bound)) {
-            Some(std::cmp::Ordering::Equal) => quiet.min(1),
+            Some(std::cmp::Ordering::Equal) => 1,
             Some(_) => 3 * quiet,
             None => quiet,
         }
@@ -259,16 +312,16 @@ impl Search<'_> {
     }
 
     /// Newton iterations from random complex points at the member where a way starts; the isolated
-    /// solutions they ended at.
-    fn seeds(&mut self, still: &Way<'_>, batch: usize) -> Vec<Vec<C>> {
+    /// solutions they ended at. `reach` is that of the member's inputs.
+    fn seeds(&mut self, still: &Way<'_>, reach: f64) -> Vec<Vec<C>> {
         let (first, seed) = (self.seeds, self.settings.seed);
-        let ends = threads::each(batch, still, |way, i| {
+        let ends = threads::each(BATCH, still, |way, i| {
             let mut rng = generator(seed, 1 + (((first + i) as u64) << 1));
             // most solutions are near, some far out
-            let reach = [1.0, 1.0, 2.0, 4.0][(first + i) % 4];
-            sow_one(way, reach, &mut rng)
+            let further = [1.0, 2.0, 1.0, 4.0][(first + i) % 4];
+            sow_one(way, reach * further, &mut rng)
         });
-        self.seeds += batch;
+        self.seeds += BATCH;
         let mut isolated = Vec::new();
         for end in ends {
             match end {
@@ -286,7 +339,7 @@ impl Search<'_> {
 
     /// Seeds at the generic member.
     fn sow(&mut self, still: &Way<'_>) {
-        for x in self.seeds(still, BATCH) {
+        for x in self.seeds(still, 1.0) {
             match learn(&mut self.stances, &self.family.coordinates, &x) {
                 true => (self.quiet_seeds, self.quiet_loops) = (0, 0),
                 false => self.quiet_seeds += 1,
@@ -303,8 +356,9 @@ impl Search<'_> {
         // every fourth loop changes dimensions too: at special dimensions the inputs alone may not
         // exchange all solutions
         let resize = self.loops.is_multiple_of(4) || self.base.inputs.is_empty();
-        // small loops go round few of the places where solutions meet
-        let reach = [1.0, 2.0, 4.0][self.loops % 3];
+        // small loops go round few of the places where solutions meet, and solutions far out meet at
+        // inputs far out
+        let reach = [1.0, 2.0, 8.0, 4.0, 16.0][self.loops % 5];
         let mut member = || Member {
             inputs: self.family.random_inputs(&mut rng, reach),
             parameters: match resize {
@@ -323,7 +377,7 @@ impl Search<'_> {
                 return;
             };
             if pair[0] != self.base {
-                self.sow_beside(&way, &mut points);
+                self.sow_beside(&way, reach, &mut points);
             }
             carried(&way, &mut points);
         }
@@ -346,13 +400,13 @@ impl Search<'_> {
     }
 
     /// Seeds at a corner of a loop, where these solutions are known already.
-    fn sow_beside(&mut self, way: &Way<'_>, points: &mut Vec<Option<Vec<C>>>) {
+    fn sow_beside(&mut self, way: &Way<'_>, reach: f64, points: &mut Vec<Option<Vec<C>>>) {
         let coordinates = &self.family.coordinates;
         let mut known = Vec::new();
         for x in points.iter().flatten() {
             learn(&mut known, coordinates, x);
         }
-        for x in self.seeds(way, BATCH) {
+        for x in self.seeds(way, reach) {
             match learn(&mut known, coordinates, &x) {
                 true => {
                     self.quiet_seeds = 0;
@@ -383,9 +437,8 @@ fn carried(way: &Way<'_>, points: &mut [Option<Vec<C>>]) {
         }
         let doubtful = |i: usize| match &points[i] {
             None => starts[i].is_some(),
-            Some(x) => (points.iter().enumerate()).any(|(j, y)| {
-                j != i && y.as_ref().is_some_and(|y| coordinates.same(x, y))
-            }),
+            Some(x) => (points.iter().enumerate())
+                .any(|(j, y)| j != i && y.as_ref().is_some_and(|y| coordinates.same(x, y))),
         };
         waiting = (0..points.len()).filter(|&i| doubtful(i)).collect();
         if waiting.is_empty() {
@@ -423,18 +476,14 @@ fn sow_one(way: &mut Way<'_>, reach: f64, rng: &mut Pcg64) -> Seed {
     let start = way.family.random_point(rng, reach);
     let zero = C::from_f64(0.0);
     way.linearise(zero, &start);
-    let newton = Newton {
-        max_steps: 60,
-        ..Newton::default()
-    };
     let mut point = way.at.clone();
     let mut trial = point.clone();
-    let report = newton.solve(&way.system, &mut point, &mut trial, &mut way.work);
+    let report = newton().solve(&way.system, &mut point, &mut trial, &mut way.work);
     if report.stop != Stop::Solved {
         return Seed::Nothing;
     }
     let x = way.family.coordinates.flatten(&point);
-    if size(&x).is_nan() || size(&x) > 1e3 {
+    if size(&x).is_nan() || size(&x) > FAR {
         return Seed::Nothing;
     }
     if way.regularity(zero, &x) > REGULAR {
@@ -444,7 +493,7 @@ fn sow_one(way: &mut Way<'_>, reach: f64, rng: &mut Pcg64) -> Seed {
     // that coincide at the same point again
     way.linearise(zero, &way.family.shaken(&x, rng));
     let mut beside = way.at.clone();
-    let report = newton.solve(&way.system, &mut beside, &mut trial, &mut way.work);
+    let report = newton().solve(&way.system, &mut beside, &mut trial, &mut way.work);
     let beside = way.family.coordinates.flatten(&beside);
     let apart = way.family.coordinates.difference(&x, &beside);
     match report.stop == Stop::Solved && apart > 1e-3 && apart < 1.0 {

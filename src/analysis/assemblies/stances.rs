@@ -8,8 +8,8 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::coordinates::Coordinates;
 use super::coordinates::C;
+use super::coordinates::Coordinates;
 
 /// One placement of the platforms and the ways in which the legs close for it. Without platforms to
 /// be found there is one placement.
@@ -102,7 +102,10 @@ impl Stance<C> {
         let mut new = false;
         for (joints, ways) in coordinates.legs.iter().zip(&mut self.legs) {
             let way = at(joints, x);
-            if !ways.iter().any(|known| coordinates.same_way(joints, known, &way)) {
+            if !ways
+                .iter()
+                .any(|known| coordinates.same_way(joints, known, &way))
+            {
                 ways.push(way);
                 new = true;
             }
