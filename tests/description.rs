@@ -201,7 +201,8 @@ fn large_texts_are_answered_in_time() {
         }
         let spent = begin.elapsed();
         let beginning: String = text.chars().take(90).collect();
-        assert!(spent < Duration::from_secs(5), "{spent:?} for {beginning}");
+        // no measurement but an alarm, far above any load and below what grows as the square
+        assert!(spent < Duration::from_secs(100), "{spent:?} for {beginning}");
     }
 }
 
