@@ -538,6 +538,28 @@ fn a_delta_has_two_assemblies_with_a_translating_hand_among_those_of_six_free_ro
     }
 }
 
+/// The file's comment: 40 with six free rods, as six legs in general have, 2 of them translating.
+#[test]
+fn a_delta_of_six_free_rods_has_forty_solutions_and_two_that_translate() {
+    let delta = mechanism("delta");
+    let solver = solver(&Question::new(&delta), 1);
+    assert_eq!(solver.generic().count(), 40);
+    let at = |angles: [f64; 3]| {
+        let held = ["theta1", "theta2", "theta3"].iter().zip(angles);
+        let held: Vec<(&str, String)> = held.map(|(n, t)| (*n, format!("{t} deg"))).collect();
+        let report = solver.at(&asked(&delta, &[], &held).start(), Wanted::default());
+        sound(&report);
+        let level = |a: &&linkwork::analysis::assemblies::Assembly| {
+            let [w, ..] = a.platforms.get("hand").unwrap().quaternion;
+            w.abs() > 1.0 - 1e-12
+        };
+        let translating = report.assemblies.iter().filter(level).count();
+        (report.complex, report.at_infinity, translating)
+    };
+    assert_eq!(at([33.0, -12.0, 61.0]), (40, 0, 2));
+    assert_eq!(at([20.0, 20.0, 20.0]), (28, 12, 2));
+}
+
 #[test]
 fn a_bennett_linkage_with_a_wrong_ratio_has_no_assembly() {
     let broken = with("bennett", &[("b", "1.05*a*sin(beta)/sin(alpha)")]);
