@@ -202,7 +202,10 @@ fn large_texts_are_answered_in_time() {
         let spent = begin.elapsed();
         let beginning: String = text.chars().take(90).collect();
         // no measurement but an alarm, far above any load and below what grows as the square
-        assert!(spent < Duration::from_secs(100), "{spent:?} for {beginning}");
+        assert!(
+            spent < Duration::from_secs(100),
+            "{spent:?} for {beginning}"
+        );
     }
 }
 

@@ -20,14 +20,16 @@ mod generic;
 mod real;
 mod report;
 mod stances;
+mod stored;
 mod threads;
 mod way;
 
 pub use follow::{Fold, Followed};
-pub use generic::{GenericSolutions, Progress, StoredError};
+pub use generic::Progress;
 pub use report::{
     AssembliesReport, Assembly, ClosestApproach, ComplexAssembly, Fit, Named, PoseReport,
 };
+pub use stored::{GenericSolutions, StoredError};
 
 use std::f64::consts::TAU;
 
@@ -51,8 +53,8 @@ pub struct AssembliesSettings {
     pub seed: u64,
     /// Seeds that must meet only known solutions before the search ends.
     pub quiet_seeds: usize,
-    /// Loops in a row that must bring nothing new before the search ends; three times as many
-    /// where a known bound is not reached, two where it is.
+    /// Loops in a row that must bring nothing new, and lose no path, before the search ends; half as
+    /// many again where a known bound is not reached, one where it is.
     pub quiet_loops: usize,
     /// Seeds after which a search that found nothing gives up.
     pub hopeless_seeds: usize,
@@ -67,7 +69,7 @@ impl Default for AssembliesSettings {
         AssembliesSettings {
             seed: 1,
             quiet_seeds: 150,
-            quiet_loops: 10,
+            quiet_loops: 20,
             hopeless_seeds: 600,
             most_seeds: 5000,
             most_loops: 200,

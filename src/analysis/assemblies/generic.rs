@@ -15,15 +15,16 @@
 
 use rand::SeedableRng;
 use rand_pcg::Pcg64;
-use serde::{Deserialize, Serialize};
 
 use super::coordinates::{C, size};
 use super::family::{Family, Member};
 use super::stances::{Stance, count, learn};
+use super::stored::{GenericSolutions, pairs};
 use super::way::Way;
 use super::{AssembliesSettings, threads};
+use crate::mechanism::Configuration;
 use crate::number::Number;
-use crate::solve::{Arrival, Homotopy, Newton, Stages, Stop, Tracker};
+use crate::solve::{Arrival, Homotopy, Newton, Report, Stages, Stop, Tracker};
 use crate::system::System;
 
 /// The quotient of pivots below which a solution of a generic member counts as one of infinitely
@@ -33,100 +34,12 @@ const REGULAR: f64 = 1e-7;
 /// Ends of seeds farther out than this do not count.
 const FAR: f64 = 1e3;
 
-/// All solutions of a generic member, kept to be carried to any inputs.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub struct GenericSolutions {
-    /// Names of the mechanism and its joints, values of its parameters and what is held: the
-    /// solutions serve no other question.
-    pub(super) question: String,
-    pub(super) parameters: Vec<[f64; 2]>,
-    pub(super) inputs: Vec<[f64; 2]>,
-    pub(super) stances: Vec<Stance<[f64; 2]>>,
-    /// Freedom left when the inputs are held: the least dimension of a set of solutions that was
-    /// met, 0 if there was none. There may be isolated solutions beside it.
-    pub freedom: usize,
-    /// Newton seeds tried.
-    pub seeds: usize,
-    /// Seeds that met a set of solutions which is not isolated.
-    pub not_isolated: usize,
-    /// Monodromy loops, each followed by every solution known.
-    pub loops: usize,
-    /// Seeds since the last discovery.
-    pub quiet_seeds: usize,
-    /// Loops since the last discovery in which no path was lost.
-    pub quiet_loops: usize,
-    /// Whether the search ended at its limits and not because nothing more was found.
-    pub exhausted: bool,
-    /// The random seed.
-    pub seed: u64,
-}
-
-fn pairs(x: &[C]) -> Vec<[f64; 2]> {
-    x.iter().map(|z| [z.re, z.im]).collect()
-}
-
-fn numbers(x: &[[f64; 2]]) -> Vec<C> {
-    x.iter().map(|z| C::new(z[0], z[1])).collect()
-}
-
-impl GenericSolutions {
-    /// From what [`GenericSolutions::to_text`] wrote.
-    ///
-    /// # Errors
-    /// If it is something else.
-    pub fn from_text(text: &str) -> Result<Self, StoredError> {
-        let stored: Self = ron::from_str(text).map_err(|e| StoredError(e.to_string()))?;
-        let numbers = (stored.stances.iter().flat_map(Stance::numbers))
-            .chain(&stored.parameters)
-            .chain(&stored.inputs);
-        let finite = numbers.flatten().all(|x| x.is_finite());
-        match finite {
-            true => Ok(stored),
-            false => Err(StoredError("numbers are missing".into())),
-        }
-    }
-
-    /// All digits, as RON.
-    pub fn to_text(&self) -> String {
-        ron::to_string(self).expect("lists of numbers have a RON form")
-    }
-
-    /// How many isolated complex solutions a generic member has.
-    pub fn count(&self) -> usize {
-        count(&self.stances)
-    }
-
-    pub(super) fn stances(&self) -> Vec<Stance<C>> {
-        let number = |z: [f64; 2]| C::new(z[0], z[1]);
-        self.stances.iter().map(|s| s.map(number)).collect()
-    }
-
-    pub(super) fn member(&self) -> Member {
-        Member {
-            parameters: numbers(&self.parameters),
-            inputs: numbers(&self.inputs),
-        }
-    }
-}
-
 fn generator(seed: u64, stream: u64) -> Pcg64 {
     Pcg64::seed_from_u64(
         seed.wrapping_mul(0x9E37_79B9_7F4A_7C15)
             .wrapping_add(stream),
     )
 }
-
-/// What is wrong with stored solutions.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct StoredError(String);
-
-impl std::fmt::Display for StoredError {
-    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        f.write_str(&self.0)
-    }
-}
-
-impl std::error::Error for StoredError {}
 
 /// How far a search is.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -279,9 +192,8 @@ impl Search<'_> {
                 let mut point = way.at.clone();
                 let mut trial = point.clone();
                 let report = newton().solve(&system, &mut point, &mut trial, work);
-                let x = coordinates.flatten(&point);
-                let closed = report.stop == Stop::Solved && size(&x) <= FAR;
-                (closed && way.regularity(C::from_f64(0.0), &x) > REGULAR).then_some(x)
+                let x = solution(way, &report, &point)?;
+                (way.regularity(C::from_f64(0.0), &x) > REGULAR).then_some(x)
             });
             for x in ends.into_iter().flatten() {
                 new |= learn(&mut self.stances, coordinates, &x);
@@ -298,7 +210,7 @@ impl Search<'_> {
         let quiet = self.settings.quiet_loops.max(1);
         match self.bound.map(|bound| count(&self.stances).cmp(&bound)) {
             Some(std::cmp::Ordering::Equal) => 1,
-            Some(_) => 3 * quiet,
+            Some(_) => quiet + quiet / 2,
             None => quiet,
         }
     }
@@ -472,6 +384,23 @@ pub(super) fn polish(way: &mut Way<'_>, s: C, x: &mut [C]) -> bool {
     way.residual(s, x) <= 1e-10 * (1.0 + size(x).powi(2))
 }
 
+/// The solution that Newton's method ended at. Far out, where coordinates are tens of characteristic
+/// lengths, rounding keeps residuals above its tolerance; there the last digits tell.
+fn solution(way: &mut Way<'_>, report: &Report, point: &Configuration<C>) -> Option<Vec<C>> {
+    const NEARLY: f64 = 1e-8;
+    let mut x = way.family.coordinates.flatten(point);
+    if size(&x).is_nan() || size(&x) > FAR {
+        return None;
+    }
+    match report.stop {
+        Stop::Solved => Some(x),
+        Stop::Minimum if report.size.largest <= NEARLY * (1.0 + size(&x).powi(2)) => {
+            polish(way, C::from_f64(0.0), &mut x).then_some(x)
+        }
+        Stop::Minimum | Stop::StepLimit => None,
+    }
+}
+
 fn sow_one(way: &mut Way<'_>, reach: f64, rng: &mut Pcg64) -> Seed {
     let start = way.family.random_point(rng, reach);
     let zero = C::from_f64(0.0);
@@ -479,13 +408,9 @@ fn sow_one(way: &mut Way<'_>, reach: f64, rng: &mut Pcg64) -> Seed {
     let mut point = way.at.clone();
     let mut trial = point.clone();
     let report = newton().solve(&way.system, &mut point, &mut trial, &mut way.work);
-    if report.stop != Stop::Solved {
+    let Some(x) = solution(way, &report, &point) else {
         return Seed::Nothing;
-    }
-    let x = way.family.coordinates.flatten(&point);
-    if size(&x).is_nan() || size(&x) > FAR {
-        return Seed::Nothing;
-    }
+    };
     if way.regularity(zero, &x) > REGULAR {
         return Seed::Isolated(x);
     }
