@@ -265,9 +265,9 @@ impl Search<'_> {
     fn spread(&mut self) {
         self.loops += 1;
         let mut rng = generator(self.settings.seed, (self.loops as u64) << 1);
-        // every fourth loop changes dimensions too: at special dimensions the inputs alone may not
-        // exchange all solutions
-        let resize = self.loops.is_multiple_of(4) || self.base.inputs.is_empty();
+        // some loops change dimensions too, at several times the cost: at special dimensions the inputs
+        // alone may not exchange all solutions
+        let resize = self.loops.is_multiple_of(6) || self.base.inputs.is_empty();
         // small loops go round few of the places where solutions meet, and solutions far out meet at
         // inputs far out
         let reach = [1.0, 2.0, 8.0, 4.0, 16.0][self.loops % 5];
