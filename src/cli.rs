@@ -10,6 +10,7 @@ mod search;
 mod solve;
 mod source;
 mod statics;
+mod store;
 mod velocity;
 
 use std::io::{self, IsTerminal, Write};

@@ -19,8 +19,9 @@ mod follow;
 mod generic;
 mod real;
 mod report;
+mod solutions;
 mod stances;
-mod stored;
+mod store;
 mod threads;
 mod way;
 
@@ -29,7 +30,8 @@ pub use generic::Progress;
 pub use report::{
     AssembliesReport, Assembly, ClosestApproach, ComplexAssembly, Fit, Named, PoseReport,
 };
-pub use stored::{GenericSolutions, StoredError};
+pub use solutions::GenericSolutions;
+pub use store::StoredError;
 
 use std::f64::consts::TAU;
 
@@ -210,7 +212,8 @@ impl AssemblySolver {
         let sizes = fits(family.parameters.len(), &stored.parameters)
             && fits(family.coordinates.input_count(), &stored.inputs)
             && (stored.stances.iter()).all(|stance| stance.fits(&family.coordinates));
-        match sizes && stored.question == question(mechanism, &family) {
+        let asked = stored.question == question(mechanism, &family);
+        match sizes && asked && stored.solves(&family) {
             true => Ok(Self::with(mechanism, held, family, stored)),
             false => Err(AssembliesError::StoredForAnotherQuestion),
         }

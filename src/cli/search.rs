@@ -1,16 +1,17 @@
 //! The search for all assemblies, as commands make it.
 
 use std::cell::Cell;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 use std::time::{Duration, Instant};
 
 use clap::Args;
 use linkwork::analysis::assemblies::{
-    AssembliesError, AssembliesSettings, AssemblySolver, GenericSolutions, Progress,
+    AssembliesError, AssembliesSettings, AssemblySolver, Progress,
 };
 use linkwork::output::assemblies::progress;
 use linkwork::system::Question;
 
+use super::store::Store;
 use super::{Refusal, say};
 
 #[derive(Args)]
@@ -27,16 +28,21 @@ impl Search {
     /// The solver for a question, from the store if it has it.
     pub fn solver(&self, question: &Question) -> Result<AssemblySolver, Refusal> {
         let (mechanism, held) = (question.mechanism(), question.held());
-        if let Some(path) = &self.store
-            && let Some(stored) = load(path)?
-        {
-            match AssemblySolver::from_stored(mechanism, &held, stored) {
-                Err(AssembliesError::StoredForAnotherQuestion) => say(&format!(
-                    "note: {} has the solutions of another question and is written anew\n",
-                    path.display()
-                )),
-                solver => return solver.map_err(|error| Refusal(format!("error: {error}\n"))),
+        let store = self.store.as_deref().map(Store::at).transpose()?;
+        if let Some(store) = &store {
+            if let Some(stored) = store.read()? {
+                match AssemblySolver::from_stored(mechanism, &held, stored) {
+                    Err(AssembliesError::StoredForAnotherQuestion) => {
+                        store.check_writable()?;
+                        say(&format!(
+                            "note: {} has the solutions of another question and is written anew\n",
+                            store.path()
+                        ));
+                    }
+                    solver => return solver.map_err(|error| Refusal(format!("error: {error}\n"))),
+                }
             }
+            store.check_writable()?;
         }
         let settings = AssembliesSettings {
             seed: self.seed,
@@ -51,41 +57,15 @@ impl Search {
         };
         let solver = AssemblySolver::watched(mechanism, &held, &settings, &tell)
             .map_err(|error| Refusal(format!("error: {error}\n")))?;
-        if let Some(path) = &self.store {
-            save(path, solver.generic())?;
+        // the answer is not lost with its store
+        if let Some(store) = &store
+            && let Err(error) = store.write(solver.generic())
+        {
+            say(&format!(
+                "warning: the solutions could not be stored in {}: {error}\n",
+                store.path()
+            ));
         }
         Ok(solver)
     }
-}
-
-/// What is stored; nothing if there is no such file yet.
-fn load(path: &Path) -> Result<Option<GenericSolutions>, Refusal> {
-    let refused = |reason: &dyn std::fmt::Display| {
-        let path = path.display();
-        Refusal(format!(
-            "error: {path} does not hold stored solutions: {reason}\n"
-        ))
-    };
-    match std::fs::read_to_string(path) {
-        Err(error) if error.kind() == std::io::ErrorKind::NotFound => Ok(None),
-        Err(error) => Err(refused(&error)),
-        Ok(text) => GenericSolutions::from_text(&text)
-            .map(Some)
-            .map_err(|error| refused(&error)),
-    }
-}
-
-/// Written beside the store and then put in its place, so that it is never half written.
-fn save(path: &Path, generic: &GenericSolutions) -> Result<(), Refusal> {
-    let mut beside = path.as_os_str().to_owned();
-    beside.push(".part");
-    let written = std::fs::write(&beside, generic.to_text());
-    written
-        .and_then(|()| std::fs::rename(&beside, path))
-        .map_err(|error| {
-            let path = path.display();
-            Refusal(format!(
-                "error: the solutions cannot be stored in {path}: {error}\n"
-            ))
-        })
 }

@@ -7,7 +7,7 @@ use super::certificate::{Certificate, Certifier, independent_rows};
 use super::coordinates::{C, Coordinates};
 use super::real::{key, named_joints, named_poses, order, real_solution};
 use super::report::{AssembliesReport, Assembly, ClosestApproach, ComplexAssembly, Fit, Named};
-use super::stored::GenericSolutions;
+use super::solutions::GenericSolutions;
 use crate::linear::Spectrum;
 use crate::mechanism::{Configuration, Mechanism};
 use crate::number::Number;

@@ -18,8 +18,8 @@ use rand_pcg::Pcg64;
 
 use super::coordinates::{C, size};
 use super::family::{Family, Member};
+use super::solutions::{GenericSolutions, pairs};
 use super::stances::{Stance, count, learn};
-use super::stored::{GenericSolutions, pairs};
 use super::way::Way;
 use super::{AssembliesSettings, threads};
 use crate::mechanism::Configuration;

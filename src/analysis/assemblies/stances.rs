@@ -32,11 +32,6 @@ impl<T: Copy> Stance<T> {
         }
     }
 
-    /// All numbers.
-    pub fn numbers(&self) -> impl Iterator<Item = &T> {
-        self.pose.iter().chain(self.legs.iter().flatten().flatten())
-    }
-
     /// How many solutions it stands for.
     pub fn count(&self) -> usize {
         self.legs.iter().map(Vec::len).product()

@@ -1,4 +1,4 @@
-//! Generic solutions as they are stored between runs.
+//! All solutions of one generic member.
 
 use serde::{Deserialize, Serialize};
 
@@ -43,27 +43,6 @@ fn numbers(x: &[[f64; 2]]) -> Vec<C> {
 }
 
 impl GenericSolutions {
-    /// From what [`GenericSolutions::to_text`] wrote.
-    ///
-    /// # Errors
-    /// If it is something else.
-    pub fn from_text(text: &str) -> Result<Self, StoredError> {
-        let stored: Self = ron::from_str(text).map_err(|e| StoredError(e.to_string()))?;
-        let numbers = (stored.stances.iter().flat_map(Stance::numbers))
-            .chain(&stored.parameters)
-            .chain(&stored.inputs);
-        let finite = numbers.flatten().all(|x| x.is_finite());
-        match finite {
-            true => Ok(stored),
-            false => Err(StoredError("numbers are missing".into())),
-        }
-    }
-
-    /// All digits, as RON.
-    pub fn to_text(&self) -> String {
-        ron::to_string(self).expect("lists of numbers have a RON form")
-    }
-
     /// How many isolated complex solutions a generic member has.
     pub fn count(&self) -> usize {
         count(&self.stances)
@@ -81,15 +60,3 @@ impl GenericSolutions {
         }
     }
 }
-
-/// What is wrong with stored solutions.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct StoredError(String);
-
-impl std::fmt::Display for StoredError {
-    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        f.write_str(&self.0)
-    }
-}
-
-impl std::error::Error for StoredError {}

@@ -1,0 +1,150 @@
+//! The file that keeps generic solutions from one run to the next.
+
+use std::fs::{self, File};
+use std::io::{self, ErrorKind, Read, Write};
+use std::path::{Path, PathBuf};
+
+use linkwork::analysis::assemblies::{GenericSolutions, StoredError};
+use linkwork::output::option::Complaint;
+
+use super::{Refusal, style};
+
+/// The largest store that is read (bytes): a hundred times that of a thousand solutions of a large mechanism.
+const MAX_BYTES: u64 = 1 << 28;
+
+/// An ordinary file with stored solutions, or the place for one.
+pub struct Store {
+    path: PathBuf,
+    /// Where the file itself stands, links followed.
+    place: PathBuf,
+    exists: bool,
+}
+
+fn refusal(title: String, help: &str) -> Refusal {
+    let complaint = Complaint {
+        title,
+        label: String::new(),
+        help: Some(help.into()),
+    };
+    Refusal(complaint.render(style()))
+}
+
+const ANOTHER: &str = "name another file with --store, or leave the option out";
+
+impl Store {
+    /// The store at a path, where there is an ordinary file or none yet. Nothing else is opened: reading a pipe waits,
+    /// reading a device need not end.
+    pub fn at(path: &Path) -> Result<Self, Refusal> {
+        let refused = |reason: &dyn std::fmt::Display| {
+            let path = path.display();
+            refusal(
+                format!("{path} cannot be a store of solutions: {reason}"),
+                ANOTHER,
+            )
+        };
+        let (place, exists) = match fs::metadata(path) {
+            Ok(data) if data.is_dir() => return Err(refused(&"it is a folder")),
+            Ok(data) if !data.is_file() => return Err(refused(&"it is no ordinary file")),
+            Ok(data) if data.len() > MAX_BYTES => {
+                return Err(refused(&format!(
+                    "it has {} MiB, and no store has more than {}",
+                    data.len() >> 20,
+                    MAX_BYTES >> 20
+                )));
+            }
+            Ok(_) => (fs::canonicalize(path).map_err(|e| refused(&e))?, true),
+            Err(error) if error.kind() != ErrorKind::NotFound => return Err(refused(&error)),
+            Err(_) if path.is_symlink() => return Err(refused(&"it is a link that leads nowhere")),
+            Err(_) => (path.to_owned(), false),
+        };
+        Ok(Store {
+            path: path.to_owned(),
+            place,
+            exists,
+        })
+    }
+
+    /// What is stored; nothing if there is no file yet, or an empty one.
+    pub fn read(&self) -> Result<Option<GenericSolutions>, Refusal> {
+        if !self.exists {
+            return Ok(None);
+        }
+        let path = self.path.display();
+        let mut bytes = Vec::new();
+        let file = File::open(&self.place);
+        file.and_then(|file| file.take(MAX_BYTES).read_to_end(&mut bytes))
+            .map_err(|error| {
+                refusal(
+                    format!("the stored solutions in {path} cannot be read: {error}"),
+                    ANOTHER,
+                )
+            })?;
+        if bytes.is_empty() {
+            return Ok(None);
+        }
+        let stored = String::from_utf8(bytes)
+            .map_err(|_| StoredError::SomethingElse)
+            .and_then(|text| GenericSolutions::from_text(&text));
+        stored.map(Some).map_err(|error| {
+            let title = format!("{path} does not hold stored solutions: {error}");
+            match error {
+                StoredError::SomethingElse => refusal(title, ANOTHER),
+                StoredError::OtherVersion | StoredError::Damaged => {
+                    refusal(title, "delete the file: they are then searched for anew")
+                }
+            }
+        })
+    }
+
+    /// A file beside the store, of this process alone.
+    fn beside(&self) -> Option<PathBuf> {
+        let mut name = self.place.file_name()?.to_owned();
+        name.push(format!(".{}.part", std::process::id()));
+        Some(self.place.with_file_name(name))
+    }
+
+    /// Refuses a place that cannot be written, before the search rather than after it. Leaves nothing behind.
+    pub fn check_writable(&self) -> Result<(), Refusal> {
+        let refused = |reason: &dyn std::fmt::Display| {
+            let path = self.path.display();
+            refusal(
+                format!("the solutions cannot be stored in {path}: {reason}"),
+                ANOTHER,
+            )
+        };
+        if self.exists && fs::metadata(&self.place).is_ok_and(|data| data.permissions().readonly())
+        {
+            return Err(refused(&"it is write-protected"));
+        }
+        let beside = self.beside().ok_or_else(|| refused(&"it has no name"))?;
+        File::create(&beside)
+            .and_then(|_| fs::remove_file(&beside))
+            .map_err(|error| {
+                let folder = beside.parent().unwrap_or(Path::new("."));
+                match folder.as_os_str().is_empty() || folder.exists() {
+                    true => refused(&error),
+                    false => refused(&"there is no such folder"),
+                }
+            })
+    }
+
+    /// Writes beside the store and then puts the file in its place, so that it is never half written.
+    pub fn write(&self, generic: &GenericSolutions) -> io::Result<()> {
+        let beside = self.beside().ok_or(ErrorKind::InvalidFilename)?;
+        let written = File::create(&beside).and_then(|mut file| {
+            file.write_all(generic.to_text().as_bytes())?;
+            file.sync_all()?;
+            fs::rename(&beside, &self.place)
+        });
+        if written.is_err() {
+            // perhaps it was never made
+            let _ = fs::remove_file(&beside);
+        }
+        written
+    }
+
+    /// The path as it was given.
+    pub fn path(&self) -> std::path::Display<'_> {
+        self.path.display()
+    }
+}
