@@ -25,12 +25,13 @@ criterion_group! {
 }
 criterion_main!(benches);
 
-const MECHANISMS: [&str; 5] = [
+const MECHANISMS: [&str; 6] = [
     "four_bar",
     "planar_3rpr",
     "three_rps",
     "dietmaier",
     "stewart_gough_6sps",
+    "stewart_gough_6ups",
 ];
 
 fn mechanism(name: &str) -> Mechanism {
@@ -50,7 +51,7 @@ fn solver(mechanism: &Mechanism, seed: u64) -> AssemblySolver {
 
 /// The first run: seeds, loops, and the answer at home.
 fn searches(criterion: &mut Criterion) {
-    let mut group = criterion.benchmark_group("search");
+    let mut group = criterion.benchmark_group("first run");
     group.sample_size(10);
     for name in MECHANISMS {
         let mechanism = mechanism(name);

@@ -34,7 +34,7 @@ pub use count::{Count, check_angles, check_count};
 pub use curve::{Curve, Driven};
 pub use demand::{Demand, Verb};
 pub use drive::{Drive, DriveError};
-pub use equations::{ClosureWrenches, System, Work};
+pub use equations::{ClosureAxes, ClosureWrenches, System, Work};
 pub use freedom::{Freedoms, Holdable, Mobility};
 pub use gap::Gap;
 pub use layout::{Held, HeldPlatform, Unknown};

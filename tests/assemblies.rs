@@ -164,6 +164,154 @@ fn published_counts() {
     assert!(stewart.complete.contains("equals the known bound of 40"));
 }
 
+/// Structures are recognised by their axes and closures, not by their dimensions: the bounds are
+/// those that [`published_counts`] names, for inverse kinematics Primrose 1986 and Pieper 1968.
+#[test]
+fn known_bounds_are_recognised_by_structure() {
+    for (name, bound) in [
+        ("four_bar", Some(2)),
+        ("four_bar_cut2", Some(2)),
+        ("slider_crank", Some(2)),
+        ("five_bar", Some(2)),
+        ("rssr", Some(2)),
+        ("spherical_four_bar", Some(2)),
+        ("watt_six_bar", Some(4)),
+        ("stephenson_six_bar", Some(6)),
+        ("planar_3rpr", Some(6)),
+        ("three_rps", Some(16)),
+        ("three_fingered_hand", Some(16)),
+        ("three_fingered_hand_distances", Some(16)),
+        ("dietmaier", Some(40)),
+        ("delta", Some(40)),
+        // overconstrained: no count of its equations bounds it
+        ("sarrus", None),
+        ("schatz", None),
+    ] {
+        let report = at_home(name);
+        assert_eq!(report.bound, bound, "{name}");
+        assert!(bound.is_none_or(|bound| report.generic <= bound), "{name}");
+        assert_eq!(report.bound_source.is_some(), bound.is_some(), "{name}");
+    }
+    // a universal joint whose axes do not meet moves its leg on a torus, and the legs' points no
+    // longer stand on spheres
+    let apart = text_of("stewart_gough_6ups").replacen(
+        "alpha: \"-90 deg\", theta",
+        "alpha: \"-90 deg\", a: 0.1, theta",
+        1,
+    );
+    let apart = read(&apart);
+    let question = Question::new(&apart);
+    let settings = AssembliesSettings {
+        quiet_loops: 0,
+        quiet_seeds: 0,
+        ..AssembliesSettings::default()
+    };
+    let solver = AssemblySolver::new(&apart, &question.held(), &settings).unwrap();
+    let one = Wanted {
+        certificates: false,
+        all_complex: false,
+        starts: false,
+    };
+    assert_eq!(solver.at(&question.start(), one).bound, None);
+}
+
+/// 40 poses, and every universal joint in two ways for each: 40·2⁶.
+#[test]
+fn legs_that_close_apart_are_combined() {
+    let spheres = at_home("stewart_gough_6sps");
+    let mechanism = mechanism("stewart_gough_6ups");
+    let question = Question::new(&mechanism);
+    let solver = solver(&question, 1);
+    let report = solver.at(
+        &question.start(),
+        Wanted {
+            certificates: false,
+            all_complex: false,
+            starts: false,
+        },
+    );
+    sound(&report);
+    assert_eq!((report.complex, report.real), (2560, 64 * spheres.real));
+    assert_eq!((report.paths, report.bound), (80, Some(2560)));
+    for assembly in &report.assemblies {
+        assert_eq!(assembly.shares_platform_pose_with.len(), 63);
+        // u and v, or u + 180° and 180° − v
+        let other = &report.assemblies[assembly.shares_platform_pose_with[0] - 1];
+        for leg in 1..=6 {
+            let both = [assembly, other];
+            let [u, v] =
+                ["u", "v"].map(|n| both.map(|a| *a.joints.get(&format!("{n}{leg}")).unwrap()));
+            let same = turn(u[0], u[1]) < 1e-9 && turn(v[0], v[1]) < 1e-9;
+            let flipped = turn(u[0], u[1] + PI) < 1e-9 && turn(v[0], PI - v[1]) < 1e-9;
+            assert!(same || flipped, "{leg}: {u:?}, {v:?}");
+        }
+    }
+    // from a store, elsewhere: the same platform poses as with legs that are distances
+    let stored = GenericSolutions::from_text(&solver.generic().to_text()).unwrap();
+    let stored = AssemblySolver::from_stored(&mechanism, &question.held(), stored).unwrap();
+    let short = [("l1", "0.9".to_string()), ("l4", "1.1".to_string())];
+    let there = asked(&mechanism, &[], &short);
+    let report = stored.at(
+        &there.start(),
+        Wanted {
+            certificates: false,
+            all_complex: false,
+            starts: false,
+        },
+    );
+    sound(&report);
+    let other = answer(
+        &asked(&self::mechanism("stewart_gough_6sps"), &[], &short),
+        1,
+    );
+    assert_eq!(
+        (report.complex, report.real),
+        (64 * other.complex, 64 * other.real)
+    );
+}
+
+/// No bound is known for these. Leg 1 is as long as its end is far from the base, ±, so counts are even.
+#[test]
+fn counts_without_a_known_bound_do_not_depend_on_the_seed() {
+    without_a_bound(1..=3);
+}
+
+#[test]
+#[ignore = "takes minutes"]
+fn counts_without_a_known_bound_do_not_depend_on_many_seeds() {
+    without_a_bound(1..=24);
+    let delta = mechanism("delta");
+    let hand = [("hand.x", "0.1"), ("hand.y", "0.05"), ("hand.z", "-1")];
+    let hand = hand.map(|(n, x)| (n, x.to_string()));
+    // three equations of degree 8 in the quaternion (Bézout)
+    counts(&asked(&delta, &["actuated"], &hand), 512, 1..=20);
+}
+
+fn without_a_bound(seeds: std::ops::RangeInclusive<u64>) {
+    for (name, held, count) in [
+        ("three_rps", ("top.x", "0.01"), 64),
+        ("stewart_gough_6sps", ("top.z", "0.9"), 80),
+    ] {
+        let mechanism = mechanism(name);
+        let held = [(held.0, held.1.to_string())];
+        counts(&asked(&mechanism, &["l1"], &held), count, seeds.clone());
+    }
+}
+
+fn counts(question: &Question, count: usize, seeds: impl Iterator<Item = u64>) {
+    for seed in seeds {
+        let solver = solver(question, seed);
+        let generic = solver.generic();
+        assert_eq!(
+            generic.count(),
+            count,
+            "{}, seed {seed}",
+            question.mechanism().name()
+        );
+        assert!(!generic.exhausted && generic.quiet_loops > 0);
+    }
+}
+
 #[test]
 fn every_posture_of_dietmaiers_platform_is_found() {
     let report = at_home("dietmaier");
@@ -391,6 +539,28 @@ fn a_delta_has_two_assemblies_with_a_translating_hand_among_those_of_six_free_ro
         let printed: Vec<Vec<f64>> = list(&row["positions"]).iter().map(numbers).collect();
         same_lists(&found, &printed, plain, 1e-9);
     }
+}
+
+/// The file's comment: 40 with six free rods, as six legs in general have, 2 of them translating.
+#[test]
+fn a_delta_of_six_free_rods_has_forty_solutions_and_two_that_translate() {
+    let delta = mechanism("delta");
+    let solver = solver(&Question::new(&delta), 1);
+    assert_eq!(solver.generic().count(), 40);
+    let at = |angles: [f64; 3]| {
+        let held = ["theta1", "theta2", "theta3"].iter().zip(angles);
+        let held: Vec<(&str, String)> = held.map(|(n, t)| (*n, format!("{t} deg"))).collect();
+        let report = solver.at(&asked(&delta, &[], &held).start(), Wanted::default());
+        sound(&report);
+        let level = |a: &&linkwork::analysis::assemblies::Assembly| {
+            let [w, ..] = a.platforms.get("hand").unwrap().quaternion;
+            w.abs() > 1.0 - 1e-12
+        };
+        let translating = report.assemblies.iter().filter(level).count();
+        (report.complex, report.at_infinity, translating)
+    };
+    assert_eq!(at([33.0, -12.0, 61.0]), (40, 0, 2));
+    assert_eq!(at([20.0, 20.0, 20.0]), (28, 12, 2));
 }
 
 #[test]

@@ -74,7 +74,7 @@ fn whatever_was_changed_is_refused() {
         ("all of it", String::new(), StoredError::SomethingElse),
         (
             "the version",
-            text.replacen("version 1", "version 2", 1),
+            text.replacen("version 2", "version 1", 1),
             StoredError::OtherVersion,
         ),
     ] {
@@ -97,7 +97,7 @@ fn numbers_that_do_not_assemble_the_mechanism_are_refused() {
     let at = first + body[first..].find(|c: char| c.is_ascii_digit()).unwrap();
     let wrong = format!("{}9{}", &body[..at], &body[at..]);
     let title = format!(
-        "linkwork generic solutions, version 1: 2 solutions, checksum {:08x}",
+        "linkwork generic solutions, version 2: 2 solutions, checksum {:08x}",
         crc32fast::hash(wrong.as_bytes())
     );
     let wrong = GenericSolutions::from_text(&format!("{title}\n{wrong}")).unwrap();

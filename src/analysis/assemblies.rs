@@ -20,19 +20,24 @@ mod family;
 mod follow;
 mod generic;
 mod local;
+mod path;
 mod real;
 mod report;
+mod seed;
 mod simple;
+mod solutions;
+mod stances;
 mod starts;
 mod store;
 mod threads;
 mod way;
 
 pub use follow::{Fold, Followed};
-pub use generic::{GenericSolutions, Progress};
+pub use generic::Progress;
 pub use report::{
     AssembliesReport, Assembly, ClosestApproach, ComplexAssembly, Continuum, Fit, Named, PoseReport,
 };
+pub use solutions::GenericSolutions;
 pub use store::StoredError;
 
 use std::f64::consts::TAU;
@@ -41,8 +46,11 @@ use crate::mechanism::{Configuration, Mechanism};
 use crate::number::Number;
 use crate::system::{Held, HeldPlatform, System};
 use answer::Question;
+use bound::KnownBound;
 use coordinates::C;
 use family::{Family, Member};
+use stances::Stance;
+use store::question;
 
 /// How hard to search.
 #[derive(Clone, Debug, PartialEq)]
@@ -51,8 +59,8 @@ pub struct AssembliesSettings {
     pub seed: u64,
     /// Seeds that must meet only known solutions before the search ends.
     pub quiet_seeds: usize,
-    /// Loops in a row that must bring nothing new before the search ends; three times as many
-    /// where a known bound is not reached, two where it is.
+    /// Loops in a row that must bring nothing new, and lose no path, before the search ends; half as
+    /// many again where a known bound is not reached, one where it is.
     pub quiet_loops: usize,
     /// Seeds after which a search that found nothing gives up.
     pub hopeless_seeds: usize,
@@ -67,7 +75,7 @@ impl Default for AssembliesSettings {
         AssembliesSettings {
             seed: 1,
             quiet_seeds: 150,
-            quiet_loops: 10,
+            quiet_loops: 20,
             hopeless_seeds: 600,
             most_seeds: 5000,
             most_loops: 200,
@@ -148,8 +156,9 @@ pub struct AssemblySolver {
     mechanism: Mechanism,
     held: Held<f64>,
     family: Family,
+    bound: Option<KnownBound>,
     generic: GenericSolutions,
-    solutions: Vec<Vec<C>>,
+    stances: Vec<Stance<C>>,
 }
 
 impl AssemblySolver {
@@ -185,7 +194,7 @@ impl AssemblySolver {
             return Err(AssembliesError::SingleAngle);
         }
         let family = Family::new(mechanism, held);
-        let bound = bound::known_bound(mechanism, held).map(|b| b.count);
+        let bound = bound::known_bound(mechanism, &family).map(|b| b.count);
         let generic = generic::search(
             &family,
             question(mechanism, &family),
@@ -210,7 +219,7 @@ impl AssemblySolver {
         let fits = |count: usize, stored: &[[f64; 2]]| stored.len() == count;
         let sizes = fits(family.parameters.len(), &stored.parameters)
             && fits(family.coordinates.input_count(), &stored.inputs)
-            && (stored.solutions.iter()).all(|x| fits(family.coordinates.count(), x));
+            && (stored.stances.iter()).all(|stance| stance.fits(&family.coordinates));
         let asked = stored.question == question(mechanism, &family);
         match sizes && asked && stored.solves(&family) {
             true => Ok(Self::with(mechanism, held, family, stored)),
@@ -227,11 +236,8 @@ impl AssemblySolver {
         AssemblySolver {
             mechanism: mechanism.clone(),
             held: held.clone(),
-            solutions: generic
-                .solutions
-                .iter()
-                .map(|x| generic::numbers(x))
-                .collect(),
+            bound: bound::known_bound(mechanism, &family),
+            stances: generic.stances(),
             family,
             generic,
         }
@@ -279,22 +285,23 @@ impl AssemblySolver {
             coordinates: &self.family.coordinates,
             held,
             asked,
+            bound: self.bound.as_ref(),
             system: System::new(self.mechanism.dimensions(), held),
         };
-        let fit = match (self.solutions.is_empty(), self.generic.freedom) {
+        let fit = match (self.stances.is_empty(), self.generic.freedom) {
             (false, 0) => Fit::Finite,
             (true, 0) if self.generic.multiple > 0 => Fit::AlwaysMultiple,
             (true, 0) => Fit::TooManyHeld,
             (_, freedom) => Fit::FreedomLeft(freedom),
         };
         let member = self.member(asked, held);
-        let ends = match self.solutions.is_empty() {
+        let ends = match self.stances.is_empty() {
             true => None,
             false => carry::carry(
                 &self.family,
                 &self.generic.member(),
                 &member,
-                &self.solutions,
+                &self.stances,
                 watch,
             ),
         };
@@ -375,24 +382,4 @@ fn held_at_home(mechanism: &Mechanism, held: &Held<f64>) -> Held<f64> {
         joints: held.joints.clone(),
         platforms: platforms.collect(),
     }
-}
-
-/// What stored solutions belong to: names to be read by people, and a mark of all dimensions.
-fn question(mechanism: &Mechanism, family: &Family) -> String {
-    let c = &family.coordinates;
-    let all = format!(
-        "{:?} {:?} {:?} {:?} {:?} {:?} {:?}",
-        mechanism.dimensions(),
-        mechanism.home(),
-        mechanism.parameters(),
-        c.held_joints,
-        c.held_poses,
-        c.targets,
-        c.orientations,
-    );
-    // FNV-1a (Fowler, Noll and Vo 1991)
-    let mark = all.bytes().fold(0xcbf2_9ce4_8422_2325_u64, |mark, byte| {
-        (mark ^ u64::from(byte)).wrapping_mul(0x0000_0100_0000_01b3)
-    });
-    format!("{} {mark:016x}", mechanism.name())
 }

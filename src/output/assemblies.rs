@@ -122,7 +122,7 @@ fn accounting(mechanism: &Mechanism, report: &AssembliesReport) -> String {
         let _ = writeln!(
             text,
             "\n{} in {}, {} followed again",
-            count(report.generic, "path"),
+            count(report.paths, "path"),
             count(report.steps, "step"),
             report.retried
         );

@@ -1,6 +1,8 @@
+mod axes;
 mod rates;
 mod wrenches;
 
+pub use axes::ClosureAxes;
 pub use wrenches::ClosureWrenches;
 
 use super::layout::{Held, HeldPlatform, HoldRow, Layout, Unknown};
@@ -150,6 +152,15 @@ impl<T: Factorable> System<T> {
     /// For each closure the range of its rows.
     pub fn closure_rows(&self) -> impl Iterator<Item = std::ops::Range<usize>> {
         self.plans.iter().map(|plan| plan.row..plan.row + plan.rows)
+    }
+
+    /// For each closure the unknown joints that it feels.
+    pub fn felt_joints(&self) -> impl Iterator<Item = Vec<usize>> {
+        self.plans.iter().map(|plan| {
+            let movers = plan.movers.iter().map(|(_, mover, _)| mover.joint);
+            let extensions = plan.extensions.iter().map(|(joint, _)| *joint);
+            movers.chain(extensions).collect()
+        })
     }
 
     /// Number of rows: closure equations, then held platform coordinates.

@@ -3,13 +3,14 @@
 use std::ops::Range;
 
 use super::Wanted;
-use super::bound::known_bound;
-use super::carry::{End, Ends};
+use super::bound::KnownBound;
+use super::carry::Ends;
 use super::coordinates::{C, Coordinates, size};
-use super::generic::GenericSolutions;
 use super::local::Local;
+use super::path::End;
 use super::real::{complex_key, key, order, real_solution, tidied_complex};
 use super::report::{AssembliesReport, ComplexAssembly, Continuum, Fit, Named};
+use super::solutions::GenericSolutions;
 use super::way::Way;
 use crate::mechanism::{Configuration, Mechanism};
 use crate::number::Number;
@@ -32,6 +33,7 @@ pub(super) struct Question<'a> {
     pub coordinates: &'a Coordinates,
     pub held: &'a Held<f64>,
     pub asked: &'a Configuration<f64>,
+    pub bound: Option<&'a KnownBound>,
     pub system: System<f64>,
 }
 
@@ -139,6 +141,7 @@ impl Question<'_> {
         report.lost = ends.ends.iter().filter(|e| **e == End::Lost).count();
         report.singular = isolated.filter(|g| g.singular).count() + multiple;
         report.retried = ends.retries;
+        report.paths = ends.paths;
         report.steps = ends.steps;
         report.evaluations = ends.evaluations;
         report.complex_assemblies = complex.into_iter().map(|(_, solution)| solution).collect();
@@ -254,7 +257,6 @@ impl Question<'_> {
     }
 
     fn empty(&self, generic: &GenericSolutions) -> AssembliesReport {
-        let bound = known_bound(self.mechanism, self.held);
         AssembliesReport {
             assemblies: Vec::new(),
             complex_assemblies: Vec::new(),
@@ -268,9 +270,10 @@ impl Question<'_> {
             multiple: generic.multiple,
             lost: 0,
             retried: 0,
+            paths: 0,
             generic: generic.count(),
-            bound: bound.as_ref().map(|b| b.count),
-            bound_source: bound.map(|b| format!("{}: {}", b.structure, b.source)),
+            bound: self.bound.map(|b| b.count),
+            bound_source: self.bound.map(|b| format!("{}: {}", b.structure, b.source)),
             steps: 0,
             evaluations: 0,
             fit: Fit::Finite,
@@ -278,6 +281,7 @@ impl Question<'_> {
             quiet_seeds: generic.quiet_seeds,
             loops: generic.loops,
             quiet_loops: generic.quiet_loops,
+            exhausted: generic.exhausted,
             seed: generic.seed,
             complete: String::new(),
             independent_rows: None,

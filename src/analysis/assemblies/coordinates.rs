@@ -5,7 +5,7 @@ use std::f64::consts::TAU;
 use crate::geometry::{Quaternion, Vector3};
 use crate::mechanism::{Configuration, Mechanism, PlatformPose};
 use crate::number::{Complex, Number};
-use crate::system::{Held, HeldPlatform};
+use crate::system::{Held, HeldPlatform, System};
 
 pub(super) type C = Complex<f64>;
 
@@ -27,10 +27,13 @@ pub(super) struct Coordinates {
     pub length: f64,
     /// For each joint whether its variable counts modulo a turn.
     pub periodic: Vec<bool>,
+    /// Free joints, as places among the flat unknowns, by the closures that feel them: two legs meet
+    /// in the poses of platforms only.
+    pub legs: Vec<Vec<usize>>,
 }
 
 impl Coordinates {
-    pub fn new<T: Number>(mechanism: &Mechanism, held: &Held<T>) -> Self {
+    pub fn new(mechanism: &Mechanism, held: &Held<f64>) -> Self {
         let which = |wanted: bool| {
             let joints = held.joints.iter().enumerate();
             joints
@@ -52,8 +55,10 @@ impl Coordinates {
             }
         }
         let dimensions = mechanism.dimensions();
+        let free_joints: Vec<usize> = which(false);
         Coordinates {
-            free_joints: which(false),
+            legs: legs(&free_joints, &System::new(dimensions, held)),
+            free_joints,
             held_joints: which(true),
             free_platforms: platforms()
                 .filter(|(_, h)| **h != HeldPlatform::Pose)
@@ -156,38 +161,93 @@ impl Coordinates {
             .chain((0..count).map(move |i| orientations + 4 * i))
     }
 
-    /// The largest difference of two solutions: angles modulo a turn, q and −q alike. This is the
-    /// one test of sameness.
-    pub fn difference(&self, x: &[C], y: &[C]) -> f64 {
-        let joints = self.free_joints.len();
-        let mut largest = 0.0f64;
-        for (k, &j) in self.free_joints.iter().enumerate() {
-            let mut gap = x[k] - y[k];
-            if self.periodic[j] {
-                gap.re -= TAU * (gap.re / TAU).round();
-            }
-            largest = largest.max(gap.norm());
-        }
-        for (x, y) in x[joints..].chunks_exact(7).zip(y[joints..].chunks_exact(7)) {
-            let distance = |sign: f64| {
-                let gaps = x[..4]
-                    .iter()
-                    .zip(&y[..4])
-                    .map(|(x, y)| (*x - *y * sign).norm());
-                gaps.fold(0.0, f64::max)
-            };
-            largest = largest.max(distance(1.0).min(distance(-1.0)));
-            for (x, y) in x[4..].iter().zip(&y[4..]) {
-                largest = largest.max((*x - *y).norm());
-            }
-        }
-        largest
+    /// The coordinates of the platforms.
+    pub fn pose_of<'a>(&self, x: &'a [C]) -> &'a [C] {
+        &x[self.free_joints.len()..]
     }
 
-    /// Whether two solutions are the same: their difference is small beside their size.
-    pub fn same(&self, x: &[C], y: &[C]) -> bool {
-        self.difference(x, y) <= 1e-6 * (1.0 + size(x))
+    /// Squares of the differences of joints at these places: angles modulo a turn.
+    fn joint_gaps<'a>(
+        &'a self,
+        places: impl Iterator<Item = usize> + 'a,
+        x: &'a [C],
+        y: &'a [C],
+    ) -> impl Iterator<Item = f64> + 'a {
+        places.zip(x.iter().zip(y)).map(|(place, (x, y))| {
+            let mut gap = x - y;
+            if self.periodic[self.free_joints[place]] {
+                gap.re -= TAU * (gap.re / TAU).round();
+            }
+            gap.norm_sqr()
+        })
     }
+
+    /// Squares of the differences of two solutions: angles modulo a turn, q and −q alike.
+    fn gaps<'a>(&'a self, x: &'a [C], y: &'a [C]) -> impl Iterator<Item = f64> + 'a {
+        let joints = 0..self.free_joints.len();
+        let poses = pose_gaps(self.pose_of(x), self.pose_of(y));
+        self.joint_gaps(joints, x, y).chain(poses)
+    }
+
+    /// The largest difference of two solutions: angles modulo a turn, q and −q alike.
+    pub fn difference(&self, x: &[C], y: &[C]) -> f64 {
+        self.gaps(x, y).fold(0.0, f64::max).sqrt()
+    }
+
+    /// Whether two solutions are the same: their difference is small beside their size. With
+    /// [`Coordinates::same_pose`] and [`Coordinates::same_way`], which look at a part, this is the
+    /// one test of sameness.
+    pub fn same(&self, x: &[C], y: &[C]) -> bool {
+        all_small(self.gaps(x, y), x)
+    }
+
+    /// Whether the platforms of two solutions stand alike.
+    pub fn same_pose(&self, x: &[C], y: &[C]) -> bool {
+        all_small(pose_gaps(x, y), x)
+    }
+
+    /// Whether joints at these places of the unknowns have the same values.
+    pub fn same_way(&self, places: &[usize], x: &[C], y: &[C]) -> bool {
+        all_small(self.joint_gaps(places.iter().copied(), x, y), x)
+    }
+}
+
+fn all_small(mut gaps: impl Iterator<Item = f64>, x: &[C]) -> bool {
+    let limit = 1e-6 * (1.0 + size(x));
+    gaps.all(|gap| gap <= limit * limit)
+}
+
+/// Squares of the differences of poses, q and −q alike.
+fn pose_gaps<'a>(x: &'a [C], y: &'a [C]) -> impl Iterator<Item = f64> + 'a {
+    let poses = x.chunks_exact(7).zip(y.chunks_exact(7));
+    poses.flat_map(|(x, y)| {
+        let turned = |sign: f64| {
+            let gaps = x[..4].iter().zip(&y[..4]);
+            gaps.map(|(x, y)| (*x - *y * sign).norm_sqr())
+                .fold(0.0, f64::max)
+        };
+        let moved = x[4..].iter().zip(&y[4..]).map(|(x, y)| (x - y).norm_sqr());
+        std::iter::once(turned(1.0).min(turned(-1.0))).chain(moved)
+    })
+}
+
+/// Places of free joints that stand in one leg: those felt by one closure, or by closures that such
+/// joints join.
+fn legs(free_joints: &[usize], system: &System<f64>) -> Vec<Vec<usize>> {
+    let mut legs: Vec<Vec<usize>> = (0..free_joints.len()).map(|place| vec![place]).collect();
+    for felt in system.felt_joints() {
+        let touched =
+            |leg: &Vec<usize>| leg.iter().any(|&place| felt.contains(&free_joints[place]));
+        let (joined, apart): (Vec<_>, Vec<_>) = legs.into_iter().partition(touched);
+        legs = apart;
+        if !joined.is_empty() {
+            let mut joined = joined.concat();
+            joined.sort_unstable();
+            legs.push(joined);
+        }
+    }
+    legs.sort();
+    legs
 }
 
 /// The largest coordinate.

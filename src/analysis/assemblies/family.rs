@@ -138,25 +138,31 @@ impl Family {
         lengths
     }
 
-    /// A random complex point, far from assembled.
-    pub fn random_point(&self, rng: &mut Pcg64) -> Vec<C> {
+    /// A random complex point, far from assembled. `reach` says how far out, as for inputs: complex
+    /// rotations grow as the exponential of their imaginary angle, and positions with them.
+    pub fn random_point(&self, rng: &mut Pcg64, reach: f64) -> Vec<C> {
         let c = &self.coordinates;
         let mut x = Vec::with_capacity(c.count());
         for &j in &c.free_joints {
             x.push(match self.mechanism.joints()[j].kind.is_angle() {
-                true => C::new(std::f64::consts::PI * uniform(rng), 0.8 * uniform(rng)),
+                true => C::new(
+                    std::f64::consts::PI * uniform(rng),
+                    0.8 * reach.sqrt() * uniform(rng),
+                ),
                 false => {
-                    complex(rng) * (2.0 * (self.home.joints[j] / c.joint_scales[j]).abs().max(0.5))
+                    complex(rng)
+                        * (2.0 * reach * (self.home.joints[j] / c.joint_scales[j]).abs().max(0.5))
                 }
             });
         }
         for &p in &c.free_platforms {
-            x.extend(quaternion(rng).0);
+            let far = Vector3([0, 1, 2].map(|_| C::new(0.0, reach.log2() * uniform(rng))));
+            x.extend(quaternion(rng).turned_by(&far).0);
             let home = self.home.platforms[p]
                 .position
                 .0
                 .map(|x| C::from_f64(x / c.length));
-            x.extend(home.map(|x| x + complex(rng)));
+            x.extend(home.map(|x| x + complex(rng) * reach));
         }
         x
     }
@@ -166,6 +172,18 @@ impl Family {
         let mut x: Vec<C> = x.iter().map(|x| x + complex(rng) * distance).collect();
         self.coordinates.settle(&mut x);
         x
+    }
+
+    /// What is held when only the joints at these places of the unknowns are free.
+    pub fn held_but(&self, places: &[usize]) -> Held<C> {
+        let mut joints = vec![true; self.held.joints.len()];
+        for &place in places {
+            joints[self.coordinates.free_joints[place]] = false;
+        }
+        Held {
+            joints,
+            platforms: vec![HeldPlatform::Pose; self.held.platforms.len()],
+        }
     }
 
     pub fn dimensions(&self, parameters: &[C]) -> Option<Dimensions<C>> {

@@ -3,72 +3,30 @@
 //!
 //! A loop through the family permutes the solutions within each irreducible component (Sommese,
 //! Verschelde and Wampler 2001; Duff et al. 2019). Components are reached by seeds only: the two
-//! operation modes of a 3-RPS never exchange solutions. Both are therefore repeated until neither
-//! finds anything.
+//! operation modes of a 3-RPS never exchange solutions. A solution that few starts of one member lead
+//! to may be what many of another lead to, so seeds are sown at every corner of every loop, and what
+//! they find is carried home by the rest of the loop. Both are repeated until neither finds anything.
+//!
+//! What a quiet loop says: if some solutions of a component are known and others not, a random element
+//! of the component's monodromy group keeps the known ones among themselves with probability ½ at most
+//! (those that do are a proper subgroup). It says so only if no path was lost: paths that are lost or
+//! that meet are followed again with greater care, and a loop that still is no exchange of places does
+//! not count.
 
 use rand::SeedableRng;
 use rand_pcg::Pcg64;
-use serde::{Deserialize, Serialize};
 
 use super::coordinates::{C, size};
 use super::family::{Family, Member};
+use super::seed::{Seed, newton, solution, sow};
 use super::simple::is_simple;
+use super::solutions::{GenericSolutions, pairs};
+use super::stances::{Stance, count, learn};
 use super::way::Way;
 use super::{AssembliesSettings, threads};
 use crate::number::Number;
-use crate::solve::{Arrival, Homotopy, Newton, Stages, Stop, Tracker};
-
-/// All solutions of a generic member, kept to be carried to any inputs.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub struct GenericSolutions {
-    /// Names of the mechanism and its joints, values of its parameters and what is held: the
-    /// solutions serve no other question.
-    pub(super) question: String,
-    pub(super) parameters: Vec<[f64; 2]>,
-    pub(super) inputs: Vec<[f64; 2]>,
-    pub(super) solutions: Vec<Vec<[f64; 2]>>,
-    /// Freedom left when the inputs are held: the least dimension of a set of solutions that was
-    /// met, 0 if there was none. There may be isolated solutions beside it.
-    pub freedom: usize,
-    /// Newton seeds tried.
-    pub seeds: usize,
-    /// Seeds that met a set of solutions which is not isolated.
-    pub not_isolated: usize,
-    /// Seeds that met a solution which is multiple at the generic member already. No path follows
-    /// it.
-    #[serde(default)]
-    pub multiple: usize,
-    /// Monodromy loops, each followed by every solution known.
-    pub loops: usize,
-    /// Seeds since the last discovery.
-    pub quiet_seeds: usize,
-    /// Loops since the last discovery.
-    pub quiet_loops: usize,
-    /// The random seed.
-    pub seed: u64,
-}
-
-fn pairs(x: &[C]) -> Vec<[f64; 2]> {
-    x.iter().map(|z| [z.re, z.im]).collect()
-}
-
-pub(super) fn numbers(x: &[[f64; 2]]) -> Vec<C> {
-    x.iter().map(|z| C::new(z[0], z[1])).collect()
-}
-
-impl GenericSolutions {
-    /// How many isolated complex solutions a generic member has.
-    pub fn count(&self) -> usize {
-        self.solutions.len()
-    }
-
-    pub(super) fn member(&self) -> Member {
-        Member {
-            parameters: numbers(&self.parameters),
-            inputs: numbers(&self.inputs),
-        }
-    }
-}
+use crate::solve::{Arrival, Homotopy, Stages, Tracker};
+use crate::system::System;
 
 fn generator(seed: u64, stream: u64) -> Pcg64 {
     Pcg64::seed_from_u64(
@@ -96,7 +54,7 @@ struct Search<'a> {
     family: &'a Family,
     settings: &'a AssembliesSettings,
     base: Member,
-    found: Vec<Vec<C>>,
+    stances: Vec<Stance<C>>,
     freedom: Option<usize>,
     seeds: usize,
     not_isolated: usize,
@@ -104,13 +62,6 @@ struct Search<'a> {
     loops: usize,
     quiet_seeds: usize,
     quiet_loops: usize,
-}
-
-enum Seed {
-    Nothing,
-    Isolated(Vec<C>),
-    Multiple,
-    Free(usize),
 }
 
 /// Searches a generic member. `None` if a dimension has no value anywhere near.
@@ -134,7 +85,7 @@ pub(super) fn search(
         family,
         settings,
         base: Member { parameters, inputs },
-        found: Vec::new(),
+        stances: Vec::new(),
         freedom: None,
         seeds: 0,
         not_isolated: 0,
@@ -143,12 +94,14 @@ pub(super) fn search(
         quiet_seeds: 0,
         quiet_loops: 0,
     };
-    search.run()?;
+    let exhausted = search.run()?;
     Some(GenericSolutions {
         question,
         parameters: pairs(&search.base.parameters),
         inputs: pairs(&search.base.inputs),
-        solutions: search.found.iter().map(|x| pairs(x)).collect(),
+        stances: (search.stances.iter())
+            .map(|stance| stance.map(|z| [z.re, z.im]))
+            .collect(),
         freedom: search.freedom.unwrap_or(0),
         seeds: search.seeds,
         not_isolated: search.not_isolated,
@@ -156,95 +109,125 @@ pub(super) fn search(
         loops: search.loops,
         quiet_seeds: search.quiet_seeds,
         quiet_loops: search.quiet_loops,
+        exhausted,
         seed: settings.seed,
     })
 }
 
+/// Seeds sown at once at the generic member, and at most at a corner of a loop.
+const BATCH: usize = 32;
+
 impl Search<'_> {
-    fn run(&mut self) -> Option<()> {
+    /// Until nothing more is found; whether it ended at its limits before.
+    fn run(&mut self) -> Option<bool> {
         let still = self.family.way(&self.base, &self.base)?;
-        loop {
-            let known = self.found.len();
-            if self.loops > 0 && self.bound == Some(known) {
-                return Some(());
-            }
-            while self.quiet_seeds < self.settings.quiet_seeds {
-                self.sow(&still);
-                self.tell();
-                let enough = self.loops == 0 && !self.found.is_empty();
-                let hopeless = self.found.is_empty() && self.seeds >= self.settings.hopeless_seeds;
-                if enough || hopeless || self.seeds >= self.settings.most_seeds {
-                    break;
-                }
-            }
-            let quiet = self.loops > 0 && self.found.len() == known;
-            let short = self.bound.is_some_and(|bound| self.found.len() < bound);
-            if self.found.is_empty() || (quiet && !short) {
-                return Some(());
-            }
-            self.quiet_loops = 0;
-            // below a known bound the end is doubted once
-            let wanted = match quiet {
-                true => 3 * self.settings.quiet_loops,
-                false => self.settings.quiet_loops,
-            };
-            let before = self.found.len();
-            while self.quiet_loops < self.enough_loops(wanted)
-                && self.loops < self.settings.most_loops
+        while self.stances.is_empty() {
+            if self.seeds >= self.settings.hopeless_seeds
+                || self.quiet_seeds >= self.settings.quiet_seeds
             {
+                return Some(false);
+            }
+            self.sow(&still);
+        }
+        loop {
+            while self.quiet_loops < self.enough_loops() {
+                if self.loops >= self.settings.most_loops {
+                    return Some(true);
+                }
                 self.spread();
-                self.tell();
             }
-            if quiet && self.found.len() == before {
-                return Some(());
+            if self.bound == Some(count(&self.stances)) {
+                return Some(false);
             }
-            self.quiet_seeds = 0;
+            while self.quiet_loops > 0 && self.quiet_seeds < self.settings.quiet_seeds {
+                if self.seeds >= self.settings.most_seeds {
+                    return Some(true);
+                }
+                self.sow(&still);
+            }
+            if self.quiet_loops > 0 && !self.close_legs(&still) {
+                return Some(false);
+            }
         }
     }
 
-    /// Where the known bound is reached, two loops that bring nothing are enough.
-    fn enough_loops(&self, wanted: usize) -> usize {
-        match self.bound == Some(self.found.len()) {
-            true => wanted.min(2),
-            false => wanted,
+    /// Newton iterations for the joints of one leg from random values, with all else as in a known
+    /// solution; whether they found another way to close it.
+    fn close_legs(&mut self, still: &Way<'_>) -> bool {
+        const TRIES: u64 = 16;
+        let Some(dimensions) = self.family.dimensions(&self.base.parameters) else {
+            return false;
+        };
+        let (coordinates, seed) = (&self.family.coordinates, self.settings.seed);
+        let known: Vec<Vec<C>> = (self.stances.iter())
+            .map(|stance| stance.spanning_points(coordinates).swap_remove(0))
+            .collect();
+        let mut new = false;
+        for places in &coordinates.legs {
+            let system = System::new(&dimensions, &self.family.held_but(places));
+            let storage = (system.work(), still.clone());
+            let tries = known.len() as u64 * TRIES;
+            let ends = threads::each(tries as usize, &storage, |(work, way), k| {
+                // streams beyond those of seeds and loops
+                let stream = (1 << 48) + ((places[0] as u64) << 32) + k as u64;
+                let mut x = known[k / TRIES as usize].clone();
+                let mut rng = generator(seed, stream);
+                let random = way.family.random_point(&mut rng, 1.0);
+                places.iter().for_each(|&place| x[place] = random[place]);
+                way.linearise(C::from_f64(0.0), &x);
+                let mut point = way.at.clone();
+                let mut trial = point.clone();
+                let report = newton().solve(&system, &mut point, &mut trial, work);
+                let x = solution(way, &report, &point)?;
+                is_simple(way, C::from_f64(0.0), &x, &mut rng).then_some(x)
+            });
+            for x in ends.into_iter().flatten() {
+                new |= learn(&mut self.stances, coordinates, &x);
+            }
         }
-    }
-
-    fn add(&mut self, x: Vec<C>) -> bool {
-        let coordinates = &self.family.coordinates;
-        let new = !self.found.iter().any(|known| coordinates.same(known, &x));
         if new {
-            self.found.push(x);
+            self.quiet_loops = 0;
         }
         new
     }
 
+    /// Where the known bound is reached, one loop confirms it; below it the end is doubted.
+    fn enough_loops(&self) -> usize {
+        let quiet = self.settings.quiet_loops.max(1);
+        match self.bound.map(|bound| count(&self.stances).cmp(&bound)) {
+            Some(std::cmp::Ordering::Equal) => 1,
+            Some(_) => quiet + quiet / 2,
+            None => quiet,
+        }
+    }
+
     fn tell(&self) {
         (self.watch)(Progress {
-            found: self.found.len(),
+            found: count(&self.stances),
             seeds: self.seeds,
             loops: self.loops,
             followed: 0,
         });
     }
 
-    /// A batch of Newton iterations from random complex points.
-    fn sow(&mut self, still: &Way<'_>) {
-        const BATCH: usize = 32;
-        let (first, seed) = (self.seeds as u64, self.settings.seed);
+    /// Newton iterations from random complex points at the member where a way starts; the isolated
+    /// solutions they ended at. `reach` is that of the member's inputs; only what is multiple with the
+    /// mechanism's `own` dimensions counts.
+    fn seeds(&mut self, still: &Way<'_>, reach: f64, own: bool) -> Vec<Vec<C>> {
+        let (first, seed) = (self.seeds, self.settings.seed);
         let ends = threads::each(BATCH, still, |way, i| {
-            let mut rng = generator(seed, 1 + ((first + i as u64) << 1));
-            sow_one(way, &mut rng)
+            let mut rng = generator(seed, 1 + (((first + i) as u64) << 1));
+            // most solutions are near, some far out
+            let further = [1.0, 2.0, 1.0, 4.0][(first + i) % 4];
+            sow(way, reach * further, &mut rng)
         });
+        self.seeds += BATCH;
+        let mut isolated = Vec::new();
         for end in ends {
-            self.seeds += 1;
             match end {
                 Seed::Nothing => {}
-                Seed::Multiple => self.multiple += 1,
-                Seed::Isolated(x) => {
-                    let new = self.add(x);
-                    self.quiet_seeds = if new { 0 } else { self.quiet_seeds + 1 };
-                }
+                Seed::Multiple => self.multiple += usize::from(own),
+                Seed::Isolated(x) => isolated.push(x),
                 Seed::Free(freedom) => {
                     self.not_isolated += 1;
                     self.quiet_seeds += 1;
@@ -252,17 +235,31 @@ impl Search<'_> {
                 }
             }
         }
+        isolated
     }
 
-    /// One loop through two other random members, followed by every known solution.
+    /// Seeds at the generic member.
+    fn sow(&mut self, still: &Way<'_>) {
+        for x in self.seeds(still, 1.0, true) {
+            match learn(&mut self.stances, &self.family.coordinates, &x) {
+                true => (self.quiet_seeds, self.quiet_loops) = (0, 0),
+                false => self.quiet_seeds += 1,
+            }
+        }
+        self.tell();
+    }
+
+    /// One loop through two other random members, followed by every known solution and by what
+    /// seeds find there.
     fn spread(&mut self) {
         self.loops += 1;
         let mut rng = generator(self.settings.seed, (self.loops as u64) << 1);
-        // every fourth loop changes dimensions too: at special dimensions the inputs alone may not
-        // exchange all solutions
-        let resize = self.loops.is_multiple_of(4) || self.base.inputs.is_empty();
-        // small loops go round few of the places where solutions meet
-        let reach = [1.0, 2.0, 4.0][self.loops % 3];
+        // some loops change dimensions too, at several times the cost: at special dimensions the inputs
+        // alone may not exchange all solutions
+        let resize = self.loops.is_multiple_of(6) || self.base.inputs.is_empty();
+        // small loops go round few of the places where solutions meet, and solutions far out meet at
+        // inputs far out
+        let reach = [1.0, 2.0, 8.0, 4.0, 16.0][self.loops % 5];
         let mut member = || Member {
             inputs: self.family.random_inputs(&mut rng, reach),
             parameters: match resize {
@@ -271,36 +268,99 @@ impl Search<'_> {
             },
         };
         let corners = [self.base.clone(), member(), member(), self.base.clone()];
-        let mut points: Vec<Option<Vec<C>>> = self.found.iter().cloned().map(Some).collect();
+        let coordinates = &self.family.coordinates;
+        let mut points: Vec<Option<Vec<C>>> = (self.stances.iter())
+            .flat_map(|stance| stance.spanning_points(coordinates))
+            .map(Some)
+            .collect();
         for pair in corners.windows(2) {
             let Some(way) = self.family.way(&pair[0], &pair[1]) else {
                 return;
             };
-            points = threads::each(points.len(), &way, |way, i| {
-                follow(way, points[i].as_ref()?)
-            });
+            if pair[0] != self.base {
+                let own = pair[0].parameters == self.base.parameters;
+                self.sow_beside(&way, (reach, own), &mut points);
+            }
+            carried(&way, &mut points);
         }
-        let known = self.found.len();
         let Some(mut still) = self.family.way(&self.base, &self.base) else {
             return;
         };
+        let whole = points.iter().all(Option::is_some);
+        let mut new = false;
         for x in points.into_iter().flatten() {
-            if is_simple(&mut still, C::from_f64(1.0), &x, &mut rng) {
-                self.add(x);
+            if is_simple(&mut still, C::from_f64(0.0), &x, &mut rng) {
+                new |= learn(&mut self.stances, coordinates, &x);
             }
         }
-        self.quiet_loops = if self.found.len() > known {
-            0
-        } else {
-            self.quiet_loops + 1
-        };
+        match (new, whole) {
+            (true, _) => self.quiet_loops = 0,
+            (false, true) => self.quiet_loops += 1,
+            (false, false) => {}
+        }
+        self.tell();
+    }
+
+    /// Seeds at a corner of a loop, where these solutions are known already.
+    fn sow_beside(
+        &mut self,
+        way: &Way<'_>,
+        (reach, own): (f64, bool),
+        points: &mut Vec<Option<Vec<C>>>,
+    ) {
+        let coordinates = &self.family.coordinates;
+        let mut known = Vec::new();
+        for x in points.iter().flatten() {
+            learn(&mut known, coordinates, x);
+        }
+        for x in self.seeds(way, reach, own) {
+            match learn(&mut known, coordinates, &x) {
+                true => {
+                    self.quiet_seeds = 0;
+                    points.push(Some(x));
+                }
+                false => self.quiet_seeds += 1,
+            }
+        }
     }
 }
 
-fn follow(way: &mut Way<'_>, from: &[C]) -> Option<Vec<C>> {
+/// Carries solutions along a way. Those that are lost and those that share an end, of which all but
+/// one have jumped, are followed again with greater care; what cannot be told is `None`.
+fn carried(way: &Way<'_>, points: &mut [Option<Vec<C>>]) {
+    let coordinates = &way.family.coordinates;
+    let starts: Vec<Option<Vec<C>>> = points.to_vec();
+    let mut waiting: Vec<usize> = (0..starts.len()).filter(|&i| starts[i].is_some()).collect();
+    for care in [1.0, 0.1, 0.01] {
+        let tracker = match care {
+            1.0 => Tracker::default(),
+            _ => Tracker::default().tightened(care),
+        };
+        let ends = threads::each(waiting.len(), way, |way, k| {
+            follow(way, &tracker, starts[waiting[k]].as_ref()?)
+        });
+        for (i, end) in waiting.into_iter().zip(ends) {
+            points[i] = end;
+        }
+        let doubtful = |i: usize| match &points[i] {
+            None => starts[i].is_some(),
+            Some(x) => (points.iter().enumerate())
+                .any(|(j, y)| j != i && y.as_ref().is_some_and(|y| coordinates.same(x, y))),
+        };
+        waiting = (0..points.len()).filter(|&i| doubtful(i)).collect();
+        if waiting.is_empty() {
+            return;
+        }
+    }
+    for i in waiting {
+        points[i] = None;
+    }
+}
+
+fn follow(way: &mut Way<'_>, tracker: &Tracker, from: &[C]) -> Option<Vec<C>> {
     let mut x = from.to_vec();
     let whole = (C::from_f64(0.0), C::from_f64(1.0));
-    let track = Tracker::default().track(way, whole, &mut x, &mut Stages::new(from.len()));
+    let track = tracker.track(way, whole, &mut x, &mut Stages::new(from.len()));
     let end = whole.1;
     (track.arrival == Arrival::There && polish(way, end, &mut x)).then_some(x)
 }
@@ -317,39 +377,4 @@ pub(super) fn polish(way: &mut Way<'_>, s: C, x: &mut [C]) -> bool {
         }
     }
     way.residual(s, x) <= 1e-10 * (1.0 + size(x).powi(2))
-}
-
-fn sow_one(way: &mut Way<'_>, rng: &mut Pcg64) -> Seed {
-    let start = way.family.random_point(rng);
-    let zero = C::from_f64(0.0);
-    way.linearise(zero, &start);
-    let newton = Newton {
-        max_steps: 60,
-        ..Newton::default()
-    };
-    let mut point = way.at.clone();
-    let mut trial = point.clone();
-    let report = newton.solve(&way.system, &mut point, &mut trial, &mut way.work);
-    if report.stop != Stop::Solved {
-        return Seed::Nothing;
-    }
-    let x = way.family.coordinates.flatten(&point);
-    if size(&x).is_nan() || size(&x) > 1e3 {
-        return Seed::Nothing;
-    }
-    if is_simple(way, zero, &x, rng) {
-        return Seed::Isolated(x);
-    }
-    // Newton's method from beside a set of solutions ends elsewhere on it, but from beside solutions
-    // that coincide at the same point again
-    way.linearise(zero, &way.family.shaken(&x, 0.03, rng));
-    let mut beside = way.at.clone();
-    let report = newton.solve(&way.system, &mut beside, &mut trial, &mut way.work);
-    let beside = way.family.coordinates.flatten(&beside);
-    let apart = way.family.coordinates.difference(&x, &beside);
-    match (report.stop == Stop::Solved, apart) {
-        (true, 1e-3..1.0) => Seed::Free(way.freedom(zero, &x, 1e-5)),
-        (true, ..1e-3) => Seed::Multiple,
-        _ => Seed::Nothing,
-    }
 }

@@ -169,6 +169,9 @@ pub struct AssembliesReport {
     pub lost: usize,
     /// Paths that had to be followed again with greater care.
     pub retried: usize,
+    /// Paths followed: as many as generic solutions, or fewer where legs close apart from one another
+    /// and the other solutions are combinations of their ways.
+    pub paths: usize,
     /// Steps along all paths, the last time each was followed.
     pub steps: usize,
     /// Jacobians evaluated for them.
@@ -187,8 +190,10 @@ pub struct AssembliesReport {
     pub quiet_seeds: usize,
     /// Monodromy loops at the generic member.
     pub loops: usize,
-    /// Loops since the last discovery.
+    /// Loops since the last discovery in which no path was lost.
     pub quiet_loops: usize,
+    /// Whether the search ended at its limits and not because nothing more was found.
+    pub exhausted: bool,
     /// The random seed.
     pub seed: u64,
     /// How complete the list is and why.
@@ -244,13 +249,10 @@ impl AssembliesReport {
             }
             Fit::Finite => {}
         }
+        let loops = format!("{} without a lost path", count(self.quiet_loops, "loop"));
         let quiet = match self.quiet_seeds {
-            0 => count(self.quiet_loops, "loop"),
-            seeds => format!(
-                "{} and {}",
-                count(self.quiet_loops, "loop"),
-                count(seeds, "seed")
-            ),
+            0 => loops,
+            seeds => format!("{loops} and {}", count(seeds, "seed")),
         };
         let mut sentence = format!("{} found; {quiet} found no more; ", self.generic);
         sentence += &match self.bound {
@@ -260,6 +262,9 @@ impl AssembliesReport {
             Some(bound) => format!("the known bound for this structure is {bound}"),
             None => "no bound is known for this structure".into(),
         };
+        if self.exhausted {
+            sentence += "; the search ended at its limits and there may be more";
+        }
         if let Some(largest) = self.continua.first() {
             sentence += &format!(
                 "; at these inputs there are infinitely many assemblies, in a set of dimension {}: of isolated ones the list is complete as said, of the others it has samples",

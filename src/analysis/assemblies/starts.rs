@@ -39,7 +39,7 @@ fn started(family: &Family, asked: &Configuration<f64>, number: usize) -> Config
     let mut rng = Pcg64::seed_from_u64(number as u64);
     let c = &family.coordinates;
     let mut lifted = asked.map(C::from_f64);
-    c.unflatten(&family.random_point(&mut rng), &mut lifted);
+    c.unflatten(&family.random_point(&mut rng, 1.0), &mut lifted);
     for &j in &c.free_joints {
         point.joints[j] = lifted.joints[j].re;
     }

@@ -6,12 +6,13 @@
 
 use super::coordinates::{C, size};
 use super::family::Family;
-use super::generic::{GenericSolutions, numbers};
+use super::solutions::GenericSolutions;
+use crate::mechanism::Mechanism;
 use crate::number::Number;
 
 const TITLE: &str = "linkwork generic solutions, version ";
 /// Counts changes of the text and of the meaning of its numbers.
-const VERSION: u32 = 1;
+const VERSION: u32 = 2;
 
 /// What is wrong with stored solutions.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -69,11 +70,31 @@ impl GenericSolutions {
         let Some(mut way) = family.way(&member, &member) else {
             return false;
         };
-        self.solutions.iter().all(|x| {
-            let x = numbers(x);
-            way.linearise(C::from_f64(0.0), &x) <= 1e-9 * (1.0 + size(&x).powi(2))
-        })
+        // the others are combinations of these
+        let shown = self.stances();
+        let mut shown = (shown.iter()).flat_map(|s| s.spanning_points(&family.coordinates));
+        shown.all(|x| way.linearise(C::from_f64(0.0), &x) <= 1e-9 * (1.0 + size(&x).powi(2)))
     }
+}
+
+/// What stored solutions belong to: names to be read by people, and a mark of all dimensions.
+pub(super) fn question(mechanism: &Mechanism, family: &Family) -> String {
+    let c = &family.coordinates;
+    let all = format!(
+        "{:?} {:?} {:?} {:?} {:?} {:?} {:?}",
+        mechanism.dimensions(),
+        mechanism.home(),
+        mechanism.parameters(),
+        c.held_joints,
+        c.held_poses,
+        c.targets,
+        c.orientations,
+    );
+    // FNV-1a (Fowler, Noll and Vo 1991)
+    let mark = all.bytes().fold(0xcbf2_9ce4_8422_2325_u64, |mark, byte| {
+        (mark ^ u64::from(byte)).wrapping_mul(0x0000_0100_0000_01b3)
+    });
+    format!("{} {mark:016x}", mechanism.name())
 }
 
 fn title(stored: &GenericSolutions, body: &str) -> String {

@@ -1,0 +1,156 @@
+//! One path: a solution followed to the end of the way, and what is there.
+
+use super::coordinates::{C, size};
+use super::generic::polish;
+use super::local::Local;
+use super::simple::{SETTLED, steepness};
+use super::way::Way;
+use crate::number::Number;
+use crate::solve::{Arrival, Ending, Homotopy, Stages, Tracker, ending};
+
+/// Where one path ended.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) enum End {
+    /// A solution by itself.
+    Regular(Vec<C>),
+    /// A solution where several meet, or that is not isolated.
+    Singular(Vec<C>),
+    Infinite,
+    Lost,
+}
+
+/// Beside the largest pivot a smaller one than this means that solutions meet.
+const SINGULAR: f64 = 1e-7;
+/// The residual up to which solutions meet: what Newton's method calls solved. Where more is left
+/// they pass each other.
+const MEETING: f64 = 1e-12;
+/// How far apart two solutions may be that leave a residual of [`MEETING`] half way between them.
+pub(super) const NEAR_MEETING: f64 = 2e-5;
+/// Rounding beside the square of the size of a solution.
+const ROUNDING: f64 = 1e-15;
+/// Solutions larger than this count as infinite: rounding errors of ε in the dimensions bring a
+/// solution that is m-fold at infinity back to ε^(−1/m), some 1e4 for m = 4. Held lengths beyond the
+/// characteristic length reach as much further.
+const FAR: f64 = 1e3;
+/// Where the endgame starts, as distance from the end of the way.
+const NEAR_END: f64 = 0.03;
+/// Ways longer than this, in rad or characteristic lengths, are gone in parts.
+const LONG: f64 = 10.0;
+
+/// A path that was followed.
+pub(super) struct Path {
+    pub end: End,
+    pub steps: usize,
+    pub evaluations: usize,
+}
+
+/// Follows one path along a way that is bent to the side by `bend`, through complex s.
+pub(super) fn follow(way: &mut Way<'_>, tracker: &Tracker, bend: f64, from: &[C]) -> Path {
+    let (start, end) = (C::from_f64(0.0), C::from_f64(1.0));
+    let mut stages = Stages::new(from.len());
+    let (mut steps, mut evaluations) = (0, 0);
+    let mut x = from.to_vec();
+    let mut leg = |way: &mut Way<'_>, x: &mut Vec<C>, stages: &mut Stages, a: C, b: C| {
+        let track = tracker.track(way, (a, b), x, stages);
+        steps += track.steps;
+        evaluations += track.evaluations;
+        track.arrival
+    };
+    let mut from_here = start;
+    let mut arrival = Arrival::There;
+    // a long way is gone in parts, each ten times as long as all before it
+    let decades = (way.length() / LONG).log10().ceil().clamp(0.0, 12.0) as i32;
+    let mut corners: Vec<C> = (1..=decades)
+        .rev()
+        .map(|k| C::new(1.0, bend) * 0.1f64.powi(k))
+        .collect();
+    if bend != 0.0 {
+        corners.extend([C::new(0.3, bend), C::new(0.8, bend)]);
+    }
+    for corner in corners {
+        if arrival == Arrival::There {
+            arrival = leg(way, &mut x, &mut stages, from_here, corner);
+            from_here = corner;
+        }
+    }
+    let far = FAR * way.reach();
+    let corner = x.clone();
+    let found = match arrival {
+        Arrival::There => {
+            arrival = leg(way, &mut x, &mut stages, from_here, end);
+            (arrival == Arrival::There)
+                .then(|| arrived(way, &x))
+                .flatten()
+        }
+        // a corner of the way is no special place: only what is far out cannot get there, and does
+        // not come back on a way as long as all before it
+        Arrival::Diverged(_) => Some(End::Infinite),
+        Arrival::Stuck(_) if decades > 0 && size(&x) > FAR => Some(End::Infinite),
+        Arrival::Stuck(_) => Some(End::Lost),
+    };
+    let end = found.unwrap_or_else(|| {
+        // an end that is not regular: stop short of it and go round
+        let mut x = corner;
+        let short = C::from_f64(1.0 - NEAR_END);
+        match leg(way, &mut x, &mut stages, from_here, short) {
+            Arrival::There => go_round(way, tracker, far, &x, &mut stages),
+            Arrival::Diverged(_) => End::Infinite,
+            Arrival::Stuck(_) if decades > 0 && size(&x) > FAR => End::Infinite,
+            Arrival::Stuck(_) => End::Lost,
+        }
+    });
+    Path {
+        end,
+        steps,
+        evaluations,
+    }
+}
+
+/// The solution by itself at the end of the way that a point is at. `None` if there is none, or it is
+/// too far out.
+pub(super) fn arrived(way: &mut Way<'_>, x: &[C]) -> Option<End> {
+    let mut x = x.to_vec();
+    (size(&x) <= FAR * way.reach() && settles(way, &mut x)).then_some(End::Regular(x))
+}
+
+/// Newton's method converges there as it does at a solution by itself, and the Jacobian is regular.
+fn settles(way: &mut Way<'_>, x: &mut [C]) -> bool {
+    let end = C::from_f64(1.0);
+    if !polish(way, end, x) {
+        return false;
+    }
+    let step = way.correct(end, &mut x.to_vec());
+    step < SETTLED * (1.0 + size(x)) * steepness(x)
+        && way.regularity(end, x) > SINGULAR / steepness(x)
+}
+
+fn go_round(way: &mut Way<'_>, tracker: &Tracker, far: f64, x: &[C], stages: &mut Stages) -> End {
+    match ending(way, tracker, x, NEAR_END, stages) {
+        Ending::Finite { mut x, winding } => {
+            way.family.coordinates.settle(&mut x);
+            let end = C::from_f64(1.0);
+            let mut refined = x.clone();
+            let near = |way: &Way<'_>, y: &[C]| {
+                way.family.coordinates.difference(&x, y) < 1e-6 * size(y).max(1.0)
+            };
+            if winding == 1
+                && settles(way, &mut refined)
+                && near(way, &refined)
+                && size(&refined) <= far
+            {
+                return End::Regular(refined);
+            }
+            if size(&x) > far {
+                return End::Infinite;
+            }
+            let x = Local::new(way, false).refined(&x);
+            match way.residual(end, &x) <= MEETING.max(ROUNDING * size(&x).powi(2)) {
+                true => End::Singular(x),
+                false => End::Lost,
+            }
+        }
+        Ending::Infinite => End::Infinite,
+        Ending::Undecided { x } if size(&x) > far => End::Infinite,
+        Ending::Undecided { .. } => End::Lost,
+    }
+}
