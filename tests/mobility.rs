@@ -5,12 +5,12 @@ use std::path::{Path, PathBuf};
 
 use linkwork::analysis::assembly::{AssemblySettings, assemble};
 use linkwork::analysis::mobility::{
-    Character, IdleFreedom, MobilityReport, MobilitySettings, TwistSpace, Wrench, mobility,
+    Character, IdleFreedom, MobilityReport, MobilitySettings, Wrench, mobility,
 };
 use linkwork::description::Description;
 use linkwork::geometry::Vector3;
 use linkwork::mechanism::Mechanism;
-use linkwork::system::{Analysed, Question};
+use linkwork::system::{Analysed, Question, TwistSpace};
 
 fn path(name: &str) -> PathBuf {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("mechanisms");
