@@ -14,8 +14,8 @@ pub struct Lines {
 }
 
 impl Lines {
-    /// Bytes written at once.
-    const MANY: usize = 1 << 16;
+    /// Bytes written at once, whole lines: so few that the system does not part them when it ends the program.
+    const MANY: usize = 1 << 12;
 
     pub fn new(wanted: bool) -> Self {
         Lines {
@@ -27,10 +27,10 @@ impl Lines {
 
     pub fn add(&mut self, line: &str) {
         if self.wanted {
-            self.waiting.push_str(line);
-            if self.waiting.len() >= Self::MANY {
+            if self.waiting.len() + line.len() > Self::MANY {
                 self.flush();
             }
+            self.waiting.push_str(line);
         }
     }
 
