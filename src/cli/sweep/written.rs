@@ -3,8 +3,12 @@
 use std::io::{self, Write};
 #[cfg(feature = "plot")]
 use std::path::Path;
+use std::sync::atomic::{AtomicBool, Ordering};
 
 use super::super::Refusal;
+
+/// Set when somebody interrupts the program: rows that are found go out whole before it ends.
+static INTERRUPTED: AtomicBool = AtomicBool::new(false);
 
 /// Whole lines to stdout, as they come.
 pub struct Lines {
@@ -14,10 +18,12 @@ pub struct Lines {
 }
 
 impl Lines {
-    /// Bytes written at once, whole lines: so few that the system does not part them when it ends the program.
-    const MANY: usize = 1 << 12;
+    /// Bytes written at once.
+    const MANY: usize = 1 << 16;
 
     pub fn new(wanted: bool) -> Self {
+        // where there is no such handler, an interruption may part the last line
+        let _ = ctrlc::set_handler(|| INTERRUPTED.store(true, Ordering::Relaxed));
         Lines {
             wanted,
             waiting: String::new(),
@@ -45,9 +51,9 @@ impl Lines {
         }
     }
 
-    /// Whether somebody still reads.
+    /// Whether somebody still reads, and nobody interrupts.
     pub fn open(&self) -> bool {
-        self.failed.is_none()
+        self.failed.is_none() && !INTERRUPTED.load(Ordering::Relaxed)
     }
 
     /// A reader who has seen enough, as `head` does, is no error.
