@@ -22,10 +22,6 @@ fn main() {
     );
     measure("jansen_leg", &[("theta", 1.5, 1.5 + std::f64::consts::TAU)]);
     measure("three_rps", &[("l1", 0.6, 0.66), ("l2", 0.6, 0.62)]);
-    measure(
-        "stewart_gough_6sps",
-        &[("l1", 1.0, 1.02), ("l2", 1.0, 0.99)],
-    );
 }
 
 fn measure(name: &str, moved: &[(&str, f64, f64)]) {

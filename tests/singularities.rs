@@ -746,6 +746,7 @@ fn no_report_of_a_shipped_mechanism_holds_nan() {
         .read_dir()
         .unwrap()
         .map(|f| f.unwrap().path())
+        .filter(|path| path.is_file())
         .collect();
     paths.sort();
     let mut told = 0;

@@ -1187,6 +1187,7 @@ fn a_motion_that_does_not_reach_its_end_answers_no_and_says_why() {
     );
 }
 
+#[cfg(unix)]
 #[test]
 fn an_interrupted_run_leaves_whole_rows() {
     let folder = tempfile::tempdir().unwrap();
@@ -1208,8 +1209,13 @@ fn an_interrupted_run_leaves_whole_rows() {
         assert!(child.try_wait().unwrap().is_none(), "it ended by itself");
         std::thread::sleep(std::time::Duration::from_millis(20));
     }
-    child.kill().unwrap();
-    child.wait().unwrap();
+    let id = child.id().to_string();
+    let told = std::process::Command::new("kill")
+        .args(["-INT", &id])
+        .status()
+        .unwrap();
+    assert!(told.success());
+    assert_eq!(child.wait().unwrap().code(), Some(1));
     let written = std::fs::read_to_string(&path).unwrap();
     assert!(written.ends_with('\n'));
     let columns = written.lines().next().unwrap().split(',').count();

@@ -3,8 +3,12 @@
 use std::io::{self, Write};
 #[cfg(feature = "plot")]
 use std::path::Path;
+use std::sync::atomic::{AtomicBool, Ordering};
 
 use super::Refusal;
+
+/// Set when somebody interrupts the program: rows that are found go out whole before it ends.
+static INTERRUPTED: AtomicBool = AtomicBool::new(false);
 
 /// Whole lines to stdout, as they come.
 pub struct Lines {
@@ -18,6 +22,8 @@ impl Lines {
     const MANY: usize = 1 << 16;
 
     pub fn new(wanted: bool) -> Self {
+        // where there is no such handler, an interruption may part the last line
+        let _ = ctrlc::set_handler(|| INTERRUPTED.store(true, Ordering::Relaxed));
         Lines {
             wanted,
             waiting: String::new(),
@@ -27,10 +33,10 @@ impl Lines {
 
     pub fn add(&mut self, line: &str) {
         if self.wanted {
-            self.waiting.push_str(line);
-            if self.waiting.len() >= Self::MANY {
+            if self.waiting.len() + line.len() > Self::MANY {
                 self.flush();
             }
+            self.waiting.push_str(line);
         }
     }
 
@@ -45,9 +51,9 @@ impl Lines {
         }
     }
 
-    /// Whether somebody still reads.
+    /// Whether somebody still reads, and nobody interrupts.
     pub fn open(&self) -> bool {
-        self.failed.is_none()
+        self.failed.is_none() && !INTERRUPTED.load(Ordering::Relaxed)
     }
 
     /// A reader who has seen enough, as `head` does, is no error.
