@@ -1,7 +1,7 @@
 //! Motion through prescribed inputs, and along the whole curve of a mechanism with one freedom.
 //!
 //! The curve of assembled configurations is followed in steps that cannot change branch unnoticed
-//! (see [`Walk`](crate::system::Walk)); the rows that are asked for are solved between the places
+//! (see [`Walk`]); the rows that are asked for are solved between the places
 //! this leads through, and each is checked to lie between the two it belongs to. So a sweep ends where
 //! its branch ends, or where branches cross, and never goes on elsewhere.
 
