@@ -167,6 +167,9 @@ fn counted(report: &MobilityReport) -> String {
 /// What an idle freedom is.
 pub(super) fn idle(freedom: &IdleFreedom) -> String {
     match freedom {
+        IdleFreedom::Joints(joints) if joints.is_empty() => {
+            "a link spins about its own line".into()
+        }
         IdleFreedom::Joints(joints) => {
             format!("a link spins about its own line in {}", listed(joints))
         }
