@@ -446,6 +446,10 @@ mod tests {
             printed(&["a/(b*l)", "sqrt(a + b)*l", "a/(1 + cos(t1))", "a^2/b^2"]),
             ["a/(b*l)", "l*sqrt(a + b)", "a/(1 + cos(t1))", "a^2/b^2"]
         );
+        assert_eq!(
+            printed(&["0.1/(2*pi)*t1", "1/20/pi", "sqrt(3)/2*a/b", "-2*a/(3*l)"]),
+            ["t1/(20*pi)", "1/(20*pi)", "sqrt(3)*a/(2*b)", "-2*a/(3*l)"]
+        );
     }
 
     #[test]

@@ -59,6 +59,11 @@ pub enum ConversionNote {
         /// The joint.
         joint: String,
     },
+    /// A joint with limits has no variable any more.
+    LimitsLost {
+        /// The joint.
+        joint: String,
+    },
     /// Variables that take the place of a closure.
     Variables {
         /// The closure.
@@ -103,6 +108,11 @@ pub fn convert(
     });
     Mechanism::new(&conversion.description).map_err(ConvertError::Wrong)?;
     Ok(conversion)
+}
+
+/// The joints at which a mechanism can be broken instead, in the order of the file.
+pub fn possible_cuts(mechanism: &Mechanism, description: &Description) -> Vec<String> {
+    cut::possible(mechanism, description)
 }
 
 fn nowhere<T>(value: T) -> Spanned<T> {

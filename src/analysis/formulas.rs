@@ -8,13 +8,16 @@ use crate::algebra::{
     Budget, EvaluationError, Expression, Symbolic, Trigonometric, arrange, with_letters,
 };
 use crate::geometry::{Pose, Vector3};
-use crate::mechanism::{ClosureKind, Formal, Frame, JointKind, Letters, Mechanism};
+use crate::mechanism::{ClosureKind, Formal, Frame, JointKind, Letters, Mechanism, Symbol};
+use crate::number::Number;
 
 /// What is asked for, and how much work it may be.
 #[derive(Clone, Debug, PartialEq)]
 pub struct FormulasSettings {
     /// One transform, of the first frame seen from the second; `None` for everything the mechanism has.
     pub transform: Option<(Frame, Frame)>,
+    /// Names of parameters that stand as what defines them instead of as letters.
+    pub numbers: Vec<String>,
     /// Products of two terms made at most for each formula that is multiplied out. What would take more is left out,
     /// and said so.
     pub most_products: usize,
@@ -26,6 +29,7 @@ impl Default for FormulasSettings {
     fn default() -> Self {
         FormulasSettings {
             transform: None,
+            numbers: vec![],
             most_products: 60_000,
             most_terms: 400,
         }
@@ -183,9 +187,27 @@ impl Writer<'_> {
             products: self.settings.most_products,
         };
         with_letters(letters.values(), budget, || {
-            let formal = Formal::new(self.mechanism, &letters.parameters(), letters.joints())?;
+            let parameters = self.parameters(&letters)?;
+            let formal = Formal::new(self.mechanism, &parameters, letters.joints())?;
             Ok(work(self, &formal))
         })
+    }
+
+    /// Parameters as letters, or as what defines them.
+    fn parameters(&self, letters: &Letters) -> Result<Vec<Symbolic>, EvaluationError> {
+        let mut values = letters.parameters();
+        // one may be defined by another
+        for _ in &self.settings.numbers {
+            for (i, parameter) in self.mechanism.parameters().iter().enumerate() {
+                if self.settings.numbers.contains(&parameter.name) {
+                    values[i] = parameter.definition.evaluate(&|symbol| match *symbol {
+                        Symbol::Parameter(j) => values[j],
+                        Symbol::Joint(_) | Symbol::Local(_) => Symbolic::zero(),
+                    })?;
+                }
+            }
+        }
+        Ok(values)
     }
 
     /// Expressions for numbers printed together; `None` if one of them has no formula.

@@ -12,10 +12,11 @@ mod values;
 use serde::Serialize;
 
 use crate::description::{
-    AxesDescription, AxesProblem, AxisKind, Convention, Description, Problem, ProblemKind,
+    AxesDescription, AxesProblem, AxisKind, Convention, Description, Displacement, Problem,
+    ProblemKind, Role,
 };
 use crate::geometry::{Pose, Relation};
-use crate::mechanism::{Assignment, Mechanism, Normal};
+use crate::mechanism::{Assignment, Mechanism, Normal, SerialAxes};
 
 pub use given::{AxesError, joint_axes};
 
@@ -221,6 +222,67 @@ impl PlacedChain {
     }
 }
 
+/// What cut joints lose with their variables.
+fn lost_by_cuts(axes: &AxesDescription, cuts: Option<&CutReport>) -> Vec<Problem> {
+    let is_cut = |name: &String| cuts.is_some_and(|cuts| cuts.cut.contains(name));
+    let mut lost = Vec::new();
+    for joint in axes.joints.iter().filter(|joint| is_cut(&joint.name.value)) {
+        let name = || joint.name.value.clone();
+        let place = || joint.name.span.clone();
+        if joint.value.role == Some(Role::Actuated) {
+            lost.push(problem(AxesProblem::DriveCut { joint: name() }).at(place()));
+        }
+        if joint.value.limits.is_some() {
+            lost.push(problem(AxesProblem::LimitsCut { joint: name() }).at(place()));
+        }
+    }
+    lost
+}
+
+/// An offset so many times as long as the mechanism is large is worth a warning.
+const FAR: f64 = 1e3;
+
+/// Nearly parallel axes whose common normal is far off.
+fn far_normals(
+    axes: &AxesDescription,
+    values: &values::Values,
+    placed: &[PlacedChain],
+) -> Vec<Problem> {
+    let joints = 0..axes.joints.len();
+    let all = SerialAxes {
+        base: values.base,
+        joints: joints
+            .map(|k| chains::joint_axis(axes, values, k, true))
+            .collect(),
+        tool: values.tool,
+    };
+    let size = all.length();
+    let mut found = Vec::new();
+    for chain in placed {
+        for (k, pair) in chain.rows.windows(2).enumerate() {
+            let normal = &chain.normals[k + 1];
+            let offset = pair[0].d.abs().max(pair[1].d.abs());
+            let parallel = normal.relation.is_none_or(Relation::is_parallel);
+            let angle = normal.angle.min(std::f64::consts::PI - normal.angle);
+            // an offset that large at axes not nearly parallel was asked for
+            if parallel || angle * FAR > 1.0 || offset <= FAR * size {
+                continue;
+            }
+            let joints = [k, k + 1].map(|k| chain.joints[k].clone());
+            let second = axes.joints.iter().find(|j| j.name.value == joints[1]);
+            let span = second.map_or(0..0, |joint| joint.name.span.clone());
+            let far = AxesProblem::FarNormal {
+                joints,
+                angle,
+                offset,
+                size,
+            };
+            found.push(problem(far).at(span));
+        }
+    }
+    found
+}
+
 fn problem(problem: AxesProblem) -> ProblemKind {
     ProblemKind::Axes(Box::new(problem))
 }
@@ -267,11 +329,23 @@ pub fn frames(
         }
     };
     let description = built.description;
-    let mut warnings = values.warnings;
+    let mut warnings = values.warnings.clone();
     // entries keep their places in the file, and what is new cannot be wrong
     let mechanism = Mechanism::new(&description)?;
     let kept = |problem: &&Problem| matches!(problem.kind, ProblemKind::HomeOutsideLimits { .. });
     warnings.extend(mechanism.warnings().iter().filter(kept).cloned());
+    warnings.extend(lost_by_cuts(axes, built.cuts.as_ref()));
+    if let [chain] = &built.chains[..]
+        && let Some(base) = axes.base.as_deref().filter(|_| !closed)
+        && !chain.starts_at_base
+    {
+        let start = |step: &Displacement| Some(step.entries().first()?.span.start);
+        let end = |step: &Displacement| Some(step.entries().last()?.span.end);
+        let span = base.first().and_then(start).zip(base.last().and_then(end));
+        let span = span.map_or(axes.name.span.clone(), |(start, end)| start..end);
+        warnings.push(problem(AxesProblem::BaseUnused { convention }).at(span));
+    }
+    warnings.extend(far_normals(axes, &values, &built.chains));
     Ok(FramesReport {
         convention: convention.word(),
         chains: built.chains,

@@ -1,7 +1,7 @@
 //! `linkwork convert`
 
 use clap::Args;
-use linkwork::analysis::convert::{ConvertSettings, convert};
+use linkwork::analysis::convert::{ConvertSettings, convert, possible_cuts};
 use linkwork::description::Convention;
 use linkwork::output::conversion;
 
@@ -36,8 +36,11 @@ impl Convert {
             convention: self.convention.map(Convention::from),
             cut: self.cut.clone(),
         };
-        let converted = convert(&loaded.mechanism, &loaded.description, &settings)
-            .map_err(|error| Refusal(conversion::complaint(&error).render(style())))?;
+        let converted =
+            convert(&loaded.mechanism, &loaded.description, &settings).map_err(|error| {
+                let possible = possible_cuts(&loaded.mechanism, &loaded.description);
+                Refusal(conversion::complaint(&error, &possible).render(style()))
+            })?;
         let unwritten =
             |error| Refusal(format!("error: the mechanism cannot be written: {error}\n"));
         Ok(Answer {

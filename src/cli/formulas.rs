@@ -2,6 +2,7 @@
 
 use clap::Args;
 use linkwork::analysis::formulas::{FormulasSettings, formulas};
+use linkwork::description::listed;
 use linkwork::mechanism::Frame;
 use linkwork::output::formulas as output;
 
@@ -10,7 +11,8 @@ use super::{Answer, Format, Refusal, asked};
 
 /// Multiply a mechanism out: transforms, closure equations and screw Jacobians as closed forms.
 ///
-/// Without --of and --in: every link, every chain's tip in ground with its Jacobian, and every closure.
+/// Without --of and --in: every link, every chain's tip in ground with its Jacobian, and every closure. Parameters are
+/// letters, except those that --set gives another value: these are written out.
 #[derive(Args)]
 #[command(
     after_help = "Example: linkwork formulas mechanisms/puma560_modified.ron --of arm.3 --latex"
@@ -59,8 +61,10 @@ impl Formulas {
                 ));
             }
         };
+        let set = loaded.set();
         let settings = FormulasSettings {
             transform,
+            numbers: set.clone(),
             ..FormulasSettings::default()
         };
         let report = formulas(mechanism, &settings).map_err(|error| {
@@ -78,7 +82,13 @@ impl Formulas {
         };
         Ok(Answer {
             data,
-            remarks: loaded.warnings(),
+            remarks: match set.is_empty() {
+                true => loaded.warnings(),
+                false => {
+                    let quoted: Vec<String> = set.iter().map(|name| format!("`{name}`")).collect();
+                    loaded.warnings() + &format!("note: {} set by --set, written out; other parameters are letters\n", listed(&quoted))
+                }
+            },
             yes: true,
         })
     }

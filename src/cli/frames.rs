@@ -6,7 +6,7 @@ use clap::{Args, ValueEnum};
 use linkwork::analysis::frames::{FramesSettings, frames, joint_axes};
 use linkwork::analysis::overview::overview;
 use linkwork::description::{
-    AxesDescription, Convention, FileError, LoadError, Problem, is_mechanism, load_text,
+    AxesDescription, Convention, FileError, LoadError, Problem, Severity, is_mechanism, load_text,
 };
 use linkwork::mechanism::Mechanism;
 use linkwork::output::{diagnostics, frames as output};
@@ -22,7 +22,8 @@ use super::{Answer, Refusal, style};
 /// they connect, as in `between: ("ground", "crank")`, loops are cut, at the joints of `cut: ["q3"]` or else where
 /// that gives the simplest tables.
 ///
-/// For a mechanism file it is the other way round: the joint axes that its tables describe, where it is assembled.
+/// For a mechanism file it is the other way round: the joint axes that its tables describe, where it is assembled; with
+/// --steps or --convention the tables that follow from these axes.
 #[derive(Args)]
 #[command(
     after_help = "Example: linkwork frames mechanisms/axes/puma560.ron --convention standard --format ron"
@@ -90,10 +91,19 @@ impl Frames {
             return self.axes_of_mechanism();
         }
         let axes = AxesDescription::read(&text).map_err(|problems| Refusal(wrong(problems)))?;
+        self.tables(&axes, &wrong)
+    }
+
+    /// From axes to tables. `wrong` puts problems into words.
+    fn tables(
+        &self,
+        axes: &AxesDescription,
+        wrong: &dyn Fn(Vec<Problem>) -> String,
+    ) -> Result<Answer, Refusal> {
         let settings = FramesSettings {
             convention: self.convention.map(Convention::from),
         };
-        let report = frames(&axes, &settings).map_err(|problems| Refusal(wrong(problems)))?;
+        let report = frames(axes, &settings).map_err(|problems| Refusal(wrong(problems)))?;
         let unwritten =
             |error| Refusal(format!("error: the mechanism cannot be written: {error}\n"));
         let data = match self.format {
@@ -139,6 +149,25 @@ impl Frames {
         let axes = joint_axes(&mechanism, &at)
             .map_err(|error| Refusal(output::no_axes(&error).render(style())))?;
         let unwritten = |error| Refusal(format!("error: the axes cannot be written: {error}\n"));
+        if self.steps || self.convention.is_some() {
+            // the axes have no text of their own that could be pointed at
+            let wrong = |problems: Vec<Problem>| {
+                let line = |problem: &Problem| {
+                    let severity = match problem.severity() {
+                        Severity::Error => "error",
+                        Severity::Warning => "warning",
+                    };
+                    format!("{severity}: {}\n", problem.kind.title())
+                };
+                problems.iter().map(line).collect()
+            };
+            let mut answer = self.tables(&axes, &wrong)?;
+            if gap {
+                answer.remarks.insert_str(0, output::NOT_ASSEMBLED);
+                answer.yes = false;
+            }
+            return Ok(answer);
+        }
         Ok(Answer {
             data: match self.format {
                 FileFormat::Text => output::axes_text(&axes),

@@ -79,6 +79,7 @@ pub fn once(option: &str, given: &[Assignment]) -> Result<(), Refusal> {
 /// A mechanism and the file it comes from.
 pub struct Loaded {
     path: PathBuf,
+    set: Vec<String>,
     text: String,
     /// What the file says, with what `--set` changed.
     pub description: Description,
@@ -112,6 +113,7 @@ impl Source {
         match Mechanism::new(&description) {
             Ok(mechanism) => Ok(Loaded {
                 path: self.file.clone(),
+                set: self.set.iter().map(|given| given.name.clone()).collect(),
                 text,
                 description,
                 mechanism,
@@ -167,6 +169,11 @@ impl Source {
 }
 
 impl Loaded {
+    /// The parameters that `--set` gave another value.
+    pub fn set(&self) -> Vec<String> {
+        self.set.clone()
+    }
+
     /// What stands in the file at these bytes.
     pub fn excerpt(&self, span: &std::ops::Range<usize>) -> &str {
         self.text.get(span.clone()).unwrap_or_default()

@@ -158,6 +158,45 @@ pub enum AxesProblem {
         /// How many there are.
         joints: usize,
     },
+    /// A driven joint that is cut, and so has no variable.
+    DriveCut {
+        /// The joint.
+        joint: String,
+    },
+    /// A joint with limits that is cut, and so has no variable.
+    LimitsCut {
+        /// The joint.
+        joint: String,
+    },
+    /// A base from which no row leads to the first axis.
+    BaseUnused {
+        /// The convention of the table.
+        convention: Convention,
+    },
+    /// Nearly parallel axes whose common normal is far off.
+    FarNormal {
+        /// The joints.
+        joints: [String; 2],
+        /// Angle in rad between the axes.
+        angle: f64,
+        /// Offset in m that leads to the normal.
+        offset: f64,
+        /// Size of the mechanism in m.
+        size: f64,
+    },
+}
+
+impl AxesProblem {
+    /// Whether tables are made all the same.
+    pub fn is_warning(&self) -> bool {
+        matches!(
+            self,
+            Self::DriveCut { .. }
+                | Self::LimitsCut { .. }
+                | Self::BaseUnused { .. }
+                | Self::FarNormal { .. }
+        )
+    }
 }
 
 /// Whether a text seems to be a file of a mechanism and not of joint axes.

@@ -321,6 +321,7 @@ impl ProblemKind {
             | Self::UnfeltJoint { .. }
             | Self::NegativeLinkLength { .. }
             | Self::HomeOutsideLimits { .. } => Severity::Warning,
+            Self::Axes(problem) if problem.is_warning() => Severity::Warning,
             _ => Severity::Error,
         }
     }

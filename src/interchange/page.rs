@@ -16,6 +16,9 @@ pub(super) struct Problems(pub Vec<ImportProblem>);
 
 /// The elements of a text, if it is XML that is not too deep.
 pub(super) fn document(text: &str) -> Result<Document<'_>, ImportProblem> {
+    if text.trim_start_matches('\u{feff}').trim().is_empty() {
+        return Err(ImportProblemKind::Empty.anywhere());
+    }
     // the reader calls itself for each level too
     check_depth(text)?;
     let document = Document::parse(text).map_err(|error| {

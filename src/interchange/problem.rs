@@ -19,6 +19,8 @@ pub enum ImportProblemKind {
         /// The reader's words.
         message: String,
     },
+    /// Nothing stands in it.
+    Empty,
     /// Elements stand in one another too deeply.
     TooDeep {
         /// The most levels there may be.
@@ -84,6 +86,8 @@ pub enum ImportProblemKind {
     NoAxis {
         /// The joint.
         joint: String,
+        /// How the format writes an axis.
+        example: &'static str,
     },
     /// A quaternion or a pair of axes that gives no orientation.
     NoOrientation {

@@ -8,6 +8,7 @@ impl ImportProblemKind {
     pub fn title(&self) -> String {
         match self {
             Self::Syntax { message } => format!("this is not XML: {message}"),
+            Self::Empty => "the file is empty".into(),
             Self::TooDeep { most } => {
                 format!("elements stand more than {most} levels deep in one another")
             }
@@ -22,7 +23,7 @@ impl ImportProblemKind {
             Self::Unsupported { what, .. } => format!("linkwork cannot read {what}"),
             Self::Duplicate { noun, name } => format!("there are two {noun}s `{name}`"),
             Self::Unknown { noun, name, .. } => format!("there is no {noun} `{name}`"),
-            Self::NoAxis { joint } => format!("the axis of joint `{joint}` has no direction"),
+            Self::NoAxis { joint, .. } => format!("the axis of joint `{joint}` has no direction"),
             Self::NoOrientation { text } => format!("`{text}` gives no orientation"),
             Self::TwoParents {
                 link,
@@ -59,7 +60,7 @@ impl ImportProblemKind {
         let help = match self {
             Self::Syntax { .. } | Self::Reader { .. } => return None,
             Self::TooDeep { .. } => "no mechanism is that deep".into(),
-            Self::NotThisFormat { .. } => {
+            Self::Empty | Self::NotThisFormat { .. } => {
                 "linkwork reads URDF, which begins with `robot`, and MJCF, which begins with `mujoco`".into()
             }
             Self::Macro { .. } => "expand the file first: xacro FILE > robot.urdf".into(),
@@ -76,7 +77,7 @@ impl ImportProblemKind {
                 Some(name) => format!("did you mean `{name}`?"),
                 None => return None,
             },
-            Self::NoAxis { .. } => "give the axis a direction, such as xyz=\"0 0 1\"".into(),
+            Self::NoAxis { example, .. } => format!("give the axis a direction, such as {example}"),
             Self::NoOrientation { .. } => "give numbers that are not all 0, and axes that are not parallel".into(),
             Self::TwoParents { .. } => "a tree has one joint for each link: leave one of them out, and close the loop with \
                  `loop_joint` or with --loops"

@@ -37,6 +37,11 @@ pub enum Remark {
         /// The frame.
         frame: String,
     },
+    /// Every joint is at 0 where a URDF file stands.
+    HomeLost {
+        /// The joints that are not at 0 at home.
+        joints: Vec<String>,
+    },
     /// A joint variable that turns and slides.
     Helical {
         /// The joint.
@@ -129,6 +134,7 @@ impl Remark {
                 | Self::LengthLost { .. }
                 | Self::Floating { .. }
                 | Self::Unused { .. }
+                | Self::HomeLost { .. }
                 | Self::Halves(_)
         )
     }
@@ -154,6 +160,13 @@ impl Display for Remark {
             Remark::Floating { platform } => write!(
                 f,
                 "platform `{platform}` hangs on a floating joint, which many readers of URDF ignore"
+            ),
+            Remark::HomeLost { joints } => write!(
+                f,
+                "URDF has no home configuration: the home {} of {} {} lost, and readers start with 0",
+                if joints.len() == 1 { "value" } else { "values" },
+                quoted(joints),
+                if joints.len() == 1 { "is" } else { "are" }
             ),
             Remark::Fixed {
                 platform,

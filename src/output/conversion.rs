@@ -21,6 +21,9 @@ pub fn notes(notes: &[ConversionNote]) -> String {
             ConversionNote::DriveLost { joint } => format!(
                 "`{joint}` was driven and has no variable any more: hold another joint with --hold"
             ),
+            ConversionNote::LimitsLost { joint } => format!(
+                "`{joint}` had limits and has no variable any more: nothing limits it now"
+            ),
             ConversionNote::Variables { closure, joints } if joints.is_empty() => {
                 format!("the closure `{closure}` holds its frames together and has no variable")
             }
@@ -45,10 +48,18 @@ pub fn nothing_asked() -> Complaint {
     }
 }
 
-/// Why a mechanism is not converted, unless it is what came out that is wrong.
-pub fn complaint(error: &ConvertError) -> Complaint {
+/// Why a mechanism is not converted, unless it is what came out that is wrong. `possible` are the joints that can be cut.
+pub fn complaint(error: &ConvertError, possible: &[String]) -> Complaint {
     let (title, help) = match error {
-        ConvertError::Cut(cut) => because(cut),
+        ConvertError::Cut(error) => {
+            let (title, help) = because(error);
+            let instead = match possible {
+                [] => "no joint of this mechanism can be cut".to_owned(),
+                names => format!("joints that can be cut: {}", quoted(names)),
+            };
+            let help = help.map_or(instead.clone(), |help| format!("{help}; {instead}"));
+            (title, Some(help))
+        }
         ConvertError::Wrong(problems) => {
             let titles: Vec<String> = problems.iter().map(|p| p.kind.title()).collect();
             let title = format!("what would come out is no mechanism: {}", titles.join("; "));
@@ -62,6 +73,10 @@ pub fn complaint(error: &ConvertError) -> Complaint {
     }
 }
 
+/// Where tables cannot be rearranged as they are written, axes can.
+const BY_AXES: &str = "`linkwork frames FILE --format ron` gives the joint axes, and tables cut where \
+     `cut: [\"JOINT\"]` there says";
+
 fn because(error: &CutError) -> (String, Option<String>) {
     match error {
         CutError::UnknownJoint { name, suggestion } => (
@@ -74,33 +89,30 @@ fn because(error: &CutError) -> (String, Option<String>) {
         ),
         CutError::Helical { joint } => (
             format!("the joint `{joint}` is helical, and no closure is"),
-            Some("break the mechanism at a revolute or prismatic joint".into()),
+            None,
         ),
         CutError::NoRow { joint } => (
             format!("the variable `{joint}` stands in no row of a table"),
-            Some("break the mechanism at a joint between links".into()),
+            None,
         ),
         CutError::SeveralRows { joint } => (
             format!("the variable `{joint}` stands in several places, and a cut would open only one"),
-            Some("break the mechanism at a joint with a row of its own".into()),
+            None,
         ),
         CutError::SharedRow { joint } => (
             format!("the row of `{joint}` has other variables too, which the cut would free"),
-            Some("break the mechanism at a joint with a row of its own".into()),
+            Some(BY_AXES.into()),
         ),
         CutError::NoLoop { joint } => (
             format!("`{joint}` is in no loop: nothing would hold the links behind it"),
-            Some("only joints that a closure feels can be cut".into()),
+            None,
         ),
         CutError::NotRows { joint, closures } => (
             format!(
                 "the links behind `{joint}` are held by {} only, which cannot become rows at the end of its chain",
                 quoted(closures)
             ),
-            Some(
-                "planar and distance closures have no rows, and others must be at the chain's own end"
-                    .into(),
-            ),
+            Some(BY_AXES.into()),
         ),
     }
 }

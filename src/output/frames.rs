@@ -125,10 +125,20 @@ pub(super) fn relation(relation: Option<Relation>) -> &'static str {
     }
 }
 
-/// Whether x1 has the sense that is nearest to the x of the coordinates, because frame 0 follows it.
-pub(super) fn nearest_to_coordinates(chain: &PlacedChain) -> bool {
-    let first = chain.normals.get(1);
-    !chain.starts_at_base && first.is_some_and(|n| n.relation == Some(Relation::Intersecting))
+/// What gives x1 its sense where frame 0 follows it: the coordinates' x, or their y if the axis lies along x, or the axes
+/// themselves where x0 is at a right angle to that.
+pub(super) fn sense_of_first(chain: &PlacedChain) -> Option<&'static str> {
+    let (free, first) = (chain.normals.first()?, chain.normals.get(1)?);
+    if chain.starts_at_base || first.relation != Some(Relation::Intersecting) {
+        return None;
+    }
+    let [x, y, _] = free.x;
+    let [along, ..] = chain.axes.first()?.direction;
+    Some(match along * along < 0.75 {
+        true if x > RANK_TOLERANCE => "x0 within ±90° of the coordinates' x",
+        false if y > RANK_TOLERANCE => "x0 within ±90° of the coordinates' y",
+        _ => "along z1 × z2",
+    })
 }
 
 fn choice(normal: &PlacedNormal, k: usize) -> String {
@@ -188,9 +198,10 @@ fn normals(chain: &PlacedChain) -> String {
             (0, true) => "frame 0 is frame 1 at the variable's zero".into(),
             (0, false) => "none".into(),
             (k, false) if k == last && chain.ends_at_tool => "none".into(),
-            (1, false) if nearest_to_coordinates(chain) => {
-                "sense of x1: that of the coordinates' x".into()
-            }
+            (1, false) => match sense_of_first(chain) {
+                Some(sense) => format!("sense of x1: {sense}"),
+                None => choice(normal, k),
+            },
             _ => choice(normal, k),
         };
         table.add_row([
@@ -296,14 +307,18 @@ pub fn no_axes(error: &AxesError) -> Complaint {
     let (title, help) = match error {
         AxesError::Row { chain, row } => (
             format!("row {row} of chain `{chain}` is not one joint with a variable of its own"),
-            Some("axes are given for revolute and prismatic joints that move alone".to_owned()),
+            Some(
+                "axes are given for joints that turn or slide, or do both by two variables; give each joint a variable \
+                 of its own, or ask `linkwork formulas` for the transforms as they are"
+                    .to_owned(),
+            ),
         ),
         AxesError::Closure { closure, kind } => (
             format!(
-                "the {} closure `{closure}` has no axis",
+                "the length of the {} closure `{closure}` is not one joint",
                 kind.word().to_lowercase()
             ),
-            Some("axes are given for joints; write a rod as a link with balls at its ends".into()),
+            Some("write the length as a constant plus a variable that stands nowhere else".into()),
         ),
         AxesError::TooFew => ("the mechanism has no joints with axes".to_owned(), None),
     };

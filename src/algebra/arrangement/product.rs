@@ -25,7 +25,15 @@ pub(super) fn written(product: &Product, sum: Option<Expression>, name: Name) ->
         top.push(Node::Call(function, vec![angle_of(angle, name)]).at(0..0));
     }
     top.extend(sum);
-    let magnitude = product.coefficient.abs();
+    let mut magnitude = product.coefficient.abs();
+    // q/(20 π) rather than 1/20 q/π
+    if !bottom.is_empty() && *magnitude.denom() <= BigInt::from(LARGEST_DENOMINATOR) {
+        let below = BigRational::from(magnitude.denom().clone());
+        if !below.is_one() {
+            bottom.insert(0, constant(&below, 1));
+            magnitude *= below;
+        }
+    }
     if !magnitude.is_one() || product.root != 1 || top.is_empty() {
         top.insert(0, constant(&magnitude, product.root));
     }

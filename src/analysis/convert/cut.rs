@@ -36,6 +36,16 @@ struct Place {
     slides: bool,
 }
 
+/// The joints at which a mechanism can be broken instead, in the order of the file.
+pub(super) fn possible(mechanism: &Mechanism, description: &Description) -> Vec<String> {
+    let names = description.joints.iter().map(|joint| &joint.name.value);
+    let possible = names.filter(|name| {
+        let place = find(mechanism, description, name);
+        place.is_ok_and(|place| closing(mechanism, &place, name).is_ok())
+    });
+    possible.cloned().collect()
+}
+
 pub(super) fn cut(
     mechanism: &Mechanism,
     description: &Description,
@@ -61,6 +71,10 @@ pub(super) fn cut(
     if description.joints[place.joint].value.role == Role::Actuated {
         let joint = joint.to_owned();
         notes.push(ConversionNote::DriveLost { joint });
+    }
+    if description.joints[place.joint].value.limits.is_some() {
+        let joint = joint.to_owned();
+        notes.push(ConversionNote::LimitsLost { joint });
     }
     notes.append(&mut conversion.notes);
     conversion.notes = notes;

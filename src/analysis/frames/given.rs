@@ -18,7 +18,7 @@ pub enum AxesError {
         /// The row, from 1.
         row: usize,
     },
-    /// A closure that is not made of axes.
+    /// A rod whose length is no constant plus or minus one variable of its own.
     Closure {
         /// The closure.
         closure: String,
@@ -71,7 +71,8 @@ impl Joint {
 
 /// The joint axes of a mechanism at a configuration, which becomes the home of the file of axes.
 ///
-/// Universal and cylindrical closures become two joints with a body between them.
+/// Universal and cylindrical closures and cylindrical rows become two joints with a body between them, planar closures
+/// three joints; a rod becomes a body, or two that slide, with a ball at each end.
 ///
 /// # Errors
 /// If a joint is none that has an axis.
@@ -139,29 +140,38 @@ fn rows(mechanism: &Mechanism, at: &Configuration<f64>) -> Result<Vec<Joint>, Ax
                 chain: mechanism.chains()[chain].name.clone(),
                 row: k + 1,
             };
-            let (joint, factor, kind) = match (&dims.turn.0[..], &dims.slide.0[..]) {
-                (&[(joint, factor)], []) => (joint, factor, AxisKind::Revolute),
-                ([], &[(joint, factor)]) => (joint, factor, AxisKind::Prismatic),
-                _ => return Err(refused()),
-            };
-            let variable = &mechanism.joints()[joint];
-            let known = joints.iter().any(|known| known.name == variable.name);
-            if known || factor.abs() != 1.0 {
-                return Err(refused());
-            }
             let frame = |row: usize| Frame::Link { chain, row };
             let before = mechanism.transform(Frame::Ground, frame(k), at) * dims.before;
             let body = |row: usize| mechanism.body_name(mechanism.body(frame(row)));
-            joints.push(Joint {
-                name: variable.name.clone(),
-                kind,
-                point: before.position,
-                direction: before.rotation.column(Axis::Z).times(factor),
-                home: at.joints[joint],
-                limits: variable.limits,
-                role: Some(variable.role),
-                bodies: [body(k), body(k + 1)],
-            });
+            let (turn, slide) = (AxisKind::Revolute, AxisKind::Prismatic);
+            let moves = match (&dims.turn.0[..], &dims.slide.0[..]) {
+                (&[term], []) => vec![(term, turn, [body(k), body(k + 1)])],
+                ([], &[term]) => vec![(term, slide, [body(k), body(k + 1)])],
+                // a cylindrical row: a link without extent turns, and the next slides on it
+                (&[one], &[two]) => {
+                    let middle = format!("{} turned", body(k + 1));
+                    let first = (one, turn, [body(k), middle.clone()]);
+                    vec![first, (two, slide, [middle, body(k + 1)])]
+                }
+                _ => return Err(refused()),
+            };
+            for ((joint, factor), kind, bodies) in moves {
+                let variable = &mechanism.joints()[joint];
+                let known = joints.iter().any(|known| known.name == variable.name);
+                if known || factor.abs() != 1.0 {
+                    return Err(refused());
+                }
+                joints.push(Joint {
+                    name: variable.name.clone(),
+                    kind,
+                    point: before.position,
+                    direction: before.rotation.column(Axis::Z).times(factor),
+                    home: at.joints[joint],
+                    limits: variable.limits,
+                    role: Some(variable.role),
+                    bodies,
+                });
+            }
         }
     }
     Ok(joints)
@@ -175,7 +185,7 @@ fn closures(
     joints: &mut Vec<Joint>,
 ) -> Result<Vec<(String, String)>, AxesError> {
     let mut rigid = Vec::new();
-    for closure in mechanism.closures() {
+    for (index, closure) in mechanism.closures().iter().enumerate() {
         let poses = mechanism.poses(closure.frames, at);
         let [first, second] = closure.frames.map(|frame| mechanism.body(frame));
         let names = [first, second].map(|body| mechanism.body_name(body));
@@ -230,13 +240,69 @@ fn closures(
                 let [kept, lost] = kept;
                 rigid.push((kept, lost));
             }
-            kind @ (ClosureKind::Planar | ClosureKind::Distance) => {
-                let closure = closure.name.clone();
-                return Err(AxesError::Closure { closure, kind });
+            ClosureKind::Planar => {
+                let bodies = ["sliding", "between"].map(|word| format!("{} {word}", closure.name));
+                let [slid, between] = bodies;
+                let [x, y, _] = poses[0].rotation.0;
+                let slide = |suffix, direction, bodies| Joint {
+                    direction,
+                    ..joint(suffix, AxisKind::Prismatic, &poses[0], bodies)
+                };
+                joints.push(slide("_x", x, [from, slid.clone()]));
+                joints.push(slide("_y", y, [slid, between.clone()]));
+                joints.push(joint("_turn", AxisKind::Revolute, &poses[1], [between, to]));
+            }
+            ClosureKind::Distance => {
+                let ball =
+                    |suffix, end: usize, bodies| joint(suffix, AxisKind::Spherical, &poses[end], bodies);
+                let Some(slide) = length_of(mechanism, at, index, joints)? else {
+                    joints.push(ball("_1", 0, [from, middle()]));
+                    joints.push(ball("_2", 1, [middle(), to]));
+                    continue;
+                };
+                let [first, second] = slide.bodies.clone();
+                joints.push(ball("_1", 0, [from, first]));
+                joints.push(slide);
+                joints.push(ball("_2", 1, [second, to]));
             }
         }
     }
     Ok(rigid)
+}
+
+/// The sliding joint of a rod with a variable length; `None` for one of a constant length.
+fn length_of(
+    mechanism: &Mechanism,
+    at: &Configuration<f64>,
+    index: usize,
+    known: &[Joint],
+) -> Result<Option<Joint>, AxesError> {
+    let closure = &mechanism.closures()[index];
+    let [first, second] = mechanism.poses(closure.frames, at).map(|pose| pose.position);
+    let along = second - first;
+    let refused = || AxesError::Closure {
+        closure: closure.name.clone(),
+        kind: closure.kind,
+    };
+    let (joint, factor) = match mechanism.dimensions().closures[index].extension.0[..] {
+        [] => return Ok(None),
+        [(joint, factor)] if factor.abs() == 1.0 && along.norm() > 0.0 => (joint, factor),
+        _ => return Err(refused()),
+    };
+    let variable = &mechanism.joints()[joint];
+    if known.iter().any(|known| known.name == variable.name) {
+        return Err(refused());
+    }
+    Ok(Some(Joint {
+        name: variable.name.clone(),
+        kind: AxisKind::Prismatic,
+        point: first,
+        direction: along.times(factor / along.norm()),
+        home: at.joints[joint],
+        limits: variable.limits,
+        role: Some(variable.role),
+        bodies: ["lower", "upper"].map(|part| format!("{} {part}", closure.name)),
+    }))
 }
 
 /// A name for the variable of a closure that no joint has.

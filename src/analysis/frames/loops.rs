@@ -220,10 +220,12 @@ fn given(
     }
 }
 
-/// The joints that are driven: those the file says, or else the first.
+/// The joints that are driven: those the file says, or else the first that it does not cut.
 pub(super) fn driven(axes: &AxesDescription) -> Vec<bool> {
     let said = axes.joints.iter().any(|joint| joint.value.role.is_some());
-    let first = (axes.joints.iter()).position(|j| j.value.kind != AxisKind::Spherical);
+    let is_cut = |name: &String| axes.cut.iter().any(|cut| cut.value == *name);
+    let first = (axes.joints.iter())
+        .position(|j| j.value.kind != AxisKind::Spherical && !is_cut(&j.name.value));
     let driven = |(k, joint): (usize, &Named<AxisDescription>)| match said {
         true => joint.value.role == Some(Role::Actuated),
         false => Some(k) == first,

@@ -1,6 +1,6 @@
 //! The words for what is wrong with joint axes.
 
-use crate::description::{AxesProblem, GROUND};
+use crate::description::{AxesProblem, Convention, GROUND};
 
 pub(super) fn title(problem: &AxesProblem) -> String {
     use AxesProblem::*;
@@ -30,6 +30,23 @@ pub(super) fn title(problem: &AxesProblem) -> String {
             format!("the spherical joint `{joint}` stands in a serial chain")
         }
         TooMany { joints } => format!("there are {joints} joints, more than are placed"),
+        DriveCut { joint } => {
+            format!("the driven joint `{joint}` is cut, and so has no variable any more")
+        }
+        LimitsCut { joint } => {
+            format!("the joint `{joint}` is cut, and so has no variable and no limits any more")
+        }
+        BaseUnused { .. } => "frame 0 cannot stand where `base` says, and is placed freely".into(),
+        FarNormal {
+            joints: [first, second],
+            angle,
+            offset,
+            size,
+        } => format!(
+            "the axes of `{first}` and `{second}` are nearly parallel, {angle:.1e} rad apart: their common normal is \
+             {offset:.1e} m off, {:.0e} times the size of the mechanism",
+            offset / size
+        ),
     }
 }
 
@@ -53,6 +70,17 @@ pub(super) fn help(problem: &AxesProblem) -> Option<String> {
         NothingToCut => "leave one joint of each loop `role: Passive`".into(),
         SphericalInSerial { .. } => {
             "write three revolute joints whose axes meet, or say what the joints connect".into()
+        }
+        DriveCut { .. } => "cut another joint of its loop, or hold another joint with --hold".into(),
+        LimitsCut { .. } => "cut another joint of its loop to keep them".into(),
+        BaseUnused {
+            convention: Convention::Modified,
+        } => "its x axis must meet the first joint's axis at a right angle, and not behind its origin".into(),
+        BaseUnused {
+            convention: Convention::Standard,
+        } => "its z axis must lie on the first joint's axis, the same way".into(),
+        FarNormal { .. } => {
+            "if they shall be parallel give both the same direction: within 1e-7 rad they are taken as parallel".into()
         }
         _ => return None,
     })

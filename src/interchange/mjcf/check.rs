@@ -4,7 +4,7 @@ use std::collections::HashSet;
 
 use roxmltree::Node;
 
-use super::read::IRRELEVANT;
+use super::read::{AXIS, IRRELEVANT};
 use crate::geometry::Vector3;
 use crate::interchange::page::Problems;
 use crate::interchange::problem::ImportProblemKind;
@@ -125,7 +125,8 @@ pub(super) fn look<'a>(
         }
         if name == "axis" && size(&numbers) < 1e-12 {
             let joint = node.attribute("name").unwrap_or("without name").to_owned();
-            problems.say(ImportProblemKind::NoAxis { joint }, node);
+            let example = AXIS;
+            problems.say(ImportProblemKind::NoAxis { joint, example }, node);
         }
     }
     let noun = match element {

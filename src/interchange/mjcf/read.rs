@@ -46,6 +46,9 @@ pub(super) const IRRELEVANT: &[&str] = &[
     "user",
 ];
 
+/// How an axis is written.
+pub(super) const AXIS: &str = "axis=\"0 0 1\"";
+
 /// A body and where it is in the tree: its first and its last part, if it was taken apart.
 pub(super) type Parts = Vec<usize>;
 
@@ -144,8 +147,11 @@ fn bodies(
         .equality
         .iter()
         .any(|equality| !matches!(equality, mjcf_rs::equality::Equality::Joint(_)));
-    if driven.is_empty() && closed {
-        remarks.push(Remark::Driven("no joint has an actuator: all are passive"));
+    if driven.is_empty() {
+        remarks.push(Remark::Driven(match closed {
+            true => "no joint has an actuator: all are passive",
+            false => "no joint has an actuator: all are taken as actuated",
+        }));
     }
     let mut bodies: Vec<Body> = Vec::new();
     let mut parts: Vec<Parts> = Vec::new();
@@ -213,7 +219,10 @@ fn bodies(
             let axis = match along {
                 Some(axis) => axis,
                 None if floats(motion) => Vector3::unit(2),
-                None => return Err(ImportProblemKind::NoAxis { joint: joint_name }),
+                None => {
+                    let (joint, example) = (joint_name, AXIS);
+                    return Err(ImportProblemKind::NoAxis { joint, example });
+                }
             };
             part.joints.push(Joint {
                 actuated: match closed || !driven.is_empty() {

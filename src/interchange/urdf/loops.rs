@@ -10,7 +10,7 @@
 
 use roxmltree::Node;
 
-use super::motion::direction;
+use super::motion::{direction, no_axis};
 use crate::description::ClosureKind;
 use crate::geometry::{Pose, Rotation, Vector3};
 use crate::interchange::page::{Problems, child, children, parse, pose_of, tag};
@@ -162,7 +162,7 @@ impl LoopReader<'_> {
             {
                 let Some(along) = direction(along) else {
                     let joint = node.attribute("name").unwrap_or("loop").to_owned();
-                    return self.problems.say(ImportProblemKind::NoAxis { joint }, axis);
+                    return self.problems.say(no_axis(joint), axis);
                 };
                 axes[side] = along;
             }
@@ -262,7 +262,8 @@ impl LoopReader<'_> {
             let Some(v) = numbers(part, 3) else { return };
             let Some(along) = direction([v[0], v[1], v[2]]) else {
                 let joint = node.attribute("name").unwrap_or("joint").to_owned();
-                return self.problems.say(ImportProblemKind::NoAxis { joint }, part);
+                let example = "<xyz>0 0 1</xyz>";
+                return self.problems.say(ImportProblemKind::NoAxis { joint, example }, part);
             };
             axis = along;
         }

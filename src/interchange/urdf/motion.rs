@@ -6,6 +6,7 @@ use roxmltree::Node;
 
 use crate::geometry::Vector3;
 use crate::interchange::page::{child, children};
+use crate::interchange::problem::ImportProblemKind;
 use crate::interchange::remark::Remark;
 use crate::interchange::tree::{Joint, Motion};
 use crate::interchange::xml::Xml;
@@ -157,4 +158,10 @@ pub(super) fn driven(
         .iter()
         .map(|(node, _)| moves(node) && !follows(node))
         .collect()
+}
+
+/// What is wrong with an axis of zero length.
+pub(super) fn no_axis(joint: String) -> ImportProblemKind {
+    let example = "xyz=\"0 0 1\"";
+    ImportProblemKind::NoAxis { joint, example }
 }

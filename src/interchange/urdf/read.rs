@@ -9,7 +9,7 @@ use std::collections::{BTreeMap, HashMap, HashSet};
 use roxmltree::Node;
 
 use super::loops;
-use super::motion::{direction, driven, moving, reduced};
+use super::motion::{direction, driven, moving, no_axis, reduced};
 use crate::geometry::Pose;
 use crate::interchange::page::{Problems, child, children, document, pose_of};
 use crate::interchange::problem::{ImportProblem, ImportProblemKind};
@@ -197,7 +197,7 @@ impl<'a, 'i> Reader<'a, 'i> {
             && direction(along).is_none()
         {
             let joint = name.to_owned();
-            self.problems.say(ImportProblemKind::NoAxis { joint }, axis);
+            self.problems.say(no_axis(joint), axis);
         }
         for part in children(node, "limit") {
             let [low, high] = ["lower", "upper"].map(|name| self.problems.number(part, name));

@@ -29,6 +29,7 @@ pub fn write(tree: &Tree) -> Result<(String, Vec<Remark>), String> {
         },
         remarks: Vec::new(),
         unlimited: Vec::new(),
+        away: Vec::new(),
     };
     let home = tree.home();
     for (i, body) in tree.bodies.iter().enumerate() {
@@ -41,9 +42,13 @@ pub fn write(tree: &Tree) -> Result<(String, Vec<Remark>), String> {
         robot,
         mut remarks,
         unlimited,
+        away,
         ..
     } = writer;
     remarks.extend(kept);
+    if !away.is_empty() {
+        remarks.push(Remark::HomeLost { joints: away });
+    }
     if !unlimited.is_empty() {
         remarks.push(Remark::LimitsInvented {
             joints: unlimited,
@@ -60,6 +65,8 @@ struct UrdfWriter<'a> {
     robot: Robot,
     remarks: Vec<Remark>,
     unlimited: Vec<String>,
+    /// Joints that are not at 0 at home.
+    away: Vec<String>,
 }
 
 impl UrdfWriter<'_> {
@@ -202,6 +209,10 @@ impl UrdfWriter<'_> {
             (Motion::Ball | Motion::Free, _) => (JointType::Floating, None),
         };
         let coupling = self.tree.couplings.iter().find(|c| c.joint == joint.name);
+        let moves = matches!(joint.motion, Motion::Turn | Motion::Slide);
+        if moves && coupling.is_none() && joint.home != 0.0 {
+            self.away.push(joint.name.clone());
+        }
         let (lower, upper) = limits.unwrap_or((f64::NEG_INFINITY, f64::INFINITY));
         urdf_rs::Joint {
             name: joint.name.clone(),

@@ -165,8 +165,7 @@ impl SerialAxes {
             axis.point = normal.feet[1];
             return normal;
         }
-        let y = z.cross(&x);
-        let x = perpendicular(&axis.direction, [x, y]);
+        let x = perpendicular(&axis.direction, [Vector3::unit(0), Vector3::unit(1)]);
         Normal::nothing(x, axis.direction, axis.foot(&start))
     }
 

@@ -1,5 +1,6 @@
 //! Formulas as LaTeX: displayed equations, each of which stands alone.
 
+use super::notation::upright;
 use super::{Notation, Script, notes};
 use crate::algebra::Expression;
 use crate::analysis::formulas::{
@@ -46,10 +47,6 @@ fn display(body: String) -> String {
     format!("\\[\n{body}\n\\]\n")
 }
 
-fn frame(name: &str) -> String {
-    format!("\\mathrm{{{}}}", name.replace('_', "\\_"))
-}
-
 fn transform_of(notation: &Notation, transform: &TransformFormula) -> String {
     let TransformFormula {
         of,
@@ -57,7 +54,7 @@ fn transform_of(notation: &Notation, transform: &TransformFormula) -> String {
         rotation,
         position,
     } = transform;
-    let name = format!("{{}}^{{{}}}_{{{}}}T", frame(relative_to), frame(of));
+    let name = format!("{{}}^{{{}}}_{{{}}}T", upright(relative_to), upright(of));
     let rows: Vec<Vec<String>> = (rotation.iter().zip(position))
         .map(|(row, p)| row.iter().chain([p]).map(|e| notation.print(e)).collect())
         .collect();
@@ -98,7 +95,7 @@ fn closure_of(notation: &Notation, closure: &ClosureFormula) -> Option<String> {
         ));
     }
     if closure.same_axes {
-        let [a, b] = closure.between.each_ref().map(|name| frame(name));
+        let [a, b] = closure.between.each_ref().map(|name| upright(name));
         lines.push(format!("R_{{{a}}} &= R_{{{b}}}"));
     }
     let aligned = lines.join(" \\\\\n");
@@ -111,7 +108,7 @@ fn jacobian_of(notation: &Notation, jacobian: &JacobianFormula) -> String {
         relative_to,
         columns,
     } = jacobian;
-    let name = format!("{{}}^{{{}}}J_{{{}}}", frame(relative_to), frame(of));
+    let name = format!("{{}}^{{{}}}J_{{{}}}", upright(relative_to), upright(of));
     let print = |e: &Expression| notation.print(e);
     let entries: Vec<Vec<String>> = (columns.iter())
         .map(|c| c.velocity.iter().chain(&c.omega).map(print).collect())

@@ -6,8 +6,8 @@ use std::collections::BTreeSet;
 
 use crate::algebra::{Constant, Expression, Function, Node, Operator};
 use crate::mechanism::Mechanism;
-pub(super) use characters::lowered;
-use characters::{GREEK, VULGAR, parts, raised};
+pub(super) use characters::{lowered, upright};
+use characters::{GREEK, VULGAR, escaped, parts, raised};
 
 /// For terminals or for TeX.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -23,6 +23,8 @@ pub(in crate::output) struct Notation {
     stem: Option<String>,
     /// The only platform: its letters need no name.
     platform: Option<String>,
+    /// Whether names that differ in underscores before their digits differ in more.
+    underscores: bool,
 }
 
 /// How tightly something printed binds.
@@ -73,10 +75,22 @@ impl Notation {
             [only] => Some(only.name.clone()),
             _ => None,
         };
+        let joints = mechanism.joints().iter().map(|joint| &joint.name);
+        let parameters = mechanism
+            .parameters()
+            .iter()
+            .map(|parameter| &parameter.name);
+        let bare: Vec<(&str, String)> = joints
+            .chain(parameters)
+            .map(|name| parts(name))
+            .map(|(stem, digits)| (stem.trim_end_matches('_'), digits))
+            .collect();
+        let different: BTreeSet<&(&str, String)> = bare.iter().collect();
         Notation {
             script,
             stem,
             platform,
+            underscores: different.len() == bare.len(),
         }
     }
 
@@ -115,6 +129,12 @@ impl Notation {
             return self.component(platform, vector);
         }
         let (stem, digits) = parts(name);
+        // l_1 is l₁ unless there is an l1 too
+        let bare = stem.trim_end_matches('_');
+        let stem = match self.underscores && !digits.is_empty() && !bare.is_empty() {
+            true => bare,
+            false => stem,
+        };
         let greek = GREEK
             .iter()
             .find(|(word, letter)| *word == stem || stem.chars().eq(std::iter::once(*letter)));
@@ -131,8 +151,8 @@ impl Notation {
                     Some(("omicron", _)) => "o".into(),
                     Some((word, _)) => format!("\\{word}"),
                     None if single && stem.is_ascii() && stem != "_" => stem.to_owned(),
-                    None if stem.is_ascii() => format!("\\mathit{{{}}}", stem.replace('_', "\\_")),
-                    None => format!("\\text{{{}}}", stem.replace('_', "\\_")),
+                    None if stem.is_ascii() => format!("\\mathit{{{}}}", escaped(stem)),
+                    None => format!("\\text{{{}}}", escaped(stem)),
                 };
                 match digits.is_empty() {
                     true => stem,
@@ -152,7 +172,7 @@ impl Notation {
                 let (vector, axis) = vector.split_at(1);
                 let platform = match only {
                     true => String::new(),
-                    false => format!("^{{\\mathrm{{{}}}}}", platform.replace('_', "\\_")),
+                    false => format!("^{{{}}}", upright(platform)),
                 };
                 format!("{vector}_{{{axis}}}{platform}")
             }

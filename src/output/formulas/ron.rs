@@ -62,6 +62,25 @@ fn shorten(
     }
 }
 
+/// A string of a RON file.
+fn quoted(text: &str) -> String {
+    let escaped = text.chars().map(|c| match c {
+        '"' | '\\' => format!("\\{c}"),
+        c if c.is_control() => c.escape_default().to_string(),
+        c => c.to_string(),
+    });
+    format!("\"{}\"", escaped.collect::<String>())
+}
+
+/// What follows // to the end of a line; a name may hold anything.
+fn comment(text: &str) -> String {
+    let one_line: String = text
+        .chars()
+        .map(|c| if c.is_control() { ' ' } else { c })
+        .collect();
+    format!("    // {one_line}\n")
+}
+
 fn wheres(locals: &BTreeMap<(usize, String), String>) -> String {
     if locals.is_empty() {
         return String::new();
@@ -88,7 +107,8 @@ fn transform_of(
     } = transform;
     let all: Vec<&Expression> = rotation.iter().flatten().chain(position).collect();
     if needs_platform(report, &all) {
-        return format!("    // {of} in {relative_to} depends on the pose of a platform\n");
+        let line = format!("{of} in {relative_to} depends on the pose of a platform");
+        return comment(&line);
     }
     let mut locals = BTreeMap::new();
     let rows: Vec<[String; 4]> = (rotation.iter().zip(position))
@@ -102,11 +122,12 @@ fn transform_of(
     let rows: String = rows.collect();
     let seen = match relative_to.as_str() {
         "ground" => String::new(),
-        other => format!(", in: \"{other}\""),
+        other => format!(", in: {}", quoted(other)),
     };
     format!(
-        "    \"{}\": (\n        of: \"{of}\"{seen},\n{}        transform: (\n{rows}        ),\n    ),\n",
-        name_of(transform),
+        "    {}: (\n        of: {}{seen},\n{}        transform: (\n{rows}        ),\n    ),\n",
+        quoted(&name_of(transform)),
+        quoted(of),
         wheres(&locals)
     )
 }
@@ -125,10 +146,8 @@ fn closure_of(notation: &Notation, report: &FormulasReport, closure: &ClosureFor
         all.extend(gap.iter().chain([length]));
     }
     if needs_platform(report, &all) {
-        return format!(
-            "    // closure {} depends on the pose of a platform\n",
-            closure.name
-        );
+        let line = format!("closure {} depends on the pose of a platform", closure.name);
+        return comment(&line);
     }
     let mut locals = BTreeMap::new();
     let mut equations: Vec<String> = (closure.equations.iter())
@@ -148,8 +167,8 @@ fn closure_of(notation: &Notation, report: &FormulasReport, closure: &ClosureFor
         .map(|(i, equation)| format!("            \"equation{}\": \"{equation}\",\n", i + 1));
     let lines: String = lines.collect();
     format!(
-        "    \"closure_{}\": (\n{}        identities: {{\n{lines}        }},\n    ),\n",
-        closure.name,
+        "    {}: (\n{}        identities: {{\n{lines}        }},\n    ),\n",
+        quoted(&format!("closure_{}", closure.name)),
         wheres(&locals)
     )
 }

@@ -3,7 +3,7 @@
 use std::fmt::Write;
 
 use super::super::quantity::{degrees, number, short};
-use super::{nearest_to_coordinates, relation};
+use super::{relation, sense_of_first};
 use crate::analysis::frames::{PlacedChain, PlacedRow};
 use crate::geometry::Relation;
 
@@ -26,7 +26,10 @@ fn variable(constant: String, zero: bool, factor: f64, name: &str) -> String {
     match (factor == 0.0, zero) {
         (true, _) => constant,
         (false, true) => moving,
-        (false, false) => format!("{moving} + {constant}"),
+        (false, false) => match constant.strip_prefix('-') {
+            Some(size) => format!("{moving} - {size}"),
+            None => format!("{moving} + {constant}"),
+        },
     }
 }
 
@@ -101,9 +104,10 @@ pub(super) fn steps(chain: &PlacedChain, modified: bool) -> String {
         };
         let why = why_origin(normal.relation, k);
         say(4, format!("L{k} at {}: {axes}{why}", place(frame.position)));
-        let why = match k == 1 && nearest_to_coordinates(chain) {
-            true => "orthogonal to both axes, in the sense of the coordinates' x".into(),
-            false => why_x(normal.relation, k),
+        let sense = sense_of_first(chain).filter(|_| k == 1);
+        let why = match sense {
+            Some(sense) => format!("orthogonal to both axes, in the sense: {sense}"),
+            None => why_x(normal.relation, k),
         };
         say(5, format!("x{k} {}: {why}", vector(frame.x)));
         say(6, format!("y{k} = z{k} × x{k} = {}", vector(frame.y)));

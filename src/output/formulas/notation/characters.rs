@@ -52,6 +52,32 @@ pub(super) fn parts(name: &str) -> (&str, String) {
     (stem, name[stem.len()..].chars().map(plain).collect())
 }
 
+/// A name as it stands in running text of TeX, whatever it holds.
+pub(in crate::output::formulas) fn escaped(name: &str) -> String {
+    let mut text = String::new();
+    for c in name.chars() {
+        match c {
+            '&' | '%' | '#' | '$' | '_' | '{' | '}' => text.extend(['\\', c]),
+            '\\' => text += "\\textbackslash{}",
+            '^' => text += "\\textasciicircum{}",
+            '~' => text += "\\textasciitilde{}",
+            '<' => text += "\\textless{}",
+            '>' => text += "\\textgreater{}",
+            c if c.is_control() => text.push(' '),
+            c => text.push(c),
+        }
+    }
+    text
+}
+
+/// The name of a frame or body in a formula of TeX.
+pub(in crate::output::formulas) fn upright(name: &str) -> String {
+    let plain = |c: char| c.is_ascii_alphanumeric() || c == '.' || c == '_';
+    // in mathematics a dash is a minus and spaces vanish
+    let command = if name.chars().all(plain) { "mathrm" } else { "text" };
+    format!("\\{command}{{{}}}", escaped(name))
+}
+
 /// Digits below the line.
 pub(in crate::output::formulas) fn lowered(digits: &str) -> String {
     let lower = |c: char| match c.to_digit(10) {
