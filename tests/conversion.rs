@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 
 use linkwork::analysis::compare::{CompareSettings, compare};
 use linkwork::analysis::convert::{
-    Conversion, ConversionNote, ConvertError, ConvertSettings, CutError, convert,
+    Conversion, ConversionNote, ConvertError, ConvertSettings, CutError, convert, possible_cuts,
 };
 use linkwork::description::{Description, Displacement, Entry};
 use linkwork::geometry::{Axis, Pose};
@@ -349,4 +349,37 @@ fn cuts_that_are_not_possible_say_why() {
         CutError::SeveralRows { .. }
     ));
     assert!(matches!(error("delta", "theta1"), CutError::NotRows { .. }));
+}
+
+#[test]
+fn limits_that_a_cut_loses_are_noted_and_other_cuts_are_named() {
+    let text = include_str!("../mechanisms/four_bar.ron");
+    let limited = text.replacen(
+        "\"phi2\": Passive(",
+        "\"phi2\": Passive(limits: (\"-90 deg\", \"90 deg\"), ",
+        1,
+    );
+    assert_ne!(limited, text);
+    let notes = |text: &str, joint: &str| {
+        let description = Description::read(text).unwrap();
+        let mechanism = Mechanism::new(&description).unwrap();
+        let settings = ConvertSettings {
+            cut: Some(joint.into()),
+            ..ConvertSettings::default()
+        };
+        convert(&mechanism, &description, &settings).unwrap().notes
+    };
+    let lost = ConversionNote::LimitsLost {
+        joint: "phi2".into(),
+    };
+    assert!(notes(&limited, "phi2").contains(&lost));
+    assert!(!notes(&limited, "theta1").contains(&lost));
+    assert!(!notes(text, "phi2").contains(&lost));
+    let (description, mechanism) = shipped("four_bar");
+    assert_eq!(
+        possible_cuts(&mechanism, &description),
+        ["theta1", "phi2", "phi1"]
+    );
+    let (description, mechanism) = shipped("delta");
+    assert!(possible_cuts(&mechanism, &description).is_empty());
 }

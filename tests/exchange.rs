@@ -502,7 +502,13 @@ fn wrong_files_are_refused_with_their_places() {
     };
     let deep = "<a>".repeat(100_000);
     let cases: Vec<(String, &str)> = vec![
-        (String::new(), "this is not XML"),
+        (String::new(), "the file is empty (linkwork reads URDF"),
+        (" \n".into(), "the file is empty"),
+        (
+            body("<joint name=\"j\" axis=\"0 0 0\"/>"),
+            "the axis of joint `j` has no direction (give the axis a direction, such as axis=\"0 0 1\")",
+        ),
+        (joint("<axis xyz=\"0 0 0\"/>"), "such as xyz=\"0 0 1\")"),
         ("not xml".into(), "file:1:1: this is not XML"),
         (robot("<link name=\"a\">"), "file:3:"),
         (robot("<link name=a/>"), "file:2:"),
@@ -886,4 +892,28 @@ fn commands_write_data_to_stdout_and_the_rest_to_stderr() {
     assert!(err.contains("Nothing is written"), "{err}");
     let (code, _, err) = linkwork(&["import", "no such file.urdf"]);
     assert!(code == 2 && err.contains("no such file.urdf"), "{err}");
+}
+
+#[test]
+fn what_formats_leave_open_is_said() {
+    let (code, _, err) = linkwork(&["export", "mechanisms/slider_crank.ron", "--to", "urdf"]);
+    assert_eq!(code, 0, "{err}");
+    assert!(
+        err.contains("warning: URDF has no home configuration: the home values of `theta`, `phi` and `s` are lost"),
+        "{err}"
+    );
+    // MJCF has it as a keyframe
+    let (_, _, err) = linkwork(&["export", "mechanisms/slider_crank.ron", "--to", "mjcf"]);
+    assert!(!err.contains("home"), "{err}");
+    let body = "<body><joint name=\"j\"/><body pos=\"1 0 0\"><joint name=\"k\"/></body></body>";
+    let text = format!("<mujoco><worldbody>{body}</worldbody></mujoco>");
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("arm.xml");
+    std::fs::write(&path, text).unwrap();
+    let (code, out, err) = linkwork(&["import", path.to_str().unwrap()]);
+    assert!(code == 0 && out.contains("\"j\": Actuated("), "{out}{err}");
+    assert!(
+        err.contains("no joint has an actuator: all are taken as actuated"),
+        "{err}"
+    );
 }

@@ -464,6 +464,8 @@ fn latex_is_set_by_katex() {
     for (_, mechanism, report) in all() {
         whole += &output::latex(mechanism, report);
     }
+    let strange = strange_names();
+    whole += &output::latex(&strange, &everything(&strange));
     let displays = whole.lines().filter(|line| *line == "\\[").count();
     assert!(displays > 300, "{displays}");
     let tex = folder.path().join("formulas.tex");
@@ -490,6 +492,73 @@ fn latex_is_set_by_katex() {
     // and what is no LaTeX is refused
     fs::write(&tex, "\\[\n\\frac{1\n\\]\n").unwrap();
     assert!(!set(&tex).unwrap().status.success());
+}
+
+/// Chains and closures may be called anything.
+fn strange_names() -> Mechanism {
+    read(
+        r#"Mechanism(
+        version: 1, name: "R&D 100 %", convention: Modified, parameters: { "l_1": 2, "a__b": 1, "x_": 1 },
+        joints: { "theta_1": Actuated(home: 0.3), "q": Actuated(home: 0.2) },
+        chains: {
+            "a&b%": Chain(rows: [(theta: "theta_1"), (a: "l_1", theta: "q"), (a: "a__b", d: "x_", alpha: "-30 deg")]),
+            "x$y\\z_1^2~{w} #<ü>\"-": Chain(rows: [(theta: "q", a: 1)]),
+        },
+    )"#,
+    )
+}
+
+#[test]
+fn strange_names_are_escaped() {
+    let mechanism = strange_names();
+    let report = everything(&mechanism);
+    let latex = output::latex(&mechanism, &report);
+    assert!(latex.contains(r"\text{a\&b\%.1}"), "{latex}");
+    let other = r#"\text{x\$y\textbackslash{}z\_1\textasciicircum{}2\textasciitilde{}\{w\} \#\textless{}ü\textgreater{}"-.1}"#;
+    assert!(latex.contains(other), "{latex}");
+    // l_1 is l₁, and no underscore is left over
+    assert!(
+        latex.contains("\\theta_{1}") && latex.contains("l_{1}"),
+        "{latex}"
+    );
+    // and what is pasted back into a file is read
+    let pasted = output::ron(&mechanism, &report);
+    let text = format!(
+        r#"Mechanism(version: 1, name: "x", convention: Modified, parameters: {{ "l_1": 2, "a__b": 1, "x_": 1 }},
+        joints: {{ "theta_1": Actuated(home: 0.3), "q": Actuated(home: 0.2) }},
+        chains: {{
+            "a&b%": Chain(rows: [(theta: "theta_1"), (a: "l_1", theta: "q"), (a: "a__b", d: "x_", alpha: "-30 deg")]),
+            "x$y\\z_1^2~{{w}} #<ü>\"-": Chain(rows: [(theta: "q", a: 1)]),
+        }},
+        {pasted})"#
+    );
+    let report = compare(&read(&text), &CompareSettings::default());
+    assert!(report.agree && report.closed_forms.len() >= 5, "{text}");
+    // where l_1 and l1 are two names both stay as they are
+    let both = read(
+        r#"Mechanism(version: 1, name: "x", convention: Modified, parameters: { "l_1": 2, "l1": 1 },
+        joints: { "q": Actuated(home: 0.2) },
+        chains: { "c": Chain(rows: [(a: "l_1", d: "l1", theta: "q")]) })"#,
+    );
+    let latex = output::latex(&both, &everything(&both));
+    assert!(
+        latex.contains("\\mathit{l\\_}_{1}") && latex.contains("& l_{1}"),
+        "{latex}"
+    );
+}
+
+#[test]
+fn parameters_that_are_given_numbers_are_written_out() {
+    let file = include_str!("../mechanisms/planar_2r.ron");
+    let file = Description::read(file).unwrap();
+    let changed = Mechanism::new(&file.with_parameter("a1", "2.5").unwrap()).unwrap();
+    let settings = FormulasSettings {
+        numbers: vec!["a1".into()],
+        ..FormulasSettings::default()
+    };
+    let report = formulas(&changed, &settings).unwrap();
+    let tip = report.transforms[0].position[0].to_string();
+    assert_eq!(tip, "5/2*cos(theta1) + a2*cos(theta1 + theta2)");
 }
 
 #[test]

@@ -745,6 +745,175 @@ mod files {
         );
     }
 
+    /// The titles of the warnings for a file of axes.
+    fn warned(text: &str) -> Vec<String> {
+        let axes = AxesDescription::read(text).unwrap();
+        let report = frames(&axes, &FramesSettings::default()).unwrap();
+        report.warnings.iter().map(|p| p.kind.title()).collect()
+    }
+
+    #[test]
+    fn what_cuts_and_bases_do_not_keep_is_warned_of() {
+        let four_bar = std::fs::read_to_string(folder().join("axes/four_bar.ron")).unwrap();
+        assert!(warned(&four_bar).is_empty());
+        let cut =
+            |joint: &str| four_bar.replacen("joints:", &format!("cut: [\"{joint}\"], joints:"), 1);
+        assert_eq!(
+            warned(&cut("theta1")),
+            ["the driven joint `theta1` is cut, and so has no variable any more"]
+        );
+        assert!(warned(&cut("phi1")).is_empty());
+        let home = "home: \"atan2(y3, x3 - l0)\"";
+        let limited = cut("phi1").replacen(home, &format!("{home}, limits: (0, 3)"), 1);
+        assert_eq!(
+            warned(&limited),
+            ["the joint `phi1` is cut, and so has no variable and no limits any more"]
+        );
+        // where no role is given the first joint that is not cut is driven
+        let silent = cut("theta1").replace("role: Actuated, ", "");
+        let axes = AxesDescription::read(&silent).unwrap();
+        let report = frames(&axes, &FramesSettings::default()).unwrap();
+        let mechanism = Mechanism::new(&report.description).unwrap();
+        let driven = mechanism.joint("phi2").map(|j| mechanism.joints()[j].role);
+        assert_eq!(driven, Some(linkwork::mechanism::Role::Actuated));
+        let based = |base: &str| {
+            format!(
+                "Axes(version: 1, name: \"b\", base: [{base}], joints: {{
+                \"a\": Revolute(point: (0, 0, 0), direction: (0, 0, 1)),
+                \"b\": Revolute(point: (1, 0, 0), direction: (0, 1, 0)) }})"
+            )
+        };
+        assert_eq!(
+            warned(&based("T(1, 0, 2)")),
+            ["frame 0 cannot stand where `base` says, and is placed freely"]
+        );
+        assert!(warned(&based("T(-1, 0, 2)")).is_empty());
+        assert!(warned(&based("Tz(2)")).is_empty());
+    }
+
+    #[test]
+    fn axes_just_beyond_parallel_are_warned_of() {
+        let axes = |angle: f64| {
+            format!(
+                "Axes(version: 1, name: \"near\", joints: {{
+                \"a\": Revolute(point: (0, 0, 0), direction: (0, 0, 1)),
+                \"b\": Revolute(point: (1, 0.1, 0), direction: ({angle:e}, 0, 1)) }})"
+            )
+        };
+        // the axes are nearest 0.1/sin(angle) away
+        let found = warned(&axes(3e-7));
+        assert_eq!(found.len(), 1, "{found:?}");
+        assert!(
+            found[0].contains("`a` and `b` are nearly parallel, 3.0e-7 rad apart")
+                && found[0].contains("3.3e6 m off"),
+            "{found:?}"
+        );
+        // parallel within the tolerance, and far enough from parallel
+        assert!(warned(&axes(3e-8)).is_empty());
+        assert!(warned(&axes(1e-2)).is_empty());
+    }
+
+    #[test]
+    fn the_sense_of_the_first_normal_is_told_as_it_is() {
+        use linkwork::analysis::overview::overview;
+        let sense = |first: &str, second: &str, home: f64| {
+            let text = format!(
+                "Axes(version: 1, name: \"p\", joints: {{
+                \"a\": Revolute(point: (0, 0, 0), direction: ({first}), home: {home}),
+                \"b\": Revolute(point: (0, 0, 0), direction: ({second})) }})"
+            );
+            let axes = AxesDescription::read(&text).unwrap();
+            let report = frames(&axes, &FramesSettings::default()).unwrap();
+            let mechanism = Mechanism::new(&report.description).unwrap();
+            let said = linkwork::output::frames::text(&report, &overview(&mechanism), false);
+            let x0 = report.chains[0].frames[0].x;
+            let line = said.lines().find(|line| line.contains("sense of x1: "));
+            let line = line.unwrap().split("sense of x1: ").nth(1).unwrap().trim();
+            (line.to_owned(), x0)
+        };
+        let (said, x0) = sense("0, 0, 1", "0, 1, 0", 0.0);
+        assert_eq!(said, "x0 within ±90° of the coordinates' x");
+        assert!(x0[0] > 0.99);
+        // turned by its home, the first frame is still the nearest
+        let (said, x0) = sense("0, 0, 1", "1, 1, 0", 2.0);
+        assert_eq!(said, "x0 within ±90° of the coordinates' x");
+        assert!(x0[0] > 0.0);
+        let (said, x0) = sense("1, 0, 0", "0, 0, 1", 0.0);
+        assert_eq!(said, "x0 within ±90° of the coordinates' y");
+        assert!(x0[1] > 0.99);
+        // neither of them: along the vector product
+        let (said, x0) = sense("1, 0, 0", "0, 1, 0", 0.0);
+        assert_eq!(said, "along z1 × z2");
+        assert!(x0[2] > 0.99);
+        let (said, _) = sense("0, 0, 1", "1, 0, 0", 0.0);
+        assert_eq!(said, "along z1 × z2");
+    }
+
+    #[test]
+    fn rods_cylinders_and_planes_have_axes() {
+        // what closes them moves as before: the same freedoms, and the rods keep their lengths
+        for name in [
+            "rssr",
+            "delta",
+            "stewart_gough_6sps",
+            "three_fingered_hand_distances",
+        ] {
+            let mechanism = Mechanism::load(folder().join(format!("{name}.ron"))).unwrap();
+            let at = closed(&mechanism);
+            let axes = joint_axes(&mechanism, &at).unwrap();
+            let balls = axes
+                .joints
+                .iter()
+                .filter(|j| j.value.kind == linkwork::description::AxisKind::Spherical);
+            let rods = mechanism
+                .closures()
+                .iter()
+                .filter(|c| c.kind == linkwork::mechanism::ClosureKind::Distance);
+            assert!(balls.count() >= 2 * rods.count(), "{name}");
+            let again = placed(&axes, Convention::Modified);
+            let held = mechanism.joints().iter().zip(&at.joints);
+            let held = held.filter(|(j, _)| j.role == linkwork::mechanism::Role::Actuated);
+            let mut questions = [Question::new(&mechanism), Question::new(&again)];
+            for (joint, value) in held {
+                let value = format!("{} + 0.01", value);
+                questions = questions.map(|question| question.hold(&joint.name, &value).unwrap());
+            }
+            let found =
+                questions.map(|q| close(&q, &Newton::default(), 0, 1).unwrap().configuration);
+            for (i, joint) in mechanism.joints().iter().enumerate() {
+                let Some(k) = again.joint(&joint.name) else {
+                    continue;
+                };
+                let apart = (found[0].joints[i] - found[1].joints[k]).abs();
+                assert!(apart < 1e-9, "{name} {}: {apart:e}", joint.name);
+            }
+        }
+        let cylinder = r#"Mechanism(version: 1, name: "c", convention: Modified,
+            joints: { "q": Actuated(home: 0.3), "s": Actuated(home: 0.2), "p": Actuated(home: 0.1) },
+            chains: { "c": Chain(rows: [(theta: "q", d: "s"), (alpha: "90 deg", a: 1, theta: "p")], tip: [Tx(2)]) })"#;
+        let mechanism = Mechanism::new(&Description::read(cylinder).unwrap()).unwrap();
+        let axes = joint_axes(&mechanism, &mechanism.home()).unwrap();
+        let again = placed(&axes, Convention::Modified);
+        let values = [0.7, -0.4, 1.1];
+        let tips = [&mechanism, &again].map(|m| {
+            let mut at = m.home();
+            for (name, value) in ["q", "s", "p"].into_iter().zip(values) {
+                at.joints[m.joint(name).unwrap()] = value;
+            }
+            m.transform(Frame::Ground, Frame::Tip { chain: 0 }, &at)
+        });
+        assert!((tips[0].position - tips[1].position).norm() < 1e-12);
+        // one variable in both is a screw, which is no axis of these kinds
+        let screw = cylinder
+            .replace("d: \"s\"", "d: \"0.1*q\"")
+            .replace("\"s\": Actuated(home: 0.2), ", "");
+        let screw = Mechanism::new(&Description::read(&screw).unwrap()).unwrap();
+        assert!(matches!(
+            joint_axes(&screw, &screw.home()),
+            Err(AxesError::Row { row: 1, .. })
+        ));
+    }
+
     fn titles_none(text: &str) -> bool {
         AxesDescription::read(text)
             .is_ok_and(|axes| frames(&axes, &FramesSettings::default()).is_ok())

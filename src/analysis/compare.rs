@@ -1,6 +1,7 @@
 //! The closed forms of a mechanism checked against its chains: proved or refuted in letters, and compared with numbers.
 
 mod consequence;
+mod elimination;
 mod formula;
 mod proof;
 mod samples;
@@ -348,6 +349,19 @@ fn report(
         check.report.agree = relative <= tolerance || check.report.proof.proved() && !off;
         let names = mechanism.joints().iter().map(|joint| joint.name.clone());
         worst.joints = names.zip(check.worst.iter().copied()).collect();
+    }
+    let open = |check: &Check| {
+        let reason = Reason::NeedsElimination;
+        check.report.proof == Proof::NotDecided { reason }
+    };
+    let refuted = |check: &Check| !check.report.agree && check.report.samples > 0 && open(check);
+    if checks.iter().any(refuted) {
+        // what numbers refute is written out
+        for (check, difference) in checks.iter_mut().zip(proof::refutations(mechanism, form)) {
+            if let (true, Some(difference)) = (refuted(check), difference) {
+                check.report.proof = Proof::Different(Box::new(difference));
+            }
+        }
     }
     let components: Vec<ComponentReport> = checks.into_iter().map(|check| check.report).collect();
     let disagrees = (components.iter()).any(|c| !c.agree && c.samples > 0);

@@ -86,7 +86,11 @@ impl Formulas {
                 true => loaded.warnings(),
                 false => {
                     let quoted: Vec<String> = set.iter().map(|name| format!("`{name}`")).collect();
-                    loaded.warnings() + &format!("note: {} set by --set, written out; other parameters are letters\n", listed(&quoted))
+                    loaded.warnings()
+                        + &format!(
+                            "note: {} set by --set, written out; other parameters are letters\n",
+                            listed(&quoted)
+                        )
                 }
             },
             yes: true,

@@ -47,12 +47,23 @@ fn proved(report: &CompareReport) -> String {
     let forms = &report.closed_forms;
     let all = forms.len();
     let proved = |form: &&FormReport| form.components.iter().all(|c| c.proof.proved());
-    match (forms.iter().filter(proved).count(), all) {
+    let special = |form: &&FormReport| {
+        use Proof::{FollowsForTheseDimensions, IdenticalForTheseDimensions};
+        let mut proofs = form.components.iter().map(|component| &component.proof);
+        proofs.any(|p| matches!(p, IdenticalForTheseDimensions | FollowsForTheseDimensions))
+    };
+    let number = forms.iter().filter(proved).count();
+    let only = match forms.iter().filter(proved).filter(special).count() {
+        0 => String::new(),
+        n if n == number => " for these dimensions only".into(),
+        n => format!(", {n} of them for these dimensions only"),
+    };
+    match (number, all) {
         (0, _) => String::new(),
-        (1, 1) => " It is proved.".into(),
-        (n, all) if n == all => " All are proved.".into(),
-        (1, _) => " 1 is proved.".into(),
-        (n, _) => format!(" {n} are proved."),
+        (1, 1) => format!(" It is proved{only}."),
+        (n, all) if n == all => format!(" All are proved{only}."),
+        (1, _) => format!(" 1 is proved{only}."),
+        (n, _) => format!(" {n} are proved{only}."),
     }
 }
 
@@ -151,8 +162,11 @@ fn proof(form: &FormReport) -> &'static str {
         return "refuted";
     }
     match proofs().filter(|proof| proof.proved()).count() {
-        0 => "none",
+        0 => "not proved",
         n if n < form.components.len() => "in part",
+        _ if proofs().any(|proof| *proof == Proof::FollowsForTheseDimensions) => {
+            "from closures, for these dimensions"
+        }
         _ if proofs().any(|proof| *proof == Proof::IdenticalForTheseDimensions) => {
             "for these dimensions"
         }
@@ -177,10 +191,14 @@ fn exact(notation: &Notation, form: &FormReport) -> String {
                 let (own, theirs) = (print(closed_form), print(chains));
                 let place = format!("{}, {}", form.name, component.name);
                 let given = match component.quantity {
-                    Quantity::Identity => "a closure has",
+                    Quantity::Identity => "the closures give",
                     _ => "the chains give",
                 };
+                let whole = closed_form == difference && component.quantity == Quantity::Identity;
                 text += &match (closed_form.is_zero(), chains.is_zero()) {
+                    (false, true) if whole => {
+                        format!("\n{place}: the form has {own} where the closures give 0")
+                    }
                     (false, true) => {
                         format!("\n{place}: the form has {own}, which is not in the chains")
                     }
@@ -203,7 +221,7 @@ fn exact(notation: &Notation, form: &FormReport) -> String {
     }
     for (reason, names) in undecided {
         text += &format!(
-            "\n{}, {}: no proof, for {}; the numbers stand alone.\n",
+            "\n{}, {}: not proved, for {}; the numbers stand alone.\n",
             form.name,
             names.join(", "),
             why(reason)

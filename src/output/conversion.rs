@@ -21,9 +21,9 @@ pub fn notes(notes: &[ConversionNote]) -> String {
             ConversionNote::DriveLost { joint } => format!(
                 "`{joint}` was driven and has no variable any more: hold another joint with --hold"
             ),
-            ConversionNote::LimitsLost { joint } => format!(
-                "`{joint}` had limits and has no variable any more: nothing limits it now"
-            ),
+            ConversionNote::LimitsLost { joint } => {
+                format!("`{joint}` had limits and has no variable any more: nothing limits it now")
+            }
             ConversionNote::Variables { closure, joints } if joints.is_empty() => {
                 format!("the closure `{closure}` holds its frames together and has no variable")
             }
@@ -81,7 +81,9 @@ fn because(error: &CutError) -> (String, Option<String>) {
     match error {
         CutError::UnknownJoint { name, suggestion } => (
             format!("there is no joint `{name}`"),
-            suggestion.as_ref().map(|meant| format!("did you mean `{meant}`?")),
+            suggestion
+                .as_ref()
+                .map(|meant| format!("did you mean `{meant}`?")),
         ),
         CutError::AlreadyCut { closure } => (
             format!("the mechanism is broken at `{closure}` already"),
@@ -96,7 +98,9 @@ fn because(error: &CutError) -> (String, Option<String>) {
             None,
         ),
         CutError::SeveralRows { joint } => (
-            format!("the variable `{joint}` stands in several places, and a cut would open only one"),
+            format!(
+                "the variable `{joint}` stands in several places, and a cut would open only one"
+            ),
             None,
         ),
         CutError::SharedRow { joint } => (

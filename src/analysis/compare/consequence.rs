@@ -24,21 +24,31 @@ pub(super) struct Span {
 impl Span {
     /// The combinations of the formulas with coefficients a + b√3.
     pub fn new(formulas: &[Trigonometric]) -> Self {
+        Span::over(formulas, &[1, 3])
+    }
+
+    /// The combinations of the formulas with coefficients that are sums of multiples of roots.
+    pub fn over(formulas: &[Trigonometric], roots: &[u64]) -> Self {
         let mut span = Span {
             columns: HashMap::new(),
             rows: BTreeMap::new(),
         };
-        formulas.iter().for_each(|formula| span.add(formula));
+        formulas.iter().for_each(|formula| span.add(formula, roots));
         span
     }
 
-    fn add(&mut self, formula: &Trigonometric) {
+    fn add(&mut self, formula: &Trigonometric, roots: &[u64]) {
         let mut budget = Budget { products: 100_000 };
-        let root = root_of_three();
-        for turned in [Some(formula.clone()), formula.times(&root, &mut budget)] {
-            let Some(row) = turned.map(|formula| self.row(&formula)) else {
+        for &root in roots {
+            let key = Key {
+                root,
+                ..Key::default()
+            };
+            let root = Trigonometric::term(key, BigRational::one());
+            let Some(turned) = formula.times(&root, &mut budget) else {
                 continue;
             };
+            let row = self.row(&turned);
             let row = self.reduced(row);
             if self.rows.len() < MOST_ROWS
                 && let Some((&first, lead)) = row.iter().next()
@@ -79,19 +89,16 @@ impl Span {
         row
     }
 
+    /// What is left of a formula when combinations are taken off.
+    fn rest(&mut self, formula: &Trigonometric) -> BTreeMap<usize, BigRational> {
+        let row = self.row(formula);
+        self.reduced(row)
+    }
+
     /// Whether the formula is such a combination.
     pub fn contains(&mut self, formula: &Trigonometric) -> bool {
-        let row = self.row(formula);
-        self.reduced(row).is_empty()
+        self.rest(formula).is_empty()
     }
-}
-
-fn root_of_three() -> Trigonometric {
-    let key = Key {
-        root: 3,
-        ..Key::default()
-    };
-    Trigonometric::term(key, BigRational::one())
 }
 
 fn is_platform(atom: &Atom, first: u32) -> bool {
@@ -186,6 +193,26 @@ fn orthogonality(equations: &[Trigonometric], first: u32) -> Vec<Trigonometric> 
     relations
 }
 
+/// The equations, and these times the terms that occur in them, as one multiplies to square and add equations. `None` if
+/// these are too many.
+fn multiplied(
+    equations: &[Trigonometric],
+    first_platform: u32,
+    budget: &mut Budget,
+) -> Option<Vec<Trigonometric>> {
+    if equations.iter().map(Trigonometric::len).sum::<usize>() > MOST_TERMS {
+        return None;
+    }
+    let mut generators: Vec<Trigonometric> = equations.to_vec();
+    for factor in factors(equations) {
+        for equation in equations {
+            generators.push(equation.times(&factor, budget)?);
+        }
+    }
+    generators.extend(orthogonality(equations, first_platform));
+    (2 * generators.len() <= MOST_ROWS).then_some(generators)
+}
+
 /// Whether a formula, perhaps times a product of letters, is Σ tₖ gₖ where the gₖ are the equations and the tₖ combinations
 /// of the terms that occur in these: enough to square and add equations, as one does to eliminate an angle or a platform.
 pub(super) fn follows(
@@ -194,27 +221,46 @@ pub(super) fn follows(
     first_platform: u32,
     budget: &mut Budget,
 ) -> bool {
-    if equations.iter().map(Trigonometric::len).sum::<usize>() > MOST_TERMS {
+    let Some(generators) = multiplied(equations, first_platform, budget) else {
         return false;
-    }
-    let mut generators: Vec<Trigonometric> = equations.to_vec();
-    for factor in factors(equations) {
-        for equation in equations {
-            match equation.times(&factor, budget) {
-                Some(product) => generators.push(product),
-                None => return false,
-            }
-        }
-    }
-    generators.extend(orthogonality(equations, first_platform));
-    if 2 * generators.len() > MOST_ROWS {
-        return false;
-    }
+    };
     let mut span = Span::new(&generators);
     candidates(formula, &generators).iter().any(|factor| {
         let product = formula.times(factor, budget);
         product.is_some_and(|product| span.contains(&product))
     })
+}
+
+/// A part of the formula without which, times some number, the rest follows: the slip of a formula that does not. It is one
+/// product of letters with a sine or cosine.
+pub(super) fn slip(
+    formula: &Trigonometric,
+    equations: &[Trigonometric],
+    first_platform: u32,
+    budget: &mut Budget,
+) -> Option<Trigonometric> {
+    let generators =
+        multiplied(equations, first_platform, budget).unwrap_or_else(|| equations.to_vec());
+    let mut span = Span::new(&generators);
+    for factor in candidates(formula, &generators) {
+        let left = span.rest(&formula.times(&factor, budget)?);
+        for term in factors(std::slice::from_ref(formula)) {
+            let part = span.rest(&term.times(&factor, budget)?);
+            let Some((column, x)) = part.iter().next() else {
+                continue;
+            };
+            let Some(ratio) = left.get(column).map(|y| y / x) else {
+                continue;
+            };
+            let same = left.len() == part.len()
+                && (left.iter())
+                    .all(|(column, y)| part.get(column).is_some_and(|x| x * &ratio == *y));
+            if same {
+                return Some(term.scaled(&ratio));
+            }
+        }
+    }
+    None
 }
 
 /// Products of letters that bring a term of the formula to a term of the generators.

@@ -6,11 +6,13 @@
 use std::collections::BTreeMap;
 
 use num_rational::BigRational;
+use num_traits::Signed;
 use serde::Serialize;
 
-use super::consequence::{Span, follows};
+use super::consequence::{Span, follows, slip};
+use super::elimination::{self, eliminated};
 use super::formula::Values;
-use crate::algebra::{Budget, Expression, Symbolic, Trigonometric, arrange, with_letters};
+use crate::algebra::{Atom, Budget, Expression, Symbolic, Trigonometric, arrange, with_letters};
 use crate::mechanism::{ClosedForm, Formal, Given, Letters, MatrixEntry, Mechanism, Symbol};
 use crate::number::Number;
 
@@ -18,6 +20,8 @@ use crate::number::Number;
 const MOST_PRODUCTS: usize = 100_000;
 /// A difference of more terms is not printed.
 const MOST_TERMS: usize = 400;
+/// Pairs of closures from which an identity is tried to be derived.
+const MOST_PAIRS: usize = 15;
 
 /// What was proved of one component of a closed form.
 #[derive(Clone, Debug, PartialEq, Serialize)]
@@ -29,6 +33,8 @@ pub enum Proof {
     IdenticalForTheseDimensions,
     /// It is an equation of the closures, or a sum of multiples of some.
     FollowsFromClosures,
+    /// The same, but only with the numbers that the file gives its parameters.
+    FollowsForTheseDimensions,
     /// It is not what the chains give.
     Different(Box<Difference>),
     /// It is neither proved nor refuted: the numbers stand alone.
@@ -69,7 +75,10 @@ impl Proof {
         use Proof::*;
         matches!(
             self,
-            Identical | IdenticalForTheseDimensions | FollowsFromClosures
+            Identical
+                | IdenticalForTheseDimensions
+                | FollowsFromClosures
+                | FollowsForTheseDimensions
         )
     }
 }
@@ -77,15 +86,19 @@ impl Proof {
 /// What can be proved of each component of a form, in order.
 pub(super) fn proofs(mechanism: &Mechanism, form: &ClosedForm) -> Vec<Proof> {
     let general = Attempt::new(mechanism, form, false);
-    let of_loops = matches!(form.gives, Given::Identities(_));
-    if of_loops || general.proofs.iter().all(Proof::proved) {
+    if general.proofs.iter().all(Proof::proved) {
         return general.proofs;
     }
     let special = Attempt::new(mechanism, form, true);
+    let of_loops = matches!(form.gives, Given::Identities(_));
     let pairs = general.proofs.into_iter().zip(special.proofs);
     pairs
         .map(|(general, special)| match (general, special) {
             (general, _) if general.proved() => general,
+            (_, Proof::FollowsFromClosures | Proof::FollowsForTheseDimensions) => {
+                Proof::FollowsForTheseDimensions
+            }
+            (general, special) if of_loops && !special.proved() => general,
             (_, Proof::Identical) => Proof::IdenticalForTheseDimensions,
             // in letters it may only be hidden that it is zero; with numbers it is seen that it is not
             (Proof::Different(difference), _) => Proof::Different(difference),
@@ -95,6 +108,34 @@ pub(super) fn proofs(mechanism: &Mechanism, form: &ClosedForm) -> Vec<Proof> {
         .collect()
 }
 
+/// How identities that numbers refute differ from what the closures give, in order; nothing where that is too long.
+pub(super) fn refutations(mechanism: &Mechanism, form: &ClosedForm) -> Vec<Option<Difference>> {
+    let Given::Identities(identities) = &form.gives else {
+        return vec![];
+    };
+    let refutations = over_letters(mechanism, form, || {
+        let setting = Setting::new(mechanism, form, false)?;
+        let equations = setting.equations();
+        let refuted = identities.iter();
+        Some(
+            refuted
+                .map(|(_, formula)| setting.refuted(formula, &equations))
+                .collect(),
+        )
+    });
+    refutations.unwrap_or_else(|| vec![None; identities.len()])
+}
+
+/// Runs some work over the letters of a mechanism and a form.
+fn over_letters<R>(mechanism: &Mechanism, form: &ClosedForm, work: impl FnOnce() -> R) -> R {
+    let mut values = Letters(mechanism).values();
+    values.resize(values.len() + form.locals.len(), 0.0);
+    let budget = Budget {
+        products: MOST_PRODUCTS,
+    };
+    with_letters(values, budget, work)
+}
+
 struct Attempt {
     proofs: Vec<Proof>,
 }
@@ -102,17 +143,11 @@ struct Attempt {
 impl Attempt {
     /// With parameters as letters, or with the numbers of the file.
     fn new(mechanism: &Mechanism, form: &ClosedForm, numbers: bool) -> Self {
-        let letters = Letters(mechanism);
         let count = match &form.gives {
             Given::Pose { entries, .. } => entries.len(),
             Given::Identities(identities) => identities.len(),
         };
-        let mut values = letters.values();
-        values.resize(values.len() + form.locals.len(), 0.0);
-        let budget = Budget {
-            products: MOST_PRODUCTS,
-        };
-        let proofs = with_letters(values, budget, || {
+        let proofs = over_letters(mechanism, form, || {
             let setting = Setting::new(mechanism, form, numbers)?;
             Some(match &form.gives {
                 Given::Pose {
@@ -216,14 +251,7 @@ impl<'a> Setting<'a> {
             Some(false) => {
                 let own = form.restricted_to(&difference);
                 let theirs = chains.restricted_to(&difference);
-                let all = [&own, &theirs, &difference];
-                let mut expressions = arrange(&all, &|symbol| self.name(symbol)).expressions;
-                let mut next = || expressions.remove(0);
-                Proof::Different(Box::new(Difference {
-                    closed_form: next(),
-                    chains: next(),
-                    difference: next(),
-                }))
+                Proof::Different(Box::new(self.written(&own, &theirs, &difference)))
             }
             None => Proof::NotDecided {
                 reason: match difference.is_opaque() {
@@ -237,9 +265,111 @@ impl<'a> Setting<'a> {
     /// The equations of all closures.
     fn equations(&self) -> Vec<Trigonometric> {
         let closures = 0..self.letters.0.closures().len();
-        let conditions = closures.flat_map(|closure| self.formal.closure(closure).conditions);
+        closures
+            .flat_map(|closure| self.of_closure(closure))
+            .collect()
+    }
+
+    fn of_closure(&self, closure: usize) -> Vec<Trigonometric> {
+        let conditions = self.formal.closure(closure).conditions.into_iter();
         let formulas = conditions.filter_map(|condition| Some((*condition.formula()?).clone()));
         formulas.filter(|formula| !formula.is_empty()).collect()
+    }
+
+    /// The sum of which a root is a part, times the same with the other sign of the root: P a² − b² of a√P + b, where b is
+    /// a negative number and a a positive one, so that the other factor is not zero.
+    fn without_root(&self, form: &Trigonometric, budget: &mut Budget) -> Option<Trigonometric> {
+        let is_root = |(atom, power): &(Atom, i32)| matches!(atom, Atom::Root(_)) && *power == 1;
+        let mut other = Trigonometric::zero();
+        let mut rest = Trigonometric::zero();
+        let mut roots = 0;
+        for (key, coefficient) in form.terms() {
+            let part = Trigonometric::term(key.clone(), coefficient.clone());
+            match key.powers.iter().any(is_root) {
+                true => {
+                    let alone = key.powers.len() == 1 && key.wave.0.is_empty() && !key.imaginary;
+                    if !alone || !coefficient.is_positive() {
+                        return None;
+                    }
+                    roots += 1;
+                    other = other.plus(&part);
+                }
+                false => rest = rest.plus(&part),
+            }
+        }
+        let constants = self.letters.joint(0);
+        let constant = rest.symbols().iter().all(|symbol| *symbol < constants);
+        let values = self.letters.values();
+        let negative = rest.value(&|symbol| values[symbol as usize]) < 0.0;
+        if roots != 1 || !constant || !negative {
+            return None;
+        }
+        form.times(&other.minus(&rest), budget)
+    }
+
+    /// Whether an identity follows from some of the equations.
+    fn consequence(
+        &self,
+        form: &Trigonometric,
+        equations: &[Trigonometric],
+        budget: &mut Budget,
+    ) -> bool {
+        let first = self.letters.platform(0, 0);
+        if Span::new(equations).contains(form) || follows(form, equations, first, budget) {
+            return true;
+        }
+        // two closures are enough for what holds between two legs
+        let count = self.letters.0.closures().len();
+        let pairs = (0..count).flat_map(|a| (a + 1..count).map(move |b| [a, b]));
+        for pair in pairs.take(if count > 2 { MOST_PAIRS } else { 0 }) {
+            let mut own = Vec::new();
+            for closure in pair {
+                own.extend(self.of_closure(closure));
+            }
+            if follows(form, &own, first, budget) {
+                return true;
+            }
+        }
+        let loops = elimination::equations(self.letters.0, &self.formal);
+        eliminated(form, &loops, budget)
+    }
+
+    /// How an identity differs from what the closures give: in one term, or altogether.
+    fn refuted(
+        &self,
+        formula: &crate::mechanism::Formula,
+        equations: &[Trigonometric],
+    ) -> Option<Difference> {
+        let form = self.values.of(formula).ok().and_then(Symbolic::formula)?;
+        let mut budget = Budget {
+            products: MOST_PRODUCTS,
+        };
+        let first = self.letters.platform(0, 0);
+        let difference = match slip(&form, equations, first, &mut budget) {
+            Some(slip) => slip,
+            None => (*form).clone(),
+        };
+        (difference.len() <= MOST_TERMS).then(|| {
+            let own = form.restricted_to(&difference);
+            let theirs = own.minus(&difference);
+            self.written(&own, &theirs, &difference)
+        })
+    }
+
+    fn written(
+        &self,
+        own: &Trigonometric,
+        theirs: &Trigonometric,
+        difference: &Trigonometric,
+    ) -> Difference {
+        let all = [own, theirs, difference];
+        let mut expressions = arrange(&all, &|symbol| self.name(symbol)).expressions;
+        let mut next = || expressions.remove(0);
+        Difference {
+            closed_form: next(),
+            chains: next(),
+            difference: next(),
+        }
     }
 
     fn vanishing(&self, formula: &crate::mechanism::Formula, equations: &[Trigonometric]) -> Proof {
@@ -259,9 +389,13 @@ impl<'a> Setting<'a> {
         let Some(form) = form.without_denominators(&mut budget) else {
             return not_decided(Reason::TooLong);
         };
-        let first = self.letters.platform(0, 0);
-        if Span::new(equations).contains(&form) || follows(&form, equations, first, &mut budget) {
+        if self.consequence(&form, equations, &mut budget) {
             return Proof::FollowsFromClosures;
+        }
+        if let Some(squared) = self.without_root(&form, &mut budget)
+            && self.consequence(&squared, equations, &mut budget)
+        {
+            return Proof::FollowsForTheseDimensions;
         }
         // a slip in an equation leaves less of it than there was
         let nearest = (equations.iter())

@@ -253,8 +253,9 @@ fn closures(
                 joints.push(joint("_turn", AxisKind::Revolute, &poses[1], [between, to]));
             }
             ClosureKind::Distance => {
-                let ball =
-                    |suffix, end: usize, bodies| joint(suffix, AxisKind::Spherical, &poses[end], bodies);
+                let ball = |suffix, end: usize, bodies| {
+                    joint(suffix, AxisKind::Spherical, &poses[end], bodies)
+                };
                 let Some(slide) = length_of(mechanism, at, index, joints)? else {
                     joints.push(ball("_1", 0, [from, middle()]));
                     joints.push(ball("_2", 1, [middle(), to]));
@@ -278,7 +279,9 @@ fn length_of(
     known: &[Joint],
 ) -> Result<Option<Joint>, AxesError> {
     let closure = &mechanism.closures()[index];
-    let [first, second] = mechanism.poses(closure.frames, at).map(|pose| pose.position);
+    let [first, second] = mechanism
+        .poses(closure.frames, at)
+        .map(|pose| pose.position);
     let along = second - first;
     let refused = || AxesError::Closure {
         closure: closure.name.clone(),

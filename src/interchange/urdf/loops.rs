@@ -263,7 +263,9 @@ impl LoopReader<'_> {
             let Some(along) = direction([v[0], v[1], v[2]]) else {
                 let joint = node.attribute("name").unwrap_or("joint").to_owned();
                 let example = "<xyz>0 0 1</xyz>";
-                return self.problems.say(ImportProblemKind::NoAxis { joint, example }, part);
+                return self
+                    .problems
+                    .say(ImportProblemKind::NoAxis { joint, example }, part);
             };
             axis = along;
         }

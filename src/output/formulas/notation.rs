@@ -6,8 +6,8 @@ use std::collections::BTreeSet;
 
 use crate::algebra::{Constant, Expression, Function, Node, Operator};
 use crate::mechanism::Mechanism;
-pub(super) use characters::{lowered, upright};
 use characters::{GREEK, VULGAR, escaped, parts, raised};
+pub(super) use characters::{lowered, upright};
 
 /// For terminals or for TeX.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -74,7 +74,11 @@ pub(in crate::output::formulas) fn escaped(name: &str) -> String {
 pub(in crate::output::formulas) fn upright(name: &str) -> String {
     let plain = |c: char| c.is_ascii_alphanumeric() || c == '.' || c == '_';
     // in mathematics a dash is a minus and spaces vanish
-    let command = if name.chars().all(plain) { "mathrm" } else { "text" };
+    let command = if name.chars().all(plain) {
+        "mathrm"
+    } else {
+        "text"
+    };
     format!("\\{command}{{{}}}", escaped(name))
 }
 
