@@ -7,6 +7,7 @@
 mod along;
 mod classify;
 mod curve;
+mod drops;
 mod locus;
 mod trace;
 
