@@ -291,7 +291,7 @@ fn slipped(name: &str, right: &str, wrong: &str) -> (CompareReport, String) {
 fn a_slip_in_an_identity_of_a_loop_is_refuted_with_that_slip() {
     let (report, text) = slipped("four_bar", "- K2*cos(theta1)", "+ K2*cos(theta1)");
     assert!(!report.agree);
-    let expected = "Freudenstein: the form has l₀ cos θ₁/l₃ where the closures give −l₀ cos θ₁/l₃; difference 2 l₀ cos θ₁/l₃.";
+    let expected = "Freudenstein, identity: the form has l₀ cos θ₁/l₃ where the closures give −l₀ cos θ₁/l₃; difference 2 l₀ cos θ₁/l₃.";
     assert!(text.contains(expected), "{text}");
     // what no single term mends is written out as it is
     let opposite = "\"opposite\": \"sin((theta1 + theta3)/2)\"";

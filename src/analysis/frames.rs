@@ -15,7 +15,7 @@ use crate::description::{
     AxesDescription, AxesProblem, AxisKind, Convention, Description, Displacement, Problem,
     ProblemKind, Role,
 };
-use crate::geometry::{Pose, Relation};
+use crate::geometry::{Pose, Relation, Vector3};
 use crate::mechanism::{Assignment, Mechanism, Normal, SerialAxes};
 
 pub use given::{AxesError, joint_axes};
@@ -261,7 +261,15 @@ fn far_normals(
     for chain in placed {
         for (k, pair) in chain.rows.windows(2).enumerate() {
             let normal = &chain.normals[k + 1];
-            let offset = pair[0].d.abs().max(pair[1].d.abs());
+            let from = Vector3(normal.from);
+            let first = axes
+                .joints
+                .iter()
+                .position(|j| j.name.value == chain.joints[k]);
+            // at the ends of a chain the offset stands in base or tip
+            let away = first.filter(|&j| axes.joints[j].value.kind == AxisKind::Revolute);
+            let away = away.map_or(0.0, |j| (from - values.lines[j].point).norm());
+            let offset = pair[0].d.abs().max(pair[1].d.abs()).max(away);
             let parallel = normal.relation.is_none_or(Relation::is_parallel);
             let angle = normal.angle.min(std::f64::consts::PI - normal.angle);
             // an offset that large at axes not nearly parallel was asked for

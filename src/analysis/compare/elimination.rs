@@ -20,9 +20,13 @@ use crate::geometry::Axis;
 use crate::mechanism::{Formal, Frame, Mechanism};
 
 /// Rows of one elimination at most.
-const MOST_ROWS: usize = 200;
+const MOST_ROWS: usize = 240;
 /// Entries of all rows of one elimination at most.
-const MOST_ENTRIES: usize = 12_000;
+const MOST_ENTRIES: usize = 24_000;
+/// Angles that are not in the formula at most.
+const MOST_OTHERS: usize = 5;
+/// Products of two terms made at most for one formula.
+const MOST_PRODUCTS: usize = 500_000;
 
 /// What vanishes where the closures are whole that join chains on the ground.
 pub(super) fn equations(mechanism: &Mechanism, formal: &Formal) -> Vec<Trigonometric> {
@@ -140,8 +144,8 @@ fn whole(formula: &Trigonometric, budget: &mut Budget) -> Option<Vec<Trigonometr
 }
 
 /// The squarefree numbers whose roots are in the field of the coefficients.
-fn roots(formulas: &[Trigonometric]) -> Vec<u64> {
-    let terms = formulas.iter().flat_map(Trigonometric::terms);
+fn roots<'a>(formulas: impl Iterator<Item = &'a Trigonometric>) -> Vec<u64> {
+    let terms = formulas.flat_map(Trigonometric::terms);
     let mut roots: BTreeSet<u64> = terms.map(|(key, _)| key.root).collect();
     roots.insert(1);
     loop {
@@ -160,42 +164,46 @@ fn roots(formulas: &[Trigonometric]) -> Vec<u64> {
 }
 
 /// Whether the formula vanishes where the equations do, as far as elimination in few angles tells.
-pub(super) fn eliminated(
-    formula: &Trigonometric,
-    equations: &[Trigonometric],
-    budget: &mut Budget,
-) -> bool {
-    let Some(targets) = whole(formula, budget) else {
-        return false;
-    };
-    let known: Option<Vec<_>> = equations.iter().map(degrees).collect();
-    let (Some(known), Some(own)) = (known, degrees(formula)) else {
-        return false;
+pub(super) fn eliminated(formula: &Trigonometric, equations: &[Trigonometric]) -> bool {
+    let mut budget = Budget {
+        products: MOST_PRODUCTS,
     };
     let one = Ratio::one();
-    let mut all: BTreeSet<u32> = known.iter().flat_map(|d| d.keys().copied()).collect();
-    let reached = targets.iter().filter_map(degrees).flatten();
-    if all.len() > 8 || reached.into_iter().any(|(_, degree)| degree > one) {
+    let low = |target: &Trigonometric| {
+        let found = degrees(target);
+        found.is_some_and(|degrees| degrees.values().all(|degree| *degree <= one))
+    };
+    // it vanishes where its square does, too
+    let square = formula
+        .times(formula, &mut budget)
+        .map(|square| vec![square]);
+    let sets = [square, whole(formula, &mut budget)].into_iter().flatten();
+    let sets: Vec<Vec<Trigonometric>> = sets.filter(|set| set.iter().all(low)).collect();
+    let known: Option<Vec<_>> = equations.iter().map(degrees).collect();
+    let (Some(known), Some(own), false) = (known, degrees(formula), sets.is_empty()) else {
+        return false;
+    };
+    let first: Vec<u32> = own.keys().copied().collect();
+    let mut others: BTreeSet<u32> = known.iter().flat_map(|d| d.keys().copied()).collect();
+    others.retain(|symbol| !first.contains(symbol));
+    if others.len() > MOST_OTHERS {
         return false;
     }
-    let first: Vec<u32> = own.keys().copied().collect();
-    first.iter().for_each(|symbol| {
-        all.remove(symbol);
-    });
-    let others: Vec<u32> = all.into_iter().collect();
+    let others: Vec<u32> = others.into_iter().collect();
     let mut choices: Vec<u32> = (0..1 << others.len()).collect();
     choices.sort_by_key(|choice| (choice.count_ones(), *choice));
-    let all_formulas: Vec<Trigonometric> = equations.iter().chain(&targets).cloned().collect();
-    let field = roots(&all_formulas);
+    let field = roots(equations.iter().chain(sets.iter().flatten()));
     for choice in choices {
         let added = others.iter().enumerate();
         let added = added.filter(|(i, _)| choice >> i & 1 == 1).map(|(_, s)| *s);
         let angles: Vec<u32> = first.iter().copied().chain(added).collect();
-        let Some(rows) = rows(equations, &known, &angles, field.len(), budget) else {
+        let Some(rows) = rows(equations, &known, &angles, field.len(), &mut budget) else {
             continue;
         };
         let mut span = Span::over(&rows, &field);
-        if targets.iter().all(|target| span.contains(target)) {
+        let mut contained =
+            |set: &Vec<Trigonometric>| set.iter().all(|target| span.contains(target));
+        if sets.iter().any(&mut contained) {
             return true;
         }
     }

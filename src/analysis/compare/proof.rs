@@ -18,6 +18,8 @@ use crate::number::Number;
 
 /// Products of two terms made at most for one closed form.
 const MOST_PRODUCTS: usize = 100_000;
+/// The same where loops are eliminated.
+const MOST_PRODUCTS_OF_LOOPS: usize = 2_000_000;
 /// A difference of more terms is not printed.
 const MOST_TERMS: usize = 400;
 /// Pairs of closures from which an identity is tried to be derived.
@@ -130,10 +132,12 @@ pub(super) fn refutations(mechanism: &Mechanism, form: &ClosedForm) -> Vec<Optio
 fn over_letters<R>(mechanism: &Mechanism, form: &ClosedForm, work: impl FnOnce() -> R) -> R {
     let mut values = Letters(mechanism).values();
     values.resize(values.len() + form.locals.len(), 0.0);
-    let budget = Budget {
-        products: MOST_PRODUCTS,
+    let products = match form.gives {
+        Given::Pose { .. } => MOST_PRODUCTS,
+        // the loops are seen from every link
+        Given::Identities(_) => MOST_PRODUCTS_OF_LOOPS,
     };
-    with_letters(values, budget, work)
+    with_letters(values, Budget { products }, work)
 }
 
 struct Attempt {
@@ -330,8 +334,7 @@ impl<'a> Setting<'a> {
                 return true;
             }
         }
-        let loops = elimination::equations(self.letters.0, &self.formal);
-        eliminated(form, &loops, budget)
+        eliminated(form, &elimination::equations(self.letters.0, &self.formal))
     }
 
     /// How an identity differs from what the closures give: in one term, or altogether.
