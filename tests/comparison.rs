@@ -330,7 +330,7 @@ fn a_slip_in_an_identity_of_a_loop_is_refuted_with_that_slip() {
 
 #[test]
 fn overconstrained_loops_are_eliminated() {
-    for (name, special) in [("sarrus", false), ("schatz", false), ("planar_3rpr", true)] {
+    for (name, special) in [("sarrus", false), ("schatz", true), ("planar_3rpr", true)] {
         let path = format!("{}/mechanisms/{name}.ron", env!("CARGO_MANIFEST_DIR"));
         let mechanism = Mechanism::load(path).unwrap();
         let report = compare(&mechanism, &FEW);

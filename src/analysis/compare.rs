@@ -3,8 +3,10 @@
 mod consequence;
 mod elimination;
 mod formula;
+mod identity;
 mod proof;
 mod samples;
+mod variables;
 
 use serde::{Serialize, Serializer};
 

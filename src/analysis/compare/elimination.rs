@@ -99,6 +99,16 @@ fn degrees(formula: &Trigonometric) -> Option<BTreeMap<u32, Ratio<i64>>> {
     Some(degrees)
 }
 
+/// Whether all angles of the formulas are letters alone, from the first that stands for a joint on: where constant angles
+/// stand beside them the coefficients are no sums of roots, and elimination with rational numbers tells nothing.
+pub(super) fn has_plain_angles(formulas: &[Trigonometric], first_joint: u32) -> bool {
+    let plain = |formula| {
+        let found = degrees(formula);
+        found.is_some_and(|degrees| degrees.keys().all(|symbol| *symbol >= first_joint))
+    };
+    formulas.iter().all(plain)
+}
+
 /// e^iw + e^−iw and (e^iw − e^−iw)/i·(−1) for w = Σ k times a letter; only the first if w is zero.
 fn circular(factors: &[(u32, Ratio<i64>)]) -> Vec<Trigonometric> {
     let parts = factors.iter().filter(|(_, k)| !k.is_zero());

@@ -1,0 +1,151 @@
+//! Identities: what vanishes where a mechanism is assembled, because the equations of its closures do.
+
+use std::collections::BTreeMap;
+
+use num_rational::BigRational;
+use num_traits::Signed;
+
+use super::consequence::{Span, follows, slip};
+use super::elimination::{self, eliminated, has_plain_angles};
+use super::proof::{Difference, MOST_PRODUCTS, MOST_TERMS, Proof, Reason, Setting};
+use crate::algebra::{Atom, Budget, Symbolic, Trigonometric};
+use crate::mechanism::Formula;
+
+/// Pairs of closures from which an identity is tried to be derived.
+const MOST_PAIRS: usize = 15;
+
+impl Setting<'_> {
+    /// The sum of which a root is a part, times the same with the other sign of the root: P a² − b² of a√P + b, where b is
+    /// a negative number and a a positive one, so that the other factor is not zero.
+    fn without_root(&self, form: &Trigonometric, budget: &mut Budget) -> Option<Trigonometric> {
+        let is_root = |(atom, power): &(Atom, i32)| matches!(atom, Atom::Root(_)) && *power == 1;
+        let mut other = Trigonometric::zero();
+        let mut rest = Trigonometric::zero();
+        let mut roots = 0;
+        for (key, coefficient) in form.terms() {
+            let part = Trigonometric::term(key.clone(), coefficient.clone());
+            match key.powers.iter().any(is_root) {
+                true => {
+                    let alone = key.powers.len() == 1 && key.wave.0.is_empty() && !key.imaginary;
+                    if !alone || !coefficient.is_positive() {
+                        return None;
+                    }
+                    roots += 1;
+                    other = other.plus(&part);
+                }
+                false => rest = rest.plus(&part),
+            }
+        }
+        let constants = self.letters.joint(0);
+        let constant = rest.symbols().iter().all(|symbol| *symbol < constants);
+        let values = self.letters.values();
+        let negative = rest.value(&|symbol| values[symbol as usize]) < 0.0;
+        if roots != 1 || !constant || !negative {
+            return None;
+        }
+        form.times(&other.minus(&rest), budget)
+    }
+
+    /// Whether an identity follows from some of the equations.
+    fn consequence(
+        &self,
+        form: &Trigonometric,
+        equations: &[Trigonometric],
+        budget: &mut Budget,
+    ) -> bool {
+        let first = self.letters.platform(0, 0);
+        if Span::new(equations).contains(form) || follows(form, equations, first, budget) {
+            return true;
+        }
+        // two closures are enough for what holds between two legs
+        let count = self.letters.0.closures().len();
+        let pairs = (0..count).flat_map(|a| (a + 1..count).map(move |b| [a, b]));
+        for pair in pairs.take(if count > 2 { MOST_PAIRS } else { 0 }) {
+            let mut own = Vec::new();
+            for closure in pair {
+                own.extend(self.of_closure(closure));
+            }
+            if follows(form, &own, first, budget) {
+                return true;
+            }
+        }
+        has_plain_angles(equations, self.letters.joint(0))
+            && eliminated(form, &elimination::equations(self.letters.0, &self.formal))
+    }
+
+    /// How an identity differs from what the closures give: in one term, or altogether.
+    pub(super) fn refuted(
+        &self,
+        formula: &Formula,
+        equations: &[Trigonometric],
+    ) -> Option<Difference> {
+        let form = self.values.of(formula).ok().and_then(Symbolic::formula)?;
+        let mut budget = Budget {
+            products: MOST_PRODUCTS,
+        };
+        let first = self.letters.platform(0, 0);
+        let difference = match slip(&form, equations, first, &mut budget) {
+            Some(slip) => slip,
+            None => (*form).clone(),
+        };
+        (difference.len() <= MOST_TERMS).then(|| {
+            let own = form.restricted_to(&difference);
+            let theirs = own.minus(&difference);
+            self.written(&own, &theirs, &difference)
+        })
+    }
+
+    pub(super) fn vanishing(&self, formula: &Formula, equations: &[Trigonometric]) -> Proof {
+        let not_decided = |reason| Proof::NotDecided { reason };
+        let Some(form) = self.values.of(formula).ok().and_then(Symbolic::formula) else {
+            return not_decided(Reason::TooLong);
+        };
+        let mut budget = Budget {
+            products: MOST_PRODUCTS,
+        };
+        if form.vanishes(&mut budget) == Some(true) {
+            return Proof::Identical;
+        }
+        if Span::new(equations).contains(&form) {
+            return Proof::FollowsFromClosures;
+        }
+        let Some(form) = form.without_denominators(&mut budget) else {
+            return not_decided(Reason::TooLong);
+        };
+        if self.consequence(&form, equations, &mut budget) {
+            return Proof::FollowsFromClosures;
+        }
+        if let Some(squared) = self.without_root(&form, &mut budget)
+            && self.consequence(&squared, equations, &mut budget)
+        {
+            return Proof::FollowsForTheseDimensions;
+        }
+        // a slip in an equation leaves less of it than there was
+        let nearest = (equations.iter())
+            .filter_map(|equation| form.nearest_multiple(equation))
+            .min_by_key(|multiple| form.minus(multiple).len());
+        match nearest {
+            Some(nearest) if 2 * form.minus(&nearest).len() <= form.len() => {
+                match self.decided(&form, &nearest) {
+                    different @ Proof::Different(_) => different,
+                    _ => not_decided(Reason::NeedsElimination),
+                }
+            }
+            _ => not_decided(Reason::NeedsElimination),
+        }
+    }
+}
+
+impl Trigonometric {
+    /// The multiple of the other that shares a term with it and leaves the fewest.
+    fn nearest_multiple(&self, other: &Self) -> Option<Self> {
+        let common = other
+            .terms()
+            .filter_map(|(key, coefficient)| Some(self.coefficient(key)? / coefficient));
+        // the ratio that most terms have
+        let mut ratios: BTreeMap<BigRational, usize> = BTreeMap::new();
+        common.for_each(|ratio| *ratios.entry(ratio).or_default() += 1);
+        let (ratio, _) = ratios.into_iter().max_by_key(|(_, count)| *count)?;
+        Some(other.scaled(&ratio))
+    }
+}

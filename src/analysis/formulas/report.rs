@@ -1,0 +1,109 @@
+//! What comes out when a mechanism is multiplied out.
+
+use serde::Serialize;
+
+use crate::algebra::Expression;
+
+/// A mechanism in closed form. Lengths are in m and angles in rad.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct FormulasReport {
+    /// Every letter that stands in a formula.
+    pub letters: Vec<Letter>,
+    /// From link to link, chain by chain.
+    pub links: Vec<TransformFormula>,
+    /// The tip of every chain in ground, or the transform asked for.
+    pub transforms: Vec<TransformFormula>,
+    /// The closure equations.
+    pub closures: Vec<ClosureFormula>,
+    /// The screw Jacobians of the transforms.
+    pub jacobians: Vec<JacobianFormula>,
+    /// What was left out because it would be too long.
+    pub left_out: Vec<String>,
+    /// Whether everything was simplified as far as it can be.
+    pub simplified: bool,
+}
+
+/// What a name in the formulas stands for.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Letter {
+    /// Its name.
+    pub name: String,
+    /// What it is.
+    pub meaning: Meaning,
+    /// The value at home: m, rad or without unit.
+    pub value: f64,
+}
+
+/// What kind of thing a letter is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Meaning {
+    /// A named constant.
+    Parameter,
+    /// A joint variable that is an angle.
+    Angle,
+    /// A joint variable that is a length.
+    Slide,
+    /// A joint variable that is an angle and slides too.
+    Screw,
+    /// A component of the axes n, s, a or of the origin p of a platform.
+    Platform,
+}
+
+/// ⁱⱼT in closed form.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct TransformFormula {
+    /// The frame.
+    pub of: String,
+    /// The frame it is seen from.
+    #[serde(rename = "in")]
+    pub relative_to: String,
+    /// Rows of the rotation matrix: columns are the axes n, s, a of the frame.
+    pub rotation: [[Expression; 3]; 3],
+    /// Its origin, in m.
+    pub position: [Expression; 3],
+}
+
+/// What a closure asks for.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct ClosureFormula {
+    /// Its name.
+    pub name: String,
+    /// The joint it restores.
+    pub kind: &'static str,
+    /// The frames it joins.
+    pub between: [String; 2],
+    /// Expressions that vanish where it is closed, without those that vanish everywhere.
+    pub equations: Vec<Expression>,
+    /// How many more there are that vanish for all joint values, as those out of the plane of a planar loop.
+    pub identically_zero: usize,
+    /// Of a `Distance` whose equation is long: the vector g between its ends and its length s, g·g = s².
+    pub distance: Option<([Expression; 3], Expression)>,
+    /// Of a `Rigid` closure with a platform: the axes of both frames are equal too, which takes three more equations.
+    pub same_axes: bool,
+    /// Whether the equations also admit the joint put together the wrong way round.
+    pub admits_flipped: bool,
+}
+
+/// The screw Jacobian of a frame: its twist is the sum of these columns times the joint rates.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct JacobianFormula {
+    /// The frame, whose origin's velocity is taken.
+    pub of: String,
+    /// The frame it is seen from.
+    #[serde(rename = "in")]
+    pub relative_to: String,
+    /// One for each joint that moves the frame.
+    pub columns: Vec<TwistFormula>,
+}
+
+/// The twist for a unit rate of a joint variable.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct TwistFormula {
+    /// The joint.
+    pub joint: String,
+    /// Velocity of the origin: m/s per rad/s or per m/s.
+    pub velocity: [Expression; 3],
+    /// Rotation rate: rad/s per rad/s or per m/s.
+    pub omega: [Expression; 3],
+}
