@@ -69,7 +69,7 @@ impl Velocity {
             Format::Json => analysed::json(mechanism, &report, output::json),
         };
         let warning = yes.map(|report| analysed::limits_warning(&report.outside_limits));
-        let yes = yes.is_some_and(|report| report.gain.is_none());
+        let yes = yes.is_some_and(|report| report.is_determined());
         Ok(Answer {
             data,
             remarks: loaded.warnings() + &warning.unwrap_or_default(),

@@ -2,11 +2,15 @@
 
 use super::{ClosureWrenches, FrameTwists, Held, System, Unknown, Work};
 use crate::description::{ClosureKind, Role};
-use crate::linear::{Decomposition, dot, norm, orthonormal, rank_of};
+use crate::linear::{Decomposition, RANK_TOLERANCE, complement, dot, norm, orthonormal, rank_of};
 use crate::mechanism::{Body, Configuration, Frame, Mechanism};
 use crate::solve::{Equations, Newton, Stop};
 
-/// A mechanism with nothing held, to be looked at near assembled configurations.
+/// What is rounding among the rates of motions of unit norm.
+const ROUNDING: f64 = 1e-6;
+
+/// A mechanism with nothing held, or what a question holds, to be looked at near assembled
+/// configurations.
 #[derive(Clone, Debug)]
 pub struct Neighbourhood<'a> {
     mechanism: &'a Mechanism,
@@ -40,9 +44,14 @@ pub struct Followed {
 }
 
 impl<'a> Neighbourhood<'a> {
-    /// Prepares a mechanism.
+    /// Prepares a mechanism of which nothing is held.
     pub fn new(mechanism: &'a Mechanism) -> Self {
-        let system = System::new(mechanism.dimensions(), &Held::nothing(mechanism));
+        Neighbourhood::holding(mechanism, &Held::nothing(mechanism))
+    }
+
+    /// Prepares a mechanism of which something is held.
+    pub fn holding(mechanism: &'a Mechanism, held: &Held<f64>) -> Self {
+        let system = System::new(mechanism.dimensions(), held);
         let frames = mechanism.frames();
         Neighbourhood {
             mechanism,
@@ -52,7 +61,7 @@ impl<'a> Neighbourhood<'a> {
         }
     }
 
-    /// The closure equations with nothing held.
+    /// The closure equations.
     pub fn system(&self) -> &System<f64> {
         &self.system
     }
@@ -80,8 +89,12 @@ impl<'a> Neighbourhood<'a> {
             let along = |i: usize| all.iter().zip(weights).map(|(m, w)| m[i] * w).sum();
             (0..columns).map(along).collect()
         };
-        let idle = split.null_space();
-        let motions = crate::linear::complement(&idle, all.len());
+        let idle = match split.singular_values().first() {
+            // all of it is rounding beside motions of unit norm
+            Some(&largest) if largest < ROUNDING => complement(&[], all.len()),
+            _ => split.null_space(),
+        };
+        let motions = complement(&idle, all.len());
         Tangent {
             idle: idle.iter().map(combine).collect(),
             // without idle ones the basis stays as sparse as it came
@@ -122,8 +135,6 @@ impl<'a> Neighbourhood<'a> {
 
     /// Whether motions are idle: links turn about their own lines and nothing else moves.
     pub fn are_idle(&self, at: &Configuration<f64>, motions: &[Vec<f64>]) -> bool {
-        /// Beside motions of unit norm this is rounding.
-        const ROUNDING: f64 = 1e-6;
         let felt = self.felt(at, motions);
         felt.iter().all(|rate| rate.abs() < ROUNDING)
     }
@@ -193,6 +204,13 @@ impl<'a> Neighbourhood<'a> {
     /// Source: Golubitsky and Schaeffer, Singularities and Groups in Bifurcation Theory I, 1985.
     pub fn follow(&mut self, from: &Tangent, direction: &[f64], distance: f64) -> Option<Followed> {
         const STEPS: usize = 60;
+        /// What rounding leaves of a dimensionless residual.
+        const CLOSED: f64 = 4e-15;
+        // a residual that is rounding asks for corrections of this length
+        let noise = (CLOSED / from.decomposition.smallest()).max(1e-12);
+        if noise > distance {
+            return None;
+        }
         let step: Vec<f64> = direction.iter().map(|x| x * distance).collect();
         let mut at = self.system.displaced(&from.at, &step);
         let mut before = f64::INFINITY;
@@ -205,7 +223,7 @@ impl<'a> Neighbourhood<'a> {
             if size.is_nan() || size >= 10.0 * distance {
                 return None;
             }
-            if size < 1e-14 || (size < 1e-12 && size >= 0.5 * before) {
+            if size < 1e-14 || (size < noise && size >= 0.5 * before) {
                 let gap = norm(residual);
                 return Some(Followed { at, gap });
             }
@@ -217,7 +235,8 @@ impl<'a> Neighbourhood<'a> {
     }
 
     /// The finite step along a motion if there is one: no longer than `distance`, shortened as far
-    /// as needed for it to settle. `Err` has the gap of one that leaves the closures open.
+    /// as needed for it to settle, which near a singular configuration is about the distance to that.
+    /// `Err` has the gap of one that leaves the closures open.
     pub fn free_step(
         &mut self,
         from: &Tangent,
@@ -227,13 +246,72 @@ impl<'a> Neighbourhood<'a> {
         /// This gap may be left and the motion still counts as free: rounding. A freedom that is
         /// infinitesimal to order five only leaves 0.05⁶ = 1.6e-8 times its curvature.
         const FREE: f64 = 1e-11;
-        const HALVINGS: i32 = 6;
-        let mut lengths = (0..HALVINGS).map(|k| distance * 0.5f64.powi(k));
-        match lengths.find_map(|length| self.follow(from, direction, length)) {
-            Some(step) if step.gap <= FREE => Ok(step),
-            Some(step) => Err(Some(step.gap)),
-            None => Err(None),
+        /// The same for a step so short that a freedom of second order would leave no more than that.
+        const FREE_IF_SHORT: f64 = 1e-13;
+        const SHORT: f64 = 1e-3;
+        let mut length = distance;
+        while length > RANK_TOLERANCE {
+            if let Some(step) = self.follow(from, direction, length) {
+                let free = if length < SHORT { FREE_IF_SHORT } else { FREE };
+                return match step.gap <= free {
+                    true => Ok(step),
+                    false => Err(Some(step.gap)),
+                };
+            }
+            length *= 0.5;
         }
+        Err(None)
+    }
+
+    /// Whether all motions are finite, tried along one that mixes them all: a shaky structure has some
+    /// that are not.
+    pub fn is_mobile(&mut self, at: &Tangent) -> bool {
+        const STEP: f64 = 0.05;
+        let mut mixed = vec![0.0; self.system.unknowns().len()];
+        for (motion, weight) in at.motions.iter().zip(1u8..) {
+            let weight = (1.7 * f64::from(weight)).sin();
+            (mixed.iter_mut().zip(motion)).for_each(|(x, m)| *x += weight * m);
+        }
+        let size = norm(&mixed);
+        if size == 0.0 {
+            return true;
+        }
+        mixed.iter_mut().for_each(|x| *x /= size);
+        self.free_step(at, &mixed, STEP).is_ok()
+    }
+
+    /// About how far the nearest singular configuration is along the motions, in rad and
+    /// characteristic lengths; `None` if that is more than `within` or nothing leads there.
+    ///
+    /// The smallest singular value σ = uᵀ J v that counts changes by gᵢ = uᵀ (∂J/∂mᵢ) v along a
+    /// motion mᵢ, so that to first order it vanishes at the distance σ/‖g‖.
+    pub fn singular_within(&mut self, from: &Tangent, within: f64) -> Option<f64> {
+        /// Step of the central differences.
+        const STEP: f64 = 1e-4;
+        let (u, v) = from.decomposition.weakest()?;
+        let smallest = from.decomposition.smallest();
+        let rows = self.system.rows();
+        let mut squares = 0.0;
+        for motion in &from.motions {
+            let mut slope = 0.0;
+            for step in [STEP, -STEP] {
+                let ahead: Vec<f64> = motion.iter().map(|x| x * step).collect();
+                let at = self.system.displaced(&from.at, &ahead);
+                self.system.linearise(&at, &mut self.work);
+                let jacobian = self.system.dense_jacobian(&mut self.work);
+                let columns = jacobian.chunks_exact(rows).zip(v);
+                let value: f64 = columns.map(|(column, v)| v * dot(u, column)).sum();
+                slope += value / (2.0 * step);
+            }
+            squares += slope * slope;
+        }
+        let distance = smallest / squares.sqrt();
+        (distance < within).then_some(distance)
+    }
+
+    /// The largest dimensionless row of the equations at a configuration.
+    pub fn residual(&mut self, at: &Configuration<f64>) -> f64 {
+        self.system.residual(at, &mut self.work).largest
     }
 
     /// What a motion ξ leaves of the equations to second order: wᵀ H(ξ, ξ) for each of the given w

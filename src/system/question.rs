@@ -257,6 +257,33 @@ impl<'a> Question<'a> {
         (joints(asked).chain(coordinates).chain(joints(by_file))).collect()
     }
 
+    /// The held coordinates as they are driven and as they carry loads: a platform whose whole
+    /// orientation is held turns about the axes of ground, which is never singular, where roll, pitch
+    /// and yaw are near a pitch of ±90°.
+    pub fn driven_coordinates(&self) -> Vec<Holdable> {
+        let held = self.held_coordinates().into_iter();
+        held.map(|coordinate| match coordinate {
+            Holdable::Coordinate(platform, c) if self.held_angles(platform).is_some() => match c {
+                Coordinate::Roll => Holdable::Turn(platform, Axis::X),
+                Coordinate::Pitch => Holdable::Turn(platform, Axis::Y),
+                Coordinate::Yaw => Holdable::Turn(platform, Axis::Z),
+                Coordinate::X | Coordinate::Y | Coordinate::Z => coordinate,
+            },
+            Holdable::Coordinate(..) | Holdable::Joint(_) | Holdable::Turn(..) => coordinate,
+        })
+        .collect()
+    }
+
+    /// Roll, pitch and yaw of a platform whose whole orientation is held.
+    pub fn held_angles(&self, platform: usize) -> Option<RollPitchYaw<f64>> {
+        let value = |c: Coordinate| self.coordinates[platform][c as usize];
+        Some(RollPitchYaw {
+            roll: value(Coordinate::Roll)?,
+            pitch: value(Coordinate::Pitch)?,
+            yaw: value(Coordinate::Yaw)?,
+        })
+    }
+
     /// The names of the held coordinates.
     pub fn held_names(&self) -> Vec<String> {
         let joints = self.mechanism.joints().iter().zip(&self.joints);
