@@ -22,7 +22,8 @@ pub struct Velocity {
     source: Source,
     #[command(flatten)]
     asked: Asked,
-    /// Rate of a held joint or coordinate, e.g. --rate l1=0.1
+    /// Rate of a held joint or coordinate, e.g. --rate l1=0.1; where the orientation of a platform is held, its angular
+    /// velocity about axes of ground, e.g. --rate top.wx=0.1
     #[arg(long, value_name = "NAME=RATE")]
     rate: Vec<Assignment>,
     /// Acceleration of a held joint or coordinate, e.g. --acceleration l1=0.02

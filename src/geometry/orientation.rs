@@ -153,8 +153,7 @@ impl<T: Number> RollPitchYaw<T> {
         // yaw carries the axis of pitch, both carry that of roll
         let by_yaw = axes[2].times(yaw);
         let by_both = by_yaw + axes[1].times(pitch);
-        let carried =
-            by_yaw.cross(&axes[1]).times(pitch) + by_both.cross(&axes[0]).times(roll);
+        let carried = by_yaw.cross(&axes[1]).times(pitch) + by_both.cross(&axes[0]).times(roll);
         [sum(rates), sum(changes) + carried]
     }
 

@@ -84,7 +84,8 @@ pub fn driven_complaint(error: &DriveError, option: &str) -> (Complaint, Part) {
             (said(title.title(), "not known", Some(help)), Part::Name)
         }
         DriveError::Whole { platform, held } => {
-            let title = format!("`{platform}` is a whole platform, and a single coordinate has a rate");
+            let title =
+                format!("`{platform}` is a whole platform, and a single coordinate has a rate");
             let help = match held.is_empty() {
                 true => format!(
                     "hold it, and give rates of its coordinates: {} {option} {}",
@@ -154,7 +155,10 @@ fn said(title: String, label: &str, help: Option<String>) -> Complaint {
 
 /// The options that hold a platform and nothing else.
 fn instead(platform: &str) -> String {
-    format!("--free actuated --hold {}", quoted(&format!("{platform}=home")))
+    format!(
+        "--free actuated --hold {}",
+        quoted(&format!("{platform}=home"))
+    )
 }
 
 /// How to stop holding coordinates: joints are freed, platform coordinates are held only by an option,

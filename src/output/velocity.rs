@@ -99,8 +99,9 @@ fn gained(gain: &Gain, nothing_held: bool) -> String {
              finite. `linkwork mobility` says which are; the rates are not determined."
         ),
         (false, true) => format!(
-            "Not determined: {freedoms} more than are held, {moving} can move although everything \
-             held stands still. Hold as many of them too, or ask beside this configuration."
+            "Not determined: {moving} can move although everything held stands still, in {freedoms} \
+             more than are held. Motions meet here, which `linkwork mobility` lists; ask beside this \
+             configuration."
         ),
         (false, false) => format!(
             "Singular: {freedoms} gained, {moving} can move to first order although everything held \
@@ -117,7 +118,10 @@ fn infinitesimal(moving: &[String], only: &FirstOrderOnly) -> String {
     };
     let why = match only.gap_after_step {
         Some(gap) => format!("a finite step along them leaves the closures open by {gap:.1e}"),
-        None => format!("any accelerations open the closures, at {:.1e} per s²", only.mismatch),
+        None => format!(
+            "any accelerations open the closures, at {:.1e} per s²",
+            only.mismatch
+        ),
     };
     let so = match only.shaky {
         true => "the mechanism cannot move here",

@@ -1,10 +1,11 @@
 //! Rates and accelerations of everything for those of what is held.
 
 mod frames;
+mod held;
 
 use super::{Held, HeldPlatform, Holdable, System, Unknown, Work};
-use crate::geometry::{Pose, Quaternion, Rotation, Vector3};
-use crate::mechanism::{Configuration, Coordinate, Mechanism, PlatformPose};
+use crate::geometry::{Quaternion, Vector3};
+use crate::mechanism::{Configuration, Mechanism, PlatformPose};
 use crate::number::{Dual, Number};
 use crate::solve::Equations;
 
@@ -49,27 +50,7 @@ impl Motion {
     /// For a choice of what is held.
     pub fn new(mechanism: &Mechanism, coordinates: &[Holdable]) -> Self {
         let dimensions = mechanism.dimensions();
-        let mut held = Held::nothing(mechanism);
-        for &coordinate in coordinates {
-            match coordinate {
-                Holdable::Joint(joint) => held.joints[joint] = true,
-                Holdable::Coordinate(platform, _) | Holdable::Turn(platform, _)
-                    if whole(coordinates, platform) =>
-                {
-                    held.platforms[platform] = HeldPlatform::Pose;
-                }
-                Holdable::Coordinate(platform, coordinate) => {
-                    partly(&mut held.platforms[platform])
-                        .0
-                        .push((coordinate, 0.0));
-                }
-                // the three turns of an orientation
-                Holdable::Turn(platform, _) => {
-                    *partly(&mut held.platforms[platform]).1 =
-                        Some(Pose::<f64>::identity().rotation);
-                }
-            }
-        }
+        let held = held::of(mechanism, coordinates);
         let system = System::new(dimensions, &held);
         let first = System::new(
             &dimensions.map(&mut Dual::constant),
@@ -188,7 +169,7 @@ impl Motion {
             }
         }
         for platform in 0..self.held.platforms.len() {
-            if let Some(omega) = turning(&self.coordinates, given, platform) {
+            if let Some(omega) = held::turning(&self.coordinates, given, platform) {
                 let pose = self.first_path.platforms[platform].orientation;
                 let pose = PlatformPose {
                     orientation: Quaternion(pose.0.map(|x| x.value)),
@@ -315,7 +296,7 @@ impl Motion {
             }
         }
         for (platform, pose) in at.platforms.iter().enumerate() {
-            let turns = |given| turning(&self.coordinates, given, platform);
+            let turns = |given| held::turning(&self.coordinates, given, platform);
             if let (Some(omega), Some(change)) = (turns(rates), turns(given)) {
                 let wanted = moved(pose, self.length, |k| match k {
                     0..3 => time(omega[k], change[k]),
@@ -337,50 +318,6 @@ impl Motion {
         scatter(self.system.unknowns(), step, &self.scales, all);
         &self.accelerations
     }
-}
-
-/// Whether a pose is held whole, with turns about the axes of ground.
-fn whole(coordinates: &[Holdable], platform: usize) -> bool {
-    let all = coordinates.iter();
-    let of_it = all.filter(|held| match held {
-        Holdable::Turn(of, _) => *of == platform,
-        Holdable::Coordinate(of, c) => *of == platform && !c.is_angle(),
-        Holdable::Joint(_) => false,
-    });
-    of_it.count() == 6
-}
-
-/// The coordinates and the orientation of a platform held in part.
-fn partly(
-    held: &mut HeldPlatform<f64>,
-) -> (&mut Vec<(Coordinate, f64)>, &mut Option<Rotation<f64>>) {
-    if !matches!(held, HeldPlatform::Partly { .. }) {
-        *held = HeldPlatform::Partly {
-            coordinates: Vec::new(),
-            orientation: None,
-        };
-    }
-    match held {
-        HeldPlatform::Partly {
-            coordinates,
-            orientation,
-        } => (coordinates, orientation),
-        HeldPlatform::Free | HeldPlatform::Pose => unreachable!("made so above"),
-    }
-}
-
-/// The angular velocity (or acceleration) given to the orientation of a platform, if that is held by
-/// turns.
-fn turning(coordinates: &[Holdable], given: &[f64], platform: usize) -> Option<[f64; 3]> {
-    let mut turns = None;
-    for (coordinate, &value) in coordinates.iter().zip(given) {
-        if let Holdable::Turn(of, axis) = *coordinate
-            && of == platform
-        {
-            turns.get_or_insert([0.0; 3])[axis as usize] = value;
-        }
-    }
-    turns
 }
 
 /// t as a number with derivatives, of the path t ẋ + t²/2 ẍ.

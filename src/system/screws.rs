@@ -81,7 +81,10 @@ impl Neighbourhood<'_> {
                 let velocity = (velocity - omega.cross(&origin)).times(1.0 / length);
                 [omega.0, velocity.0].concat()
             };
-            let lines = spin_lines(idle.iter().map(|m| frames.twist(place, &placement, m).omega));
+            let lines = spin_lines(
+                idle.iter()
+                    .map(|m| frames.twist(place, &placement, m).omega),
+            );
             let twists: Vec<Vec<f64>> = (motions.iter())
                 .map(|motion| {
                     let twist = frames.twist(place, &placement, motion);

@@ -43,7 +43,10 @@ pub(super) fn of(
     let mut at = |place: &Configuration<f64>| {
         motion.at(place);
         let rates = motion.rates(&given).to_vec();
-        (rates, motion.accelerations(place, &given, &changes).to_vec())
+        (
+            rates,
+            motion.accelerations(place, &given, &changes).to_vec(),
+        )
     };
     let (rates, accelerations) = at(&rest.at);
     let (mut by_rates, mut by_accelerations) = (0.0_f64, 0.0_f64);
@@ -101,9 +104,7 @@ pub(super) fn first_order_only(
     let gap = match alone && length > 0.0 {
         true => {
             direction.iter_mut().for_each(|x| *x /= length);
-            near.free_step(&tangent, &direction, STEP)
-                .err()
-                .flatten()
+            near.free_step(&tangent, &direction, STEP).err().flatten()
         }
         false => None,
     };

@@ -2,7 +2,8 @@
 
 use serde::Serialize;
 
-use super::{Spins, unit};
+use super::frames::Spins;
+use super::unit;
 use crate::geometry;
 use crate::linear::{Decomposition, rank};
 use crate::mechanism::{Configuration, Coordinate, Frame, Mechanism, Role};
@@ -75,8 +76,8 @@ pub(super) fn outputs(mechanism: &Mechanism, held: &[Holdable], spinning: &[usiz
                 Coordinate::ALL.into_iter().partition(|c| c.is_angle());
             let coordinate =
                 |c: Coordinate| (!is_held(&c)).then_some(Output::Coordinate(platform, c));
-            let turned = (held.iter())
-                .any(|held| matches!(held, Holdable::Turn(of, _) if *of == platform));
+            let turned =
+                (held.iter()).any(|held| matches!(held, Holdable::Turn(of, _) if *of == platform));
             match angles.iter().any(is_held) {
                 _ if turned => {}
                 true => outputs.extend(angles.into_iter().filter_map(coordinate)),

@@ -20,11 +20,14 @@ pub(super) fn explanation(mechanism: &Mechanism, report: &MobilityReport) -> Str
         };
         sentences.push(format!("Redundant {verb}: {}.", redundant.join("; ")));
     }
-    let (rods, links): (Vec<&IdleFreedom>, Vec<&IdleFreedom>) = (report.idle_freedoms.iter())
-        .partition(|freedom| matches!(freedom, IdleFreedom::Rod(_)));
+    let (rods, links): (Vec<&IdleFreedom>, Vec<&IdleFreedom>) =
+        (report.idle_freedoms.iter()).partition(|freedom| matches!(freedom, IdleFreedom::Rod(_)));
     for (spins, why) in [
         (links, "Kutzbach's count includes"),
-        (rods, "Kutzbach's count leaves out too, for a `Distance` has none"),
+        (
+            rods,
+            "Kutzbach's count leaves out too, for a `Distance` has none",
+        ),
     ] {
         match &spins[..] {
             [] => {}
