@@ -5,12 +5,15 @@ use crate::linear::norm;
 use crate::mechanism::Configuration;
 use crate::system::{Drive, Motion, Neighbourhood, Tangent};
 
-/// What is asked, or if nothing moves every input at once: the Jacobian tells of that.
-fn asked(drive: &Drive) -> (Vec<f64>, Vec<f64>) {
-    let still = |values: &[f64]| values.iter().all(|x| *x == 0.0);
-    match still(&drive.rates) && still(&drive.accelerations) {
-        true => (vec![1.0; drive.rates.len()], drive.accelerations.clone()),
-        false => (drive.rates.clone(), drive.accelerations.clone()),
+fn is_still(values: &[f64]) -> bool {
+    values.iter().all(|x| *x == 0.0)
+}
+
+/// The rates given, or if there are none every input at once: the Jacobian tells of that.
+fn rates_or_all(drive: &Drive) -> Vec<f64> {
+    match is_still(&drive.rates) {
+        true => vec![1.0; drive.rates.len()],
+        false => drive.rates.clone(),
     }
 }
 
