@@ -542,6 +542,9 @@ fn rates_of_a_shaky_structure_belong_to_no_motion() {
         let drive = Drive::still(&question).rate(&question, name, "1").unwrap();
         let found = report(&question, &drive).first_order_only;
         assert_eq!(found.is_some(), infinitesimal, "{name} {found:?}");
+        let from_rest = Drive::still(&question).acceleration(&question, name, "1");
+        let found = report(&question, &from_rest.unwrap()).first_order_only;
+        assert_eq!(found.is_some(), infinitesimal, "{name} {found:?}");
     }
     let moving = load("four_bar");
     let question = Question::new(&moving);

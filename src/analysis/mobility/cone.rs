@@ -3,7 +3,7 @@
 use rand::Rng;
 
 use super::branches::combination;
-use crate::linear::{Decomposition, dot, norm, orthonormal};
+use crate::linear::{dot, norm, orthonormal};
 use crate::system::{Neighbourhood, Tangent};
 
 /// The quadratic tangent cone: the motions ξ = Σ vᵢ mᵢ with wₖᵀ H(ξ, ξ) = 0 for all wₖ with
@@ -92,6 +92,8 @@ impl Cone {
         const STEPS: usize = 40;
         /// Double solutions are neared linearly only: what is left is left to the finite step.
         const NEAR: f64 = 1e-5;
+        /// Where they are neared linearly no more steps are made than to here.
+        const NEAR_ENOUGH: f64 = 1e-8;
         let n = self.freedoms;
         let unit = |i: usize| (0..n).map(|j| f64::from(u8::from(i == j))).collect();
         let units: Vec<Vec<f64>> = (0..n).map(unit).collect();
@@ -99,8 +101,8 @@ impl Cone {
         let mut left = f64::INFINITY;
         for _ in 0..STEPS {
             let (values, mut slopes) = self.linearised(&v);
-            left = norm(&values);
-            if left < 1e-12 {
+            let before = std::mem::replace(&mut left, norm(&values));
+            if left < 1e-12 || (left < NEAR_ENOUGH && left > 0.1 * before) {
                 break;
             }
             // by Euler the slope along v is twice the value: a step there would only shorten v
@@ -108,7 +110,7 @@ impl Cone {
                 let along = column.iter_mut().zip(&values);
                 along.for_each(|(slope, value)| *slope -= 2.0 * value * v);
             }
-            let back = Decomposition::of(values.len(), n, &slopes).solve(&values);
+            let back = shortest(values.len(), &slopes, &values)?;
             v.iter_mut().zip(&back).for_each(|(v, b)| *v -= b);
             let length = norm(&v);
             if length.is_nan() || length < 1e-3 {
@@ -135,4 +137,18 @@ impl Cone {
         }
         (values, slopes)
     }
+}
+
+/// The shortest x with S x = b for a column-major S of few rows: Sᵀ (S Sᵀ)⁻¹ b, damped so that it has a
+/// value where S loses rank (Levenberg 1944). Iterated, it need not be exact.
+fn shortest(rows: usize, columns: &[f64], b: &[f64]) -> Option<Vec<f64>> {
+    const DAMPING: f64 = 1e-13;
+    let s = nalgebra::DMatrix::from_column_slice(rows, columns.len() / rows, columns);
+    let mut gram = &s * s.transpose();
+    let damping = DAMPING * gram.trace().max(f64::MIN_POSITIVE);
+    (0..rows).for_each(|i| gram[(i, i)] += damping);
+    let weights = gram
+        .cholesky()?
+        .solve(&nalgebra::DVector::from_column_slice(b));
+    Some(s.tr_mul(&weights).iter().copied().collect())
 }

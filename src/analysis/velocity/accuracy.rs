@@ -42,14 +42,12 @@ pub(super) fn of(
     };
     let smallest = rest.decomposition.smallest();
     let off = held.residual(&rest.at).max(ROUNDING) / smallest;
-    let (given, changes) = asked(drive);
+    let given = rates_or_all(drive);
+    let changes = &drive.accelerations;
     let mut at = |place: &Configuration<f64>| {
         motion.at(place);
         let rates = motion.rates(&given).to_vec();
-        (
-            rates,
-            motion.accelerations(place, &given, &changes).to_vec(),
-        )
+        (rates, motion.accelerations(place, &given, changes).to_vec())
     };
     let (rates, accelerations) = at(&rest.at);
     let (mut by_rates, mut by_accelerations) = (0.0_f64, 0.0_f64);
@@ -89,7 +87,15 @@ pub(super) fn first_order_only(
     const STEP: f64 = 0.05;
     /// Accelerations that open a closure by less than this beside the largest do so by rounding.
     const ROUNDING: f64 = 1e-6;
-    let (given, changes) = asked(drive);
+    // from rest the accelerations are what a motion begins with
+    let given = match is_still(&drive.rates) && !is_still(&drive.accelerations) {
+        true => drive.accelerations.clone(),
+        false => rates_or_all(drive),
+    };
+    let changes = match is_still(&drive.rates) {
+        true => vec![0.0; given.len()],
+        false => drive.accelerations.clone(),
+    };
     let rates = motion.rates(&given).to_vec();
     let strongest = largest(motion.accelerations(at, &given, &changes));
     let mismatch = motion.mismatch_of_accelerations(at);
