@@ -92,8 +92,6 @@ impl Cone {
         const STEPS: usize = 40;
         /// Double solutions are neared linearly only: what is left is left to the finite step.
         const NEAR: f64 = 1e-5;
-        /// Where they are neared linearly no more steps are made than to here.
-        const NEAR_ENOUGH: f64 = 1e-8;
         let n = self.freedoms;
         let unit = |i: usize| (0..n).map(|j| f64::from(u8::from(i == j))).collect();
         let units: Vec<Vec<f64>> = (0..n).map(unit).collect();
@@ -101,8 +99,8 @@ impl Cone {
         let mut left = f64::INFINITY;
         for _ in 0..STEPS {
             let (values, mut slopes) = self.linearised(&v);
-            let before = std::mem::replace(&mut left, norm(&values));
-            if left < 1e-12 || (left < NEAR_ENOUGH && left > 0.1 * before) {
+            left = norm(&values);
+            if left < 1e-12 {
                 break;
             }
             // by Euler the slope along v is twice the value: a step there would only shorten v
