@@ -492,8 +492,34 @@ fn questions_that_make_no_sense_are_told_what_to_ask_instead() {
                 "top=[Tz(0.9), Ry(90 deg)]",
                 "--rate",
                 "top.yaw=1",
+                "--rate",
+                "top.wx=1",
             ],
-            "--rate top.wx=0.1",
+            "either roll, pitch and yaw, or top.wx",
+        ),
+        (
+            &["velocity", SIX_SPS, "--rate", "top.wx=1"],
+            "--free actuated --hold top=home",
+        ),
+        (
+            &["velocity", SIX_SPS, "--rate", "top=1"],
+            "--rate top.z=0.1",
+        ),
+        (
+            &["velocity", FOUR_BAR, "--rate", "hand.z=1"],
+            "--rate theta1=0.1",
+        ),
+        (
+            &["statics", SIX_SPS, "--load", "top.z=1"],
+            "--wrench top=0,0,1",
+        ),
+        (
+            &["statics", FOUR_BAR, "--load", "hand=1"],
+            "theta1, phi2 and phi1",
+        ),
+        (
+            &["velocity", "mechanisms/triangle.ron", "--rate", "theta=1"],
+            "linkwork statics",
         ),
         (
             &["velocity", FOUR_BAR, "--rate", "theta1=0.1 m"],

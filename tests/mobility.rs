@@ -394,6 +394,59 @@ fn motions_that_meet_are_told_apart() {
     );
 }
 
+#[test]
+fn near_singular_is_not_singular() {
+    // the unit motion of a parallelogram turns every joint by 1/√3, and at θ = 0 it is singular
+    let mechanism = load("parallelogram");
+    let at = |degrees: f64| {
+        let question = Question::new(&mechanism);
+        let question = question
+            .hold("theta1", &format!("{degrees:?} deg"))
+            .unwrap();
+        mobility(&question, &MobilitySettings::default())
+            .closed()
+            .unwrap()
+    };
+    for degrees in [1e-4, 1e-3, 0.01, 0.1, 1.0f64] {
+        let report = at(degrees);
+        assert_eq!(report.character, Character::Regular, "{degrees}");
+        assert_eq!((report.mobility, report.infinitesimal), (1, 1));
+        let distance = 3f64.sqrt() * degrees.to_radians();
+        let said = report.singular_at.unwrap();
+        assert!((said / distance - 1.0).abs() < 0.05, "{degrees} {said:e}");
+    }
+    assert_eq!(at(30.0).singular_at, None);
+    assert_eq!(at(0.0).character, Character::Bifurcation);
+}
+
+#[test]
+fn a_platform_between_two_balls_is_named_as_what_spins() {
+    // a link between two balls on ground is a structure but for its spin
+    let mechanism = read(
+        r#"Mechanism(version: 1, name: "strut", convention: Modified, joints: {},
+        chains: { "low": Chain(), "high": Chain(base: [T(1, 2, 2)]) },
+        platforms: { "strut": Platform(home: [T(0.5, 1, 1)], frames: { "A": [], "B": [T(1, 2, 2)] }) },
+        closures: { "A": Spherical("low", "strut.A"), "B": Spherical("high", "strut.B") })"#,
+    );
+    let report = of(&mechanism);
+    assert_eq!(
+        (report.mobility, report.infinitesimal, report.kutzbach),
+        (0, 0, 0)
+    );
+    let [IdleFreedom::Platforms { platforms, joints }] = &report.idle_freedoms[..] else {
+        panic!("{:?}", report.idle_freedoms)
+    };
+    assert_eq!(
+        (platforms.as_slice(), joints.len()),
+        (&["strut".to_owned()][..], 0)
+    );
+    let [spin] = &report.twists[0].spins[..] else {
+        panic!("{:?}", report.twists)
+    };
+    let along = Vector3(spin.direction).dot(&Vector3([1.0, 2.0, 2.0])) / 3.0;
+    assert!((along - 1.0).abs() < 1e-9 && report.twists[0].screws.is_empty());
+}
+
 /// Parallelograms of cranks 2 and couplers 4 in line, beside each other.
 fn parallelograms(number: usize, more_joints: &str, more_chains: &str) -> Mechanism {
     let (mut joints, mut chains, mut closures) = <(String, String, String)>::default();

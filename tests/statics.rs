@@ -410,4 +410,12 @@ fn loads_that_make_no_sense_are_refused() {
     assert!(matches!(refused("top", "1,2,0/0"), LoadError::Value(_)));
     let joint = Load::default().joint(&question, "phi4", "1");
     assert!(matches!(joint, Err(LoadError::UnknownJoint { .. })));
+    let platform = Load::default().joint(&question, "top.yaw", "1");
+    assert!(matches!(
+        platform,
+        Err(LoadError::Platform {
+            component: Some(5),
+            ..
+        })
+    ));
 }

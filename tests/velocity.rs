@@ -5,6 +5,7 @@ use std::path::Path;
 
 use linkwork::analysis::assembly::{AssemblyReport, AssemblySettings, Outcome, assemble};
 use linkwork::analysis::velocity::{VelocityReport, VelocitySettings, velocity};
+use linkwork::description::Description;
 use linkwork::geometry::Vector3;
 use linkwork::mechanism::{Frame, Mechanism};
 use linkwork::solve::Newton;
@@ -133,8 +134,8 @@ fn rates_and_accelerations_are_those_of_solved_configurations() {
             for (exact, rough, scale) in [
                 (frame.velocity, velocity, length),
                 (frame.angular_velocity, omega, 1.0),
-                (frame.acceleration, change, length),
-                (frame.angular_acceleration, alpha, 1.0),
+                (frame.acceleration.unwrap(), change, length),
+                (frame.angular_acceleration.unwrap(), alpha, 1.0),
             ] {
                 let size = scale + rough.norm();
                 let error = (Vector3(exact) - rough).norm();
@@ -174,16 +175,9 @@ fn a_platform_can_be_driven_and_the_legs_follow_inversely() {
     let columns: Vec<&str> = backward.columns.iter().map(|c| c.name.as_str()).collect();
     assert_eq!(
         columns,
-        [
-            "top.x",
-            "top.y",
-            "top.z",
-            "top.roll",
-            "top.pitch",
-            "top.yaw"
-        ]
+        ["top.x", "top.y", "top.z", "top.wx", "top.wy", "top.wz"]
     );
-    // at the identity the rates of roll, pitch and yaw are ω; rows of the direct one begin with ω
+    // rows of the direct one begin with ω
     for i in 0..6 {
         for j in 0..6 {
             let product: f64 = (0..6)
@@ -393,9 +387,262 @@ fn a_pose_held_whole_has_rates_where_roll_and_yaw_are_one() {
             "{joint:?} {change}"
         );
     }
-    // an angle of which there is no rate is refused, with what to give instead
-    let refused = Drive::still(&question).rate(&question, "hand.yaw", "1");
-    assert!(matches!(refused, Err(DriveError::Locked { platform }) if platform == "hand"));
+    // yaw turns about z of ground, there too
+    let by_yaw = Drive::still(&question)
+        .rate(&question, "hand.yaw", "1")
+        .unwrap();
+    assert_eq!(report(&question, &by_yaw).joints, found.joints);
+    let refused = by_yaw.rate(&question, "hand.wx", "1");
+    assert!(matches!(refused, Err(DriveError::Mixed { platform }) if platform == "hand"));
+}
+
+#[test]
+fn near_a_pitch_of_ninety_degrees_only_the_angles_are_singular() {
+    // a pose that turns a little further by roll, against the legs there
+    let mechanism = load("stewart_gough_6sps");
+    let platform = Question::new(&mechanism).free("actuated").unwrap();
+    let at = |pitch: f64| {
+        let pose = format!("[Tz(1), Rz(20 deg), Ry({pitch:?} deg), Rx(10 deg)]");
+        let question = platform.clone().hold("top", &pose).unwrap();
+        let drive = Drive::still(&question)
+            .rate(&question, "top.roll", "1")
+            .unwrap();
+        report(&question, &drive)
+    };
+    let [near, nearer] = [89.999, 89.99999].map(at);
+    for found in [&near, &nearer] {
+        let jacobian = found.jacobian.as_ref().unwrap();
+        assert_eq!((jacobian.rank, jacobian.loss), (6, 0));
+    }
+    let condition = |found: &VelocityReport| found.jacobian.as_ref().unwrap().condition.unwrap();
+    assert!((condition(&near) / condition(&nearer) - 1.0).abs() < 1e-3);
+    // there roll turns about −z
+    let omega = nearer.frames[0].angular_velocity;
+    assert!((Vector3(omega) + Vector3([0.0, 0.0, 1.0])).norm() < 1e-6);
+}
+
+#[test]
+fn angles_of_a_platform_have_rates_and_accelerations_with_all_three_held() {
+    // against solved configurations; the whole pose held, and the orientation with three legs
+    let mechanism = load("stewart_gough_6sps");
+    let home = Question::new(&mechanism);
+    let start = assemble(&home, &AssemblySettings::default()).unwrap();
+    let angles = [
+        ("top.roll", 0.2, 0.4, -0.3),
+        ("top.pitch", -0.3, 0.5, 0.2),
+        ("top.yaw", 0.1, -0.6, 0.7),
+    ];
+    for others in [["top.x", "top.y", "top.z"], ["l4", "l5", "l6"]] {
+        let others = others.map(|name| {
+            let value = match mechanism.joint(name) {
+                Some(joint) => start.configuration.joints[joint],
+                None if name == "top.z" => 0.9,
+                None => 0.0,
+            };
+            (name, value, 0.1, 0.05)
+        });
+        let all = [&angles[..], &others[..]].concat();
+        let at = |t: f64| -> Vec<(String, f64)> {
+            let values = all.iter();
+            values
+                .map(|&(n, x, v, a)| (n.into(), x + v * t + 0.5 * a * t * t))
+                .collect()
+        };
+        let (question, now) = solved(&mechanism, &at(0.0), &start).unwrap();
+        let mut drive = Drive::still(&question);
+        for (name, _, rate, change) in &all {
+            drive = drive.rate(&question, name, &format!("{rate:?}")).unwrap();
+            drive = drive
+                .acceleration(&question, name, &format!("{change:?}"))
+                .unwrap();
+        }
+        let found = report(&question, &drive);
+        let [before, after] = [-STEP, STEP].map(|t| solved(&mechanism, &at(t), &now).unwrap().1);
+        for (i, joint) in found.joints.iter().enumerate() {
+            let [a, b, c] = [&before, &now, &after].map(|report| report.configuration.joints[i]);
+            let (rate, change) = ((c - a) / (2.0 * STEP), (c - 2.0 * b + a) / (STEP * STEP));
+            assert!(
+                (joint.rate.unwrap() - rate).abs() < 1e-6,
+                "{joint:?} {rate}"
+            );
+            assert!(
+                (joint.acceleration.unwrap() - change).abs() < 1e-5,
+                "{joint:?} {change}"
+            );
+        }
+    }
+}
+
+#[test]
+fn beside_a_change_point_rates_are_known_as_well_as_is_said() {
+    // a parallelogram turns like its crank, without acceleration, however near it is
+    let mechanism = load("parallelogram");
+    let mut told = [0, 0];
+    for degrees in [3e-5, 1e-4, 3e-4, 1e-3, 1e-2, 0.1, 1.0, 30.0] {
+        let question = Question::new(&mechanism);
+        let question = question
+            .hold("theta1", &format!("{degrees:?} deg"))
+            .unwrap();
+        let drive = Drive::still(&question)
+            .rate(&question, "theta1", "1")
+            .unwrap();
+        let found = report(&question, &drive);
+        assert!(found.accuracy.rates < 0.01, "{:?}", found.accuracy);
+        for (joint, rate) in found.joints.iter().zip([1.0, -1.0, 1.0]) {
+            let error = (joint.rate.unwrap() - rate).abs();
+            assert!(
+                error <= found.accuracy.rates,
+                "{degrees} {error:e} {:?}",
+                found.accuracy
+            );
+            let Some(acceleration) = joint.acceleration.filter(|_| !joint.held) else {
+                continue;
+            };
+            let error = acceleration.abs();
+            assert!(
+                error <= found.accuracy.accelerations,
+                "{degrees} {error:e} {:?}",
+                found.accuracy
+            );
+        }
+        told[usize::from(found.is_determined())] += 1;
+        if degrees > 10.0 {
+            assert!(found.accuracy.accelerations < 1e-10, "{:?}", found.accuracy);
+        }
+    }
+    assert!(told[0] >= 2 && told[1] >= 3, "{told:?}");
+}
+
+#[test]
+fn rates_of_a_shaky_structure_belong_to_no_motion() {
+    let mechanism = load("flat_triangle");
+    let question = Question::new(&mechanism).hold("theta", "0").unwrap();
+    let drive = Drive::still(&question)
+        .rate(&question, "theta", "1")
+        .unwrap();
+    let found = report(&question, &drive);
+    // bars 2 and 3 in line: the middle hinge moves by 2 and turns the other bar back by 2/3
+    assert!((found.joints[1].rate.unwrap() + 5.0 / 3.0).abs() < 1e-12);
+    assert_eq!(found.joints[1].acceleration, None);
+    assert!(found.first_order_only.unwrap().shaky && !found.is_determined());
+    let free = Question::new(&mechanism);
+    let gain = report(&free, &Drive::still(&free)).gain.unwrap();
+    assert!(!gain.finite);
+    // a crank beside it moves, and with it only what is asked of the triangle
+    let text = std::fs::read_to_string(folder().join("flat_triangle.ron")).unwrap();
+    let text = text
+        .replace("\"phi\":", "\"spare\": Actuated(), \"phi\":")
+        .replace(
+            "\"post\":",
+            "\"arm\": Chain(rows: [(theta: \"spare\")], tip: [Tx(1)]), \"post\":",
+        );
+    let both = Mechanism::new(&Description::read(&text).unwrap()).unwrap();
+    let question = Question::new(&both).hold("theta", "0").unwrap();
+    for (name, infinitesimal) in [("theta", true), ("spare", false)] {
+        let drive = Drive::still(&question).rate(&question, name, "1").unwrap();
+        let found = report(&question, &drive).first_order_only;
+        assert_eq!(found.is_some(), infinitesimal, "{name} {found:?}");
+        let from_rest = Drive::still(&question).acceleration(&question, name, "1");
+        let found = report(&question, &from_rest.unwrap()).first_order_only;
+        assert_eq!(found.is_some(), infinitesimal, "{name} {found:?}");
+    }
+    let moving = load("four_bar");
+    let question = Question::new(&moving);
+    assert_eq!(
+        report(&question, &Drive::still(&question)).first_order_only,
+        None
+    );
+}
+
+#[test]
+fn what_is_left_free_on_a_branch_is_not_gained() {
+    let mechanism = load("two_rhombi");
+    let question = Question::new(&mechanism);
+    let gain = report(&question, &Drive::still(&question)).gain.unwrap();
+    assert_eq!((gain.freedoms, gain.finite), (2, true));
+    // at a change point with the crank held nothing can move, but infinitesimally
+    let mechanism = load("parallelogram");
+    let question = Question::new(&mechanism).hold("theta1", "0").unwrap();
+    let gain = report(&question, &Drive::still(&question)).gain.unwrap();
+    assert_eq!((gain.freedoms, gain.finite), (1, false));
+}
+
+#[test]
+fn a_coupler_between_two_balls_moves_as_its_ends_do_whatever_its_spin() {
+    // the same linkage with a rod and with a platform; ω = r × (v_B − v_A)/r², ω̇ likewise from the
+    // accelerations, for a coupler that does not spin about r
+    let file = |platforms: &str, closures: &str| {
+        let text = format!(
+            r#"Mechanism(version: 1, name: "R-S-S-R", convention: Modified,
+            parameters: {{ "l": 3.2 }},
+            joints: {{ "theta": Actuated(home: "40 deg"), "psi": Passive(home: "70 deg") }},
+            chains: {{
+                "crank": Chain(rows: [(theta: "theta")], tip: [Tx(1)]),
+                "rocker": Chain(base: [T(3, 0, 1), Rx("-70 deg")], rows: [(theta: "psi")], tip: [Tx(2)]),
+            }},
+            platforms: {{ {platforms} }}, closures: {{ {closures} }})"#
+        );
+        Mechanism::new(&Description::read(&text).unwrap()).unwrap()
+    };
+    let rod = file("", r#""rod": Distance("crank", "rocker", "l")"#);
+    let link = file(
+        r#""coupler": Platform(home: [T(2, 1, 0.5)], frames: { "A": [Tx("-l/2")], "B": [Tx("l/2")] })"#,
+        r#""A": Spherical("crank", "coupler.A"), "B": Spherical("rocker", "coupler.B")"#,
+    );
+    let driven = |mechanism: &Mechanism| {
+        let question = Question::new(mechanism);
+        let drive = Drive::still(&question)
+            .rate(&question, "theta", "1")
+            .unwrap();
+        report(&question, &drive)
+    };
+    let (by_rod, by_link) = (driven(&rod), driven(&link));
+    for (a, b) in by_rod.joints.iter().zip(&by_link.joints) {
+        let [a, b] = [a, b].map(|joint| [joint.rate.unwrap(), joint.acceleration.unwrap()]);
+        assert!((a[0] - b[0]).abs() < 1e-10 && (a[1] - b[1]).abs() < 1e-10);
+    }
+    let frame = |name: &str| {
+        let found = by_link.frames.iter().find(|frame| frame.name == name);
+        found.unwrap()
+    };
+    let (coupler, a, b) = (frame("coupler"), frame("coupler.A"), frame("coupler.B"));
+    let between = |a: [f64; 3], b: [f64; 3]| Vector3(b) - Vector3(a);
+    let r = between(a.position, b.position);
+    let [line] = coupler.spins[..] else {
+        panic!("{coupler:?}")
+    };
+    assert!((Vector3(line).dot(&r).abs() - 3.2).abs() < 1e-9);
+    let turn = |change: Vector3<f64>| r.cross(&change).times(1.0 / r.dot(&r));
+    let omega = turn(between(a.velocity, b.velocity));
+    assert!((Vector3(coupler.angular_velocity) - omega).norm() < 1e-10);
+    let change = turn(between(a.acceleration.unwrap(), b.acceleration.unwrap()));
+    assert!((Vector3(coupler.angular_acceleration.unwrap()) - change).norm() < 1e-9);
+    // links that do not spin have no such line
+    assert!(frame("crank").spins.is_empty());
+}
+
+#[test]
+fn transmission_angles_do_not_depend_on_the_cut() {
+    for theta in ["60 deg", "200 deg"] {
+        let angles = [
+            "four_bar",
+            "four_bar_cut1",
+            "four_bar_cut2",
+            "four_bar_cut4",
+        ]
+        .map(|name| {
+            let mechanism = load(name);
+            let question = Question::new(&mechanism).hold("theta1", theta).unwrap();
+            let found = report(&question, &Drive::still(&question)).transmission;
+            let [angle] = &found[..] else {
+                panic!("{name} {found:?}")
+            };
+            angle.transmission_angle
+        });
+        for angle in angles {
+            assert!((angle - angles[0]).abs() < 1e-9, "{angles:?}");
+        }
+    }
 }
 
 #[test]
@@ -620,6 +867,20 @@ fn rates_of_what_is_not_held_are_refused() {
         panic!("{refused:?}")
     };
     assert_eq!(held, ["l1", "l2", "l3"]);
+    let refused = |name: &str| Drive::still(&question).rate(&question, name, "1");
+    let whole = refused("top");
+    assert!(matches!(whole, Err(DriveError::Whole { held, .. }) if held.is_empty()));
+    assert!(matches!(
+        refused("top.wx"),
+        Err(DriveError::NotTurned { .. })
+    ));
+    assert!(
+        matches!(refused("hand"), Err(DriveError::UnknownName { held, .. }) if held.len() == 3)
+    );
+    let rigid = load("triangle");
+    let structure = Question::new(&rigid);
+    let refused = Drive::still(&structure).rate(&structure, "theta", "1");
+    assert_eq!(refused, Err(DriveError::Structure));
     assert!(Drive::still(&question).rate(&question, "l1", "0.1").is_ok());
     assert!(
         Drive::still(&question)

@@ -109,6 +109,9 @@ pub struct MobilityReport {
     /// Ratio of the largest to the smallest singular value that counts, of the dimensionless
     /// Jacobian.
     pub condition: f64,
+    /// About how far a singular configuration is where a regular one is nearer to it than the
+    /// length of a step, in rad and normalising lengths: to first order, along the motions.
+    pub singular_at: Option<f64>,
     /// The characteristic length that makes it dimensionless, in m.
     pub length: f64,
     /// The widest gap of the pose given, before it was closed.
@@ -142,8 +145,15 @@ pub enum Character {
 #[derive(Clone, Debug, PartialEq, Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum IdleFreedom {
-    /// The link turns in its joints, which these are.
+    /// The link turns in joints of its own, which these are.
     Joints(Vec<String>),
+    /// The link is a platform on closures, which turns in joints too if it has some.
+    Platforms {
+        /// The platform, or those that turn together.
+        platforms: Vec<String>,
+        /// The joints that turn with it.
+        joints: Vec<String>,
+    },
     /// The rod of a `Distance` turns in the balls at its ends, which the closure does not model.
     Rod(String),
 }
@@ -206,7 +216,7 @@ pub fn mobility(question: &Question, settings: &MobilitySettings) -> Analysed<Mo
         .map(|branch| BranchReport {
             mobility: branch.freedoms,
             moving_joints: moving(&branch.moved),
-            twists: near.twist_spaces(&tangent.at, &branch.motions),
+            twists: near.twist_spaces(&tangent.at, &branch.motions, &tangent.idle),
             cone: branch.cone,
             approximate: branch.approximate,
         })
@@ -239,8 +249,12 @@ pub fn mobility(question: &Question, settings: &MobilitySettings) -> Analysed<Mo
         idle_freedoms: idle_freedoms(mechanism, near.system().unknowns(), &tangent),
         loops: loops::count(&mut near, &closed.configuration),
         redundancies,
-        twists: near.twist_spaces(&tangent.at, &tangent.motions),
+        twists: near.twist_spaces(&tangent.at, &tangent.motions, &tangent.idle),
         condition: tangent.decomposition.condition(),
+        singular_at: match found.character {
+            Character::Regular => near.singular_within(&tangent, settings.step),
+            _ => None,
+        },
         length: mechanism.characteristic_length(),
         given: closed.given.filter(|gap| gap.size(mechanism) > 1e-9),
         kept: closed.kept,
@@ -297,15 +311,24 @@ fn idle_freedoms(
     /// Below this a component of a unit motion is rounding.
     const ROUNDING: f64 = 1e-6;
     let spins = axis_aligned(&tangent.idle);
-    let joints = |motion: &Vec<f64>| {
+    let link = |motion: &Vec<f64>| {
+        let (mut platforms, mut joints): (Vec<String>, Vec<String>) = (vec![], vec![]);
         let turning = (unknowns.iter().zip(motion)).filter(|(_, rate)| rate.abs() > ROUNDING);
-        let names = turning.filter_map(|(unknown, _)| match *unknown {
-            Unknown::Joint(joint) => Some(mechanism.joints()[joint].name.clone()),
-            Unknown::Twist { .. } => None,
-        });
-        IdleFreedom::Joints(names.collect())
+        for (unknown, _) in turning {
+            match *unknown {
+                Unknown::Joint(joint) => joints.push(mechanism.joints()[joint].name.clone()),
+                Unknown::Twist { platform, .. } => {
+                    platforms.push(mechanism.platforms()[platform].name.clone());
+                }
+            }
+        }
+        platforms.dedup();
+        match platforms.is_empty() {
+            true => IdleFreedom::Joints(joints),
+            false => IdleFreedom::Platforms { platforms, joints },
+        }
     };
     let rods = (mechanism.closures().iter()).filter(|c| c.kind == ClosureKind::Distance);
     let rods = rods.map(|rod| IdleFreedom::Rod(rod.name.clone()));
-    (spins.iter().map(joints)).chain(rods).collect()
+    (spins.iter().map(link)).chain(rods).collect()
 }

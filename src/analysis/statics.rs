@@ -123,7 +123,7 @@ pub fn statics(
     let tangent = near.tangent(at.clone());
     let unknowns = near.system().unknowns().to_vec();
     let rows = near.system().rows();
-    let held = question.held_coordinates();
+    let held = question.driven_coordinates();
 
     // Jᵀ and Sᵀ beside one another, column by column
     let mut entries = Vec::with_capacity(unknowns.len() * (rows + held.len()));

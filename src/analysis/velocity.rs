@@ -1,5 +1,7 @@
 //! How the inputs of an assembled mechanism drive it: rates, accelerations, Jacobian.
 
+mod accuracy;
+mod frames;
 mod jacobian;
 mod planar;
 
@@ -9,10 +11,11 @@ use crate::linear::RANK_TOLERANCE;
 use crate::mechanism::{Frame, Mechanism};
 use crate::solve::Newton;
 use crate::system::{
-    Analysed, Drive, FrameMotion, FrameMotions, Freedoms, Holdable, Motion, Neighbourhood,
-    Question, QuestionError, Unknown, WidestGap, check_angles, check_count, close, too_large,
+    Analysed, Drive, Holdable, Motion, Neighbourhood, Question, QuestionError, Tangent, Unknown,
+    WidestGap, check_angles, check_count, close, moving, too_large,
 };
 
+use frames::Spins;
 pub use jacobian::{Axis, InputOutput};
 pub use planar::{InstantCentre, Transmission};
 
@@ -54,6 +57,10 @@ pub struct VelocityReport {
     pub jacobian: Option<InputOutput>,
     /// What is gained at a singular configuration: it moves although everything held stands still.
     pub gain: Option<Gain>,
+    /// Whether the rates belong to no motion, so that there are no accelerations.
+    pub first_order_only: Option<FirstOrderOnly>,
+    /// How well rates and accelerations are known.
+    pub accuracy: Accuracy,
     /// Transmission angles of the planar loops that are closed one dyad after the other. Loops that
     /// must be solved together have none.
     pub transmission: Vec<Transmission>,
@@ -69,6 +76,15 @@ pub struct VelocityReport {
     pub kept: bool,
     /// Names of the joints that are outside their limits.
     pub outside_limits: Vec<String>,
+}
+
+impl VelocityReport {
+    /// Whether rates and accelerations are those of a motion, and known.
+    pub fn is_determined(&self) -> bool {
+        self.gain.is_none()
+            && self.first_order_only.is_none()
+            && self.accuracy.tells_accelerations()
+    }
 }
 
 /// A coordinate and how fast it changes.
@@ -112,19 +128,66 @@ pub struct FrameRate {
     pub angular_velocity: [f64; 3],
     /// Velocity of the origin in m/s.
     pub velocity: [f64; 3],
-    /// ω̇ in rad/s².
-    pub angular_acceleration: [f64; 3],
+    /// ω̇ in rad/s²; `None` where accelerations are not known.
+    pub angular_acceleration: Option<[f64; 3]>,
     /// Acceleration of the origin in m/s².
-    pub acceleration: [f64; 3],
+    pub acceleration: Option<[f64; 3]>,
+    /// Unit vectors of the lines about which its link spins in idle freedoms, at any rate: ω and ω̇
+    /// are those without such a spin.
+    pub spins: Vec<[f64; 3]>,
 }
 
-/// Freedoms gained at a singular configuration.
+/// Freedoms that are left although what is held stands still.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Gain {
     /// How many.
     pub freedoms: usize,
     /// What moves in them, the most mobile first.
     pub moving: Vec<String>,
+    /// Whether they are finite, so that more could be held; else they are infinitesimal at least.
+    pub finite: bool,
+}
+
+/// Rates that exist to first order and belong to no motion.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct FirstOrderOnly {
+    /// Whether nothing at all can move: the mechanism has one infinitesimal freedom, not finite.
+    pub shaky: bool,
+    /// What a finite step along the rates leaves of the closure equations, dimensionless.
+    pub gap_after_step: Option<f64>,
+    /// The acceleration, dimensionless per s², at which a closure would open.
+    pub mismatch: f64,
+}
+
+/// How well rates and accelerations are known. Near a singular configuration what rounding leaves of
+/// the closures may be far along the direction in which these hardly resist.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct Accuracy {
+    /// The smallest singular value of the dimensionless closure equations with what is held, of
+    /// those that count; `None` if nothing is unknown.
+    pub smallest_singular_value: Option<f64>,
+    /// How far the configuration may be off in that direction, in rad and normalising lengths.
+    pub configuration: f64,
+    /// Change of the rates for that, beside the largest of them. Above 0.01 none are given.
+    pub rates: f64,
+    /// Change of the accelerations, beside the largest of them or of the squared rates, whichever is
+    /// larger. Above 0.01 none are given.
+    pub accelerations: f64,
+}
+
+impl Accuracy {
+    /// What is uncertain by more than this is not told.
+    const LOST: f64 = 0.01;
+
+    /// Whether rates can be told.
+    pub fn tells_rates(&self) -> bool {
+        self.rates <= Accuracy::LOST
+    }
+
+    /// Whether accelerations can be told.
+    pub fn tells_accelerations(&self) -> bool {
+        self.tells_rates() && self.accelerations <= Accuracy::LOST
+    }
 }
 
 /// The unit of a coordinate.
@@ -163,49 +226,49 @@ pub fn velocity(
     check_angles(question, at)?;
     let mut motion = Motion::new(mechanism, &drive.coordinates);
     let mut near = Neighbourhood::new(mechanism);
-    let idle = near.tangent(at.clone()).idle.len();
-    let freedoms = Freedoms::at(mechanism.dimensions(), motion.held(), at);
-    let gained = freedoms.motions.len().saturating_sub(idle);
-    let gain = (gained > 0).then(|| Gain {
-        freedoms: gained,
-        moving: freedoms.moving(mechanism),
-    });
-    let determined = gain.is_none();
+    let mut held = Neighbourhood::holding(mechanism, &question.held());
+    let rest = held.tangent(at.clone());
+    let gain = gain(mechanism, &mut held, &rest);
+    let accuracy = accuracy::of(&mut motion, &mut held, &rest, drive);
+    let determined = gain.is_none() && accuracy.tells_rates();
 
     motion.at(at);
-    // idle motions are all there are, if the rest is determined
-    let spinning: Vec<usize> = (0..mechanism.joints().len())
-        .filter(|&joint| {
-            let mut unknowns = freedoms.unknowns.iter();
-            let place = unknowns.position(|u| *u == Unknown::Joint(joint));
-            place.is_some_and(|k| freedoms.motions.iter().any(|m| m[k].abs() > RANK_TOLERANCE))
-        })
-        .collect();
+    let spins = Spins::of(&held, &rest);
+    let spinning = spinning(&held, &rest);
     let jacobian = determined.then(|| {
         let mut outputs = jacobian::outputs(mechanism, &drive.coordinates, &spinning);
         outputs.extend(jacobian::followed(&outputs, &settings.points));
-        jacobian::input_output(mechanism, &mut motion, at, &outputs)
+        jacobian::input_output(mechanism, &mut motion, at, &outputs, &spins)
     });
     let centres = match determined {
         true => planar::centres(mechanism, &mut motion, at, drive),
         false => Vec::new(),
     };
+    let first_order_only = match determined {
+        true => accuracy::first_order_only(&mut near, &mut motion, at, drive),
+        false => None,
+    };
     let rates = motion.rates(&drive.rates).to_vec();
     let mismatch = determined.then(|| motion.mismatch(at));
     let changes = motion.accelerations(at, &drive.rates, &drive.accelerations);
+    let exist = first_order_only.is_none() && accuracy.tells_accelerations();
     let scales = &mechanism.dimensions().joint_scales;
     let joints = mechanism.joints().iter().enumerate();
-    let joints = joints.map(|(i, joint)| JointRate {
-        name: joint.name.clone(),
-        unit: unit(joint.kind.is_angle()),
-        held: drive.coordinates.contains(&Holdable::Joint(i)),
-        value: at.joints[i],
-        rate: (determined && !spinning.contains(&i)).then(|| rates[i] * scales[i]),
-        acceleration: (determined && !spinning.contains(&i)).then(|| changes[i] * scales[i]),
+    let joints = joints.map(|(i, joint)| {
+        let is_held = drive.coordinates.contains(&Holdable::Joint(i));
+        let known = determined && !spinning.contains(&i);
+        JointRate {
+            name: joint.name.clone(),
+            unit: unit(joint.kind.is_angle()),
+            held: is_held,
+            value: at.joints[i],
+            rate: known.then(|| rates[i] * scales[i]),
+            acceleration: (known && (exist || is_held)).then(|| changes[i] * scales[i]),
+        }
     });
     let joints = joints.collect();
     let frames = match determined {
-        true => frames(mechanism, &mut motion, at, &settings.points),
+        true => frames::rates(mechanism, &mut motion, at, &settings.points, &spins, exist),
         false => Vec::new(),
     };
     let inputs = drive.coordinates.iter().enumerate();
@@ -221,6 +284,8 @@ pub fn velocity(
         frames,
         jacobian,
         gain,
+        first_order_only,
+        accuracy,
         transmission: planar::transmission(&mut near, at, &drive.coordinates),
         centres,
         normalising_length: mechanism.characteristic_length(),
@@ -231,38 +296,23 @@ pub fn velocity(
     }))
 }
 
-fn frames(
-    mechanism: &Mechanism,
-    motion: &mut Motion,
-    at: &crate::mechanism::Configuration<f64>,
-    points: &[Frame],
-) -> Vec<FrameRate> {
-    let platforms = 0..mechanism.platforms().len();
-    let platforms = platforms.map(|platform| Frame::Platform { platform });
-    let mut frames: Vec<Frame> = platforms.collect();
-    frames.extend(
-        points
-            .iter()
-            .filter(|point| !matches!(point, Frame::Platform { .. })),
-    );
-    let mut motions = FrameMotions::new(mechanism, motion, &frames);
-    motions.place(motion, at);
-    let named = frames.iter().enumerate();
-    named
-        .map(|(i, &frame)| {
-            let FrameMotion {
-                position,
-                twist,
-                change,
-            } = motions.motion(i);
-            FrameRate {
-                name: mechanism.frame_name(frame),
-                position: position.0,
-                angular_velocity: twist.omega.0,
-                velocity: twist.velocity.0,
-                angular_acceleration: change.omega.0,
-                acceleration: change.velocity.0,
-            }
+/// What is free although everything held stands still.
+fn gain(mechanism: &Mechanism, held: &mut Neighbourhood, rest: &Tangent) -> Option<Gain> {
+    (!rest.motions.is_empty()).then(|| Gain {
+        freedoms: rest.motions.len(),
+        moving: moving(mechanism, held.system().unknowns(), &rest.motions),
+        finite: held.is_mobile(rest),
+    })
+}
+
+/// The joints that move only because their link spins about its own line.
+fn spinning(held: &Neighbourhood, rest: &Tangent) -> Vec<usize> {
+    let unknowns = held.system().unknowns().iter().enumerate();
+    let spins = |i: usize| rest.idle.iter().any(|m| m[i].abs() > RANK_TOLERANCE);
+    unknowns
+        .filter_map(|(i, unknown)| match *unknown {
+            Unknown::Joint(joint) if spins(i) => Some(joint),
+            _ => None,
         })
         .collect()
 }

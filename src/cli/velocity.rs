@@ -22,7 +22,8 @@ pub struct Velocity {
     source: Source,
     #[command(flatten)]
     asked: Asked,
-    /// Rate of a held joint or coordinate, e.g. --rate l1=0.1
+    /// Rate of a held joint or coordinate, e.g. --rate l1=0.1; where the orientation of a platform is held, its angular
+    /// velocity about axes of ground, e.g. --rate top.wx=0.1
     #[arg(long, value_name = "NAME=RATE")]
     rate: Vec<Assignment>,
     /// Acceleration of a held joint or coordinate, e.g. --acceleration l1=0.02
@@ -69,7 +70,7 @@ impl Velocity {
             Format::Json => analysed::json(mechanism, &report, output::json),
         };
         let warning = yes.map(|report| analysed::limits_warning(&report.outside_limits));
-        let yes = yes.is_some_and(|report| report.gain.is_none());
+        let yes = yes.is_some_and(|report| report.is_determined());
         Ok(Answer {
             data,
             remarks: loaded.warnings() + &warning.unwrap_or_default(),

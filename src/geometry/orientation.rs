@@ -136,6 +136,27 @@ impl<T: Number> RollPitchYaw<T> {
         (n[0].real()).hypot(n[1].real()) < 1e-6
     }
 
+    /// Angular velocity ω = E φ̇ and its rate ω̇ = E φ̈ + Ė φ̇ in ground, for rates and accelerations
+    /// of roll, pitch and yaw: E has the axes they turn about as columns, Rz Ry x̂, Rz ŷ and ẑ.
+    pub fn turning(&self, rates: [T; 3], changes: [T; 3]) -> [Vector3<T>; 2] {
+        let [(sy, cy), (sp, cp)] = [self.yaw.sin_cos(), self.pitch.sin_cos()];
+        let axes = [
+            Vector3([cy * cp, sy * cp, -sp]),
+            Vector3([-sy, cy, T::zero()]),
+            Vector3::unit(2),
+        ];
+        let sum = |factors: [T; 3]| {
+            let parts = axes.iter().zip(factors).map(|(axis, x)| axis.times(x));
+            parts.fold(Vector3::zero(), |sum, part| sum + part)
+        };
+        let [roll, pitch, yaw] = rates;
+        // yaw carries the axis of pitch, both carry that of roll
+        let by_yaw = axes[2].times(yaw);
+        let by_both = by_yaw + axes[1].times(pitch);
+        let carried = by_yaw.cross(&axes[1]).times(pitch) + by_both.cross(&axes[0]).times(roll);
+        [sum(rates), sum(changes) + carried]
+    }
+
     /// Rz(yaw)·Ry(pitch)·Rx(roll).
     pub fn rotation(&self) -> Rotation<T> {
         Rotation::about(Axis::Z, self.yaw.sin_cos())

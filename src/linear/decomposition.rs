@@ -95,9 +95,17 @@ impl Decomposition {
         .determinant()
     }
 
-    /// The direction that A shortens most, of those within its rank.
-    pub fn weakest(&self) -> Option<&[f64]> {
-        self.right.last().map(Vec::as_slice)
+    /// The unit vectors u and v of the smallest singular value that counts: A v = σ u.
+    pub fn weakest(&self) -> Option<(&[f64], &[f64])> {
+        Some((self.left.last()?, self.right.last()?))
+    }
+
+    /// The smallest singular value that counts; infinite if none does.
+    pub fn smallest(&self) -> f64 {
+        match self.rank() {
+            0 => f64::INFINITY,
+            rank => self.values[rank - 1],
+        }
     }
 
     /// Orthonormal basis of the vectors with A x = 0.

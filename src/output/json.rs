@@ -5,7 +5,7 @@ use serde_json::{Map, Value};
 
 /// A report as a JSON object that begins with the program's version and the mechanism's name.
 ///
-/// Numbers keep all their digits; one that is not finite is written as `null`.
+/// Numbers keep all their digits; one that is not finite is written as `null`, a negative zero as zero.
 pub(super) fn document(mechanism: &str, report: &impl Serialize) -> String {
     let mut object = Map::new();
     object.insert("linkwork".into(), env!("CARGO_PKG_VERSION").into());
@@ -15,5 +15,32 @@ pub(super) fn document(mechanism: &str, report: &impl Serialize) -> String {
     if let Value::Object(report) = report {
         object.extend(report);
     }
-    format!("{:#}\n", Value::Object(object))
+    let mut document = Value::Object(object);
+    unsign_zeros(&mut document);
+    format!("{document:#}\n")
+}
+
+/// A zero has no sign: what is left of one tells of the way a number was computed.
+fn unsign_zeros(value: &mut Value) {
+    match value {
+        Value::Number(number) if number.is_f64() && number.as_f64() == Some(0.0) => {
+            *value = 0.0.into();
+        }
+        Value::Array(parts) => parts.iter_mut().for_each(unsign_zeros),
+        Value::Object(parts) => parts.values_mut().for_each(unsign_zeros),
+        _ => {}
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn zeros_have_no_sign_however_deep() {
+        let report = serde_json::json!({ "a": [-0.0, [-1.5, { "b": -0.0 }]], "c": -0.0 });
+        let written: Value = serde_json::from_str(&document("x", &report)).unwrap();
+        assert_eq!(written["a"].to_string(), "[0.0,[-1.5,{\"b\":0.0}]]");
+        assert_eq!(written["c"].to_string(), "0.0");
+    }
 }

@@ -70,6 +70,8 @@ pub struct MobilityJson<'a> {
     pub twists: &'a [TwistSpace],
     /// Ratio of the largest to the smallest singular value that counts.
     pub condition: f64,
+    /// About how far a singular configuration is, in rad and normalising lengths, if it is near.
+    pub singular_at: Option<f64>,
     /// The length that makes the Jacobian dimensionless (m).
     pub normalising_length: f64,
     /// The widest gap of the pose given; `null` if it was closed.
@@ -131,6 +133,7 @@ impl<'a> MobilityJson<'a> {
             redundancies: &report.redundancies,
             twists: &report.twists,
             condition: report.condition,
+            singular_at: report.singular_at,
             normalising_length: report.length,
             given_gap: report.given.as_ref(),
             kept: report.kept,

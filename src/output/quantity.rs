@@ -51,6 +51,14 @@ pub(super) fn size(value: f64) -> String {
     }
 }
 
+/// An estimate, of which one digit is known.
+pub(super) fn coarse(value: f64) -> String {
+    match (1e-3..1e3).contains(&value.abs()) {
+        true => number(format!("{value:.0e}").parse().unwrap_or(value)),
+        false => format!("{value:.0e}"),
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

@@ -30,7 +30,13 @@ pub fn complaint(error: &QuestionError) -> (Complaint, Part) {
             let help = Some("give only one of them".to_owned());
             (said(title, "", help), Part::Name)
         }
-        QuestionError::TooMany { free, .. } => (said(title, "", Some(release(free))), Part::Name),
+        QuestionError::TooMany { mobility, free, .. } => {
+            let rest = match mobility {
+                0 => "; it is a structure, which nothing can move",
+                _ => "",
+            };
+            (said(title, "", Some(release(free) + rest)), Part::Name)
+        }
         QuestionError::TooFew { hold, .. } => {
             let help = format!(
                 "hold {} too, e.g. {}",
@@ -61,15 +67,55 @@ pub fn complaint(error: &QuestionError) -> (Complaint, Part) {
 pub fn driven_complaint(error: &DriveError, option: &str) -> (Complaint, Part) {
     match error {
         DriveError::Question(error) => complaint(error),
-        DriveError::Locked { platform } => {
-            let title = QuestionError::AnglesLocked {
-                platform: platform.clone(),
+        DriveError::UnknownName {
+            name,
+            suggestion,
+            held,
+        } => {
+            let title = QuestionError::UnknownName {
+                name: name.clone(),
+                suggestion: None,
             };
-            let help = format!(
-                "give angular velocities about the axes of ground, e.g. {option} {}",
-                quoted(&format!("{platform}.wx=0.1"))
+            let help = match (suggestion, held.is_empty()) {
+                (Some(meant), _) => format!("did you mean `{meant}`?"),
+                (None, false) => format!("drive what is held: {}", options(option, held, "=0.1")),
+                (None, true) => "hold a joint with --hold, and give the rate of that".into(),
+            };
+            (said(title.title(), "not known", Some(help)), Part::Name)
+        }
+        DriveError::Whole { platform, held } => {
+            let title =
+                format!("`{platform}` is a whole platform, and a single coordinate has a rate");
+            let help = match held.is_empty() {
+                true => format!(
+                    "hold it, and give rates of its coordinates: {} {option} {}",
+                    instead(platform),
+                    quoted(&format!("{platform}.z=0.1")),
+                ),
+                false => format!("give {}", options(option, held, "=0.1")),
+            };
+            (said(title, "a platform", Some(help)), Part::Name)
+        }
+        DriveError::NotTurned { platform } => {
+            let title = format!(
+                "`{platform}` turns about given axes only where its whole orientation is held"
             );
-            (said(title.title(), "", Some(help)), Part::Name)
+            let help = format!("hold it: {}", instead(platform));
+            (said(title, "not held", Some(help)), Part::Name)
+        }
+        DriveError::Mixed { platform } => {
+            let title = format!(
+                "how `{platform}` turns is given both by its angles and about the axes of ground"
+            );
+            let help = format!(
+                "give either roll, pitch and yaw, or {platform}.wx, {platform}.wy and {platform}.wz"
+            );
+            (said(title, "given twice", Some(help)), Part::Name)
+        }
+        DriveError::Structure => {
+            let title = "nothing can be driven: the mechanism is a structure, without a freedom";
+            let help = "`linkwork mobility` says why, `linkwork statics` what forces it carries";
+            (said(title.into(), "", Some(help.into())), Part::Name)
         }
         DriveError::NotHeld { name, held } => {
             let title = format!("`{name}` is not held here, so its rate follows from the others");
@@ -105,6 +151,14 @@ fn said(title: String, label: &str, help: Option<String>) -> Complaint {
         label: label.into(),
         help,
     }
+}
+
+/// The options that hold a platform and nothing else.
+fn instead(platform: &str) -> String {
+    format!(
+        "--free actuated --hold {}",
+        quoted(&format!("{platform}=home"))
+    )
 }
 
 /// How to stop holding coordinates: joints are freed, platform coordinates are held only by an option,

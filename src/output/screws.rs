@@ -8,10 +8,20 @@ use crate::system::{Screw, TwistSpace};
 pub(super) fn twists(title: &str, spaces: &[TwistSpace]) -> String {
     let mut table = plain(["body", "motion", "along", "through (m)", "pitch"]);
     let mut rows = 0;
-    for TwistSpace { body, screws } in spaces {
+    for TwistSpace {
+        body,
+        screws,
+        spins,
+    } in spaces
+    {
         for screw in screws {
             let [kind, along, through, pitch] = screw_words(screw);
             table.add_row([body.as_str(), kind.as_str(), &along, &through, &pitch]);
+            rows += 1;
+        }
+        for spin in spins {
+            let [_, along, through, _] = screw_words(spin);
+            table.add_row([body.as_str(), "idle spin", &along, &through, ""]);
             rows += 1;
         }
     }

@@ -204,14 +204,41 @@ pub fn complaint(mechanism: &Mechanism, error: &LoadError, option: &str) -> (Com
             Some("write Fx,Fy,Fz in N, or Fx,Fy,Fz,Mx,My,Mz with N·m".to_owned()),
             Part::WholeValue,
         ),
-        LoadError::UnknownJoint { name, suggestion } => (
+        LoadError::UnknownJoint {
+            name,
+            suggestion,
+            known,
+        } => (
             format!("`{name}` is not a joint"),
             "not known",
-            suggestion
-                .as_ref()
-                .map(|meant| format!("did you mean `{meant}`?")),
+            Some(match (suggestion, known.is_empty()) {
+                (Some(meant), _) => format!("did you mean `{meant}`?"),
+                (None, false) => format!("the joints are {}", listed(known)),
+                (None, true) => "there are no joints: load a frame with --wrench".into(),
+            }),
             Part::Name,
         ),
+        LoadError::Platform {
+            name,
+            platform,
+            component,
+        } => {
+            let mut example = ["0"; 6];
+            example[component.unwrap_or(2)] = "1";
+            let given = match component {
+                Some(3..) => 6,
+                _ => 3,
+            };
+            (
+                format!("`{name}` is not a joint: a platform is loaded by a wrench"),
+                "not a joint",
+                Some(format!(
+                    "give force and moment on it in ground, e.g. --wrench {platform}={}",
+                    example[..given].join(",")
+                )),
+                Part::Name,
+            )
+        }
     };
     let complaint = Complaint {
         title,

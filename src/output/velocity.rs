@@ -9,7 +9,7 @@ use super::json::document;
 use super::layout::{align_right, indented, plain};
 use super::quantity::{degrees, number, quantity, short, size};
 use crate::analysis::velocity::{
-    FrameRate, InputOutput, InstantCentre, Transmission, VelocityReport,
+    FirstOrderOnly, FrameRate, Gain, InputOutput, InstantCentre, Transmission, VelocityReport,
 };
 use crate::description::count;
 use crate::description::listed;
@@ -52,12 +52,11 @@ pub fn text(mechanism: &Mechanism, report: &VelocityReport) -> String {
 /// The answer in one sentence.
 fn sentence(report: &VelocityReport) -> String {
     if let Some(gain) = &report.gain {
-        return format!(
-            "Singular: {} gained, {} can move although everything held stands still; the rates are \
-             not determined.",
-            count(gain.freedoms, "freedom"),
-            listed(&gain.moving)
-        );
+        return gained(gain, report.inputs.is_empty());
+    }
+    let doubt = doubt(report);
+    if !report.accuracy.tells_rates() {
+        return doubt;
     }
     let inputs = report.inputs.iter();
     let moving = inputs.filter(|input| input.rate != 0.0 || input.acceleration != 0.0);
@@ -79,9 +78,90 @@ fn sentence(report: &VelocityReport) -> String {
             count(loss, "freedom")
         ),
     };
-    match moving.is_empty() {
-        true => format!("Everything held stands still.{lost}"),
-        false => format!("Driven: {}.{lost}", listed(&moving)),
+    match (moving.is_empty(), &report.first_order_only) {
+        (_, Some(only)) => infinitesimal(&moving, only) + &lost,
+        (true, None) => format!("Everything held stands still.{lost}{doubt}"),
+        (false, None) => format!("Driven: {}.{lost}{doubt}", listed(&moving)),
+    }
+}
+
+/// What is free although everything held stands still.
+fn gained(gain: &Gain, nothing_held: bool) -> String {
+    let freedoms = count(gain.freedoms, "freedom");
+    let moving = listed(&gain.moving);
+    match (nothing_held, gain.finite) {
+        (true, true) => format!(
+            "Nothing is held, and {moving} can move: {freedoms}. Hold as many coordinates to drive \
+             the mechanism."
+        ),
+        (true, false) => format!(
+            "Nothing is held, and {moving} can move to first order: {freedoms}, not all of them \
+             finite. `linkwork mobility` says which are; the rates are not determined."
+        ),
+        (false, true) => format!(
+            "Not determined: {moving} can move although everything held stands still, in {freedoms} \
+             more than are held. Motions meet here, which `linkwork mobility` lists; ask beside this \
+             configuration."
+        ),
+        (false, false) => format!(
+            "Singular: {freedoms} gained, {moving} can move to first order although everything held \
+             stands still; the rates are not determined."
+        ),
+    }
+}
+
+/// Rates that belong to no motion.
+fn infinitesimal(moving: &[String], only: &FirstOrderOnly) -> String {
+    let rates = match moving {
+        [] => "rates of what is held".to_owned(),
+        moving => format!("rates with {}", listed(moving)),
+    };
+    let why = match only.gap_after_step {
+        Some(gap) => format!("a finite step along them leaves the closures open by {gap:.1e}"),
+        None => format!(
+            "any accelerations open the closures, at {:.1e} per s²",
+            only.mismatch
+        ),
+    };
+    let so = match only.shaky {
+        true => "the mechanism cannot move here",
+        false => "no motion has them",
+    };
+    format!(
+        "Infinitesimal only: to first order there are {rates}, but {why}; {so}, and there are no \
+         accelerations."
+    )
+}
+
+/// What is uncertain in the digits that are shown; nothing where they are all known.
+fn doubt(report: &VelocityReport) -> String {
+    /// Six decimals are shown.
+    const SHOWN: f64 = 1e-6;
+    let accuracy = &report.accuracy;
+    let Some(smallest) = accuracy.smallest_singular_value else {
+        return String::new();
+    };
+    let near = format!(
+        "a singular configuration: the smallest singular value is {} (with lengths over {} m), and \
+         rounding leaves the configuration uncertain by {}",
+        size(smallest),
+        number(report.normalising_length),
+        size(accuracy.configuration)
+    );
+    let parts = |share: f64| format!("{share:.0e}");
+    match (accuracy.tells_rates(), accuracy.tells_accelerations()) {
+        (false, _) => format!("Too near {near}, so that the rates are not determined."),
+        (true, false) => format!(
+            " Too near {near}: rates are known to {} of the largest, accelerations are not \
+             determined.",
+            parts(accuracy.rates.max(SHOWN))
+        ),
+        (true, true) if accuracy.rates.max(accuracy.accelerations) > SHOWN => format!(
+            " Near {near}: rates are known to {} of the largest, accelerations to {}.",
+            parts(accuracy.rates.max(SHOWN)),
+            parts(accuracy.accelerations.max(SHOWN))
+        ),
+        (true, true) => String::new(),
     }
 }
 
@@ -124,20 +204,27 @@ fn frame(frame: &FrameRate) -> String {
     let mut table = plain(header);
     for (i, axis) in ["x", "y", "z"].into_iter().enumerate() {
         let columns = [
-            frame.position,
-            frame.velocity,
+            Some(frame.position),
+            Some(frame.velocity),
             frame.acceleration,
-            frame.angular_velocity,
+            Some(frame.angular_velocity),
             frame.angular_acceleration,
         ];
-        let [a, b, c, d, e] = columns.map(|column| number(column[i]));
+        let [a, b, c, d, e] =
+            columns.map(|column| column.map_or("none".into(), |column| number(column[i])));
         table.add_row([axis, &a, &b, &c, &d, &e]);
     }
     align_right(&mut table, 1..6);
+    let spins = frame.spins.iter().map(|line| {
+        let line = line.map(short).join(", ");
+        format!("it spins about ({line}) at any rate, which ω is without\n")
+    });
+    let rest: String = spins.collect();
     format!(
-        "Frame {} in ground\n{}",
+        "Frame {} in ground\n{}{}",
         frame.name,
-        indented(&table.to_string())
+        indented(&table.to_string()),
+        indented(&rest)
     )
 }
 

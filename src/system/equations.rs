@@ -199,8 +199,7 @@ impl<T: Factorable> System<T> {
         let rows = self.rows();
         let mut dense = vec![T::zero(); rows * self.unknowns.len()];
         let mut row = 0;
-        let blocks: Vec<_> = self.empty.blocks().cloned().collect();
-        for (b, block) in blocks.iter().enumerate() {
+        for (b, block) in self.empty.blocks().enumerate() {
             let entries = work.jacobian.block_mut(b);
             let unknowns = block.own.iter().chain(&block.shared);
             for (column, &unknown) in entries.chunks_exact(block.rows.max(1)).zip(unknowns) {

@@ -81,25 +81,7 @@ impl Freedoms {
 
     /// The joints and platforms that take part in the free motions, the most mobile first.
     pub fn moving(&self, mechanism: &Mechanism) -> Vec<String> {
-        let mut shares: Vec<(String, f64)> = Vec::new();
-        for (i, unknown) in self.unknowns.iter().enumerate() {
-            let share: f64 = self
-                .motions
-                .iter()
-                .map(|motion| motion[i] * motion[i])
-                .sum();
-            let name = match *unknown {
-                Unknown::Joint(joint) => &mechanism.joints()[joint].name,
-                Unknown::Twist { platform, .. } => &mechanism.platforms()[platform].name,
-            };
-            match shares.iter_mut().find(|(known, _)| known == name) {
-                Some((_, sum)) => *sum += share,
-                None => shares.push((name.clone(), share)),
-            }
-        }
-        shares.retain(|(_, share)| *share > 1e-6);
-        shares.sort_by(|a, b| b.1.total_cmp(&a.1).then_with(|| a.0.cmp(&b.0)));
-        shares.into_iter().map(|(name, _)| name).collect()
+        moving(mechanism, &self.unknowns, &self.motions)
     }
 
     /// Whether every motion only turns links about their own lines, as it does a rod between two
@@ -119,6 +101,25 @@ impl Freedoms {
         };
         near.are_idle(at, &self.motions.iter().map(whole).collect::<Vec<_>>())
     }
+}
+
+/// The joints and platforms that take part in motions, the most mobile first.
+pub fn moving(mechanism: &Mechanism, unknowns: &[Unknown], motions: &[Vec<f64>]) -> Vec<String> {
+    let mut shares: Vec<(String, f64)> = Vec::new();
+    for (i, unknown) in unknowns.iter().enumerate() {
+        let share: f64 = motions.iter().map(|motion| motion[i] * motion[i]).sum();
+        let name = match *unknown {
+            Unknown::Joint(joint) => &mechanism.joints()[joint].name,
+            Unknown::Twist { platform, .. } => &mechanism.platforms()[platform].name,
+        };
+        match shares.iter_mut().find(|(known, _)| known == name) {
+            Some((_, sum)) => *sum += share,
+            None => shares.push((name.clone(), share)),
+        }
+    }
+    shares.retain(|(_, share)| *share > 1e-6);
+    shares.sort_by(|a, b| b.1.total_cmp(&a.1).then_with(|| a.0.cmp(&b.0)));
+    shares.into_iter().map(|(name, _)| name).collect()
 }
 
 /// A coordinate that can be held.
@@ -299,20 +300,9 @@ impl Mobility {
     /// Whether the freedoms are finite, tried along one that mixes them all: a shaky structure has
     /// some that are not.
     pub fn is_finite(&self, mechanism: &Mechanism) -> bool {
-        const STEP: f64 = 0.05;
         let mut near = Neighbourhood::new(mechanism);
         let tangent = near.tangent(self.at.clone());
-        let mut mixed = vec![0.0; self.freedoms.unknowns.len()];
-        for (motion, weight) in tangent.motions.iter().zip(1u8..) {
-            let weight = (1.7 * f64::from(weight)).sin();
-            (mixed.iter_mut().zip(motion)).for_each(|(x, m)| *x += weight * m);
-        }
-        let size = norm(&mixed);
-        if size == 0.0 {
-            return true;
-        }
-        mixed.iter_mut().for_each(|x| *x /= size);
-        near.free_step(&tangent, &mixed, STEP).is_ok()
+        near.is_mobile(&tangent)
     }
 
     /// The number of freedoms that only turn a link about its own line.

@@ -4,7 +4,7 @@ use super::drive::number;
 use super::{DriveError, Holdable, Question};
 use crate::algebra::Measure;
 use crate::description::nearest;
-use crate::mechanism::{Body, Frame};
+use crate::mechanism::{Body, Coordinate, Frame};
 
 /// Wrenches on frames and loads on joints, in N and N·m.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -43,6 +43,17 @@ pub enum LoadError {
         name: String,
         /// The joint that was probably meant.
         suggestion: Option<String>,
+        /// The joints there are.
+        known: Vec<String>,
+    },
+    /// A platform, or a coordinate of one, is loaded by a wrench.
+    Platform {
+        /// What was named.
+        name: String,
+        /// The platform.
+        platform: String,
+        /// The component of the wrench that was probably meant.
+        component: Option<usize>,
     },
 }
 
@@ -106,11 +117,27 @@ impl Load {
     pub fn joint(mut self, question: &Question, name: &str, text: &str) -> Result<Self, LoadError> {
         let mechanism = question.mechanism();
         let Some(joint) = mechanism.joint(name) else {
-            let known = mechanism.joints().iter().map(|joint| joint.name.as_str());
-            let suggestion = nearest(name, known).map(str::to_owned);
+            let (platform, part) = name.rsplit_once('.').unwrap_or((name, ""));
+            let coordinate = Coordinate::by_name(part);
+            if mechanism.platform(name).is_some()
+                || coordinate.is_some() && mechanism.platform(platform).is_some()
+            {
+                return Err(LoadError::Platform {
+                    name: name.into(),
+                    platform: match coordinate {
+                        Some(_) => platform.into(),
+                        None => name.into(),
+                    },
+                    component: coordinate.map(|c| c as usize),
+                });
+            }
+            let known = mechanism.joints().iter().map(|joint| joint.name.clone());
+            let known: Vec<String> = known.collect();
+            let meant = nearest(name, known.iter().map(String::as_str));
             return Err(LoadError::UnknownJoint {
                 name: name.into(),
-                suggestion,
+                suggestion: meant.map(str::to_owned),
+                known,
             });
         };
         let wanted = match mechanism.joints()[joint].kind.is_angle() {

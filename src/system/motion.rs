@@ -1,10 +1,11 @@
 //! Rates and accelerations of everything for those of what is held.
 
 mod frames;
+mod held;
 
 use super::{Held, HeldPlatform, Holdable, System, Unknown, Work};
 use crate::geometry::{Quaternion, Vector3};
-use crate::mechanism::{Configuration, Coordinate, Mechanism, PlatformPose};
+use crate::mechanism::{Configuration, Mechanism, PlatformPose};
 use crate::number::{Dual, Number};
 use crate::solve::Equations;
 
@@ -49,35 +50,14 @@ impl Motion {
     /// For a choice of what is held.
     pub fn new(mechanism: &Mechanism, coordinates: &[Holdable]) -> Self {
         let dimensions = mechanism.dimensions();
-        let mut held = Held::nothing(mechanism);
-        for &coordinate in coordinates {
-            match coordinate {
-                Holdable::Joint(joint) => held.joints[joint] = true,
-                Holdable::Turn(platform, _) => held.platforms[platform] = HeldPlatform::Pose,
-                Holdable::Coordinate(platform, _) if whole(coordinates, platform) => {}
-                Holdable::Coordinate(platform, coordinate) => {
-                    let part = &mut held.platforms[platform];
-                    match part {
-                        HeldPlatform::Partly { coordinates, .. } => {
-                            coordinates.push((coordinate, 0.0));
-                        }
-                        _ => {
-                            *part = HeldPlatform::Partly {
-                                coordinates: vec![(coordinate, 0.0)],
-                                orientation: None,
-                            };
-                        }
-                    }
-                }
-            }
-        }
+        let held = held::of(mechanism, coordinates);
         let system = System::new(dimensions, &held);
         let first = System::new(
             &dimensions.map(&mut Dual::constant),
-            &lifted(&held, &Dual::constant),
+            &held.map(Dual::constant),
         );
         let lift = |x| Dual::constant(Dual::constant(x));
-        let second = System::new(&dimensions.map(&mut { lift }), &lifted(&held, &lift));
+        let second = System::new(&dimensions.map(&mut { lift }), &held.map(lift));
         let closures = system.closure_rows().zip(first.closure_rows());
         let mut rows: Vec<usize> = vec![0; system.rows()];
         let mut next = 0;
@@ -134,6 +114,10 @@ impl Motion {
     /// Factorises at an assembled configuration, for the calls of [`Motion::rates`] and
     /// [`Motion::accelerations`] that follow.
     pub fn at(&mut self, at: &Configuration<f64>) {
+        for (platform, pose) in at.platforms.iter().enumerate() {
+            self.system
+                .set_orientation(platform, pose.orientation.rotation());
+        }
         self.system.linearise(at, &mut self.work);
         self.system.factorise(0.0, &mut self.work);
         let path = self.first_path.joints.iter_mut().zip(&at.joints);
@@ -185,6 +169,21 @@ impl Motion {
             }
         }
         for platform in 0..self.held.platforms.len() {
+            if let Some(omega) = held::turning(&self.coordinates, given, platform) {
+                let pose = self.first_path.platforms[platform].orientation;
+                let pose = PlatformPose {
+                    orientation: Quaternion(pose.0.map(|x| x.value)),
+                    position: Vector3::zero(),
+                };
+                let wanted = moved(&pose, self.length, |k| match k {
+                    0..3 => slope(omega[k]),
+                    _ => slope(0.0),
+                });
+                self.first
+                    .set_orientation(platform, wanted.orientation.rotation());
+            }
+        }
+        for platform in 0..self.held.platforms.len() {
             if self.held.platforms[platform] == HeldPlatform::Pose {
                 let first = self.scales.len() + 6 * platform;
                 let path = &mut self.first_path.platforms[platform];
@@ -208,12 +207,15 @@ impl Motion {
     }
 
     /// The place of a held coordinate among the unknowns, with the scale of its rate there; none for
-    /// single coordinates of a platform, which are equations.
+    /// single coordinates of a platform and for its orientation alone, which are equations.
     fn place(&self, coordinate: Holdable) -> Option<(usize, f64)> {
         let twist = |platform: usize| self.scales.len() + 6 * platform;
         match coordinate {
             Holdable::Joint(joint) => Some((joint, self.scales[joint])),
-            Holdable::Turn(platform, axis) => Some((twist(platform) + axis as usize, 1.0)),
+            Holdable::Turn(platform, axis) => {
+                let whole = self.held.platforms[platform] == HeldPlatform::Pose;
+                whole.then(|| (twist(platform) + axis as usize, 1.0))
+            }
             Holdable::Coordinate(platform, c) => {
                 let whole = self.held.platforms[platform] == HeldPlatform::Pose;
                 whole.then(|| (twist(platform) + 3 + c as usize, self.length))
@@ -229,6 +231,33 @@ impl Motion {
         let rows = self.first.residual_of(&self.first_work);
         rows.iter()
             .fold(0.0, |most: f64, row| most.max(row.slope.abs()))
+    }
+
+    /// The largest acceleration, dimensionless, at which a closure would open with the accelerations
+    /// last computed: more than rounding where no motion has them, at a configuration that is mobile
+    /// to first order only. The accelerations must be the last thing computed.
+    pub fn mismatch_of_accelerations(&mut self, at: &Configuration<f64>) -> f64 {
+        self.follow_accelerations(at);
+        self.second
+            .residual(&self.second_path, &mut self.second_work);
+        let rows = self.second.residual_of(&self.second_work);
+        rows.iter()
+            .fold(0.0, |most: f64, row| most.max(row.slope.slope.abs()))
+    }
+
+    /// The path x ⊕ t ẋ + t²/2 ẍ for the rates and accelerations known.
+    fn follow_accelerations(&mut self, at: &Configuration<f64>) {
+        for (joint, path) in self.second_path.joints.iter_mut().enumerate() {
+            let scale = self.scales[joint];
+            *path = time(self.rates[joint] * scale, self.accelerations[joint] * scale)
+                + Second::constant(Dual::constant(at.joints[joint]));
+        }
+        for (platform, pose) in at.platforms.iter().enumerate() {
+            let first = self.scales.len() + 6 * platform;
+            let (rates, changes) = (&self.rates[first..], &self.accelerations[first..]);
+            self.second_path.platforms[platform] =
+                moved(pose, self.length, |k| time(rates[k], changes[k]));
+        }
     }
 
     fn follow_rates(&mut self, at: &Configuration<f64>) {
@@ -256,25 +285,7 @@ impl Motion {
                 self.accelerations[place] = acceleration / scale;
             }
         }
-        // t as a number with derivatives: the path is x ⊕ t ẋ + t²/2 ḧ
-        let time = |rate: f64, acceleration: f64| Dual {
-            value: slope(rate),
-            slope: Dual {
-                value: rate,
-                slope: acceleration,
-            },
-        };
-        for (joint, path) in self.second_path.joints.iter_mut().enumerate() {
-            let scale = self.scales[joint];
-            *path = time(self.rates[joint] * scale, self.accelerations[joint] * scale)
-                + Second::constant(Dual::constant(at.joints[joint]));
-        }
-        for (platform, pose) in at.platforms.iter().enumerate() {
-            let first = self.scales.len() + 6 * platform;
-            let (rates, changes) = (&self.rates[first..], &self.accelerations[first..]);
-            self.second_path.platforms[platform] =
-                moved(pose, self.length, |k| time(rates[k], changes[k]));
-        }
+        self.follow_accelerations(at);
         let asked = self.coordinates.iter().zip(rates).zip(given);
         for ((&coordinate, &rate), &acceleration) in asked {
             if let (Holdable::Coordinate(platform, c), None) = (coordinate, self.place(coordinate))
@@ -282,6 +293,17 @@ impl Motion {
                 let mut target = time(rate, acceleration);
                 target.value.value = c.of(&at.platforms[platform].pose());
                 self.second.set_target(platform, c, target);
+            }
+        }
+        for (platform, pose) in at.platforms.iter().enumerate() {
+            let turns = |given| held::turning(&self.coordinates, given, platform);
+            if let (Some(omega), Some(change)) = (turns(rates), turns(given)) {
+                let wanted = moved(pose, self.length, |k| match k {
+                    0..3 => time(omega[k], change[k]),
+                    _ => time(0.0, 0.0),
+                });
+                self.second
+                    .set_orientation(platform, wanted.orientation.rotation());
             }
         }
         self.second
@@ -298,10 +320,15 @@ impl Motion {
     }
 }
 
-/// Whether a pose is held whole, with turns about the axes of ground.
-fn whole(coordinates: &[Holdable], platform: usize) -> bool {
-    let mut all = coordinates.iter();
-    all.any(|held| matches!(held, Holdable::Turn(of, _) if *of == platform))
+/// t as a number with derivatives, of the path t ẋ + t²/2 ẍ.
+fn time(rate: f64, acceleration: f64) -> Second {
+    Dual {
+        value: slope(rate),
+        slope: Dual {
+            value: rate,
+            slope: acceleration,
+        },
+    }
 }
 
 fn slope(slope: f64) -> Dual<f64> {
@@ -333,22 +360,5 @@ fn scatter(free: &[Unknown], step: &[f64], scales: &[f64], all: &mut [f64]) {
                 component,
             } => all[scales.len() + 6 * platform + component] = step,
         }
-    }
-}
-
-fn lifted<T: Number>(held: &Held<f64>, lift: &impl Fn(f64) -> T) -> Held<T> {
-    let platforms = held.platforms.iter().map(|part| match part {
-        HeldPlatform::Free => HeldPlatform::Free,
-        HeldPlatform::Pose => HeldPlatform::Pose,
-        HeldPlatform::Partly { coordinates, .. } => HeldPlatform::Partly {
-            coordinates: (coordinates.iter())
-                .map(|&(coordinate, value): &(Coordinate, f64)| (coordinate, lift(value)))
-                .collect(),
-            orientation: None,
-        },
-    });
-    Held {
-        joints: held.joints.clone(),
-        platforms: platforms.collect(),
     }
 }

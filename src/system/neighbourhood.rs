@@ -1,12 +1,20 @@
 //! What a mechanism with nothing held can do near an assembled configuration.
 
+mod follow;
+
 use super::{ClosureWrenches, FrameTwists, Held, System, Unknown, Work};
 use crate::description::{ClosureKind, Role};
-use crate::linear::{Decomposition, dot, norm, orthonormal, rank_of};
+use crate::linear::{Decomposition, complement, dot, orthonormal, rank_of};
 use crate::mechanism::{Body, Configuration, Frame, Mechanism};
 use crate::solve::{Equations, Newton, Stop};
 
-/// A mechanism with nothing held, to be looked at near assembled configurations.
+pub use follow::Followed;
+
+/// What is rounding among the rates of motions of unit norm.
+const ROUNDING: f64 = 1e-6;
+
+/// A mechanism with nothing held, or what a question holds, to be looked at near assembled
+/// configurations.
 #[derive(Clone, Debug)]
 pub struct Neighbourhood<'a> {
     mechanism: &'a Mechanism,
@@ -30,19 +38,15 @@ pub struct Tangent {
     pub idle: Vec<Vec<f64>>,
 }
 
-/// Where a finite step along an infinitesimal motion leads.
-#[derive(Clone, Debug)]
-pub struct Followed {
-    /// The configuration at which every equation is met that the Jacobian sees.
-    pub at: Configuration<f64>,
-    /// What is left of the others, dimensionless: zero if the motion is finite.
-    pub gap: f64,
-}
-
 impl<'a> Neighbourhood<'a> {
-    /// Prepares a mechanism.
+    /// Prepares a mechanism of which nothing is held.
     pub fn new(mechanism: &'a Mechanism) -> Self {
-        let system = System::new(mechanism.dimensions(), &Held::nothing(mechanism));
+        Neighbourhood::holding(mechanism, &Held::nothing(mechanism))
+    }
+
+    /// Prepares a mechanism of which something is held.
+    pub fn holding(mechanism: &'a Mechanism, held: &Held<f64>) -> Self {
+        let system = System::new(mechanism.dimensions(), held);
         let frames = mechanism.frames();
         Neighbourhood {
             mechanism,
@@ -52,7 +56,7 @@ impl<'a> Neighbourhood<'a> {
         }
     }
 
-    /// The closure equations with nothing held.
+    /// The closure equations.
     pub fn system(&self) -> &System<f64> {
         &self.system
     }
@@ -80,8 +84,12 @@ impl<'a> Neighbourhood<'a> {
             let along = |i: usize| all.iter().zip(weights).map(|(m, w)| m[i] * w).sum();
             (0..columns).map(along).collect()
         };
-        let idle = split.null_space();
-        let motions = crate::linear::complement(&idle, all.len());
+        let idle = match split.singular_values().first() {
+            // all of it is rounding beside motions of unit norm
+            Some(&largest) if largest < ROUNDING => complement(&[], all.len()),
+            _ => split.null_space(),
+        };
+        let motions = complement(&idle, all.len());
         Tangent {
             idle: idle.iter().map(combine).collect(),
             // without idle ones the basis stays as sparse as it came
@@ -120,10 +128,13 @@ impl<'a> Neighbourhood<'a> {
         (report.stop == Stop::Solved).then_some(at)
     }
 
+    /// The largest dimensionless row of the equations at a configuration.
+    pub fn residual(&mut self, at: &Configuration<f64>) -> f64 {
+        self.system.residual(at, &mut self.work).largest
+    }
+
     /// Whether motions are idle: links turn about their own lines and nothing else moves.
     pub fn are_idle(&self, at: &Configuration<f64>, motions: &[Vec<f64>]) -> bool {
-        /// Beside motions of unit norm this is rounding.
-        const ROUNDING: f64 = 1e-6;
         let felt = self.felt(at, motions);
         felt.iter().all(|rate| rate.abs() < ROUNDING)
     }
@@ -182,114 +193,6 @@ impl<'a> Neighbourhood<'a> {
             }
         }
         felt
-    }
-
-    /// Moves a distance along a motion and back onto the equations that the Jacobian sees.
-    ///
-    /// With P = J⁺ fixed, x ← x ⊖ P r(x) solves the part of r in the range of J for given motion
-    /// components: the reduction of Lyapunov and Schmidt. What is left of r is a function of the
-    /// motion components alone, and a freedom is finite where it vanishes identically. `None` if
-    /// the iteration does not settle.
-    /// Source: Golubitsky and Schaeffer, Singularities and Groups in Bifurcation Theory I, 1985.
-    pub fn follow(&mut self, from: &Tangent, direction: &[f64], distance: f64) -> Option<Followed> {
-        const STEPS: usize = 60;
-        let step: Vec<f64> = direction.iter().map(|x| x * distance).collect();
-        let mut at = self.system.displaced(&from.at, &step);
-        let mut before = f64::INFINITY;
-        for _ in 0..STEPS {
-            self.system.residual(&at, &mut self.work);
-            let residual = self.system.residual_of(&self.work);
-            let correction = from.decomposition.solve(residual);
-            let size = norm(&correction);
-            // not even within the distance: the linear picture does not hold so far out
-            if size.is_nan() || size >= 10.0 * distance {
-                return None;
-            }
-            if size < 1e-14 || (size < 1e-12 && size >= 0.5 * before) {
-                let gap = norm(residual);
-                return Some(Followed { at, gap });
-            }
-            before = size;
-            let back: Vec<f64> = correction.iter().map(|x| -x).collect();
-            at = self.system.displaced(&at, &back);
-        }
-        None
-    }
-
-    /// The finite step along a motion if there is one: no longer than `distance`, shortened as far
-    /// as needed for it to settle. `Err` has the gap of one that leaves the closures open.
-    pub fn free_step(
-        &mut self,
-        from: &Tangent,
-        direction: &[f64],
-        distance: f64,
-    ) -> Result<Followed, Option<f64>> {
-        /// This gap may be left and the motion still counts as free: rounding. A freedom that is
-        /// infinitesimal to order five only leaves 0.05⁶ = 1.6e-8 times its curvature.
-        const FREE: f64 = 1e-11;
-        const HALVINGS: i32 = 6;
-        let mut lengths = (0..HALVINGS).map(|k| distance * 0.5f64.powi(k));
-        match lengths.find_map(|length| self.follow(from, direction, length)) {
-            Some(step) if step.gap <= FREE => Ok(step),
-            Some(step) => Err(Some(step.gap)),
-            None => Err(None),
-        }
-    }
-
-    /// What a motion ξ leaves of the equations to second order: wᵀ H(ξ, ξ) for each of the given w
-    /// with wᵀ J = 0. Motions of higher order that a finite one would need do not enter.
-    pub fn second_order(
-        &mut self,
-        from: &Tangent,
-        dependencies: &[Vec<f64>],
-        motion: &[f64],
-    ) -> Vec<f64> {
-        /// Balances the fourth order against rounding.
-        const STEP: f64 = 1e-3;
-        let mut sums = vec![0.0; dependencies.len()];
-        for step in [STEP, -STEP] {
-            let step: Vec<f64> = motion.iter().map(|x| x * step).collect();
-            let at = self.system.displaced(&from.at, &step);
-            self.system.residual(&at, &mut self.work);
-            let residual = self.system.residual_of(&self.work);
-            (sums.iter_mut().zip(dependencies)).for_each(|(sum, w)| *sum += dot(w, residual));
-        }
-        sums.iter().map(|sum| sum / (STEP * STEP)).collect()
-    }
-
-    /// The assembled configuration that Gauss–Newton steps of least length reach from a point, to
-    /// rounding; `None` if they go further than `reach` or do not arrive.
-    pub fn settle(&mut self, mut at: Configuration<f64>, reach: f64) -> Option<Configuration<f64>> {
-        const STEPS: usize = 60;
-        const TOLERANCE: f64 = 1e-12;
-        let start = at.clone();
-        let mut best: Option<(f64, Configuration<f64>)> = None;
-        let mut stale = 0;
-        for _ in 0..STEPS {
-            let size = self.system.linearise(&at, &mut self.work).largest;
-            if best.as_ref().is_none_or(|(least, _)| size < 0.5 * least) {
-                best = Some((size, at.clone()));
-                stale = 0;
-            } else {
-                stale += 1;
-            }
-            if size == 0.0 || (stale > 2 && best.as_ref().is_some_and(|b| b.0 <= TOLERANCE)) {
-                break;
-            }
-            let jacobian = self.system.dense_jacobian(&mut self.work);
-            let (rows, columns) = (self.system.rows(), self.system.unknowns().len());
-            let decomposition = Decomposition::of(rows, columns, &jacobian);
-            let mut back = decomposition.solve(self.system.residual_of(&self.work));
-            let longest = norm(&back);
-            let factor = (reach / longest).min(1.0);
-            back.iter_mut().for_each(|x| *x *= -factor);
-            at = self.system.displaced(&at, &back);
-            if norm(&self.system.difference(&start, &at)) > 10.0 * reach {
-                return None;
-            }
-        }
-        let (size, at) = best?;
-        (size <= TOLERANCE).then_some(at)
     }
 }
 

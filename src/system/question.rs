@@ -1,3 +1,5 @@
+mod held;
+
 use super::demand::{Demand, Target, Verb};
 use super::equations::System;
 use super::freedom::Holdable;
@@ -5,7 +7,7 @@ use super::layout::{Held, HeldPlatform};
 use super::question_error::QuestionError;
 use super::value;
 use crate::description::{Role, nearest};
-use crate::geometry::{Axis, Pose, RollPitchYaw};
+use crate::geometry::{Pose, RollPitchYaw};
 use crate::linear::Factorable;
 use crate::mechanism::{Configuration, Coordinate, Mechanism, PlatformPose};
 
@@ -231,47 +233,6 @@ impl<'a> Question<'a> {
     /// Whether something else is held than the file's actuated joints.
     pub fn split_changed(&self) -> bool {
         self.split_changed
-    }
-
-    /// The held coordinates, those asked for before the joints that are held only because the file
-    /// says so. A whole pose pitched by ±90° turns about the axes of ground.
-    pub fn held_coordinates(&self) -> Vec<Holdable> {
-        let platforms = self.coordinates.iter().enumerate();
-        let coordinates = platforms.flat_map(|(platform, values)| {
-            let held = Coordinate::ALL.into_iter().zip(values);
-            let held = held.filter_map(|(c, value)| Some((c, (*value)?)));
-            let held: Vec<(Coordinate, f64)> = held.collect();
-            let pose = with_coordinates(&Pose::identity(), held.iter().copied());
-            let locked = held.len() == 6 && RollPitchYaw::is_locked(&pose.rotation);
-            let holdable = move |(c, _): (Coordinate, f64)| match c {
-                Coordinate::Roll if locked => Holdable::Turn(platform, Axis::X),
-                Coordinate::Pitch if locked => Holdable::Turn(platform, Axis::Y),
-                Coordinate::Yaw if locked => Holdable::Turn(platform, Axis::Z),
-                c => Holdable::Coordinate(platform, c),
-            };
-            held.into_iter().map(holdable)
-        });
-        let held = (0..self.joints.len()).filter(|&joint| self.joints[joint]);
-        let (asked, by_file): (Vec<usize>, Vec<usize>) = held.partition(|&joint| self.asked[joint]);
-        let joints = |joints: Vec<usize>| joints.into_iter().map(Holdable::Joint);
-        (joints(asked).chain(coordinates).chain(joints(by_file))).collect()
-    }
-
-    /// The names of the held coordinates.
-    pub fn held_names(&self) -> Vec<String> {
-        let joints = self.mechanism.joints().iter().zip(&self.joints);
-        let joints = joints
-            .filter(|(_, held)| **held)
-            .map(|(joint, _)| joint.name.clone());
-        let platforms = self.mechanism.platforms().iter().zip(&self.coordinates);
-        let coordinates = platforms.flat_map(|(platform, values)| {
-            let held = Coordinate::ALL
-                .into_iter()
-                .zip(values)
-                .filter(|(_, v)| v.is_some());
-            held.map(|(c, _)| format!("{}.{}", platform.name, c.name()))
-        });
-        joints.chain(coordinates).collect()
     }
 
     /// What a name stands for, unless something else was demanded of it before.

@@ -14,6 +14,8 @@ pub struct TwistSpace {
     pub body: String,
     /// A basis: principal screws first, translations after them.
     pub screws: Vec<Screw>,
+    /// The lines about which it spins in idle freedoms: what the screws leave open, and have none of.
+    pub spins: Vec<Screw>,
 }
 
 /// A twist up to its size, in ground.
@@ -56,8 +58,14 @@ fn carriers(mechanism: &Mechanism) -> Vec<(Body, Frame)> {
 
 impl Neighbourhood<'_> {
     /// The twists that bodies have over a space of infinitesimal motions at a configuration: those
-    /// of the platforms, or else of the links that closures join.
-    pub fn twist_spaces(&self, at: &Configuration<f64>, motions: &[Vec<f64>]) -> Vec<TwistSpace> {
+    /// of the platforms, or else of the links that closures join. A body that spins about a line in
+    /// one of the `idle` motions has no part of that spin in its others.
+    pub fn twist_spaces(
+        &self,
+        at: &Configuration<f64>,
+        motions: &[Vec<f64>],
+        idle: &[Vec<f64>],
+    ) -> Vec<TwistSpace> {
         let mechanism = self.mechanism();
         let length = mechanism.characteristic_length();
         let frames = self.frames();
@@ -69,21 +77,44 @@ impl Neighbourhood<'_> {
                 .position(|f| f == frame)
                 .expect("every frame is planned");
             let origin = frames.origin(place, &placement);
+            let at_ground = |omega: Vector3<f64>, velocity: Vector3<f64>| {
+                let velocity = (velocity - omega.cross(&origin)).times(1.0 / length);
+                [omega.0, velocity.0].concat()
+            };
+            let lines = spin_lines(
+                idle.iter()
+                    .map(|m| frames.twist(place, &placement, m).omega),
+            );
             let twists: Vec<Vec<f64>> = (motions.iter())
                 .map(|motion| {
                     let twist = frames.twist(place, &placement, motion);
-                    let velocity =
-                        (twist.velocity - twist.omega.cross(&origin)).times(1.0 / length);
-                    [twist.omega.0, velocity.0].concat()
+                    at_ground(without(&twist.omega, &lines), twist.velocity)
                 })
                 .collect();
+            let spins = lines.iter().map(|line| at_ground(*line, Vector3::zero()));
             TwistSpace {
                 body: mechanism.body_name(body),
                 screws: principal_screws(&twists, length),
+                spins: principal_screws(&spins.collect::<Vec<_>>(), length),
             }
         });
         spaces.collect()
     }
+}
+
+/// Orthonormal directions of the lines about which a frame spins at the given angular velocities.
+pub fn spin_lines(omegas: impl Iterator<Item = Vector3<f64>>) -> Vec<Vector3<f64>> {
+    /// Beside idle motions of unit norm this is rounding.
+    const ROUNDING: f64 = 1e-6;
+    let omegas: Vec<Vec<f64>> = omegas.map(|omega| omega.0.to_vec()).collect();
+    let lines = crate::linear::orthonormal(&omegas, ROUNDING).into_iter();
+    lines.map(|w| Vector3([w[0], w[1], w[2]])).collect()
+}
+
+/// What is left of an angular velocity without the spins about orthonormal directions.
+pub fn without(omega: &Vector3<f64>, spins: &[Vector3<f64>]) -> Vector3<f64> {
+    let along = spins.iter().map(|line| line.times(line.dot(omega)));
+    along.fold(*omega, |left, part| left - part)
 }
 
 /// Principal screws of a space of wrenches (f; m/L) about the origin of ground: `direction` is that

@@ -8,7 +8,7 @@ use super::cone::Cone;
 use super::{Character, MobilitySettings};
 use crate::linear::{norm, orthonormal};
 use crate::system::{Neighbourhood, Tangent, independent_parts};
-use walk::{Seen, contains, directions, explore, fills, on_cone, same, there};
+use walk::{Directions, Seen, contains, explore, fills, same, there};
 
 /// A joint that a finite step along free motions moves by more than this moves: at a dead point its
 /// rate is zero, and a step of 0.05 moves it to second order.
@@ -235,14 +235,12 @@ fn singular(
     let mut share = 0.0;
     let (mut tried, mut fruitless) = (0, 0);
     while share < 1.0 {
-        let ahead = match tried == 0 || cone.is_all() {
-            true => directions(&cone, tangent, settings.branch_trials, rng),
-            false => on_cone(&cone, tangent, settings.branch_trials, rng),
+        let mut ahead = match tried == 0 || cone.is_all() {
+            true => Directions::new(&cone, tangent, settings.branch_trials),
+            false => Directions::on_cone(&cone, tangent, settings.branch_trials),
         };
-        if ahead.is_empty() {
-            break;
-        }
-        for direction in ahead {
+        let before = tried;
+        while let Some(direction) = ahead.next(&cone, tangent, rng) {
             tried += 1;
             fruitless += 1;
             // on the cone a step along a branch that is known leads onto that
@@ -266,6 +264,9 @@ fn singular(
                     break;
                 }
             }
+        }
+        if tried == before {
+            break;
         }
         // where most of what is possible was found, the rest is probably real too
         let patience = if share >= 0.5 { 4 } else { 1 };

@@ -3,7 +3,7 @@
 use rand::Rng;
 
 use super::branches::combination;
-use crate::linear::{Decomposition, dot, norm, orthonormal};
+use crate::linear::{dot, norm, orthonormal};
 use crate::system::{Neighbourhood, Tangent};
 
 /// The quadratic tangent cone: the motions ξ = Σ vᵢ mᵢ with wₖᵀ H(ξ, ξ) = 0 for all wₖ with
@@ -108,7 +108,7 @@ impl Cone {
                 let along = column.iter_mut().zip(&values);
                 along.for_each(|(slope, value)| *slope -= 2.0 * value * v);
             }
-            let back = Decomposition::of(values.len(), n, &slopes).solve(&values);
+            let back = shortest(values.len(), &slopes, &values)?;
             v.iter_mut().zip(&back).for_each(|(v, b)| *v -= b);
             let length = norm(&v);
             if length.is_nan() || length < 1e-3 {
@@ -135,4 +135,18 @@ impl Cone {
         }
         (values, slopes)
     }
+}
+
+/// The shortest x with S x = b for a column-major S of few rows: Sᵀ (S Sᵀ)⁻¹ b, damped so that it has a
+/// value where S loses rank (Levenberg 1944). Iterated, it need not be exact.
+fn shortest(rows: usize, columns: &[f64], b: &[f64]) -> Option<Vec<f64>> {
+    const DAMPING: f64 = 1e-13;
+    let s = nalgebra::DMatrix::from_column_slice(rows, columns.len() / rows, columns);
+    let mut gram = &s * s.transpose();
+    let damping = DAMPING * gram.trace().max(f64::MIN_POSITIVE);
+    (0..rows).for_each(|i| gram[(i, i)] += damping);
+    let weights = gram
+        .cholesky()?
+        .solve(&nalgebra::DVector::from_column_slice(b));
+    Some(s.tr_mul(&weights).iter().copied().collect())
 }

@@ -296,7 +296,7 @@ impl<'m> Classifier<'m> {
         Movement {
             freedoms: motions.len(),
             joints: joints.collect(),
-            twists: self.near.twist_spaces(at, &motions),
+            twists: self.near.twist_spaces(at, &motions, &[]),
         }
     }
 

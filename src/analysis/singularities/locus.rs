@@ -231,7 +231,7 @@ impl Search<'_> {
             }
             let columns = curve.locked().columns();
             let decomposition = curve.locked().of_rank(&at, columns);
-            let Some(motion) = decomposition.weakest().map(<[f64]>::to_vec) else {
+            let Some(motion) = decomposition.weakest().map(|(_, v)| v.to_vec()) else {
                 continue;
             };
             let Some(place) = settled(&mut curve, Singular { at, motion }, method) else {

@@ -2,11 +2,12 @@
 
 use serde::Serialize;
 
+use super::frames::Spins;
 use super::unit;
 use crate::geometry;
 use crate::linear::{Decomposition, rank};
 use crate::mechanism::{Configuration, Coordinate, Frame, Mechanism, Role};
-use crate::system::{FrameTwists, Holdable, Motion};
+use crate::system::{FrameTwists, Holdable, Motion, without};
 
 /// Rates of outputs for unit rates of the inputs, one at a time.
 #[derive(Clone, Debug, PartialEq, Serialize)]
@@ -75,7 +76,10 @@ pub(super) fn outputs(mechanism: &Mechanism, held: &[Holdable], spinning: &[usiz
                 Coordinate::ALL.into_iter().partition(|c| c.is_angle());
             let coordinate =
                 |c: Coordinate| (!is_held(&c)).then_some(Output::Coordinate(platform, c));
+            let turned =
+                (held.iter()).any(|held| matches!(held, Holdable::Turn(of, _) if *of == platform));
             match angles.iter().any(is_held) {
+                _ if turned => {}
                 true => outputs.extend(angles.into_iter().filter_map(coordinate)),
                 false => {
                     use geometry::Axis::{X, Y, Z};
@@ -117,6 +121,7 @@ pub(super) fn input_output(
     motion: &mut Motion,
     at: &Configuration<f64>,
     outputs: &[Output],
+    spins: &Spins,
 ) -> InputOutput {
     let frames = outputs.iter().filter_map(|output| match output {
         Output::Twist(frame) | Output::Point(frame) => Some(*frame),
@@ -196,8 +201,8 @@ pub(super) fn input_output(
                 Output::Joint(joint) => column.push(rates[*joint] * scales[*joint]),
                 Output::Twist(_) | Output::Point(_) => {
                     let twist = twists.twist(frame, &placement, rates);
-                    if matches!(output, Output::Twist(_)) {
-                        column.extend(twist.omega.0);
+                    if let Output::Twist(of) = output {
+                        column.extend(without(&twist.omega, spins.lines_of(*of)).0);
                     }
                     column.extend(twist.velocity.0);
                     frame += 1;

@@ -5,6 +5,7 @@ use std::f64::consts::FRAC_PI_2;
 use serde::Serialize;
 
 use crate::geometry::Vector3;
+use crate::linear::{dot, norm};
 use crate::mechanism::{Body, Configuration, Frame, Mechanism};
 use crate::system::{
     Drive, FrameTwists, Holdable, LoopPart, MechanismLoop, Motion, Neighbourhood, Twist, loops,
@@ -55,35 +56,122 @@ pub(super) fn transmission(
     at: &Configuration<f64>,
     held: &[Holdable],
 ) -> Vec<Transmission> {
-    let length = near.mechanism().characteristic_length();
-    let found = loops(near, at);
-    let is_held = |part: &&LoopPart| {
-        let [joint] = part.joints[..] else {
-            return false;
-        };
-        part.twists.len() == 1 && held.contains(&Holdable::Joint(joint))
+    let mechanism = near.mechanism();
+    let length = mechanism.characteristic_length();
+    let found: Vec<HingedLoop> = loops(near, at).into_iter().map(HingedLoop::new).collect();
+    let joints = 0..mechanism.joints().len();
+    let mut known = Known {
+        joints: (joints.map(|joint| held.contains(&Holdable::Joint(joint)))).collect(),
+        closures: Vec::new(),
     };
-    let parts = found.iter().flat_map(|one| &one.parts);
-    let mut known: Vec<Vec<String>> = parts.filter(is_held).map(|p| p.names.clone()).collect();
     let mut angles: Vec<Option<Vec<Transmission>>> = vec![None; found.len()];
-    let dyad = |one: &MechanismLoop, known: &[Vec<String>]| {
-        let free = one.parts.iter().filter(|part| !known.contains(&part.names));
-        free.clone().count() == 3 && free.clone().all(|part| part.twists.len() == 1)
+    let dyad = |one: &HingedLoop, known: &Known| {
+        let given = known.parts(one);
+        let free = (0..given.len()).filter(|&i| !given[i]);
+        free.clone().count() == 3 && free.clone().all(|i| one.hinges[i].is_some())
     };
     while let Some(i) = (0..found.len()).find(|&i| angles[i].is_none() && dyad(&found[i], &known)) {
-        angles[i] = Some(of_loop(&found[i], &known, length));
-        known.extend(found[i].parts.iter().map(|part| part.names.clone()));
+        angles[i] = Some(of_loop(mechanism, &found[i], &known, length));
+        for part in &found[i].all.parts {
+            part.joints
+                .iter()
+                .for_each(|&joint| known.joints[joint] = true);
+            known
+                .closures
+                .extend(part.closure.then(|| part.names[0].clone()));
+        }
     }
     angles.into_iter().flatten().flatten().collect()
+}
+
+/// A loop and what its joints permit.
+struct HingedLoop {
+    all: MechanismLoop,
+    /// The normal of the plane in which it moves, if it does.
+    normal: Option<Vector3<f64>>,
+    /// For each part the one relative motion that it permits, if it permits one only.
+    hinges: Vec<Option<[f64; 6]>>,
+}
+
+impl HingedLoop {
+    fn new(all: MechanismLoop) -> Self {
+        HingedLoop {
+            normal: normal(all.parts.iter().flat_map(|part| &part.twists)),
+            hinges: all.parts.iter().map(hinge).collect(),
+            all,
+        }
+    }
+}
+
+/// The motion that a joint permits, if it is one: several variables may drive it.
+fn hinge(part: &LoopPart) -> Option<[f64; 6]> {
+    let size = |twist: &&[f64; 6]| norm(&twist[..]);
+    let first = *(part.twists.iter()).max_by(|a, b| size(a).total_cmp(&size(b)))?;
+    let unit = 1.0 / size(&&first);
+    let parallel = part.twists.iter().all(|twist| {
+        let along = dot(twist, &first) * unit * unit;
+        let rest: [f64; 6] = std::array::from_fn(|k| twist[k] - along * first[k]);
+        norm(&rest) <= ZERO * size(&twist)
+    });
+    (unit.is_finite() && parallel).then_some(first)
+}
+
+/// What moves as the inputs say.
+struct Known {
+    joints: Vec<bool>,
+    closures: Vec<String>,
+}
+
+impl Known {
+    /// For each part of a loop whether its relative motion follows from what is known: a joint's from
+    /// its variables, a hinge's at a cut also from the sum of all turns around the loop, which is
+    /// zero: where a loop is cut must not matter.
+    fn parts(&self, one: &HingedLoop) -> Vec<bool> {
+        let parts = &one.all.parts;
+        let is_known = |part: &LoopPart| match part.closure {
+            true => self.closures.contains(&part.names[0]),
+            false => part.joints.iter().all(|&joint| self.joints[joint]),
+        };
+        let mut known: Vec<bool> = parts.iter().map(is_known).collect();
+        let cuts = (0..parts.len()).filter(|&i| parts[i].closure && !known[i]);
+        let ([cut], Some(normal)) = (&cuts.collect::<Vec<usize>>()[..], &one.normal) else {
+            return known;
+        };
+        let cut = *cut;
+        let turns = one.hinges[cut].is_some_and(|twist| split(&twist).0.norm() > ZERO);
+        if turns && parts[cut].joints.is_empty() {
+            let mut sum = vec![0.0; self.joints.len()];
+            for (part, body) in parts.iter().zip(&one.all.bodies) {
+                // a row has the motion of its first body
+                let sign = if part.bodies[0] == *body { 1.0 } else { -1.0 };
+                for (&joint, twist) in part.joints.iter().zip(&part.twists) {
+                    sum[joint] += sign * split(twist).0.dot(normal);
+                }
+            }
+            let all = sum.iter().zip(&self.joints);
+            known[cut] = all
+                .clone()
+                .all(|(turn, &known)| known || turn.abs() <= ZERO);
+        }
+        known
+    }
+}
+
+/// What a joint is called: by its variable if it has one, else the link after it, or the closure.
+fn name(mechanism: &Mechanism, part: &LoopPart) -> String {
+    match (&part.names[..], part.closure) {
+        ([name], _) | ([name, ..], true) => name.clone(),
+        _ => mechanism.body_name(part.bodies[1]),
+    }
 }
 
 /// The known joints of a loop that has three others, each with whether these follow forwards:
 /// one that is alone drives the link beyond it, the ends of several the links towards the others,
 /// unless that is the ground.
-fn drivers(found: &MechanismLoop, known: &[Vec<String>]) -> Vec<(usize, bool)> {
+fn drivers(found: &MechanismLoop, known: &[bool]) -> Vec<(usize, bool)> {
     let parts = &found.parts;
     let count = parts.len();
-    let is_known = |i: usize| known.contains(&parts[i % count].names);
+    let is_known = |i: usize| known[i % count];
     let mut drivers = Vec::new();
     for i in (0..count).filter(|&i| is_known(i)) {
         let [before, after] = [is_known(i + count - 1), is_known(i + 1)];
@@ -93,7 +181,11 @@ fn drivers(found: &MechanismLoop, known: &[Vec<String>]) -> Vec<(usize, bool)> {
         };
         match (before, after) {
             (true, true) => {}
-            (false, false) => drivers.push((i, found.bodies[i] == parts[i].bodies[0])),
+            // a row moves the link after it, a cut the one that is not the ground
+            (false, false) => {
+                let forwards = found.bodies[i] == parts[i].bodies[0];
+                drivers.push((i, forwards == moves(forwards)));
+            }
             (true, false) if moves(true) => drivers.push((i, true)),
             (false, true) if moves(false) => drivers.push((i, false)),
             _ => {}
@@ -102,30 +194,40 @@ fn drivers(found: &MechanismLoop, known: &[Vec<String>]) -> Vec<(usize, bool)> {
     drivers
 }
 
-fn of_loop(found: &MechanismLoop, known: &[Vec<String>], length: f64) -> Vec<Transmission> {
-    let Some(normal) = normal(found.parts.iter().flat_map(|part| &part.twists)) else {
+fn of_loop(
+    mechanism: &Mechanism,
+    found: &HingedLoop,
+    known: &Known,
+    length: f64,
+) -> Vec<Transmission> {
+    let given = known.parts(found);
+    let HingedLoop {
+        all,
+        normal: Some(normal),
+        hinges,
+    } = found
+    else {
         return vec![];
     };
-    let parts = &found.parts;
-    let driven = drivers(found, known)
+    let parts = &all.parts;
+    let driven = drivers(all, &given)
         .into_iter()
         .filter_map(|(i, forwards)| {
-            let others = (1..parts.len()).map(|k| &parts[(i + k) % parts.len()]);
-            let mut others: Vec<&LoopPart> =
-                others.filter(|part| !known.contains(&part.names)).collect();
+            let others = (1..parts.len()).map(|k| (i + k) % parts.len());
+            let mut others: Vec<usize> = others.filter(|&k| !given[k]).collect();
             if !forwards {
                 others.reverse();
             }
-            let hinge = |part: &LoopPart| {
-                let (omega, velocity) = split(&part.twists[0]);
+            let pivot = |k: usize| {
+                let (omega, velocity) = split(&hinges[k]?);
                 let speed = omega.dot(&omega);
                 (speed > ZERO).then(|| omega.cross(&velocity).times(length / speed))
             };
-            let (first, second) = (hinge(others[0])?, hinge(others[1])?);
+            let (first, second) = (pivot(others[0])?, pivot(others[1])?);
             let force = second - first;
-            let motion = match hinge(others[2]) {
+            let motion = match pivot(others[2]) {
                 Some(post) => normal.cross(&(second - post)),
-                None => split(&others[2].twists[0]).1,
+                None => split(&hinges[others[2]]?).1,
             };
             let sizes = force.norm() * motion.norm();
             if sizes <= ZERO * length * motion.norm().max(ZERO) {
@@ -135,10 +237,10 @@ fn of_loop(found: &MechanismLoop, known: &[Vec<String>], length: f64) -> Vec<Tra
             let across = force.cross(&motion).norm();
             let pressure_angle = across.atan2(along);
             Some(Transmission {
-                closure: found.closure.clone(),
-                driven: parts[i].names[0].clone(),
-                output: others[2].names[0].clone(),
-                between: others[1].names[0].clone(),
+                closure: all.closure.clone(),
+                driven: name(mechanism, &parts[i]),
+                output: name(mechanism, &parts[others[2]]),
+                between: name(mechanism, &parts[others[1]]),
                 transmission_angle: FRAC_PI_2 - pressure_angle,
                 pressure_angle,
             })

@@ -7,7 +7,7 @@ use crate::description::count;
 use crate::description::listed;
 use crate::mechanism::Mechanism;
 use crate::output::closing;
-use crate::output::quantity::{quantity, signed};
+use crate::output::quantity::{coarse, number, quantity, signed};
 
 /// The answer: how many freedoms, and why that is not what counting says.
 pub(super) fn explanation(mechanism: &Mechanism, report: &MobilityReport) -> String {
@@ -20,13 +20,27 @@ pub(super) fn explanation(mechanism: &Mechanism, report: &MobilityReport) -> Str
         };
         sentences.push(format!("Redundant {verb}: {}.", redundant.join("; ")));
     }
-    match &report.idle_freedoms[..] {
-        [] => {}
-        [one] => sentences.push(format!("Not counted: 1 idle freedom, {}.", idle(one))),
-        many => sentences.push(format!(
-            "Not counted: {} idle freedoms, each a spin of a link about its own line.",
-            many.len()
-        )),
+    let (rods, links): (Vec<&IdleFreedom>, Vec<&IdleFreedom>) =
+        (report.idle_freedoms.iter()).partition(|freedom| matches!(freedom, IdleFreedom::Rod(_)));
+    for (spins, why) in [
+        (links, "Kutzbach's count includes"),
+        (
+            rods,
+            "Kutzbach's count leaves out too, for a `Distance` has none",
+        ),
+    ] {
+        match &spins[..] {
+            [] => {}
+            [one] => sentences.push(format!(
+                "Not counted: 1 idle freedom, {}, which {why}.",
+                idle(one)
+            )),
+            many => sentences.push(format!(
+                "Not counted: {} idle freedoms, each a spin of a link about its own line, which \
+                 {why}.",
+                many.len()
+            )),
+        }
     }
     let still = still(report);
     if report.mobility > 0 && !still.is_empty() {
@@ -59,7 +73,7 @@ fn spins(report: &MobilityReport, joint: &String) -> bool {
     let freedoms = report.idle_freedoms.iter();
     freedoms
         .filter_map(|freedom| match freedom {
-            IdleFreedom::Joints(joints) => Some(joints),
+            IdleFreedom::Joints(joints) | IdleFreedom::Platforms { joints, .. } => Some(joints),
             IdleFreedom::Rod(_) => None,
         })
         .any(|joints| joints.contains(joint))
@@ -81,7 +95,16 @@ pub(super) fn mobility(report: &MobilityReport) -> String {
     } = report;
     match report.character {
         Character::Structure => "A structure: nothing can move, not even infinitesimally.".into(),
-        Character::Regular => format!("The mechanism has {}.", freedoms(*mobility)),
+        Character::Regular => match report.singular_at {
+            None => format!("The mechanism has {}.", freedoms(*mobility)),
+            Some(distance) => format!(
+                "The mechanism has {}; the configuration is regular, about {} (rad and lengths \
+                 over {} m) from a singular one.",
+                freedoms(*mobility),
+                coarse(distance),
+                number(report.length)
+            ),
+        },
         Character::Shaky => {
             let gap = match report.gap_after_step {
                 Some(gap) => format!("a finite step leaves the closures open by {gap:.1e}"),
@@ -167,11 +190,19 @@ fn counted(report: &MobilityReport) -> String {
 /// What an idle freedom is.
 pub(super) fn idle(freedom: &IdleFreedom) -> String {
     match freedom {
-        IdleFreedom::Joints(joints) if joints.is_empty() => {
-            "a link spins about its own line".into()
-        }
         IdleFreedom::Joints(joints) => {
             format!("a link spins about its own line in {}", listed(joints))
+        }
+        IdleFreedom::Platforms { platforms, joints } => {
+            let (spin, line) = match platforms.len() {
+                1 => ("spins", "its own line"),
+                _ => ("spin", "their line"),
+            };
+            let joints = match joints.is_empty() {
+                true => String::new(),
+                false => format!(" in {}", listed(joints)),
+            };
+            format!("{} {spin} about {line}{joints}", listed(platforms))
         }
         IdleFreedom::Rod(rod) => format!("rod {rod} spins about its own line"),
     }

@@ -41,45 +41,68 @@ pub(super) fn explore(
 }
 
 /// Directions that are worth a try: some on the quadratic cone, some between the basis vectors,
-/// and along each of them both ways.
-pub(super) fn directions(
-    cone: &Cone,
-    at: &Tangent,
-    trials: usize,
-    rng: &mut impl Rng,
-) -> Vec<Vec<f64>> {
-    let basis = &at.motions;
-    let mut directions: Vec<Vec<f64>> = vec![];
-    if basis.len() > 1 {
-        directions.extend(on_cone(cone, at, trials, rng));
-        let between = match directions.is_empty() {
-            true => trials * basis.len(),
-            // none should be needed: every motion starts on the cone
-            false => basis.len(),
-        };
-        directions.extend((0..between).map(|_| combination(basis, rng)));
-    }
-    if directions.len() > basis.len() && !cone.is_all() {
-        return directions;
-    }
-    let back = |motion: &Vec<f64>| motion.iter().map(|x| -x).collect();
-    directions.extend(basis.iter().flat_map(|m| [m.clone(), back(m)]));
-    directions
+/// and along each of them both ways. Each is made when it is asked for: seldom are all needed.
+pub(super) struct Directions {
+    /// Tries on the cone that are left.
+    on_cone: usize,
+    /// Tries between the basis vectors if none on the cone succeeds; on the cone alone `None`.
+    between: Option<usize>,
+    /// How many were made on the cone, between the basis vectors, and along these.
+    made: [usize; 3],
 }
 
-/// Directions on the quadratic cone; none where second order excludes nothing.
-pub(super) fn on_cone(
-    cone: &Cone,
-    at: &Tangent,
-    trials: usize,
-    rng: &mut impl Rng,
-) -> Vec<Vec<f64>> {
-    let number = match cone.is_all() {
-        true => 0,
-        false => trials * at.motions.len(),
-    };
-    let directions = (0..number).filter_map(|_| cone.direction(&at.motions, rng));
-    directions.collect()
+impl Directions {
+    pub fn new(cone: &Cone, at: &Tangent, trials: usize) -> Self {
+        Directions {
+            between: Some(trials * at.motions.len()),
+            ..Directions::on_cone(cone, at, trials)
+        }
+    }
+
+    /// Those on the quadratic cone alone; none where second order excludes nothing.
+    pub fn on_cone(cone: &Cone, at: &Tangent, trials: usize) -> Self {
+        let n = at.motions.len();
+        Directions {
+            on_cone: if n < 2 || cone.is_all() {
+                0
+            } else {
+                trials * n
+            },
+            between: None,
+            made: [0; 3],
+        }
+    }
+
+    pub fn next(&mut self, cone: &Cone, at: &Tangent, rng: &mut impl Rng) -> Option<Vec<f64>> {
+        let basis = &at.motions;
+        while self.on_cone > 0 {
+            self.on_cone -= 1;
+            if let Some(direction) = cone.direction(basis, rng) {
+                self.made[0] += 1;
+                return Some(direction);
+            }
+        }
+        let most = match (basis.len(), self.made[0]) {
+            (..2, _) => 0,
+            (_, 0) => self.between?,
+            // none should be needed: every motion starts on the cone
+            (n, _) => self.between.map(|_| n)?,
+        };
+        if self.made[1] < most {
+            self.made[1] += 1;
+            return Some(combination(basis, rng));
+        }
+        let enough = self.made[0] + self.made[1] > basis.len() && !cone.is_all();
+        self.between.filter(|_| !enough)?;
+        let motion = basis.get(self.made[2] / 2)?;
+        let sign = if self.made[2].is_multiple_of(2) {
+            1.0
+        } else {
+            -1.0
+        };
+        self.made[2] += 1;
+        Some(motion.iter().map(|x| sign * x).collect())
+    }
 }
 
 /// A branch seen at a point of it that lies on no other.
@@ -158,10 +181,11 @@ fn look(
     let least = points.into_iter().min_by_key(|point| point.motions.len());
     if let Some(mut least) = least {
         let cone = Cone::of(near, &least);
-        let ways: Vec<Vec<f64>> = directions(&cone, &least, settings.branch_trials, rng)
-            .iter()
-            .filter_map(|direction| Some(arrive(near, &least, direction, step)?.1))
-            .collect();
+        let mut directions = Directions::new(&cone, &least, settings.branch_trials);
+        let mut ways: Vec<Vec<f64>> = Vec::new();
+        while let Some(direction) = directions.next(&cone, &least, rng) {
+            ways.extend(arrive(near, &least, &direction, step).map(|(_, way)| way));
+        }
         least.motions = orthonormal(&ways, 0.1);
         if !least.motions.is_empty() && fills(near, &least, step, rng) {
             add(near, from, least, false, reach, seen);

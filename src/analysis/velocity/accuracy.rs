@@ -1,0 +1,125 @@
+//! Whether rates are rates of a motion, and how well they are known.
+
+use super::{Accuracy, FirstOrderOnly};
+use crate::linear::norm;
+use crate::mechanism::Configuration;
+use crate::system::{Drive, Motion, Neighbourhood, Tangent};
+
+fn is_still(values: &[f64]) -> bool {
+    values.iter().all(|x| *x == 0.0)
+}
+
+/// The rates given, or if there are none every input at once: the Jacobian tells of that.
+fn rates_or_all(drive: &Drive) -> Vec<f64> {
+    match is_still(&drive.rates) {
+        true => vec![1.0; drive.rates.len()],
+        false => drive.rates.clone(),
+    }
+}
+
+fn largest(values: &[f64]) -> f64 {
+    values.iter().fold(0.0, |most: f64, x| most.max(x.abs()))
+}
+
+/// Rates and accelerations change by as much as they are uncertain where the configuration is moved
+/// as far as it may be off: by r/σ, with r what is left of the closure equations and σ the smallest
+/// singular value that counts, along its direction.
+pub(super) fn of(
+    motion: &mut Motion,
+    held: &mut Neighbourhood,
+    rest: &Tangent,
+    drive: &Drive,
+) -> Accuracy {
+    /// What rounding leaves of a dimensionless residual, even where it is evaluated as zero.
+    const ROUNDING: f64 = 1e-15;
+    let Some((_, direction)) = rest.decomposition.weakest() else {
+        return Accuracy {
+            smallest_singular_value: None,
+            configuration: 0.0,
+            rates: 0.0,
+            accelerations: 0.0,
+        };
+    };
+    let smallest = rest.decomposition.smallest();
+    let off = held.residual(&rest.at).max(ROUNDING) / smallest;
+    let given = rates_or_all(drive);
+    let changes = &drive.accelerations;
+    let mut at = |place: &Configuration<f64>| {
+        motion.at(place);
+        let rates = motion.rates(&given).to_vec();
+        (rates, motion.accelerations(place, &given, changes).to_vec())
+    };
+    let (rates, accelerations) = at(&rest.at);
+    let (mut by_rates, mut by_accelerations) = (0.0_f64, 0.0_f64);
+    for side in [off, -off] {
+        let step: Vec<f64> = direction.iter().map(|x| x * side).collect();
+        let beside = at(&held.system().displaced(&rest.at, &step));
+        let change = |a: &[f64], b: &[f64]| {
+            let pairs = a.iter().zip(b);
+            largest(&pairs.map(|(a, b)| a - b).collect::<Vec<f64>>())
+        };
+        by_rates = by_rates.max(change(&rates, &beside.0));
+        by_accelerations = by_accelerations.max(change(&accelerations, &beside.1));
+    }
+    let fastest = largest(&rates);
+    let strongest = largest(&accelerations).max(fastest * fastest);
+    let beside = |change: f64, size: f64| if change == 0.0 { 0.0 } else { change / size };
+    Accuracy {
+        smallest_singular_value: Some(smallest),
+        configuration: off,
+        rates: beside(by_rates, fastest),
+        accelerations: beside(by_accelerations, strongest),
+    }
+}
+
+/// Whether the rates asked for exist to first order only.
+///
+/// With one infinitesimal freedom a finite step along it tells. With several the step would have to
+/// follow curves that it does not know, but accelerations tell at second order: none meet the
+/// closure equations. `motion` must be factorised at the configuration.
+pub(super) fn first_order_only(
+    near: &mut Neighbourhood,
+    motion: &mut Motion,
+    at: &Configuration<f64>,
+    drive: &Drive,
+) -> Option<FirstOrderOnly> {
+    /// Length of the finite step, in rad and characteristic lengths.
+    const STEP: f64 = 0.05;
+    /// Accelerations that open a closure by less than this beside the largest do so by rounding.
+    const ROUNDING: f64 = 1e-6;
+    // from rest the accelerations are what a motion begins with
+    let given = match is_still(&drive.rates) && !is_still(&drive.accelerations) {
+        true => drive.accelerations.clone(),
+        false => rates_or_all(drive),
+    };
+    let changes = match is_still(&drive.rates) {
+        true => vec![0.0; given.len()],
+        false => drive.accelerations.clone(),
+    };
+    let rates = motion.rates(&given).to_vec();
+    let strongest = largest(motion.accelerations(at, &given, &changes));
+    let mismatch = motion.mismatch_of_accelerations(at);
+    let fastest = largest(&rates);
+    let opens = mismatch > ROUNDING * strongest.max(fastest * fastest);
+    let tangent = near.tangent(at.clone());
+    let order = near.system().unknowns();
+    let places = order.iter().map(|unknown| {
+        let place = motion.unknowns().iter().position(|u| u == unknown);
+        place.expect("the motion has every unknown")
+    });
+    let mut direction: Vec<f64> = places.map(|place| rates[place]).collect();
+    let length = norm(&direction);
+    let alone = tangent.motions.len() == 1;
+    let gap = match alone && length > 0.0 {
+        true => {
+            direction.iter_mut().for_each(|x| *x /= length);
+            near.free_step(&tangent, &direction, STEP).err().flatten()
+        }
+        false => None,
+    };
+    (opens || gap.is_some()).then_some(FirstOrderOnly {
+        shaky: alone && gap.is_some(),
+        gap_after_step: gap,
+        mismatch,
+    })
+}

@@ -1,0 +1,95 @@
+//! How frames move, and what of that an idle spin leaves open.
+
+use super::FrameRate;
+use crate::geometry::Vector3;
+use crate::mechanism::{Configuration, Frame, Mechanism};
+use crate::system::{
+    FrameMotion, FrameMotions, Motion, Neighbourhood, Tangent, spin_lines, without,
+};
+
+/// For each frame of a mechanism the lines about which its link spins in idle freedoms.
+pub(super) struct Spins {
+    lines: Vec<(Frame, Vec<Vector3<f64>>)>,
+}
+
+impl Spins {
+    pub fn of(held: &Neighbourhood, rest: &Tangent) -> Self {
+        let twists = held.frames();
+        let mut placement = twists.placement();
+        if !rest.idle.is_empty() {
+            twists.place(&rest.at, &mut placement);
+        }
+        let lines = twists.frames().enumerate().map(|(i, frame)| {
+            let omegas = rest.idle.iter();
+            let omegas = omegas.map(|motion| twists.twist(i, &placement, motion).omega);
+            (frame, spin_lines(omegas))
+        });
+        Spins {
+            lines: lines.collect(),
+        }
+    }
+
+    /// Orthonormal directions of the lines.
+    pub fn lines_of(&self, frame: Frame) -> &[Vector3<f64>] {
+        let known = self.lines.iter().find(|(known, _)| *known == frame);
+        known.map_or(&[], |(_, lines)| lines)
+    }
+}
+
+/// How platforms, then the points asked for, move.
+pub(super) fn rates(
+    mechanism: &Mechanism,
+    motion: &mut Motion,
+    at: &Configuration<f64>,
+    points: &[Frame],
+    spins: &Spins,
+    accelerations: bool,
+) -> Vec<FrameRate> {
+    let platforms = 0..mechanism.platforms().len();
+    let platforms = platforms.map(|platform| Frame::Platform { platform });
+    let mut frames: Vec<Frame> = platforms.collect();
+    frames.extend(
+        points
+            .iter()
+            .filter(|point| !matches!(point, Frame::Platform { .. })),
+    );
+    let mut motions = FrameMotions::new(mechanism, motion, &frames);
+    motions.place(motion, at);
+    let named = frames.iter().enumerate();
+    named
+        .map(|(i, &frame)| {
+            let lines = spins.lines_of(frame);
+            let FrameMotion {
+                position,
+                twist,
+                change,
+            } = motions.motion(i);
+            let (omega, turning) = unspun(&twist.omega, &change.omega, lines);
+            FrameRate {
+                name: mechanism.frame_name(frame),
+                position: position.0,
+                angular_velocity: omega.0,
+                velocity: twist.velocity.0,
+                angular_acceleration: accelerations.then_some(turning.0),
+                acceleration: accelerations.then_some(change.velocity.0),
+                spins: lines.iter().map(|line| line.0).collect(),
+            }
+        })
+        .collect()
+}
+
+/// ω and ω̇ of a link that spins about a line u of its own, without the spin s: u turns with the link,
+/// so that from ω = ω₀ + s u with ω₀·u = 0 follow ω̇ = ω̇₀ + ṡ u + s ω₀ × u and ω̇₀·u = 0.
+fn unspun(
+    omega: &Vector3<f64>,
+    change: &Vector3<f64>,
+    lines: &[Vector3<f64>],
+) -> (Vector3<f64>, Vector3<f64>) {
+    let still = without(omega, lines);
+    let carried = lines.iter().map(|line| {
+        let spin = line.dot(omega);
+        still.cross(line).times(spin)
+    });
+    let change = carried.fold(*change, |left, part| left - part);
+    (still, without(&change, lines))
+}

@@ -1,0 +1,194 @@
+//! Finite steps from an assembled configuration.
+
+use super::{Neighbourhood, Tangent};
+use crate::linear::{Decomposition, RANK_TOLERANCE, dot, norm};
+use crate::mechanism::Configuration;
+use crate::solve::Equations;
+
+/// Where a finite step along an infinitesimal motion leads.
+#[derive(Clone, Debug)]
+pub struct Followed {
+    /// The configuration at which every equation is met that the Jacobian sees.
+    pub at: Configuration<f64>,
+    /// What is left of the others, dimensionless: zero if the motion is finite.
+    pub gap: f64,
+}
+
+impl Neighbourhood<'_> {
+    /// Moves a distance along a motion and back onto the equations that the Jacobian sees.
+    ///
+    /// With P = J⁺ fixed, x ← x ⊖ P r(x) solves the part of r in the range of J for given motion
+    /// components: the reduction of Lyapunov and Schmidt. What is left of r is a function of the
+    /// motion components alone, and a freedom is finite where it vanishes identically. `None` if
+    /// the iteration does not settle.
+    /// Source: Golubitsky and Schaeffer, Singularities and Groups in Bifurcation Theory I, 1985.
+    pub fn follow(&mut self, from: &Tangent, direction: &[f64], distance: f64) -> Option<Followed> {
+        const STEPS: usize = 60;
+        /// What rounding leaves of a dimensionless residual.
+        const CLOSED: f64 = 4e-15;
+        // a residual that is rounding asks for corrections of this length
+        let noise = (CLOSED / from.decomposition.smallest()).max(1e-12);
+        if noise > distance {
+            return None;
+        }
+        let step: Vec<f64> = direction.iter().map(|x| x * distance).collect();
+        let mut at = self.system.displaced(&from.at, &step);
+        let mut before = f64::INFINITY;
+        for _ in 0..STEPS {
+            self.system.residual(&at, &mut self.work);
+            let residual = self.system.residual_of(&self.work);
+            let correction = from.decomposition.solve(residual);
+            let size = norm(&correction);
+            // not even within the distance: the linear picture does not hold so far out
+            if size.is_nan() || size >= 10.0 * distance {
+                return None;
+            }
+            if size < 1e-14 || (size < noise && size >= 0.5 * before) {
+                let gap = norm(residual);
+                return Some(Followed { at, gap });
+            }
+            before = size;
+            let back: Vec<f64> = correction.iter().map(|x| -x).collect();
+            at = self.system.displaced(&at, &back);
+        }
+        None
+    }
+
+    /// The finite step along a motion if there is one: no longer than `distance`, shortened as far
+    /// as needed for it to settle, which near a singular configuration is about the distance to that.
+    /// `Err` has the gap of one that leaves the closures open.
+    pub fn free_step(
+        &mut self,
+        from: &Tangent,
+        direction: &[f64],
+        distance: f64,
+    ) -> Result<Followed, Option<f64>> {
+        /// This gap may be left and the motion still counts as free: rounding. A freedom that is
+        /// infinitesimal to order five only leaves 0.05⁶ = 1.6e-8 times its curvature.
+        const FREE: f64 = 1e-11;
+        /// The same for a step so short that a freedom of second order would leave no more than that.
+        const FREE_IF_SHORT: f64 = 1e-13;
+        const SHORT: f64 = 1e-3;
+        let mut length = distance;
+        while length > RANK_TOLERANCE {
+            if let Some(step) = self.follow(from, direction, length) {
+                let free = if length < SHORT { FREE_IF_SHORT } else { FREE };
+                return match step.gap <= free {
+                    true => Ok(step),
+                    false => Err(Some(step.gap)),
+                };
+            }
+            length *= 0.5;
+        }
+        Err(None)
+    }
+
+    /// Whether all motions are finite, tried along one that mixes them all: a shaky structure has some
+    /// that are not.
+    pub fn is_mobile(&mut self, at: &Tangent) -> bool {
+        const STEP: f64 = 0.05;
+        let mut mixed = vec![0.0; self.system.unknowns().len()];
+        for (motion, weight) in at.motions.iter().zip(1u8..) {
+            let weight = (1.7 * f64::from(weight)).sin();
+            (mixed.iter_mut().zip(motion)).for_each(|(x, m)| *x += weight * m);
+        }
+        let size = norm(&mixed);
+        if size == 0.0 {
+            return true;
+        }
+        mixed.iter_mut().for_each(|x| *x /= size);
+        self.free_step(at, &mixed, STEP).is_ok()
+    }
+
+    /// About how far the nearest singular configuration is along the motions, in rad and
+    /// characteristic lengths; `None` if that is more than `within` or nothing leads there.
+    ///
+    /// The smallest singular value σ = uᵀ J v that counts changes by gᵢ = uᵀ (∂J/∂mᵢ) v along a
+    /// motion mᵢ, so that to first order it vanishes at the distance σ/‖g‖.
+    pub fn singular_within(&mut self, from: &Tangent, within: f64) -> Option<f64> {
+        /// Step of the central differences.
+        const STEP: f64 = 1e-4;
+        let (u, v) = from.decomposition.weakest()?;
+        let smallest = from.decomposition.smallest();
+        // along a unit motion J changes by about its own size at most
+        if smallest > 2.0 * within * from.decomposition.singular_values()[0] {
+            return None;
+        }
+        let rows = self.system.rows();
+        let mut squares = 0.0;
+        for motion in &from.motions {
+            let mut slope = 0.0;
+            for step in [STEP, -STEP] {
+                let ahead: Vec<f64> = motion.iter().map(|x| x * step).collect();
+                let at = self.system.displaced(&from.at, &ahead);
+                self.system.linearise(&at, &mut self.work);
+                let jacobian = self.system.dense_jacobian(&mut self.work);
+                let columns = jacobian.chunks_exact(rows).zip(v);
+                let value: f64 = columns.map(|(column, v)| v * dot(u, column)).sum();
+                slope += value / (2.0 * step);
+            }
+            squares += slope * slope;
+        }
+        let distance = smallest / squares.sqrt();
+        (distance < within).then_some(distance)
+    }
+
+    /// What a motion ξ leaves of the equations to second order: wᵀ H(ξ, ξ) for each of the given w
+    /// with wᵀ J = 0. Motions of higher order that a finite one would need do not enter.
+    pub fn second_order(
+        &mut self,
+        from: &Tangent,
+        dependencies: &[Vec<f64>],
+        motion: &[f64],
+    ) -> Vec<f64> {
+        /// Balances the fourth order against rounding.
+        const STEP: f64 = 1e-3;
+        let mut sums = vec![0.0; dependencies.len()];
+        for step in [STEP, -STEP] {
+            let step: Vec<f64> = motion.iter().map(|x| x * step).collect();
+            let at = self.system.displaced(&from.at, &step);
+            self.system.residual(&at, &mut self.work);
+            let residual = self.system.residual_of(&self.work);
+            (sums.iter_mut().zip(dependencies)).for_each(|(sum, w)| *sum += dot(w, residual));
+        }
+        sums.iter().map(|sum| sum / (STEP * STEP)).collect()
+    }
+
+    /// The assembled configuration that Gauss–Newton steps of least length reach from a point, to
+    /// rounding; `None` if they go further than `reach` or do not arrive.
+    pub fn settle(&mut self, mut at: Configuration<f64>, reach: f64) -> Option<Configuration<f64>> {
+        const STEPS: usize = 60;
+        const TOLERANCE: f64 = 1e-12;
+        /// No further step pays once this is reached.
+        const CLOSED: f64 = 1e-15;
+        let start = at.clone();
+        let mut best: Option<(f64, Configuration<f64>)> = None;
+        let mut stale = 0;
+        for _ in 0..STEPS {
+            let size = self.system.linearise(&at, &mut self.work).largest;
+            if best.as_ref().is_none_or(|(least, _)| size < 0.5 * least) {
+                best = Some((size, at.clone()));
+                stale = 0;
+            } else {
+                stale += 1;
+            }
+            let least = best.as_ref().map_or(f64::INFINITY, |best| best.0);
+            if size == 0.0 || (stale > 2 && least <= TOLERANCE) || (stale > 0 && least <= CLOSED) {
+                break;
+            }
+            let jacobian = self.system.dense_jacobian(&mut self.work);
+            let (rows, columns) = (self.system.rows(), self.system.unknowns().len());
+            let decomposition = Decomposition::of(rows, columns, &jacobian);
+            let mut back = decomposition.solve(self.system.residual_of(&self.work));
+            let longest = norm(&back);
+            let factor = (reach / longest).min(1.0);
+            back.iter_mut().for_each(|x| *x *= -factor);
+            at = self.system.displaced(&at, &back);
+            if norm(&self.system.difference(&start, &at)) > 10.0 * reach {
+                return None;
+            }
+        }
+        let (size, at) = best?;
+        (size <= TOLERANCE).then_some(at)
+    }
+}
