@@ -8,13 +8,16 @@ use super::carry::Ends;
 use super::coordinates::{C, Coordinates, size};
 use super::local::Local;
 use super::path::End;
-use super::real::{complex_key, key, order, real_solution, tidied_complex};
+use super::real::{complex_key, key, order, real_solution, tidied, tidied_complex};
 use super::report::{AssembliesReport, ComplexAssembly, Continuum, Fit, Named};
+use super::simple::are_one;
 use super::solutions::GenericSolutions;
 use super::way::Way;
-use crate::mechanism::{Configuration, Mechanism};
+use crate::geometry::Quaternion;
+use crate::mechanism::{Configuration, Coordinate, Mechanism};
 use crate::number::Number;
-use crate::system::{Held, System, Work};
+use crate::solve::Newton;
+use crate::system::{Held, HeldPlatform, System, Work};
 
 /// Starts from which what no path leads to is sought at every question, and where there is a reason
 /// to expect it.
@@ -23,6 +26,9 @@ const MANY_STARTS: usize = 400;
 /// Samples of a set of one dimension, and how far they are apart at least.
 const SAMPLES: usize = 6;
 const APART: f64 = 1e-3;
+
+/// The end of the way, where the asked inputs are.
+const END: C = C::new(1.0, 0.0);
 
 /// Points that Newton's method reached from starts with these numbers.
 type Starts<'a> = dyn Fn(Range<usize>) -> Vec<Configuration<f64>> + 'a;
@@ -51,8 +57,6 @@ pub(super) struct Found {
 struct Group {
     x: Vec<C>,
     paths: usize,
-    /// How many solutions meet there: as many as paths, or more where that can be seen.
-    multiplicity: usize,
     singular: bool,
     /// The dimension of the set of solutions through it.
     dimension: usize,
@@ -67,6 +71,8 @@ struct Gathered {
     unexpected: usize,
     /// Multiple solutions to which no path led.
     multiple: usize,
+    /// Real solutions that several ends are.
+    merged: usize,
 }
 
 impl Question<'_> {
@@ -81,23 +87,32 @@ impl Question<'_> {
         wanted: Wanted,
     ) -> AssembliesReport {
         let mut work = self.system.work();
-        let groups = self.grouped(&ends.ends, way.as_mut());
+        let (asked, half_a_turn_away): (Vec<&End>, Vec<&End>) =
+            (ends.ends.iter()).partition(|end| end.point().is_none_or(|x| self.has_held_angles(x)));
+        let groups = self.grouped(&asked, way.as_mut());
         let mut gathered = Gathered::default();
         for group in groups.iter().filter(|g| g.dimension == 0) {
             match self.real(&group.x, group.singular, &mut work) {
                 Some(point) => gathered.found.push(Found {
                     key: key(&point, self.coordinates),
                     point,
-                    multiplicity: group.multiplicity,
+                    multiplicity: group.paths,
                     dimension: 0,
                 }),
                 None if wanted.all_complex => {
                     let x = tidied_complex(&group.x, self.coordinates);
-                    let solution = self.complex(&x, group.paths);
+                    let condition = match (&mut way, group.paths) {
+                        (Some(way), 1) => way.condition(END, &x),
+                        _ => None,
+                    };
+                    let solution = self.complex(&x, (group.paths, condition));
                     gathered.complex.push((complex_key(&x), solution));
                 }
                 None => {}
             }
+        }
+        if let Some(way) = &mut way {
+            gathered.merged = self.merge(&mut gathered.found, way);
         }
         let mut report = self.empty(generic);
         let sets: Vec<&Group> = groups.iter().filter(|g| g.dimension > 0).collect();
@@ -110,11 +125,23 @@ impl Question<'_> {
                 self.add(&mut gathered, points, way, (&fit, false));
             }
         }
+        let nearest = match gathered.found.is_empty() {
+            true => {
+                let starts: Vec<&Vec<C>> = groups.iter().map(|g| &g.x).collect();
+                self.nearest(&starts, &mut work)
+            }
+            false => None,
+        };
+        if let (Some((point, true)), Some(way)) = (&nearest, &mut way) {
+            // an assembly after all, to which no path led
+            self.add(&mut gathered, vec![point.clone()], way, (&fit, false));
+        }
         let Gathered {
             mut found,
             mut complex,
             unexpected,
             multiple,
+            merged,
         } = gathered;
         // what is isolated comes first
         found.sort_by(|a, b| {
@@ -125,6 +152,7 @@ impl Question<'_> {
         });
         complex.sort_by(|a, b| order(&a.0, &b.0));
         let infinite = |e: &&End| **e == End::Infinite;
+        report.half_a_turn_away = half_a_turn_away.len();
         let isolated = groups.iter().filter(|g| g.dimension == 0);
         report.complex = match fit {
             Fit::TooManyHeld | Fit::AlwaysMultiple => found.iter().map(|f| f.multiplicity).sum(),
@@ -139,18 +167,17 @@ impl Question<'_> {
         report.fit = fit;
         report.at_infinity = ends.ends.iter().filter(infinite).count();
         report.lost = ends.ends.iter().filter(|e| **e == End::Lost).count();
-        report.singular = isolated.filter(|g| g.singular).count() + multiple;
+        report.singular = isolated.filter(|g| g.paths > 1).count() + merged + multiple;
         report.retried = ends.retries;
         report.paths = ends.paths;
         report.steps = ends.steps;
         report.evaluations = ends.evaluations;
         report.complex_assemblies = complex.into_iter().map(|(_, solution)| solution).collect();
         self.describe(&mut report, found, wanted.certificates, &mut work);
-        if report.assemblies.is_empty() {
-            let starts: Vec<&Vec<C>> = groups.iter().map(|g| &g.x).collect();
-            report.closest = self.closest(&starts, &mut work);
+        if let (true, Some((near, _))) = (report.assemblies.is_empty(), &nearest) {
+            report.closest = self.closest(near);
         }
-        report.complete = report.completeness();
+        report.complete = report.completeness(self.coordinates.length);
         report
     }
 
@@ -165,9 +192,53 @@ impl Question<'_> {
         )
     }
 
-    fn is_at(&self, x: &[C], found: &Found) -> bool {
+    /// Whether each roll, pitch or yaw that is held has its value, and not one half a turn from it.
+    fn has_held_angles(&self, x: &[C]) -> bool {
+        const UNDETERMINED: f64 = 1e-9;
+        let joints = self.coordinates.free_joints.len();
+        let poses = x[joints..].chunks_exact(7);
+        (self.coordinates.free_platforms.iter().zip(poses)).all(|(&p, x)| {
+            let HeldPlatform::Partly { coordinates, .. } = &self.held.platforms[p] else {
+                return true;
+            };
+            let rotation = Quaternion([x[0], x[1], x[2], x[3]]).rotation();
+            let along = |(c, value): &(Coordinate, f64)| c.along(&rotation, C::from_f64(*value));
+            (coordinates.iter().filter_map(along)).all(|along| along.re > UNDETERMINED)
+        })
+    }
+
+    /// Of real solutions that are one, as two conjugate complex ones are whose real part is assembled,
+    /// one is kept, with the multiplicity of all; how many others there were.
+    fn merge(&self, found: &mut Vec<Found>, way: &mut Way<'_>) -> usize {
+        let flat = |f: &Found| self.coordinates.flatten(&f.point.map(C::from_f64));
+        let mut kept: Vec<Found> = Vec::new();
+        let mut merged = 0;
+        for f in found.drain(..) {
+            let x = flat(&f);
+            match kept.iter_mut().find(|k| are_one(way, END, &flat(k), &x)) {
+                Some(one) => {
+                    merged += usize::from(one.multiplicity == 1);
+                    one.multiplicity += f.multiplicity;
+                    let x = Local::new(way, true).refined(&x);
+                    let mut at = self.asked.map(C::from_f64);
+                    self.coordinates.unflatten(&x, &mut at);
+                    one.point = tidied(at.map(|z| z.re), self.coordinates, false);
+                    one.key = key(&one.point, self.coordinates);
+                }
+                None => kept.push(f),
+            }
+        }
+        *found = kept;
+        merged
+    }
+
+    /// Whether Newton's method may have ended at a point on its way to a known assembly: the closures
+    /// see no more between them than it leaves.
+    fn is_at(&self, x: &[C], found: &Found, way: &mut Way<'_>) -> bool {
+        const NEAR: f64 = 0.03;
         let y = self.coordinates.flatten(&found.point.map(C::from_f64));
-        self.coordinates.same(x, &y)
+        self.coordinates.within(NEAR, x, &y)
+            && way.seen_apart(END, &y, x) <= 10.0 * Newton::default().tolerance
     }
 
     /// Adds what Newton's method finds at the asked inputs itself.
@@ -219,11 +290,10 @@ impl Question<'_> {
                 let y = self.coordinates.flatten(&f.point.map(C::from_f64));
                 self.coordinates.difference(x, &y)
             };
-            if gathered
-                .found
-                .iter()
-                .any(|f| f.dimension == 0 && self.is_at(&x, f))
-            {
+            let is_known = |x: &[C], way: &mut Way<'_>| {
+                (gathered.found.iter()).any(|f| f.dimension == 0 && self.is_at(x, f, way))
+            };
+            if is_known(&x, way) {
                 continue;
             }
             let mut local = Local::new(way, true);
@@ -238,8 +308,7 @@ impl Question<'_> {
             let enough = dimension > 0
                 && (alike.clone().count() >= SAMPLES
                     || alike.clone().any(|f| apart(f, &x) < APART));
-            let known = (gathered.found.iter()).any(|f| f.dimension == 0 && self.is_at(&x, f));
-            if enough || known {
+            if enough || is_known(&x, way) {
                 continue;
             }
             let Some(point) = self.real(&x, multiplicity != 1, &mut work) else {
@@ -264,6 +333,7 @@ impl Question<'_> {
             real: 0,
             at_infinity: 0,
             singular: 0,
+            half_a_turn_away: 0,
             not_isolated: 0,
             continua: Vec::new(),
             unexpected: 0,
@@ -290,36 +360,27 @@ impl Question<'_> {
     }
 
     /// Distinct finite ends.
-    fn grouped(&self, ends: &[End], mut way: Option<&mut Way<'_>>) -> Vec<Group> {
+    fn grouped(&self, ends: &[&End], mut way: Option<&mut Way<'_>>) -> Vec<Group> {
         let mut groups: Vec<Group> = Vec::new();
         for end in ends {
             let (x, singular) = match end {
                 End::Regular(x) => (x, false),
                 End::Singular(x) => (x, true),
-                End::Infinite | End::Lost => continue,
+                End::Either(_) | End::Infinite | End::Lost => continue,
             };
-            let near = |y: &[C]| match singular {
-                // an end that could not be refined has half the digits
-                true => self.coordinates.difference(x, y) < 1e-5 * (1.0 + size(x)),
-                false => self.coordinates.same(x, y),
-            };
-            match (groups.iter_mut()).find(|g| g.singular == singular && near(&g.x)) {
-                Some(group) => {
-                    group.paths += 1;
-                    group.multiplicity = group.multiplicity.max(group.paths);
-                }
+            // solutions by themselves were told apart; an end where they meet that could not be
+            // refined has half the digits
+            let near = |y: &[C]| self.coordinates.within(1e-5 * (1.0 + size(x)), x, y);
+            match (groups.iter_mut()).find(|g| singular && g.singular && near(&g.x)) {
+                Some(group) => group.paths += 1,
                 None => {
-                    let (dimension, multiplicity) = match (&mut way, singular) {
-                        (Some(way), true) => {
-                            let mut local = Local::new(way, false);
-                            (local.dimension(x), local.order(x))
-                        }
-                        _ => (0, 1),
+                    let dimension = match (&mut way, singular) {
+                        (Some(way), true) => Local::new(way, false).dimension(x),
+                        _ => 0,
                     };
                     groups.push(Group {
                         x: x.clone(),
                         paths: 1,
-                        multiplicity,
                         singular,
                         dimension,
                     });
@@ -329,7 +390,7 @@ impl Question<'_> {
         groups
     }
 
-    fn complex(&self, x: &[C], multiplicity: usize) -> ComplexAssembly {
+    fn complex(&self, x: &[C], (multiplicity, condition): (usize, Option<f64>)) -> ComplexAssembly {
         let mut at = self.asked.map(C::from_f64);
         self.coordinates.unflatten(x, &mut at);
         let pair = |z: &C| [z.re, z.im];
@@ -343,6 +404,7 @@ impl Question<'_> {
             joints: Named(joints.zip(at.joints.iter().map(pair)).collect()),
             platforms: Named(platforms.zip(poses).collect()),
             multiplicity,
+            condition,
         }
     }
 }

@@ -11,6 +11,9 @@ use crate::number::Number;
 use crate::solve::Equations;
 use crate::system::Work;
 
+/// Assemblies nearer to each other than this, in rad or characteristic lengths, are barely told apart.
+const BARELY: f64 = 1e-4;
+
 impl Question<'_> {
     /// Numbers, conditions, determinants and certificates.
     pub(super) fn describe(
@@ -62,7 +65,9 @@ impl Question<'_> {
                 (_, 0) => {
                     Certificate::Failed("one of infinitely many: others are arbitrarily near")
                 }
-                (_, 2..) => Certificate::Failed("singular: solutions meet here"),
+                (_, 2..) => Certificate::Failed(
+                    "singular: solutions meet here, or are too near for double precision to tell apart",
+                ),
                 (Some(certifier), _) => certifier.certify(&f.point, (0.49 * gap).min(0.01)),
                 (None, _) if certify => {
                     Certificate::Failed("singular: too few independent closure rows")
@@ -73,7 +78,7 @@ impl Question<'_> {
             report.assemblies.push(Assembly {
                 mode: k + 1,
                 joints: named_joints(self.mechanism, &f.point),
-                platforms: named_poses(self.mechanism, &f.point),
+                platforms: named_poses(self.mechanism, &f.point, f.multiplicity == 1),
                 condition,
                 determinant_sign: sign,
                 multiplicity: f.multiplicity,
@@ -85,6 +90,9 @@ impl Question<'_> {
                 },
                 uncertified_because: match certificate {
                     Certificate::Unique(_) => None,
+                    Certificate::Failed(reason) if gap < BARELY => Some(format!(
+                        "{reason}; another assembly is {gap:.1e} away, which double precision barely separates"
+                    )),
                     Certificate::Failed(reason) => Some(reason.into()),
                 },
                 within_limits: joints

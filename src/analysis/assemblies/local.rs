@@ -228,12 +228,14 @@ impl<'a, 'f> Local<'a, 'f> {
     pub fn settled(&mut self, mut at: Vec<C>) -> Option<Vec<C>> {
         const STEPS: usize = 80;
         const LONGEST: f64 = 0.1;
-        const TOLERANCE: f64 = 1e-12;
+        const TOLERANCE: f64 = 1e-14;
         let mut best: Option<(f64, Vec<C>)> = None;
         let mut stale = 0;
         for _ in 0..STEPS {
             let linear = self.linear(&at);
-            let error = linear.residual.amax();
+            // rounding beside the slopes and the size of the point
+            let steepest = linear.values.first().copied().unwrap_or(0.0).max(1.0);
+            let error = linear.residual.amax() / (steepest * (1.0 + size(&at)));
             if !error.is_finite() {
                 return None;
             }
@@ -255,7 +257,7 @@ impl<'a, 'f> Local<'a, 'f> {
             at = self.moved(&at, &step);
         }
         let (error, at) = best?;
-        (error <= TOLERANCE * (1.0 + size(&at)).powi(2)).then_some(at)
+        (error <= TOLERANCE).then_some(at)
     }
 
     /// Directions that are lost at a point; complex ones count once.
