@@ -166,7 +166,7 @@ fn nearest(mechanism: &Mechanism, closest: &ClosestApproach) -> String {
     let mut text = match closest.local_minimum {
         true => format!("Closest approach: closure {} gapes most\n", closest.worst),
         false => format!(
-            "Closest found, perhaps not the closest approach: closure {} gapes most\n",
+            "Closest found, though perhaps not closest of all: closure {} gapes most\n",
             closest.worst
         ),
     };

@@ -235,7 +235,7 @@ impl Question<'_> {
     /// Whether Newton's method may have ended at a point on its way to a known assembly: the closures
     /// see no more between them than it leaves.
     fn is_at(&self, x: &[C], found: &Found, way: &mut Way<'_>) -> bool {
-        const NEAR: f64 = 0.03;
+        const NEAR: f64 = 0.3;
         let y = self.coordinates.flatten(&found.point.map(C::from_f64));
         self.coordinates.within(NEAR, x, &y)
             && way.seen_apart(END, &y, x) <= 10.0 * Newton::default().tolerance

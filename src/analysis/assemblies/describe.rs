@@ -5,7 +5,6 @@ use super::certificate::{Certificate, Certifier, independent_rows};
 use super::coordinates::{C, Coordinates};
 use super::real::{named_joints, named_poses};
 use super::report::{AssembliesReport, Assembly};
-use crate::linear::Spectrum;
 use crate::mechanism::Configuration;
 use crate::number::Number;
 use crate::solve::Equations;
@@ -43,8 +42,7 @@ impl Question<'_> {
             false => None,
         };
         for (k, (f, dense)) in found.iter().zip(&jacobians).enumerate() {
-            let values = Spectrum::of(rows, columns, dense).values;
-            let (first, last) = (values.first().copied(), values.last().copied());
+            let (first, last) = extremes(rows, columns, dense);
             let condition = match (first, last) {
                 (Some(a), Some(b)) if rows >= columns && b > 1e-12 * a && f.multiplicity == 1 => {
                     Some(a / b)
@@ -117,6 +115,16 @@ fn shares_pose(coordinates: &Coordinates, a: &[f64], b: &[f64]) -> bool {
     let joints = coordinates.free_joints.len();
     !coordinates.free_platforms.is_empty()
         && (a[joints..].iter().zip(&b[joints..])).all(|(a, b)| (a - b).abs() < 1e-6)
+}
+
+/// The largest and the smallest singular value, which need no vectors.
+fn extremes(rows: usize, columns: usize, dense: &[f64]) -> (Option<f64>, Option<f64>) {
+    if rows == 0 || columns == 0 {
+        let nothing = (columns > 0).then_some(0.0);
+        return (nothing, nothing);
+    }
+    let values = nalgebra::DMatrix::from_column_slice(rows, columns, dense).singular_values();
+    (Some(values.max()), Some(values.min()))
 }
 
 fn determinant_sign(rows: usize, columns: usize, dense: &[f64], chosen: &[usize]) -> i8 {
