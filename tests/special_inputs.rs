@@ -610,7 +610,7 @@ fn out_of_reach_the_closest_approach_keeps_no_gap_that_a_free_joint_closes() {
 /// Conjugate solutions have the same condition.
 #[test]
 fn complex_solutions_have_a_condition() {
-    let mechanism = with("planar_3rpr", &[]);
+    let mechanism = with("three_rps", &[]);
     let question = asked(&mechanism, &[], &[]);
     let settings = AssembliesSettings::default();
     let solver = AssemblySolver::new(&mechanism, &question.held(), &settings).unwrap();

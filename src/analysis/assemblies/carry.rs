@@ -6,7 +6,7 @@ use super::coordinates::{C, Coordinates};
 use super::family::{Family, Member};
 use super::generic::Progress;
 use super::path::{End, Path, arrived, follow};
-use super::simple::are_one;
+use super::simple::{are_one, may_be_one};
 use super::stances::{Stance, count, learn};
 use super::threads;
 use super::way::Way;
@@ -202,47 +202,64 @@ fn straight(way: &Way<'_>, solutions: &[Vec<C>], manner: &Manner<'_>) -> Ends {
     all
 }
 
+/// Tells whether ends of paths are one solution. Most are far apart, and then nothing is evaluated.
+struct Teller<'a, 'f> {
+    way: &'a Way<'f>,
+    storage: Option<Way<'f>>,
+}
+
+impl<'a, 'f> Teller<'a, 'f> {
+    fn new(way: &'a Way<'f>) -> Self {
+        Teller { way, storage: None }
+    }
+
+    fn one(&mut self, x: &[C], y: &[C]) -> bool {
+        may_be_one(&self.way.family.coordinates, x, y) && {
+            let way = self.storage.get_or_insert_with(|| self.way.clone());
+            are_one(way, C::from_f64(1.0), x, y)
+        }
+    }
+}
+
 /// Gives each path that ends at either of two solutions one that no other path ends at.
 fn shared_out(way: &Way<'_>, ends: &mut [End]) {
-    let mut way = way.clone();
+    let mut teller = Teller::new(way);
     for i in 0..ends.len() {
         let End::Either(both) = ends[i].clone() else {
             continue;
         };
         let mut taken = |y: &Vec<C>| {
-            let regular = |end: &End| matches!(end, End::Regular(x) if is_at(&mut way, x, y));
-            ends.iter().any(regular)
+            let mut regular = |end: &End| matches!(end, End::Regular(x) if teller.one(x, y));
+            ends.iter().any(&mut regular)
         };
         let free = both.into_iter().find(|y| !taken(y));
         ends[i] = free.map_or(End::Lost, End::Regular);
     }
 }
 
-fn is_at(way: &mut Way<'_>, x: &[C], y: &[C]) -> bool {
-    are_one(way, C::from_f64(1.0), x, y)
-}
-
 /// Paths that were lost, and those that share a regular end.
 fn doubtful(way: &Way<'_>, ends: &[End]) -> Vec<usize> {
-    let mut way = way.clone();
-    let mut shared = |i: usize| match &ends[i] {
-        End::Regular(x) => (ends.iter().enumerate())
-            .any(|(j, end)| matches!(end, End::Regular(y) if i != j && is_at(&mut way, x, y))),
-        _ => false,
-    };
-    (0..ends.len())
-        .filter(|&i| ends[i] == End::Lost || shared(i))
-        .collect()
+    let mut teller = Teller::new(way);
+    let mut doubtful: Vec<bool> = ends.iter().map(|end| *end == End::Lost).collect();
+    for (i, end) in ends.iter().enumerate() {
+        let End::Regular(x) = end else { continue };
+        for (j, other) in ends.iter().enumerate().take(i) {
+            if matches!(other, End::Regular(y) if teller.one(y, x)) {
+                (doubtful[i], doubtful[j]) = (true, true);
+            }
+        }
+    }
+    (0..ends.len()).filter(|&i| doubtful[i]).collect()
 }
 
 /// Of paths that still end at one regular solution only one can be right.
 fn told_apart(way: &Way<'_>, ends: &mut [End]) {
-    let mut way = way.clone();
+    let mut teller = Teller::new(way);
     for i in 0..ends.len() {
         let (before, rest) = ends.split_at_mut(i);
         let End::Regular(x) = &rest[0] else { continue };
-        let known = |end: &End| matches!(end, End::Regular(y) if is_at(&mut way, y, x));
-        if before.iter().any(known) {
+        let mut known = |end: &End| matches!(end, End::Regular(y) if teller.one(y, x));
+        if before.iter().any(&mut known) {
             rest[0] = End::Lost;
         }
     }

@@ -1,6 +1,6 @@
 //! Whether a solution is one by itself or several that coincide.
 
-use super::coordinates::{C, size};
+use super::coordinates::{C, Coordinates, size};
 use super::way::Way;
 use crate::solve::Homotopy;
 
@@ -35,8 +35,12 @@ pub(super) fn stands_alone(way: &mut Way<'_>, s: C, x: &[C]) -> bool {
     })
 }
 
+/// Whether two points are near enough to be approximations of one solution.
+pub(super) fn may_be_one(coordinates: &Coordinates, x: &[C], y: &[C]) -> bool {
+    coordinates.within(NEAR * (1.0 + size(x)), x, y)
+}
+
 /// Whether two points, the first of which is a solution by itself, are the same solution.
 pub(super) fn are_one(way: &mut Way<'_>, s: C, x: &[C], y: &[C]) -> bool {
-    (way.family.coordinates).within(NEAR * (1.0 + size(x)), x, y)
-        && way.seen_apart(s, x, y) <= ALIKE
+    may_be_one(&way.family.coordinates, x, y) && way.seen_apart(s, x, y) <= ALIKE
 }
