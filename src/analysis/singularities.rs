@@ -7,6 +7,7 @@
 mod along;
 mod classify;
 mod curve;
+mod drops;
 mod locus;
 mod trace;
 
@@ -39,7 +40,8 @@ pub struct SingularitiesSettings {
     pub outputs: Vec<Lock>,
     /// Whether a motion along inputs goes round folds and straight through crossings.
     pub follow: bool,
-    /// Random starts from which loci are sought.
+    /// Random starts from which loci are sought; up to ten times as many while some curve was met
+    /// only once, or hardly any start arrives.
     pub starts: usize,
     /// How carefully curves are followed.
     pub continuation: Continuation,
