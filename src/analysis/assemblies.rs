@@ -16,6 +16,7 @@ mod certificate;
 mod closest;
 mod coordinates;
 mod describe;
+mod elsewhere;
 mod family;
 mod fold;
 mod follow;

@@ -43,6 +43,9 @@ pub(super) fn located(way: &mut Way<'_>, mut s: f64, x: &[C]) -> Option<Meeting>
     for _ in 0..STEPS {
         let (residual, jacobian) = linear(way, s, &x);
         let rows = residual.len();
+        if rows == 0 {
+            return None;
+        }
         let here = Decomposition::of_rank(rows, unknowns, &jacobian, regular);
         let v = here.null_space().pop()?;
         let left = here.left_null_space();
