@@ -377,6 +377,21 @@ fn beside_a_set_of_assemblies_there_are_still_four() {
     }
 }
 
+/// Where all directions about the post close within rounding, single ones are no assemblies.
+#[test]
+fn what_only_rounding_closes_is_not_listed_as_an_assembly_by_itself() {
+    let mechanism = with("two_rhombi", &[]);
+    for theta in ["1e-11", "1e-12", "1e-13", "1e-15"] {
+        let question = asked(&mechanism, &[], &[("theta", theta)]);
+        let settings = AssembliesSettings::default();
+        let solver = AssemblySolver::new(&mechanism, &question.held(), &settings).unwrap();
+        let report = solver.at(&question.start(), Wanted::default());
+        let isolated = report.assemblies.iter().filter(|a| a.multiplicity > 0);
+        assert!(isolated.count() <= 4, "{theta}: {}", report.real);
+        assert_eq!(report.complex + report.not_isolated, 4, "{theta}");
+    }
+}
+
 /// Beside the change point of a parallelogram the crossed linkage is at φ = −θ (l0 + l1)/(l0 − l1) to
 /// first order, the other at φ = θ: two assemblies 4θ apart.
 #[test]

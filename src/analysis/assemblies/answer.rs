@@ -125,7 +125,8 @@ impl Question<'_> {
         };
         if let (Some((point, true)), Some(way)) = (&nearest, &mut way) {
             // an assembly after all, to which no path led
-            self.add(&mut gathered, vec![point.clone()], way, (&fit, false));
+            self.add(&mut gathered, vec![point.clone()], way, (&fit, true));
+            gathered.unexpected += gathered.found.len();
         }
         let Gathered {
             mut found,
