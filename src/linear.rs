@@ -12,6 +12,7 @@ mod lu;
 mod qr;
 #[cfg(feature = "sparse")]
 mod sparse;
+mod svd;
 
 pub use aligned::axis_aligned;
 pub use bordered::{Block, Bordered};
@@ -20,6 +21,7 @@ pub use factorable::{DenseOnly, Factorable, SparseStep};
 pub use qr::Qr;
 #[cfg(feature = "sparse")]
 pub use sparse::SparseNormal;
+pub use svd::Svd;
 
 /// The one rank tolerance of the program: a direction counts as lost when it is this small beside
 /// the largest one.
@@ -74,22 +76,9 @@ impl Spectrum {
                 null_space: Vec::new(),
             };
         }
-        // rows of zeros make the factor V square, so that it spans the null space too
-        let tall = rows.max(columns);
-        let mut matrix = nalgebra::DMatrix::zeros(tall, columns);
-        for (j, column) in entries.chunks_exact(rows.max(1)).take(columns).enumerate() {
-            if rows > 0 {
-                matrix.view_mut((0, j), (rows, 1)).copy_from_slice(column);
-            }
-        }
-        let svd = matrix.svd(false, true);
-        let values: Vec<f64> = svd.singular_values.iter().copied().collect();
-        let v_transposed = svd.v_t.expect("the decomposition was asked to compute V");
-        let null = rank(&values)..columns;
+        let Svd { values, right, .. } = Svd::of(rows, columns, entries);
         Spectrum {
-            null_space: null
-                .map(|i| v_transposed.row(i).iter().copied().collect())
-                .collect(),
+            null_space: right[rank(&values)..].to_vec(),
             values,
         }
     }

@@ -37,6 +37,10 @@ pub trait Number:
     + SubAssign
     + MulAssign
 {
+    /// Whether the numbers lie on a line, where roots and the angle of a point have one branch. In
+    /// the complex plane going round zero exchanges their branches.
+    const REAL: bool = true;
+
     /// The constant `x`.
     fn from_f64(x: f64) -> Self;
     /// π.

@@ -2,6 +2,7 @@
 //!
 //! Direct, inverse and mixed kinematics are only different choices of what is held ([`Held`]).
 
+mod approach;
 mod closing;
 mod count;
 mod curve;
@@ -29,6 +30,7 @@ mod value;
 mod walk;
 mod way;
 
+pub use approach::approach;
 pub use closing::{Analysed, Closed, NotClosed, WidestGap, close, fit, too_large};
 pub use count::{Count, check_angles, check_count};
 pub use curve::{Curve, Driven};

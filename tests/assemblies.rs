@@ -628,9 +628,9 @@ fn a_mode_is_followed_to_the_fold_where_it_ends() {
         {
             Followed::Fold(fold) => {
                 let fold = fold.inputs.get("theta1").unwrap();
-                assert!((fold - f64::acos(-5.0 / 16.0)).abs() < 1e-6, "{fold}");
+                assert!((fold - f64::acos(-5.0 / 16.0)).abs() < 1e-13, "{fold}");
             }
-            Followed::Arrived(at) => panic!("no assembly there, but {at:?}"),
+            other => panic!("no assembly there, but {other:?}"),
         }
     }
     let near = asked(&mechanism, &[], &[("theta1", "100 deg".into())]);
@@ -826,14 +826,6 @@ fn assemblies_that_are_not_isolated_are_not_denied() {
     let solver =
         AssemblySolver::new(&platform, &question.held(), &AssembliesSettings::default()).unwrap();
     let report = solver.at(&question.start(), Wanted::default());
-    assert!(report.closest.is_some_and(|closest| !closest.is_closed()));
-}
-
-#[test]
-fn single_angles_are_refused() {
-    let mechanism = mechanism("three_rps");
-    let question = Question::new(&mechanism).free("l1").unwrap();
-    let question = question.hold("top.roll", "5 deg").unwrap();
-    let solver = AssemblySolver::new(&mechanism, &question.held(), &AssembliesSettings::default());
-    assert!(matches!(solver, Err(AssembliesError::SingleAngle)));
+    let gaps = report.closest.unwrap().gaps;
+    assert!(gaps.0.iter().any(|(_, gap)| gap.distance > 0.1), "{gaps:?}");
 }

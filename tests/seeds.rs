@@ -108,13 +108,7 @@ fn differences(mechanism: &Mechanism, a: &AssembliesReport, b: &AssembliesReport
 
 /// Mechanisms whose answer still depends on the seed, or takes minutes, with the reason. An entry goes when its reason
 /// does.
-const OPEN: [(&str, &str); 2] = [
-    (
-        "bricard_trihedral",
-        "seed 23 takes two complex solutions that are far out for infinite",
-    ),
-    ("stewart_gough_6ups", "a search takes ten seconds"),
-];
+const OPEN: [(&str, &str); 1] = [("stewart_gough_6ups", "a search takes ten seconds")];
 
 /// Mechanisms with so many solutions that fifty searches take longer than a test may.
 const LONG: [&str; 6] = [

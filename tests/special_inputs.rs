@@ -6,8 +6,9 @@ use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
 
 use linkwork::analysis::assemblies::{
-    AssembliesReport, AssembliesSettings, AssemblySolver, Fit, Wanted,
+    AssembliesReport, AssembliesSettings, AssemblySolver, Fit, Followed, Wanted,
 };
+use linkwork::analysis::assembly::{AssemblySettings, Outcome, assemble};
 use linkwork::description::Description;
 use linkwork::mechanism::Mechanism;
 use linkwork::system::{Question, check_count};
@@ -326,5 +327,324 @@ fn complex_solutions_are_printed_alike_for_every_seed_and_number_of_threads() {
                 panic!("{name}, seed {seed}: `{a}` is not `{b}`");
             }
         }
+    }
+}
+
+/// Crank against the post, both loops stretched: 2·2 solutions meet, and none is listed beside them.
+#[test]
+fn where_two_loops_are_stretched_one_fourfold_assembly_is_listed_for_every_seed() {
+    let mechanism = with("two_rhombi", &[]);
+    for seed in 1..=10 {
+        let report = answer(&asked(&mechanism, &[], &[("theta", "pi")]), seed);
+        assert_eq!(
+            (report.real, report.complex, report.singular),
+            (1, 4, 1),
+            "seed {seed}"
+        );
+        assert_eq!(report.assemblies[0].multiplicity, 4);
+        for name in ["phi1", "psi1", "phi2", "psi2"] {
+            // half a turn is listed one way
+            assert!((joint(&report, 0, name) - PI).abs() < 1e-7, "{name}");
+        }
+    }
+}
+
+/// With the crank a little off the post each loop is a parallelogram, or nearly folded: four
+/// assemblies, however near the crank is.
+#[test]
+fn beside_a_set_of_assemblies_there_are_still_four() {
+    let mechanism = with("two_rhombi", &[]);
+    for theta in [1e-6, 1e-7, 1e-8, 1e-9] {
+        let value = format!("{theta:e}");
+        let report = answer(&asked(&mechanism, &[], &[("theta", &value)]), 1);
+        assert_eq!(
+            (report.real, report.complex, report.singular),
+            (4, 4, 0),
+            "{theta:e}"
+        );
+        assert!(report.continua.is_empty());
+        for k in 0..4 {
+            assert_eq!(report.assemblies[k].multiplicity, 1);
+            for [phi, psi] in [["phi1", "psi1"], ["phi2", "psi2"]] {
+                let [phi, psi] = [phi, psi].map(|name| joint(&report, k, name));
+                // the coupler's direction theta + phi and the rocker's psi: along the bars' own, psi =
+                // theta and theta + phi = 0, or folded, both half a turn from theta/2
+                let parallel = turn(psi, theta).max(turn(theta + phi, 0.0));
+                let folded = turn(psi, PI).max(turn(phi, PI));
+                assert!(parallel.min(folded) < 1e-6, "{theta:e}: {phi} {psi}");
+            }
+        }
+    }
+}
+
+/// Where all directions about the post close within rounding, single ones are no assemblies.
+#[test]
+fn what_only_rounding_closes_is_not_listed_as_an_assembly_by_itself() {
+    let mechanism = with("two_rhombi", &[]);
+    for theta in ["1e-11", "1e-12", "1e-13", "1e-15"] {
+        let question = asked(&mechanism, &[], &[("theta", theta)]);
+        let settings = AssembliesSettings::default();
+        let solver = AssemblySolver::new(&mechanism, &question.held(), &settings).unwrap();
+        let report = solver.at(&question.start(), Wanted::default());
+        let isolated = report.assemblies.iter().filter(|a| a.multiplicity > 0);
+        assert!(isolated.count() <= 4, "{theta}: {}", report.real);
+        assert_eq!(report.complex + report.not_isolated, 4, "{theta}");
+    }
+}
+
+/// Beside the change point of a parallelogram the crossed linkage is at φ = −θ (l0 + l1)/(l0 − l1) to
+/// first order, the other at φ = θ: two assemblies 4θ apart.
+#[test]
+fn two_assemblies_that_are_proved_apart_are_listed_apart() {
+    let mechanism = with("parallelogram", &[]);
+    for (theta, text) in [(1e-5, "1e-5"), (1e-6, "1e-6")] {
+        let report = answer(&asked(&mechanism, &[], &[("theta1", text)]), 1);
+        assert_eq!(
+            (report.real, report.complex, report.singular),
+            (2, 2, 0),
+            "{text}"
+        );
+        assert!(report.assemblies.iter().all(|a| a.certified));
+        let phi = [0, 1].map(|k| joint(&report, k, "phi1"));
+        assert!((phi[0] + 3.0 * theta).abs() < 1e-3 * theta, "{phi:?}");
+        assert!((phi[1] - theta).abs() < 1e-3 * theta, "{phi:?}");
+        let radii: f64 = report.assemblies.iter().filter_map(|a| a.radius).sum();
+        assert!(radii < phi[1] - phi[0]);
+    }
+    // nearer than double precision can tell
+    let report = answer(&asked(&mechanism, &[], &[("theta1", "1e-9")]), 1);
+    assert_eq!((report.real, report.complex, report.singular), (1, 2, 1));
+    assert_eq!(report.assemblies[0].multiplicity, 2);
+}
+
+/// `assemblies` and `solve` call the same configurations assembled, however little is missing.
+#[test]
+fn what_is_a_little_out_of_reach_is_assembled_for_both_or_for_neither() {
+    let arm = with("planar_2r", &[]);
+    let linkage = with("four_bar", &[("l0", "7")]);
+    let mut verdicts = Vec::new();
+    for beyond in ["1e-9", "1e-10", "1e-11", "1e-12", "1e-13", "0", "-1e-11"] {
+        let x = format!("1.8 + {beyond}");
+        // coupler and rocker stretched: 49 + 1 − 14 cos θ = 49
+        let theta = format!("-acos(1/14) - ({beyond})");
+        let reach = asked(&arm, &["actuated"], &[("hand.x", &x), ("hand.y", "0")]);
+        let fold = asked(&linkage, &[], &[("theta1", &theta)]);
+        for question in [reach, fold] {
+            let report = answer(&question, 1);
+            let one = assemble(&question, &AssemblySettings::default()).unwrap();
+            let assembled = !matches!(
+                one.outcome,
+                Outcome::CannotBeAssembled { .. } | Outcome::GaveUp { .. }
+            );
+            assert_eq!(report.real > 0, assembled, "{beyond}: {:?}", one.outcome);
+            assert_eq!(report.closest.is_none(), assembled, "{beyond}");
+            assert_eq!(report.complex, 2, "{beyond}");
+            verdicts.push(assembled);
+        }
+    }
+    assert!(verdicts.contains(&true) && verdicts.contains(&false));
+}
+
+/// Roll, pitch and yaw of the only platform of an assembly.
+fn angles(report: &AssembliesReport, k: usize) -> [f64; 3] {
+    report.assemblies[k].platforms.0[0].1.roll_pitch_yaw
+}
+
+#[test]
+fn a_planar_arm_reaches_a_place_under_an_angle_in_two_ways() {
+    let arm = with("planar_3r", &[]);
+    let held = [("tool.x", "1"), ("tool.y", "0.4"), ("tool.yaw", "30 deg")];
+    let question = asked(&arm, &["actuated"], &held);
+    check_count(&question).unwrap();
+    for seed in 1..=3 {
+        let report = answer(&question, seed);
+        assert_eq!(
+            (report.real, report.complex, report.half_a_turn_away),
+            (2, 2, 2)
+        );
+        assert_eq!(report.generic, report.complex + report.half_a_turn_away);
+        // the wrist at (1, 0.4) − 0.5 (cos 30°, sin 30°), by two links of 1 and 0.8
+        let (x, y) = (1.0 - 0.5 * (PI / 6.0).cos(), 0.4 - 0.25);
+        let bend = ((x * x + y * y - 1.64) / 1.6f64).acos();
+        for (k, theta2) in [bend, -bend].into_iter().enumerate() {
+            assert!((joint(&report, k, "theta2") - theta2).abs() < 1e-12);
+            let sum: f64 = ["theta1", "theta2", "theta3"]
+                .iter()
+                .map(|j| joint(&report, k, j))
+                .sum();
+            assert!(turn(sum, PI / 6.0) < 1e-12);
+            assert!(report.assemblies[k].certified);
+        }
+    }
+}
+
+/// With roll and pitch held the third row of the rotation is known up to its last two signs, so half of
+/// all solutions are turned over.
+#[test]
+fn a_platform_is_asked_for_by_height_roll_and_pitch() {
+    let platform = with("three_rps", &[]);
+    let held = [
+        ("top.z", "0.5"),
+        ("top.roll", "3 deg"),
+        ("top.pitch", "-4 deg"),
+    ];
+    let question = asked(&platform, &["actuated"], &held);
+    let reports = [1, 2].map(|seed| answer(&question, seed));
+    for report in &reports {
+        assert!(report.real > 0);
+        assert_eq!(report.complex + report.at_infinity, report.half_a_turn_away);
+        let ends = report.complex + report.at_infinity + report.half_a_turn_away;
+        assert_eq!(report.generic, ends);
+        for k in 0..report.real {
+            let [roll, pitch, _] = angles(report, k);
+            assert!((roll - 3f64.to_radians()).abs() < 1e-10, "{roll}");
+            assert!((pitch + 4f64.to_radians()).abs() < 1e-10, "{pitch}");
+        }
+    }
+    assert_eq!(reports[0].real, reports[1].real);
+}
+
+const FLAT: [&str; 12] = [
+    "a1z", "a2z", "a3z", "a4z", "a5z", "a6z", "b1z", "b2z", "b3z", "b4z", "b5z", "b6z",
+];
+
+/// A flat base and a flat platform: still 40, some of them a thousand lengths away.
+#[test]
+fn solutions_far_out_are_found_and_counted_for_every_seed() {
+    let flat = with("stewart_gough_6sps", &FLAT.map(|name| (name, "0")));
+    let question = asked(&flat, &[], &[("l1", "1.1"), ("l4", "0.95")]);
+    for seed in 1..=3 {
+        let report = answer(&question, seed);
+        let counts = (
+            report.generic,
+            report.complex,
+            report.at_infinity,
+            report.singular,
+        );
+        assert_eq!(counts, (40, 38, 2, 0), "seed {seed}");
+        // mirrored in the plane of the base
+        assert_eq!(report.real, 8);
+    }
+}
+
+/// Balls moved onto one another make another structure, whose bound is the one that applies.
+#[test]
+fn the_bound_is_that_of_the_dimensions_given() {
+    let onto = [
+        ("b2x", "b1x"),
+        ("b2y", "b1y"),
+        ("b2z", "b1z"),
+        ("b4x", "b3x"),
+        ("b4y", "b3y"),
+        ("b4z", "b3z"),
+        ("b6x", "b5x"),
+        ("b6y", "b5y"),
+        ("b6z", "b5z"),
+    ];
+    let general = with("stewart_gough_6sps", &[]);
+    let value = |name: &str| {
+        let parameter = general.parameters().iter().find(|p| p.name == name);
+        format!("{}", parameter.unwrap().value)
+    };
+    let values: Vec<(&str, String)> = onto.iter().map(|(b, a)| (*b, value(a))).collect();
+    let values: Vec<(&str, &str)> = values.iter().map(|(b, a)| (*b, a.as_str())).collect();
+    let report = answer(&asked(&with("stewart_gough_6sps", &values), &[], &[]), 1);
+    assert_eq!((report.generic, report.bound), (16, Some(16)));
+}
+
+fn followed(question: &Question, mode: usize) -> Followed {
+    let settings = AssembliesSettings::default();
+    let solver = AssemblySolver::new(question.mechanism(), &question.held(), &settings).unwrap();
+    solver
+        .follow(mode, &question.start(), &question.held())
+        .unwrap()
+}
+
+/// The straight way from home to (2.5, 0) leaves the disc of radius 1.8 that the arm reaches.
+#[test]
+fn the_place_where_a_mode_ends_is_known_to_the_last_digits() {
+    let arm = with("planar_2r", &[]);
+    let question = asked(&arm, &["actuated"], &[("hand.x", "2.5"), ("hand.y", "0")]);
+    let (x, y) = ((PI / 6.0).cos(), 1.3);
+    let (dx, dy) = (2.5 - x, -y);
+    let (a, b, c) = (dx * dx + dy * dy, x * dx + y * dy, x * x + y * y - 3.24);
+    let part = (-b + (b * b - a * c).sqrt()) / a;
+    for mode in [1, 2] {
+        let Followed::Fold(fold) = followed(&question, mode) else {
+            panic!("mode {mode} ends");
+        };
+        assert!(fold.turns_back);
+        assert!(
+            (fold.fraction - part).abs() < 1e-13,
+            "{} {part}",
+            fold.fraction
+        );
+        let theta = |name: &str| *fold.joints.get(name).unwrap();
+        let direction = (y + part * dy).atan2(x + part * dx);
+        assert!((theta("theta1") - direction).abs() < 1e-12);
+        assert!(theta("theta2").abs() < 1e-12, "{}", theta("theta2"));
+    }
+}
+
+#[test]
+fn a_mode_that_is_double_at_home_is_not_followed_along_a_branch_of_its_own_choice() {
+    let linkage = with("parallelogram", &[]);
+    let away = followed(&asked(&linkage, &[], &[("theta1", "30 deg")]), 1);
+    assert_eq!(away, Followed::Meets { multiplicity: 2 });
+    assert!(matches!(
+        followed(&asked(&linkage, &[], &[]), 1),
+        Followed::Arrived(_)
+    ));
+    // a mode by itself is followed
+    let linkage = with("four_bar", &[]);
+    let away = followed(&asked(&linkage, &[], &[("theta1", "30 deg")]), 1);
+    assert!(matches!(away, Followed::Arrived(_)));
+}
+
+/// The wrist's centre reaches √(d3² + (a2 + √(a3² + d4²))²) from the shoulder, and the wrist then turns
+/// the hand as it should be.
+#[test]
+fn out_of_reach_the_closest_approach_keeps_no_gap_that_a_free_joint_closes() {
+    let puma = with("puma560_modified", &[]);
+    let question = asked(&puma, &["actuated"], &[("hand", "[Tx(40)]")]);
+    let closest = answer(&question, 1).closest.unwrap();
+    assert!(closest.local_minimum);
+    let value = |name: &str| {
+        let parameter = puma.parameters().iter().find(|p| p.name == name);
+        parameter.unwrap().value
+    };
+    let arms = value("a2") + value("a3").hypot(value("d4"));
+    let (_, gap) = &closest.gaps.0[0];
+    assert!(
+        (gap.distance - (40.0 - value("d3").hypot(arms))).abs() < 1e-6,
+        "{gap:?}"
+    );
+    assert!(gap.angle < 1e-5, "{gap:?}");
+}
+
+/// Conjugate solutions have the same condition.
+#[test]
+fn complex_solutions_have_a_condition() {
+    let mechanism = with("three_rps", &[]);
+    let question = asked(&mechanism, &[], &[]);
+    let settings = AssembliesSettings::default();
+    let solver = AssemblySolver::new(&mechanism, &question.held(), &settings).unwrap();
+    let wanted = Wanted {
+        all_complex: true,
+        ..Wanted::default()
+    };
+    let report = solver.at(&question.start(), wanted);
+    let conditions = report
+        .complex_assemblies
+        .iter()
+        .map(|a| a.condition.unwrap());
+    let mut conditions: Vec<f64> = conditions.collect();
+    conditions.sort_by(f64::total_cmp);
+    assert!(!conditions.is_empty() && conditions.len().is_multiple_of(2));
+    for pair in conditions.chunks(2) {
+        assert!(
+            pair[0] >= 1.0 && (pair[1] - pair[0]).abs() < 1e-9 * pair[0],
+            "{pair:?}"
+        );
     }
 }

@@ -16,7 +16,9 @@ mod certificate;
 mod closest;
 mod coordinates;
 mod describe;
+mod elsewhere;
 mod family;
+mod fold;
 mod follow;
 mod generic;
 mod local;
@@ -114,9 +116,6 @@ pub enum AssembliesError {
     StoredForAnotherQuestion,
     /// No assembly has that number; there are this many.
     NoSuchMode(usize),
-    /// One or two of roll, pitch and yaw are held. They are no rational functions of the pose, so
-    /// their complex solutions are not those of an algebraic system.
-    SingleAngle,
 }
 
 impl std::fmt::Display for AssembliesError {
@@ -131,11 +130,6 @@ impl std::fmt::Display for AssembliesError {
             AssembliesError::StoredForAnotherQuestion => write!(
                 f,
                 "the stored solutions belong to other dimensions or to another choice of inputs"
-            ),
-            AssembliesError::SingleAngle => write!(
-                f,
-                "with roll, pitch or yaw held by itself not all assemblies can be listed: hold joints, \
-                 positions, all three angles or a whole pose, or use `solve`"
             ),
             AssembliesError::NoSuchMode(0) => write!(f, "there is no assembly at the home inputs"),
             AssembliesError::NoSuchMode(n) => {
@@ -184,15 +178,6 @@ impl AssemblySolver {
         settings: &AssembliesSettings,
         watch: &dyn Fn(Progress),
     ) -> Result<Self, AssembliesError> {
-        let single_angle = |held: &HeldPlatform<f64>| match held {
-            HeldPlatform::Partly { coordinates, .. } => {
-                coordinates.iter().any(|(c, _)| c.is_angle())
-            }
-            HeldPlatform::Free | HeldPlatform::Pose => false,
-        };
-        if held.platforms.iter().any(single_angle) {
-            return Err(AssembliesError::SingleAngle);
-        }
         let family = Family::new(mechanism, held);
         let bound = bound::known_bound(mechanism, &family).map(|b| b.count);
         let generic = generic::search(
@@ -348,6 +333,16 @@ impl AssemblySolver {
         let found = modes.assemblies.iter().find(|a| a.mode == mode);
         let assembly = found.ok_or(AssembliesError::NoSuchMode(modes.real))?;
         let start = assembly.configuration(&home);
+        let coordinates = &self.family.coordinates;
+        let stays = coordinates.inputs(&home, &held_home) == coordinates.inputs(asked, held);
+        if stays {
+            return Ok(Followed::Arrived(start));
+        }
+        if assembly.multiplicity != 1 {
+            return Ok(Followed::Meets {
+                multiplicity: assembly.multiplicity,
+            });
+        }
         follow::follow(
             &self.mechanism,
             &self.family,

@@ -1,11 +1,10 @@
 //! The assembled configuration near a guess.
 
-mod closest;
 mod singular;
 
 use crate::mechanism::{Configuration, Mechanism};
 use crate::solve::{Equations, Newton, Report, Stop};
-use crate::system::{Attempt, Freedoms, Question, QuestionError, Search, check_count};
+use crate::system::{Attempt, Freedoms, Question, QuestionError, Search, approach, check_count};
 pub use crate::system::{Count, Gap};
 
 /// How to look for an assembled configuration.
@@ -180,7 +179,7 @@ impl Reporter<'_> {
 
     fn unassembled(&self, attempt: Attempt) -> AssemblyReport {
         let settled = attempt.report.stop == Stop::Minimum;
-        let (at, local_minimum) = closest::approach(self.search.system(), &attempt.at);
+        let (at, local_minimum) = approach(self.search.system(), &attempt.at);
         let system = self.search.system();
         let size = system.residual(&at, &mut system.work());
         let attempt = Attempt {

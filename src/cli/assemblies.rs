@@ -20,6 +20,7 @@ use super::{Answer, Format, Refusal, style};
 #[derive(Args)]
 #[command(after_help = "Examples:\n  \
     linkwork assemblies mechanisms/four_bar.ron --hold theta1=\"60 deg\"\n  \
+    linkwork assemblies mechanisms/planar_3r.ron --free actuated --hold tool.x=1 --hold tool.y=0.4 --hold tool.yaw=0\n  \
     linkwork assemblies mechanisms/stewart_gough_6sps.ron --store stewart.store --hold l1=1.1")]
 pub struct Assemblies {
     #[command(flatten)]

@@ -51,6 +51,16 @@ impl Solve {
             let followed = solver.follow(mode, &question.start(), &question.held());
             match followed.map_err(|error| Refusal(format!("error: {error}\n")))? {
                 Followed::Arrived(at) => question = question.near(&at),
+                Followed::Meets { multiplicity } => {
+                    return Ok(Answer {
+                        data: match self.format {
+                            Format::Text => assemblies::meets_text(&question, mode, multiplicity),
+                            Format::Json => assemblies::meets_json(&question, mode, multiplicity),
+                        },
+                        remarks: loaded.warnings(),
+                        yes: false,
+                    });
+                }
                 Followed::Fold(fold) => {
                     return Ok(Answer {
                         data: match self.format {

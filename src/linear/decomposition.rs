@@ -1,4 +1,4 @@
-use super::rank;
+use super::{Svd, rank};
 
 /// The singular value decomposition A = U·Σ·Vᵀ of a dense matrix, cut at the rank tolerance.
 ///
@@ -33,19 +33,20 @@ impl Decomposition {
                 right: vec![],
             };
         }
-        let svd = nalgebra::DMatrix::from_column_slice(rows, columns, entries).svd(true, true);
-        let values: Vec<f64> = svd.singular_values.iter().copied().collect();
+        let Svd {
+            mut left,
+            mut values,
+            mut right,
+        } = Svd::of(rows, columns, entries);
+        values.truncate(rows.min(columns));
         let rank = rank(&values);
-        let (u, v) = (svd.u.expect("asked for"), svd.v_t.expect("asked for"));
+        left.truncate(rank);
+        right.truncate(rank);
         Decomposition {
             rows,
             columns,
-            left: (0..rank)
-                .map(|i| u.column(i).iter().copied().collect())
-                .collect(),
-            right: (0..rank)
-                .map(|i| v.row(i).iter().copied().collect())
-                .collect(),
+            left,
+            right,
             values,
         }
     }

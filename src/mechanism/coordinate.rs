@@ -66,12 +66,29 @@ impl Coordinate {
         }
     }
 
+    /// For roll and yaw x c + y s, which is cos(pitch) where the angle is `value` and −cos(pitch) where
+    /// it is half a turn from it, as pitch lies in [−π/2, π/2]. None for the others.
+    pub(crate) fn along<T: Number>(self, rotation: &Rotation<T>, value: T) -> Option<T> {
+        let [n, s, a] = rotation.0;
+        let (y, x) = match self {
+            Coordinate::Roll => (s.0[2], a.0[2]),
+            Coordinate::Yaw => (n.0[1], n.0[0]),
+            _ => return None,
+        };
+        let (sin, cos) = value.sin_cos();
+        Some(x * cos + y * sin)
+    }
+
     /// How far the coordinate is from `value`, dimensionless, with the derivative along a twist
     /// (ω; v/L) of the platform about its origin.
     ///
     /// An angle φ = atan2(y, x) differs from its value by atan2(y c − x s, x c + y s), which has no
     /// jump at ±π; dφ = (x dy − y dx)/(x² + y²), and an entry r of column n along e changes by
     /// ω·(n × e).
+    ///
+    /// Over complex numbers the row is entire instead: y c − x s for roll and yaw, y − s for pitch.
+    /// No analytic row can tell φ from φ + π there, nor the two signs of cos(pitch), so it vanishes
+    /// for both; [`Coordinate::along`] tells them apart.
     pub(crate) fn row<T: Number>(self, pose: &Pose<T>, value: T, length: f64) -> (T, [T; 6]) {
         let mut slope = [T::zero(); 6];
         let [n, s, a] = pose.rotation.0;
@@ -95,6 +112,14 @@ impl Coordinate {
             }
         };
         let (sin, cos) = value.sin_cos();
+        if !T::REAL {
+            let (gap, d) = match self {
+                Coordinate::Pitch => (y - sin, dy),
+                _ => (y * cos - x * sin, dy.times(cos) - dx.times(sin)),
+            };
+            slope[..3].copy_from_slice(&d.0);
+            return (gap, slope);
+        }
         let gap = (y * cos - x * sin).atan2(x * cos + y * sin);
         let d = (dy.times(x) - dx.times(y)).times(T::one() / (x * x + y * y));
         slope[..3].copy_from_slice(&d.0);

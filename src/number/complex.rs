@@ -1,6 +1,8 @@
 use super::{Complex, Field, Number};
 
 impl Number for Complex<f64> {
+    const REAL: bool = false;
+
     #[inline(always)]
     fn from_f64(x: f64) -> Self {
         Complex::new(x, 0.0)

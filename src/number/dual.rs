@@ -109,6 +109,8 @@ impl<T: Number> MulAssign for Dual<T> {
 }
 
 impl<T: Number> Number for Dual<T> {
+    const REAL: bool = T::REAL;
+
     fn from_f64(x: f64) -> Self {
         Dual::constant(T::from_f64(x))
     }

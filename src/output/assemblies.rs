@@ -57,18 +57,6 @@ pub fn sentence(report: &AssembliesReport) -> String {
         ),
         (Fit::TooManyHeld | Fit::AlwaysMultiple, _) => format!("{real} found."),
         (Fit::Finite, _) if !report.continua.is_empty() => infinitely_many(report),
-        (Fit::Finite, 0)
-            if report
-                .closest
-                .as_ref()
-                .is_some_and(ClosestApproach::is_closed) =>
-        {
-            format!(
-                "No path of {} led to a real assembly, but the mechanism assembles: one assembly \
-                 is given, and others may be missing.",
-                report.generic
-            )
-        }
         (Fit::Finite, 0) => format!("0 real of {} complex: no assembly.", report.complex),
         (Fit::Finite, _) => format!(
             "{real}: {} real of {} complex.",
@@ -104,24 +92,44 @@ fn infinitely_many(report: &AssembliesReport) -> String {
 
 fn accounting(mechanism: &Mechanism, report: &AssembliesReport) -> String {
     let mut text = String::new();
-    if report.fit == Fit::Finite {
-        let doubles: Vec<String> = (report.assemblies.iter().filter(|a| a.multiplicity > 1))
-            .map(|a| format!("{} is {}", a.mode, times(a.multiplicity)))
-            .collect();
+    let mut doubles: Vec<String> = (report.assemblies.iter().filter(|a| a.multiplicity > 1))
+        .map(|a| format!("{} is {}", a.mode, times(a.multiplicity)))
+        .collect();
+    match report.singular.saturating_sub(doubles.len()) {
+        0 => {}
+        1 => doubles.push("1 is complex".into()),
+        n => doubles.push(format!("{n} are complex")),
+    }
+    let _ = write!(
+        text,
+        "{} complex with multiplicity, {} at infinity{}, {} lost; {} where solutions meet",
+        report.complex,
+        report.at_infinity,
+        match report.at_infinity {
+            0 => "",
+            _ => " or beyond 1000 characteristic lengths",
+        },
+        report.lost,
+        report.singular
+    );
+    if !doubles.is_empty() {
+        let _ = write!(text, " ({})", listed(&doubles));
+    }
+    if report.half_a_turn_away > 0 {
         let _ = write!(
             text,
-            "{} complex with multiplicity, {} at infinity, {} lost; {} where solutions meet",
-            report.complex, report.at_infinity, report.lost, report.singular
+            "; {} with roll or yaw half a turn from what is held",
+            report.half_a_turn_away
         );
-        if !doubles.is_empty() {
-            let _ = write!(text, " ({})", listed(&doubles));
-        }
-        if report.not_isolated > 0 {
-            let _ = write!(text, "; {} not isolated", report.not_isolated);
-        }
+    }
+    if report.not_isolated > 0 {
+        let _ = write!(text, "; {} not isolated", report.not_isolated);
+    }
+    text.push('\n');
+    if report.paths > 0 {
         let _ = writeln!(
             text,
-            "\n{} in {}, {} followed again",
+            "{} in {}, {} followed again",
             count(report.paths, "path"),
             count(report.steps, "step"),
             report.retried
@@ -155,9 +163,12 @@ fn accounting(mechanism: &Mechanism, report: &AssembliesReport) -> String {
 }
 
 fn nearest(mechanism: &Mechanism, closest: &ClosestApproach) -> String {
-    let mut text = match closest.is_closed() {
-        true => "An assembly to which no path led\n".into(),
-        false => format!("Closest approach: closure {} gapes most\n", closest.worst),
+    let mut text = match closest.local_minimum {
+        true => format!("Closest approach: closure {} gapes most\n", closest.worst),
+        false => format!(
+            "Closest found, though perhaps not closest of all: closure {} gapes most\n",
+            closest.worst
+        ),
     };
     for (name, gap) in &closest.gaps.0 {
         let _ = writeln!(text, "  {name}: {}", closing::gap(gap.distance, gap.angle));
@@ -198,10 +209,16 @@ pub fn json(question: &Question, report: &AssembliesReport) -> String {
 pub fn fold_text(question: &Question, mode: usize, fold: &Fold) -> String {
     let mechanism = question.mechanism();
     let part = number(100.0 * fold.fraction);
-    let mut text = format!(
-        "{}\nMode {mode} ceases to exist on the way from home, {part} % of the way: there it meets another mode.\n",
-        mechanism.name()
-    );
+    let what = match fold.turns_back {
+        true => format!(
+            "Mode {mode} ceases to exist on the way from home, {part} % of the way: there it meets another mode."
+        ),
+        false => format!(
+            "Mode {mode} cannot be followed beyond {part} % of the way from home, where it meets other \
+             assemblies: its number does not tell which of them to follow."
+        ),
+    };
+    let mut text = format!("{}\n{what}\n", mechanism.name());
     for (name, value) in &fold.inputs.0 {
         let _ = writeln!(text, "  {name} = {}", input(mechanism, name, *value));
     }
@@ -227,6 +244,38 @@ fn input(mechanism: &Mechanism, name: &str, value: f64) -> String {
     coordinate.map_or(number(value), |c| quantity(value, c.is_angle()))
 }
 
+/// A mode that cannot be followed from home, as text.
+pub fn meets_text(question: &Question, mode: usize, multiplicity: usize) -> String {
+    let what = match multiplicity {
+        0 => "one of infinitely many connected assemblies".into(),
+        n => format!("{}: {n} assemblies meet there", times(n)),
+    };
+    format!(
+        "{}\nAt home mode {mode} is {what}, and its number does not tell which of them to follow. \
+         `assemblies` lists those at the inputs asked; `solve --guess` starts near one of them.\n",
+        question.mechanism().name()
+    )
+}
+
+/// A mode that cannot be followed from home, as JSON.
+pub fn meets_json(question: &Question, mode: usize, multiplicity: usize) -> String {
+    #[derive(Serialize)]
+    struct MeetsJson {
+        outcome: &'static str,
+        mode: usize,
+        multiplicity: usize,
+    }
+    let outcome = "modes_meet_at_home";
+    document(
+        question.mechanism().name(),
+        &MeetsJson {
+            outcome,
+            mode,
+            multiplicity,
+        },
+    )
+}
+
 /// Where a mode ceases to exist, as JSON: m and rad.
 pub fn fold_json(question: &Question, mode: usize, fold: &Fold) -> String {
     #[derive(Serialize)]
@@ -236,7 +285,10 @@ pub fn fold_json(question: &Question, mode: usize, fold: &Fold) -> String {
         #[serde(flatten)]
         fold: &'a Fold,
     }
-    let outcome = "mode_ceases";
+    let outcome = match fold.turns_back {
+        true => "mode_ceases",
+        false => "mode_meets_others",
+    };
     document(
         question.mechanism().name(),
         &FoldJson {

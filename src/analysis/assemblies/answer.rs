@@ -8,24 +8,21 @@ use super::carry::Ends;
 use super::coordinates::{C, Coordinates, size};
 use super::local::Local;
 use super::path::End;
-use super::real::{complex_key, key, order, real_solution, tidied_complex};
+use super::real::{complex_key, key, order, real_solution, tidied, tidied_complex};
 use super::report::{AssembliesReport, ComplexAssembly, Continuum, Fit, Named};
+use super::simple::are_one;
 use super::solutions::GenericSolutions;
 use super::way::Way;
-use crate::mechanism::{Configuration, Mechanism};
+use crate::geometry::Quaternion;
+use crate::mechanism::{Configuration, Coordinate, Mechanism};
 use crate::number::Number;
-use crate::system::{Held, System, Work};
+use crate::system::{Held, HeldPlatform, System, Work};
 
-/// Starts from which what no path leads to is sought at every question, and where there is a reason
-/// to expect it.
-const STARTS: usize = 40;
-const MANY_STARTS: usize = 400;
-/// Samples of a set of one dimension, and how far they are apart at least.
-const SAMPLES: usize = 6;
-const APART: f64 = 1e-3;
+/// The end of the way, where the asked inputs are.
+pub(super) const END: C = C::new(1.0, 0.0);
 
 /// Points that Newton's method reached from starts with these numbers.
-type Starts<'a> = dyn Fn(Range<usize>) -> Vec<Configuration<f64>> + 'a;
+pub(super) type Starts<'a> = dyn Fn(Range<usize>) -> Vec<Configuration<f64>> + 'a;
 
 /// The question in real numbers.
 pub(super) struct Question<'a> {
@@ -51,8 +48,6 @@ pub(super) struct Found {
 struct Group {
     x: Vec<C>,
     paths: usize,
-    /// How many solutions meet there: as many as paths, or more where that can be seen.
-    multiplicity: usize,
     singular: bool,
     /// The dimension of the set of solutions through it.
     dimension: usize,
@@ -60,13 +55,15 @@ struct Group {
 
 /// What was gathered for a report.
 #[derive(Default)]
-struct Gathered {
-    found: Vec<Found>,
+pub(super) struct Gathered {
+    pub found: Vec<Found>,
     complex: Vec<(Vec<f64>, ComplexAssembly)>,
     /// Real solutions by themselves to which no path led.
-    unexpected: usize,
+    pub unexpected: usize,
     /// Multiple solutions to which no path led.
-    multiple: usize,
+    pub multiple: usize,
+    /// Real solutions that several ends are.
+    merged: usize,
 }
 
 impl Question<'_> {
@@ -81,23 +78,32 @@ impl Question<'_> {
         wanted: Wanted,
     ) -> AssembliesReport {
         let mut work = self.system.work();
-        let groups = self.grouped(&ends.ends, way.as_mut());
+        let (asked, half_a_turn_away): (Vec<&End>, Vec<&End>) =
+            (ends.ends.iter()).partition(|end| end.point().is_none_or(|x| self.has_held_angles(x)));
+        let groups = self.grouped(&asked, way.as_mut());
         let mut gathered = Gathered::default();
         for group in groups.iter().filter(|g| g.dimension == 0) {
             match self.real(&group.x, group.singular, &mut work) {
                 Some(point) => gathered.found.push(Found {
                     key: key(&point, self.coordinates),
                     point,
-                    multiplicity: group.multiplicity,
+                    multiplicity: group.paths,
                     dimension: 0,
                 }),
                 None if wanted.all_complex => {
                     let x = tidied_complex(&group.x, self.coordinates);
-                    let solution = self.complex(&x, group.paths);
+                    let condition = match (&mut way, group.paths) {
+                        (Some(way), 1) => way.condition(END, &x),
+                        _ => None,
+                    };
+                    let solution = self.complex(&x, (group.paths, condition));
                     gathered.complex.push((complex_key(&x), solution));
                 }
                 None => {}
             }
+        }
+        if let Some(way) = &mut way {
+            gathered.merged = self.merge(&mut gathered.found, way);
         }
         let mut report = self.empty(generic);
         let sets: Vec<&Group> = groups.iter().filter(|g| g.dimension > 0).collect();
@@ -110,11 +116,24 @@ impl Question<'_> {
                 self.add(&mut gathered, points, way, (&fit, false));
             }
         }
+        let nearest = match gathered.found.is_empty() {
+            true => {
+                let starts: Vec<&Vec<C>> = groups.iter().map(|g| &g.x).collect();
+                self.nearest(&starts, &mut work)
+            }
+            false => None,
+        };
+        if let (Some((point, true)), Some(way)) = (&nearest, &mut way) {
+            // an assembly after all, to which no path led
+            self.add(&mut gathered, vec![point.clone()], way, (&fit, true));
+            gathered.unexpected += gathered.found.len();
+        }
         let Gathered {
             mut found,
             mut complex,
             unexpected,
             multiple,
+            merged,
         } = gathered;
         // what is isolated comes first
         found.sort_by(|a, b| {
@@ -125,6 +144,7 @@ impl Question<'_> {
         });
         complex.sort_by(|a, b| order(&a.0, &b.0));
         let infinite = |e: &&End| **e == End::Infinite;
+        report.half_a_turn_away = half_a_turn_away.len();
         let isolated = groups.iter().filter(|g| g.dimension == 0);
         report.complex = match fit {
             Fit::TooManyHeld | Fit::AlwaysMultiple => found.iter().map(|f| f.multiplicity).sum(),
@@ -139,22 +159,26 @@ impl Question<'_> {
         report.fit = fit;
         report.at_infinity = ends.ends.iter().filter(infinite).count();
         report.lost = ends.ends.iter().filter(|e| **e == End::Lost).count();
-        report.singular = isolated.filter(|g| g.singular).count() + multiple;
+        report.singular = isolated.filter(|g| g.paths > 1).count() + merged + multiple;
         report.retried = ends.retries;
         report.paths = ends.paths;
         report.steps = ends.steps;
         report.evaluations = ends.evaluations;
         report.complex_assemblies = complex.into_iter().map(|(_, solution)| solution).collect();
         self.describe(&mut report, found, wanted.certificates, &mut work);
-        if report.assemblies.is_empty() {
-            let starts: Vec<&Vec<C>> = groups.iter().map(|g| &g.x).collect();
-            report.closest = self.closest(&starts, &mut work);
+        if let (true, Some((near, _))) = (report.assemblies.is_empty(), &nearest) {
+            report.closest = self.closest(near);
         }
-        report.complete = report.completeness();
+        report.complete = report.completeness(self.coordinates.length);
         report
     }
 
-    fn real(&self, x: &[C], singular: bool, work: &mut Work<f64>) -> Option<Configuration<f64>> {
+    pub(super) fn real(
+        &self,
+        x: &[C],
+        singular: bool,
+        work: &mut Work<f64>,
+    ) -> Option<Configuration<f64>> {
         real_solution(
             x,
             singular,
@@ -165,95 +189,44 @@ impl Question<'_> {
         )
     }
 
-    fn is_at(&self, x: &[C], found: &Found) -> bool {
-        let y = self.coordinates.flatten(&found.point.map(C::from_f64));
-        self.coordinates.same(x, &y)
+    /// Whether each roll, pitch or yaw that is held has its value, and not one half a turn from it.
+    fn has_held_angles(&self, x: &[C]) -> bool {
+        const UNDETERMINED: f64 = 1e-9;
+        let joints = self.coordinates.free_joints.len();
+        let poses = x[joints..].chunks_exact(7);
+        (self.coordinates.free_platforms.iter().zip(poses)).all(|(&p, x)| {
+            let HeldPlatform::Partly { coordinates, .. } = &self.held.platforms[p] else {
+                return true;
+            };
+            let rotation = Quaternion([x[0], x[1], x[2], x[3]]).rotation();
+            let along = |(c, value): &(Coordinate, f64)| c.along(&rotation, C::from_f64(*value));
+            (coordinates.iter().filter_map(along)).all(|along| along.re > UNDETERMINED)
+        })
     }
 
-    /// Adds what Newton's method finds at the asked inputs itself.
-    fn look_elsewhere(
-        &self,
-        gathered: &mut Gathered,
-        (fit, generic, wanted): (&Fit, &GenericSolutions, Wanted),
-        way: &mut Way<'_>,
-        starts: &Starts<'_>,
-    ) {
-        let many = matches!(fit, Fit::TooManyHeld | Fit::AlwaysMultiple) || generic.multiple > 0;
-        let first = if many { MANY_STARTS } else { STARTS };
-        if !(many || wanted.starts || matches!(fit, Fit::FreedomLeft(_))) {
-            return;
-        }
-        let expected = many || *fit != Fit::Finite;
-        self.add(gathered, starts(0..first), way, (fit, expected));
-    }
-
-    /// A real solution beside a complex point.
-    fn beside(&self, x: &[C], way: &mut Way<'_>) -> Option<Configuration<f64>> {
-        let mut start: Vec<C> = x.iter().map(|z| C::from_f64(z.re)).collect();
-        self.coordinates.settle(&mut start);
-        if start.iter().any(|z| !z.re.is_finite()) {
-            return None;
-        }
-        let x = Local::new(way, true).settled(start)?;
-        let mut at = self.asked.map(C::from_f64);
-        self.coordinates.unflatten(&x, &mut at);
-        Some(at.map(|z| z.re))
-    }
-
-    /// Adds solved points: by themselves, or as samples of a set.
-    fn add(
-        &self,
-        gathered: &mut Gathered,
-        points: Vec<Configuration<f64>>,
-        way: &mut Way<'_>,
-        (fit, expected): (&Fit, bool),
-    ) {
-        let mut work = self.system.work();
-        for point in points {
-            let x = self.coordinates.flatten(&point.map(C::from_f64));
-            let samples: Vec<&Found> = gathered.found.iter().filter(|f| f.dimension > 0).collect();
-            if *fit != Fit::Finite && samples.len() >= SAMPLES {
-                break;
+    /// Of real solutions that are one, as two conjugate complex ones are whose real part is assembled,
+    /// one is kept, with the multiplicity of all; how many others there were.
+    fn merge(&self, found: &mut Vec<Found>, way: &mut Way<'_>) -> usize {
+        let flat = |f: &Found| self.coordinates.flatten(&f.point.map(C::from_f64));
+        let mut kept: Vec<Found> = Vec::new();
+        let mut merged = 0;
+        for f in found.drain(..) {
+            let x = flat(&f);
+            match kept.iter_mut().find(|k| are_one(way, END, &flat(k), &x)) {
+                Some(one) => {
+                    merged += usize::from(one.multiplicity == 1);
+                    one.multiplicity += f.multiplicity;
+                    let x = Local::new(way, true).refined(&x);
+                    let mut at = self.asked.map(C::from_f64);
+                    self.coordinates.unflatten(&x, &mut at);
+                    one.point = tidied(at.map(|z| z.re), self.coordinates, false);
+                    one.key = key(&one.point, self.coordinates);
+                }
+                None => kept.push(f),
             }
-            let apart = |f: &Found, x: &[C]| {
-                let y = self.coordinates.flatten(&f.point.map(C::from_f64));
-                self.coordinates.difference(x, &y)
-            };
-            if gathered
-                .found
-                .iter()
-                .any(|f| f.dimension == 0 && self.is_at(&x, f))
-            {
-                continue;
-            }
-            let mut local = Local::new(way, true);
-            let dimension = local.dimension(&x);
-            let order_of = local.order(&x);
-            let (x, multiplicity) = match (dimension, order_of) {
-                (0, 1) => (x, 1),
-                (0, n) => (local.refined(&x), n),
-                _ => (x, 0),
-            };
-            let alike = samples.iter().filter(|f| f.dimension == dimension);
-            let enough = dimension > 0
-                && (alike.clone().count() >= SAMPLES
-                    || alike.clone().any(|f| apart(f, &x) < APART));
-            let known = (gathered.found.iter()).any(|f| f.dimension == 0 && self.is_at(&x, f));
-            if enough || known {
-                continue;
-            }
-            let Some(point) = self.real(&x, multiplicity != 1, &mut work) else {
-                continue;
-            };
-            gathered.multiple += usize::from(multiplicity > 1);
-            gathered.unexpected += usize::from(dimension == 0 && !expected);
-            gathered.found.push(Found {
-                key: key(&point, self.coordinates),
-                point,
-                multiplicity,
-                dimension,
-            });
         }
+        *found = kept;
+        merged
     }
 
     fn empty(&self, generic: &GenericSolutions) -> AssembliesReport {
@@ -264,6 +237,7 @@ impl Question<'_> {
             real: 0,
             at_infinity: 0,
             singular: 0,
+            half_a_turn_away: 0,
             not_isolated: 0,
             continua: Vec::new(),
             unexpected: 0,
@@ -290,36 +264,27 @@ impl Question<'_> {
     }
 
     /// Distinct finite ends.
-    fn grouped(&self, ends: &[End], mut way: Option<&mut Way<'_>>) -> Vec<Group> {
+    fn grouped(&self, ends: &[&End], mut way: Option<&mut Way<'_>>) -> Vec<Group> {
         let mut groups: Vec<Group> = Vec::new();
         for end in ends {
             let (x, singular) = match end {
                 End::Regular(x) => (x, false),
                 End::Singular(x) => (x, true),
-                End::Infinite | End::Lost => continue,
+                End::Either(_) | End::Infinite | End::Lost => continue,
             };
-            let near = |y: &[C]| match singular {
-                // an end that could not be refined has half the digits
-                true => self.coordinates.difference(x, y) < 1e-5 * (1.0 + size(x)),
-                false => self.coordinates.same(x, y),
-            };
-            match (groups.iter_mut()).find(|g| g.singular == singular && near(&g.x)) {
-                Some(group) => {
-                    group.paths += 1;
-                    group.multiplicity = group.multiplicity.max(group.paths);
-                }
+            // solutions by themselves were told apart; an end where they meet that could not be
+            // refined has half the digits
+            let near = |y: &[C]| self.coordinates.within(1e-5 * (1.0 + size(x)), x, y);
+            match (groups.iter_mut()).find(|g| singular && g.singular && near(&g.x)) {
+                Some(group) => group.paths += 1,
                 None => {
-                    let (dimension, multiplicity) = match (&mut way, singular) {
-                        (Some(way), true) => {
-                            let mut local = Local::new(way, false);
-                            (local.dimension(x), local.order(x))
-                        }
-                        _ => (0, 1),
+                    let dimension = match (&mut way, singular) {
+                        (Some(way), true) => Local::new(way, false).dimension(x),
+                        _ => 0,
                     };
                     groups.push(Group {
                         x: x.clone(),
                         paths: 1,
-                        multiplicity,
                         singular,
                         dimension,
                     });
@@ -329,7 +294,7 @@ impl Question<'_> {
         groups
     }
 
-    fn complex(&self, x: &[C], multiplicity: usize) -> ComplexAssembly {
+    fn complex(&self, x: &[C], (multiplicity, condition): (usize, Option<f64>)) -> ComplexAssembly {
         let mut at = self.asked.map(C::from_f64);
         self.coordinates.unflatten(x, &mut at);
         let pair = |z: &C| [z.re, z.im];
@@ -343,6 +308,7 @@ impl Question<'_> {
             joints: Named(joints.zip(at.joints.iter().map(pair)).collect()),
             platforms: Named(platforms.zip(poses).collect()),
             multiplicity,
+            condition,
         }
     }
 }

@@ -1,13 +1,15 @@
 //! Structures whose number of solutions is known.
 //!
-//! What a structure is, is read off a random complex member of the family: axes that are parallel or
-//! meet there do so in every member.
+//! What a structure is, is read off a member that is as generic as the one whose solutions are found:
+//! its inputs are random and complex, and its dimensions the mechanism's own, unless there are no
+//! inputs and the dimensions make the family. Axes that are parallel or meet there do so for all
+//! inputs; so do points that coincide.
 
 use rand::SeedableRng;
 use rand_pcg::Pcg64;
 
 use super::coordinates::C;
-use super::family::{Family, Member};
+use super::family::Family;
 use crate::geometry::Vector3;
 use crate::mechanism::{ClosureKind, Dimensions, Frame, JointKind, Mechanism};
 use crate::number::Number;
@@ -70,10 +72,7 @@ impl<'a> Structure<'a> {
     /// `None` if a joint moves more than one row, or by more than its own variable.
     fn of(mechanism: &'a Mechanism, family: &'a Family) -> Option<Self> {
         let mut rng = Pcg64::seed_from_u64(1);
-        let member = Member {
-            parameters: family.random_parameters(&mut rng),
-            inputs: family.random_inputs(&mut rng, 1.0),
-        };
+        let member = family.generic_member(&mut rng);
         let dimensions = family.dimensions(&member.parameters)?;
         let mut way = family.way(&member, &member)?;
         way.linearise(C::from_f64(0.0), &family.random_point(&mut rng, 1.0));

@@ -5,8 +5,8 @@ use std::cell::Cell;
 use super::coordinates::{C, Coordinates};
 use super::family::{Family, Member};
 use super::generic::Progress;
-use super::local::Local;
-use super::path::{End, NEAR_MEETING, Path, arrived, follow};
+use super::path::{End, Path, arrived, follow};
+use super::simple::{are_one, may_be_one};
 use super::stances::{Stance, count, learn};
 use super::threads;
 use super::way::Way;
@@ -24,9 +24,6 @@ pub(super) struct Ends {
     pub retries: usize,
 }
 
-/// Two paths that end at the same solution with a smaller quotient of pivots than this end at two
-/// solutions nearer to each other than can be told.
-const NEARLY_SINGULAR: f64 = 1e-4;
 /// Paths between two words about how far it is.
 const BATCH: usize = 64;
 
@@ -176,7 +173,6 @@ fn combinations(
 
 /// Follows every solution, those that are lost or share an end again.
 fn straight(way: &Way<'_>, solutions: &[Vec<C>], manner: &Manner<'_>) -> Ends {
-    let coordinates = &way.family.coordinates;
     let mut all = Ends {
         ends: vec![End::Lost; solutions.len()],
         paths: solutions.len(),
@@ -196,71 +192,75 @@ fn straight(way: &Way<'_>, solutions: &[Vec<C>], manner: &Manner<'_>) -> Ends {
                 all.ends[i] = path.end;
             }
         }
+        shared_out(way, &mut all.ends);
         if level == 2 {
             break;
         }
-        waiting = doubtful(&all.ends, |x, y| coordinates.same(x, y));
+        waiting = doubtful(way, &all.ends);
         all.retries += waiting.len();
     }
     all
 }
 
-/// Paths that were lost, and those that share a regular end.
-fn doubtful(ends: &[End], same: impl Fn(&[C], &[C]) -> bool) -> Vec<usize> {
-    let regular = |i: usize| match &ends[i] {
-        End::Regular(x) => Some(x),
-        _ => None,
-    };
-    let shared = |i: usize| {
-        regular(i).is_some_and(|x| {
-            (0..ends.len()).any(|j| j != i && regular(j).is_some_and(|y| same(x, y)))
-        })
-    };
-    (0..ends.len())
-        .filter(|&i| ends[i] == End::Lost || shared(i))
-        .collect()
+/// Tells whether ends of paths are one solution. Most are far apart, and then nothing is evaluated.
+struct Teller<'a, 'f> {
+    way: &'a Way<'f>,
+    storage: Option<Way<'f>>,
 }
 
-/// Of paths that still end at one regular solution only one can be right, unless several solutions
-/// are there that cannot be told apart.
-fn told_apart(way: &Way<'_>, ends: &mut [End]) {
-    let coordinates = &way.family.coordinates;
-    let mut at_end = way.clone();
-    let singular = |i: usize, ends: &[End]| match &ends[i] {
-        End::Singular(y) => Some(y.clone()),
-        _ => None,
-    };
-    // the last digits may take one of two paths to where both meet and the other past it
+impl<'a, 'f> Teller<'a, 'f> {
+    fn new(way: &'a Way<'f>) -> Self {
+        Teller { way, storage: None }
+    }
+
+    fn one(&mut self, x: &[C], y: &[C]) -> bool {
+        may_be_one(&self.way.family.coordinates, x, y) && {
+            let way = self.storage.get_or_insert_with(|| self.way.clone());
+            are_one(way, C::from_f64(1.0), x, y)
+        }
+    }
+}
+
+/// Gives each path that ends at either of two solutions one that no other path ends at.
+fn shared_out(way: &Way<'_>, ends: &mut [End]) {
+    let mut teller = Teller::new(way);
     for i in 0..ends.len() {
-        let Some(y) = singular(i, ends) else {
+        let End::Either(both) = ends[i].clone() else {
             continue;
         };
-        let at_y = |x: &[C]| coordinates.difference(x, &y) < NEAR_MEETING;
-        let alone = (0..ends.len()).all(|k| k == i || singular(k, ends).is_none_or(|x| !at_y(&x)));
-        for end in ends.iter_mut().filter(|_| alone) {
-            if let End::Regular(x) = end
-                && at_y(x)
-                && at_end.regularity(C::from_f64(1.0), x) < NEARLY_SINGULAR
-            {
-                *end = End::Singular(y.clone());
+        let mut taken = |y: &Vec<C>| {
+            let mut regular = |end: &End| matches!(end, End::Regular(x) if teller.one(x, y));
+            ends.iter().any(&mut regular)
+        };
+        let free = both.into_iter().find(|y| !taken(y));
+        ends[i] = free.map_or(End::Lost, End::Regular);
+    }
+}
+
+/// Paths that were lost, and those that share a regular end.
+fn doubtful(way: &Way<'_>, ends: &[End]) -> Vec<usize> {
+    let mut teller = Teller::new(way);
+    let mut doubtful: Vec<bool> = ends.iter().map(|end| *end == End::Lost).collect();
+    for (i, end) in ends.iter().enumerate() {
+        let End::Regular(x) = end else { continue };
+        for (j, other) in ends.iter().enumerate().take(i) {
+            if matches!(other, End::Regular(y) if teller.one(y, x)) {
+                (doubtful[i], doubtful[j]) = (true, true);
             }
         }
     }
-    let mut kept: Vec<usize> = Vec::new();
+    (0..ends.len()).filter(|&i| doubtful[i]).collect()
+}
+
+/// Of paths that still end at one regular solution only one can be right.
+fn told_apart(way: &Way<'_>, ends: &mut [End]) {
+    let mut teller = Teller::new(way);
     for i in 0..ends.len() {
-        let End::Regular(x) = &ends[i] else { continue };
-        let other = kept.iter().copied().find(|&k| match &ends[k] {
-            End::Regular(y) | End::Singular(y) => coordinates.same(x, y),
-            End::Infinite | End::Lost => false,
-        });
-        match other {
-            None => kept.push(i),
-            Some(other) if at_end.regularity(C::from_f64(1.0), x) < NEARLY_SINGULAR => {
-                let x = Local::new(&mut at_end, false).refined(x);
-                ends[i] = End::Singular(x.clone());
-                ends[other] = End::Singular(x);
-            }
-            Some(_) => ends[i] = End::Lost,
+        let (before, rest) = ends.split_at_mut(i);
+        let End::Regular(x) = &rest[0] else { continue };
+        let mut known = |end: &End| matches!(end, End::Regular(y) if teller.one(y, x));
+        if before.iter().any(&mut known) {
+            rest[0] = End::Lost;
         }
     }
 }

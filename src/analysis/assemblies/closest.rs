@@ -6,18 +6,19 @@ use super::real::{named_joints, named_poses, tidied};
 use super::report::{ClosestApproach, Named};
 use crate::mechanism::Configuration;
 use crate::number::Number;
-use crate::solve::Newton;
-use crate::system::{Gap, Work};
+use crate::solve::{Newton, Stop};
+use crate::system::{Gap, Work, approach};
 
 impl Question<'_> {
-    /// The smallest gaps that Newton's method from many real starts leaves.
-    pub(super) fn closest(
+    /// The smallest gaps that Newton's method leaves from the asked configuration and from the real
+    /// parts of complex solutions; whether nothing is left.
+    pub(super) fn nearest(
         &self,
         starts: &[&Vec<C>],
         work: &mut Work<f64>,
-    ) -> Option<ClosestApproach> {
+    ) -> Option<(Configuration<f64>, bool)> {
         let newton = Newton::default();
-        let mut best: Option<(f64, Configuration<f64>)> = None;
+        let mut best: Option<(f64, bool, Configuration<f64>)> = None;
         let lifted = starts.iter().map(|x| {
             let mut at = self.asked.map(C::from_f64);
             self.coordinates.unflatten(x, &mut at);
@@ -37,13 +38,18 @@ impl Question<'_> {
             if report.size.squares.is_finite()
                 && best
                     .as_ref()
-                    .is_none_or(|(least, _)| report.size.squares < least * (1.0 - 1e-6))
+                    .is_none_or(|(least, ..)| report.size.squares < least * (1.0 - 1e-6))
             {
-                best = Some((report.size.squares, point));
+                best = Some((report.size.squares, report.stop == Stop::Solved, point));
             }
         }
-        let (_, point) = best?;
-        let point = tidied(point, self.coordinates);
+        best.map(|(_, solved, point)| (point, solved))
+    }
+
+    /// How near the mechanism comes to being assembled about a configuration.
+    pub(super) fn closest(&self, near: &Configuration<f64>) -> Option<ClosestApproach> {
+        let (point, local_minimum) = approach(&self.system, near);
+        let point = tidied(point, self.coordinates, true);
         let gaps = Gap::of(self.mechanism, &point);
         let width = |gap: &Gap| gap.size(self.mechanism);
         let names = self.mechanism.closures().iter().map(|c| c.name.clone());
@@ -55,8 +61,9 @@ impl Question<'_> {
         Some(ClosestApproach {
             gaps: Named(gaps),
             worst,
+            local_minimum,
             joints: named_joints(self.mechanism, &point),
-            platforms: named_poses(self.mechanism, &point),
+            platforms: named_poses(self.mechanism, &point, true),
         })
     }
 }

@@ -194,9 +194,38 @@ impl Coordinates {
         self.gaps(x, y).fold(0.0, f64::max).sqrt()
     }
 
-    /// Whether two solutions are the same: their difference is small beside their size. With
-    /// [`Coordinates::same_pose`] and [`Coordinates::same_way`], which look at a part, this is the
-    /// one test of sameness.
+    /// The same solution as `y`, with the turns of its angles and the signs of its quaternions that
+    /// bring it nearest to `x`.
+    pub fn beside(&self, x: &[C], y: &[C]) -> Vec<C> {
+        let mut y = y.to_vec();
+        let joints = self.free_joints.len();
+        for ((x, y), &j) in x.iter().zip(&mut y).zip(&self.free_joints) {
+            if self.periodic[j] {
+                y.re -= TAU * ((y.re - x.re) / TAU).round();
+            }
+        }
+        let poses = x[joints..].chunks_exact(7);
+        for (x, y) in poses.zip(y[joints..].chunks_exact_mut(7)) {
+            let apart = |sign: f64| {
+                let pairs = x[..4].iter().zip(&y[..4]);
+                pairs.map(|(x, y)| (x - y * sign).norm_sqr()).sum::<f64>()
+            };
+            if apart(-1.0) < apart(1.0) {
+                y[..4].iter_mut().for_each(|y| *y = -*y);
+            }
+        }
+        y
+    }
+
+    /// Whether two solutions differ by no more than `limit` in any coordinate.
+    pub fn within(&self, limit: f64, x: &[C], y: &[C]) -> bool {
+        self.gaps(x, y).all(|gap| gap <= limit * limit)
+    }
+
+    /// Whether two solutions of a generic member are the same: their difference is small beside their
+    /// size. [`Coordinates::same_pose`] and [`Coordinates::same_way`] look at a part. At the inputs
+    /// asked solutions may be nearer to each other: there the closures tell
+    /// ([`are_one`](super::simple::are_one)).
     pub fn same(&self, x: &[C], y: &[C]) -> bool {
         all_small(self.gaps(x, y), x)
     }

@@ -5,11 +5,13 @@ use super::certificate::{Certificate, Certifier, independent_rows};
 use super::coordinates::{C, Coordinates};
 use super::real::{named_joints, named_poses};
 use super::report::{AssembliesReport, Assembly};
-use crate::linear::Spectrum;
 use crate::mechanism::Configuration;
 use crate::number::Number;
 use crate::solve::Equations;
 use crate::system::Work;
+
+/// Assemblies nearer to each other than this, in rad or characteristic lengths, are barely told apart.
+const BARELY: f64 = 1e-4;
 
 impl Question<'_> {
     /// Numbers, conditions, determinants and certificates.
@@ -40,8 +42,7 @@ impl Question<'_> {
             false => None,
         };
         for (k, (f, dense)) in found.iter().zip(&jacobians).enumerate() {
-            let values = Spectrum::of(rows, columns, dense).values;
-            let (first, last) = (values.first().copied(), values.last().copied());
+            let (first, last) = extremes(rows, columns, dense);
             let condition = match (first, last) {
                 (Some(a), Some(b)) if rows >= columns && b > 1e-12 * a && f.multiplicity == 1 => {
                     Some(a / b)
@@ -62,7 +63,9 @@ impl Question<'_> {
                 (_, 0) => {
                     Certificate::Failed("one of infinitely many: others are arbitrarily near")
                 }
-                (_, 2..) => Certificate::Failed("singular: solutions meet here"),
+                (_, 2..) => Certificate::Failed(
+                    "singular: solutions meet here, or are too near for double precision to tell apart",
+                ),
                 (Some(certifier), _) => certifier.certify(&f.point, (0.49 * gap).min(0.01)),
                 (None, _) if certify => {
                     Certificate::Failed("singular: too few independent closure rows")
@@ -73,7 +76,7 @@ impl Question<'_> {
             report.assemblies.push(Assembly {
                 mode: k + 1,
                 joints: named_joints(self.mechanism, &f.point),
-                platforms: named_poses(self.mechanism, &f.point),
+                platforms: named_poses(self.mechanism, &f.point, f.multiplicity == 1),
                 condition,
                 determinant_sign: sign,
                 multiplicity: f.multiplicity,
@@ -85,6 +88,9 @@ impl Question<'_> {
                 },
                 uncertified_because: match certificate {
                     Certificate::Unique(_) => None,
+                    Certificate::Failed(reason) if gap < BARELY => Some(format!(
+                        "{reason}; another assembly is {gap:.1e} away, which double precision barely separates"
+                    )),
                     Certificate::Failed(reason) => Some(reason.into()),
                 },
                 within_limits: joints
@@ -109,6 +115,16 @@ fn shares_pose(coordinates: &Coordinates, a: &[f64], b: &[f64]) -> bool {
     let joints = coordinates.free_joints.len();
     !coordinates.free_platforms.is_empty()
         && (a[joints..].iter().zip(&b[joints..])).all(|(a, b)| (a - b).abs() < 1e-6)
+}
+
+/// The largest and the smallest singular value, which need no vectors.
+fn extremes(rows: usize, columns: usize, dense: &[f64]) -> (Option<f64>, Option<f64>) {
+    if rows == 0 || columns == 0 {
+        let nothing = (columns > 0).then_some(0.0);
+        return (nothing, nothing);
+    }
+    let values = nalgebra::DMatrix::from_column_slice(rows, columns, dense).singular_values();
+    (Some(values.max()), Some(values.min()))
 }
 
 fn determinant_sign(rows: usize, columns: usize, dense: &[f64], chosen: &[usize]) -> i8 {

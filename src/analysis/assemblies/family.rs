@@ -122,6 +122,17 @@ impl Family {
         inputs
     }
 
+    /// A member whose solutions stand for those of all members, but special ones.
+    pub fn generic_member(&self, rng: &mut Pcg64) -> Member {
+        let inputs = self.random_inputs(rng, 1.0);
+        // without inputs to vary, the dimensions themselves make the family
+        let parameters = match inputs.is_empty() {
+            true => self.random_parameters(rng),
+            false => self.parameters.clone(),
+        };
+        Member { parameters, inputs }
+    }
+
     /// Which inputs are lengths.
     pub fn lengths_among_inputs(&self) -> Vec<bool> {
         let c = &self.coordinates;

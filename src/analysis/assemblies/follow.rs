@@ -4,6 +4,7 @@ use serde::Serialize;
 
 use super::coordinates::C;
 use super::family::{Family, Member};
+use super::fold::located;
 use super::generic::polish;
 use super::real::real_solution;
 use super::report::Named;
@@ -19,6 +20,12 @@ pub enum Followed {
     Arrived(Configuration<f64>),
     /// It ceased to exist on the way: there it meets another mode, and beyond neither is real.
     Fold(Fold),
+    /// Solutions meet there already where it starts, and its number does not tell which of them to
+    /// follow.
+    Meets {
+        /// How many meet: 0 if it is one of infinitely many.
+        multiplicity: usize,
+    },
 }
 
 /// Where a mode ceases to exist.
@@ -28,8 +35,11 @@ pub struct Fold {
     pub fraction: f64,
     /// The inputs there: joints in rad or m, platform coordinates as `platform.x`.
     pub inputs: Named<f64>,
-    /// Joint values at the last assembled configuration, rad or m.
+    /// Joint values there, rad or m.
     pub joints: Named<f64>,
+    /// Whether the two modes turn back there, to the last digits of the place; otherwise they cross,
+    /// or no more is known than that the mode cannot be followed beyond.
+    pub turns_back: bool,
 }
 
 /// Follows an assembled configuration along the straight way between two sets of inputs.
@@ -63,16 +73,20 @@ pub(super) fn follow(
         ..Tracker::default().tightened(0.05)
     };
     let track = tracker.track(&mut way, whole, &mut x, &mut Stages::new(c.count()));
-    let done = match track.arrival {
-        Arrival::There => 1.0,
-        Arrival::Stuck(at) | Arrival::Diverged(at) => at,
+    let (mut done, mut turns_back) = match track.arrival {
+        Arrival::There => (1.0, false),
+        Arrival::Stuck(at) | Arrival::Diverged(at) => (at, false),
     };
+    let arrived = track.arrival == Arrival::There && polish(&mut way, whole.1, &mut x);
+    if !arrived && let Some(meeting) = located(&mut way, done, &x) {
+        (done, x, turns_back) = (meeting.s, meeting.x, meeting.turns_back);
+    }
     let inputs: Vec<f64> = start
         .iter()
         .zip(&end)
         .map(|(a, b)| a + done * (b - a))
         .collect();
-    if track.arrival == Arrival::There && polish(&mut way, whole.1, &mut x) {
+    if arrived {
         let system = System::new(mechanism.dimensions(), to.1);
         let point = real_solution(&x, false, c, &system, &mut system.work(), to.0);
         return point.map(Followed::Arrived);
@@ -92,6 +106,7 @@ pub(super) fn follow(
                 .collect(),
         ),
         joints: Named(joints.zip(last.joints.iter().map(|z| z.re)).collect()),
+        turns_back,
     }))
 }
 

@@ -19,7 +19,7 @@ use rand_pcg::Pcg64;
 use super::coordinates::{C, size};
 use super::family::{Family, Member};
 use super::seed::{Seed, newton, solution, sow};
-use super::simple::is_simple;
+use super::simple::stands_alone;
 use super::solutions::{GenericSolutions, pairs};
 use super::stances::{Stance, count, learn};
 use super::way::Way;
@@ -73,18 +73,13 @@ pub(super) fn search(
     watch: &dyn Fn(Progress),
 ) -> Option<GenericSolutions> {
     let mut rng = generator(settings.seed, 0);
-    let inputs = family.random_inputs(&mut rng, 1.0);
-    // without inputs to vary, the dimensions themselves make the family
-    let parameters = match inputs.is_empty() {
-        true => family.random_parameters(&mut rng),
-        false => family.parameters.clone(),
-    };
+    let base = family.generic_member(&mut rng);
     let mut search = Search {
         watch,
         bound,
         family,
         settings,
-        base: Member { parameters, inputs },
+        base,
         stances: Vec::new(),
         freedom: None,
         seeds: 0,
@@ -113,6 +108,10 @@ pub(super) fn search(
         seed: settings.seed,
     })
 }
+
+/// Coordinates beyond this count as infinite on loops. At special dimensions some solutions are
+/// thousands of characteristic lengths away for all inputs, and farther on the way.
+const FARTHEST: f64 = 1e6;
 
 /// Seeds sown at once at the generic member, and at most at a corner of a loop.
 const BATCH: usize = 32;
@@ -179,7 +178,7 @@ impl Search<'_> {
                 let mut trial = point.clone();
                 let report = newton().solve(&system, &mut point, &mut trial, work);
                 let x = solution(way, &report, &point)?;
-                is_simple(way, C::from_f64(0.0), &x, &mut rng).then_some(x)
+                stands_alone(way, C::from_f64(0.0), &x).then_some(x)
             });
             for x in ends.into_iter().flatten() {
                 new |= learn(&mut self.stances, coordinates, &x);
@@ -286,11 +285,13 @@ impl Search<'_> {
         let Some(mut still) = self.family.way(&self.base, &self.base) else {
             return;
         };
-        let whole = points.iter().all(Option::is_some);
+        let mut whole = points.iter().all(Option::is_some);
         let mut new = false;
         for x in points.into_iter().flatten() {
-            if is_simple(&mut still, C::from_f64(0.0), &x, &mut rng) {
-                new |= learn(&mut self.stances, coordinates, &x);
+            match stands_alone(&mut still, C::from_f64(0.0), &x) {
+                true => new |= learn(&mut self.stances, coordinates, &x),
+                // other dimensions may have solutions that meet, or go away, at the mechanism's own
+                false => whole &= resize,
             }
         }
         match (new, whole) {
@@ -332,9 +333,13 @@ fn carried(way: &Way<'_>, points: &mut [Option<Vec<C>>]) {
     let starts: Vec<Option<Vec<C>>> = points.to_vec();
     let mut waiting: Vec<usize> = (0..starts.len()).filter(|&i| starts[i].is_some()).collect();
     for care in [1.0, 0.1, 0.01] {
+        let tracker = Tracker {
+            largest: FARTHEST,
+            ..Tracker::default()
+        };
         let tracker = match care {
-            1.0 => Tracker::default(),
-            _ => Tracker::default().tightened(care),
+            1.0 => tracker,
+            _ => tracker.tightened(care),
         };
         let ends = threads::each(waiting.len(), way, |way, k| {
             follow(way, &tracker, starts[waiting[k]].as_ref()?)

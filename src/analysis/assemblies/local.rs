@@ -10,6 +10,7 @@ use nalgebra::{DMatrix, DVector};
 
 use super::coordinates::{C, size};
 use super::way::Way;
+use crate::linear::Svd;
 use crate::number::Number;
 
 /// Directions this small beside the largest singular value may be free.
@@ -228,12 +229,14 @@ impl<'a, 'f> Local<'a, 'f> {
     pub fn settled(&mut self, mut at: Vec<C>) -> Option<Vec<C>> {
         const STEPS: usize = 80;
         const LONGEST: f64 = 0.1;
-        const TOLERANCE: f64 = 1e-12;
+        const TOLERANCE: f64 = 2e-15;
         let mut best: Option<(f64, Vec<C>)> = None;
         let mut stale = 0;
         for _ in 0..STEPS {
             let linear = self.linear(&at);
-            let error = linear.residual.amax();
+            // rounding beside the slopes and the size of the point
+            let steepest = linear.values.first().copied().unwrap_or(0.0).max(1.0);
+            let error = linear.residual.amax() / (steepest * (1.0 + size(&at)));
             if !error.is_finite() {
                 return None;
             }
@@ -255,7 +258,7 @@ impl<'a, 'f> Local<'a, 'f> {
             at = self.moved(&at, &step);
         }
         let (error, at) = best?;
-        (error <= TOLERANCE * (1.0 + size(&at)).powi(2)).then_some(at)
+        (error <= TOLERANCE).then_some(at)
     }
 
     /// Directions that are lost at a point; complex ones count once.
@@ -318,18 +321,18 @@ impl<'a, 'f> Local<'a, 'f> {
     fn linear(&mut self, x: &[C]) -> Linear {
         let (residual, jacobian) = self.evaluated(x);
         let (rows, columns) = jacobian.shape();
-        // as many singular values as columns, and all of their directions
-        let square = jacobian.clone().resize(rows.max(columns), columns, 0.0);
-        let finite = square.iter().all(|x| x.is_finite());
+        let finite = jacobian.iter().all(|x| x.is_finite());
         let svd = match finite {
-            true => square.svd(true, true),
-            false => DMatrix::zeros(rows.max(columns), columns).svd(true, true),
+            true => Svd::of(rows, columns, jacobian.as_slice()),
+            false => Svd::of(0, columns, &[]),
         };
-        let (left, right) = (svd.u.expect("asked for"), svd.v_t.expect("asked for"));
+        let matrix = |rows: usize, of: &[Vec<f64>]| {
+            DMatrix::from_fn(rows, of.len(), |i, j| of[j].get(i).copied().unwrap_or(0.0))
+        };
         Linear {
-            left: left.rows(0, rows).into_owned(),
-            values: svd.singular_values.iter().copied().collect(),
-            right: right.transpose(),
+            left: matrix(rows, &svd.left),
+            values: svd.values,
+            right: matrix(columns, &svd.right),
             residual: match finite {
                 true => residual,
                 false => DVector::from_element(rows, f64::NAN),

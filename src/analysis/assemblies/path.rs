@@ -1,12 +1,14 @@
 //! One path: a solution followed to the end of the way, and what is there.
 
+use nalgebra::{DMatrix, DVector};
+
 use super::coordinates::{C, size};
 use super::generic::polish;
 use super::local::Local;
-use super::simple::{SETTLED, steepness};
+use super::simple::{are_one, stands_alone};
 use super::way::Way;
 use crate::number::Number;
-use crate::solve::{Arrival, Ending, Homotopy, Stages, Tracker, ending};
+use crate::solve::{Arrival, Ending, Homotopy, Newton, Stages, Tracker, ending};
 
 /// Where one path ended.
 #[derive(Clone, Debug, PartialEq)]
@@ -15,23 +17,29 @@ pub(super) enum End {
     Regular(Vec<C>),
     /// A solution where several meet, or that is not isolated.
     Singular(Vec<C>),
+    /// One of two solutions so near to each other that the path could not be followed between them;
+    /// another path ends at the other one.
+    Either([Vec<C>; 2]),
     Infinite,
     Lost,
 }
 
-/// Beside the largest pivot a smaller one than this means that solutions meet.
-const SINGULAR: f64 = 1e-7;
-/// The residual up to which solutions meet: what Newton's method calls solved. Where more is left
-/// they pass each other.
-const MEETING: f64 = 1e-12;
-/// How far apart two solutions may be that leave a residual of [`MEETING`] half way between them.
-pub(super) const NEAR_MEETING: f64 = 2e-5;
 /// Rounding beside the square of the size of a solution.
 const ROUNDING: f64 = 1e-15;
 /// Solutions larger than this count as infinite: rounding errors of ε in the dimensions bring a
 /// solution that is m-fold at infinity back to ε^(−1/m), some 1e4 for m = 4. Held lengths beyond the
 /// characteristic length reach as much further.
 const FAR: f64 = 1e3;
+impl End {
+    /// The solution, if it is finite.
+    pub fn point(&self) -> Option<&Vec<C>> {
+        match self {
+            End::Regular(x) | End::Singular(x) => Some(x),
+            End::Either(_) | End::Infinite | End::Lost => None,
+        }
+    }
+}
+
 /// Where the endgame starts, as distance from the end of the way.
 const NEAR_END: f64 = 0.03;
 /// Ways longer than this, in rad or characteristic lengths, are gone in parts.
@@ -113,15 +121,53 @@ pub(super) fn arrived(way: &mut Way<'_>, x: &[C]) -> Option<End> {
     (size(&x) <= FAR * way.reach() && settles(way, &mut x)).then_some(End::Regular(x))
 }
 
-/// Newton's method converges there as it does at a solution by itself, and the Jacobian is regular.
+/// Newton's method converges there as it does at a solution by itself.
 fn settles(way: &mut Way<'_>, x: &mut [C]) -> bool {
     let end = C::from_f64(1.0);
-    if !polish(way, end, x) {
-        return false;
+    polish(way, end, x) && stands_alone(way, end, x)
+}
+
+/// Two solutions by themselves to either side of a point where they seem to meet.
+///
+/// With the null vectors v and w that the point has with one singular value fewer, the closures
+/// change along v as w·h + t w·Jv + ½ t² w·(v·∇)Jv, which vanishes at both.
+fn parted(way: &mut Way<'_>, x: &[C]) -> Option<[Vec<C>; 2]> {
+    const STEP: f64 = 1e-4;
+    const REACH: f64 = 1e-3;
+    let end = C::from_f64(1.0);
+    let (residual, jacobian) = way.evaluated(end, x);
+    let (rows, columns) = (residual.len(), way.unknowns());
+    if columns == 0 || rows < columns {
+        return None;
     }
-    let step = way.correct(end, &mut x.to_vec());
-    step < SETTLED * (1.0 + size(x)) * steepness(x)
-        && way.regularity(end, x) > SINGULAR / steepness(x)
+    let matrix = |entries: Vec<C>| DMatrix::from_vec(rows, columns, entries);
+    let svd = matrix(jacobian).svd(true, true);
+    let (left, right) = (svd.u?, svd.v_t?);
+    let last = svd.singular_values.imin();
+    let w = left.column(last).conjugate();
+    let v: Vec<C> = right.row(last).iter().map(|z| z.conj()).collect();
+    let ahead = |length: C| v.iter().map(|v| v * length).collect::<Vec<C>>();
+    let mut slope = |length: f64| {
+        let at = way.moved(end, x, &ahead(C::from_f64(length)));
+        let (_, jacobian) = way.evaluated(end, &at);
+        w.dot(&(matrix(jacobian) * DVector::from_column_slice(&v)))
+    };
+    let (after, before) = (slope(STEP), slope(-STEP));
+    let bent = (after - before) / (2.0 * STEP);
+    let along = (after + before) * 0.5;
+    let left = w.dot(&DVector::from_vec(residual));
+    let root = (along * along - bent * left * 2.0).sqrt();
+    let mut both = [1.0, -1.0].map(|sign| {
+        let length = (root * sign - along) / bent;
+        let near = length.is_finite() && length.norm() < REACH;
+        near.then(|| way.moved(end, x, &ahead(length)))
+    });
+    let [Some(a), Some(b)] = &mut both else {
+        return None;
+    };
+    let apart = settles(way, a) && settles(way, b) && !are_one(way, end, a, b);
+    let near = |y: &[C]| way.family.coordinates.difference(x, y) < 2.0 * REACH;
+    (apart && near(a) && near(b)).then(|| [a.clone(), b.clone()])
 }
 
 fn go_round(way: &mut Way<'_>, tracker: &Tracker, far: f64, x: &[C], stages: &mut Stages) -> End {
@@ -143,8 +189,13 @@ fn go_round(way: &mut Way<'_>, tracker: &Tracker, far: f64, x: &[C], stages: &mu
             if size(&x) > far {
                 return End::Infinite;
             }
+            if let Some(both) = parted(way, &x) {
+                return End::Either(both);
+            }
+            // what Newton's method calls solved; where more is left solutions pass each other
+            let meeting = Newton::default().tolerance.max(ROUNDING * size(&x).powi(2));
             let x = Local::new(way, false).refined(&x);
-            match way.residual(end, &x) <= MEETING.max(ROUNDING * size(&x).powi(2)) {
+            match way.residual(end, &x) <= meeting {
                 true => End::Singular(x),
                 false => End::Lost,
             }

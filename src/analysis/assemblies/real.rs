@@ -9,14 +9,13 @@ use crate::system::{System, Work};
 
 use super::report::{Named, PoseReport};
 
-/// The residual up to which a multiple solution is real: what Newton's method calls solved, and what
-/// is left half way between two that are too near to be told apart. Where more is left, the
-/// solutions that nearly meet are complex.
-const MEETING: f64 = 1e-11;
 /// Rounding beside the size of a solution.
 const ROUNDING: f64 = 1e-14;
 
 /// The real configuration at a complex solution, refined; `None` if it is not real.
+///
+/// A configuration is assembled when Newton's method calls it solved. So two conjugate complex
+/// solutions are real, and one, if no more than that is left half way between them.
 ///
 /// Newton's method cannot improve `singular` ends; they are refined already.
 pub(super) fn real_solution(
@@ -38,41 +37,49 @@ pub(super) fn real_solution(
     for &p in &coordinates.free_platforms {
         point.platforms[p].orientation = point.platforms[p].orientation.normalised();
     }
-    if singular {
-        let left = system.residual(&point, work).largest;
-        return (left <= MEETING.max(ROUNDING * scale)).then(|| tidied(point, coordinates));
-    }
-    let mut trial = point.clone();
     // far away rounding leaves more
     let newton = Newton {
         tolerance: Newton::default().tolerance.max(ROUNDING * scale),
         ..Newton::default()
     };
+    if singular {
+        let left = system.residual(&point, work).largest;
+        return (left <= newton.tolerance).then(|| tidied(point, coordinates, false));
+    }
+    let mut trial = point.clone();
     let report = newton.solve(system, &mut point, &mut trial, work);
     let reached = coordinates.flatten(&point.map(C::from_f64));
     let near = coordinates.difference(x, &reached) <= 2e-5 * scale;
-    (report.stop == Stop::Solved && near).then(|| tidied(point, coordinates))
+    (report.stop == Stop::Solved && near).then(|| tidied(point, coordinates, true))
 }
 
-/// Angles in (−π, π], quaternions with their first component that is not zero positive.
+/// −π and π are one angle, and rounding must not decide which is printed: angles this near to −π are
+/// near π. Where solutions meet, only half the digits are sure.
+fn rounding(sure: bool) -> f64 {
+    if sure { 1e-9 } else { 1e-6 }
+}
+
+/// Angles in (−π, π], quaternions with their first component that is not zero positive. `sure` where
+/// solutions do not meet.
 pub(super) fn tidied(
     mut point: Configuration<f64>,
     coordinates: &Coordinates,
+    sure: bool,
 ) -> Configuration<f64> {
     use std::f64::consts::{PI, TAU};
+    let rounding = rounding(sure);
     for &j in &coordinates.free_joints {
         let value = &mut point.joints[j];
         if coordinates.periodic[j] {
             *value -= TAU * (*value / TAU).round();
-            // −π and π are one angle: rounding must not decide which is printed
-            if *value <= -PI + 1e-9 {
+            if *value <= -PI + rounding {
                 *value += TAU;
             }
         }
     }
     for &p in &coordinates.free_platforms {
         let q = &mut point.platforms[p].orientation;
-        let first = q.0.iter().copied().find(|x| x.abs() > 1e-9);
+        let first = q.0.iter().copied().find(|x| x.abs() > rounding);
         if first.is_some_and(|x| x < 0.0) {
             q.0 = q.0.map(|x| -x);
         }
@@ -139,15 +146,24 @@ pub(super) fn named_joints(mechanism: &Mechanism, point: &Configuration<f64>) ->
     Named(names.zip(point.joints.iter().copied()).collect())
 }
 
-pub(super) fn named_poses(mechanism: &Mechanism, point: &Configuration<f64>) -> Named<PoseReport> {
+pub(super) fn named_poses(
+    mechanism: &Mechanism,
+    point: &Configuration<f64>,
+    sure: bool,
+) -> Named<PoseReport> {
+    use std::f64::consts::{PI, TAU};
     let names = mechanism.platforms().iter().map(|p| p.name.clone());
     let poses = point.platforms.iter().map(|pose| {
         let RollPitchYaw { roll, pitch, yaw } =
             RollPitchYaw::from_rotation(&pose.orientation.rotation());
+        let once = |angle: f64| match angle <= -PI + rounding(sure) {
+            true => angle + TAU,
+            false => angle,
+        };
         PoseReport {
             position: pose.position.0,
             quaternion: pose.orientation.0,
-            roll_pitch_yaw: [roll, pitch, yaw],
+            roll_pitch_yaw: [once(roll), pitch, once(yaw)],
         }
     });
     Named(names.zip(poses).collect())

@@ -5,6 +5,7 @@ use serde::{Serialize, Serializer};
 
 use crate::description::count;
 use crate::geometry::{Quaternion, Vector3};
+use crate::linear::RANK_TOLERANCE;
 use crate::mechanism::Configuration;
 use crate::system::Gap;
 
@@ -94,20 +95,12 @@ pub struct ClosestApproach {
     pub gaps: Named<Gap>,
     /// The closure that gapes most.
     pub worst: String,
+    /// Whether no small motion comes closer.
+    pub local_minimum: bool,
     /// Joint values there, rad or m.
     pub joints: Named<f64>,
     /// Platform poses there.
     pub platforms: Named<PoseReport>,
-}
-
-impl ClosestApproach {
-    /// Whether it is an assembly after all: one of infinitely many, which no path leads to.
-    pub fn is_closed(&self) -> bool {
-        const CLOSED: f64 = 1e-9;
-        let gaps = self.gaps.0.iter();
-        gaps.map(|(_, gap)| gap)
-            .all(|gap| gap.distance < CLOSED && gap.angle < CLOSED)
-    }
 }
 
 /// How the question fits the mechanism.
@@ -155,6 +148,10 @@ pub struct AssembliesReport {
     pub at_infinity: usize,
     /// Isolated points where solutions meet, real or complex, each once.
     pub singular: usize,
+    /// Paths that end where roll or yaw of a platform is not what is held but half a turn from it, or
+    /// is not determined because its pitch is ±90°: the equations of a single angle cannot leave
+    /// these out. They are not among the complex solutions.
+    pub half_a_turn_away: usize,
     /// Paths that end on a set of infinitely many solutions.
     pub not_isolated: usize,
     /// Those sets by dimension, the largest first; empty if all assemblies are isolated.
@@ -213,11 +210,14 @@ pub struct ComplexAssembly {
     pub platforms: Named<Vec<[f64; 2]>>,
     /// How many solutions meet here.
     pub multiplicity: usize,
+    /// Quotient of the largest and the smallest singular value of the dimensionless closure
+    /// Jacobian; `null` where solutions meet.
+    pub condition: Option<f64>,
 }
 
 impl AssembliesReport {
     /// How complete the list is and why, in a sentence.
-    pub(super) fn completeness(&self) -> String {
+    pub(super) fn completeness(&self, length: f64) -> String {
         match self.fit {
             Fit::FreedomLeft(freedom) => {
                 let isolated = match self.generic {
@@ -236,10 +236,13 @@ impl AssembliesReport {
                 );
             }
             Fit::TooManyHeld => {
-                return "no solution could be found for complex inputs nearby: either more is held than can be \
-                        chosen freely, or the dimensions differ too much in size for the search; the list comes \
-                        from many starts and may be incomplete"
-                    .into();
+                return format!(
+                    "no solution could be found for complex inputs nearby: either more is held than can be \
+                     chosen freely, and something must be freed, or the dimensions differ too much in size, \
+                     and those far below or above {} m must be given others: what is below {RANK_TOLERANCE:e} of \
+                     that length moves nothing; the list comes from many starts and may be incomplete",
+                    length
+                );
             }
             Fit::AlwaysMultiple => {
                 return "every solution that was met is multiple for all inputs, as in a shaky structure, and \
@@ -259,7 +262,7 @@ impl AssembliesReport {
             Some(bound) if bound == self.generic => {
                 format!("equals the known bound of {bound} for this structure")
             }
-            Some(bound) => format!("the known bound for this structure is {bound}"),
+            Some(bound) => format!("no more than {bound} are possible for this structure"),
             None => "no bound is known for this structure".into(),
         };
         if self.exhausted {

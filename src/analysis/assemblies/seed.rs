@@ -4,14 +4,14 @@ use rand_pcg::Pcg64;
 
 use super::coordinates::{C, size};
 use super::generic::polish;
-use super::simple::is_simple;
+use super::simple::stands_alone;
 use super::way::Way;
 use crate::mechanism::Configuration;
 use crate::number::Number;
 use crate::solve::{Newton, Report, Stop};
 
-/// Ends of seeds farther out than this do not count.
-const FAR: f64 = 1e3;
+/// Ends of seeds farther out than this do not count: rounding decides where they are.
+const FAR: f64 = 1e5;
 
 /// What one seed met.
 pub(super) enum Seed {
@@ -64,7 +64,7 @@ pub(super) fn sow(way: &mut Way<'_>, reach: f64, rng: &mut Pcg64) -> Seed {
     let Some(x) = solution(way, &report, &point) else {
         return Seed::Nothing;
     };
-    if is_simple(way, zero, &x, rng) {
+    if stands_alone(way, zero, &x) {
         return Seed::Isolated(x);
     }
     // Newton's method from beside a set of solutions ends elsewhere on it, but from beside solutions

@@ -1,44 +1,46 @@
 //! Whether a solution is one by itself or several that coincide.
 
-use rand_pcg::Pcg64;
-
-use super::coordinates::{C, size};
+use super::coordinates::{C, Coordinates, size};
 use super::way::Way;
 use crate::solve::Homotopy;
 
-/// The quotient of pivots below which a solution of a generic member counts as one of infinitely
-/// many (or of several that always coincide).
-const REGULAR: f64 = 1e-7;
+/// A larger quotient of pivots than this leaves no doubt.
+const PLAIN: f64 = 1e-4;
+/// An error of a closure, beside its slopes: some tens of roundings.
+const NOISE: f64 = 5e-15;
+/// What two approximations of one solution differ by at most, as the closures see it.
+const ALIKE: f64 = 4.0 * NOISE;
+/// Two approximations of one solution are not farther apart than this, beside their size.
+const NEAR: f64 = 1e-4;
 
-/// Newton's last step at a solution that is not multiple: at a multiple one steps only halve.
-pub(super) const SETTLED: f64 = 1e-9;
-
-/// How much smaller pivots of solutions far out are beside the largest, without others being near,
-/// and how much larger rounding is: as the square of their size.
-pub(super) fn steepness(x: &[C]) -> f64 {
-    (size(x) / 30.0).max(1.0).powi(2)
+/// Whether a solution stands by itself as far as double precision can tell.
+///
+/// Errors of the closures as large as rounding move a solution to somewhere beside it. From there one
+/// step of Newton's method returns, if no other solution is as near as that. To where solutions meet
+/// it goes half the way at most, and in a set of solutions it stays.
+pub(super) fn stands_alone(way: &mut Way<'_>, s: C, x: &[C]) -> bool {
+    const TRIES: usize = 3;
+    const RETURNED: f64 = 0.3;
+    if way.regularity(s, x) > PLAIN {
+        return true;
+    }
+    (0..TRIES).all(|k| {
+        let Some(beside) = way.jolted(s, x, NOISE, k) else {
+            return false;
+        };
+        let coordinates = &way.family.coordinates;
+        let gone = coordinates.difference(x, &beside);
+        let mut back = beside;
+        way.correct(s, &mut back).is_finite() && coordinates.difference(x, &back) <= RETURNED * gone
+    })
 }
 
-/// Whether a solution of a generic member is one by itself.
-///
-/// Rounding leaves the closures of a multiple solution unseen some 1e-7 about it, where the quotient
-/// of pivots may be as large. But there Newton's method ends elsewhere from every start.
-pub(super) fn is_simple(way: &mut Way<'_>, s: C, x: &[C], rng: &mut Pcg64) -> bool {
-    /// A larger quotient leaves no doubt.
-    const PLAIN: f64 = 1e-5;
-    const DISTANCE: f64 = 1e-6;
-    let regularity = way.regularity(s, x);
-    let plain = PLAIN / steepness(x);
-    if regularity <= REGULAR || regularity > plain {
-        return regularity > plain;
-    }
-    (0..3).all(|_| {
-        let mut beside = way.family.shaken(x, DISTANCE, rng);
-        for _ in 0..10 {
-            if !way.correct(s, &mut beside).is_finite() {
-                return false;
-            }
-        }
-        way.family.coordinates.difference(x, &beside) < SETTLED * (1.0 + size(x)) * steepness(x)
-    })
+/// Whether two points are near enough to be approximations of one solution.
+pub(super) fn may_be_one(coordinates: &Coordinates, x: &[C], y: &[C]) -> bool {
+    coordinates.within(NEAR * (1.0 + size(x)), x, y)
+}
+
+/// Whether two points, the first of which is a solution by itself, are the same solution.
+pub(super) fn are_one(way: &mut Way<'_>, s: C, x: &[C], y: &[C]) -> bool {
+    may_be_one(&way.family.coordinates, x, y) && way.seen_apart(s, x, y) <= ALIKE
 }

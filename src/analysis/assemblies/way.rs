@@ -186,6 +186,65 @@ impl Way<'_> {
         self.system.difference(&from, &self.at)
     }
 
+    /// How far two points are apart as the closures see it at the first one: |J (y − x)|, each row
+    /// beside its slopes where these exceed 1. Two approximations of one solution differ by no more
+    /// than rounding there, however badly the solution is determined.
+    pub fn seen_apart(&mut self, s: C, x: &[C], y: &[C]) -> f64 {
+        let y = self.family.coordinates.beside(x, y);
+        let step = self.step_between(s, x, &y);
+        let (residual, jacobian) = self.evaluated(s, x);
+        let rows = residual.len();
+        let columns = || jacobian.chunks_exact(rows.max(1));
+        let seen = (0..rows).map(|r| {
+            let along: C = columns().zip(&step).map(|(column, d)| column[r] * d).sum();
+            let slopes: f64 = columns().map(|column| column[r].norm_sqr()).sum();
+            along.norm() / slopes.sqrt().max(1.0)
+        });
+        seen.fold(0.0, f64::max) / (1.0 + super::coordinates::size(x))
+    }
+
+    /// A point moved by what an error in every closure of `noise`, beside its slopes and the size of
+    /// the point, does to a solution there. None if the closures leave an unknown undetermined.
+    pub fn jolted(&mut self, s: C, x: &[C], noise: f64, stream: usize) -> Option<Vec<C>> {
+        let (residual, jacobian) = self.evaluated(s, x);
+        let rows = residual.len();
+        let error: Vec<C> = (0..rows)
+            .map(|r| {
+                let slopes = jacobian
+                    .chunks_exact(rows)
+                    .map(|column| column[r].norm_sqr());
+                let size =
+                    slopes.sum::<f64>().sqrt().max(1.0) * (1.0 + super::coordinates::size(x));
+                // directions without symmetry, the same in every run
+                C::from_polar(
+                    noise * size,
+                    1.0 + 2.3 * r as f64 + 1.7 * (stream * (r + 1)) as f64,
+                )
+            })
+            .collect();
+        self.linearise(s, x);
+        // what Newton's method takes for lost it does not bring back
+        if self.system.undetermined(&self.work) > 0 {
+            return None;
+        }
+        let longest = self.system.step_for(&error, &mut self.work);
+        let step = self.system.step_of(&self.work).to_vec();
+        longest.is_finite().then(|| self.moved(s, x, &step))
+    }
+
+    /// Quotient of the largest and the smallest singular value of the Jacobian at a point, if it is
+    /// not singular.
+    pub fn condition(&mut self, s: C, x: &[C]) -> Option<f64> {
+        let (residual, jacobian) = self.evaluated(s, x);
+        let columns = self.unknowns();
+        if columns == 0 {
+            return Some(1.0);
+        }
+        let matrix = nalgebra::DMatrix::from_vec(residual.len(), columns, jacobian);
+        let values = (residual.len() >= columns).then(|| matrix.singular_values())?;
+        (values.min() > 1e-12 * values.max()).then(|| values.max() / values.min())
+    }
+
     /// How many directions are free at a point.
     pub fn freedom(&mut self, s: C, x: &[C], tolerance: f64) -> usize {
         self.load(s, x);
@@ -245,8 +304,7 @@ impl Homotopy for Way<'_> {
     }
 
     fn velocity(&mut self, s: C, x: &[C], out: &mut [C]) -> bool {
-        self.linearise(s, x);
-        self.sound && self.velocity_by_factors(s, x, out)
+        self.linearise(s, x).is_finite() && self.sound && self.velocity_by_factors(s, x, out)
     }
 
     fn velocity_again(&mut self, s: C, x: &[C], out: &mut [C]) -> bool {
@@ -258,7 +316,10 @@ impl Homotopy for Way<'_> {
     }
 
     fn correct(&mut self, s: C, x: &mut [C]) -> f64 {
-        self.linearise(s, x);
+        // an angle so far out that its sine has no number gives no pivots, and steps of zero
+        if !self.linearise(s, x).is_finite() {
+            return f64::NAN;
+        }
         let longest = self.system.step(&mut self.work);
         if !longest.is_finite() || !self.sound {
             return f64::NAN;

@@ -84,7 +84,12 @@ pub(super) fn joints(question: &Question, report: &AssembliesReport) -> Vec<Stri
         for a in &report.assemblies {
             let values = free.iter().map(|&j| {
                 let angle = mechanism.joints()[j].kind.is_angle();
-                quantity(settled(a.joints.0[j].1, mechanism, angle), angle)
+                let text = quantity(settled(a.joints.0[j].1, mechanism, angle), angle);
+                if mechanism.repeats(j) {
+                    once(text)
+                } else {
+                    text
+                }
             });
             table.add_row(std::iter::once(a.mode.to_string()).chain(values));
         }
@@ -116,7 +121,7 @@ pub(super) fn platforms(question: &Question, report: &AssembliesReport) -> Vec<S
             let (_, pose) = &a.platforms.0[p];
             let mechanism = question.mechanism();
             let position = (pose.position).map(|x| quantity(settled(x, mechanism, false), false));
-            let angles = (pose.roll_pitch_yaw).map(|x| degrees(settled(x, mechanism, true)));
+            let angles = (pose.roll_pitch_yaw).map(|x| once(degrees(settled(x, mechanism, true))));
             table.add_row(
                 std::iter::once(a.mode.to_string())
                     .chain(position)
@@ -161,6 +166,7 @@ pub(super) fn complex(mechanism: &Mechanism, report: &AssembliesReport) -> Strin
             joints,
             platforms,
             multiplicity,
+            condition,
         },
     ) in report.complex_assemblies.iter().enumerate()
     {
@@ -168,7 +174,8 @@ pub(super) fn complex(mechanism: &Mechanism, report: &AssembliesReport) -> Strin
             1 => String::new(),
             n => format!(", {}", times(*n)),
         };
-        let _ = writeln!(text, "  {}{multiple}", i + 1);
+        let condition = condition.map_or("infinite".into(), size);
+        let _ = writeln!(text, "  {}{multiple}, condition {condition}", i + 1);
         for ((name, [re, im]), joint) in joints.0.iter().zip(mechanism.joints()) {
             let [re, im] = [re, im].map(|x| settled(*x, mechanism, joint.kind.is_angle()));
             let (re, im) = match joint.kind.is_angle() {
@@ -210,6 +217,14 @@ fn settled(value: f64, mechanism: &Mechanism, angle: bool) -> f64 {
         0.0
     } else {
         value
+    }
+}
+
+/// Half a turn is printed one way, also where it is a little less than half a turn backwards.
+fn once(angle: String) -> String {
+    match angle.as_str() {
+        "-180°" => "180°".into(),
+        _ => angle,
     }
 }
 

@@ -19,6 +19,11 @@ impl<T: Factorable> System<T> {
         self.step(work)
     }
 
+    /// How many unknowns the factors last made leave undetermined.
+    pub fn undetermined(&self, work: &Work<T>) -> usize {
+        work.jacobian.nullity()
+    }
+
     /// Asks for another held orientation of a platform.
     pub fn set_orientation(&mut self, platform: usize, wanted: Rotation<T>) {
         for hold in &mut self.holds {

@@ -2,9 +2,9 @@
 
 use std::cell::RefCell;
 
+use super::{System, Work};
 use crate::mechanism::Configuration;
 use crate::solve::{Equations, walk_down};
-use crate::system::{System, Work};
 
 /// The weight of held coordinates, and how exactly they are kept in the end (rad, characteristic
 /// lengths).
@@ -14,10 +14,7 @@ const KEPT: f64 = 1e-10;
 /// Comes as close to assembled as possible near a configuration, with what is held kept, and tells
 /// whether no small motion comes closer: the gradient of the squared gaps vanishes and their
 /// curvature is nowhere negative.
-pub(super) fn approach(
-    system: &System<f64>,
-    start: &Configuration<f64>,
-) -> (Configuration<f64>, bool) {
+pub fn approach(system: &System<f64>, start: &Configuration<f64>) -> (Configuration<f64>, bool) {
     let unknowns = system.unknowns().len();
     let work = RefCell::new(system.work());
     let held = system.hold_rows();
