@@ -6,13 +6,12 @@
 
 mod along;
 mod classify;
-mod curve;
 mod locus;
-mod trace;
 
 pub use along::{AlongReport, Crossing, Ending, along};
 pub use classify::{Distances, Movement, Resisted, Singularity, Zlatanov};
-pub use locus::{Bound, Kind, Locus, LocusEnd, LocusReport, loci};
+pub use crate::system::LocusEnd;
+pub use locus::{Bound, Kind, Locus, LocusReport, loci};
 
 use serde::Serialize;
 

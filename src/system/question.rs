@@ -155,6 +155,34 @@ impl<'a> Question<'a> {
         Ok((coordinate, self.number(name, text, coordinate)?))
     }
 
+    /// The same question with some held coordinates at other values, in m or rad.
+    pub fn at_values(mut self, values: impl IntoIterator<Item = (Holdable, f64)>) -> Self {
+        for (holdable, value) in values {
+            match holdable {
+                Holdable::Joint(joint) => {
+                    self.joints[joint] = true;
+                    self.start.joints[joint] = value;
+                }
+                Holdable::Coordinate(platform, c) => {
+                    self.coordinates[platform][c as usize] = Some(value);
+                }
+                // it has no value
+                Holdable::Turn(..) => {}
+            }
+        }
+        self
+    }
+
+    /// The same question with one coordinate not held.
+    pub fn without(mut self, holdable: Holdable) -> Self {
+        match holdable {
+            Holdable::Joint(joint) => self.joints[joint] = false,
+            Holdable::Coordinate(platform, c) => self.coordinates[platform][c as usize] = None,
+            Holdable::Turn(platform, _) => self.coordinates[platform] = [None; 6],
+        }
+        self
+    }
+
     /// The mechanism that is asked about.
     pub fn mechanism(&self) -> &'a Mechanism {
         self.mechanism

@@ -8,7 +8,6 @@ use super::generic::Progress;
 use super::local::Local;
 use super::path::{End, NEAR_MEETING, Path, arrived, follow};
 use super::stances::{Stance, count, learn};
-use super::threads;
 use super::way::Way;
 use crate::number::Number;
 use crate::solve::Tracker;
@@ -133,7 +132,7 @@ fn combined(way: &Way<'_>, stances: &[Stance<C>], manner: &Manner<'_>) -> Ends {
             None => apart.append(&mut stance.points(coordinates)),
         }
     }
-    let arrivals = threads::each(points.len(), way, |way, i| arrived(way, &points[i]));
+    let arrivals = crate::solve::each(points.len(), way, |way, i| arrived(way, &points[i]));
     let mut arrivals = arrivals.into_iter();
     for (stance, count) in combined {
         // all of them are taken, whatever the first ones are
@@ -186,7 +185,7 @@ fn straight(way: &Way<'_>, solutions: &[Vec<C>], manner: &Manner<'_>) -> Ends {
     for level in 0..=2 {
         let (tracker, bend) = (manner.tracker(way, level), manner.bend);
         for batch in waiting.chunks(BATCH) {
-            let followed: Vec<Path> = threads::each(batch.len(), way, |way, k| {
+            let followed: Vec<Path> = crate::solve::each(batch.len(), way, |way, k| {
                 follow(way, &tracker, bend, &solutions[batch[k]])
             });
             (manner.tell)(batch.len());
