@@ -183,6 +183,12 @@ impl<'a> Question<'a> {
         self
     }
 
+    /// The coordinates of a platform that are held, with their values in m or rad.
+    pub fn held_values(&self, platform: usize) -> Vec<(Coordinate, f64)> {
+        let given = Coordinate::ALL.into_iter().zip(&self.coordinates[platform]);
+        given.filter_map(|(c, value)| Some((c, (*value)?))).collect()
+    }
+
     /// The mechanism that is asked about.
     pub fn mechanism(&self) -> &'a Mechanism {
         self.mechanism
@@ -190,10 +196,8 @@ impl<'a> Question<'a> {
 
     /// What is held, in the form the solver takes.
     pub fn held(&self) -> Held<f64> {
-        let platforms = self.coordinates.iter().map(|values| {
-            let given: Vec<(Coordinate, f64)> = (Coordinate::ALL.into_iter().zip(values))
-                .filter_map(|(coordinate, value)| Some((coordinate, (*value)?)))
-                .collect();
+        let platforms = (0..self.coordinates.len()).map(|platform| {
+            let given = self.held_values(platform);
             let angles = given.iter().filter(|(c, _)| c.is_angle()).count();
             match given.len() {
                 0 => HeldPlatform::Free,

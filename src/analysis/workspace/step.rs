@@ -86,7 +86,10 @@ impl<T: Factorable + Packed> Steps<T> {
             let square = |place: usize| steps.iter().map(|x| x.part(place) * x.part(place)).sum();
             let sizes: Vec<f64> = (0..T::WIDTH).map(|p| f64::sqrt(square(p))).collect();
             let mut moves = vec![0.0; T::WIDTH];
-            for place in (0..T::WIDTH).filter(|place| sure[*place] && !solved[*place]) {
+            for place in 0..T::WIDTH {
+                if solved[place] || !sure[place] {
+                    continue;
+                }
                 sure[place] = sizes[place] <= bounds[place].max(SMALL);
                 bounds[place] = SURE * sizes[place];
                 moves[place] = f64::from(u8::from(sure[place]));
