@@ -36,7 +36,9 @@ fn map_with(
     if mapped.iter().any(|(name, ..)| name.contains('.')) {
         question = question.free("actuated").unwrap();
     }
-    let middles = mapped.iter().map(|(name, from, to)| (*name, 0.5 * (from + to)));
+    let middles = mapped
+        .iter()
+        .map(|(name, from, to)| (*name, 0.5 * (from + to)));
     for (name, value) in held.iter().copied().chain(middles) {
         question = question.hold(name, &format!("{value:?}")).unwrap();
     }
@@ -113,7 +115,9 @@ fn between(x: f64, low: f64, high: f64) -> Option<bool> {
 }
 
 fn all(parts: impl IntoIterator<Item = Option<bool>>) -> Option<bool> {
-    parts.into_iter().try_fold(true, |all, part| Some(all && part?))
+    parts
+        .into_iter()
+        .try_fold(true, |all, part| Some(all && part?))
 }
 
 /// The points of boundary curves and those on edges of the grid, of one kind.
@@ -137,12 +141,20 @@ fn a_two_link_arm_reaches_a_ring_in_two_modes() {
     let inner = (1.0 + 0.64 + 1.6 * 160f64.to_radians().cos()).sqrt();
     let outer = 1.8;
     agrees(&report, |at| {
-        Some(if between(at[0].hypot(at[1]), inner, outer)? { 2 } else { 0 })
+        Some(if between(at[0].hypot(at[1]), inner, outer)? {
+            2
+        } else {
+            0
+        })
     });
     assert_eq!(report.modes.len(), 2);
     assert_eq!(report.aspects.len(), 2);
     let area = PI * (outer * outer - inner * inner);
-    for size in [report.reached_size, report.modes[0].size, report.aspects[1].size] {
+    for size in [
+        report.reached_size,
+        report.modes[0].size,
+        report.aspects[1].size,
+    ] {
         assert!((size / area - 1.0).abs() < 5e-3, "{size} {area}");
     }
     let stretched = boundary(&report, |kind| *kind == BoundaryKind::Inverse);
@@ -160,7 +172,11 @@ fn a_two_link_arm_reaches_a_ring_in_two_modes() {
     for cell in report.cells.iter().filter(|cell| cell.aspect.is_some()) {
         let (a, b) = (cell.joints[0], cell.joints[0] + cell.joints[1]);
         let second = [1.0, -0.8 * b.sin() / length, 0.8 * b.cos() / length];
-        let first = [1.0, second[1] - a.sin() / length, second[2] + a.cos() / length];
+        let first = [
+            1.0,
+            second[1] - a.sin() / length,
+            second[2] + a.cos() / length,
+        ];
         let dot = |a: [f64; 3], b: [f64; 3]| a.iter().zip(b).map(|(a, b)| a * b).sum::<f64>();
         let (p, q, r) = (dot(first, first), dot(first, second), dot(second, second));
         let root = ((p - r).powi(2) + 4.0 * q * q).sqrt();
@@ -174,7 +190,12 @@ fn a_two_link_arm_reaches_a_ring_in_two_modes() {
 #[test]
 fn nothing_is_reached_where_the_arm_is_too_short() {
     let mechanism = written(&text("planar_2r"), &[]);
-    let report = map(&mechanism, &[("hand.x", 1.3, 2.0), ("hand.y", 1.3, 2.0)], &[], 15);
+    let report = map(
+        &mechanism,
+        &[("hand.x", 1.3, 2.0), ("hand.y", 1.3, 2.0)],
+        &[],
+        15,
+    );
     assert_eq!((report.reached, report.cells.len()), (0, 0));
     assert_eq!(report.reached_size, 0.0);
     assert!(report.modes.is_empty() && report.curves.is_empty());
@@ -198,10 +219,7 @@ fn a_three_link_arm_with_its_orientation_held_reaches_the_ring_of_its_wrist() {
             let first = y.atan2(x) - (0.8 * elbow.sin()).atan2(1.0 + 0.8 * elbow.cos());
             let wrist = yaw - first - elbow;
             let wrist = wrist - 2.0 * PI * (wrist / (2.0 * PI)).round();
-            let inside = all([
-                between(elbow, -limit, limit),
-                between(wrist, -limit, limit),
-            ])?;
+            let inside = all([between(elbow, -limit, limit), between(wrist, -limit, limit)])?;
             modes += usize::from(inside);
         }
         Some(modes)
@@ -233,7 +251,11 @@ fn a_five_bar_reaches_the_overlap_of_two_rings_in_four_working_modes() {
     let (r, d) = (0.7f64, 0.2f64);
     let lens = 2.0 * r * r * (d / (2.0 * r)).acos() - 0.5 * d * (4.0 * r * r - d * d).sqrt();
     let area = lens - 2.0 * PI * 0.01;
-    assert!((report.reached_size / area - 1.0).abs() < 5e-3, "{}", report.reached_size);
+    assert!(
+        (report.reached_size / area - 1.0).abs() < 5e-3,
+        "{}",
+        report.reached_size
+    );
     let ends = boundary(&report, |kind| *kind == BoundaryKind::Inverse);
     assert!(ends.len() > 200);
     for (at, _) in ends {
@@ -274,7 +296,12 @@ fn a_five_bar_reaches_the_overlap_of_two_rings_in_four_working_modes() {
 fn within_one_aspect_of_a_five_bar_nothing_is_singular() {
     // where both elbows point outwards and the hand stays above the motors
     let mechanism = five_bar(&[]);
-    let report = map(&mechanism, &[("hand.x", 0.0, 0.2), ("hand.y", 0.35, 0.6)], &[], 15);
+    let report = map(
+        &mechanism,
+        &[("hand.x", 0.0, 0.2), ("hand.y", 0.35, 0.6)],
+        &[],
+        15,
+    );
     let outwards = |cell: &&Cell| cell.joints[2] < 0.0 && cell.joints[3] > 0.0;
     let cells: Vec<&Cell> = report.cells.iter().filter(outwards).collect();
     assert_eq!(cells.len(), 225);
@@ -288,11 +315,14 @@ fn in_the_joint_space_of_a_five_bar_its_assemblies_meet_where_the_distal_links_s
     let mechanism = five_bar(&[("c", "0.25")]);
     let axes = [("theta1", -3.1, 3.15), ("theta2", -3.12, 3.1)];
     let report = map(&mechanism, &axes, &[], 48);
-    let apart = |a: f64, b: f64| {
-        (0.2 + 0.3 * b.cos() - 0.3 * a.cos()).hypot(0.3 * b.sin() - 0.3 * a.sin())
-    };
+    let apart =
+        |a: f64, b: f64| (0.2 + 0.3 * b.cos() - 0.3 * a.cos()).hypot(0.3 * b.sin() - 0.3 * a.sin());
     agrees(&report, |at| {
-        Some(if between(apart(at[0], at[1]), 0.0, 0.5)? { 2 } else { 0 })
+        Some(if between(apart(at[0], at[1]), 0.0, 0.5)? {
+            2
+        } else {
+            0
+        })
     });
     let stretched = boundary(&report, |kind| *kind == BoundaryKind::Direct);
     assert!(stretched.len() > 100);
@@ -326,14 +356,20 @@ fn a_three_rpr_platform_reaches_where_the_rings_of_its_legs_overlap() {
     let yaw = 0.9f64;
     let (b12, b23, b31) = (17.04f64, 16.54f64, 20.84f64);
     let b3x = (b12 * b12 + b31 * b31 - b23 * b23) / (2.0 * b12);
-    let hinges = [[0.0, 0.0], [b12, 0.0], [b3x, (b31 * b31 - b3x * b3x).sqrt()]];
+    let hinges = [
+        [0.0, 0.0],
+        [b12, 0.0],
+        [b3x, (b31 * b31 - b3x * b3x).sqrt()],
+    ];
     let bases = [[0.0, 0.0], [15.91, 0.0], [0.0, 10.0]];
-    let turned = hinges.map(|[x, y]| {
-        [x * yaw.cos() - y * yaw.sin(), x * yaw.sin() + y * yaw.cos()]
-    });
+    let turned =
+        hinges.map(|[x, y]| [x * yaw.cos() - y * yaw.sin(), x * yaw.sin() + y * yaw.cos()]);
     let legs = |at: &[f64]| {
         [0, 1, 2].map(|i| {
-            [at[0] + turned[i][0] - bases[i][0], at[1] + turned[i][1] - bases[i][1]]
+            [
+                at[0] + turned[i][0] - bases[i][0],
+                at[1] + turned[i][1] - bases[i][1],
+            ]
         })
     };
     let axes = [("platform.x", -19.3, 24.1), ("platform.y", -24.2, 18.9)];
@@ -344,15 +380,21 @@ fn a_three_rpr_platform_reaches_where_the_rings_of_its_legs_overlap() {
     });
     for (name, upper, limit) in [("rho1", true, high), ("rho2", false, low)] {
         let leg = usize::from(name == "rho2");
-        let points = boundary(&report, |kind| {
-            matches!(kind, BoundaryKind::Limit { joint, upper: u } if joint == name && *u == upper)
-        });
+        let points = boundary(
+            &report,
+            |kind| matches!(kind, BoundaryKind::Limit { joint, upper: u } if joint == name && *u == upper),
+        );
         for (at, _) in points {
             let [x, y] = legs(&at)[leg];
             assert!((x.hypot(y) - limit).abs() < 1e-9, "{name} {at:?}");
         }
     }
-    assert!(report.points.iter().any(|p| matches!(p.kind, BoundaryKind::Limit { .. })));
+    assert!(
+        report
+            .points
+            .iter()
+            .any(|p| matches!(p.kind, BoundaryKind::Limit { .. }))
+    );
     // three lines through one point, or parallel: a conic in the position
     let lines = |at: &[f64]| {
         let legs = legs(at);
@@ -416,14 +458,14 @@ fn a_section_of_the_three_rps_is_bounded_by_the_lengths_of_its_legs() {
     });
     let mut met = 0;
     for (i, name) in ["l1", "l2", "l3"].into_iter().enumerate() {
-        let points = boundary(&report, |kind| {
-            matches!(kind, BoundaryKind::Limit { joint, .. } if joint == name)
-        });
+        let points = boundary(
+            &report,
+            |kind| matches!(kind, BoundaryKind::Limit { joint, .. } if joint == name),
+        );
         met += points.len();
         for (at, _) in points {
-            let misses = three_rps(0.7, at[0], at[1]).map(|legs| {
-                (legs[i] - 0.3).abs().min((legs[i] - 1.2).abs())
-            });
+            let misses = three_rps(0.7, at[0], at[1])
+                .map(|legs| (legs[i] - 0.3).abs().min((legs[i] - 1.2).abs()));
             assert!(misses[0].min(misses[1]) < 1e-9, "{name} {at:?}");
         }
     }
@@ -453,29 +495,64 @@ fn three_coordinates_are_mapped_in_slices() {
 
 #[test]
 fn one_coordinate_is_mapped_to_intervals() {
-    // the crank of a slider-crank turns fully; the slider reaches l - r to l + r
+    // the rod l = 3 and the crank r = 1 reach a line beside the hinge of the crank, e = 0.5 away
     let mechanism = written(&text("slider_crank"), &[]);
     let mut question = Question::new(&mechanism).free("actuated").unwrap();
-    question = question.hold("s", "0.15").unwrap();
+    question = question.hold("s", "3").unwrap();
     let (coordinate, _) = question.value("s", "home").unwrap();
     let axes = [Driven {
         coordinate,
-        from: 0.06,
-        to: 0.24,
+        from: 1.5,
+        to: 4.4,
     }];
     let settings = WorkspaceSettings {
-        nodes: vec![91],
+        nodes: vec![90],
         ..WorkspaceSettings::default()
     };
     let report = workspace(&question, &axes, &[], &settings, &mut |_| {}).unwrap();
     assert!(matches!(coordinate, Holdable::Joint(_)));
-    assert_eq!(report.modes.len(), 2);
-    // l = 150 mm, r = 50 mm
-    assert!((report.reached_size - 0.1).abs() < 1e-9, "{}", report.reached_size);
+    assert_eq!((report.modes.len(), report.unit.as_str()), (2, "m"));
+    let ends = [2.0f64, 4.0].map(|reach| (reach * reach - 0.25).sqrt());
+    assert!(
+        (report.reached_size - (ends[1] - ends[0])).abs() < 1e-9,
+        "{}",
+        report.reached_size
+    );
     for point in &report.points {
-        assert!((point.at[0] - 0.1).abs() < 1e-9 || (point.at[0] - 0.2).abs() < 1e-9);
+        let misses = ends.map(|end| (point.at[0] - end).abs());
+        assert!(misses[0].min(misses[1]) < 1e-9, "{point:?}");
     }
     assert_eq!(report.points.len(), 4);
+}
+
+#[test]
+fn where_two_legs_fold_at_once_modes_are_not_taken_for_one() {
+    // at (0.1, 0) the inner circles of both rings touch; straight up through that point both elbows
+    // would turn over together, smoothly
+    let mechanism = five_bar(&[]);
+    let axes = [("hand.x", -0.6, 0.8), ("hand.y", -0.7, 0.7)];
+    for nodes in [[13, 12], [15, 14], [29, 20]] {
+        let settings = WorkspaceSettings {
+            nodes: nodes.to_vec(),
+            boundaries: false,
+            ..WorkspaceSettings::default()
+        };
+        let mut question = Question::new(&mechanism).free("actuated").unwrap();
+        for name in ["hand.x", "hand.y"] {
+            question = question.hold(name, "0.1").unwrap();
+        }
+        let axes = axes.map(|(name, from, to)| Driven {
+            coordinate: question.value(name, "home").unwrap().0,
+            from,
+            to,
+        });
+        let report = workspace(&question, &axes, &[], &settings, &mut |_| {}).unwrap();
+        assert_eq!(report.modes.len(), 4, "{nodes:?}");
+        assert!(
+            report.modes.iter().all(|mode| mode.repeated == 0),
+            "{nodes:?}"
+        );
+    }
 }
 
 #[test]
@@ -492,7 +569,8 @@ fn lanes_and_threads_change_nothing() {
             ..settings.clone()
         };
         let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build();
-        pool.unwrap().install(|| map_with(&mechanism, &axes, &[], &settings))
+        pool.unwrap()
+            .install(|| map_with(&mechanism, &axes, &[], &settings))
     };
     let one = on(1, true);
     let two = on(2, true);
@@ -515,7 +593,11 @@ fn linkwork(arguments: &[&str]) -> (i32, String, String) {
         .output()
         .unwrap();
     let text = |bytes: Vec<u8>| String::from_utf8(bytes).unwrap();
-    (output.status.code().unwrap(), text(output.stdout), text(output.stderr))
+    (
+        output.status.code().unwrap(),
+        text(output.stdout),
+        text(output.stderr),
+    )
 }
 
 #[test]
@@ -524,20 +606,63 @@ fn questions_that_make_no_sense_are_told_what_to_ask_instead() {
     let x = ["--map", "hand.x=0..0.2"];
     let cases: &[(&[&str], &str)] = &[
         (&[hand], "e.g. --map hand.x=-1..1 --map hand.y=-1..1"),
-        (&[hand, "--map", "hand.x=0..0.2"], "--hold hand.y=home"),
-        (&[hand, "--map", "hand.x=0.2"], "write --map hand.x=FROM..TO"),
+        (
+            &[hand, "--map", "hand.x=0..0.2"],
+            "--hold hand.y=home or --map hand.y=-1..1",
+        ),
+        (
+            &[hand, "--map", "hand.x=0.2"],
+            "write --map hand.x=FROM..TO",
+        ),
         (&[hand, "--map", "hand.x=0.2..0.2"], "the map is empty"),
         (&[hand, "--map", "hand.x=0.3..0.2"], "the map is empty"),
         (&[hand, "--map", "hand.q=0..1"], "did you mean"),
-        (&[hand, x[0], x[1], "--hold", "hand.x=0"], "both mapped and held"),
         (
-            &[hand, x[0], x[1], "--map", "hand.y=0..1", "--map", "hand.yaw=0..1"],
+            &[hand, x[0], x[1], "--hold", "hand.x=0"],
+            "both mapped and held",
+        ),
+        (
+            &[
+                hand,
+                x[0],
+                x[1],
+                "--map",
+                "hand.y=0..1",
+                "--map",
+                "hand.yaw=0..1",
+            ],
             "do not map hand.yaw",
         ),
-        (&[hand, x[0], x[1], "--map", "hand.y=0..1", "--grid", "1"], "at least 2 nodes"),
-        (&[hand, x[0], x[1], "--map", "hand.y=0..1", "--grid", "2,3,4"], "one for each"),
-        (&[hand, x[0], x[1], "--map", "hand.y=0..1", "--grid", "1000000"], "GB"),
-        (&["mechanisms/four_bar.ron", "--map", "x=0..1", "--map", "y=0..1"], "has no platform"),
+        (
+            &[hand, x[0], x[1], "--map", "hand.y=0..1", "--grid", "1"],
+            "at least 2 nodes",
+        ),
+        (
+            &[hand, x[0], x[1], "--map", "hand.y=0..1", "--grid", "2,3,4"],
+            "one for each",
+        ),
+        (
+            &[
+                hand,
+                x[0],
+                x[1],
+                "--map",
+                "hand.y=0..1",
+                "--grid",
+                "1000000",
+            ],
+            "GB",
+        ),
+        (
+            &[
+                "mechanisms/four_bar.ron",
+                "--map",
+                "x=0..1",
+                "--map",
+                "y=0..1",
+            ],
+            "has no platform",
+        ),
     ];
     for (arguments, expected) in cases {
         let (code, out, err) = linkwork(&[&["workspace"], *arguments].concat());
@@ -548,7 +673,12 @@ fn questions_that_make_no_sense_are_told_what_to_ask_instead() {
 
 #[test]
 fn the_command_writes_whole_rows_of_numbers() {
-    let map = ["workspace", "mechanisms/five_bar_hand.ron", "--map", "hand.x=-0.6..0.8"];
+    let map = [
+        "workspace",
+        "mechanisms/five_bar_hand.ron",
+        "--map",
+        "hand.x=-0.6..0.8",
+    ];
     let map = [&map[..], &["--map", "hand.y=-0.7..0.7", "--grid", "13,12"]].concat();
     for more in [&["--format", "csv"][..], &["--format", "csv", "--boundary"]] {
         let (code, out, err) = linkwork(&[&map[..], more].concat());
@@ -566,6 +696,15 @@ fn the_command_writes_whole_rows_of_numbers() {
     for row in json["values"].as_array().unwrap() {
         assert_eq!(row.as_array().unwrap().len(), columns);
     }
-    let (code, _, _) = linkwork(&["workspace", "mechanisms/planar_2r.ron", "--map", "hand.x=3..4", "--map", "hand.y=3..4", "--grid", "5"]);
+    let (code, _, _) = linkwork(&[
+        "workspace",
+        "mechanisms/planar_2r.ron",
+        "--map",
+        "hand.x=3..4",
+        "--map",
+        "hand.y=3..4",
+        "--grid",
+        "5",
+    ]);
     assert_eq!(code, 1);
 }

@@ -8,9 +8,9 @@ mod along;
 mod classify;
 mod locus;
 
+pub use crate::system::LocusEnd;
 pub use along::{AlongReport, Crossing, Ending, along};
 pub use classify::{Distances, Movement, Resisted, Singularity, Zlatanov};
-pub use crate::system::LocusEnd;
 pub use locus::{Bound, Kind, Locus, LocusReport, loci};
 
 use serde::Serialize;

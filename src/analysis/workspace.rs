@@ -293,16 +293,12 @@ impl<'a> Map<'a> {
             points: crossings
                 .iter()
                 .filter_map(|crossing| {
-                    let axes = self.asked.axes.iter();
                     let node = self.filled.sheets[crossing.sheet].node;
                     let mut at = self.grid.values(node);
                     let along = crossing.direction / 2;
-                    at[along] = axes.as_slice()[along].coordinate.of(&crossing.at);
-                    if let Some(next) = self.grid.neighbour(node, crossing.direction) {
-                        // an angle is told near where it was asked
-                        let (a, b) = (self.grid.values(node)[along], self.grid.values(next)[along]);
-                        at[along] = a + crossing.part * (b - a);
-                    }
+                    let next = self.grid.neighbour(node, crossing.direction)?;
+                    let end = self.grid.values(next)[along];
+                    at[along] += crossing.part * (end - at[along]);
                     Some(BoundaryPoint {
                         kind: named(self.asked, crossing.kind),
                         mode: self.mode[crossing.sheet]? + 1,
@@ -321,7 +317,10 @@ impl<'a> Map<'a> {
 
     /// The first sheet of a node that is wanted.
     fn first(&self, node: usize, wanted: &dyn Fn(&usize) -> bool) -> Option<usize> {
-        self.filled.of_node[node].iter().copied().find(|s| wanted(s))
+        self.filled.of_node[node]
+            .iter()
+            .copied()
+            .find(|s| wanted(s))
     }
 
     fn size(&self, wanted: &dyn Fn(&usize) -> bool, cut: &[Vec<f64>]) -> f64 {
@@ -381,12 +380,18 @@ impl<'a> Map<'a> {
                 node(a.0).cmp(&node(b.0)).then(a.0.cmp(&b.0))
             })
         });
-        let numbers = all.iter().enumerate().map(|(i, (first, _))| (*first, i + 1));
+        let numbers = all
+            .iter()
+            .enumerate()
+            .map(|(i, (first, _))| (*first, i + 1));
         let numbers = numbers.collect();
-        let reports = all.into_iter().enumerate().map(|(i, (_, report))| AspectReport {
-            aspect: i + 1,
-            ..report
-        });
+        let reports = all
+            .into_iter()
+            .enumerate()
+            .map(|(i, (_, report))| AspectReport {
+                aspect: i + 1,
+                ..report
+            });
         (reports.collect(), numbers)
     }
 

@@ -7,9 +7,11 @@ use linkwork::analysis::assemblies::Wanted;
 use linkwork::analysis::workspace::{
     WorkspaceError, WorkspaceReport, WorkspaceSettings, cell_bytes, workspace,
 };
-use linkwork::mechanism::{Configuration, Mechanism};
+use linkwork::mechanism::{Configuration, Coordinate, Mechanism};
 use linkwork::output::workspace as output;
-use linkwork::system::{Driven, Holdable, Question, check_count, too_large};
+use linkwork::system::{
+    Driven, Holdable, Mobility, Question, QuestionError, check_count, too_large,
+};
 
 use super::asked::{Split, refusal};
 use super::progress::Progress;
@@ -205,7 +207,10 @@ impl Workspace {
                 Holdable::Coordinate(platform, _) => mechanism.platforms()[platform].name == name,
                 _ => false,
             };
-            if asked.iter().any(|name| *name == assignment.name || of_platform(name)) {
+            if asked
+                .iter()
+                .any(|name| *name == assignment.name || of_platform(name))
+            {
                 let (complaint, part) = output::also_held(&assignment.name);
                 return Err(Refusal(complaint.render_in(&given, &part, style())));
             }
@@ -220,9 +225,15 @@ impl Workspace {
             )));
         }
         let names: Vec<String> = self.map.iter().map(|map| map.name.clone()).collect();
-        check_count(&question).map_err(|error| match output::too_many_held(&error, &names) {
-            Some(complaint) => Refusal(complaint.render(style())),
-            None => refusal(&error, None),
+        check_count(&question).map_err(|error| {
+            let missing = match error {
+                QuestionError::TooFew { .. } if inverse => missing(&question),
+                _ => Vec::new(),
+            };
+            match output::wrong_count(&error, &names, &missing) {
+                Some(complaint) => Refusal(complaint.render(style())),
+                None => refusal(&error, None),
+            }
         })?;
         Ok(question)
     }
@@ -235,12 +246,16 @@ impl Workspace {
             _ => self.grid.clone(),
         };
         if nodes.len() != axes.len() || nodes.iter().any(|n| *n < 2) {
-            return Err(Refusal(output::wrong_grid(&nodes, axes.len()).render(style())));
+            return Err(Refusal(
+                output::wrong_grid(&nodes, axes.len()).render(style()),
+            ));
         }
         let all: f64 = nodes.iter().map(|n| *n as f64).product();
         let bytes = all * cell_bytes(mechanism, axes.len()) as f64;
         match bytes > MOST_BYTES {
-            true => Err(Refusal(output::too_fine(all, bytes, MOST_BYTES).render(style()))),
+            true => Err(Refusal(
+                output::too_fine(all, bytes, MOST_BYTES).render(style()),
+            )),
             false => Ok(nodes),
         }
     }
@@ -259,6 +274,26 @@ impl Workspace {
         let like = question.start();
         let report = solver.at_targets(&like, &question.held(), wanted);
         let found = report.assemblies.iter();
-        Ok(found.map(|assembly| assembly.configuration(&like)).collect())
+        Ok(found
+            .map(|assembly| assembly.configuration(&like))
+            .collect())
     }
+}
+
+/// Coordinates of platforms that are to be mapped or held too.
+fn missing(question: &Question) -> Vec<String> {
+    let mechanism = question.mechanism();
+    let held = question.held_coordinates();
+    let platforms = 0..mechanism.platforms().len();
+    let coordinates = platforms.flat_map(|platform| {
+        let all = Coordinate::ALL.into_iter();
+        all.map(move |c| Holdable::Coordinate(platform, c))
+    });
+    let candidates: Vec<Holdable> = held.iter().copied().chain(coordinates).collect();
+    let Some(mobility) = Mobility::near(mechanism, &question.start()) else {
+        return Vec::new();
+    };
+    let chosen = mobility.independent(mechanism, &candidates).into_iter();
+    let new = chosen.filter(|c| !held.contains(c));
+    new.map(|c| c.name(mechanism)).collect()
 }

@@ -1,4 +1,4 @@
-use super::{Extent, Field, Number, trigonometry, Packed};
+use super::{Extent, Field, Number, Packed, trigonometry};
 
 /// Nothing comes from the platform's C library, so that the same input gives the same bytes on every
 /// machine.

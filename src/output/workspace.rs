@@ -7,8 +7,8 @@ mod words;
 #[cfg(feature = "plot")]
 pub use picture::svg;
 pub use words::{
-    also_held, boundary_flat, completeness, empty_side, no_platform, no_range, not_assembled,
-    sentence, too_fine, too_many_axes, too_many_cells, too_many_held, wrong_grid,
+    also_held, boundary_flat, completeness, empty_side, no_platform, no_range, sentence, too_fine,
+    too_many_axes, too_many_cells, wrong_count, wrong_grid,
 };
 
 use std::fmt::Write;
@@ -18,9 +18,7 @@ use serde::Serialize;
 use super::json::document;
 use super::layout::{align_right, indented, plain};
 use super::quantity::{number, quantity, size};
-use crate::analysis::workspace::{
-    AspectReport, BoundaryKind, Cell, Conditioned, WorkspaceReport,
-};
+use crate::analysis::workspace::{AspectReport, BoundaryKind, Cell, Conditioned, WorkspaceReport};
 use crate::description::count;
 use crate::mechanism::Mechanism;
 
@@ -90,7 +88,9 @@ pub fn csv<'a>(
     let first = header(&columns(mechanism, report));
     let rows = report.cells.iter().map(|cell| {
         let fields = row(cell);
-        let fields = fields.iter().map(|x| x.map_or(String::new(), |x| x.to_string()));
+        let fields = fields
+            .iter()
+            .map(|x| x.map_or(String::new(), |x| x.to_string()));
         fields.collect::<Vec<String>>().join(",") + "\n"
     });
     std::iter::once(first).chain(rows)
@@ -106,7 +106,12 @@ pub fn boundary_csv<'a>(
     columns.extend(axes.map(|a| format!("{} ({})", a.name, a.unit)));
     columns.extend(joint_columns(mechanism));
     let rows = report.curves.iter().enumerate().flat_map(|(i, curve)| {
-        let start = format!("{},{},{}", i + 1, words::kind(&curve.kind), curve.ends_reach);
+        let start = format!(
+            "{},{},{}",
+            i + 1,
+            words::kind(&curve.kind),
+            curve.ends_reach
+        );
         let points = curve.points.iter().zip(&curve.joints);
         points.map(move |(point, joints)| {
             let mut line = start.clone();
@@ -124,11 +129,19 @@ pub fn boundary_csv<'a>(
 pub fn text(mechanism: &Mechanism, report: &WorkspaceReport) -> String {
     /// Modes and aspects listed.
     const MOST: usize = 20;
-    let mut text = format!("{}\n{}\n{}\n", mechanism.name(), words::question(report), sentence(report));
+    let mut text = format!(
+        "{}\n{}\n{}\n",
+        mechanism.name(),
+        words::question(report),
+        sentence(report)
+    );
     let mut table = plain(["mode", "nodes", "within limits", "size", "aspects"]);
     for mode in report.modes.iter().take(MOST) {
-        let aspects: Vec<&AspectReport> =
-            report.aspects.iter().filter(|a| a.mode == mode.mode).collect();
+        let aspects: Vec<&AspectReport> = report
+            .aspects
+            .iter()
+            .filter(|a| a.mode == mode.mode)
+            .collect();
         let aspects = match aspects[..] {
             [] => "none".into(),
             [one] => one.aspect.to_string(),
@@ -169,6 +182,8 @@ fn more(all: usize, most: usize) -> String {
 }
 
 fn aspects(report: &WorkspaceReport, most: usize) -> String {
+    /// Aspects of fewer nodes are only counted.
+    const FEW: usize = 4;
     let mut table = plain([
         "aspect", "mode", "nodes", "size", "direct", "inverse", "best", "at", "worst", "at",
     ]);
@@ -182,7 +197,10 @@ fn aspects(report: &WorkspaceReport, most: usize) -> String {
         let values = values.map(|(x, axis)| quantity(*x, axis.unit == "rad"));
         values.collect::<Vec<String>>().join(", ")
     };
-    for aspect in report.aspects.iter().take(most) {
+    let large = |aspect: &&AspectReport| aspect.nodes >= FEW;
+    let listed = report.aspects.iter().filter(large);
+    let small = report.aspects.len() - listed.clone().count();
+    for aspect in listed.clone().take(most) {
         let mut row = vec![
             aspect.aspect.to_string(),
             aspect.mode.to_string(),
@@ -200,9 +218,16 @@ fn aspects(report: &WorkspaceReport, most: usize) -> String {
         table.add_row(row);
     }
     align_right(&mut table, [0, 1, 2, 6, 8]);
+    let small = match small {
+        0 => String::new(),
+        n => format!(
+            "  and {} of fewer than {FEW} nodes, where a mode is thinner than a cell\n",
+            count(n, "aspect")
+        ),
+    };
     format!(
-        "\nAspects{}\n{}  {}\n",
-        more(report.aspects.len(), most),
+        "\nAspects{}\n{}{small}  {}\n",
+        more(listed.count(), most),
         indented(&table.to_string()),
         words::condition(report)
     )
@@ -245,7 +270,11 @@ fn boundary(report: &WorkspaceReport) -> String {
 
 fn range(name: &str, from: f64, to: f64, unit: &str, nodes: usize) -> String {
     let value = |x| quantity(x, unit == "rad");
-    format!("{name} from {} to {} in {nodes} nodes", value(from), value(to))
+    format!(
+        "{name} from {} to {} in {nodes} nodes",
+        value(from),
+        value(to)
+    )
 }
 
 fn percent(part: f64) -> String {

@@ -18,11 +18,7 @@ where
 
 /// `f(storage, i)` for `i` below `count`, one after another.
 #[cfg(not(feature = "parallel"))]
-pub fn each<S: Clone, R>(
-    count: usize,
-    storage: &S,
-    f: impl Fn(&mut S, usize) -> R,
-) -> Vec<R> {
+pub fn each<S: Clone, R>(count: usize, storage: &S, f: impl Fn(&mut S, usize) -> R) -> Vec<R> {
     let mut storage = storage.clone();
     (0..count).map(|i| f(&mut storage, i)).collect()
 }

@@ -186,7 +186,9 @@ impl<'a> Question<'a> {
     /// The coordinates of a platform that are held, with their values in m or rad.
     pub fn held_values(&self, platform: usize) -> Vec<(Coordinate, f64)> {
         let given = Coordinate::ALL.into_iter().zip(&self.coordinates[platform]);
-        given.filter_map(|(c, value)| Some((c, (*value)?))).collect()
+        given
+            .filter_map(|(c, value)| Some((c, (*value)?)))
+            .collect()
     }
 
     /// The mechanism that is asked about.

@@ -147,11 +147,7 @@ impl Region<'_> {
     }
 
     /// The curve from a place on in the direction of its tangent.
-    fn half<C: ConfigurationCurve>(
-        &self,
-        curve: &mut C,
-        start: Place<C::Point>,
-    ) -> Half<C::Point> {
+    fn half<C: ConfigurationCurve>(&self, curve: &mut C, start: Place<C::Point>) -> Half<C::Point> {
         const STEPS: usize = 100_000;
         let method = self.method;
         let mut places = vec![start.clone()];
@@ -197,9 +193,8 @@ impl Region<'_> {
                     false => LocusEnd::Limit,
                 };
                 if before[i] > 0.0 {
-                    let mut margin = |_: &mut C, p: &Place<C::Point>| {
-                        self.margins(C::configuration(&p.at))[i]
-                    };
+                    let mut margin =
+                        |_: &mut C, p: &Place<C::Point>| self.margins(C::configuration(&p.at))[i];
                     places.push(method.root(curve, &place, &to, &mut margin));
                 }
                 return (places, end, crossings);
@@ -315,7 +310,11 @@ pub fn met_at<C: ConfigurationCurve>(
         met.then(|| i as f64 + before / (before - after))
     };
     let before = (i > 0).then(|| foot(curve, i - 1)).flatten();
-    let after = |curve: &mut C| (i + 1 < traced.places.len()).then(|| foot(curve, i)).flatten();
+    let after = |curve: &mut C| {
+        (i + 1 < traced.places.len())
+            .then(|| foot(curve, i))
+            .flatten()
+    };
     before.or_else(|| after(curve))
 }
 
@@ -335,7 +334,8 @@ fn closed<C: ConfigurationCurve>(
     }
     let freedoms = curve.apart(&start.at, &start.at).len();
     let tangent = start.tangent[..freedoms].to_vec();
-    let mut ahead = |curve: &mut C, p: &Place<C::Point>| dot(&curve.apart(&start.at, &p.at), &tangent);
+    let mut ahead =
+        |curve: &mut C, p: &Place<C::Point>| dot(&curve.apart(&start.at, &p.at), &tangent);
     if !(ahead(curve, from) < 0.0 && ahead(curve, to) >= 0.0) {
         return None;
     }

@@ -16,6 +16,7 @@
 use rand::SeedableRng;
 use rand_pcg::Pcg64;
 
+use super::AssembliesSettings;
 use super::coordinates::{C, size};
 use super::family::{Family, Member};
 use super::seed::{Seed, newton, solution, sow};
@@ -23,7 +24,6 @@ use super::simple::is_simple;
 use super::solutions::{GenericSolutions, pairs};
 use super::stances::{Stance, count, learn};
 use super::way::Way;
-use super::AssembliesSettings;
 use crate::number::Number;
 use crate::solve::{Arrival, Homotopy, Stages, Tracker};
 use crate::system::System;

@@ -81,7 +81,9 @@ impl<'m> Asked<'m> {
     /// The question at values of the mapped coordinates.
     pub fn at(&self, values: &[f64]) -> Question<'m> {
         let axes = self.axes.iter().map(|axis| axis.coordinate);
-        self.question.clone().at_values(axes.zip(values.iter().copied()))
+        self.question
+            .clone()
+            .at_values(axes.zip(values.iter().copied()))
     }
 
     /// What stands still in a motion within the map.
@@ -212,8 +214,7 @@ impl Targets {
                         poses.iter().map(PlatformPose::from_pose).collect();
                     let pose = &mut at.platforms[whole.platform];
                     for k in 0..4 {
-                        pose.orientation.0[k] =
-                            T::of_parts(|place| poses[place].orientation.0[k]);
+                        pose.orientation.0[k] = T::of_parts(|place| poses[place].orientation.0[k]);
                     }
                     for k in 0..3 {
                         pose.position.0[k] = T::of_parts(|place| poses[place].position.0[k]);

@@ -36,7 +36,9 @@ pub(super) fn size(
     inside: &dyn Fn(usize) -> bool,
     cut: &dyn Fn(usize, usize) -> f64,
 ) -> f64 {
-    let scale: f64 = (0..grid.dimensions()).map(|axis| grid.spacing(axis)).product();
+    let scale: f64 = (0..grid.dimensions())
+        .map(|axis| grid.spacing(axis))
+        .product();
     let parts = match grid.dimensions() {
         1 => (0..grid.count(0) - 1)
             .map(|i| match (inside(i), inside(i + 1)) {

@@ -11,8 +11,8 @@ use super::step::Measure;
 use crate::mechanism::Configuration;
 use crate::solve::{Continuation, Place, each};
 use crate::system::{
-    ConfigurationCurve, Curve, Driven, Holdable, Lock, LocusCurve, LocusEnd, Region, Singular,
-    Traced, Walk, met_at, settled,
+    ConfigurationCurve, Curve, Driven, Holdable, Lock, Locked, LocusCurve, LocusEnd, Region,
+    Singular, Traced, Walk, met_at, settled,
 };
 
 /// What a boundary is.
@@ -78,8 +78,7 @@ pub struct BoundaryCurve {
 pub struct Piece {
     /// The mode.
     pub mode: usize,
-    /// Its points: the first two mapped coordinates, rad or m. Its ends are on edges of the grid, or
-    /// the ends of the curve.
+    /// Its points: the first two mapped coordinates, rad or m.
     pub points: Vec<[f64; 2]>,
 }
 
@@ -97,9 +96,20 @@ impl Boundary<'_> {
     pub fn crossings(&self) -> Vec<Crossing> {
         let inputs = Asked::locks(&self.asked.inputs);
         let outputs = Asked::locks(&self.asked.outputs);
-        let limited = self.asked.mechanism.joints().iter().any(|j| j.limits.is_some());
+        let limited = self
+            .asked
+            .mechanism
+            .joints()
+            .iter()
+            .any(|j| j.limits.is_some());
         let mut wanted: Vec<(usize, usize, Until)> = Vec::new();
-        for (s, sheet) in self.filled.sheets.iter().enumerate().filter(|(_, s)| s.within) {
+        for (s, sheet) in self
+            .filled
+            .sheets
+            .iter()
+            .enumerate()
+            .filter(|(_, s)| s.within)
+        {
             for (d, link) in sheet.links.iter().enumerate() {
                 match *link {
                     Link::Fold(_) if limited => wanted.push((s, d, Until::Limit)),
@@ -151,8 +161,8 @@ impl Boundary<'_> {
         let mut all: Vec<Crossing> = found.into_iter().flatten().collect();
         if !limited {
             let folds = self.filled.folds.iter();
-            all.extend(folds.filter_map(|(s, d, at)| {
-                match self.filled.sheets[*s].links[*d] {
+            all.extend(
+                folds.filter_map(|(s, d, at)| match self.filled.sheets[*s].links[*d] {
                     Link::Fold(part) => Some(Crossing {
                         sheet: *s,
                         direction: *d,
@@ -161,8 +171,8 @@ impl Boundary<'_> {
                         part,
                     }),
                     _ => None,
-                }
-            }));
+                }),
+            );
         }
         all
     }
@@ -229,10 +239,8 @@ impl Boundary<'_> {
         match kind {
             Kind::Limit(joint, _) => {
                 // the joint keeps the value it has where the curve begins
-                let held = still.at_values([(
-                    Holdable::Joint(joint),
-                    crossings[0].at.joints[joint],
-                )]);
+                let held =
+                    still.at_values([(Holdable::Joint(joint), crossings[0].at.joints[joint])]);
                 let held = held.held();
                 // a mapped joint at its limit is a side of the box
                 let free: Vec<Driven> = (asked.axes.iter().copied())
@@ -348,80 +356,78 @@ impl Tracer<'_> {
         let points: Vec<[f64; 2]> = path.iter().map(point).collect();
         met.sort_by(|a, b| a.0.total_cmp(&b.0));
         let closed = ends[1] == LocusEnd::Closed;
-        let mut modes: Vec<usize> = met.iter().map(|m| m.1).collect();
-        modes.sort_unstable();
-        modes.dedup();
-        let pieces = modes.iter().flat_map(|&mode| {
-            let of = met.iter().filter(|m| m.1 == mode).map(|m| m.0);
-            self.pieces(&points, of.collect(), closed)
-                .into_iter()
-                .map(move |points| Piece {
-                    mode: mode + 1,
-                    points,
-                })
-        });
+        let mut pieces: Vec<Piece> = Vec::new();
+        for (range, points) in parts(&points, &self.cuts(path, &points), closed) {
+            let here = met
+                .iter()
+                .filter(|(along, _)| range.iter().any(|r| r.contains(along)));
+            let mut modes: Vec<usize> = here.map(|m| m.1).collect();
+            modes.sort_unstable();
+            modes.dedup();
+            pieces.extend(modes.into_iter().map(|mode| Piece {
+                mode: mode + 1,
+                points: points.clone(),
+            }));
+        }
         BoundaryCurve {
             kind: self.named(),
             ends_reach: matches!(self.kind, Kind::Fold | Kind::Limit(..)),
             slice: self.third,
             ends,
-            pieces: pieces.collect(),
+            pieces,
             joints: path.iter().map(|at| at.joints.clone()).collect(),
             points,
         }
     }
 
-    /// What lies between neighbouring places where a mode meets the curve, as far as that is within
-    /// one cell of the grid.
-    fn pieces(&self, points: &[[f64; 2]], of: Vec<f64>, closed: bool) -> Vec<Vec<[f64; 2]>> {
-        let last = (points.len() - 1) as f64;
-        let at = |along: f64| {
-            let i = (along as usize).min(points.len() - 2);
-            let part = along - i as f64;
-            [0, 1].map(|k| points[i][k] + part * (points[i + 1][k] - points[i][k]))
-        };
-        let piece = |from: f64, to: f64| {
-            let inside = (0..points.len()).filter(|&i| (i as f64) > from && (i as f64) < to);
-            let inside = inside.map(|i| points[i]);
-            let all = std::iter::once(at(from)).chain(inside);
-            all.chain([at(to)]).collect::<Vec<[f64; 2]>>()
-        };
-        let small = |piece: &[[f64; 2]]| {
-            (0..2).all(|k| {
-                let values = piece.iter().map(|p| p[k]);
-                let (low, high) = values.fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), x| {
-                    (l.min(x), h.max(x))
-                });
-                high - low <= 1.01 * self.boundary.grid.spacing(k).abs()
-            })
-        };
-        let mut between: Vec<Vec<[f64; 2]>> = Vec::new();
-        match closed {
-            true => {
-                // from the last place through the beginning to the first
-                let mut round = piece(of[of.len() - 1], last);
-                round.extend(piece(0.0, of[0]));
-                between.push(round);
-            }
-            false => between.push(piece(0.0, of[0])),
+    /// Where along a curve the mode changes: it passes a place where solutions of the mapped problem
+    /// meet. On a fold such a place is where the mapped coordinates turn back.
+    fn cuts(&self, path: &[Configuration<f64>], points: &[[f64; 2]]) -> Vec<usize> {
+        if self.kind == Kind::Fold {
+            let way = |i: usize| [0, 1].map(|k| points[i + 1][k] - points[i][k]);
+            let turns = (1..points.len().saturating_sub(1)).filter(|&i| {
+                let (a, b) = (way(i - 1), way(i));
+                a[0] * b[0] + a[1] * b[1] < 0.0
+            });
+            return turns.collect();
         }
-        between.extend(of.windows(2).map(|pair| piece(pair[0], pair[1])));
-        if !closed {
-            between.push(piece(of[of.len() - 1], last));
-        }
-        let mut joined: Vec<Vec<[f64; 2]>> = Vec::new();
-        for piece in between.into_iter().filter(|piece| small(piece)) {
-            match joined.last_mut() {
-                Some(before) if before.last() == piece.first() => before.extend(&piece[1..]),
-                _ => joined.push(piece),
-            }
-        }
-        joined
+        let mut locked = Locked::new(self.asked.mechanism, &Asked::locks(&self.asked.held));
+        let changes = (1..path.len()).filter(|&i| {
+            let near = locked.decomposition(&path[i - 1]);
+            locked.orientation(&near, &path[i]) < 0.0
+        });
+        changes.collect()
     }
 
     fn named(&self) -> BoundaryKind {
         named(self.asked, self.kind)
     }
+}
+
+/// A part of a curve: where it is along the curve, and its points.
+type Part = (Vec<std::ops::RangeInclusive<f64>>, Vec<[f64; 2]>);
+
+/// The parts of a curve between cuts, which are at points or just before them.
+fn parts(points: &[[f64; 2]], cuts: &[usize], closed: bool) -> Vec<Part> {
+    let last = points.len() - 1;
+    let mut bounds = vec![0];
+    bounds.extend(cuts.iter().copied().filter(|cut| *cut > 0 && *cut < last));
+    bounds.push(last);
+    let mut parts: Vec<Part> = (bounds.windows(2))
+        .map(|pair| {
+            let range = pair[0] as f64..=pair[1] as f64;
+            (vec![range], points[pair[0]..=pair[1]].to_vec())
+        })
+        .collect();
+    if closed && parts.len() > 1 {
+        // the last goes on in the first
+        let (ranges, tail) = parts.remove(0);
+        if let Some((range, points)) = parts.last_mut() {
+            range.extend(ranges);
+            points.extend(tail.into_iter().skip(1));
+        }
+    }
+    parts
 }
 
 /// A kind by name.

@@ -97,7 +97,9 @@ impl Fill<'_> {
         }
         while !front.is_empty() {
             let directions = 0..2 * self.grid.dimensions();
-            let tasks = front.iter().flat_map(|&s| directions.clone().map(move |d| (s, d)));
+            let tasks = front
+                .iter()
+                .flat_map(|&s| directions.clone().map(move |d| (s, d)));
             let mut waiting: Vec<Task> = tasks
                 .filter(|&(s, d)| self.grid.neighbour(filled.sheets[s].node, d).is_some())
                 .collect();
@@ -131,7 +133,9 @@ impl Fill<'_> {
         let jobs: Vec<&[Start]> = starts.chunks(JOB).collect();
         let ends = each(jobs.len(), steps, |steps, i| {
             let packs = jobs[i].chunks(T::WIDTH);
-            packs.flat_map(|pack| steps.settle(pack)).collect::<Vec<_>>()
+            packs
+                .flat_map(|pack| steps.settle(pack))
+                .collect::<Vec<_>>()
         });
         ends.into_iter().flatten().collect()
     }
@@ -144,7 +148,9 @@ impl Fill<'_> {
         filled.sheets.push(Sheet {
             node,
             arrival,
-            within: joints.into_iter().all(|(joint, value)| joint.allows(*value)),
+            within: joints
+                .into_iter()
+                .all(|(joint, value)| joint.allows(*value)),
             links: vec![Link::Open; 2 * self.grid.dimensions()],
         });
         filled.of_node[node].push(new);
@@ -168,7 +174,11 @@ impl Fill<'_> {
     fn change(&self, node: usize, direction: usize) -> (usize, f64) {
         let axis = direction / 2;
         let place = self.grid.place(node, axis);
-        let next = if direction % 2 == 0 { place - 1 } else { place + 1 };
+        let next = if direction % 2 == 0 {
+            place - 1
+        } else {
+            place + 1
+        };
         let coordinate = |place| self.grid.coordinate(axis, place);
         (axis, coordinate(next) - coordinate(place))
     }
@@ -202,6 +212,12 @@ impl Fill<'_> {
         let mut near = known.iter().copied().filter(|&t| {
             let other = &filled.sheets[t];
             if self.measure.apart(&to, &other.arrival.at) > SURE * length + SAME {
+                return false;
+            }
+            if !self
+                .measure
+                .alike(&sheet.arrival.motions, &other.arrival.motions)
+            {
                 return false;
             }
             let (back, _, length) = self.ahead(other, d ^ 1);
@@ -244,9 +260,12 @@ impl Fill<'_> {
             let packs = starts.chunks(T::WIDTH);
             let arrivals: Vec<_> = packs.flat_map(|pack| steps.settle(pack)).collect();
             let ends = arrivals.into_iter().zip(jobs[i]).zip(&starts);
-            ends.map(|((arrival, task), start)| match arrival {
-                Some(arrival) => End::Arrived(arrival),
-                None => self.walked(steps, filled, *task, start),
+            ends.map(|((arrival, task), start)| {
+                let from = &filled.sheets[task.0].arrival.motions;
+                match arrival.filter(|to| self.measure.alike(from, &to.motions)) {
+                    Some(arrival) => End::Arrived(arrival),
+                    None => self.walked(steps, filled, *task, start),
+                }
             })
             .collect::<Vec<End>>()
         });

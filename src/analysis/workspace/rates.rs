@@ -107,7 +107,13 @@ impl<T: Factorable + Packed> Rates<T> {
                 c.row(&pose, T::zero(), self.length).1.to_vec()
             }
             Holdable::Turn(_, axis) => {
-                let one = |i: usize| if i == axis as usize { T::one() } else { T::zero() };
+                let one = |i: usize| {
+                    if i == axis as usize {
+                        T::one()
+                    } else {
+                        T::zero()
+                    }
+                };
                 (0..6).map(one).collect()
             }
         }
@@ -140,7 +146,12 @@ impl<T: Factorable + Packed> Rates<T> {
         let input = self.matrix(&self.inputs.clone(), at);
         let output = self.matrix(&self.outputs.clone(), at);
         let moved: Vec<Vec<T>> = (0..n)
-            .map(|j| self.moved.iter().map(|&i| self.columns[j * columns + i]).collect())
+            .map(|j| {
+                self.moved
+                    .iter()
+                    .map(|&i| self.columns[j * columns + i])
+                    .collect()
+            })
             .collect();
         let conditions = match self.inputs.is_empty() {
             true => vec![f64::INFINITY; T::WIDTH],
@@ -233,7 +244,10 @@ fn extremes<T: Packed>(sizes: &[T]) -> Vec<(f64, f64)> {
     let of = |place: usize| {
         let parts = sizes.iter().map(|size| size.part(place));
         parts.fold((f64::INFINITY, 0.0), |(least, most): (f64, f64), x| {
-            (if x < least { x } else { least }, if x > most { x } else { most })
+            (
+                if x < least { x } else { least },
+                if x > most { x } else { most },
+            )
         })
     };
     (0..T::WIDTH).map(of).collect()

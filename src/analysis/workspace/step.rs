@@ -75,9 +75,16 @@ impl<T: Factorable + Packed> Steps<T> {
             for (place, solved) in solved.iter_mut().enumerate() {
                 let rows = self.system.residual_of(&self.work).iter();
                 // a NaN is not small
-                *solved = rows.map(|row| row.part(place).abs()).all(|row| row <= TOLERANCE);
+                *solved = rows
+                    .map(|row| row.part(place).abs())
+                    .all(|row| row <= TOLERANCE);
             }
-            if step == STEPS || solved.iter().zip(&sure).all(|(solved, sure)| *solved || !sure) {
+            if step == STEPS
+                || solved
+                    .iter()
+                    .zip(&sure)
+                    .all(|(solved, sure)| *solved || !sure)
+            {
                 break;
             }
             self.system.factorise(0.0, &mut self.work);
@@ -109,7 +116,9 @@ impl<T: Factorable + Packed> Steps<T> {
                 let told = &told[place];
                 (sure[place] && solved[place] && told.regular).then(|| Arrival {
                     at: point.map(|x| x.part(place)),
-                    motions: (0..self.axes).map(|i| self.rates.motion(i, place)).collect(),
+                    motions: (0..self.axes)
+                        .map(|i| self.rates.motion(i, place))
+                        .collect(),
                     told: told.clone(),
                 })
             })
@@ -151,13 +160,17 @@ impl Measure {
         let mechanism = asked.mechanism;
         let free = Curve::new(mechanism, &Held::nothing(mechanism));
         let whole = mechanism.platforms().is_empty();
-        let seen = free.system().unknowns().iter().map(|unknown| match *unknown {
-            Unknown::Joint(joint) => {
-                let joint = &mechanism.joints()[joint];
-                whole || joint.role == Role::Actuated || joint.limits.is_some()
-            }
-            Unknown::Twist { .. } => true,
-        });
+        let seen = free
+            .system()
+            .unknowns()
+            .iter()
+            .map(|unknown| match *unknown {
+                Unknown::Joint(joint) => {
+                    let joint = &mechanism.joints()[joint];
+                    whole || joint.role == Role::Actuated || joint.limits.is_some()
+                }
+                Unknown::Twist { .. } => true,
+            });
         Measure {
             seen: seen.collect(),
             units: (asked.axes.iter())
@@ -178,6 +191,23 @@ impl Measure {
         let step = self.free.difference_but_turns(a, b);
         let seen = step.iter().zip(&self.seen).filter(|(_, seen)| **seen);
         seen.map(|(x, _)| x * x).sum::<f64>().sqrt()
+    }
+
+    /// Whether the motions at two configurations are near enough for these to be on one sheet.
+    ///
+    /// With M as in [`Rates`], N₁ − N₀ = −M₁⁺(M₁ − M₀) N₀ is short beside N wherever Newton's
+    /// theorem makes a step sure. Across a point where several legs fold at once the configuration
+    /// may go on smoothly, and only motions to the side tell: they turn round.
+    pub fn alike(&self, a: &[Vec<f64>], b: &[Vec<f64>]) -> bool {
+        const CHANGE: f64 = 0.6;
+        let seen = |motion: &[f64]| {
+            let seen = motion.iter().zip(&self.seen).filter(|(_, seen)| **seen);
+            seen.map(|(x, _)| x * x).sum::<f64>().sqrt()
+        };
+        a.iter().zip(b).all(|(a, b)| {
+            let change: Vec<f64> = a.iter().zip(b).map(|(a, b)| b - a).collect();
+            seen(&change) <= CHANGE * seen(a).max(seen(b))
+        })
     }
 
     /// Where a motion leads when a mapped coordinate changes by so much, how long the step is, and

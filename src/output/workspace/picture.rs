@@ -70,20 +70,29 @@ fn picture(
             rows[within / x.nodes][within % x.nodes] = quality(cell.condition);
         }
     }
-    let third = slice.map(|(z, place)| {
-        z.from + (z.to - z.from) * place as f64 / (z.nodes - 1) as f64
-    });
+    let third =
+        slice.map(|(z, place)| z.from + (z.to - z.from) * place as f64 / (z.nodes - 1) as f64);
     let near = |value: Option<f64>| match (value, third) {
         (Some(a), Some(b)) => (a - b).abs() < 1e-9 * (1.0 + b.abs()),
         _ => true,
     };
     let mut series: Vec<Series> = Vec::new();
     for (name, wanted) in KINDS {
-        let curves = report.curves.iter().filter(|c| wanted(&c.kind) && near(c.slice));
-        let pieces = curves.flat_map(|curve| &curve.pieces).filter(|piece| piece.mode == mode);
+        let curves = report
+            .curves
+            .iter()
+            .filter(|c| wanted(&c.kind) && near(c.slice));
+        let pieces = curves
+            .flat_map(|curve| &curve.pieces)
+            .filter(|piece| piece.mode == mode);
         let mut points: Vec<(f64, f64)> = Vec::new();
         for piece in pieces {
-            points.extend(piece.points.iter().map(|p| (shown(x, p[0]), shown(y, p[1]))));
+            points.extend(
+                piece
+                    .points
+                    .iter()
+                    .map(|p| (shown(x, p[0]), shown(y, p[1]))),
+            );
             points.push((f64::NAN, f64::NAN));
         }
         // one colour for one kind, whether it is there or not
@@ -128,7 +137,10 @@ fn along(mechanism: &Mechanism, report: &WorkspaceReport, axis: &AxisReport) -> 
     let series = report.modes.iter().map(|mode| {
         let mut points = Vec::new();
         let mut before = None;
-        let cells = report.cells.iter().filter(|c| c.mode == mode.mode && c.aspect.is_some());
+        let cells = report
+            .cells
+            .iter()
+            .filter(|c| c.mode == mode.mode && c.aspect.is_some());
         for cell in cells {
             if before.is_some_and(|node| cell.node != node + 1) {
                 points.push((f64::NAN, f64::NAN));

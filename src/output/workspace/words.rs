@@ -32,7 +32,11 @@ pub(super) fn area(report: &WorkspaceReport, size: f64) -> String {
         size => (3 - size.abs().log10().floor() as i32).clamp(0, 9),
     };
     let factor = 10f64.powi(digits);
-    format!("{} {}", number((size * factor).round() / factor), report.unit)
+    format!(
+        "{} {}",
+        number((size * factor).round() / factor),
+        report.unit
+    )
 }
 
 /// What is reached, in a sentence or two.
@@ -61,9 +65,11 @@ pub fn sentence(report: &WorkspaceReport) -> String {
 /// What the condition number is of.
 pub(super) fn condition(report: &WorkspaceReport) -> String {
     match report.inputs.is_empty() {
-        true => "no condition and no direct singularities are told: it takes as many actuated joints \
+        true => {
+            "no condition and no direct singularities are told: it takes as many actuated joints \
                  as freedoms"
-            .into(),
+                .into()
+        }
         false => format!(
             "best and worst: condition number of the Jacobian from {} to what moves, at nodes, with \
              lengths over {} m",
@@ -78,7 +84,8 @@ pub fn completeness(report: &WorkspaceReport) -> String {
     let [nodes, starts] = report.searched;
     let mut text = format!(
         "Modes were sought at {} from {} each (seed {}): a region with none of them inside can be \
-         missing, and so can what is smaller than a cell of the grid.",
+         missing, and so can what is smaller than a cell of the grid. Aspects joined only where they \
+         are thinner than a cell count as several.",
         count(nodes, "node"),
         count(starts, "start"),
         report.seed
@@ -115,8 +122,17 @@ fn said(title: String, label: &str, help: String) -> Complaint {
 
 /// A mapped coordinate without a range.
 pub fn no_range(name: &str) -> (Complaint, Part) {
-    let help = format!("write --map {name}=FROM..TO, e.g. --map {name}=-1..1 or --map {name}=-90deg..90deg");
-    (said(format!("the map of `{name}` has no range"), "no range", help), Part::WholeValue)
+    let help = format!(
+        "write --map {name}=FROM..TO, e.g. --map {name}=-1..1 or --map {name}=-90deg..90deg"
+    );
+    (
+        said(
+            format!("the map of `{name}` has no range"),
+            "no range",
+            help,
+        ),
+        Part::WholeValue,
+    )
 }
 
 /// A box without an inside.
@@ -129,7 +145,10 @@ pub fn empty_side(name: &str, _: &str) -> (Complaint, Part) {
 /// Nothing mapped, or too much.
 pub fn too_many_axes(mechanism: &Mechanism, given: usize) -> Complaint {
     let platforms = mechanism.platforms();
-    let joints = mechanism.joints().iter().filter(|j| j.role == Role::Actuated);
+    let joints = mechanism
+        .joints()
+        .iter()
+        .filter(|j| j.role == Role::Actuated);
     let example = match platforms.first() {
         Some(p) => format!("--map {0}.x=-1..1 --map {0}.y=-1..1", p.name),
         None => joints
@@ -158,12 +177,19 @@ pub fn too_many_axes(mechanism: &Mechanism, given: usize) -> Complaint {
 /// A coordinate that is mapped and held.
 pub fn also_held(name: &str) -> (Complaint, Part) {
     let title = format!("`{name}` is both mapped and held");
-    (said(title, "also held", "give only one of them".into()), Part::Name)
+    (
+        said(title, "also held", "give only one of them".into()),
+        Part::Name,
+    )
 }
 
 /// A name where there is no platform.
 pub fn no_platform(mechanism: &Mechanism, error: &QuestionError) -> Option<Complaint> {
-    let QuestionError::UnknownName { name, suggestion: None } = error else {
+    let QuestionError::UnknownName {
+        name,
+        suggestion: None,
+    } = error
+    else {
         return None;
     };
     if !mechanism.platforms().is_empty() {
@@ -182,24 +208,53 @@ pub fn no_platform(mechanism: &Mechanism, error: &QuestionError) -> Option<Compl
     ))
 }
 
-/// More is mapped and held than there are freedoms.
-pub fn too_many_held(error: &QuestionError, mapped: &[String]) -> Option<Complaint> {
-    let (free, mobility, held) = match error {
-        QuestionError::TooMany { free, mobility, held } => (free, *mobility, *held),
-        _ => return None,
-    };
-    let away: Vec<String> = free.iter().filter(|name| mapped.contains(name)).cloned().collect();
-    if away.is_empty() {
-        return None;
+/// More or less is mapped and held than there are freedoms. `missing` are coordinates that would do;
+/// where there is no word of its own the question's will do.
+pub fn wrong_count(
+    error: &QuestionError,
+    mapped: &[String],
+    missing: &[String],
+) -> Option<Complaint> {
+    match error {
+        QuestionError::TooMany {
+            free,
+            mobility,
+            held,
+        } => {
+            let away = free.iter().filter(|name| mapped.contains(name)).cloned();
+            let away: Vec<String> = away.collect();
+            let title = format!(
+                "the mechanism has {}, and {} mapped and held",
+                count(*mobility, "freedom"),
+                are(*held)
+            );
+            let help = format!("do not map {}: the others determine it", listed(&away));
+            (!away.is_empty()).then(|| said(title, "", help))
+        }
+        QuestionError::TooFew { mobility, held, .. } => {
+            let first = missing.first()?;
+            let title = format!(
+                "the mechanism has {}, and only {} mapped and held",
+                count(*mobility, "freedom"),
+                are(*held)
+            );
+            let range = match first.rsplit('.').next() {
+                Some("roll" | "pitch" | "yaw") => "-90deg..90deg",
+                _ => "-1..1",
+            };
+            let help = format!(
+                "map or hold {} too, e.g. --hold {first}=home or --map {first}={range}",
+                listed(missing)
+            );
+            Some(said(title, "", help))
+        }
+        _ => None,
     }
-    Some(said(
-        format!(
-            "the mechanism has {}, and {held} coordinates are mapped and held",
-            count(mobility, "freedom")
-        ),
-        "",
-        format!("do not map {}: the others determine it", listed(&away)),
-    ))
+}
+
+fn are(held: usize) -> String {
+    let verb = if held == 1 { "is" } else { "are" };
+    format!("{} {verb}", count(held, "coordinate"))
 }
 
 /// A grid that is none, or not one for these coordinates.
@@ -211,7 +266,11 @@ pub fn wrong_grid(given: &[usize], axes: usize) -> Complaint {
             "give --grid 50, or a number for each coordinate, e.g. --grid 60,40".into(),
         ),
         false => said(
-            format!("{} numbers of nodes are given for {}", given.len(), count(axes, "mapped coordinate")),
+            format!(
+                "{} numbers of nodes are given for {}",
+                given.len(),
+                count(axes, "mapped coordinate")
+            ),
             "",
             "give one for all of them or one for each, e.g. --grid 60,40".into(),
         ),
@@ -252,14 +311,5 @@ pub fn boundary_flat() -> Complaint {
         "the boundary of a map with one coordinate is points, not curves".into(),
         "",
         "--format json has them as `points`".into(),
-    )
-}
-
-/// The mechanism does not close anywhere near.
-pub fn not_assembled(names: &[String]) -> Complaint {
-    said(
-        "nothing in the box is reached".into(),
-        "",
-        format!("`linkwork solve` says how near it comes: {}", listed(names)),
     )
 }
