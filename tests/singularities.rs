@@ -4,8 +4,8 @@ use std::f64::consts::PI;
 use std::path::Path;
 
 use linkwork::analysis::singularities::{
-    Ending, Kind, LocusEnd, LocusReport, SingularitiesReport, SingularitiesSettings, Zlatanov,
-    along, inputs_of, loci, singularities,
+    AlongReport, Ending, Kind, LocusEnd, LocusReport, SingularitiesReport, SingularitiesSettings,
+    Zlatanov, along, inputs_of, loci, singularities,
 };
 use linkwork::description::Description;
 use linkwork::mechanism::{Configuration, Mechanism};
@@ -65,7 +65,7 @@ fn moved(
     from: f64,
     to: f64,
     settings: &SingularitiesSettings,
-) -> linkwork::analysis::singularities::AlongReport {
+) -> AlongReport {
     let question = Question::new(mechanism)
         .hold(name, &format!("{from:?}"))
         .unwrap();
@@ -231,6 +231,63 @@ fn a_flat_parallelogram_gains_mobility() {
     assert_eq!((flat.more_mobility, flat.gain), (1, 1), "{flat:?}");
     assert!(flat.zlatanov.contains(&Zlatanov::IncreasedMobility));
     assert!(!at("0.3").singularity.is_singular());
+}
+
+// ---- five-bar
+
+/// Both cranks of the symmetric five-bar moved between two pairs of values, from the mode of its home.
+fn cranks(from: [f64; 2], to: [f64; 2]) -> AlongReport {
+    let mechanism = mechanism("five_bar", &[]);
+    let mut question = Question::new(&mechanism);
+    for (name, value) in ["theta1", "theta2"].into_iter().zip(from) {
+        question = question.hold(name, &format!("{value:?}")).unwrap();
+    }
+    let moved = [0, 1].map(|i| Driven {
+        coordinate: question.value(["theta1", "theta2"][i], "0").unwrap().0,
+        from: from[i],
+        to: to[i],
+    });
+    let held = moved.iter().fold(question.held(), |held, input| {
+        held.without(input.coordinate)
+    });
+    along(
+        &mechanism,
+        &held,
+        &moved,
+        &inputs_of(&question),
+        &assembled(&question),
+        &SingularitiesSettings::default(),
+    )
+}
+
+#[test]
+fn legs_that_stretch_together_are_found_though_no_determinant_changes_sign() {
+    // P on the axis of symmetry at x = g/2, r + c away from both cranks' pivots
+    let (g, r, c) = (0.2f64, 0.3, 0.4);
+    let stretched = (0.5 * g / (r + c)).acos();
+    let (from, to) = (75f64.to_radians(), 100f64.to_radians());
+    let report = cranks([from, PI - from], [to, PI - to]);
+    assert_eq!(report.ending, Ending::Complete);
+    let [crossing] = &report.crossings[..] else {
+        panic!("{report:#?}");
+    };
+    let apart = (crossing.moved[0] - stretched).abs();
+    assert!(apart < 1e-13, "{apart:e}");
+    assert_eq!(crossing.singularity.gosselin_angeles, Some(1));
+    let idle = crossing.singularity.idle_inputs.as_ref().unwrap();
+    assert_eq!(idle.freedoms, 2);
+    // one crank two degrees ahead: one leg after the other, each alone
+    let ahead = 2f64.to_radians();
+    let report = cranks([from, PI - from + ahead], [to, PI - to + ahead]);
+    assert_eq!(report.crossings.len(), 2, "{report:#?}");
+    for crossing in &report.crossings {
+        let idle = crossing.singularity.idle_inputs.as_ref().unwrap();
+        assert_eq!(idle.freedoms, 1);
+    }
+    // and one that ends before: nothing
+    let to = stretched - 1e-4;
+    let report = cranks([from, PI - from], [to, PI - to]);
+    assert!(report.crossings.is_empty(), "{report:#?}");
 }
 
 // ---- 3-RPR

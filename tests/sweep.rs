@@ -12,7 +12,7 @@ use linkwork::analysis::sweep::{
 use linkwork::description::Description;
 use linkwork::mechanism::{Configuration, Mechanism};
 use linkwork::solve::{Equations, Newton, Stop};
-use linkwork::system::{Curve, Driven, Held, Holdable, System, Walk};
+use linkwork::system::{Curve, Driven, Held, Holdable, Question, Search, System, Walk};
 use serde_json::Value;
 
 /// Rows close to 1e-12 of the characteristic length; times 5 m, the condition number of these linkages, up to 4, and
@@ -442,6 +442,83 @@ fn a_sweep_ends_at_a_limit_with_its_value() {
         assert!(((l("l1") - 0.6) / 1.4 - (l("l2") - 0.6) / 0.2).abs() < 1e-12);
         assert!(system.residual(at, &mut system.work()).largest < 1e-12);
     }
+}
+
+#[test]
+fn a_sweep_ends_where_a_passive_joint_reaches_its_limit() {
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("mechanisms/slider_crank.ron");
+    let text = std::fs::read_to_string(path).unwrap();
+    let stopped = |low: f64| {
+        let limited = format!("Passive(home: 3.87, limits: ({low:?}, 5.0))");
+        let text = text.replace("Passive(home: 3.87)", &limited);
+        let mechanism = Mechanism::new(&Description::read(&text).unwrap()).unwrap();
+        let inputs = [joint(&mechanism, "theta", 0.5, PI)];
+        let swept = run(&mechanism, &inputs, &[], &steps(50));
+        let last = swept.rows.last().unwrap().1.joints.clone();
+        (swept.report, last)
+    };
+    let (report, last) = stopped(2.5);
+    assert_eq!(report.ending, Ending::Limit);
+    let Some(MetKind::Limit { joint, limit, .. }) = report.met.last().map(|m| &m.kind) else {
+        panic!("{report:?}")
+    };
+    assert_eq!((joint.as_str(), *limit), ("s", 2.5));
+    // (s − r cos θ)² + (e − r sin θ)² = l²: s cos θ + e sin θ = (s² + e² + r² − l²)/(2r)
+    let (s, e) = (2.5f64, 0.5f64);
+    let right = (s * s + e * e + 1.0 - 9.0) / 2.0;
+    let theta = e.atan2(s) + (right / s.hypot(e)).acos();
+    assert!((last[0] - theta).abs() < 1e-12, "{last:?} {theta}");
+    // a slider that need not go so far back lets the crank through
+    assert_eq!(stopped(1.5).0.ending, Ending::Complete);
+}
+
+#[test]
+fn a_platform_coordinate_is_an_input_too() {
+    // the 3-RPS platform raised upright: lᵢ = √((b − a)² + z²)
+    let mechanism = mechanism("three_rps");
+    let question = ["roll=0", "pitch=0", "z=0.5"].iter().fold(
+        Question::new(&mechanism).free("actuated").unwrap(),
+        |question, held| {
+            let (name, value) = held.split_once('=').unwrap();
+            question.hold(&format!("top.{name}"), value).unwrap()
+        },
+    );
+    let newton = Newton::default();
+    let found = Search::new(&question, &newton).run(20, 1);
+    assert!(found.assembles());
+    let (coordinate, _) = question.value("top.z", "0").unwrap();
+    let inputs = [Driven {
+        coordinate,
+        from: 0.5,
+        to: 0.8,
+    }];
+    let held = question.held().without(coordinate);
+    let mut rows = 0;
+    let at = found.attempt.at;
+    let report = sweep(&mechanism, &held, &inputs, &at, &steps(10), &mut |row| {
+        if let Some(step) = row.step {
+            let z = 0.5 + 0.03 * step as f64;
+            for leg in ["l1", "l2", "l3"] {
+                let length = row.configuration.joints[mechanism.joint(leg).unwrap()];
+                assert!((length - 0.5f64.hypot(z)).abs() < 1e-12, "{length} at {z}");
+            }
+            rows += 1;
+        }
+        ControlFlow::Continue(())
+    });
+    assert_eq!((report.ending, rows), (Ending::Complete, 11));
+    // legs of at most 1.2 m: at √(1.44 − 0.25) m it ends
+    let inputs = [Driven {
+        to: 1.3,
+        ..inputs[0]
+    }];
+    let mut last = 0.0;
+    let report = sweep(&mechanism, &held, &inputs, &at, &steps(10), &mut |row| {
+        last = row.configuration.platforms[0].position.0[2];
+        ControlFlow::Continue(())
+    });
+    assert_eq!(report.ending, Ending::Limit);
+    assert!((last - (1.44f64 - 0.25).sqrt()).abs() < 1e-12, "{last}");
 }
 
 #[test]

@@ -6,6 +6,7 @@
 
 mod along;
 mod classify;
+mod drops;
 mod locus;
 
 pub use crate::system::LocusEnd;
@@ -38,7 +39,8 @@ pub struct SingularitiesSettings {
     pub outputs: Vec<Lock>,
     /// Whether a motion along inputs goes round folds and straight through crossings.
     pub follow: bool,
-    /// Random starts from which loci are sought.
+    /// Random starts from which loci are sought; up to ten times as many while some curve was met
+    /// only once, or hardly any start arrives.
     pub starts: usize,
     /// How carefully curves are followed.
     pub continuation: Continuation,

@@ -57,7 +57,7 @@ pub struct Singularities {
     /// Go round folds and straight through crossings of branches
     #[arg(long, requires = "input")]
     follow: bool,
-    /// Random starts from which loci are sought
+    /// Random starts from which loci are sought; up to ten times as many while more curves are likely
     #[arg(long, value_name = "NUMBER", default_value_t = SingularitiesSettings::default().starts)]
     starts: usize,
     #[command(flatten)]

@@ -198,7 +198,7 @@ impl Continuation {
     }
 
     /// The place in the plane across the tangent at a distance, by simplified Newton steps.
-    pub(super) fn across<C: SolutionCurve>(
+    pub fn across<C: SolutionCurve>(
         &self,
         curve: &mut C,
         from: &Place<C::Point>,

@@ -3,11 +3,12 @@
 use serde::Serialize;
 
 use super::classify::{Classifier, Singularity};
+use super::drops::Drops;
 use super::{SingularitiesSettings, names, output_names, outputs_of};
 use crate::linear::norm;
 use crate::mechanism::{Configuration, Mechanism};
 use crate::solve::{Continuation, Place, SolutionCurve, Stray};
-use crate::system::{Curve, Driven, Event, Held, Holdable, Leg, Locked, Walk};
+use crate::system::{Curve, Driven, Event, Held, Holdable, Leg, Walk};
 
 type At = Place<Configuration<f64>>;
 
@@ -92,10 +93,8 @@ pub enum Ending {
 /// singularity on the way to rounding.
 ///
 /// `held` holds what stands still, none of what is moved; `inputs` are those that singularities are
-/// told of. Where the direct or inverse matrix loses rank along the curve, the determinant of
-/// [`Locked::orientation`] changes sign; its zero is found, and what vanishes there is classified. Two
-/// ranks that are lost in the same place, as in symmetric motions, are found only at a fold, a crossing
-/// of branches or a start: the determinant touches zero there without a change of sign.
+/// told of. Where the direct or inverse matrix loses rank along the curve, one or several ranks at
+/// once, the place is found to rounding, and what vanishes there is classified.
 pub fn along(
     mechanism: &Mechanism,
     held: &Held<f64>,
@@ -220,6 +219,9 @@ struct Met {
     end: Option<Event>,
 }
 
+/// Places this near are the same.
+const SAME: f64 = 1e-7;
+
 struct Tests<'m> {
     classifier: Classifier<'m>,
     moved: Vec<Driven>,
@@ -228,8 +230,6 @@ struct Tests<'m> {
 impl Tests<'_> {
     /// What is met on a leg, in order; things at the same place are one.
     fn met(&mut self, curve: &mut Curve, leg: &Leg, method: &Continuation) -> Vec<Met> {
-        /// Places this near are the same.
-        const SAME: f64 = 1e-7;
         let mut found: Vec<Met> = Vec::new();
         for (place, event) in &leg.events {
             let ends = match event {
@@ -275,48 +275,28 @@ impl Tests<'_> {
         found
     }
 
-    /// Places between two where the direct or the inverse matrix loses rank.
+    /// Places on a leg where the direct or the inverse matrix loses rank.
     fn vanishing(&mut self, curve: &mut Curve, leg: &Leg, method: &Continuation) -> Vec<At> {
-        /// What is rounding beside the other end.
-        const ROUNDING: f64 = 1e-9;
         let ranks = self.classifier.regular_ranks();
-        let singular = |place: &At| place.least() <= 1e-9 * place.largest();
-        let (from, to) = match singular(&leg.from) {
+        // steps are made from the regular end
+        let singular = leg.from.least() <= 1e-9 * leg.from.largest();
+        let (from, to) = match singular {
             true => (leg.to.clone().reversed(), leg.from.clone().reversed()),
             false => (leg.from.clone(), leg.to.clone()),
         };
         let locked = [&mut self.classifier.direct, &mut self.classifier.inverse];
         let mut places = Vec::new();
         for (locked, rank) in locked.into_iter().zip(ranks) {
-            let least = |locked: &mut Locked, place: &At| {
-                let decomposition = Classifier::regular(locked, rank, &place.at);
-                let values = decomposition.singular_values();
-                let last = rank.checked_sub(1).and_then(|last| values.get(last));
-                let least = last.copied().unwrap_or(0.0);
-                (least, values.first().copied().unwrap_or(0.0), decomposition)
+            let mut drops = Drops {
+                curve,
+                locked,
+                rank,
+                method,
             };
-            let (a, size, before) = least(locked, &from);
-            let (b, _, after) = least(locked, &to);
-            if a.max(b) <= ROUNDING * size {
-                continue;
-            }
-            let near = if a >= b { before } else { after };
-            let mut test = |_: &mut Curve, place: &At| locked.orientation(&near, &place.at);
-            let (x, y) = (test(curve, &from), test(curve, &to));
-            // just at the end of the leg: the next one begins there and does not tell it again
-            if y.abs() < ROUNDING && x.abs() >= ROUNDING && !singular(&to) {
-                places.push(to.clone());
-                continue;
-            }
-            if (x < 0.0) == (y < 0.0) || x.abs().min(y.abs()) < ROUNDING {
-                continue;
-            }
-            let place = method.root(curve, &from, &to, &mut test);
-            // where the smallest singular values turn without vanishing, a sign means nothing
-            let (least, size, _) = least(locked, &place);
-            if least <= 1e-6 * size {
-                places.push(place);
-            }
+            places.extend(drops.between(&from, &to));
+        }
+        if singular {
+            places.retain(|place| norm(&curve.difference(&leg.from.at, &place.at)) >= SAME);
         }
         places
     }

@@ -3,7 +3,7 @@
 use serde::Serialize;
 
 use crate::geometry::Vector3;
-use crate::linear::{Decomposition, complement, dot, norm, orthonormal, remove};
+use crate::linear::{complement, dot, norm, orthonormal, remove};
 use crate::mechanism::{Configuration, Mechanism};
 use crate::system::{
     Holdable, Lock, Locked, Mobility, Neighbourhood, Screw, TwistSpace, Unknown, wrench_screws,
@@ -375,11 +375,6 @@ impl<'m> Classifier<'m> {
             }
         }
         resisted
-    }
-
-    /// The matrix decomposed with the rank it has where nothing is special.
-    pub fn regular(locked: &mut Locked, rank: usize, at: &Configuration<f64>) -> Decomposition {
-        locked.of_rank(at, rank)
     }
 }
 

@@ -26,8 +26,8 @@ pub struct LocusReport {
     pub bounds: [Bound; 2],
     /// The curves, those of direct singularities first, sorted by where they begin.
     pub loci: Vec<Locus>,
-    /// Random starts that were made for each kind.
-    pub starts: usize,
+    /// Random starts that were made, direct and inverse.
+    pub starts: [usize; 2],
     /// Starts that led to a singular configuration in the box, direct and inverse.
     pub arrived: [usize; 2],
     /// Whether direct and inverse singularities were sought: not where they are everywhere.
@@ -136,7 +136,7 @@ pub fn loci(
             to: side.to,
         }),
         loci: Vec::new(),
-        starts: settings.starts,
+        starts: [0; 2],
         arrived: [0; 2],
         sought: [false; 2],
         last_new: [None; 2],
@@ -154,13 +154,17 @@ pub fn loci(
             continue;
         }
         report.sought[i] = true;
-        let (found, arrived, last) = search.of(kind, locks);
-        report.loci.extend(found);
-        report.arrived[i] = arrived;
-        report.last_new[i] = last;
+        let found = search.of(kind, locks);
+        report.loci.extend(found.loci);
+        report.starts[i] = found.starts;
+        report.arrived[i] = found.arrived;
+        report.last_new[i] = found.last_new;
     }
     Ok(report)
 }
+
+/// So many times the starts that are asked for are made while more curves are likely.
+const MORE: usize = 10;
 
 struct Search<'m> {
     region: Region<'m>,
@@ -171,16 +175,36 @@ struct Search<'m> {
     classifier: Classifier<'m>,
 }
 
+/// What random starts led to.
+struct Found {
+    loci: Vec<Locus>,
+    starts: usize,
+    arrived: usize,
+    last_new: Option<usize>,
+}
+
+/// Whether more starts are likely to lead to new curves: while some curve was met only once, the chance
+/// that the next arrival is on a new one is about that of such meetings among all (Good 1953).
+fn more_is_likely(known: &[(Traced<Singular>, usize)], arrived: usize) -> bool {
+    /// Fewer arrivals say nothing.
+    const ARRIVALS: usize = 20;
+    arrived > 0 && (arrived < ARRIVALS || known.iter().any(|(_, met)| *met == 1))
+}
+
 impl Search<'_> {
-    fn of(&mut self, kind: Kind, locks: &[Lock]) -> (Vec<Locus>, usize, Option<usize>) {
+    fn of(&mut self, kind: Kind, locks: &[Lock]) -> Found {
         let mut curve =
             LocusCurve::new(self.region.mechanism, self.region.held, &self.inputs, locks);
         let system = System::new(self.region.mechanism.dimensions(), self.region.held);
-        let (mut arrived, mut last) = (0, None);
+        let (mut starts, mut arrived, mut last_new) = (0, 0, None);
         let mut known: Vec<(Traced<Singular>, usize)> = Vec::new();
         let mut rng = Pcg64Mcg::seed_from_u64(self.settings.seed);
         let method = &self.settings.continuation;
-        for number in 1..=self.settings.starts {
+        for number in 1..=MORE * self.settings.starts {
+            if number > self.settings.starts && !more_is_likely(&known, arrived) {
+                break;
+            }
+            starts = number;
             let mut at = match number {
                 1 => self.start.clone(),
                 _ => self.random(&mut rng),
@@ -218,7 +242,7 @@ impl Search<'_> {
             }
             let traced = self.region.traced(&mut curve, place);
             if traced.places.len() > 1 {
-                last = Some(number);
+                last_new = Some(number);
                 known.push((traced, 1));
             }
         }
@@ -238,7 +262,12 @@ impl Search<'_> {
                 .partial_cmp(&order(b))
                 .unwrap_or(std::cmp::Ordering::Equal)
         });
-        (loci, arrived, last)
+        Found {
+            loci,
+            starts,
+            arrived,
+            last_new,
+        }
     }
 
     /// A random configuration with the two coordinates in the box.

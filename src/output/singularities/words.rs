@@ -260,10 +260,16 @@ pub fn completeness(report: &LocusReport) -> String {
 }
 
 fn sought(report: &LocusReport, [direct, inverse]: [usize; 2], last: &str) -> String {
+    let starts = match report.starts {
+        [direct, inverse] if direct == inverse || !report.sought[1] => {
+            count(direct, "random start")
+        }
+        [0, inverse] => count(inverse, "random start"),
+        [direct, inverse] => format!("{direct} and {inverse} random starts"),
+    };
     format!(
-        "Sought from {} (seed {}): {direct} led to direct and {inverse} to inverse singularities in \
+        "Sought from {starts} (seed {}): {direct} led to direct and {inverse} to inverse singularities in \
          the box, {last}.",
-        count(report.starts, "random start"),
         report.seed
     )
 }

@@ -1,0 +1,156 @@
+//! Where along a curve a matrix loses rank: every place, single or several ranks at once.
+
+use crate::linear::{Decomposition, RANK_TOLERANCE};
+use crate::mechanism::Configuration;
+use crate::solve::{Continuation, Place};
+use crate::system::{Curve, Locked};
+
+type At = Place<Configuration<f64>>;
+
+/// The matrix at a place.
+struct Sample {
+    place: At,
+    matrix: Vec<f64>,
+    decomposition: Decomposition,
+}
+
+impl Sample {
+    fn largest(&self) -> f64 {
+        let values = self.decomposition.singular_values();
+        values.first().copied().unwrap_or(0.0)
+    }
+
+    /// The last singular value within the rank.
+    fn least(&self) -> f64 {
+        let values = self.decomposition.singular_values();
+        let last = self.decomposition.rank().checked_sub(1);
+        last.and_then(|last| values.get(last)).map_or(0.0, |v| *v)
+    }
+
+    /// Whether nothing but rounding is left of the last singular value.
+    fn vanishes(&self) -> bool {
+        /// What is rounding beside the largest one.
+        const ROUNDING: f64 = 1e-12;
+        self.least() <= ROUNDING * self.largest()
+    }
+}
+
+/// One stretch of a curve, with the matrix that may lose rank on it.
+pub(super) struct Drops<'a> {
+    pub curve: &'a mut Curve,
+    pub locked: &'a mut Locked,
+    /// The rank of the matrix where nothing is special.
+    pub rank: usize,
+    pub method: &'a Continuation,
+}
+
+impl Drops<'_> {
+    /// The places after `from` up to `to`, reached from it by one step, where the last singular value σ
+    /// within the rank vanishes.
+    ///
+    /// Between two places with the matrices A and B it cannot vanish as long as
+    /// σ(A) + σ(B) > ‖B − A‖ and the matrix goes straight from one to the other (Weyl: σ changes no
+    /// more than the matrix does); a half more is allowed for its not going straight. Where that
+    /// does not exclude it, the stretch is halved. What is left is short: either the determinant of
+    /// [`Locked::orientation`] changes sign on it, or σ, of even order there, falls from both
+    /// ends to a least value that is zero or not.
+    pub fn between(&mut self, from: &At, to: &At) -> Vec<At> {
+        let from = self.sample(from.clone());
+        let to = self.sample(to.clone());
+        let mut found = Vec::new();
+        self.search(&from, &to, 0, &mut found);
+        found
+    }
+
+    fn sample(&mut self, place: At) -> Sample {
+        let matrix = self.locked.jacobian(&place.at);
+        let (rows, columns) = (self.locked.rows(), self.locked.columns());
+        Sample {
+            decomposition: Decomposition::of_rank(rows, columns, &matrix, self.rank),
+            place,
+            matrix,
+        }
+    }
+
+    /// At a distance along the tangent of a place.
+    fn ahead(&mut self, of: &Sample, along: f64) -> Option<Sample> {
+        let place = self.method.across(self.curve, &of.place, along)?;
+        Some(self.sample(place))
+    }
+
+    fn search(&mut self, a: &Sample, b: &Sample, depth: usize, found: &mut Vec<At>) {
+        /// Stretches are not halved more often: 1/32 of a step is short.
+        const DEPTH: usize = 5;
+        let moved = a.matrix.iter().zip(&b.matrix);
+        let moved = moved.map(|(a, b)| (a - b) * (a - b)).sum::<f64>().sqrt();
+        if a.least() + b.least() > 1.5 * moved {
+            return;
+        }
+        let length = self.curve.offset(&a.place, &b.place.at).0;
+        if depth < DEPTH
+            && let Some(middle) = self.ahead(a, 0.5 * length)
+        {
+            self.search(a, &middle, depth + 1, found);
+            self.search(&middle, b, depth + 1, found);
+        } else {
+            found.extend(self.last(a, b, length));
+        }
+    }
+
+    /// The place on a short stretch.
+    fn last(&mut self, a: &Sample, b: &Sample, length: f64) -> Option<At> {
+        match (a.vanishes(), b.vanishes()) {
+            // the stretch before has told it, or the start itself
+            (true, _) => return None,
+            (false, true) => return Some(b.place.clone()),
+            (false, false) => {}
+        }
+        let near = match a.least() >= b.least() {
+            true => &a.decomposition,
+            false => &b.decomposition,
+        };
+        let turned = |sample: &Sample| near.determinant_beside(&sample.matrix) < 0.0;
+        let place = if turned(a) != turned(b) {
+            let locked = &mut *self.locked;
+            let mut test = |_: &mut Curve, place: &At| locked.orientation(near, &place.at);
+            (self.method).root(self.curve, &a.place, &b.place, &mut test)
+        } else {
+            self.lowest(a, b, length)?
+        };
+        // where the smallest singular values turn without vanishing, a sign means nothing
+        let sample = self.sample(place);
+        (sample.least() <= RANK_TOLERANCE * sample.largest()).then_some(sample.place)
+    }
+
+    /// The place between two where σ is least, if it falls from both ends. Where two singular values
+    /// vanish at once each does so linearly, and golden sections find the place to rounding.
+    fn lowest(&mut self, a: &Sample, b: &Sample, length: f64) -> Option<At> {
+        /// (√5 − 1)/2: one evaluation a section (Kiefer 1953).
+        const GOLDEN: f64 = 0.618_033_988_749_894_9;
+        const SECTIONS: usize = 80;
+        for (end, part) in [(a, 1e-3), (b, 1.0 - 1e-3)] {
+            if self.ahead(a, part * length)?.least() >= end.least() {
+                return None;
+            }
+        }
+        let (mut low, mut high) = (0.0, length);
+        let section = |at: f64, drops: &mut Self| Some((at, drops.ahead(a, at)?));
+        let mut left = section(high - GOLDEN * (high - low), self)?;
+        let mut right = section(low + GOLDEN * (high - low), self)?;
+        for _ in 0..SECTIONS {
+            if left.1.least() < right.1.least() {
+                high = right.0;
+                right = left;
+                left = section(high - GOLDEN * (high - low), self)?;
+            } else {
+                low = left.0;
+                left = right;
+                right = section(low + GOLDEN * (high - low), self)?;
+            }
+        }
+        Some(match left.1.least() < right.1.least() {
+            true => left.1.place,
+            false => right.1.place,
+        })
+    }
+}
