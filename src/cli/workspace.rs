@@ -224,6 +224,17 @@ impl Workspace {
                 "error: the mechanism has {unknowns} unknowns, too many for a map: ask about a part of it\n"
             )));
         }
+        // roll and yaw turn about one axis there, and do not tell a map
+        for axis in axes {
+            if let Holdable::Coordinate(platform, c) = axis.coordinate
+                && c.is_angle()
+                && (question.held_coordinates().iter())
+                    .any(|held| matches!(held, Holdable::Turn(of, _) if *of == platform))
+            {
+                let platform = mechanism.platforms()[platform].name.clone();
+                return Err(refusal(&QuestionError::AnglesLocked { platform }, None));
+            }
+        }
         let names: Vec<String> = self.map.iter().map(|map| map.name.clone()).collect();
         check_count(&question).map_err(|error| {
             let missing = match error {

@@ -4,15 +4,15 @@
 use serde::Serialize;
 
 use super::asked::Asked;
+use super::curves::Tracer;
 use super::edge::{Edge, Met, Until, walk};
 use super::fill::{Filled, Link};
 use super::grid::Grid;
 use super::step::Measure;
 use crate::mechanism::Configuration;
-use crate::solve::{Continuation, Place, each};
+use crate::solve::{Continuation, each};
 use crate::system::{
-    ConfigurationCurve, Curve, Driven, Holdable, Lock, Locked, LocusCurve, LocusEnd, Region,
-    Singular, Traced, Walk, met_at, settled,
+    Curve, Driven, Holdable, Lock, LocusCurve, LocusEnd, Region, Singular, settled,
 };
 
 /// What a boundary is.
@@ -237,11 +237,12 @@ impl Boundary<'_> {
             third,
         };
         match kind {
-            Kind::Limit(joint, _) => {
-                // the joint keeps the value it has where the curve begins
-                let held =
-                    still.at_values([(Holdable::Joint(joint), crossings[0].at.joints[joint])]);
-                let held = held.held();
+            Kind::Limit(joint, upper) => {
+                let limits = mechanism.joints()[joint].limits;
+                let Some(limit) = limits.map(|(low, high)| if upper { high } else { low }) else {
+                    return;
+                };
+                let held = still.at_values([(Holdable::Joint(joint), limit)]).held();
                 // a mapped joint at its limit is a side of the box
                 let free: Vec<Driven> = (asked.axes.iter().copied())
                     .filter(|axis| axis.coordinate != Holdable::Joint(joint))
@@ -250,7 +251,7 @@ impl Boundary<'_> {
                 let method = Continuation::default();
                 let place = |curve: &mut Curve, at: &Configuration<f64>| {
                     let mut at = at.clone();
-                    at.joints[joint] = crossings[0].at.joints[joint];
+                    at.joints[joint] = limit;
                     method.settle(curve, at).ok()
                 };
                 let region = Region {
@@ -287,147 +288,6 @@ impl Boundary<'_> {
             }
         }
     }
-}
-
-/// Curves of one kind.
-struct Tracer<'a> {
-    boundary: &'a Boundary<'a>,
-    asked: &'a Asked<'a>,
-    kind: Kind,
-    third: Option<f64>,
-}
-
-impl Tracer<'_> {
-    fn all<C: ConfigurationCurve>(
-        &self,
-        curve: &mut C,
-        region: &Region,
-        crossings: &[&Crossing],
-        place: impl Fn(&mut C, &Configuration<f64>) -> Option<Place<C::Point>>,
-        curves: &mut Vec<BoundaryCurve>,
-    ) {
-        let mut known: Vec<(Traced<C::Point>, Vec<(f64, usize)>)> = Vec::new();
-        for crossing in crossings {
-            let mut at = crossing.at.clone();
-            Walk::within_limits(self.asked.mechanism, &mut at);
-            // where it stands on no regular curve the point remains by itself
-            let Some(place) = place(curve, &at) else {
-                continue;
-            };
-            if !region.inside(C::configuration(&place.at)) {
-                continue;
-            }
-            let Some(mode) = self.boundary.mode[crossing.sheet] else {
-                continue;
-            };
-            let mut met = known.iter_mut();
-            let found = met.find_map(|(traced, met)| {
-                Some((met_at(curve, traced, &place, region.method)?, met))
-            });
-            match found {
-                Some((along, met)) => met.push((along, mode)),
-                None => {
-                    let traced = region.traced(curve, place.clone());
-                    let along = met_at(curve, &traced, &place, region.method).unwrap_or(0.0);
-                    if traced.places.len() > 1 {
-                        known.push((traced, vec![(along, mode)]));
-                    }
-                }
-            }
-        }
-        for (traced, met) in known {
-            let at = |p: &Place<C::Point>| C::configuration(&p.at).clone();
-            let path: Vec<Configuration<f64>> = traced.places.iter().map(at).collect();
-            curves.push(self.curve(region, &path, traced.ends, met));
-        }
-    }
-
-    fn curve(
-        &self,
-        region: &Region,
-        path: &[Configuration<f64>],
-        ends: [LocusEnd; 2],
-        mut met: Vec<(f64, usize)>,
-    ) -> BoundaryCurve {
-        let asked = self.asked;
-        let point = |at: &Configuration<f64>| -> [f64; 2] {
-            [0, 1].map(|i| region.side(at, &asked.axes[i]))
-        };
-        let points: Vec<[f64; 2]> = path.iter().map(point).collect();
-        met.sort_by(|a, b| a.0.total_cmp(&b.0));
-        let closed = ends[1] == LocusEnd::Closed;
-        let mut pieces: Vec<Piece> = Vec::new();
-        for (range, points) in parts(&points, &self.cuts(path, &points), closed) {
-            let here = met
-                .iter()
-                .filter(|(along, _)| range.iter().any(|r| r.contains(along)));
-            let mut modes: Vec<usize> = here.map(|m| m.1).collect();
-            modes.sort_unstable();
-            modes.dedup();
-            pieces.extend(modes.into_iter().map(|mode| Piece {
-                mode: mode + 1,
-                points: points.clone(),
-            }));
-        }
-        BoundaryCurve {
-            kind: self.named(),
-            ends_reach: matches!(self.kind, Kind::Fold | Kind::Limit(..)),
-            slice: self.third,
-            ends,
-            pieces,
-            joints: path.iter().map(|at| at.joints.clone()).collect(),
-            points,
-        }
-    }
-
-    /// Where along a curve the mode changes: it passes a place where solutions of the mapped problem
-    /// meet. On a fold such a place is where the mapped coordinates turn back.
-    fn cuts(&self, path: &[Configuration<f64>], points: &[[f64; 2]]) -> Vec<usize> {
-        if self.kind == Kind::Fold {
-            let way = |i: usize| [0, 1].map(|k| points[i + 1][k] - points[i][k]);
-            let turns = (1..points.len().saturating_sub(1)).filter(|&i| {
-                let (a, b) = (way(i - 1), way(i));
-                a[0] * b[0] + a[1] * b[1] < 0.0
-            });
-            return turns.collect();
-        }
-        let mut locked = Locked::new(self.asked.mechanism, &Asked::locks(&self.asked.held));
-        let changes = (1..path.len()).filter(|&i| {
-            let near = locked.decomposition(&path[i - 1]);
-            locked.orientation(&near, &path[i]) < 0.0
-        });
-        changes.collect()
-    }
-
-    fn named(&self) -> BoundaryKind {
-        named(self.asked, self.kind)
-    }
-}
-
-/// A part of a curve: where it is along the curve, and its points.
-type Part = (Vec<std::ops::RangeInclusive<f64>>, Vec<[f64; 2]>);
-
-/// The parts of a curve between cuts, which are at points or just before them.
-fn parts(points: &[[f64; 2]], cuts: &[usize], closed: bool) -> Vec<Part> {
-    let last = points.len() - 1;
-    let mut bounds = vec![0];
-    bounds.extend(cuts.iter().copied().filter(|cut| *cut > 0 && *cut < last));
-    bounds.push(last);
-    let mut parts: Vec<Part> = (bounds.windows(2))
-        .map(|pair| {
-            let range = pair[0] as f64..=pair[1] as f64;
-            (vec![range], points[pair[0]..=pair[1]].to_vec())
-        })
-        .collect();
-    if closed && parts.len() > 1 {
-        // the last goes on in the first
-        let (ranges, tail) = parts.remove(0);
-        if let Some((range, points)) = parts.last_mut() {
-            range.extend(ranges);
-            points.extend(tail.into_iter().skip(1));
-        }
-    }
-    parts
 }
 
 /// A kind by name.

@@ -97,7 +97,7 @@ pub struct ModeReport {
 /// A region of one mode within limits that no singularity parts.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct AspectReport {
-    /// Its number: by mode, then by size, the largest first.
+    /// Its number: by mode, then by nodes, the most first.
     pub aspect: usize,
     /// Its mode.
     pub mode: usize,
