@@ -136,7 +136,7 @@ fn boundary<'r>(
 fn a_two_link_arm_reaches_a_ring_in_two_modes() {
     let mechanism = written(&text("planar_2r"), &[]);
     let axes = [("hand.x", -1.95, 1.97), ("hand.y", -1.96, 1.93)];
-    let report = map(&mechanism, &axes, &[], 41);
+    let report = map(&mechanism, &axes, &[], 35);
     // beyond 160° at the elbow the limit ends the ring before the links fold
     let inner = (1.0 + 0.64 + 1.6 * 160f64.to_radians().cos()).sqrt();
     let outer = 1.8;
@@ -155,7 +155,7 @@ fn a_two_link_arm_reaches_a_ring_in_two_modes() {
         report.modes[0].size,
         report.aspects[1].size,
     ] {
-        assert!((size / area - 1.0).abs() < 5e-3, "{size} {area}");
+        assert!((size / area - 1.0).abs() < 1e-2, "{size} {area}");
     }
     let stretched = boundary(&report, |kind| *kind == BoundaryKind::Inverse);
     let limits = boundary(&report, |kind| matches!(kind, BoundaryKind::Limit { .. }));
@@ -241,7 +241,7 @@ fn alignment(at: [f64; 2], joints: &[f64], [g, r]: [f64; 2]) -> f64 {
 fn a_five_bar_reaches_the_overlap_of_two_rings_in_four_working_modes() {
     let mechanism = five_bar(&[]);
     let axes = [("hand.x", -0.63, 0.81), ("hand.y", -0.72, 0.74)];
-    let report = map(&mechanism, &axes, &[], 50);
+    let report = map(&mechanism, &axes, &[], 34);
     agrees(&report, |at| {
         let rings = [0.0, 0.2].map(|x| between((at[0] - x).hypot(at[1]), 0.1, 0.7));
         Some(if all(rings)? { 4 } else { 0 })
@@ -252,7 +252,7 @@ fn a_five_bar_reaches_the_overlap_of_two_rings_in_four_working_modes() {
     let lens = 2.0 * r * r * (d / (2.0 * r)).acos() - 0.5 * d * (4.0 * r * r - d * d).sqrt();
     let area = lens - 2.0 * PI * 0.01;
     assert!(
-        (report.reached_size / area - 1.0).abs() < 5e-3,
+        (report.reached_size / area - 1.0).abs() < 1e-2,
         "{}",
         report.reached_size
     );
@@ -273,7 +273,7 @@ fn a_five_bar_reaches_the_overlap_of_two_rings_in_four_working_modes() {
     // in one working mode the sign of the determinant is that of the triangle, or the other
     let sizes: f64 = report.aspects.iter().map(|aspect| aspect.size).sum();
     let modes: f64 = report.modes.iter().map(|mode| mode.size).sum();
-    assert!((sizes / modes - 1.0).abs() < 1e-2);
+    assert!((sizes / modes - 1.0).abs() < 2e-2);
     for mode in 1..=4 {
         let cells = report.cells.iter().filter(|cell| cell.mode == mode);
         let signs = cells.map(|cell| {
@@ -314,7 +314,7 @@ fn within_one_aspect_of_a_five_bar_nothing_is_singular() {
 fn in_the_joint_space_of_a_five_bar_its_assemblies_meet_where_the_distal_links_stretch() {
     let mechanism = five_bar(&[("c", "0.25")]);
     let axes = [("theta1", -3.1, 3.15), ("theta2", -3.12, 3.1)];
-    let report = map(&mechanism, &axes, &[], 48);
+    let report = map(&mechanism, &axes, &[], 32);
     let apart =
         |a: f64, b: f64| (0.2 + 0.3 * b.cos() - 0.3 * a.cos()).hypot(0.3 * b.sin() - 0.3 * a.sin());
     agrees(&report, |at| {
@@ -373,7 +373,7 @@ fn a_three_rpr_platform_reaches_where_the_rings_of_its_legs_overlap() {
         })
     };
     let axes = [("platform.x", -19.3, 24.1), ("platform.y", -24.2, 18.9)];
-    let report = map(&mechanism, &axes, &[("platform.yaw", yaw)], 45);
+    let report = map(&mechanism, &axes, &[("platform.yaw", yaw)], 32);
     agrees(&report, |at| {
         let rings = legs(at).map(|[x, y]| between(x.hypot(y), low, high));
         Some(usize::from(all(rings)?))
@@ -560,7 +560,8 @@ fn lanes_and_threads_change_nothing() {
     let mechanism = five_bar(&[]);
     let axes = [("hand.x", -0.63, 0.81), ("hand.y", -0.72, 0.74)];
     let settings = WorkspaceSettings {
-        nodes: vec![24; 2],
+        nodes: vec![15; 2],
+        searched: 9,
         ..WorkspaceSettings::default()
     };
     let on = |threads: usize, side_by_side: bool| {

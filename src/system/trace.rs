@@ -165,7 +165,7 @@ impl Region<'_> {
                     continue;
                 }
                 Err(_) => match self.beyond(curve, &place) {
-                    Some((crossing, to)) => {
+                    Some([crossing, to]) => {
                         crossings.push(crossing);
                         length = 0.1 * method.longest;
                         to
@@ -214,7 +214,7 @@ impl Region<'_> {
         &self,
         curve: &mut C,
         place: &Place<C::Point>,
-    ) -> Option<(Place<C::Point>, Place<C::Point>)> {
+    ) -> Option<[Place<C::Point>; 2]> {
         let method = self.method;
         let reach = 0.2 * method.longest;
         let point = method.branch_point(curve, &place.at, reach)?;
@@ -229,7 +229,7 @@ impl Region<'_> {
         let sign = along(straight).signum();
         let straight: Vec<f64> = straight.iter().map(|x| sign * x).collect();
         let (to, _) = method.leave(curve, &point.at, &straight)?;
-        Some((point.place(curve, &straight), to))
+        Some([point.place(curve, &straight), to])
     }
 }
 
@@ -288,9 +288,7 @@ pub fn met_at<C: ConfigurationCurve>(
     let nearest = (0..traced.places.len())
         .map(|i| (i, distance(curve, i)))
         .min_by(|a, b| a.1.total_cmp(&b.1));
-    let Some((i, apart)) = nearest.filter(|(_, apart)| *apart < 2.0 * method.longest) else {
-        return None;
-    };
+    let (i, apart) = nearest.filter(|(_, apart)| *apart < 2.0 * method.longest)?;
     if apart < SAME {
         return Some(i as f64);
     }

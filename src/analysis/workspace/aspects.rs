@@ -106,8 +106,8 @@ fn slice(
                 return (0..4).filter(|&k| is[k]).map(corner).sum();
             }
             let mut polygon: Vec<[f64; 2]> = Vec::new();
-            for k in 0..4 {
-                if is[k] {
+            for (k, is) in is.into_iter().enumerate() {
+                if is {
                     polygon.push(place(k, 0.0));
                 }
                 polygon.extend(to(k).map(|part| place(k, part)));

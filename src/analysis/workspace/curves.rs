@@ -6,6 +6,9 @@ use crate::mechanism::Configuration;
 use crate::solve::Place;
 use crate::system::{ConfigurationCurve, Locked, LocusEnd, Region, Traced, Walk, met_at};
 
+/// A curve with the places along it where modes meet it.
+type Known<P> = (Traced<P>, Vec<(f64, usize)>);
+
 /// Curves of one kind.
 pub(super) struct Tracer<'a> {
     pub boundary: &'a Boundary<'a>,
@@ -23,7 +26,7 @@ impl Tracer<'_> {
         place: impl Fn(&mut C, &Configuration<f64>) -> Option<Place<C::Point>>,
         curves: &mut Vec<BoundaryCurve>,
     ) {
-        let mut known: Vec<(Traced<C::Point>, Vec<(f64, usize)>)> = Vec::new();
+        let mut known: Vec<Known<C::Point>> = Vec::new();
         for crossing in crossings {
             let mut at = crossing.at.clone();
             Walk::within_limits(self.asked.mechanism, &mut at);

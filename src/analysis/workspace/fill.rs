@@ -174,7 +174,7 @@ impl Fill<'_> {
     fn change(&self, node: usize, direction: usize) -> (usize, f64) {
         let axis = direction / 2;
         let place = self.grid.place(node, axis);
-        let next = if direction % 2 == 0 {
+        let next = if direction.is_multiple_of(2) {
             place - 1
         } else {
             place + 1

@@ -76,10 +76,8 @@ impl<'a> Map<'a> {
             false => "m",
         };
         let name = |of: &Holdable| of.name(mechanism);
-        let start = self.asked.question.start();
         let axes = self.asked.axes.iter().enumerate();
-        let held = self.asked.question.held_coordinates().into_iter();
-        let held = held.filter(|held| self.asked.axes.iter().all(|a| a.coordinate != *held));
+        let held = self.held();
         let mut cut = vec![vec![0.5; 2 * self.grid.dimensions()]; self.filled.sheets.len()];
         for crossing in crossings {
             cut[crossing.sheet][crossing.direction] = crossing.part;
@@ -110,11 +108,11 @@ impl<'a> Map<'a> {
                     nodes: self.grid.count(i),
                 })
                 .collect(),
-            held: held
-                .map(|held| HeldReport {
-                    name: name(&held),
-                    unit: unit(held),
-                    value: held.of(&start),
+            held: (held.into_iter())
+                .map(|(of, value)| HeldReport {
+                    name: name(&of),
+                    unit: unit(of),
+                    value,
                 })
                 .collect(),
             inputs: self.asked.inputs.iter().map(name).collect(),
@@ -172,6 +170,21 @@ impl<'a> Map<'a> {
             seed: 0,
             normalising_length: mechanism.characteristic_length(),
         }
+    }
+
+    /// What is held beside the mapped coordinates, with its values.
+    fn held(&self) -> Vec<(Holdable, f64)> {
+        let question = &self.asked.question;
+        let (held, start) = (question.held().joints, question.start());
+        let joints = (0..held.len()).filter(|joint| held[*joint]);
+        let joints = joints.map(|joint| (Holdable::Joint(joint), start.joints[joint]));
+        let platforms = (0..start.platforms.len()).flat_map(|platform| {
+            let values = question.held_values(platform).into_iter();
+            values.map(move |(c, value)| (Holdable::Coordinate(platform, c), value))
+        });
+        let mapped = |of: &Holdable| self.asked.axes.iter().any(|axis| axis.coordinate == *of);
+        let all = joints.chain(platforms);
+        all.filter(|(of, _)| !mapped(of)).collect()
     }
 
     /// The first sheet of a node that is wanted.
