@@ -13,3 +13,4 @@ pub mod singularities;
 pub mod statics;
 pub mod sweep;
 pub mod velocity;
+pub mod workspace;

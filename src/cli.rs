@@ -20,6 +20,7 @@ mod statics;
 mod store;
 mod sweep;
 mod velocity;
+mod workspace;
 mod written;
 
 use std::io::{self, IsTerminal, Write};
@@ -55,6 +56,7 @@ enum Command {
     Statics(statics::Statics),
     Sweep(sweep::Sweep),
     Singularities(singularities::Singularities),
+    Workspace(workspace::Workspace),
 }
 
 /// How an answer is written.
@@ -97,6 +99,7 @@ pub fn run() -> ExitCode {
         Command::Statics(statics) => statics.run(),
         Command::Sweep(sweep) => sweep.run(),
         Command::Singularities(singularities) => singularities.run(),
+        Command::Workspace(workspace) => workspace.run(),
     };
     match answer {
         Ok(answer) => {

@@ -153,3 +153,13 @@ pub trait Extent: Number {
     /// The largest real, NaN if any is.
     fn greatest(self) -> f64;
 }
+
+/// A number that carries several reals side by side, or one.
+pub trait Packed: Field<Size = Self> + Extent {
+    /// How many.
+    const WIDTH: usize;
+    /// The real in one place.
+    fn part(self, place: usize) -> f64;
+    /// The number with these reals.
+    fn of_parts(parts: impl Fn(usize) -> f64) -> Self;
+}

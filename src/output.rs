@@ -44,3 +44,5 @@ pub mod statics;
 pub mod sweep;
 #[cfg(feature = "cli")]
 pub mod velocity;
+#[cfg(feature = "cli")]
+pub mod workspace;

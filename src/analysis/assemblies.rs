@@ -31,7 +31,6 @@ mod solutions;
 mod stances;
 mod starts;
 mod store;
-mod threads;
 mod way;
 
 pub use follow::{Fold, Followed};

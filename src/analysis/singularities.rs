@@ -6,14 +6,13 @@
 
 mod along;
 mod classify;
-mod curve;
 mod drops;
 mod locus;
-mod trace;
 
+pub use crate::system::LocusEnd;
 pub use along::{AlongReport, Crossing, Ending, along};
 pub use classify::{Distances, Movement, Resisted, Singularity, Zlatanov};
-pub use locus::{Bound, Kind, Locus, LocusEnd, LocusReport, loci};
+pub use locus::{Bound, Kind, Locus, LocusReport, loci};
 
 use serde::Serialize;
 

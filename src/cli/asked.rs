@@ -31,6 +31,12 @@ impl Split {
         self.put(released.map_err(|error| refusal(&error, None))?)
     }
 
+    /// The names of what is held or freed.
+    pub fn demanded(&self) -> Vec<&str> {
+        let held = self.hold.iter().map(|assignment| assignment.name.as_str());
+        held.chain(self.free.iter().map(String::as_str)).collect()
+    }
+
     fn put<'a>(&self, mut question: Question<'a>) -> Result<Question<'a>, Refusal> {
         for name in &self.free {
             let given = Given {

@@ -31,6 +31,15 @@ impl Progress {
         }
     }
 
+    /// Shows how much there is so far of what has no known end.
+    pub fn count(&mut self, so_far: &str) {
+        if self.terminal && self.last.elapsed() >= PATIENCE {
+            self.last = Instant::now();
+            self.shown = true;
+            let _ = write!(io::stderr(), "\r\x1b[K{so_far}");
+        }
+    }
+
     /// Takes the line away.
     pub fn clear(&self) {
         if self.shown {

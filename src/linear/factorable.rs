@@ -11,7 +11,7 @@ pub trait Factorable: Field {
 }
 
 /// Least-squares steps for a large matrix made of blocks that touch few unknowns each.
-pub trait SparseStep<T>: Clone + Debug + Sized {
+pub trait SparseStep<T>: Clone + Debug + Send + Sync + Sized {
     /// Whether there is such a factorisation; otherwise large matrices are treated as dense.
     const AVAILABLE: bool;
     /// Analyses the pattern of the blocks and of `extra_rows` rows that touch every unknown.

@@ -2,7 +2,7 @@
 
 use std::ops::{Add, AddAssign, Div, Mul, MulAssign, Neg, Sub, SubAssign};
 
-use super::{Extent, Field, Number, trigonometry};
+use super::{Extent, Field, Number, Packed, trigonometry};
 
 /// How many numbers stand side by side: two registers of AVX2, one of AVX-512.
 pub const LANES: usize = 8;
@@ -196,6 +196,18 @@ impl Extent for Lanes {
             width /= 2;
         }
         lanes[0]
+    }
+}
+
+impl Packed for Lanes {
+    const WIDTH: usize = LANES;
+    #[inline(always)]
+    fn part(self, place: usize) -> f64 {
+        self.0[place]
+    }
+    #[inline(always)]
+    fn of_parts(parts: impl Fn(usize) -> f64) -> Self {
+        Lanes(std::array::from_fn(parts))
     }
 }
 

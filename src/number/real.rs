@@ -1,4 +1,4 @@
-use super::{Extent, Field, Number, trigonometry};
+use super::{Extent, Field, Number, Packed, trigonometry};
 
 /// Nothing comes from the platform's C library, so that the same input gives the same bytes on every
 /// machine.
@@ -77,5 +77,17 @@ impl Extent for f64 {
     #[inline(always)]
     fn greatest(self) -> f64 {
         self
+    }
+}
+
+impl Packed for f64 {
+    const WIDTH: usize = 1;
+    #[inline(always)]
+    fn part(self, _: usize) -> f64 {
+        self
+    }
+    #[inline(always)]
+    fn of_parts(parts: impl Fn(usize) -> f64) -> Self {
+        parts(0)
     }
 }

@@ -1,8 +1,10 @@
-//! Charts as SVG: curves with labelled axes, special points marked. Only this module knows the
-//! library that draws them.
+//! Charts as SVG: curves with labelled axes over a map of colours, special points marked. Only this
+//! module knows the library that draws them.
+
+use std::sync::Arc;
 
 use kuva::backend::svg::SvgBackend;
-use kuva::plot::{LegendPosition, LinePlot, MarkerShape, ScatterPlot};
+use kuva::plot::{ColorMap, Heatmap, LegendPosition, LinePlot, MarkerShape, ScatterPlot};
 use kuva::render::figure::Figure;
 use kuva::render::layout::Layout;
 use kuva::render::plots::Plot;
@@ -25,6 +27,19 @@ pub struct Marks {
     pub points: Vec<(f64, f64)>,
 }
 
+/// Values between 0 and 1 on a grid, as colours.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Heat {
+    /// Where the grid begins and ends, cells and all.
+    pub x: (f64, f64),
+    /// The same upwards.
+    pub y: (f64, f64),
+    /// Rows from below; what is not finite is left white.
+    pub rows: Vec<Vec<f64>>,
+    /// What the values are.
+    pub label: String,
+}
+
 /// Curves over one pair of axes.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Chart {
@@ -36,6 +51,8 @@ pub struct Chart {
     pub y: String,
     /// Whether a unit is as long along both axes.
     pub equal: bool,
+    /// What is under the curves.
+    pub heat: Option<Heat>,
     /// The curves.
     pub series: Vec<Series>,
     /// The special points.
@@ -80,8 +97,29 @@ pub fn svg(charts: &[Chart]) -> String {
     SvgBackend::new().render_scene(&scene)
 }
 
+/// Light greys to blue, so that curves of any colour stand out.
+fn heat(heat: &Heat) -> Plot {
+    let shade = |x: f64| match x.is_finite() {
+        true => {
+            let mix = |from: f64, to: f64| (from + x.clamp(0.0, 1.0) * (to - from)).round() as u8;
+            let (r, g, b) = (mix(250.0, 60.0), mix(225.0, 150.0), mix(190.0, 215.0));
+            format!("#{r:02x}{g:02x}{b:02x}")
+        }
+        false => "#ffffff".to_owned(),
+    };
+    let mut map = Heatmap::new()
+        .with_data(heat.rows.clone())
+        .with_color_map(ColorMap::Custom(Arc::new(shade)))
+        .with_x_range(heat.x.0, heat.x.1)
+        .with_y_range(heat.y.0, heat.y.1);
+    map.cell_size = 1.0;
+    map.legend_label = Some(heat.label.clone());
+    map.into()
+}
+
 fn plots(chart: &Chart) -> Vec<Plot> {
     let mut plots: Vec<Plot> = Vec::new();
+    plots.extend(chart.heat.as_ref().map(heat));
     for (i, series) in chart.series.iter().enumerate() {
         // a gap ends a line; its pieces have one colour and one entry in the legend
         let finite = |p: &(f64, f64)| p.0.is_finite() && p.1.is_finite();

@@ -157,6 +157,42 @@ impl<'a> Question<'a> {
         Ok((coordinate, self.number(name, text, coordinate)?))
     }
 
+    /// The same question with some held coordinates at other values, in m or rad.
+    pub fn at_values(mut self, values: impl IntoIterator<Item = (Holdable, f64)>) -> Self {
+        for (holdable, value) in values {
+            match holdable {
+                Holdable::Joint(joint) => {
+                    self.joints[joint] = true;
+                    self.start.joints[joint] = value;
+                }
+                Holdable::Coordinate(platform, c) => {
+                    self.coordinates[platform][c as usize] = Some(value);
+                }
+                // it has no value
+                Holdable::Turn(..) => {}
+            }
+        }
+        self
+    }
+
+    /// The same question with one coordinate not held.
+    pub fn without(mut self, holdable: Holdable) -> Self {
+        match holdable {
+            Holdable::Joint(joint) => self.joints[joint] = false,
+            Holdable::Coordinate(platform, c) => self.coordinates[platform][c as usize] = None,
+            Holdable::Turn(platform, _) => self.coordinates[platform] = [None; 6],
+        }
+        self
+    }
+
+    /// The coordinates of a platform that are held, with their values in m or rad.
+    pub fn held_values(&self, platform: usize) -> Vec<(Coordinate, f64)> {
+        let given = Coordinate::ALL.into_iter().zip(&self.coordinates[platform]);
+        given
+            .filter_map(|(c, value)| Some((c, (*value)?)))
+            .collect()
+    }
+
     /// The mechanism that is asked about.
     pub fn mechanism(&self) -> &'a Mechanism {
         self.mechanism
@@ -164,10 +200,8 @@ impl<'a> Question<'a> {
 
     /// What is held, in the form the solver takes.
     pub fn held(&self) -> Held<f64> {
-        let platforms = self.coordinates.iter().map(|values| {
-            let given: Vec<(Coordinate, f64)> = (Coordinate::ALL.into_iter().zip(values))
-                .filter_map(|(coordinate, value)| Some((coordinate, (*value)?)))
-                .collect();
+        let platforms = (0..self.coordinates.len()).map(|platform| {
+            let given = self.held_values(platform);
             let angles = given.iter().filter(|(c, _)| c.is_angle()).count();
             match given.len() {
                 0 => HeldPlatform::Free,

@@ -8,7 +8,6 @@ use super::generic::Progress;
 use super::path::{End, Path, arrived, follow};
 use super::simple::{are_one, may_be_one};
 use super::stances::{Stance, count, learn};
-use super::threads;
 use super::way::Way;
 use crate::number::Number;
 use crate::solve::Tracker;
@@ -130,7 +129,7 @@ fn combined(way: &Way<'_>, stances: &[Stance<C>], manner: &Manner<'_>) -> Ends {
             None => apart.append(&mut stance.points(coordinates)),
         }
     }
-    let arrivals = threads::each(points.len(), way, |way, i| arrived(way, &points[i]));
+    let arrivals = crate::solve::each(points.len(), way, |way, i| arrived(way, &points[i]));
     let mut arrivals = arrivals.into_iter();
     for (stance, count) in combined {
         // all of them are taken, whatever the first ones are
@@ -182,7 +181,7 @@ fn straight(way: &Way<'_>, solutions: &[Vec<C>], manner: &Manner<'_>) -> Ends {
     for level in 0..=2 {
         let (tracker, bend) = (manner.tracker(way, level), manner.bend);
         for batch in waiting.chunks(BATCH) {
-            let followed: Vec<Path> = threads::each(batch.len(), way, |way, k| {
+            let followed: Vec<Path> = crate::solve::each(batch.len(), way, |way, k| {
                 follow(way, &tracker, bend, &solutions[batch[k]])
             });
             (manner.tell)(batch.len());

@@ -16,6 +16,7 @@
 use rand::SeedableRng;
 use rand_pcg::Pcg64;
 
+use super::AssembliesSettings;
 use super::coordinates::{C, size};
 use super::family::{Family, Member};
 use super::seed::{Seed, newton, solution, sow};
@@ -23,7 +24,6 @@ use super::simple::stands_alone;
 use super::solutions::{GenericSolutions, pairs};
 use super::stances::{Stance, count, learn};
 use super::way::Way;
-use super::{AssembliesSettings, threads};
 use crate::number::Number;
 use crate::solve::{Arrival, Homotopy, Stages, Tracker};
 use crate::system::System;
@@ -166,7 +166,7 @@ impl Search<'_> {
             let system = System::new(&dimensions, &self.family.held_but(places));
             let storage = (system.work(), still.clone());
             let tries = known.len() as u64 * TRIES;
-            let ends = threads::each(tries as usize, &storage, |(work, way), k| {
+            let ends = crate::solve::each(tries as usize, &storage, |(work, way), k| {
                 // streams beyond those of seeds and loops
                 let stream = (1 << 48) + ((places[0] as u64) << 32) + k as u64;
                 let mut x = known[k / TRIES as usize].clone();
@@ -214,7 +214,7 @@ impl Search<'_> {
     /// mechanism's `own` dimensions counts.
     fn seeds(&mut self, still: &Way<'_>, reach: f64, own: bool) -> Vec<Vec<C>> {
         let (first, seed) = (self.seeds, self.settings.seed);
-        let ends = threads::each(BATCH, still, |way, i| {
+        let ends = crate::solve::each(BATCH, still, |way, i| {
             let mut rng = generator(seed, 1 + (((first + i) as u64) << 1));
             // most solutions are near, some far out
             let further = [1.0, 2.0, 1.0, 4.0][(first + i) % 4];
@@ -341,7 +341,7 @@ fn carried(way: &Way<'_>, points: &mut [Option<Vec<C>>]) {
             1.0 => tracker,
             _ => tracker.tightened(care),
         };
-        let ends = threads::each(waiting.len(), way, |way, k| {
+        let ends = crate::solve::each(waiting.len(), way, |way, k| {
             follow(way, &tracker, starts[waiting[k]].as_ref()?)
         });
         for (i, end) in waiting.into_iter().zip(ends) {

@@ -7,7 +7,6 @@ use rand_pcg::Pcg64;
 
 use super::coordinates::C;
 use super::family::Family;
-use super::threads;
 use crate::geometry::Quaternion;
 use crate::mechanism::Configuration;
 use crate::number::Number;
@@ -23,7 +22,7 @@ pub(super) fn solved(
     which: Range<usize>,
 ) -> Vec<Configuration<f64>> {
     let storage = (system.work(), asked.clone());
-    let points = threads::each(which.len(), &storage, |(work, trial), k| {
+    let points = crate::solve::each(which.len(), &storage, |(work, trial), k| {
         let mut point = started(family, asked, which.start + k);
         let report = Newton::default().solve(system, &mut point, trial, work);
         (report.stop == Stop::Solved).then_some(point)

@@ -5,13 +5,15 @@ use rand_pcg::Pcg64Mcg;
 use serde::Serialize;
 
 use super::classify::{Classifier, Singularity};
-use super::curve::{LocusCurve, Singular};
-use super::trace::{At, Region, Traced, passes, settled};
 use super::{SingularitiesSettings, names, output_names, outputs_of};
 use crate::mechanism::{Configuration, Mechanism, PlatformPose};
+use crate::solve::Place;
 use crate::system::{
-    Driven, Held, Holdable, Lock, System, Walk, random_configuration, with_coordinates,
+    Driven, Held, Holdable, Lock, LocusCurve, LocusEnd, Region, Singular, System, Traced, Walk,
+    passes, random_configuration, settled, with_coordinates,
 };
+
+type At = Place<Singular>;
 
 /// The singularity loci in a box of two coordinates.
 #[derive(Clone, Debug, PartialEq, Serialize)]
@@ -84,20 +86,6 @@ pub struct Locus {
     pub crossings: Vec<[f64; 2]>,
 }
 
-/// How a curve ends.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
-#[serde(rename_all = "snake_case")]
-pub enum LocusEnd {
-    /// Where it began.
-    Closed,
-    /// At an edge of the box.
-    Box,
-    /// At a limit of a joint.
-    Limit,
-    /// In a point that no sure step leads beyond.
-    Lost,
-}
-
 /// Finds the singularity loci in a box of two coordinates.
 ///
 /// `held` holds what stands still and leaves the two coordinates free; `inputs` are those that
@@ -121,9 +109,10 @@ pub fn loci(
         region: Region {
             mechanism,
             held,
-            sides,
+            sides: &sides,
             method: &settings.continuation,
         },
+        sides,
         start: start.clone(),
         inputs: inputs.to_vec(),
         settings,
@@ -179,6 +168,7 @@ const MORE: usize = 10;
 
 struct Search<'m> {
     region: Region<'m>,
+    sides: [Driven; 2],
     start: Configuration<f64>,
     inputs: Vec<Holdable>,
     settings: &'m SingularitiesSettings,
@@ -195,7 +185,7 @@ struct Found {
 
 /// Whether more starts are likely to lead to new curves: while some curve was met only once, the chance
 /// that the next arrival is on a new one is about that of such meetings among all (Good 1953).
-fn more_is_likely(known: &[(Traced, usize)], arrived: usize) -> bool {
+fn more_is_likely(known: &[(Traced<Singular>, usize)], arrived: usize) -> bool {
     /// Fewer arrivals say nothing.
     const ARRIVALS: usize = 20;
     arrived > 0 && (arrived < ARRIVALS || known.iter().any(|(_, met)| *met == 1))
@@ -207,7 +197,7 @@ impl Search<'_> {
             LocusCurve::new(self.region.mechanism, self.region.held, &self.inputs, locks);
         let system = System::new(self.region.mechanism.dimensions(), self.region.held);
         let (mut starts, mut arrived, mut last_new) = (0, 0, None);
-        let mut known: Vec<(Traced, usize)> = Vec::new();
+        let mut known: Vec<(Traced<Singular>, usize)> = Vec::new();
         let mut rng = Pcg64Mcg::seed_from_u64(self.settings.seed);
         let method = &self.settings.continuation;
         for number in 1..=MORE * self.settings.starts {
@@ -319,8 +309,8 @@ impl Search<'_> {
         Walk::within_limits(self.region.mechanism, at);
     }
 
-    fn locus(&mut self, kind: Kind, traced: Traced, met: usize) -> Locus {
-        let sides = self.region.sides;
+    fn locus(&mut self, kind: Kind, traced: Traced<Singular>, met: usize) -> Locus {
+        let sides = self.sides;
         let coordinates =
             |search: &Self, place: &At| sides.map(|side| search.region.side(&place.at.at, &side));
         let middle = &traced.places[traced.places.len() / 2];

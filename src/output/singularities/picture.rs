@@ -56,6 +56,7 @@ pub fn svg(mechanism: &Mechanism, report: &LocusReport) -> String {
         x,
         y,
         equal: report.bounds[0].unit == report.bounds[1].unit,
+        heat: None,
         series,
         marks,
     }])

@@ -191,6 +191,7 @@ impl Picture {
                     ),
                 },
                 equal: false,
+                heat: None,
                 series,
                 marks,
             });
@@ -228,6 +229,7 @@ impl Picture {
             x: axis[x].into(),
             y: axis[y].into(),
             equal: true,
+            heat: None,
             series,
             marks,
         }

@@ -1,26 +1,86 @@
-//! A locus followed from a place on it.
+//! A curve of configurations followed from a place on it, in a box and within limits.
 
-use super::curve::{LocusCurve, Singular};
-use super::locus::LocusEnd;
+use serde::Serialize;
+
+use super::{Curve, Driven, Held, Holdable, LocusCurve, Singular};
 use crate::linear::{Decomposition, dot, norm};
 use crate::mechanism::{Configuration, Mechanism};
 use crate::solve::{Continuation, Place, SolutionCurve};
-use crate::system::{Driven, Held, Holdable};
 
-pub(super) type At = Place<Singular>;
-
-/// A curve as it was followed.
-pub(super) struct Traced {
-    pub places: Vec<At>,
-    pub ends: [LocusEnd; 2],
-    pub crossings: Vec<At>,
+/// A curve whose points are, or contain, configurations.
+pub trait ConfigurationCurve: SolutionCurve {
+    /// The configuration of a point.
+    fn configuration(point: &Self::Point) -> &Configuration<f64>;
+    /// The step from one configuration to another, whole turns left out: as the first components of
+    /// a tangent.
+    fn apart(&self, from: &Self::Point, to: &Self::Point) -> Vec<f64>;
+    /// The part of such a step that tells curves apart.
+    fn seen(&self, step: &[f64]) -> Vec<f64>;
 }
 
-/// The box and the limits that loci are followed in.
-pub(super) struct Region<'m> {
+impl ConfigurationCurve for LocusCurve {
+    fn configuration(point: &Singular) -> &Configuration<f64> {
+        &point.at
+    }
+
+    fn apart(&self, from: &Singular, to: &Singular) -> Vec<f64> {
+        LocusCurve::apart(self, from, to)
+    }
+
+    fn seen(&self, step: &[f64]) -> Vec<f64> {
+        LocusCurve::seen(self, step)
+    }
+}
+
+impl ConfigurationCurve for Curve {
+    fn configuration(point: &Configuration<f64>) -> &Configuration<f64> {
+        point
+    }
+
+    fn apart(&self, from: &Configuration<f64>, to: &Configuration<f64>) -> Vec<f64> {
+        self.difference_but_turns(from, to)
+    }
+
+    fn seen(&self, step: &[f64]) -> Vec<f64> {
+        step.to_vec()
+    }
+}
+
+/// How a curve ends.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "snake_case")]
+pub enum LocusEnd {
+    /// Where it began.
+    Closed,
+    /// At an edge of the box.
+    Box,
+    /// At a limit of a joint.
+    Limit,
+    /// In a point that no sure step leads beyond.
+    Lost,
+}
+
+/// A curve as it was followed.
+#[derive(Clone, Debug)]
+pub struct Traced<P> {
+    /// Places on it, in order.
+    pub places: Vec<Place<P>>,
+    /// How the first and the last end it; the same if it closes.
+    pub ends: [LocusEnd; 2],
+    /// Where other curves cross it.
+    pub crossings: Vec<Place<P>>,
+}
+
+/// The box and the limits that curves are followed in.
+#[derive(Clone, Copy, Debug)]
+pub struct Region<'m> {
+    /// The mechanism with its limits.
     pub mechanism: &'m Mechanism,
+    /// What stands still: its limits do not count.
     pub held: &'m Held<f64>,
-    pub sides: [Driven; 2],
+    /// The coordinates of the box.
+    pub sides: &'m [Driven],
+    /// How carefully curves are followed.
     pub method: &'m Continuation,
 }
 
@@ -41,7 +101,7 @@ impl Region<'_> {
     /// How far a configuration is inside each bound, of the box and then of limits.
     fn margins(&self, at: &Configuration<f64>) -> Vec<f64> {
         let mut margins = Vec::new();
-        for side in &self.sides {
+        for side in self.sides {
             let x = self.side(at, side);
             margins.extend([x - side.from, side.to - x]);
         }
@@ -60,7 +120,11 @@ impl Region<'_> {
     }
 
     /// The whole curve through a place.
-    pub fn traced(&self, curve: &mut LocusCurve, place: At) -> Traced {
+    pub fn traced<C: ConfigurationCurve>(
+        &self,
+        curve: &mut C,
+        place: Place<C::Point>,
+    ) -> Traced<C::Point> {
         let (mut places, end, mut crossings) = self.half(curve, place.clone());
         if end == LocusEnd::Closed {
             return Traced {
@@ -72,7 +136,7 @@ impl Region<'_> {
         let (back, start, more) = self.half(curve, place.reversed());
         crossings.extend(more);
         let back = back.into_iter().rev().map(Place::reversed);
-        let mut all: Vec<At> = back.collect();
+        let mut all: Vec<_> = back.collect();
         all.pop();
         all.append(&mut places);
         Traced {
@@ -83,7 +147,7 @@ impl Region<'_> {
     }
 
     /// The curve from a place on in the direction of its tangent.
-    fn half(&self, curve: &mut LocusCurve, start: At) -> (Vec<At>, LocusEnd, Vec<At>) {
+    fn half<C: ConfigurationCurve>(&self, curve: &mut C, start: Place<C::Point>) -> Half<C::Point> {
         const STEPS: usize = 100_000;
         let method = self.method;
         let mut places = vec![start.clone()];
@@ -101,7 +165,7 @@ impl Region<'_> {
                     continue;
                 }
                 Err(_) => match self.beyond(curve, &place) {
-                    Some((crossing, to)) => {
+                    Some([crossing, to]) => {
                         crossings.push(crossing);
                         length = 0.1 * method.longest;
                         to
@@ -114,19 +178,23 @@ impl Region<'_> {
                 },
             };
             gone += norm(&curve.apart(&place.at, &to.at));
-            let (before, after) = (self.margins(&place.at.at), self.margins(&to.at.at));
+            let (before, after) = (
+                self.margins(C::configuration(&place.at)),
+                self.margins(C::configuration(&to.at)),
+            );
             let left = (before.iter().zip(&after))
                 .enumerate()
                 .filter(|(_, (b, a))| **a < 0.0 && **a < **b)
                 .map(|(i, (b, a))| (i, b.max(0.0) / (b.max(0.0) - a)))
                 .min_by(|a, b| a.1.total_cmp(&b.1));
             if let Some((i, _)) = left {
-                let end = match i < 4 {
+                let end = match i < 2 * self.sides.len() {
                     true => LocusEnd::Box,
                     false => LocusEnd::Limit,
                 };
                 if before[i] > 0.0 {
-                    let mut margin = |_: &mut LocusCurve, p: &At| self.margins(&p.at.at)[i];
+                    let mut margin =
+                        |_: &mut C, p: &Place<C::Point>| self.margins(C::configuration(&p.at))[i];
                     places.push(method.root(curve, &place, &to, &mut margin));
                 }
                 return (places, end, crossings);
@@ -142,7 +210,11 @@ impl Region<'_> {
     }
 
     /// A crossing of loci just ahead, and the place behind it straight on.
-    fn beyond(&self, curve: &mut LocusCurve, place: &At) -> Option<(At, At)> {
+    fn beyond<C: ConfigurationCurve>(
+        &self,
+        curve: &mut C,
+        place: &Place<C::Point>,
+    ) -> Option<[Place<C::Point>; 2]> {
         let method = self.method;
         let reach = 0.2 * method.longest;
         let point = method.branch_point(curve, &place.at, reach)?;
@@ -157,16 +229,19 @@ impl Region<'_> {
         let sign = along(straight).signum();
         let straight: Vec<f64> = straight.iter().map(|x| sign * x).collect();
         let (to, _) = method.leave(curve, &point.at, &straight)?;
-        Some((point.place(curve, &straight), to))
+        Some([point.place(curve, &straight), to])
     }
 }
 
-/// The singular place that Gauss–Newton steps of bounded length reach, if they do.
-pub(super) fn settled(
-    curve: &mut LocusCurve,
-    mut point: Singular,
+/// Places, the end, crossings.
+type Half<P> = (Vec<Place<P>>, LocusEnd, Vec<Place<P>>);
+
+/// The place of a curve that Gauss–Newton steps of bounded length reach from afar, if they do.
+pub fn settled<C: SolutionCurve>(
+    curve: &mut C,
+    mut point: C::Point,
     method: &Continuation,
-) -> Option<At> {
+) -> Option<Place<C::Point>> {
     const STEPS: usize = 40;
     const LONGEST: f64 = 0.5;
     let regular = curve.unknowns().saturating_sub(1);
@@ -190,59 +265,75 @@ pub(super) fn settled(
 }
 
 /// Whether a curve passes through a place.
-pub(super) fn passes(
-    curve: &mut LocusCurve,
-    traced: &Traced,
-    place: &At,
+pub fn passes<C: ConfigurationCurve>(
+    curve: &mut C,
+    traced: &Traced<C::Point>,
+    place: &Place<C::Point>,
     method: &Continuation,
 ) -> bool {
+    met_at(curve, traced, place, method).is_some()
+}
+
+/// Where a curve passes through a place: the number of the last point before it, with the part of
+/// the way to the next that is gone.
+pub fn met_at<C: ConfigurationCurve>(
+    curve: &mut C,
+    traced: &Traced<C::Point>,
+    place: &Place<C::Point>,
+    method: &Continuation,
+) -> Option<f64> {
     const SAME: f64 = 1e-6;
-    let distance = |curve: &LocusCurve, i: usize| {
-        norm(&curve.seen(&curve.apart(&traced.places[i].at, &place.at)))
-    };
+    let distance =
+        |curve: &C, i: usize| norm(&curve.seen(&curve.apart(&traced.places[i].at, &place.at)));
     let nearest = (0..traced.places.len())
         .map(|i| (i, distance(curve, i)))
         .min_by(|a, b| a.1.total_cmp(&b.1));
-    let Some((i, apart)) = nearest.filter(|(_, apart)| *apart < 2.0 * method.longest) else {
-        return false;
-    };
+    let (i, apart) = nearest.filter(|(_, apart)| *apart < 2.0 * method.longest)?;
     if apart < SAME {
-        return true;
+        return Some(i as f64);
     }
     // the foot of the place on the pieces beside the nearest point
-    let freedoms = curve.closed().unknowns();
-    let foot = |curve: &mut LocusCurve, from: &At, to: &At| {
-        let tangent = curve.seen(&from.tangent[..freedoms]);
+    let foot = |curve: &mut C, i: usize| {
+        let (from, to) = (&traced.places[i], &traced.places[i + 1]);
+        let way = curve.apart(&from.at, &to.at);
+        let tangent = curve.seen(&from.tangent[..way.len()]);
         let mut ahead =
-            |curve: &mut LocusCurve, p: &At| dot(&curve.apart(&p.at, &place.at), &tangent);
-        if (ahead(curve, from) < 0.0) == (ahead(curve, to) < 0.0) {
-            return false;
+            |curve: &mut C, p: &Place<C::Point>| dot(&curve.apart(&p.at, &place.at), &tangent);
+        let (before, after) = (ahead(curve, from), ahead(curve, to));
+        if (before < 0.0) == (after < 0.0) {
+            return None;
         }
         let foot = method.root(curve, from, to, &mut ahead);
-        norm(&curve.seen(&curve.apart(&foot.at, &place.at))) < SAME
+        let met = norm(&curve.seen(&curve.apart(&foot.at, &place.at))) < SAME;
+        met.then(|| i as f64 + before / (before - after))
     };
-    let places = &traced.places;
-    (i > 0 && foot(curve, &places[i - 1], &places[i]))
-        || (i + 1 < places.len() && foot(curve, &places[i], &places[i + 1]))
+    let before = (i > 0).then(|| foot(curve, i - 1)).flatten();
+    let after = |curve: &mut C| {
+        (i + 1 < traced.places.len())
+            .then(|| foot(curve, i))
+            .flatten()
+    };
+    before.or_else(|| after(curve))
 }
 
 /// The place between two where the curve comes back to its start.
-fn closed(
-    curve: &mut LocusCurve,
-    start: &At,
-    from: &At,
-    to: &At,
+fn closed<C: ConfigurationCurve>(
+    curve: &mut C,
+    start: &Place<C::Point>,
+    from: &Place<C::Point>,
+    to: &Place<C::Point>,
     gone: f64,
     method: &Continuation,
-) -> Option<At> {
+) -> Option<Place<C::Point>> {
     const SAME: f64 = 1e-6;
     let step = norm(&curve.apart(&from.at, &to.at));
     if gone <= 1.5 * step || norm(&curve.apart(&from.at, &start.at)) > 2.0 * step {
         return None;
     }
-    let freedoms = curve.closed().unknowns();
+    let freedoms = curve.apart(&start.at, &start.at).len();
     let tangent = start.tangent[..freedoms].to_vec();
-    let mut ahead = |curve: &mut LocusCurve, p: &At| dot(&curve.apart(&start.at, &p.at), &tangent);
+    let mut ahead =
+        |curve: &mut C, p: &Place<C::Point>| dot(&curve.apart(&start.at, &p.at), &tangent);
     if !(ahead(curve, from) < 0.0 && ahead(curve, to) >= 0.0) {
         return None;
     }

@@ -4,7 +4,7 @@
 /// `f(storage, i)` for `i` below `count`; storage is cloned for each thread and must not carry
 /// anything from one piece to the next.
 #[cfg(feature = "parallel")]
-pub(super) fn each<S, R>(count: usize, storage: &S, f: impl Fn(&mut S, usize) -> R + Sync) -> Vec<R>
+pub fn each<S, R>(count: usize, storage: &S, f: impl Fn(&mut S, usize) -> R + Sync) -> Vec<R>
 where
     S: Clone + Send + Sync,
     R: Send,
@@ -18,11 +18,7 @@ where
 
 /// `f(storage, i)` for `i` below `count`, one after another.
 #[cfg(not(feature = "parallel"))]
-pub(super) fn each<S: Clone, R>(
-    count: usize,
-    storage: &S,
-    f: impl Fn(&mut S, usize) -> R,
-) -> Vec<R> {
+pub fn each<S: Clone, R>(count: usize, storage: &S, f: impl Fn(&mut S, usize) -> R) -> Vec<R> {
     let mut storage = storage.clone();
     (0..count).map(|i| f(&mut storage, i)).collect()
 }

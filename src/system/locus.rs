@@ -1,13 +1,14 @@
 //! Singular configurations with two inputs free, as a curve.
 
+use super::{Curve, Held, Holdable, Lock, Locked, Unknown};
 use crate::linear::dot;
 use crate::mechanism::{Configuration, Mechanism};
 use crate::solve::SolutionCurve;
-use crate::system::{Curve, Held, Holdable, Lock, Locked, Unknown};
 
 /// An assembled configuration with a motion that leaves the locked things at rest.
 #[derive(Clone, Debug)]
-pub(super) struct Singular {
+pub struct Singular {
+    /// The configuration.
     pub at: Configuration<f64>,
     /// The motion, a unit vector, with nothing held.
     pub motion: Vec<f64>,
@@ -20,7 +21,8 @@ pub(super) struct Singular {
 /// in the configuration x with two freedoms and the motion v. It is regular wherever the locus is a
 /// smooth curve and the motion unique, whatever the shape of M and the redundancy of its rows.
 /// Source: Moore and Spence 1980; Seydel 1979.
-pub(super) struct LocusCurve {
+#[derive(Clone, Debug)]
+pub struct LocusCurve {
     closed: Curve,
     locked: Locked,
     /// The unknowns that are seen from outside.

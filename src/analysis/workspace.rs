@@ -1,0 +1,159 @@
+//! The workspace: which values of some coordinates a mechanism reaches, in which modes, and what
+//! bounds it.
+//!
+//! At some nodes of a grid assembled configurations are sought from random starts. From there the
+//! nodes are reached one from another by steps of Newton's method, eight side by side, that are
+//! short beside what would lead to another solution; where one is not, the way is followed in the
+//! sure steps of [`Continuation`](crate::solve::Continuation). What is connected in this way is a
+//! *mode*: a working mode where coordinates of platforms are mapped, an assembly mode where the
+//! inputs are. On the edges of the grid where a mode ends, at a limit or where a determinant changes
+//! sign, the point is located to rounding, and the boundary curves through these points are followed.
+//! The same sign of both determinants, within limits, makes an *aspect*.
+//!
+//! Sources: Borrel and Liégeois 1986, Wenger 1992 (aspects); Wenger and Chablat 1997 (of parallel
+//! manipulators, with working modes); Gosselin and Angeles 1990 (singularities); Bohigas, Manubens
+//! and Ros 2012 (boundaries by continuation).
+
+mod asked;
+mod aspects;
+mod boundary;
+mod curves;
+mod edge;
+mod fill;
+mod grid;
+mod map;
+mod rates;
+mod report;
+mod seeds;
+mod step;
+
+pub use boundary::{BoundaryCurve, BoundaryKind, Piece};
+pub use report::{
+    AspectReport, AxisReport, BoundaryPoint, Cell, Conditioned, HeldReport, ModeReport,
+    WorkspaceReport,
+};
+
+use crate::mechanism::{Configuration, Mechanism};
+use crate::number::Lanes;
+use crate::solve::Newton;
+use crate::system::{Driven, Question};
+use asked::Asked;
+use boundary::Boundary;
+use fill::Fill;
+use grid::Grid;
+use map::Map;
+use step::Measure;
+
+/// How to map a workspace.
+#[derive(Clone, Debug, PartialEq)]
+pub struct WorkspaceSettings {
+    /// Nodes along each mapped coordinate, at least two.
+    pub nodes: Vec<usize>,
+    /// Nodes at which modes are sought, at most.
+    pub searched: usize,
+    /// Random starts at each of them.
+    pub starts: usize,
+    /// Seed of the random starts.
+    pub seed: u64,
+    /// The iteration from random starts.
+    pub newton: Newton,
+    /// Whether several steps are taken side by side in vector registers. The result is the same.
+    pub side_by_side: bool,
+    /// Whether boundaries are located and followed.
+    pub boundaries: bool,
+    /// Nodes in modes that are kept at most: each takes about [`cell_bytes`].
+    pub most: usize,
+}
+
+impl Default for WorkspaceSettings {
+    fn default() -> Self {
+        WorkspaceSettings {
+            nodes: Vec::new(),
+            searched: 64,
+            starts: 30,
+            seed: 1,
+            newton: Newton::default(),
+            side_by_side: true,
+            boundaries: true,
+            most: usize::MAX,
+        }
+    }
+}
+
+/// Why there is no map.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum WorkspaceError {
+    /// More nodes in modes were reached than may be kept.
+    TooMany {
+        /// How many may be.
+        most: usize,
+    },
+}
+
+/// Bytes that a node in one mode takes, roughly.
+pub fn cell_bytes(mechanism: &Mechanism, axes: usize) -> usize {
+    let (joints, platforms) = (mechanism.joints().len(), mechanism.platforms().len());
+    let configuration = 8 * joints + 56 * platforms;
+    // in the search with its motions, and in the report
+    2 * configuration + 8 * axes * (joints + 6 * platforms) + 500
+}
+
+/// Maps a box of coordinates.
+///
+/// `question` holds the mapped coordinates and all others that must be, at any values of the mapped
+/// ones; it must leave no freedom. `known` are assembled configurations to begin with besides those
+/// that random starts lead to. `told` hears again and again how many nodes in modes were reached.
+///
+/// # Errors
+/// If more is reached than may be kept.
+pub fn workspace(
+    question: &Question,
+    axes: &[Driven],
+    known: &[Configuration<f64>],
+    settings: &WorkspaceSettings,
+    told: &mut dyn FnMut(usize),
+) -> Result<WorkspaceReport, WorkspaceError> {
+    let asked = Asked::new(question, axes, &settings.newton);
+    let counts: Vec<usize> = (0..axes.len())
+        .map(|i| settings.nodes.get(i).copied().unwrap_or(50).max(2))
+        .collect();
+    let grid = Grid::new(axes, &counts);
+    let measure = Measure::new(&asked);
+    let nodes = grid.spread(settings.searched);
+    let sought = (&nodes[..], settings.starts, settings.seed);
+    let sown = seeds::sow(&asked, &grid, &measure, sought, known);
+    let fill = Fill {
+        asked: &asked,
+        grid: &grid,
+        measure: &measure,
+        most: settings.most,
+    };
+    let filled = match settings.side_by_side {
+        true => fill.from::<Lanes>(sown.seeds, told),
+        false => fill.from::<f64>(sown.seeds, told),
+    };
+    if filled.overflow {
+        return Err(WorkspaceError::TooMany {
+            most: settings.most,
+        });
+    }
+    let map = Map::new(&asked, &grid, &filled);
+    let boundary = Boundary {
+        asked: &asked,
+        grid: &grid,
+        measure: &measure,
+        filled: &filled,
+        mode: &map.mode,
+    };
+    let crossings = match settings.boundaries {
+        true => boundary.crossings(),
+        false => Vec::new(),
+    };
+    let curves = boundary.curves(&crossings);
+    let mut report = map.report(&crossings);
+    report.curves = curves;
+    report.searched = [nodes.len(), settings.starts];
+    report.outside = sown.outside;
+    report.seed = settings.seed;
+    Ok(report)
+}

@@ -1,0 +1,354 @@
+//! Spreading over the grid from seeds: every node in every mode that regular steps lead to.
+
+use super::asked::Asked;
+use super::edge::{Edge, Met, Until, walk};
+use super::grid::Grid;
+use super::step::{Arrival, Measure, SURE, Start, Steps};
+use crate::linear::Factorable;
+use crate::mechanism::Configuration;
+use crate::number::Packed;
+use crate::solve::each;
+use crate::system::Walk;
+
+/// An assembled configuration at a node.
+#[derive(Clone, Debug)]
+pub(super) struct Sheet {
+    pub node: usize,
+    pub arrival: Arrival,
+    /// Whether all joints are within their limits.
+    pub within: bool,
+    /// For each direction of the grid.
+    pub links: Vec<Link>,
+}
+
+/// How a node goes on in a direction.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) enum Link {
+    /// Not looked at, or out of the box.
+    Open,
+    /// To this sheet there, by regular motion.
+    To(usize),
+    /// The mode folds back after this part of the way.
+    Fold(f64),
+    /// No sure step leads on.
+    Stuck,
+}
+
+/// All that was reached, in the order in which it was.
+pub(super) struct Filled {
+    pub sheets: Vec<Sheet>,
+    /// For each node its sheets.
+    pub of_node: Vec<Vec<usize>>,
+    /// Folds: the sheet, the direction, the configuration.
+    pub folds: Vec<(usize, usize, Configuration<f64>)>,
+    /// For each sheet the first of those connected with it.
+    pub roots: Vec<usize>,
+    /// Whether there were more sheets than may be kept.
+    pub overflow: bool,
+}
+
+pub(super) struct Fill<'a> {
+    pub asked: &'a Asked<'a>,
+    pub grid: &'a Grid,
+    pub measure: &'a Measure,
+    /// Sheets kept at most.
+    pub most: usize,
+}
+
+/// A step to be taken: from a sheet in a direction.
+type Task = (usize, usize);
+
+/// Steps given to one thread at once.
+const JOB: usize = 64;
+/// Configurations this near are the same.
+const SAME: f64 = 1e-6;
+
+impl Fill<'_> {
+    /// Spreads from assembled configurations at nodes. The order of work does not depend on the
+    /// number of threads: fronts are merged in the order of their steps.
+    pub fn from<T: Factorable + Packed + Send + Sync>(
+        &self,
+        seeds: Vec<(usize, Configuration<f64>)>,
+        told: &mut dyn FnMut(usize),
+    ) -> Filled {
+        let steps: Steps<T> = Steps::new(self.asked);
+        let mut filled = Filled {
+            sheets: Vec::new(),
+            of_node: vec![Vec::new(); self.grid.len()],
+            folds: Vec::new(),
+            roots: Vec::new(),
+            overflow: false,
+        };
+        let starts: Vec<Start> = (seeds.iter())
+            .map(|(node, at)| Start {
+                guess: at.clone(),
+                reach: 1e-3,
+                values: self.grid.values(*node),
+            })
+            .collect();
+        let settled = self.settled(&steps, &starts);
+        let mut front = Vec::new();
+        for ((node, _), arrival) in seeds.iter().zip(settled) {
+            if let Some(arrival) = arrival
+                && self.known(&filled, *node, &arrival.at).is_none()
+            {
+                front.push(self.add(&mut filled, *node, arrival));
+            }
+        }
+        while !front.is_empty() {
+            let directions = 0..2 * self.grid.dimensions();
+            let tasks = front
+                .iter()
+                .flat_map(|&s| directions.clone().map(move |d| (s, d)));
+            let mut waiting: Vec<Task> = tasks
+                .filter(|&(s, d)| self.grid.neighbour(filled.sheets[s].node, d).is_some())
+                .collect();
+            front = Vec::new();
+            while !waiting.is_empty() {
+                waiting = self.linked(&mut filled, &waiting);
+                let (now, later) = self.chosen(&mut filled, waiting);
+                let ends = self.ends(&steps, &filled, &now);
+                for ((s, d), end) in now.into_iter().zip(ends) {
+                    self.merge(&mut filled, (s, d), end, &mut front);
+                }
+                waiting = later;
+                told(filled.sheets.len());
+                if filled.sheets.len() > self.most {
+                    filled.overflow = true;
+                    return filled;
+                }
+            }
+        }
+        for s in 0..filled.roots.len() {
+            filled.roots[s] = root(&mut filled.roots, s);
+        }
+        filled
+    }
+
+    fn settled<T: Factorable + Packed + Send + Sync>(
+        &self,
+        steps: &Steps<T>,
+        starts: &[Start],
+    ) -> Vec<Option<Arrival>> {
+        let jobs: Vec<&[Start]> = starts.chunks(JOB).collect();
+        let ends = each(jobs.len(), steps, |steps, i| {
+            let packs = jobs[i].chunks(T::WIDTH);
+            packs
+                .flat_map(|pack| steps.settle(pack))
+                .collect::<Vec<_>>()
+        });
+        ends.into_iter().flatten().collect()
+    }
+
+    fn add(&self, filled: &mut Filled, node: usize, arrival: Arrival) -> usize {
+        let mut brought = arrival.at.clone();
+        Walk::within_limits(self.asked.mechanism, &mut brought);
+        let joints = self.asked.mechanism.joints().iter().zip(&brought.joints);
+        let new = filled.sheets.len();
+        filled.sheets.push(Sheet {
+            node,
+            arrival,
+            within: joints
+                .into_iter()
+                .all(|(joint, value)| joint.allows(*value)),
+            links: vec![Link::Open; 2 * self.grid.dimensions()],
+        });
+        filled.of_node[node].push(new);
+        filled.roots.push(new);
+        new
+    }
+
+    /// The sheet of a node with this configuration.
+    fn known(&self, filled: &Filled, node: usize, at: &Configuration<f64>) -> Option<usize> {
+        let mut sheets = filled.of_node[node].iter().copied();
+        sheets.find(|s| self.measure.apart(&filled.sheets[*s].arrival.at, at) < SAME)
+    }
+
+    /// Where the motion of a sheet leads in a direction.
+    fn ahead(&self, sheet: &Sheet, direction: usize) -> (Configuration<f64>, f64, f64) {
+        let (axis, change) = self.change(sheet.node, direction);
+        let motion = &sheet.arrival.motions[axis];
+        self.measure.ahead(&sheet.arrival.at, motion, axis, change)
+    }
+
+    fn change(&self, node: usize, direction: usize) -> (usize, f64) {
+        let axis = direction / 2;
+        let place = self.grid.place(node, axis);
+        let next = if direction.is_multiple_of(2) {
+            place - 1
+        } else {
+            place + 1
+        };
+        let coordinate = |place| self.grid.coordinate(axis, place);
+        (axis, coordinate(next) - coordinate(place))
+    }
+
+    /// Links sheets to known ones that lie where both their motions say; what is left.
+    fn linked(&self, filled: &mut Filled, tasks: &[Task]) -> Vec<Task> {
+        let jobs: Vec<&[Task]> = tasks.chunks(8 * JOB).collect();
+        let found = each(jobs.len(), &(), |(), i| {
+            let near = jobs[i].iter().map(|&task| self.near(filled, task));
+            near.collect::<Vec<Option<usize>>>()
+        });
+        let mut left = Vec::new();
+        for (&(s, d), found) in tasks.iter().zip(found.into_iter().flatten()) {
+            match found {
+                _ if filled.sheets[s].links[d] != Link::Open => {}
+                Some(t) => link(filled, s, d, t),
+                None => left.push((s, d)),
+            }
+        }
+        left
+    }
+
+    fn near(&self, filled: &Filled, (s, d): Task) -> Option<usize> {
+        let sheet = &filled.sheets[s];
+        let node = self.grid.neighbour(sheet.node, d)?;
+        let known = &filled.of_node[node];
+        if known.is_empty() || sheet.links[d] != Link::Open {
+            return None;
+        }
+        let (to, _, length) = self.ahead(sheet, d);
+        let mut near = known.iter().copied().filter(|&t| {
+            let other = &filled.sheets[t];
+            if self.measure.apart(&to, &other.arrival.at) > SURE * length + SAME {
+                return false;
+            }
+            if !self
+                .measure
+                .alike(&sheet.arrival.motions, &other.arrival.motions)
+            {
+                return false;
+            }
+            let (back, _, length) = self.ahead(other, d ^ 1);
+            self.measure.apart(&back, &sheet.arrival.at) <= SURE * length + SAME
+        });
+        let first = near.next()?;
+        // two as near are for surer steps to tell apart
+        near.next().is_none().then_some(first)
+    }
+
+    /// One step to each node from each mode known so far; the others wait for what it finds.
+    fn chosen(&self, filled: &mut Filled, waiting: Vec<Task>) -> (Vec<Task>, Vec<Task>) {
+        let mut taken = std::collections::HashSet::new();
+        waiting.into_iter().partition(|&(s, d)| {
+            let node = self.grid.neighbour(filled.sheets[s].node, d);
+            taken.insert((node, root(&mut filled.roots, s)))
+        })
+    }
+
+    fn ends<T: Factorable + Packed + Send + Sync>(
+        &self,
+        steps: &Steps<T>,
+        filled: &Filled,
+        tasks: &[Task],
+    ) -> Vec<End> {
+        let jobs: Vec<&[Task]> = tasks.chunks(JOB).collect();
+        let ends = each(jobs.len(), steps, |steps, i| {
+            let starts: Vec<Start> = (jobs[i].iter())
+                .map(|&(s, d)| {
+                    let sheet = &filled.sheets[s];
+                    let (guess, length, _) = self.ahead(sheet, d);
+                    let node = self.grid.neighbour(sheet.node, d).unwrap_or(sheet.node);
+                    Start {
+                        guess,
+                        reach: SURE * length,
+                        values: self.grid.values(node),
+                    }
+                })
+                .collect();
+            let packs = starts.chunks(T::WIDTH);
+            let arrivals: Vec<_> = packs.flat_map(|pack| steps.settle(pack)).collect();
+            let ends = arrivals.into_iter().zip(jobs[i]).zip(&starts);
+            ends.map(|((arrival, task), start)| {
+                let from = &filled.sheets[task.0].arrival.motions;
+                match arrival.filter(|to| self.measure.alike(from, &to.motions)) {
+                    Some(arrival) => End::Arrived(arrival),
+                    None => self.walked(steps, filled, *task, start),
+                }
+            })
+            .collect::<Vec<End>>()
+        });
+        ends.into_iter().flatten().collect()
+    }
+
+    /// The same step by smaller ones.
+    fn walked<T: Factorable + Packed>(
+        &self,
+        steps: &mut Steps<T>,
+        filled: &Filled,
+        (s, d): Task,
+        start: &Start,
+    ) -> End {
+        let sheet = &filled.sheets[s];
+        let edge = Edge {
+            axis: d / 2,
+            values: self.grid.values(sheet.node),
+            to: start.values[d / 2],
+        };
+        let from = &sheet.arrival.at;
+        match walk(self.asked, self.measure, &edge, from, Until::End) {
+            Met::Neighbour(at) => {
+                let start = Start {
+                    guess: at,
+                    reach: 1e-3,
+                    values: start.values.clone(),
+                };
+                match steps.settle(&[start]).pop().flatten() {
+                    Some(arrival) => End::Arrived(arrival),
+                    None => End::Stuck,
+                }
+            }
+            Met::Fold(at, part) => End::Fold(at, part),
+            _ => End::Stuck,
+        }
+    }
+
+    fn merge(&self, filled: &mut Filled, (s, d): Task, end: End, front: &mut Vec<usize>) {
+        match end {
+            End::Arrived(arrival) => {
+                let Some(node) = self.grid.neighbour(filled.sheets[s].node, d) else {
+                    return;
+                };
+                let t = match self.known(filled, node, &arrival.at) {
+                    Some(known) => known,
+                    None => {
+                        let new = self.add(filled, node, arrival);
+                        front.push(new);
+                        new
+                    }
+                };
+                link(filled, s, d, t);
+            }
+            End::Fold(at, part) => {
+                filled.sheets[s].links[d] = Link::Fold(part);
+                filled.folds.push((s, d, at));
+            }
+            End::Stuck => filled.sheets[s].links[d] = Link::Stuck,
+        }
+    }
+}
+
+enum End {
+    Arrived(Arrival),
+    Fold(Configuration<f64>, f64),
+    Stuck,
+}
+
+fn link(filled: &mut Filled, s: usize, d: usize, t: usize) {
+    filled.sheets[s].links[d] = Link::To(t);
+    if filled.sheets[t].links[d ^ 1] == Link::Open {
+        filled.sheets[t].links[d ^ 1] = Link::To(s);
+    }
+    let (a, b) = (root(&mut filled.roots, s), root(&mut filled.roots, t));
+    filled.roots[a.max(b)] = a.min(b);
+}
+
+/// The first of all that are connected with one.
+pub(super) fn root(roots: &mut [usize], mut of: usize) -> usize {
+    while roots[of] != of {
+        roots[of] = roots[roots[of]];
+        of = roots[of];
+    }
+    of
+}

@@ -1,0 +1,127 @@
+//! The nodes of a map.
+
+use crate::system::Driven;
+
+/// Nodes at equal distances in a box, the first coordinate running fastest.
+#[derive(Clone, Debug)]
+pub(super) struct Grid {
+    axes: Vec<(f64, f64, usize)>,
+}
+
+impl Grid {
+    pub fn new(axes: &[Driven], counts: &[usize]) -> Self {
+        let axes = axes.iter().zip(counts);
+        Grid {
+            axes: axes.map(|(axis, n)| (axis.from, axis.to, *n)).collect(),
+        }
+    }
+
+    pub fn dimensions(&self) -> usize {
+        self.axes.len()
+    }
+
+    /// Nodes along an axis.
+    pub fn count(&self, axis: usize) -> usize {
+        self.axes[axis].2
+    }
+
+    /// All nodes.
+    pub fn len(&self) -> usize {
+        self.axes.iter().map(|axis| axis.2).product()
+    }
+
+    /// How far neighbours along an axis are apart.
+    pub fn spacing(&self, axis: usize) -> f64 {
+        let (from, to, n) = self.axes[axis];
+        (to - from) / (n - 1) as f64
+    }
+
+    /// The place of a node along an axis.
+    pub fn place(&self, node: usize, axis: usize) -> usize {
+        let stride: usize = self.axes[..axis].iter().map(|axis| axis.2).product();
+        node / stride % self.axes[axis].2
+    }
+
+    /// A coordinate; the ends themselves without rounding.
+    pub fn coordinate(&self, axis: usize, place: usize) -> f64 {
+        let (from, to, n) = self.axes[axis];
+        match place {
+            0 => from,
+            last if last + 1 == n => to,
+            _ => from + (to - from) * place as f64 / (n - 1) as f64,
+        }
+    }
+
+    /// The coordinates of a node.
+    pub fn values(&self, node: usize) -> Vec<f64> {
+        let axes = 0..self.dimensions();
+        axes.map(|axis| self.coordinate(axis, self.place(node, axis)))
+            .collect()
+    }
+
+    /// The neighbour in a direction: axis 0 back and forth, then axis 1 and so on.
+    pub fn neighbour(&self, node: usize, direction: usize) -> Option<usize> {
+        let axis = direction / 2;
+        let stride: usize = self.axes[..axis].iter().map(|axis| axis.2).product();
+        let place = self.place(node, axis);
+        match direction % 2 {
+            0 => (place > 0).then(|| node - stride),
+            _ => (place + 1 < self.axes[axis].2).then(|| node + stride),
+        }
+    }
+
+    /// Nodes spread over the grid, no more than `most`, none of them at its edge if that can be.
+    pub fn spread(&self, most: usize) -> Vec<usize> {
+        let root = (most as f64).powf(1.0 / self.dimensions() as f64).floor();
+        let each = (root as usize).max(1);
+        let mut nodes = vec![0];
+        let mut stride = 1;
+        for &(_, _, n) in &self.axes {
+            let each = each.min(n);
+            let places: Vec<usize> = (0..each).map(|k| (2 * k + 1) * n / (2 * each)).collect();
+            let further = nodes.iter();
+            nodes = further
+                .flat_map(|node| places.iter().map(move |place| node + stride * place))
+                .collect();
+            stride *= n;
+        }
+        nodes.sort_unstable();
+        nodes
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::system::Holdable;
+
+    #[test]
+    fn neighbours_are_one_step_along_one_axis() {
+        let axis = |to| Driven {
+            coordinate: Holdable::Joint(0),
+            from: 0.0,
+            to,
+        };
+        let grid = Grid::new(&[axis(1.0), axis(2.0), axis(3.0)], &[3, 4, 5]);
+        for node in 0..grid.len() {
+            let here = grid.values(node);
+            for direction in 0..6 {
+                let axis = direction / 2;
+                let sign = if direction % 2 == 0 { -1.0 } else { 1.0 };
+                let wanted = here[axis] + sign * grid.spacing(axis);
+                match grid.neighbour(node, direction) {
+                    Some(other) => {
+                        let there = grid.values(other);
+                        for k in 0..3 {
+                            let value = if k == axis { wanted } else { here[k] };
+                            assert!((there[k] - value).abs() < 1e-14);
+                        }
+                    }
+                    None => assert!(!(-1e-9..=(axis + 1) as f64 + 1e-9).contains(&wanted)),
+                }
+            }
+        }
+        assert_eq!(grid.spread(8).len(), 8);
+        assert_eq!(grid.spread(1).len(), 1);
+    }
+}

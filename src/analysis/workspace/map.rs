@@ -1,0 +1,322 @@
+//! What was reached, put in order: modes, aspects, cells.
+
+use std::collections::{BTreeMap, HashMap};
+
+use super::asked::Asked;
+use super::aspects;
+use super::boundary::{Crossing, named};
+use super::fill::{Filled, Link};
+use super::grid::Grid;
+use super::report::{
+    AspectReport, AxisReport, BoundaryPoint, Cell, Conditioned, HeldReport, ModeReport,
+    WorkspaceReport,
+};
+use crate::mechanism::Configuration;
+use crate::system::{Holdable, Walk};
+
+/// Sheets with their modes and aspects.
+pub(super) struct Map<'a> {
+    asked: &'a Asked<'a>,
+    grid: &'a Grid,
+    filled: &'a Filled,
+    /// For each sheet its mode, from 0; none of modes that are nowhere within limits.
+    pub mode: Vec<Option<usize>>,
+    modes: usize,
+    /// For each sheet the first sheet of its aspect.
+    aspect: Vec<Option<usize>>,
+}
+
+impl<'a> Map<'a> {
+    pub fn new(asked: &'a Asked<'a>, grid: &'a Grid, filled: &'a Filled) -> Self {
+        let mut within = vec![false; filled.sheets.len()];
+        // of each mode the sheet at its first node, with the least joints
+        let mut first: Vec<Option<usize>> = vec![None; filled.sheets.len()];
+        let order = |a: usize, b: usize| {
+            let node = |s: usize| filled.sheets[s].node;
+            let joints = |s: usize| brought(asked, &filled.sheets[s].arrival.at, true).joints;
+            let joint_order = || {
+                let (a, b) = (joints(a), joints(b));
+                let pairs = a.iter().zip(&b);
+                // equal but for rounding is equal
+                let differ = |(a, b): &(&f64, &f64)| (**a - **b).abs() > 1e-9;
+                let mut differing = pairs.into_iter().filter(differ);
+                let order = differing.next().map(|(a, b)| a.total_cmp(b));
+                order.unwrap_or(std::cmp::Ordering::Equal)
+            };
+            node(a).cmp(&node(b)).then_with(joint_order)
+        };
+        for (s, sheet) in filled.sheets.iter().enumerate() {
+            let root = filled.roots[s];
+            within[root] |= sheet.within;
+            match first[root] {
+                Some(known) if order(known, s).is_le() => {}
+                _ => first[root] = Some(s),
+            }
+        }
+        let mut roots: Vec<(usize, usize)> = (first.iter().enumerate())
+            .filter(|(root, _)| within[*root])
+            .filter_map(|(root, first)| Some((root, (*first)?)))
+            .collect();
+        roots.sort_by(|a, b| order(a.1, b.1).then(a.0.cmp(&b.0)));
+        let number = |s: usize| roots.iter().position(|(root, _)| *root == filled.roots[s]);
+        Map {
+            mode: (0..filled.sheets.len()).map(number).collect(),
+            modes: roots.len(),
+            aspect: aspects::aspects(filled),
+            asked,
+            grid,
+            filled,
+        }
+    }
+
+    pub fn report(&self, crossings: &[Crossing]) -> WorkspaceReport {
+        let mechanism = self.asked.mechanism;
+        let unit = |of: Holdable| match of.is_angle(mechanism) {
+            true => "rad",
+            false => "m",
+        };
+        let name = |of: &Holdable| of.name(mechanism);
+        let axes = self.asked.axes.iter().enumerate();
+        let held = self.held();
+        let mut cut = vec![vec![0.5; 2 * self.grid.dimensions()]; self.filled.sheets.len()];
+        for crossing in crossings {
+            cut[crossing.sheet][crossing.direction] = crossing.part;
+            let link = self.filled.sheets[crossing.sheet].links[crossing.direction];
+            if let Link::To(other) = link {
+                cut[other][crossing.direction ^ 1] = 1.0 - crossing.part;
+            }
+        }
+        let sheets = || self.filled.sheets.iter().enumerate();
+        let of_mode = |mode: usize| {
+            move |&s: &usize| self.mode[s] == Some(mode) && self.filled.sheets[s].within
+        };
+        let whole = |sheet: &usize| self.filled.sheets[*sheet].within;
+        let reached = (0..self.grid.len()).filter(|n| self.first(*n, &whole).is_some());
+        let mut unsure = 0;
+        for (s, sheet) in sheets() {
+            let stuck = sheet.links.iter().filter(|link| **link == Link::Stuck);
+            unsure += if whole(&s) { stuck.count() } else { 0 };
+        }
+        let (aspects, numbers) = self.aspects(&cut);
+        WorkspaceReport {
+            axes: axes
+                .map(|(i, axis)| AxisReport {
+                    name: name(&axis.coordinate),
+                    unit: unit(axis.coordinate),
+                    from: axis.from,
+                    to: axis.to,
+                    nodes: self.grid.count(i),
+                })
+                .collect(),
+            held: (held.into_iter())
+                .map(|(of, value)| HeldReport {
+                    name: name(&of),
+                    unit: unit(of),
+                    value,
+                })
+                .collect(),
+            inputs: self.asked.inputs.iter().map(name).collect(),
+            outputs: self.asked.outputs.iter().map(name).collect(),
+            nodes: self.grid.len(),
+            reached: reached.count(),
+            unit: size_unit(self.asked.axes.iter().map(|axis| unit(axis.coordinate))),
+            size: (self.asked.axes.iter().map(|a| a.to - a.from)).product(),
+            reached_size: self.size(&whole, &cut),
+            modes: (0..self.modes)
+                .map(|mode| {
+                    let of = sheets().filter(|(s, _)| self.mode[*s] == Some(mode));
+                    let mut nodes: Vec<usize> = of.clone().map(|(_, sheet)| sheet.node).collect();
+                    let all = nodes.len();
+                    nodes.sort_unstable();
+                    nodes.dedup();
+                    let at_first = of.clone().filter(|(_, s)| Some(&s.node) == nodes.first());
+                    let joints = at_first.map(|(_, s)| brought(self.asked, &s.arrival.at, true));
+                    let joints = joints.map(|at| at.joints);
+                    ModeReport {
+                        mode: mode + 1,
+                        nodes: nodes.len(),
+                        within: of.filter(|(_, sheet)| sheet.within).count(),
+                        size: self.size(&of_mode(mode), &cut),
+                        repeated: all - nodes.len(),
+                        joints: joints
+                            .min_by(|a, b| a.partial_cmp(b).unwrap_or(std::cmp::Ordering::Equal))
+                            .unwrap_or_default(),
+                    }
+                })
+                .collect(),
+            cells: self.cells(&numbers),
+            aspects,
+            curves: Vec::new(),
+            points: crossings
+                .iter()
+                .filter_map(|crossing| {
+                    let node = self.filled.sheets[crossing.sheet].node;
+                    let mut at = self.grid.values(node);
+                    let along = crossing.direction / 2;
+                    let next = self.grid.neighbour(node, crossing.direction)?;
+                    let end = self.grid.values(next)[along];
+                    at[along] += crossing.part * (end - at[along]);
+                    Some(BoundaryPoint {
+                        kind: named(self.asked, crossing.kind),
+                        mode: self.mode[crossing.sheet]? + 1,
+                        at,
+                        joints: brought(self.asked, &crossing.at, false).joints,
+                    })
+                })
+                .collect(),
+            unsure,
+            searched: [0; 2],
+            outside: 0,
+            seed: 0,
+            normalising_length: mechanism.characteristic_length(),
+        }
+    }
+
+    /// What is held beside the mapped coordinates, with its values.
+    fn held(&self) -> Vec<(Holdable, f64)> {
+        let question = &self.asked.question;
+        let (held, start) = (question.held().joints, question.start());
+        let joints = (0..held.len()).filter(|joint| held[*joint]);
+        let joints = joints.map(|joint| (Holdable::Joint(joint), start.joints[joint]));
+        let platforms = (0..start.platforms.len()).flat_map(|platform| {
+            let values = question.held_values(platform).into_iter();
+            values.map(move |(c, value)| (Holdable::Coordinate(platform, c), value))
+        });
+        let mapped = |of: &Holdable| self.asked.axes.iter().any(|axis| axis.coordinate == *of);
+        let all = joints.chain(platforms);
+        all.filter(|(of, _)| !mapped(of)).collect()
+    }
+
+    /// The first sheet of a node that is wanted.
+    fn first(&self, node: usize, wanted: &dyn Fn(&usize) -> bool) -> Option<usize> {
+        self.filled.of_node[node]
+            .iter()
+            .copied()
+            .find(|s| wanted(s))
+    }
+
+    fn size(&self, wanted: &dyn Fn(&usize) -> bool, cut: &[Vec<f64>]) -> f64 {
+        let inside = |node: usize| self.first(node, wanted).is_some();
+        let reach = |node: usize, direction: usize| {
+            let sheets = self.filled.of_node[node].iter().filter(|s| wanted(s));
+            sheets.map(|s| cut[*s][direction]).fold(0.0, f64::max)
+        };
+        aspects::size(self.grid, &inside, &reach)
+    }
+
+    /// The aspects, and for the first sheet of each its number.
+    fn aspects(&self, cut: &[Vec<f64>]) -> (Vec<AspectReport>, HashMap<usize, usize>) {
+        let mut of: BTreeMap<usize, Vec<usize>> = Default::default();
+        for (s, aspect) in self.aspect.iter().enumerate() {
+            if let (Some(aspect), Some(_)) = (aspect, self.mode[s]) {
+                of.entry(*aspect).or_default().push(s);
+            }
+        }
+        let told = |s: usize| &self.filled.sheets[s].arrival.told;
+        let sign = |x: f64, told: bool| match (told, x < 0.0) {
+            (false, _) => 0,
+            (_, true) => -1,
+            (_, false) => 1,
+        };
+        let mut all: Vec<(usize, AspectReport)> = (of.into_iter())
+            .map(|(first, sheets)| {
+                let wanted = |s: &usize| self.aspect[*s] == Some(first);
+                let finite = sheets.iter().filter(|s| told(**s).condition.is_finite());
+                let by = |a: &&&usize, b: &&&usize| {
+                    told(***a).condition.total_cmp(&told(***b).condition)
+                };
+                let of = |s: &usize| Conditioned {
+                    at: self.grid.values(self.filled.sheets[*s].node),
+                    condition: told(*s).condition,
+                };
+                let report = AspectReport {
+                    aspect: 0,
+                    mode: self.mode[first].map_or(0, |mode| mode + 1),
+                    nodes: sheets.len(),
+                    size: self.size(&wanted, cut),
+                    direct: sign(told(first).direct, !self.asked.inputs.is_empty()),
+                    inverse: sign(told(first).inverse, !self.asked.outputs.is_empty()),
+                    best: finite.clone().min_by(|a, b| by(&a, &b)).map(of),
+                    worst: finite.max_by(|a, b| by(&a, &b)).map(of),
+                };
+                (first, report)
+            })
+            .collect();
+        all.sort_by(|a, b| {
+            let order = a.1.mode.cmp(&b.1.mode).then(b.1.nodes.cmp(&a.1.nodes));
+            order.then_with(|| {
+                let node = |first: usize| self.filled.sheets[first].node;
+                node(a.0).cmp(&node(b.0)).then(a.0.cmp(&b.0))
+            })
+        });
+        let numbers = all
+            .iter()
+            .enumerate()
+            .map(|(i, (first, _))| (*first, i + 1));
+        let numbers = numbers.collect();
+        let reports = all
+            .into_iter()
+            .enumerate()
+            .map(|(i, (_, report))| AspectReport {
+                aspect: i + 1,
+                ..report
+            });
+        (reports.collect(), numbers)
+    }
+
+    fn cells(&self, numbers: &HashMap<usize, usize>) -> Vec<Cell> {
+        let mut sheets: Vec<usize> = (0..self.filled.sheets.len())
+            .filter(|s| self.mode[*s].is_some())
+            .collect();
+        sheets.sort_by_key(|&s| (self.filled.sheets[s].node, self.mode[s], s));
+        let told = |x: f64, told: bool| told.then_some(x);
+        sheets
+            .into_iter()
+            .map(|s| {
+                let sheet = &self.filled.sheets[s];
+                let of = &sheet.arrival.told;
+                Cell {
+                    node: sheet.node,
+                    at: self.grid.values(sheet.node),
+                    mode: self.mode[s].map_or(0, |mode| mode + 1),
+                    aspect: self.aspect[s].and_then(|first| numbers.get(&first).copied()),
+                    condition: of.condition.is_finite().then_some(of.condition),
+                    direct: told(of.direct, !self.asked.inputs.is_empty()),
+                    inverse: told(of.inverse, !self.asked.outputs.is_empty()),
+                    joints: brought(self.asked, &sheet.arrival.at, false).joints,
+                }
+            })
+            .collect()
+    }
+}
+
+/// Angles within limits, or in (−π, π]; all of the latter kind where modes are compared.
+fn brought(asked: &Asked, at: &Configuration<f64>, plain: bool) -> Configuration<f64> {
+    let mut at = at.clone();
+    let held = asked.question.held();
+    for (joint, value) in at.joints.iter_mut().enumerate() {
+        if asked.mechanism.repeats(joint) && !held.joints[joint] {
+            let turn = std::f64::consts::TAU;
+            *value -= turn * ((*value - 1e-9) / turn).round();
+        }
+    }
+    if !plain {
+        Walk::within_limits(asked.mechanism, &mut at);
+    }
+    at
+}
+
+/// `m²`, `rad·m`
+fn size_unit<'u>(units: impl Iterator<Item = &'u str>) -> String {
+    let units: Vec<&str> = units.collect();
+    let parts = ["rad", "m"].into_iter().filter_map(|unit| {
+        let count = units.iter().filter(|u| **u == unit).count();
+        match count {
+            0 => None,
+            1 => Some(unit.to_owned()),
+            2 => Some(format!("{unit}²")),
+            _ => Some(format!("{unit}³")),
+        }
+    });
+    parts.collect::<Vec<String>>().join("·")
+}

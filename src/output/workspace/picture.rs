@@ -1,0 +1,165 @@
+//! Maps drawn: a picture for each mode, with its boundary over its conditioning.
+
+use crate::analysis::workspace::{AxisReport, BoundaryKind, WorkspaceReport};
+use crate::mechanism::Mechanism;
+use crate::output::plot::{Chart, Heat, Series, svg as drawn};
+use crate::output::quantity::quantity;
+
+/// Modes drawn at most, and slices of each.
+const MOST: usize = 12;
+
+/// The map as SVG: where it has two coordinates a picture for each mode, where it has three also for
+/// some slices of the third, where it has one a curve for each mode.
+pub fn svg(mechanism: &Mechanism, report: &WorkspaceReport) -> String {
+    let charts = match &report.axes[..] {
+        [axis] => vec![along(mechanism, report, axis)],
+        [x, y] => (1..=report.modes.len().min(MOST))
+            .map(|mode| picture(mechanism, report, [x, y], mode, None))
+            .collect(),
+        [x, y, z, ..] => {
+            // no more slices than can be looked at, evenly spread
+            let slices = (MOST / report.modes.len().max(1)).clamp(1, 6).min(z.nodes);
+            let places = (0..slices).map(|k| (2 * k + 1) * z.nodes / (2 * slices));
+            let places: Vec<usize> = places.collect();
+            (1..=report.modes.len().min(MOST))
+                .flat_map(|mode| places.iter().map(move |place| (mode, *place)))
+                .map(|(mode, place)| picture(mechanism, report, [x, y], mode, Some((z, place))))
+                .collect()
+        }
+        [] => Vec::new(),
+    };
+    drawn(&charts)
+}
+
+fn shown(axis: &AxisReport, x: f64) -> f64 {
+    match axis.unit {
+        "rad" => x.to_degrees(),
+        _ => x,
+    }
+}
+
+fn label(axis: &AxisReport) -> String {
+    let unit = if axis.unit == "rad" { "°" } else { "m" };
+    format!("{} ({unit})", axis.name)
+}
+
+/// Half a cell more at each end, so that cells have their nodes in the middle.
+fn extent(axis: &AxisReport) -> (f64, f64) {
+    let half = 0.5 * (axis.to - axis.from) / (axis.nodes - 1) as f64;
+    (shown(axis, axis.from - half), shown(axis, axis.to + half))
+}
+
+/// The inverse of the condition number: 1 is best, 0 singular.
+fn quality(condition: Option<f64>) -> f64 {
+    condition.map_or(0.0, |condition| 1.0 / condition)
+}
+
+fn picture(
+    mechanism: &Mechanism,
+    report: &WorkspaceReport,
+    [x, y]: [&AxisReport; 2],
+    mode: usize,
+    slice: Option<(&AxisReport, usize)>,
+) -> Chart {
+    let plane = x.nodes * y.nodes;
+    let mut rows = vec![vec![f64::NAN; x.nodes]; y.nodes];
+    for cell in report.cells.iter().filter(|cell| cell.mode == mode) {
+        let here = slice.is_none_or(|(_, place)| cell.node / plane == place);
+        if here && cell.aspect.is_some() {
+            let within = cell.node % plane;
+            rows[within / x.nodes][within % x.nodes] = quality(cell.condition);
+        }
+    }
+    let third =
+        slice.map(|(z, place)| z.from + (z.to - z.from) * place as f64 / (z.nodes - 1) as f64);
+    let near = |value: Option<f64>| match (value, third) {
+        (Some(a), Some(b)) => (a - b).abs() < 1e-9 * (1.0 + b.abs()),
+        _ => true,
+    };
+    let mut series: Vec<Series> = Vec::new();
+    for (name, wanted) in KINDS {
+        let curves = report
+            .curves
+            .iter()
+            .filter(|c| wanted(&c.kind) && near(c.slice));
+        let pieces = curves
+            .flat_map(|curve| &curve.pieces)
+            .filter(|piece| piece.mode == mode);
+        let mut points: Vec<(f64, f64)> = Vec::new();
+        for piece in pieces {
+            points.extend(
+                piece
+                    .points
+                    .iter()
+                    .map(|p| (shown(x, p[0]), shown(y, p[1]))),
+            );
+            points.push((f64::NAN, f64::NAN));
+        }
+        // one colour for one kind, whether it is there or not
+        series.push(Series {
+            label: (*name).into(),
+            points,
+        });
+    }
+    let at = slice.map_or(String::new(), |(z, _)| {
+        let value = third.unwrap_or(0.0);
+        format!(", {} = {}", z.name, quantity(value, z.unit == "rad"))
+    });
+    Chart {
+        title: format!("{}: mode {mode}{at}", mechanism.name()),
+        x: label(x),
+        y: label(y),
+        equal: x.unit == y.unit,
+        heat: Some(Heat {
+            x: extent(x),
+            y: extent(y),
+            rows,
+            label: "1/condition".into(),
+        }),
+        series,
+        marks: Vec::new(),
+    }
+}
+
+type Wanted = fn(&BoundaryKind) -> bool;
+
+const KINDS: &[(&str, Wanted)] = &[
+    ("direct singularity", |kind| *kind == BoundaryKind::Direct),
+    ("inverse singularity", |kind| *kind == BoundaryKind::Inverse),
+    ("limit of a joint", |kind| {
+        matches!(kind, BoundaryKind::Limit { .. })
+    }),
+    ("fold", |kind| *kind == BoundaryKind::Fold),
+];
+
+/// One coordinate: the conditioning over it.
+fn along(mechanism: &Mechanism, report: &WorkspaceReport, axis: &AxisReport) -> Chart {
+    let series = report.modes.iter().map(|mode| {
+        let mut points = Vec::new();
+        let mut before = None;
+        let cells = report
+            .cells
+            .iter()
+            .filter(|c| c.mode == mode.mode && c.aspect.is_some());
+        for cell in cells {
+            if before.is_some_and(|node| cell.node != node + 1) {
+                points.push((f64::NAN, f64::NAN));
+            }
+            before = Some(cell.node);
+            points.push((shown(axis, cell.at[0]), quality(cell.condition)));
+        }
+        Series {
+            label: format!("mode {}", mode.mode),
+            points,
+        }
+    });
+    Chart {
+        title: format!("{}: conditioning", mechanism.name()),
+        x: label(axis),
+        y: "1/condition".into(),
+        equal: false,
+        heat: None,
+        series: series.collect(),
+        marks: Vec::new(),
+    }
+}
