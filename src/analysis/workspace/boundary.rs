@@ -274,7 +274,7 @@ impl Boundary<'_> {
                 let place = |curve: &mut LocusCurve, at: &Configuration<f64>| {
                     let columns = curve.locked().columns();
                     let decomposition = curve.locked().of_rank(at, columns);
-                    let motion = decomposition.weakest()?.to_vec();
+                    let motion = decomposition.weakest()?.1.to_vec();
                     let at = at.clone();
                     settled(curve, Singular { at, motion }, &method)
                 };
