@@ -888,6 +888,18 @@ mod files {
                 assert!(apart < 1e-9, "{name} {}: {apart:e}", joint.name);
             }
         }
+        // an arm that only balls hold once its hinge is cut becomes a platform
+        let mechanism = Mechanism::load(folder().join("delta.ron")).unwrap();
+        let mut axes = joint_axes(&mechanism, &closed(&mechanism)).unwrap();
+        axes.cut = vec![linkwork::description::Spanned::new("theta1".into(), 0..0)];
+        let again = placed(&axes, Convention::Modified);
+        assert_eq!(again.platforms().len(), mechanism.platforms().len() + 7);
+        assert!(again.joint("theta1").is_none());
+        let home = again.home();
+        for closure in again.closures() {
+            let [a, b] = again.poses(closure.frames, &home);
+            assert!((a.position - b.position).norm() < 1e-12);
+        }
         let cylinder = r#"Mechanism(version: 1, name: "c", convention: Modified,
             joints: { "q": Actuated(home: 0.3), "s": Actuated(home: 0.2), "p": Actuated(home: 0.1) },
             chains: { "c": Chain(rows: [(theta: "q", d: "s"), (alpha: "90 deg", a: 1, theta: "p")], tip: [Tx(2)]) })"#;

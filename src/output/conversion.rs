@@ -54,7 +54,7 @@ pub fn complaint(error: &ConvertError, possible: &[String]) -> Complaint {
         ConvertError::Cut(error) => {
             let (title, help) = because(error);
             let instead = match possible {
-                [] => "no joint of this mechanism can be cut".to_owned(),
+                [] => "this way no joint of this mechanism can be cut".to_owned(),
                 names => format!("joints that can be cut: {}", quoted(names)),
             };
             let help = help.map_or(instead.clone(), |help| format!("{help}; {instead}"));

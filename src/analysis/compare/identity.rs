@@ -38,9 +38,17 @@ impl Setting<'_> {
         }
         let constants = self.letters.joint(0);
         let constant = rest.symbols().iter().all(|symbol| *symbol < constants);
-        let values = self.letters.values();
-        let negative = rest.value(&|symbol| values[symbol as usize]) < 0.0;
-        if roots != 1 || !constant || !negative {
+        if roots != 1 || !constant {
+            return None;
+        }
+        let parameters = self.letters.0.parameters();
+        // NaN for what is no parameter, which there is none of
+        let value = |symbol: u32| {
+            parameters
+                .get(symbol as usize)
+                .map_or(f64::NAN, |p| p.value)
+        };
+        if rest.value(&value).is_nan() || rest.value(&value) >= 0.0 {
             return None;
         }
         form.times(&other.minus(&rest), budget)

@@ -177,6 +177,7 @@ fn given(
     balls: &BTreeSet<usize>,
 ) -> Result<BTreeSet<usize>, Vec<Problem>> {
     let mut cuts = balls.clone();
+    let mut named = BTreeSet::new();
     let mut problems = Vec::new();
     for cut in &axes.cut {
         let found = axes
@@ -194,8 +195,10 @@ fn given(
         };
         let [a, b] = graph.ends[joint];
         cuts.insert(joint);
-        let parts = graph.parts(|j| !cuts.contains(&j));
-        let before = graph.parts(|j| !cuts.contains(&j) || j == joint);
+        // balls, cut in any case, hold bodies too
+        named.insert(joint);
+        let parts = graph.parts(|j| !named.contains(&j));
+        let before = graph.parts(|j| !named.contains(&j) || j == joint);
         if !balls.contains(&joint) && parts[a] != parts[b] && before[a] == before[b] {
             let name = cut.value.clone();
             let kind = problem(AxesProblem::CutsOff { joint: name });
