@@ -63,8 +63,7 @@ impl Svd {
                 for q in p + 1..columns {
                     let (a, b) = (u.column(p).norm_squared(), u.column(q).norm_squared());
                     let along = u.column(p).dot(&u.column(q));
-                    // NaN is not rotated
-                    if !(along.abs() > f64::EPSILON * (a * b).sqrt()) {
+                    if along.is_nan() || along.abs() <= f64::EPSILON * (a * b).sqrt() {
                         continue;
                     }
                     turned = true;

@@ -209,11 +209,13 @@ impl Question<'_> {
     fn merge(&self, found: &mut Vec<Found>, way: &mut Way<'_>) -> usize {
         let flat = |f: &Found| self.coordinates.flatten(&f.point.map(C::from_f64));
         let mut kept: Vec<Found> = Vec::new();
+        let mut points: Vec<Vec<C>> = Vec::new();
         let mut merged = 0;
         for f in found.drain(..) {
             let x = flat(&f);
-            match kept.iter_mut().find(|k| are_one(way, END, &flat(k), &x)) {
-                Some(one) => {
+            match points.iter().position(|y| are_one(way, END, y, &x)) {
+                Some(place) => {
+                    let one = &mut kept[place];
                     merged += usize::from(one.multiplicity == 1);
                     one.multiplicity += f.multiplicity;
                     let x = Local::new(way, true).refined(&x);
@@ -222,7 +224,10 @@ impl Question<'_> {
                     one.point = tidied(at.map(|z| z.re), self.coordinates, false);
                     one.key = key(&one.point, self.coordinates);
                 }
-                None => kept.push(f),
+                None => {
+                    kept.push(f);
+                    points.push(x);
+                }
             }
         }
         *found = kept;

@@ -6,7 +6,7 @@ use super::coordinates::{C, Coordinates};
 use super::family::{Family, Member};
 use super::generic::Progress;
 use super::path::{End, Path, arrived, follow};
-use super::simple::{are_one, may_be_one};
+use super::simple::{are_one, near};
 use super::stances::{Stance, count, learn};
 use super::way::Way;
 use crate::number::Number;
@@ -212,8 +212,9 @@ impl<'a, 'f> Teller<'a, 'f> {
         Teller { way, storage: None }
     }
 
-    fn one(&mut self, x: &[C], y: &[C]) -> bool {
-        may_be_one(&self.way.family.coordinates, x, y) && {
+    /// `near` is how far apart they may be, from the first one's size.
+    fn one(&mut self, near: f64, x: &[C], y: &[C]) -> bool {
+        self.way.family.coordinates.within(near, x, y) && {
             let way = self.storage.get_or_insert_with(|| self.way.clone());
             are_one(way, C::from_f64(1.0), x, y)
         }
@@ -228,7 +229,8 @@ fn shared_out(way: &Way<'_>, ends: &mut [End]) {
             continue;
         };
         let mut taken = |y: &Vec<C>| {
-            let mut regular = |end: &End| matches!(end, End::Regular(x) if teller.one(x, y));
+            let near = near(y);
+            let mut regular = |end: &End| matches!(end, End::Regular(x) if teller.one(near, y, x));
             ends.iter().any(&mut regular)
         };
         let free = both.into_iter().find(|y| !taken(y));
@@ -242,8 +244,9 @@ fn doubtful(way: &Way<'_>, ends: &[End]) -> Vec<usize> {
     let mut doubtful: Vec<bool> = ends.iter().map(|end| *end == End::Lost).collect();
     for (i, end) in ends.iter().enumerate() {
         let End::Regular(x) = end else { continue };
+        let near = near(x);
         for (j, other) in ends.iter().enumerate().take(i) {
-            if matches!(other, End::Regular(y) if teller.one(y, x)) {
+            if matches!(other, End::Regular(y) if teller.one(near, x, y)) {
                 (doubtful[i], doubtful[j]) = (true, true);
             }
         }
@@ -257,7 +260,8 @@ fn told_apart(way: &Way<'_>, ends: &mut [End]) {
     for i in 0..ends.len() {
         let (before, rest) = ends.split_at_mut(i);
         let End::Regular(x) = &rest[0] else { continue };
-        let mut known = |end: &End| matches!(end, End::Regular(y) if teller.one(y, x));
+        let near = near(x);
+        let mut known = |end: &End| matches!(end, End::Regular(y) if teller.one(near, x, y));
         if before.iter().any(&mut known) {
             rest[0] = End::Lost;
         }

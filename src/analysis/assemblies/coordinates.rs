@@ -1,6 +1,6 @@
 //! Configurations as flat complex coordinates, and when two of them are the same.
 
-use std::f64::consts::TAU;
+use std::f64::consts::{PI, TAU};
 
 use crate::geometry::{Quaternion, Vector3};
 use crate::mechanism::{Configuration, Mechanism, PlatformPose};
@@ -175,7 +175,7 @@ impl Coordinates {
     ) -> impl Iterator<Item = f64> + 'a {
         places.zip(x.iter().zip(y)).map(|(place, (x, y))| {
             let mut gap = x - y;
-            if self.periodic[self.free_joints[place]] {
+            if gap.re.abs() > PI && self.periodic[self.free_joints[place]] {
                 gap.re -= TAU * (gap.re / TAU).round();
             }
             gap.norm_sqr()

@@ -5,7 +5,6 @@ use super::certificate::{Certificate, Certifier, independent_rows};
 use super::coordinates::{C, Coordinates};
 use super::real::{named_joints, named_poses};
 use super::report::{AssembliesReport, Assembly};
-use crate::mechanism::Configuration;
 use crate::number::Number;
 use crate::solve::Equations;
 use crate::system::Work;
@@ -41,6 +40,8 @@ impl Question<'_> {
             true => Certifier::new(self.mechanism, self.held, &chosen),
             false => None,
         };
+        let flat = |f: &Found| self.coordinates.flatten(&f.point.map(C::from_f64));
+        let flat: Vec<Vec<C>> = found.iter().map(flat).collect();
         for (k, (f, dense)) in found.iter().zip(&jacobians).enumerate() {
             let (first, last) = extremes(rows, columns, dense);
             let condition = match (first, last) {
@@ -55,9 +56,9 @@ impl Question<'_> {
                 false => 0,
             };
             // half the way to the next assembly keeps the boxes apart
-            let others = found.iter().enumerate().filter(|(i, _)| *i != k);
+            let others = flat.iter().enumerate().filter(|(i, _)| *i != k);
             let gap = others
-                .map(|(_, o)| gap(self.coordinates, &f.point, &o.point))
+                .map(|(_, other)| self.coordinates.difference(&flat[k], other))
                 .fold(f64::INFINITY, f64::min);
             let certificate = match (&mut certifier, f.multiplicity) {
                 (_, 0) => {
@@ -104,11 +105,6 @@ impl Question<'_> {
         }
         report.real = report.assemblies.len();
     }
-}
-
-fn gap(coordinates: &Coordinates, a: &Configuration<f64>, b: &Configuration<f64>) -> f64 {
-    let flat = |c: &Configuration<f64>| coordinates.flatten(&c.map(C::from_f64));
-    coordinates.difference(&flat(a), &flat(b))
 }
 
 fn shares_pose(coordinates: &Coordinates, a: &[f64], b: &[f64]) -> bool {

@@ -37,8 +37,8 @@ pub struct Fold {
     pub inputs: Named<f64>,
     /// Joint values there, rad or m.
     pub joints: Named<f64>,
-    /// Whether the two modes turn back there, to the last digits of the place; otherwise they cross,
-    /// or no more is known than that the mode cannot be followed beyond.
+    /// Whether the two modes turn back there, at a place known to the last digits. Otherwise they
+    /// cross, or no more is known than that the mode cannot be followed beyond.
     pub turns_back: bool,
 }
 

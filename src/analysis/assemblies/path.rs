@@ -24,12 +24,6 @@ pub(super) enum End {
     Lost,
 }
 
-/// Rounding beside the square of the size of a solution.
-const ROUNDING: f64 = 1e-15;
-/// Solutions larger than this count as infinite: rounding errors of ε in the dimensions bring a
-/// solution that is m-fold at infinity back to ε^(−1/m), some 1e4 for m = 4. Held lengths beyond the
-/// characteristic length reach as much further.
-const FAR: f64 = 1e3;
 impl End {
     /// The solution, if it is finite.
     pub fn point(&self) -> Option<&Vec<C>> {
@@ -40,6 +34,12 @@ impl End {
     }
 }
 
+/// Rounding beside the square of the size of a solution.
+const ROUNDING: f64 = 1e-15;
+/// Solutions larger than this count as infinite: rounding errors of ε in the dimensions bring a
+/// solution that is m-fold at infinity back to ε^(−1/m), some 1e4 for m = 4. Held lengths beyond the
+/// characteristic length reach as much further.
+const FAR: f64 = 1e3;
 /// Where the endgame starts, as distance from the end of the way.
 const NEAR_END: f64 = 0.03;
 /// Ways longer than this, in rad or characteristic lengths, are gone in parts.

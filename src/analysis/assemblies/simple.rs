@@ -1,6 +1,6 @@
 //! Whether a solution is one by itself or several that coincide.
 
-use super::coordinates::{C, Coordinates, size};
+use super::coordinates::{C, size};
 use super::way::Way;
 use crate::solve::Homotopy;
 
@@ -35,12 +35,12 @@ pub(super) fn stands_alone(way: &mut Way<'_>, s: C, x: &[C]) -> bool {
     })
 }
 
-/// Whether two points are near enough to be approximations of one solution.
-pub(super) fn may_be_one(coordinates: &Coordinates, x: &[C], y: &[C]) -> bool {
-    coordinates.within(NEAR * (1.0 + size(x)), x, y)
+/// How far another approximation of a solution may be from it.
+pub(super) fn near(x: &[C]) -> f64 {
+    NEAR * (1.0 + size(x))
 }
 
 /// Whether two points, the first of which is a solution by itself, are the same solution.
 pub(super) fn are_one(way: &mut Way<'_>, s: C, x: &[C], y: &[C]) -> bool {
-    may_be_one(&way.family.coordinates, x, y) && way.seen_apart(s, x, y) <= ALIKE
+    way.family.coordinates.within(near(x), x, y) && way.seen_apart(s, x, y) <= ALIKE
 }
