@@ -221,14 +221,22 @@ impl<'a> Map<'a> {
         let mut all: Vec<(usize, AspectReport)> = (of.into_iter())
             .map(|(first, sheets)| {
                 let wanted = |s: &usize| self.aspect[*s] == Some(first);
-                let finite = sheets.iter().filter(|s| told(**s).condition.is_finite());
-                let by = |a: &&&usize, b: &&&usize| {
-                    told(***a).condition.total_cmp(&told(***b).condition)
+                let mut finite: Vec<usize> = (sheets.iter().copied())
+                    .filter(|s| told(*s).condition.is_finite())
+                    .collect();
+                finite.sort_by_key(|s| self.filled.sheets[*s].node);
+                // of nodes that are as good but for rounding the first
+                let first_of = |wanted: f64| {
+                    let of = |s: usize| told(s).condition;
+                    let mut alike = finite
+                        .iter()
+                        .filter(|s| (of(**s) / wanted - 1.0).abs() < 1e-9);
+                    alike.next().map(|s| Conditioned {
+                        at: self.grid.values(self.filled.sheets[*s].node),
+                        condition: of(*s),
+                    })
                 };
-                let of = |s: &usize| Conditioned {
-                    at: self.grid.values(self.filled.sheets[*s].node),
-                    condition: told(*s).condition,
-                };
+                let conditions = finite.iter().map(|s| told(*s).condition);
                 let report = AspectReport {
                     aspect: 0,
                     mode: self.mode[first].map_or(0, |mode| mode + 1),
@@ -236,8 +244,8 @@ impl<'a> Map<'a> {
                     size: self.size(&wanted, cut),
                     direct: sign(told(first).direct, !self.asked.inputs.is_empty()),
                     inverse: sign(told(first).inverse, !self.asked.outputs.is_empty()),
-                    best: finite.clone().min_by(|a, b| by(&a, &b)).map(of),
-                    worst: finite.max_by(|a, b| by(&a, &b)).map(of),
+                    best: first_of(conditions.clone().fold(f64::INFINITY, f64::min)),
+                    worst: first_of(conditions.fold(0.0, f64::max)),
                 };
                 (first, report)
             })
