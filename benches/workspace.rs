@@ -46,7 +46,12 @@ const WORK: [Work; 3] = [
 ];
 
 fn all(criterion: &mut Criterion) {
-    for work in &WORK {
+    let wanted: Vec<String> = std::env::args()
+        .skip(1)
+        .filter(|a| !a.starts_with('-'))
+        .collect();
+    let names = |work: &&Work| wanted.is_empty() || wanted.iter().any(|name| name == work.name);
+    for work in WORK.iter().filter(names) {
         compare(criterion, work);
     }
 }

@@ -83,49 +83,73 @@ impl Coordinate {
     /// (ω; v/L) of the platform about its origin.
     ///
     /// An angle φ = atan2(y, x) differs from its value by atan2(y c − x s, x c + y s), which has no
-    /// jump at ±π; dφ = (x dy − y dx)/(x² + y²), and an entry r of column n along e changes by
-    /// ω·(n × e).
+    /// jump at ±π.
     ///
     /// Over complex numbers the row is entire instead: y c − x s for roll and yaw, y − s for pitch.
     /// No analytic row can tell φ from φ + π there, nor the two signs of cos(pitch), so it vanishes
     /// for both; [`Coordinate::along`] tells them apart.
     pub(crate) fn row<T: Number>(self, pose: &Pose<T>, value: T, length: f64) -> (T, [T; 6]) {
+        let gap = match self {
+            Coordinate::X | Coordinate::Y | Coordinate::Z => {
+                (pose.position.0[self as usize] - value).scale(1.0 / length)
+            }
+            Coordinate::Roll | Coordinate::Pitch | Coordinate::Yaw => {
+                let ((y, dy), (x, dx)) = self.legs(pose);
+                let (sin, cos) = value.sin_cos();
+                if !T::REAL {
+                    let (gap, d) = match self {
+                        Coordinate::Pitch => (y - sin, dy),
+                        _ => (y * cos - x * sin, dy.times(cos) - dx.times(sin)),
+                    };
+                    let mut slope = [T::zero(); 6];
+                    slope[..3].copy_from_slice(&d.0);
+                    return (gap, slope);
+                }
+                (y * cos - x * sin).atan2(x * cos + y * sin)
+            }
+        };
+        (gap, self.slope(pose))
+    }
+
+    /// The derivative of the dimensionless coordinate along a twist (ω; v/L) of the platform about
+    /// its origin: for an angle φ = atan2(y, x) it is (x dy − y dx)/(x² + y²).
+    pub(crate) fn slope<T: Number>(self, pose: &Pose<T>) -> [T; 6] {
         let mut slope = [T::zero(); 6];
+        match self {
+            Coordinate::X | Coordinate::Y | Coordinate::Z => slope[3 + self as usize] = T::one(),
+            Coordinate::Roll | Coordinate::Pitch | Coordinate::Yaw => {
+                let ((y, dy), (x, dx)) = self.legs(pose);
+                let d = (dy.times(x) - dx.times(y)).times(T::one() / (x * x + y * y));
+                slope[..3].copy_from_slice(&d.0);
+            }
+        }
+        slope
+    }
+
+    /// What an angle is the arc tangent of, (y, dy) and (x, dx): an entry r of column n along e
+    /// changes by ω·(n × e).
+    fn legs<T: Number>(self, pose: &Pose<T>) -> (Changing<T>, Changing<T>) {
         let [n, s, a] = pose.rotation.0;
         let entry = |column: &Vector3<T>, axis: Axis| {
             let e = Vector3::unit(axis as usize);
             (column.dot(&e), column.cross(&e))
         };
-        let ((y, dy), (x, dx)) = match self {
-            Coordinate::X | Coordinate::Y | Coordinate::Z => {
-                let i = self as usize;
-                slope[3 + i] = T::one();
-                return ((pose.position.0[i] - value).scale(1.0 / length), slope);
-            }
+        match self {
             Coordinate::Roll => (entry(&s, Axis::Z), entry(&a, Axis::Z)),
-            Coordinate::Yaw => (entry(&n, Axis::Y), entry(&n, Axis::X)),
             Coordinate::Pitch => {
                 let (r31, d31) = entry(&n, Axis::Z);
                 let cos = (n.0[0] * n.0[0] + n.0[1] * n.0[1]).sqrt();
                 // cos² = 1 − r31², so d cos = −r31 d r31/cos
                 ((-r31, -d31), (cos, d31.times(-(r31 / cos))))
             }
-        };
-        let (sin, cos) = value.sin_cos();
-        if !T::REAL {
-            let (gap, d) = match self {
-                Coordinate::Pitch => (y - sin, dy),
-                _ => (y * cos - x * sin, dy.times(cos) - dx.times(sin)),
-            };
-            slope[..3].copy_from_slice(&d.0);
-            return (gap, slope);
+            // those of yaw; positions have none
+            _ => (entry(&n, Axis::Y), entry(&n, Axis::X)),
         }
-        let gap = (y * cos - x * sin).atan2(x * cos + y * sin);
-        let d = (dy.times(x) - dx.times(y)).times(T::one() / (x * x + y * y));
-        slope[..3].copy_from_slice(&d.0);
-        (gap, slope)
     }
 }
+
+/// A number with its derivative by ω.
+type Changing<T> = (T, Vector3<T>);
 
 /// How far an orientation is from a wanted one, as the rotation vector 2 tan(θ/2)·n in ground, with
 /// the derivative along ω.

@@ -112,7 +112,8 @@ impl Boundary<'_> {
         {
             for (d, link) in sheet.links.iter().enumerate() {
                 match *link {
-                    Link::Fold(_) if limited => wanted.push((s, d, Until::Limit)),
+                    Link::Fold if limited => wanted.push((s, d, Until::Limit)),
+                    Link::Fold => wanted.push((s, d, Until::End)),
                     Link::To(t) if !self.filled.sheets[t].within => {
                         wanted.push((s, d, Until::Limit));
                     }
@@ -146,7 +147,7 @@ impl Boundary<'_> {
             };
             let (kind, at, part) = match (met, until) {
                 (Met::Limit(at, part, joint, upper), _) => (Kind::Limit(joint, upper), at, part),
-                (Met::Fold(at, part), Until::Limit) => (Kind::Fold, at, part),
+                (Met::Fold(at, part), Until::Limit | Until::End) => (Kind::Fold, at, part),
                 (Met::Singular(at, part), Until::Singular(locks)) => (kind(locks), at, part),
                 _ => return None,
             };
@@ -158,23 +159,7 @@ impl Boundary<'_> {
                 part,
             })
         });
-        let mut all: Vec<Crossing> = found.into_iter().flatten().collect();
-        if !limited {
-            let folds = self.filled.folds.iter();
-            all.extend(
-                folds.filter_map(|(s, d, at)| match self.filled.sheets[*s].links[*d] {
-                    Link::Fold(part) => Some(Crossing {
-                        sheet: *s,
-                        direction: *d,
-                        kind: Kind::Fold,
-                        at: at.clone(),
-                        part,
-                    }),
-                    _ => None,
-                }),
-            );
-        }
-        all
+        found.into_iter().flatten().collect()
     }
 
     /// The curves through crossings, of the slices of the first two coordinates one after another.

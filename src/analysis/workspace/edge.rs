@@ -32,6 +32,16 @@ pub(super) struct Edge {
     pub to: f64,
 }
 
+impl Edge {
+    fn moved(&self, asked: &Asked) -> Driven {
+        Driven {
+            coordinate: asked.axes[self.axis].coordinate,
+            from: self.values[self.axis],
+            to: self.to,
+        }
+    }
+}
+
 /// What ends a way besides its end and folds.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Until<'l> {
@@ -41,6 +51,91 @@ pub(super) enum Until<'l> {
     Singular(&'l [Lock]),
 }
 
+/// A curve along an edge with the place where it begins, towards the end.
+fn begun(
+    asked: &Asked,
+    measure: &Measure,
+    edge: &Edge,
+    from: &Configuration<f64>,
+    method: &Continuation,
+    within: bool,
+) -> Result<(Curve, Place<Configuration<f64>>), Met> {
+    let moved = edge.moved(asked);
+    let held = asked.at(&edge.values).without(moved.coordinate).held();
+    let mut curve = Curve::along(asked.mechanism, &held, vec![moved]);
+    let mut start = asked.put(from, &edge.values);
+    if within {
+        Walk::within_limits(asked.mechanism, &mut start);
+    }
+    let Ok(place) = method.settle(&mut curve, start) else {
+        return Err(Met::Nothing);
+    };
+    if place.is_beside_a_crossing() || measure.apart(&place.at, from) > 1e-6 {
+        return Err(Met::Nothing);
+    }
+    let rate = curve.part_rate(&place.at, &place.tangent);
+    if rate.abs() < 1e-9 {
+        return Err(Met::Fold(place.at, 0.0));
+    }
+    let place = if rate < 0.0 { place.reversed() } else { place };
+    Ok((curve, place))
+}
+
+/// Whether the neighbour is reached or the mode folds back before it, which is not located.
+pub(super) fn reach(
+    asked: &Asked,
+    measure: &Measure,
+    edge: &Edge,
+    from: &Configuration<f64>,
+) -> Met {
+    const STEPS: usize = 200;
+    /// A fold at less than this part of the way, as its parabola has it, is before the end.
+    const SURELY: f64 = 0.7;
+    /// Shorter steps are only needed where branches cross.
+    const SHORTEST: f64 = 1e-6;
+    let method = Continuation::default();
+    let (mut curve, mut place) = match begun(asked, measure, edge, from, &method, false) {
+        Ok(begun) => begun,
+        Err(met) => return met,
+    };
+    let ahead = |curve: &Curve, place: &Place<Configuration<f64>>| {
+        let rate = curve.part_rate(&place.at, &place.tangent);
+        (curve.part(&place.at), rate)
+    };
+    let (mut part, mut rate) = ahead(&curve, &place);
+    let mut length = (0.4 * (1.0 - part) / rate).min(method.longest);
+    for _ in 0..STEPS {
+        if length < SHORTEST {
+            return Met::Nothing;
+        }
+        let Ok((to, changed)) = method.step(&mut curve, &place, length) else {
+            length *= 0.5;
+            continue;
+        };
+        let (next, next_rate) = ahead(&curve, &to);
+        if next_rate <= 0.0 {
+            let top = part + 0.5 * rate * length * rate / (rate - next_rate);
+            return match top < SURELY {
+                true => Met::Fold(to.at, top),
+                false => walk(asked, measure, edge, from, Until::End),
+            };
+        }
+        if next >= 1.0 {
+            let mut left =
+                |curve: &mut Curve, p: &Place<Configuration<f64>>| curve.part(&p.at) - 1.0;
+            let end = method.root(&mut curve, &place, &to, &mut left);
+            return Met::Neighbour(end.at);
+        }
+        (place, part, rate) = (to, next, next_rate);
+        length = method
+            .next_length(length, changed)
+            .min(1.2 * (1.0 - part) / rate);
+        length = length.max(2.0 * SHORTEST);
+    }
+    Met::Nothing
+}
+
+/// What is met first on an edge, located to rounding.
 pub(super) fn walk(
     asked: &Asked,
     measure: &Measure,
@@ -50,29 +145,13 @@ pub(super) fn walk(
 ) -> Met {
     const LEGS: usize = 500;
     let mechanism = asked.mechanism;
-    let moved = Driven {
-        coordinate: asked.axes[edge.axis].coordinate,
-        from: edge.values[edge.axis],
-        to: edge.to,
-    };
-    let held = asked.at(&edge.values).without(moved.coordinate).held();
-    let mut curve = Curve::along(mechanism, &held, vec![moved]);
+    let moved = edge.moved(asked);
     let method = Continuation::default();
-    let mut start = asked.put(from, &edge.values);
-    if until == Until::Limit {
-        Walk::within_limits(mechanism, &mut start);
-    }
-    let Ok(place) = method.settle(&mut curve, start) else {
-        return Met::Nothing;
+    let within = until == Until::Limit;
+    let (mut curve, place) = match begun(asked, measure, edge, from, &method, within) {
+        Ok(begun) => begun,
+        Err(met) => return met,
     };
-    if place.is_beside_a_crossing() || measure.apart(&place.at, from) > 1e-6 {
-        return Met::Nothing;
-    }
-    let rate = curve.part_rate(&place.at, &place.tangent);
-    if rate.abs() < 1e-9 {
-        return Met::Fold(place.at, 0.0);
-    }
-    let place = if rate < 0.0 { place.reversed() } else { place };
     let monitors: Vec<Monitor> = match until {
         Until::Singular(locks) => {
             let mut locked = Locked::new(mechanism, locks);

@@ -1,7 +1,7 @@
 //! Spreading over the grid from seeds: every node in every mode that regular steps lead to.
 
 use super::asked::Asked;
-use super::edge::{Edge, Met, Until, walk};
+use super::edge::{Edge, Met, reach};
 use super::grid::Grid;
 use super::step::{Arrival, Measure, SURE, Start, Steps};
 use crate::linear::Factorable;
@@ -28,8 +28,8 @@ pub(super) enum Link {
     Open,
     /// To this sheet there, by regular motion.
     To(usize),
-    /// The mode folds back after this part of the way.
-    Fold(f64),
+    /// The mode folds back before the neighbour.
+    Fold,
     /// No sure step leads on.
     Stuck,
 }
@@ -39,8 +39,6 @@ pub(super) struct Filled {
     pub sheets: Vec<Sheet>,
     /// For each node its sheets.
     pub of_node: Vec<Vec<usize>>,
-    /// Folds: the sheet, the direction, the configuration.
-    pub folds: Vec<(usize, usize, Configuration<f64>)>,
     /// For each sheet the first of those connected with it.
     pub roots: Vec<usize>,
     /// Whether there were more sheets than may be kept.
@@ -75,7 +73,6 @@ impl Fill<'_> {
         let mut filled = Filled {
             sheets: Vec::new(),
             of_node: vec![Vec::new(); self.grid.len()],
-            folds: Vec::new(),
             roots: Vec::new(),
             overflow: false,
         };
@@ -244,63 +241,80 @@ impl Fill<'_> {
         tasks: &[Task],
     ) -> Vec<End> {
         let jobs: Vec<&[Task]> = tasks.chunks(JOB).collect();
-        let ends = each(jobs.len(), steps, |steps, i| {
-            let starts: Vec<Start> = (jobs[i].iter())
-                .map(|&(s, d)| {
-                    let sheet = &filled.sheets[s];
-                    let (guess, length, _) = self.ahead(sheet, d);
-                    let node = self.grid.neighbour(sheet.node, d).unwrap_or(sheet.node);
-                    Start {
-                        guess,
-                        reach: SURE * length,
-                        values: self.grid.values(node),
-                    }
-                })
+        let arrivals = each(jobs.len(), steps, |steps, i| {
+            let starts: Vec<Start> = jobs[i]
+                .iter()
+                .map(|task| self.start(filled, *task))
                 .collect();
             let packs = starts.chunks(T::WIDTH);
-            let arrivals: Vec<_> = packs.flat_map(|pack| steps.settle(pack)).collect();
-            let ends = arrivals.into_iter().zip(jobs[i]).zip(&starts);
-            ends.map(|((arrival, task), start)| {
+            let arrivals = packs.flat_map(|pack| steps.settle(pack));
+            let sure = arrivals.zip(jobs[i]).map(|(arrival, task)| {
                 let from = &filled.sheets[task.0].arrival.motions;
-                match arrival.filter(|to| self.measure.alike(from, &to.motions)) {
-                    Some(arrival) => End::Arrived(arrival),
-                    None => self.walked(steps, filled, *task, start),
-                }
-            })
-            .collect::<Vec<End>>()
+                arrival.filter(|to| self.measure.alike(from, &to.motions))
+            });
+            sure.collect::<Vec<Option<Arrival>>>()
         });
-        ends.into_iter().flatten().collect()
-    }
-
-    /// The same step by smaller ones.
-    fn walked<T: Factorable + Packed>(
-        &self,
-        steps: &mut Steps<T>,
-        filled: &Filled,
-        (s, d): Task,
-        start: &Start,
-    ) -> End {
-        let sheet = &filled.sheets[s];
-        let edge = Edge {
-            axis: d / 2,
-            values: self.grid.values(sheet.node),
-            to: start.values[d / 2],
-        };
-        let from = &sheet.arrival.at;
-        match walk(self.asked, self.measure, &edge, from, Until::End) {
-            Met::Neighbour(at) => {
-                let start = Start {
-                    guess: at,
+        let arrivals: Vec<Option<Arrival>> = arrivals.into_iter().flatten().collect();
+        // the others by smaller steps, each of which takes as long as hundreds of these
+        let unsure = tasks
+            .iter()
+            .zip(&arrivals)
+            .filter(|(_, arrival)| arrival.is_none());
+        let unsure: Vec<Task> = unsure.map(|(task, _)| *task).collect();
+        let met = each(unsure.len(), &(), |(), i| {
+            let (s, d) = unsure[i];
+            let edge = Edge {
+                axis: d / 2,
+                values: self.grid.values(filled.sheets[s].node),
+                to: self.start_values(filled, (s, d))[d / 2],
+            };
+            reach(
+                self.asked,
+                self.measure,
+                &edge,
+                &filled.sheets[s].arrival.at,
+            )
+        });
+        let again: Vec<Start> = (unsure.iter().zip(&met))
+            .filter_map(|(task, met)| match met {
+                Met::Neighbour(at) => Some(Start {
+                    guess: at.clone(),
                     reach: 1e-3,
-                    values: start.values.clone(),
-                };
-                match steps.settle(&[start]).pop().flatten() {
+                    values: self.start_values(filled, *task),
+                }),
+                _ => None,
+            })
+            .collect();
+        let mut again = self.settled(steps, &again).into_iter();
+        let mut met = met.into_iter();
+        let ends = arrivals.into_iter().map(|arrival| {
+            if let Some(arrival) = arrival {
+                return End::Arrived(arrival);
+            }
+            match met.next() {
+                Some(Met::Neighbour(_)) => match again.next().flatten() {
                     Some(arrival) => End::Arrived(arrival),
                     None => End::Stuck,
-                }
+                },
+                Some(Met::Fold(..)) => End::Fold,
+                _ => End::Stuck,
             }
-            Met::Fold(at, part) => End::Fold(at, part),
-            _ => End::Stuck,
+        });
+        ends.collect()
+    }
+
+    fn start_values(&self, filled: &Filled, (s, d): Task) -> Vec<f64> {
+        let node = filled.sheets[s].node;
+        self.grid
+            .values(self.grid.neighbour(node, d).unwrap_or(node))
+    }
+
+    fn start(&self, filled: &Filled, (s, d): Task) -> Start {
+        let (guess, length, _) = self.ahead(&filled.sheets[s], d);
+        Start {
+            guess,
+            reach: SURE * length,
+            values: self.start_values(filled, (s, d)),
         }
     }
 
@@ -320,10 +334,7 @@ impl Fill<'_> {
                 };
                 link(filled, s, d, t);
             }
-            End::Fold(at, part) => {
-                filled.sheets[s].links[d] = Link::Fold(part);
-                filled.folds.push((s, d, at));
-            }
+            End::Fold => filled.sheets[s].links[d] = Link::Fold,
             End::Stuck => filled.sheets[s].links[d] = Link::Stuck,
         }
     }
@@ -331,7 +342,7 @@ impl Fill<'_> {
 
 enum End {
     Arrived(Arrival),
-    Fold(Configuration<f64>, f64),
+    Fold,
     Stuck,
 }
 

@@ -25,7 +25,6 @@ pub(super) struct Rates<T: Factorable> {
     moved: Vec<usize>,
     right: Vec<T>,
     columns: Vec<T>,
-    length: f64,
 }
 
 /// A coordinate and the first of the unknowns it depends on.
@@ -90,7 +89,6 @@ impl<T: Factorable + Packed> Rates<T> {
             right: vec![T::zero(); all],
             columns: vec![T::zero(); columns * asked.held.len()],
             work: system.work(),
-            length: mechanism.characteristic_length(),
             system,
         }
     }
@@ -104,7 +102,7 @@ impl<T: Factorable + Packed> Rates<T> {
             Holdable::Joint(_) => vec![T::one()],
             Holdable::Coordinate(platform, c) => {
                 let pose = at.platforms[platform].pose();
-                c.row(&pose, T::zero(), self.length).1.to_vec()
+                c.slope(&pose).to_vec()
             }
             Holdable::Turn(_, axis) => {
                 let one = |i: usize| {
