@@ -137,7 +137,11 @@ mod tests {
             let cut = |node: usize, direction: usize| {
                 let values = grid.values(node);
                 let (along, across) = (values[direction / 2], values[1 - direction / 2]);
-                let sign = if direction % 2 == 0 { -1.0 } else { 1.0 };
+                let sign = if direction.is_multiple_of(2) {
+                    -1.0
+                } else {
+                    1.0
+                };
                 ((1.0 - across * across).sqrt() - sign * along) / grid.spacing(0)
             };
             size(&grid, &inside, &cut)

@@ -105,9 +105,13 @@ mod tests {
         let grid = Grid::new(&[axis(1.0), axis(2.0), axis(3.0)], &[3, 4, 5]);
         for node in 0..grid.len() {
             let here = grid.values(node);
-            for direction in 0..6 {
+            for direction in 0..6usize {
                 let axis = direction / 2;
-                let sign = if direction % 2 == 0 { -1.0 } else { 1.0 };
+                let sign = if direction.is_multiple_of(2) {
+                    -1.0
+                } else {
+                    1.0
+                };
                 let wanted = here[axis] + sign * grid.spacing(axis);
                 match grid.neighbour(node, direction) {
                     Some(other) => {
