@@ -586,6 +586,42 @@ fn the_place_where_a_mode_ends_is_known_to_the_last_digits() {
     }
 }
 
+/// The rocker of the crank-rocker turns back where crank and coupler are in line:
+/// (l1 + l2)² = l0² + l3² + 2 l0 l3 cos φ. A way that leads far beyond must not miss that, though the
+/// Jacobian is singular all along φ₂ = 0 and does not see there that nothing closes.
+#[test]
+fn no_mode_goes_on_beyond_its_fold_through_what_does_not_close() {
+    let linkage = with("four_bar", &[]);
+    let fold_at = (-0.625f64).acos();
+    for (mode, tenths) in [1, 2]
+        .into_iter()
+        .flat_map(|m| (1..22).map(move |k| (m, k)))
+    {
+        let asked_for = format!("{}", 0.1 * f64::from(tenths));
+        let question = asked(&linkage, &["theta1"], &[("phi1", &asked_for)]);
+        let Followed::Fold(fold) = followed(&question, mode) else {
+            panic!("mode {mode} ends before {asked_for}");
+        };
+        let phi = *fold.inputs.get("phi1").unwrap();
+        assert!(fold.turns_back, "mode {mode} to {asked_for}: {phi}");
+        assert!((phi - fold_at).abs() < 1e-12, "mode {mode}: {phi}");
+    }
+    let question = asked(&linkage, &["theta1"], &[("phi1", "2.3")]);
+    assert!(matches!(followed(&question, 1), Followed::Arrived(_)));
+}
+
+/// Whatever roll and pitch are, the three planes of the legs leave the platform the yaw
+/// atan2(sin p sin r, cos p + cos r) or half a turn more, and each leg may point either way.
+#[test]
+fn single_angles_near_the_pitch_of_a_right_angle_lose_no_assembly() {
+    let platform = with("three_rps", &[]);
+    for pitch in ["80 deg", "89.999 deg", "89.9997 deg", "89.9999 deg"] {
+        let held = [("top.z", "0.4"), ("top.pitch", pitch), ("top.roll", "0.1")];
+        let report = answer(&asked(&platform, &["actuated"], &held), 1);
+        assert_eq!(report.assemblies.len(), 16, "{pitch}");
+    }
+}
+
 #[test]
 fn a_mode_that_is_double_at_home_is_not_followed_along_a_branch_of_its_own_choice() {
     let linkage = with("parallelogram", &[]);

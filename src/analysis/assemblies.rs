@@ -130,7 +130,11 @@ impl std::fmt::Display for AssembliesError {
                 f,
                 "the stored solutions belong to other dimensions or to another choice of inputs"
             ),
-            AssembliesError::NoSuchMode(0) => write!(f, "there is no assembly at the home inputs"),
+            AssembliesError::NoSuchMode(0) => write!(
+                f,
+                "there is no assembly at the home inputs for a mode to be followed from: \
+                 `linkwork assemblies` lists those at the inputs asked for"
+            ),
             AssembliesError::NoSuchMode(n) => {
                 write!(
                     f,

@@ -8,9 +8,10 @@ use super::fold::located;
 use super::generic::polish;
 use super::real::real_solution;
 use super::report::Named;
+use super::way::Way;
 use crate::mechanism::{Configuration, Mechanism};
 use crate::number::Number;
-use crate::solve::{Arrival, Stages, Tracker};
+use crate::solve::{Arrival, Homotopy, Stages, Tracker};
 use crate::system::{Held, System};
 
 /// Where a mode went when its inputs changed.
@@ -72,7 +73,8 @@ pub(super) fn follow(
         max_steps: 20_000,
         ..Tracker::default().tightened(0.05)
     };
-    let track = tracker.track(&mut way, whole, &mut x, &mut Stages::new(c.count()));
+    let mut stages = Stages::new(c.count());
+    let track = tracker.track(&mut Assembled(&mut way), whole, &mut x, &mut stages);
     let (mut done, mut turns_back) = match track.arrival {
         Arrival::There => (1.0, false),
         Arrival::Stuck(at) | Arrival::Diverged(at) => (at, false),
@@ -108,6 +110,44 @@ pub(super) fn follow(
         joints: Named(joints.zip(last.joints.iter().map(|z| z.re)).collect()),
         turns_back,
     }))
+}
+
+/// A way that is left where the closures open.
+///
+/// Beyond a fold nothing closes, but where the Jacobian is singular the least-squares step takes no
+/// notice of the gap that is left: without this, a path may go on through configurations that are
+/// singular instead of assembled.
+struct Assembled<'w, 'f>(&'w mut Way<'f>);
+
+impl Homotopy for Assembled<'_, '_> {
+    fn settle(&self, x: &mut [C]) {
+        self.0.settle(x);
+    }
+
+    fn velocity(&mut self, s: C, x: &[C], out: &mut [C]) -> bool {
+        self.0.velocity(s, x, out)
+    }
+
+    fn velocity_again(&mut self, s: C, x: &[C], out: &mut [C]) -> bool {
+        self.0.velocity_again(s, x, out)
+    }
+
+    fn correct(&mut self, s: C, x: &mut [C]) -> f64 {
+        /// A gap is that much larger than a step that leaves it open; slopes are near 1.
+        const UNSEEN: f64 = 1e3;
+        /// What rounding leaves of a gap.
+        const ROUNDING: f64 = 1e-10;
+        let gap = self.0.residual(s, x);
+        let step = self.0.correct(s, x);
+        match gap > ROUNDING && gap > UNSEEN * step {
+            true => f64::NAN,
+            false => step,
+        }
+    }
+
+    fn residual(&mut self, s: C, x: &[C]) -> f64 {
+        self.0.residual(s, x)
+    }
 }
 
 /// Names of the flat inputs.

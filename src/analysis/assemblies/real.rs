@@ -2,7 +2,7 @@
 
 use super::coordinates::{C, Coordinates, size};
 use crate::geometry::RollPitchYaw;
-use crate::mechanism::{Configuration, Mechanism};
+use crate::mechanism::{Configuration, Coordinate, Mechanism};
 use crate::number::Number;
 use crate::solve::{Equations, Newton, Stop};
 use crate::system::{System, Work};
@@ -38,8 +38,9 @@ pub(super) fn real_solution(
         point.platforms[p].orientation = point.platforms[p].orientation.normalised();
     }
     // far away rounding leaves more
+    let left = ROUNDING * scale / steepness(&point, coordinates);
     let newton = Newton {
-        tolerance: Newton::default().tolerance.max(ROUNDING * scale),
+        tolerance: Newton::default().tolerance.max(left),
         ..Newton::default()
     };
     if singular {
@@ -51,6 +52,15 @@ pub(super) fn real_solution(
     let reached = coordinates.flatten(&point.map(C::from_f64));
     let near = coordinates.difference(x, &reached) <= 2e-5 * scale;
     (report.stop == Stop::Solved && near).then(|| tidied(point, coordinates, true))
+}
+
+/// The least cos(pitch) of platforms with a roll or yaw held: by it these angles, and their rows, are
+/// turned more than the platform is.
+fn steepness(point: &Configuration<f64>, coordinates: &Coordinates) -> f64 {
+    let turning = |c: &Coordinate| matches!(c, Coordinate::Roll | Coordinate::Yaw);
+    let targets = coordinates.targets.iter().filter(|(_, c)| turning(c));
+    let steepest = targets.map(|&(p, _)| Coordinate::Pitch.of(&point.platforms[p].pose()).cos());
+    steepest.fold(1.0, |least, cos| least.min(cos.abs()).max(f64::EPSILON))
 }
 
 /// −π and π are one angle, and rounding must not decide which is printed: angles this near to −π are
