@@ -32,7 +32,7 @@ impl Default for FormulasSettings {
         FormulasSettings {
             transform: None,
             numbers: vec![],
-            most_products: 60_000,
+            most_products: 40_000,
             most_terms: 400,
         }
     }
