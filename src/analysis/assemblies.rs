@@ -23,6 +23,7 @@ mod follow;
 mod generic;
 mod local;
 mod path;
+mod place;
 mod real;
 mod report;
 mod seed;

@@ -148,8 +148,17 @@ impl Reporter<'_> {
             gaps: Gap::of(self.mechanism, &attempt.at),
             idle: 0,
             count: self.count,
-            configuration: attempt.at,
+            configuration: self.by_limits(attempt.at),
         }
+    }
+
+    /// Angles that were solved for by the turn that is within their limits, if one is.
+    fn by_limits(&self, mut at: Configuration<f64>) -> Configuration<f64> {
+        let held = &self.search.held().joints;
+        for j in (0..held.len()).filter(|&j| !held[j]) {
+            at.joints[j] = self.mechanism.by_limits(j, at.joints[j]);
+        }
+        at
     }
 
     fn assembled(&self, attempt: Attempt) -> AssemblyReport {

@@ -64,18 +64,13 @@ pub fn tree_of(mechanism: &Mechanism, at: &Configuration<f64>) -> (Tree, Vec<Rem
 fn within_limits(mechanism: &Mechanism, at: &Configuration<f64>) -> Vec<f64> {
     let joints = mechanism.joints().iter().zip(&at.joints).enumerate();
     let value = |(i, (joint, &value)): (usize, (&crate::mechanism::Joint, &f64))| {
-        let turn = std::f64::consts::TAU;
+        let turned = mechanism.by_limits(i, value);
         match joint.limits {
-            Some((low, high)) if !(low..=high).contains(&value) && mechanism.repeats(i) => {
-                // as near to the lower limit as whole turns allow, but for rounding
-                let first = value + turn * ((low - 1e-9 - value) / turn).ceil();
-                if first <= high + 1e-9 {
-                    first.clamp(low, high)
-                } else {
-                    value
-                }
+            // but for rounding
+            Some((low, high)) if mechanism.repeats(i) && joint.allows(value) => {
+                turned.clamp(low, high)
             }
-            _ => value,
+            _ => turned,
         }
     };
     joints.map(value).collect()

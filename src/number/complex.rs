@@ -1,4 +1,4 @@
-use super::{Complex, Field, Number};
+use super::{Complex, Field, Number, trigonometry};
 
 impl Number for Complex<f64> {
     const REAL: bool = false;
@@ -13,8 +13,8 @@ impl Number for Complex<f64> {
     }
     /// sin(x + iy) = sin x cosh y + i cos x sinh y, cos(x + iy) = cos x cosh y − i sin x sinh y.
     fn sin_cos(self) -> (Self, Self) {
-        let (sin, cos) = pxfm::f_sincos(self.re);
-        let (sinh, cosh) = (pxfm::f_sinh(self.im), pxfm::f_cosh(self.im));
+        let (sin, cos) = trigonometry::sin_cos(self.re);
+        let (sinh, cosh) = trigonometry::sinh_cosh(self.im);
         (
             Complex::new(sin * cosh, cos * sinh),
             Complex::new(cos * cosh, -sin * sinh),

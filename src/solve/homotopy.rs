@@ -34,6 +34,8 @@ pub struct Tracker {
     pub correction: f64,
     /// A second correction must be smaller than the first by this factor.
     pub contraction: f64,
+    /// The step tried first, as a fraction of the way.
+    pub first: f64,
     /// Steps shorter than this fraction of the way end it.
     pub shortest: f64,
     /// Steps after which to give up, tried and accepted.
@@ -47,6 +49,7 @@ impl Default for Tracker {
         Tracker {
             correction: 2e-3,
             contraction: 0.1,
+            first: 0.5,
             shortest: 1e-7,
             max_steps: 500,
             largest: 1e5,
@@ -60,6 +63,7 @@ impl Tracker {
         Tracker {
             correction: self.correction * factor,
             contraction: self.contraction * factor.sqrt().max(0.1),
+            first: self.first * 0.2,
             shortest: self.shortest * factor * factor,
             max_steps: self.max_steps * 4,
             ..self.clone()
@@ -130,7 +134,7 @@ impl Tracker {
         stages: &mut Stages,
     ) -> Track {
         let way = to - from;
-        let (mut done, mut length) = (0.0, 0.1);
+        let (mut done, mut length) = (0.0, self.first);
         let (mut steps, mut evaluations) = (0, 0);
         let mut moving = false;
         let Stages { k, stage, next } = stages;

@@ -10,6 +10,9 @@ where
     R: Send,
 {
     use rayon::prelude::*;
+    if count < 2 {
+        return (0..count).map(|i| f(&mut storage.clone(), i)).collect();
+    }
     let pieces = (0..count).into_par_iter();
     pieces
         .map_init(|| storage.clone(), |storage, i| f(storage, i))

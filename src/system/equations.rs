@@ -134,6 +134,17 @@ impl<T: Factorable> System<T> {
         }
     }
 
+    /// Makes storage of a system that differs in its dimensions only serve this one.
+    ///
+    /// Factors last made stay, those of the other system.
+    pub fn refit(&self, work: &mut Work<T>) {
+        match self.empty.blocks().eq(work.jacobian.blocks()) {
+            true => work.placement = self.kinematics.placement(),
+            // a coefficient that is zero there and not here
+            false => *work = self.work(),
+        }
+    }
+
     /// The unknowns in the order of the Jacobian's columns.
     pub fn unknowns(&self) -> &[Unknown] {
         &self.unknowns

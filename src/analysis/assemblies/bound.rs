@@ -76,8 +76,9 @@ impl<'a> Structure<'a> {
         let dimensions = family.dimensions(&member.parameters)?;
         let mut way = family.way(&member, &member)?;
         way.linearise(C::from_f64(0.0), &family.random_point(&mut rng, 1.0));
-        let axes = way.system.axes(&way.at, &mut way.work);
-        let links = dimensions.closures.iter().zip(way.system.felt_joints());
+        let here = &mut way.here;
+        let axes = here.system.axes(&here.at, &mut here.work);
+        let links = dimensions.closures.iter().zip(here.system.felt_joints());
         let links = links.zip(axes).map(|((closure, mut feels), axes)| {
             feels.sort_unstable();
             feels.dedup();

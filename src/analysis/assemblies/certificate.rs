@@ -213,24 +213,31 @@ impl Certifier {
 fn spreads(inverse: &DMatrix<f64>, jacobian: &[Interval]) -> Vec<f64> {
     let n = inverse.nrows();
     let error = 4.0 * (n + 2) as f64 * f64::EPSILON;
-    let middle = |x: &Interval| 0.5 * x.low + 0.5 * x.high;
-    let middles = DMatrix::from_iterator(n, n, jacobian.iter().map(middle));
-    let radius = |x: &Interval| (x.high - middle(x)).max(middle(x) - x.low).next_up();
-    let radii = DMatrix::from_iterator(n, n, jacobian.iter().map(radius));
-    let sizes = inverse.abs();
-    let product = inverse * &middles;
-    let around = &sizes * &radii;
-    let summed = &sizes * middles.abs();
-    let spread = (0..n).map(|i| {
-        let row = (0..n).map(|j| {
+    let mut spread = vec![0.0; n];
+    let (mut product, mut around, mut summed) = (vec![0.0; n], vec![0.0; n], vec![0.0; n]);
+    let columns = || inverse.as_slice().chunks_exact(n);
+    for (j, jacobian) in jacobian.chunks_exact(n).enumerate() {
+        for sums in [&mut product, &mut around, &mut summed] {
+            sums.fill(0.0);
+        }
+        for (x, column) in jacobian.iter().zip(columns()) {
+            let middle = 0.5 * x.low + 0.5 * x.high;
+            let radius = (x.high - middle).max(middle - x.low).next_up();
+            for (i, c) in column.iter().enumerate() {
+                product[i] += c * middle;
+                around[i] += c.abs() * radius;
+                summed[i] += c.abs() * middle.abs();
+            }
+        }
+        for (i, spread) in spread.iter_mut().enumerate() {
             let one = if i == j { 1.0 } else { 0.0 };
-            let rounding = error * (summed[(i, j)] + 1.0);
-            (one - product[(i, j)]).abs() + around[(i, j)] + rounding
-        });
-        // all terms are positive: what is lost of their sum is a part of it
-        row.sum::<f64>() * (1.0 + error) + f64::MIN_POSITIVE
-    });
-    spread.collect()
+            let rounding = error * (summed[i] + 1.0);
+            *spread += (one - product[i]).abs() + around[i] + rounding;
+        }
+    }
+    // all terms are positive: what is lost of their sum is a part of it
+    let whole = |sum: f64| sum * (1.0 + error) + f64::MIN_POSITIVE;
+    spread.into_iter().map(whole).collect()
 }
 
 fn square(x: Interval) -> Interval {

@@ -74,6 +74,10 @@ impl Question<'_> {
                 (None, _) => Certificate::Failed("not asked for"),
             };
             let joints = self.mechanism.joints().iter().zip(&f.point.joints);
+            let outside_limits: Vec<String> = joints
+                .filter(|(joint, value)| !joint.allows(**value))
+                .map(|(joint, _)| joint.name.clone())
+                .collect();
             report.assemblies.push(Assembly {
                 mode: k + 1,
                 joints: named_joints(self.mechanism, &f.point),
@@ -94,9 +98,8 @@ impl Question<'_> {
                     )),
                     Certificate::Failed(reason) => Some(reason.into()),
                 },
-                within_limits: joints
-                    .into_iter()
-                    .all(|(joint, value)| joint.allows(*value)),
+                within_limits: outside_limits.is_empty(),
+                outside_limits,
                 shares_platform_pose_with: (0..found.len())
                     .filter(|&i| i != k && shares_pose(self.coordinates, &f.key, &found[i].key))
                     .map(|i| i + 1)

@@ -8,8 +8,7 @@ use super::coordinates::{C, Coordinates};
 use crate::geometry::{Quaternion, Vector3};
 use crate::mechanism::{Configuration, Dimensions, Mechanism};
 use crate::number::Number;
-
-use crate::system::{Held, HeldPlatform};
+use crate::system::{Held, HeldPlatform, System};
 
 /// A member: values of the independent parameters and of the inputs.
 #[derive(Clone, Debug, PartialEq)]
@@ -27,6 +26,8 @@ pub(super) struct Family {
     /// Values the mechanism itself has.
     pub parameters: Vec<C>,
     pub home: Configuration<f64>,
+    /// The equations with these values, if all expressions have one.
+    own: Option<System<C>>,
 }
 
 fn uniform(rng: &mut Pcg64) -> f64 {
@@ -59,7 +60,7 @@ impl Family {
         });
         let independent = mechanism.independent_parameters();
         let value = |i: usize| C::from_f64(mechanism.parameters()[i].value);
-        Family {
+        let mut family = Family {
             coordinates: Coordinates::new(mechanism, held),
             held: Held {
                 joints: held.joints.clone(),
@@ -68,6 +69,17 @@ impl Family {
             parameters: independent.into_iter().map(value).collect(),
             home: mechanism.home(),
             mechanism: mechanism.clone(),
+            own: None,
+        };
+        family.own = family.system(&family.parameters);
+        family
+    }
+
+    /// The equations of members with these parameters. `None` if an expression has no value.
+    pub fn system(&self, parameters: &[C]) -> Option<System<C>> {
+        match &self.own {
+            Some(own) if parameters == self.parameters => Some(own.clone()),
+            _ => Some(System::new(&self.dimensions(parameters)?, &self.held)),
         }
     }
 

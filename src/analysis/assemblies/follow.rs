@@ -6,7 +6,7 @@ use super::coordinates::C;
 use super::family::{Family, Member};
 use super::fold::located;
 use super::generic::polish;
-use super::real::real_solution;
+use super::real::{named_joints, real_solution};
 use super::report::Named;
 use super::way::Way;
 use crate::mechanism::{Configuration, Mechanism};
@@ -91,14 +91,18 @@ pub(super) fn follow(
     if arrived {
         let system = System::new(mechanism.dimensions(), to.1);
         let point = real_solution(&x, false, c, &system, &mut system.work(), to.0);
-        return point.map(Followed::Arrived);
+        return point.map(|mut point| {
+            for (j, value) in point.joints.iter_mut().enumerate() {
+                *value = mechanism.by_limits(j, *value);
+            }
+            Followed::Arrived(point)
+        });
     }
     let mut last = from.0.map(C::from_f64);
     c.unflatten(&x, &mut last);
     for (&j, value) in c.held_joints.iter().zip(&inputs) {
         last.joints[j] = C::from_f64(*value);
     }
-    let joints = mechanism.joints().iter().map(|j| j.name.clone());
     Some(Followed::Fold(Fold {
         fraction: done,
         inputs: Named(
@@ -107,7 +111,7 @@ pub(super) fn follow(
                 .zip(inputs)
                 .collect(),
         ),
-        joints: Named(joints.zip(last.joints.iter().map(|z| z.re)).collect()),
+        joints: named_joints(mechanism, &last.map(|z| z.re)),
         turns_back,
     }))
 }

@@ -174,7 +174,7 @@ impl Search<'_> {
                 let random = way.family.random_point(&mut rng, 1.0);
                 places.iter().for_each(|&place| x[place] = random[place]);
                 way.linearise(C::from_f64(0.0), &x);
-                let mut point = way.at.clone();
+                let mut point = way.here.at.clone();
                 let mut trial = point.clone();
                 let report = newton().solve(&system, &mut point, &mut trial, work);
                 let x = solution(way, &report, &point)?;

@@ -151,9 +151,12 @@ pub(super) fn order(a: &[f64], b: &[f64]) -> std::cmp::Ordering {
     different.map_or(std::cmp::Ordering::Equal, |(a, b)| a.total_cmp(b))
 }
 
+/// Joint values by name, angles by the turn that is within their limits if one is.
 pub(super) fn named_joints(mechanism: &Mechanism, point: &Configuration<f64>) -> Named<f64> {
     let names = mechanism.joints().iter().map(|j| j.name.clone());
-    Named(names.zip(point.joints.iter().copied()).collect())
+    let values = point.joints.iter().enumerate();
+    let values = values.map(|(j, value)| mechanism.by_limits(j, *value));
+    Named(names.zip(values).collect())
 }
 
 pub(super) fn named_poses(

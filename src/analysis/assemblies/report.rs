@@ -47,7 +47,8 @@ pub struct PoseReport {
 pub struct Assembly {
     /// Its number, from 1.
     pub mode: usize,
-    /// Joint values in rad or m.
+    /// Joint values in rad or m. Angles lie in (−π, π], or are that and whole turns where the limits
+    /// of the joint ask for it.
     pub joints: Named<f64>,
     /// Platform poses.
     pub platforms: Named<PoseReport>,
@@ -69,6 +70,8 @@ pub struct Assembly {
     pub uncertified_because: Option<String>,
     /// Whether all joints are within their limits.
     pub within_limits: bool,
+    /// Names of the joints that are not.
+    pub outside_limits: Vec<String>,
     /// Numbers of the other assemblies with the same pose of every platform.
     pub shares_platform_pose_with: Vec<usize>,
 }

@@ -58,9 +58,9 @@ pub(super) fn sow(way: &mut Way<'_>, reach: f64, rng: &mut Pcg64) -> Seed {
     let start = way.family.random_point(rng, reach);
     let zero = C::from_f64(0.0);
     way.linearise(zero, &start);
-    let mut point = way.at.clone();
+    let mut point = way.here.at.clone();
     let mut trial = point.clone();
-    let report = newton().solve(&way.system, &mut point, &mut trial, &mut way.work);
+    let report = newton().solve(&way.here.system, &mut point, &mut trial, &mut way.here.work);
     let Some(x) = solution(way, &report, &point) else {
         return Seed::Nothing;
     };
@@ -70,8 +70,13 @@ pub(super) fn sow(way: &mut Way<'_>, reach: f64, rng: &mut Pcg64) -> Seed {
     // Newton's method from beside a set of solutions ends elsewhere on it, but from beside solutions
     // that coincide at the same point again
     way.linearise(zero, &way.family.shaken(&x, 0.03, rng));
-    let mut beside = way.at.clone();
-    let report = newton().solve(&way.system, &mut beside, &mut trial, &mut way.work);
+    let mut beside = way.here.at.clone();
+    let report = newton().solve(
+        &way.here.system,
+        &mut beside,
+        &mut trial,
+        &mut way.here.work,
+    );
     let beside = way.family.coordinates.flatten(&beside);
     let apart = way.family.coordinates.difference(&x, &beside);
     match (report.stop == Stop::Solved, apart) {

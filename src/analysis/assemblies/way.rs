@@ -2,38 +2,25 @@
 
 use super::coordinates::C;
 use super::family::{Family, Member};
+use super::place::{Course, Place};
 use crate::geometry::{Quaternion, Vector3};
-use crate::mechanism::{Configuration, PlatformPose};
 use crate::number::Number;
 use crate::solve::{Equations, Homotopy};
-use crate::system::{System, Work};
 
 impl Family {
     /// The way from one member to another. `None` if an expression has no value at the start.
     pub fn way(&self, from: &Member, to: &Member) -> Option<Way<'_>> {
-        let system = System::new(&self.dimensions(&from.parameters)?, &self.held);
-        let difference = |a: &[C], b: &[C]| a.iter().zip(b).map(|(a, b)| b - a).collect::<Vec<C>>();
-        let change = Member {
-            parameters: difference(&from.parameters, &to.parameters),
-            inputs: difference(&from.inputs, &to.inputs),
-        };
-        let mut way = Way {
+        let course = Course::new(from, to);
+        let here = Place::start(self, &course)?;
+        let rows = vec![C::from_f64(0.0); here.system.rows()];
+        Some(Way {
             family: self,
-            work: system.work(),
-            at: self.home.map(C::from_f64),
-            rates: vec![C::from_f64(0.0); system.rows()],
-            residual: vec![C::from_f64(0.0); system.rows()],
-            inputs: from.inputs.clone(),
-            resized: change.parameters.iter().any(|x| x.norm_sqr() > 0.0),
-            system,
-            from: from.clone(),
-            change,
-            placed: None,
-            sound: true,
-            evaluations: 0,
-        };
-        way.place(C::from_f64(0.0));
-        Some(way)
+            rates: rows.clone(),
+            residual: rows,
+            here,
+            ahead: None,
+            course,
+        })
     }
 }
 
@@ -41,88 +28,39 @@ impl Family {
 #[derive(Clone, Debug)]
 pub(super) struct Way<'f> {
     pub family: &'f Family,
-    pub system: System<C>,
-    pub work: Work<C>,
-    /// The configuration last evaluated.
-    pub at: Configuration<C>,
+    /// Where the equations were last evaluated.
+    pub here: Place,
+    /// A little ahead of it, for the rate at which the residual changes on the way.
+    ahead: Option<Box<Place>>,
     rates: Vec<C>,
     residual: Vec<C>,
-    inputs: Vec<C>,
-    /// Whether dimensions change on the way; otherwise only inputs do.
-    resized: bool,
-    from: Member,
-    change: Member,
-    placed: Option<C>,
-    sound: bool,
-    evaluations: usize,
+    course: Course,
 }
 
 impl Way<'_> {
-    /// The member at `s` becomes the system's.
-    fn place(&mut self, s: C) {
-        if self.placed == Some(s) {
-            return;
-        }
-        self.placed = Some(s);
-        if self.resized {
-            let moved = self.from.parameters.iter().zip(&self.change.parameters);
-            let parameters: Vec<C> = moved.map(|(a, d)| a + d * s).collect();
-            let dimensions = self.family.dimensions(&parameters);
-            self.sound = dimensions.is_some();
-            if let Some(dimensions) = dimensions {
-                self.system = System::new(&dimensions, &self.family.held);
-                self.work = self.system.work();
-            }
-        }
-        for ((x, a), d) in self
-            .inputs
-            .iter_mut()
-            .zip(&self.from.inputs)
-            .zip(&self.change.inputs)
-        {
-            *x = a + d * s;
-        }
-        let c = &self.family.coordinates;
-        let (joints, rest) = self.inputs.split_at(c.held_joints.len());
-        for (&j, x) in c.held_joints.iter().zip(joints) {
-            self.at.joints[j] = *x;
-        }
-        let (poses, rest) = rest.split_at(7 * c.held_poses.len());
-        for (&p, x) in c.held_poses.iter().zip(poses.chunks_exact(7)) {
-            self.at.platforms[p] = PlatformPose {
-                orientation: Quaternion([x[0], x[1], x[2], x[3]]).normalised(),
-                position: Vector3([x[4], x[5], x[6]]),
-            };
-        }
-        let (targets, orientations) = rest.split_at(c.targets.len());
-        for (&(p, coordinate), x) in c.targets.iter().zip(targets) {
-            self.system.set_target(p, coordinate, *x);
-        }
-        for (&p, x) in c.orientations.iter().zip(orientations.chunks_exact(4)) {
-            let wanted = Quaternion([x[0], x[1], x[2], x[3]]).normalised();
-            self.system.set_orientation(p, wanted.rotation());
-        }
-    }
-
     fn load(&mut self, s: C, x: &[C]) {
-        self.place(s);
-        self.family.coordinates.unflatten(x, &mut self.at);
+        self.here.go(self.family, &self.course, s);
+        self.family.coordinates.unflatten(x, &mut self.here.at);
     }
 
     /// Evaluates and factorises at a point; returns the largest residual.
     pub fn linearise(&mut self, s: C, x: &[C]) -> f64 {
         self.load(s, x);
-        self.evaluations += 1;
-        let size = self.system.linearise(&self.at, &mut self.work);
-        self.system.factorise(0.0, &mut self.work);
+        let size = self
+            .here
+            .system
+            .linearise(&self.here.at, &mut self.here.work);
+        self.here.system.factorise(0.0, &mut self.here.work);
         size.largest
     }
 
     /// Quotient of the smallest and the largest pivot of the Jacobian at a point.
     pub fn regularity(&mut self, s: C, x: &[C]) -> f64 {
         self.load(s, x);
-        self.system.linearise(&self.at, &mut self.work);
-        let (largest, smallest) = self.system.pivots(&mut self.work);
+        self.here
+            .system
+            .linearise(&self.here.at, &mut self.here.work);
+        let (largest, smallest) = self.here.system.pivots(&mut self.here.work);
         if largest > 0.0 {
             smallest / largest
         } else {
@@ -132,12 +70,17 @@ impl Way<'_> {
 
     /// How far it is: the largest change of an input, in rad or characteristic lengths.
     pub fn length(&self) -> f64 {
-        self.measured(&self.change.inputs, |_| true)
+        self.measured(&self.course.change.inputs, |_| true)
     }
 
     /// The largest length held at the end, in characteristic lengths, and no less than 1.
     pub fn reach(&self) -> f64 {
-        let inputs = self.from.inputs.iter().zip(&self.change.inputs);
+        let inputs = self
+            .course
+            .from
+            .inputs
+            .iter()
+            .zip(&self.course.change.inputs);
         let end: Vec<C> = inputs.map(|(a, d)| a + d).collect();
         self.measured(&end, |length| length).max(1.0)
     }
@@ -158,21 +101,26 @@ impl Way<'_> {
 
     /// Number of dimensionless steps that move a point.
     pub fn unknowns(&self) -> usize {
-        self.system.unknowns().len()
+        self.here.system.unknowns().len()
     }
 
     /// Residual and dense Jacobian at a point, column-major.
     pub fn evaluated(&mut self, s: C, x: &[C]) -> (Vec<C>, Vec<C>) {
         self.load(s, x);
-        self.system.linearise(&self.at, &mut self.work);
-        let jacobian = self.system.dense_jacobian(&mut self.work);
-        (self.system.residual_of(&self.work).to_vec(), jacobian)
+        self.here
+            .system
+            .linearise(&self.here.at, &mut self.here.work);
+        let jacobian = self.here.system.dense_jacobian(&mut self.here.work);
+        (
+            self.here.system.residual_of(&self.here.work).to_vec(),
+            jacobian,
+        )
     }
 
     /// A point moved by dimensionless steps of the unknowns.
     pub fn moved(&mut self, s: C, x: &[C], step: &[C]) -> Vec<C> {
         self.load(s, x);
-        let moved = self.system.displaced(&self.at, step);
+        let moved = self.here.system.displaced(&self.here.at, step);
         let mut moved = self.family.coordinates.flatten(&moved);
         self.settle(&mut moved);
         moved
@@ -181,9 +129,9 @@ impl Way<'_> {
     /// The step that leads from one point to another.
     pub fn step_between(&mut self, s: C, x: &[C], y: &[C]) -> Vec<C> {
         self.load(s, x);
-        let from = self.at.clone();
+        let from = self.here.at.clone();
         self.load(s, y);
-        self.system.difference(&from, &self.at)
+        self.here.system.difference(&from, &self.here.at)
     }
 
     /// How far two points are apart as the closures see it at the first one: |J (y − x)|, each row
@@ -224,11 +172,11 @@ impl Way<'_> {
             .collect();
         self.linearise(s, x);
         // what Newton's method takes for lost it does not bring back
-        if self.system.undetermined(&self.work) > 0 {
+        if self.here.system.undetermined(&self.here.work) > 0 {
             return None;
         }
-        let longest = self.system.step_for(&error, &mut self.work);
-        let step = self.system.step_of(&self.work).to_vec();
+        let longest = self.here.system.step_for(&error, &mut self.here.work);
+        let step = self.here.system.step_of(&self.here.work).to_vec();
         longest.is_finite().then(|| self.moved(s, x, &step))
     }
 
@@ -248,39 +196,40 @@ impl Way<'_> {
     /// How many directions are free at a point.
     pub fn freedom(&mut self, s: C, x: &[C], tolerance: f64) -> usize {
         self.load(s, x);
-        self.system.linearise(&self.at, &mut self.work);
-        self.system.nullity(tolerance, &mut self.work)
+        self.here
+            .system
+            .linearise(&self.here.at, &mut self.here.work);
+        self.here.system.nullity(tolerance, &mut self.here.work)
     }
 
     /// dx/ds = −J⁺ ∂h/∂s by the factors last made. The residual is analytic in s, so a difference
     /// over 1e-7 is as good as a derivative for a prediction.
     fn velocity_by_factors(&mut self, s: C, x: &[C], out: &mut [C]) -> bool {
-        const APART: f64 = 1e-7;
         self.load(s, x);
-        self.system.residual(&self.at, &mut self.work);
-        self.residual
-            .copy_from_slice(self.system.residual_of(&self.work));
-        let work = self
-            .resized
-            .then(|| (self.system.clone(), self.work.clone()));
-        self.load(s + APART, x);
-        self.system.residual(&self.at, &mut self.work);
-        let after = self.system.residual_of(&self.work);
+        self.here
+            .system
+            .residual(&self.here.at, &mut self.here.work);
+        self.velocity_from_residual(s, x, out)
+    }
+
+    /// The same where the residual was evaluated last.
+    fn velocity_from_residual(&mut self, s: C, x: &[C], out: &mut [C]) -> bool {
+        const APART: f64 = 1e-7;
+        let here = &mut self.here;
+        (self.residual).copy_from_slice(here.system.residual_of(&here.work));
+        let ahead = self.ahead.get_or_insert_with(|| Box::new(here.clone()));
+        ahead.go(self.family, &self.course, s + APART);
+        self.family.coordinates.unflatten(x, &mut ahead.at);
+        ahead.system.residual(&ahead.at, &mut ahead.work);
+        let after = ahead.system.residual_of(&ahead.work);
         for ((rate, after), before) in self.rates.iter_mut().zip(after).zip(&self.residual) {
             *rate = (after - before) / APART;
         }
-        if let Some((system, work)) = work {
-            (self.system, self.work) = (system, work);
-        }
-        self.placed = None;
-        if !self
-            .system
-            .step_for(&self.rates, &mut self.work)
-            .is_finite()
-        {
+        let longest = here.system.step_for(&self.rates, &mut here.work);
+        if !longest.is_finite() || !ahead.sound {
             return false;
         }
-        let step = self.system.step_of(&self.work);
+        let step = self.here.system.step_of(&self.here.work);
         let joints = self.family.coordinates.free_joints.len();
         out[..joints].copy_from_slice(&step[..joints]);
         let poses = x[joints..]
@@ -304,15 +253,13 @@ impl Homotopy for Way<'_> {
     }
 
     fn velocity(&mut self, s: C, x: &[C], out: &mut [C]) -> bool {
-        self.linearise(s, x).is_finite() && self.sound && self.velocity_by_factors(s, x, out)
+        self.linearise(s, x).is_finite()
+            && self.here.sound
+            && self.velocity_from_residual(s, x, out)
     }
 
     fn velocity_again(&mut self, s: C, x: &[C], out: &mut [C]) -> bool {
-        match self.resized {
-            // changed dimensions have replaced the factors
-            true => self.velocity(s, x, out),
-            false => self.velocity_by_factors(s, x, out),
-        }
+        self.here.sound && self.velocity_by_factors(s, x, out)
     }
 
     fn correct(&mut self, s: C, x: &mut [C]) -> f64 {
@@ -320,11 +267,11 @@ impl Homotopy for Way<'_> {
         if !self.linearise(s, x).is_finite() {
             return f64::NAN;
         }
-        let longest = self.system.step(&mut self.work);
-        if !longest.is_finite() || !self.sound {
+        let longest = self.here.system.step(&mut self.here.work);
+        if !longest.is_finite() || !self.here.sound {
             return f64::NAN;
         }
-        let step = self.system.step_of(&self.work);
+        let step = self.here.system.step_of(&self.here.work);
         let joints = self.family.coordinates.free_joints.len();
         // in squares: roots are taken once
         let mut largest = 0.0f64;
@@ -360,7 +307,10 @@ impl Homotopy for Way<'_> {
 
     fn residual(&mut self, s: C, x: &[C]) -> f64 {
         self.load(s, x);
-        self.system.residual(&self.at, &mut self.work).largest
+        self.here
+            .system
+            .residual(&self.here.at, &mut self.here.work)
+            .largest
     }
 }
 

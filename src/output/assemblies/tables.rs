@@ -57,7 +57,10 @@ pub(super) fn overview(report: &AssembliesReport) -> String {
                 _ => "0",
             }
             .into(),
-            if a.within_limits { "within" } else { "outside" }.into(),
+            match a.outside_limits.is_empty() {
+                true => "within".into(),
+                false => format!("outside: {}", listed(&a.outside_limits)),
+            },
             certificate,
             match shared.is_empty() {
                 true => String::new(),
@@ -85,7 +88,8 @@ pub(super) fn joints(question: &Question, report: &AssembliesReport) -> Vec<Stri
             let values = free.iter().map(|&j| {
                 let angle = mechanism.joints()[j].kind.is_angle();
                 let text = quantity(settled(a.joints.0[j].1, mechanism, angle), angle);
-                if mechanism.repeats(j) {
+                // −180° may be within limits where 180° is not
+                if mechanism.repeats(j) && mechanism.joints()[j].limits.is_none() {
                     once(text)
                 } else {
                     text
