@@ -829,3 +829,61 @@ fn assemblies_that_are_not_isolated_are_not_denied() {
     let gaps = report.closest.unwrap().gaps;
     assert!(gaps.0.iter().any(|(_, gap)| gap.distance > 0.1), "{gaps:?}");
 }
+
+/// Limits that reach beyond half a turn, as those of PUMA robots do: joints are given by the turn
+/// that their limits mean, and those that no turn brings within them are named.
+#[test]
+fn joint_values_are_given_by_the_turn_that_is_within_limits() {
+    use linkwork::system::Gap;
+    let (mut turned, mut named) = (0, 0);
+    for name in ["puma560_modified", "puma560_standard", "puma560_corke"] {
+        let mechanism = mechanism(name);
+        let report = answer(&Question::new(&mechanism), 1);
+        assert_eq!(report.real, 8, "{name}");
+        for assembly in &report.assemblies {
+            let at = assembly.configuration(&mechanism.home());
+            let gaps = Gap::of(&mechanism, &at);
+            assert!(gaps.iter().all(|gap| gap.distance < 1e-9), "{name}");
+            for ((joint, value), declared) in assembly.joints.0.iter().zip(mechanism.joints()) {
+                let Some((low, high)) = declared.limits else {
+                    continue;
+                };
+                let within = |value: f64| value >= low - 1e-9 && value <= high + 1e-9;
+                let outside = assembly.outside_limits.contains(joint);
+                assert_eq!(within(*value), !outside, "{name} {joint} {value}");
+                if outside {
+                    let turns = [-TAU, 0.0, TAU].map(|turn| within(value + turn));
+                    assert_eq!(turns, [false; 3], "{name} {joint} {value}");
+                    named += 1;
+                }
+                turned += usize::from(value.abs() > PI);
+            }
+            assert_eq!(
+                assembly.within_limits,
+                assembly.outside_limits.is_empty(),
+                "{name}"
+            );
+        }
+    }
+    assert!(turned > 0, "some value needs a turn");
+    assert!(named > 0, "some mode is outside limits");
+}
+
+/// A mode that is followed comes by the same turns as it is listed.
+#[test]
+fn a_mode_that_is_followed_has_the_turns_of_the_list() {
+    let mechanism = mechanism("puma560_modified");
+    let question = Question::new(&mechanism);
+    let solver = solver(&question, 1);
+    let (start, held) = (question.start(), question.held());
+    let report = solver.at_targets(&start, &held, Wanted::default());
+    for assembly in report.assemblies.iter().filter(|a| a.multiplicity == 1) {
+        let followed = solver.follow(assembly.mode, &start, &held).unwrap();
+        let Followed::Arrived(at) = followed else {
+            panic!("home is where it starts");
+        };
+        for (value, (name, listed)) in at.joints.iter().zip(&assembly.joints.0) {
+            assert!((value - listed).abs() < 1e-9, "{name}: {value} {listed}");
+        }
+    }
+}

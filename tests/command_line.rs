@@ -272,6 +272,51 @@ fn wrong_command_lines_are_refused() {
 }
 
 #[test]
+fn a_number_that_is_none_is_told_what_it_should_be() {
+    for value in ["x", "-1", "0", "1.5"] {
+        let said = refusal(&["solve", FOUR_BAR, "--mode", value]);
+        let wanted = "a mode is a whole number from 1 on, as `linkwork assemblies` numbers them";
+        assert!(said.contains(wanted), "{said}");
+    }
+    let said = refusal(&["solve", FOUR_BAR, "--mode", "3"]);
+    assert!(said.contains("home inputs have modes 1 to 2"), "{said}");
+    for command in ["solve", "assemblies", "mobility", "compare"] {
+        let said = refusal(&[command, FOUR_BAR, "--seed", "-1"]);
+        assert!(
+            said.contains("a seed is a whole number from 0 to"),
+            "{said}"
+        );
+    }
+    answer(&["solve", FOUR_BAR, "--mode", "2", "--seed", "0"]);
+}
+
+#[test]
+fn a_frame_that_stands_on_ground_has_no_velocity() {
+    let said = refusal(&["velocity", FOUR_BAR, "--point", "ground"]);
+    assert!(said.contains("ground does not move"), "{said}");
+    answer(&["velocity", FOUR_BAR, "--point", "left"]);
+}
+
+/// Isolated assemblies are no samples, and what ends in a set of assemblies is no path.
+#[test]
+fn the_first_sentence_tells_isolated_assemblies_from_samples() {
+    let said = stdout(&run(&["assemblies", "mechanisms/peaucellier.ron"]));
+    let sentence = "4 isolated assemblies and 6 samples of the others.";
+    assert!(said.contains(sentence), "{said}");
+    let said = stdout(&run(&["assemblies", "mechanisms/two_rhombi.ron"]));
+    let sentence = "a set of dimension 2 in which 4 complex solutions end, with 6 samples";
+    assert!(said.contains(sentence), "{said}");
+}
+
+#[test]
+fn joints_outside_their_limits_are_named() {
+    let said = stdout(&run(&["assemblies", "mechanisms/puma560_modified.ron"]));
+    assert!(said.contains("outside: theta"), "{said}");
+    let said = stdout(&run(&["assemblies", FOUR_BAR]));
+    assert!(!said.contains("outside"), "{said}");
+}
+
+#[test]
 fn files_that_cannot_be_read_are_refused() {
     assert!(
         refusal(&["check", "mechanisms/no_such_file.ron"])

@@ -106,19 +106,8 @@ fn differences(mechanism: &Mechanism, a: &AssembliesReport, b: &AssembliesReport
     found
 }
 
-/// Mechanisms whose answer still depends on the seed, or takes minutes, with the reason. An entry goes when its reason
-/// does.
-const OPEN: [(&str, &str); 1] = [("stewart_gough_6ups", "a search takes ten seconds")];
-
 /// Mechanisms with so many solutions that fifty searches take longer than a test may.
-const LONG: [&str; 6] = [
-    "delta",
-    "dietmaier",
-    "stewart_gough_6sps",
-    "three_fingered_hand",
-    "three_fingered_hand_distances",
-    "three_rps",
-];
+const LONG: [&str; 3] = ["delta", "stewart_gough_6sps", "stewart_gough_6ups"];
 
 fn name(file: &Path) -> &str {
     file.file_stem().unwrap().to_str().unwrap()
@@ -137,11 +126,7 @@ fn seeds_that_matter(file: &Path, last: u64) -> Vec<String> {
 }
 
 fn no_seed_matters(wanted: impl Fn(&str) -> bool, last: u64) {
-    let open = |name: &str| OPEN.iter().any(|(open, _)| *open == name);
-    let chosen = files()
-        .into_iter()
-        .filter(|f| wanted(name(f)) && !open(name(f)));
-    let chosen: Vec<PathBuf> = chosen.collect();
+    let chosen: Vec<PathBuf> = files().into_iter().filter(|f| wanted(name(f))).collect();
     assert!(!chosen.is_empty());
     let found: Vec<String> = chosen
         .iter()
@@ -160,9 +145,9 @@ fn five_seeds_give_one_answer_where_there_are_many_solutions() {
     no_seed_matters(|name| LONG.contains(&name), 5);
 }
 
-/// Ten minutes: `cargo test --release --test seeds -- --ignored`
+/// Minutes: `cargo test --release --test seeds -- --ignored`
 #[test]
-#[ignore = "takes ten minutes"]
+#[ignore = "takes minutes"]
 fn fifty_seeds_give_one_answer_where_there_are_many_solutions() {
     no_seed_matters(|name| LONG.contains(&name), 50);
 }
@@ -172,7 +157,7 @@ fn fifty_seeds_give_one_answer_where_there_are_many_solutions() {
 fn every_mechanism_named_here_is_there() {
     let files = files();
     let names: Vec<&str> = files.iter().map(|f| name(f)).collect();
-    for name in OPEN.iter().map(|(name, _)| name).chain(&LONG) {
+    for name in &LONG {
         assert!(names.contains(name), "{name}");
     }
 }

@@ -116,6 +116,9 @@ pub enum AssembliesError {
     StoredForAnotherQuestion,
     /// No assembly has that number; there are this many.
     NoSuchMode(usize),
+    /// The mode was followed to the inputs asked for, where double precision does not tell whether
+    /// it is assembled.
+    Undecided,
 }
 
 impl std::fmt::Display for AssembliesError {
@@ -131,10 +134,18 @@ impl std::fmt::Display for AssembliesError {
                 f,
                 "the stored solutions belong to other dimensions or to another choice of inputs"
             ),
+            AssembliesError::Undecided => write!(
+                f,
+                "the mode was followed to the inputs asked for, but is so near a singular \
+                 configuration there that double precision does not tell whether it is assembled: \
+                 hold values a little farther from it (a pitch farther from 90 deg, if one is held) \
+                 or hold other coordinates"
+            ),
             AssembliesError::NoSuchMode(0) => write!(
                 f,
                 "there is no assembly at the home inputs for a mode to be followed from: \
-                 `linkwork assemblies` lists those at the inputs asked for"
+                 `linkwork assemblies` lists those at the inputs asked for, and \
+                 `linkwork solve --guess` starts near one of them"
             ),
             AssembliesError::NoSuchMode(n) => {
                 write!(
@@ -316,7 +327,7 @@ impl AssemblySolver {
     /// Follows mode `mode` of the home configuration to the inputs of `asked`.
     ///
     /// # Errors
-    /// If the home inputs have no such mode.
+    /// If the home inputs have no such mode, or rounding hides where it went.
     pub fn follow(
         &self,
         mode: usize,
@@ -353,7 +364,6 @@ impl AssemblySolver {
             (&start, &held_home),
             (asked, held),
         )
-        .ok_or(AssembliesError::NoValue)
     }
 }
 

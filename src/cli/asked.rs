@@ -2,7 +2,7 @@
 
 use clap::Args;
 use linkwork::mechanism::{Frame, Mechanism};
-use linkwork::output::option::Given;
+use linkwork::output::option::{Complaint, Given, Part};
 use linkwork::output::question::{complaint, driven_complaint, unknown_frame};
 use linkwork::system::{DriveError, Question, QuestionError};
 
@@ -96,13 +96,16 @@ pub fn driven(error: &DriveError, given: Given) -> Refusal {
 
 /// The frame of that name.
 pub fn frame(mechanism: &Mechanism, name: &str, option: &str) -> Result<Frame, Refusal> {
-    mechanism.frame(name).ok_or_else(|| {
-        let given = Given {
-            option,
-            name,
-            value: None,
-        };
-        let (complaint, part) = unknown_frame(mechanism, name);
-        Refusal(complaint.render_in(&given, &part, style()))
-    })
+    let known = mechanism.frame(name);
+    known.ok_or_else(|| refused_frame(name, option, unknown_frame(mechanism, name)))
+}
+
+/// A frame that an option cannot have, with what is wrong with it.
+pub fn refused_frame(name: &str, option: &str, (complaint, part): (Complaint, Part)) -> Refusal {
+    let given = Given {
+        option,
+        name,
+        value: None,
+    };
+    Refusal(complaint.render_in(&given, &part, style()))
 }

@@ -5,6 +5,7 @@ use linkwork::analysis::compare::{CompareSettings, compare_watched};
 use linkwork::output::comparison;
 
 use super::progress::Progress;
+use super::search::seed;
 use super::source::Source;
 use super::{Answer, Format, Refusal};
 
@@ -21,7 +22,8 @@ pub struct Compare {
     #[arg(long, value_name = "COUNT", default_value_t = CompareSettings::default().samples)]
     samples: usize,
     /// Seed of the random configurations
-    #[arg(long, default_value_t = CompareSettings::default().seed)]
+    #[arg(long, value_parser = seed, allow_negative_numbers = true)]
+    #[arg(default_value_t = CompareSettings::default().seed)]
     seed: u64,
     /// How to write the answer
     #[arg(long, value_enum, default_value_t = Format::Text)]

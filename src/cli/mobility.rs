@@ -5,6 +5,7 @@ use linkwork::analysis::mobility::{MobilitySettings, mobility};
 use linkwork::output::{closing as analysed, mobility as output};
 
 use super::asked::Asked;
+use super::search::seed;
 use super::source::Source;
 use super::{Answer, Format, Refusal};
 
@@ -20,7 +21,8 @@ pub struct Mobility {
     #[command(flatten)]
     asked: Asked,
     /// Seed of all random starts and directions
-    #[arg(long, default_value_t = MobilitySettings::default().seed)]
+    #[arg(long, value_parser = seed, allow_negative_numbers = true)]
+    #[arg(default_value_t = MobilitySettings::default().seed)]
     seed: u64,
     /// How to write the answer
     #[arg(long, value_enum, default_value_t = Format::Text)]

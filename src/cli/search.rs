@@ -17,11 +17,26 @@ use super::{Refusal, say};
 #[derive(Args)]
 pub struct Search {
     /// Seed of random starts: it decides the way to the answer, not the answer
-    #[arg(long, default_value_t = AssembliesSettings::default().seed)]
+    #[arg(long, value_parser = seed, allow_negative_numbers = true)]
+    #[arg(default_value_t = AssembliesSettings::default().seed)]
     pub seed: u64,
     /// Keep the generic solutions in a file; if it has those of this question, nothing is searched
     #[arg(long, value_name = "FILE")]
     store: Option<PathBuf>,
+}
+
+/// The seed that a text stands for.
+pub fn seed(text: &str) -> Result<u64, String> {
+    let wanted = format!("a seed is a whole number from 0 to {}", u64::MAX);
+    text.parse().map_err(|_| wanted)
+}
+
+/// The number of a mode that a text stands for.
+pub fn mode(text: &str) -> Result<usize, String> {
+    let number = text.parse().ok().filter(|mode| *mode > 0);
+    number.ok_or_else(|| {
+        "a mode is a whole number from 1 on, as `linkwork assemblies` numbers them".into()
+    })
 }
 
 impl Search {

@@ -7,7 +7,7 @@ use linkwork::output::{assemblies, solution};
 use linkwork::system::check_count;
 
 use super::asked::{Asked, refusal};
-use super::search::Search;
+use super::search::{Search, mode};
 use super::source::Source;
 use super::{Answer, Format, Refusal};
 
@@ -28,6 +28,7 @@ pub struct Solve {
     asked: Asked,
     /// Assemble this mode of the home configuration, numbered as `assemblies` lists it there, followed to what is held
     #[arg(long, value_name = "NUMBER", conflicts_with = "guess")]
+    #[arg(value_parser = mode, allow_negative_numbers = true)]
     mode: Option<usize>,
     #[command(flatten)]
     search: Search,

@@ -24,7 +24,7 @@ use linkwork::system::{
 use super::asked::{Split, refusal};
 use super::progress::Progress;
 use super::range::{RangeWords, ranges};
-use super::search::Search;
+use super::search::{Search, mode};
 use super::source::{Assignment, Source};
 use super::written::Lines;
 #[cfg(feature = "plot")]
@@ -57,6 +57,7 @@ pub struct Sweep {
     steps: usize,
     /// Begin in this mode, numbered as `assemblies` lists it where the inputs begin
     #[arg(long, value_name = "NUMBER", conflicts_with = "all_modes")]
+    #[arg(value_parser = mode, allow_negative_numbers = true)]
     mode: Option<usize>,
     /// Move every mode there is where the inputs begin
     #[arg(long)]

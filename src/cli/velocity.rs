@@ -2,10 +2,12 @@
 
 use clap::Args;
 use linkwork::analysis::velocity::{VelocitySettings, velocity};
+use linkwork::mechanism::Body;
+use linkwork::output::question::motionless_frame;
 use linkwork::output::{closing as analysed, velocity as output};
 use linkwork::system::Drive;
 
-use super::asked::{Asked, driven, frame, refusal};
+use super::asked::{Asked, driven, frame, refusal, refused_frame};
 use super::source::{Assignment, Source, once};
 use super::{Answer, Format, Refusal};
 
@@ -55,10 +57,13 @@ impl Velocity {
             drive = (drive.acceleration(&question, name, value))
                 .map_err(|error| driven(&error, assignment.given("--acceleration")))?;
         }
-        let points = self
-            .point
-            .iter()
-            .map(|name| frame(mechanism, name, "--point"));
+        let points = self.point.iter().map(|name| {
+            let frame = frame(mechanism, name, "--point")?;
+            match mechanism.body(frame) {
+                Body::Ground => Err(refused_frame(name, "--point", motionless_frame(name))),
+                _ => Ok(frame),
+            }
+        });
         let settings = VelocitySettings {
             points: points.collect::<Result<_, _>>()?,
             ..VelocitySettings::default()

@@ -48,13 +48,29 @@ pub fn sentence(report: &AssembliesReport) -> String {
     let real = count(report.real, "assembly").replace("assemblys", "assemblies");
     match (&report.fit, report.real) {
         (Fit::FreedomLeft(_), 0) => "No assembly found.".into(),
-        (Fit::FreedomLeft(freedom), _) => format!(
-            "The assemblies are not finite in number: {} left with what is held. {real} as samples.",
-            match freedom {
+        (Fit::FreedomLeft(freedom), _) => {
+            let left = match freedom {
                 1 => "1 freedom is".into(),
                 n => format!("{n} freedoms are"),
-            }
-        ),
+            };
+            let isolated = report.assemblies.iter().filter(|a| a.multiplicity > 0);
+            let isolated = isolated.count();
+            let listed = match report.real - isolated {
+                _ if isolated == 0 => format!("{real} as samples"),
+                0 => format!("{real}, all isolated"),
+                samples => {
+                    let isolated = count(isolated, "isolated assembly");
+                    format!(
+                        "{} and {} of the others",
+                        isolated.replace("assemblys", "assemblies"),
+                        count(samples, "sample")
+                    )
+                }
+            };
+            format!(
+                "The assemblies are not finite in number: {left} left with what is held. {listed}."
+            )
+        }
         (Fit::TooManyHeld | Fit::AlwaysMultiple, _) => format!("{real} found."),
         (Fit::Finite, _) if !report.continua.is_empty() => infinitely_many(report),
         (Fit::Finite, 0) => format!("0 real of {} complex: no assembly.", report.complex),
@@ -69,15 +85,18 @@ pub fn sentence(report: &AssembliesReport) -> String {
 fn infinitely_many(report: &AssembliesReport) -> String {
     let isolated = report.assemblies.iter().filter(|a| a.multiplicity > 0);
     let sets = report.continua.iter().map(|set: &Continuum| {
-        let paths = count(set.paths, "path");
-        let ends = if set.paths == 1 { "ends" } else { "end" };
+        // a path may stand for several solutions, and be followed again for each
+        let ends = match count(set.paths, "complex solution") {
+            one if set.paths == 1 => format!("{one} ends"),
+            many => format!("{many} end"),
+        };
         match set.samples.len() {
             0 => format!(
-                "a complex set of dimension {} on which {paths} {ends}, of which no real assembly was met",
+                "a complex set of dimension {} in which {ends}, of which no real assembly was met",
                 set.dimension
             ),
             samples => format!(
-                "a set of dimension {} on which {paths} {ends}, with {}",
+                "a set of dimension {} in which {ends}, with {}",
                 set.dimension,
                 count(samples, "sample")
             ),

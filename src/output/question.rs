@@ -145,6 +145,16 @@ pub fn unknown_frame(mechanism: &Mechanism, name: &str) -> (Complaint, Part) {
     (said(title, "not known", Some(help)), Part::Name)
 }
 
+/// What is wrong with a frame that stands still, where its motion is asked for.
+pub fn motionless_frame(name: &str) -> (Complaint, Part) {
+    let title = match name {
+        "ground" => "ground does not move".into(),
+        name => format!("`{name}` stands on ground and does not move"),
+    };
+    let help = "follow a frame of a link or of a platform, e.g. the tip of a chain by its name";
+    (said(title, "stands still", Some(help.into())), Part::Name)
+}
+
 fn said(title: String, label: &str, help: Option<String>) -> Complaint {
     Complaint {
         title,

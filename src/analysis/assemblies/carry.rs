@@ -178,6 +178,7 @@ fn straight(way: &Way<'_>, solutions: &[Vec<C>], manner: &Manner<'_>) -> Ends {
         ..Ends::default()
     };
     let mut waiting: Vec<usize> = (0..solutions.len()).collect();
+    let mut unsure: Vec<usize> = Vec::new();
     for level in 0..=2 {
         let (tracker, bend) = (manner.tracker(way, level), manner.bend);
         for batch in waiting.chunks(BATCH) {
@@ -188,7 +189,13 @@ fn straight(way: &Way<'_>, solutions: &[Vec<C>], manner: &Manner<'_>) -> Ends {
             for (&i, path) in batch.iter().zip(followed) {
                 all.steps += path.steps;
                 all.evaluations += path.evaluations;
-                all.ends[i] = path.end;
+                if path.unsure && level == 0 {
+                    unsure.push(i);
+                }
+                // a second look that sees nothing leaves what the first one saw
+                if path.end != End::Lost || !unsure.contains(&i) || level == 0 {
+                    all.ends[i] = path.end;
+                }
             }
         }
         shared_out(way, &mut all.ends);
@@ -196,6 +203,9 @@ fn straight(way: &Way<'_>, solutions: &[Vec<C>], manner: &Manner<'_>) -> Ends {
             break;
         }
         waiting = doubtful(way, &all.ends);
+        if level == 0 {
+            waiting.extend(&unsure);
+        }
         all.retries += waiting.len();
     }
     all

@@ -2,6 +2,7 @@
 
 use serde::Serialize;
 
+use super::AssembliesError;
 use super::coordinates::C;
 use super::family::{Family, Member};
 use super::fold::located;
@@ -49,7 +50,7 @@ pub(super) fn follow(
     family: &Family,
     from: (&Configuration<f64>, &Held<f64>),
     to: (&Configuration<f64>, &Held<f64>),
-) -> Option<Followed> {
+) -> Result<Followed, AssembliesError> {
     let c = &family.coordinates;
     let start = c.inputs(from.0, from.1);
     let mut end = c.inputs(to.0, to.1);
@@ -64,7 +65,8 @@ pub(super) fn follow(
         parameters: family.parameters.clone(),
         inputs: inputs.iter().map(|x| C::from_f64(*x)).collect(),
     };
-    let mut way = family.way(&member(&start), &member(&end))?;
+    let way = family.way(&member(&start), &member(&end));
+    let mut way = way.ok_or(AssembliesError::NoValue)?;
     let mut x = c.flatten(&from.0.map(C::from_f64));
     let whole = (C::from_f64(0.0), C::from_f64(1.0));
     // real inputs keep every number real, so no step can leave the real branch unnoticed
@@ -91,19 +93,18 @@ pub(super) fn follow(
     if arrived {
         let system = System::new(mechanism.dimensions(), to.1);
         let point = real_solution(&x, false, c, &system, &mut system.work(), to.0);
-        return point.map(|mut point| {
-            for (j, value) in point.joints.iter_mut().enumerate() {
-                *value = mechanism.by_limits(j, *value);
-            }
-            Followed::Arrived(point)
-        });
+        let mut point = point.ok_or(AssembliesError::Undecided)?;
+        for (j, value) in point.joints.iter_mut().enumerate() {
+            *value = mechanism.by_limits(j, *value);
+        }
+        return Ok(Followed::Arrived(point));
     }
     let mut last = from.0.map(C::from_f64);
     c.unflatten(&x, &mut last);
     for (&j, value) in c.held_joints.iter().zip(&inputs) {
         last.joints[j] = C::from_f64(*value);
     }
-    Some(Followed::Fold(Fold {
+    Ok(Followed::Fold(Fold {
         fraction: done,
         inputs: Named(
             input_names(mechanism, family)

@@ -42,12 +42,17 @@ const ROUNDING: f64 = 1e-15;
 const FAR: f64 = 1e3;
 /// Where the endgame starts, as distance from the end of the way.
 const NEAR_END: f64 = 0.03;
+/// What is no larger than this so near the end and still seems to go to infinity may be two solutions
+/// that meet just before it: circles round the end look alike until they are too small to hold that.
+const NEARBY: f64 = 10.0;
 /// Ways longer than this, in rad or characteristic lengths, are gone in parts.
 const LONG: f64 = 10.0;
 
 /// A path that was followed.
 pub(super) struct Path {
     pub end: End,
+    /// Whether it deserves a second look although it has an end.
+    pub unsure: bool,
     pub steps: usize,
     pub evaluations: usize,
 }
@@ -96,12 +101,17 @@ pub(super) fn follow(way: &mut Way<'_>, tracker: &Tracker, bend: f64, from: &[C]
         Arrival::Stuck(_) if decades > 0 && size(&x) > FAR => Some(End::Infinite),
         Arrival::Stuck(_) => Some(End::Lost),
     };
+    let mut unsure = false;
     let end = found.unwrap_or_else(|| {
         // an end that is not regular: stop short of it and go round
         let mut x = corner;
         let short = C::from_f64(1.0 - NEAR_END);
         match leg(way, &mut x, &mut stages, from_here, short) {
-            Arrival::There => go_round(way, tracker, far, &x, &mut stages),
+            Arrival::There => {
+                let end = go_round(way, tracker, far, &x, &mut stages);
+                unsure = end == End::Infinite && size(&x) <= NEARBY * way.reach();
+                end
+            }
             Arrival::Diverged(_) => End::Infinite,
             Arrival::Stuck(_) if decades > 0 && size(&x) > FAR => End::Infinite,
             Arrival::Stuck(_) => End::Lost,
@@ -109,6 +119,7 @@ pub(super) fn follow(way: &mut Way<'_>, tracker: &Tracker, bend: f64, from: &[C]
     });
     Path {
         end,
+        unsure,
         steps,
         evaluations,
     }

@@ -104,3 +104,63 @@ impl Place {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::super::Family;
+    use super::*;
+    use crate::description::Description;
+    use crate::mechanism::Mechanism;
+    use crate::solve::Homotopy;
+    use crate::system::Question;
+    use rand::SeedableRng;
+
+    /// A way on which dimensions change gives the same wherever it was before, and factors last made
+    /// serve beside the place ahead that rates are taken from.
+    #[test]
+    fn a_place_that_was_left_and_come_back_to_is_the_same() {
+        let text = include_str!("../../../mechanisms/three_rps.ron");
+        let mechanism = Mechanism::new(&Description::read(text).unwrap()).unwrap();
+        let family = Family::new(&mechanism, &Question::new(&mechanism).held());
+        let mut rng = rand_pcg::Pcg64::seed_from_u64(5);
+        let from = family.generic_member(&mut rng);
+        let to = Member {
+            parameters: family.random_parameters(&mut rng),
+            inputs: family.random_inputs(&mut rng, 1.0),
+        };
+        let x = family.random_point(&mut rng, 1.0);
+        let s = C::new(0.3, 0.1);
+        let mut fresh = family.way(&from, &to).unwrap();
+        let expected = fresh.evaluated(s, &x);
+        let (mut rate, mut again) = (x.clone(), x.clone());
+        assert!(fresh.velocity(s, &x, &mut rate));
+        let mut way = family.way(&from, &to).unwrap();
+        for elsewhere in [C::new(0.7, 0.0), C::new(1.0, -0.2)] {
+            assert!(way.velocity(elsewhere, &x, &mut again));
+            assert_ne!(again, rate);
+        }
+        assert_eq!(way.evaluated(s, &x), expected);
+        way.linearise(s, &x);
+        for _ in 0..2 {
+            assert!(way.velocity_again(s, &x, &mut again));
+            assert_eq!(again, rate);
+        }
+        // the rate is that of the residual: J dx/ds + ∂h/∂s = 0
+        const APART: f64 = 1e-5;
+        let moved = |length: f64| -> Vec<C> {
+            let pairs = x.iter().zip(&rate);
+            let mut y: Vec<C> = pairs.map(|(x, r)| x + r * length).collect();
+            family.coordinates.settle(&mut y);
+            y
+        };
+        let mut at = |length: f64| {
+            way.residual(s + length, &moved(length));
+            way.here.system.residual_of(&way.here.work).to_vec()
+        };
+        let (after, before) = (at(APART), at(-APART));
+        for (after, before) in after.iter().zip(&before) {
+            let slope = (after - before) / (2.0 * APART);
+            assert!(slope.norm() < 1e-4, "{slope}");
+        }
+    }
+}
