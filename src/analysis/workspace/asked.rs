@@ -86,6 +86,16 @@ impl<'m> Asked<'m> {
             .at_values(axes.zip(values.iter().copied()))
     }
 
+    /// Whether direct singularities are other than where modes end.
+    pub fn tells_direct(&self) -> bool {
+        !self.inputs.is_empty() && !self.holds(&self.inputs)
+    }
+
+    /// Whether inverse singularities are.
+    pub fn tells_inverse(&self) -> bool {
+        !self.outputs.is_empty() && !self.holds(&self.outputs)
+    }
+
     /// What stands still in a motion within the map.
     pub fn locks(of: &[Holdable]) -> Vec<Lock> {
         of.iter().copied().map(Lock::Coordinate).collect()
@@ -186,23 +196,23 @@ impl Targets {
     }
 
     /// Asks for the values of each place.
-    pub fn ask<T: Factorable + Packed>(
+    pub fn ask<'v, T: Factorable + Packed>(
         &self,
         system: &mut System<T>,
         at: &mut Configuration<T>,
-        values: &[Vec<f64>],
+        values: impl Fn(usize) -> &'v [f64],
     ) {
         for &(joint, axis) in &self.joints {
-            at.joints[joint] = T::of_parts(|place| values[place][axis]);
+            at.joints[joint] = T::of_parts(|place| values(place)[axis]);
         }
         for &(platform, c, axis) in &self.single {
-            system.set_target(platform, c, T::of_parts(|place| values[place][axis]));
+            system.set_target(platform, c, T::of_parts(|place| values(place)[axis]));
         }
         for whole in &self.whole {
-            let poses: Vec<Pose<f64>> = (values.iter())
-                .map(|values| {
+            let poses: Vec<Pose<f64>> = (0..T::WIDTH)
+                .map(|place| {
                     let sources = whole.sources.iter().map(|&(c, source)| match source {
-                        Source::Axis(axis) => (c, values[axis]),
+                        Source::Axis(axis) => (c, values(place)[axis]),
                         Source::Value(value) => (c, value),
                     });
                     with_coordinates(&Pose::identity(), sources)
