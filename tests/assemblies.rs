@@ -838,7 +838,8 @@ fn joint_values_are_given_by_the_turn_that_is_within_limits() {
     let (mut turned, mut named) = (0, 0);
     for name in ["puma560_modified", "puma560_standard", "puma560_corke"] {
         let mechanism = mechanism(name);
-        let report = answer(&Question::new(&mechanism), 1);
+        let question = asked(&mechanism, &["actuated"], &[("hand", "home".into())]);
+        let report = answer(&question, 1);
         assert_eq!(report.real, 8, "{name}");
         for assembly in &report.assemblies {
             let at = assembly.configuration(&mechanism.home());
@@ -873,7 +874,7 @@ fn joint_values_are_given_by_the_turn_that_is_within_limits() {
 #[test]
 fn a_mode_that_is_followed_has_the_turns_of_the_list() {
     let mechanism = mechanism("puma560_modified");
-    let question = Question::new(&mechanism);
+    let question = asked(&mechanism, &["actuated"], &[("hand", "home".into())]);
     let solver = solver(&question, 1);
     let (start, held) = (question.start(), question.held());
     let report = solver.at_targets(&start, &held, Wanted::default());

@@ -107,7 +107,6 @@ impl Place {
 
 #[cfg(test)]
 mod tests {
-    use super::super::Family;
     use super::*;
     use crate::description::Description;
     use crate::mechanism::Mechanism;
