@@ -289,9 +289,7 @@ pub fn locus_text(mechanism: &Mechanism, report: &LocusReport) -> String {
     );
     if !report.loci.is_empty() {
         let [a, b] = report.bounds.each_ref().map(|bound| bound.name.as_str());
-        let mut table = plain([
-            "locus", "type", "kind", a, b, "ends", "points", "over it",
-        ]);
+        let mut table = plain(["locus", "type", "kind", a, b, "ends", "points", "over it"]);
         for (i, locus) in report.loci.iter().enumerate() {
             let extent = |k: usize| {
                 let values = locus.points.iter().map(|point| point[k]);

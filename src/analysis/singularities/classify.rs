@@ -6,9 +6,7 @@ use serde::Serialize;
 
 use crate::linear::{orthonormal, remove};
 use crate::mechanism::{Configuration, Mechanism};
-use crate::system::{
-    Holdable, Lock, Locked, Mobility, Neighbourhood, Screw, TwistSpace, Unknown,
-};
+use crate::system::{Holdable, Lock, Locked, Mobility, Neighbourhood, Screw, TwistSpace, Unknown};
 
 /// The types of D. Zlatanov, R. G. Fenton and B. Benhabib 1994.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]

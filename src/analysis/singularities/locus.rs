@@ -380,7 +380,9 @@ impl Search<'_> {
             met: 0,
             closed: traced.ends[1] == LocusEnd::Closed,
             ends: traced.ends,
-            points: (traced.places.iter()).map(|p| self.coordinates(p)).collect(),
+            points: (traced.places.iter())
+                .map(|p| self.coordinates(p))
+                .collect(),
             joints: (traced.places.iter())
                 .map(|p| p.at.at.joints.clone())
                 .collect(),

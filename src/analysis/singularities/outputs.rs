@@ -68,11 +68,7 @@ pub fn default_outputs(mechanism: &Mechanism, inputs: &[Holdable]) -> Vec<Lock> 
 /// The coordinates of platforms that a question is about, where it is about nothing else: those that
 /// are held, and those that move. A whole orientation turns about the axes of ground, and a whole
 /// pose is the platform.
-fn asked_outputs(
-    held: &Held<f64>,
-    moved: &[Driven],
-    inputs: &[Holdable],
-) -> Option<Vec<Lock>> {
+fn asked_outputs(held: &Held<f64>, moved: &[Driven], inputs: &[Holdable]) -> Option<Vec<Lock>> {
     let joint = |h: &Holdable| matches!(h, Holdable::Joint(_));
     let moves_joint = moved.iter().any(|driven| joint(&driven.coordinate));
     if held.joints.contains(&true) || moves_joint || !inputs.iter().all(joint) {
@@ -125,8 +121,7 @@ pub(super) fn outputs_of(
     if !settings.outputs.is_empty() {
         return settings.outputs.clone();
     }
-    asked_outputs(held, moved, inputs)
-        .unwrap_or_else(|| default_outputs(mechanism, inputs))
+    asked_outputs(held, moved, inputs).unwrap_or_else(|| default_outputs(mechanism, inputs))
 }
 
 /// An output whose turning and shifting depend on one another: it has fewer freedoms than there are
@@ -180,9 +175,9 @@ pub(super) fn coupled(
                 Frame::Platform { platform } => Some(platform),
                 _ => None,
             };
-            let own = platform.into_iter().flat_map(|platform| {
-                Coordinate::ALL.map(|c| Holdable::Coordinate(platform, c))
-            });
+            let own = platform
+                .into_iter()
+                .flat_map(|platform| Coordinate::ALL.map(|c| Holdable::Coordinate(platform, c)));
             let own: Vec<Holdable> = own.collect();
             let independent = first.independent(mechanism, &own).into_iter();
             let origin = here.then(|| {

@@ -109,14 +109,39 @@ impl<'t> Projection<'t> {
 
     /// Whether the curve passes over all of another, as far as points spread over that tell: both are
     /// pieces of algebraic curves, which share a whole component or only so many points.
+    ///
+    /// Where curves cross in the space of configurations a point may be lost to rounding: a place
+    /// is not covered if none of three points there is.
     fn covers(&self, other: &Projection, curve: &mut LocusCurve, region: &Region) -> bool {
-        /// Points that are tried, the ends among them.
+        /// Places that are tried, the ends among them, and parts of the way between two.
         const TRIED: usize = 12;
+        const PARTS: f64 = 10.0;
         if self.kind != other.kind || self.shape() != other.shape() {
             return false;
         }
-        let last = other.points.len() - 1;
-        (0..TRIED).all(|k| self.passes(curve, region, other.points[k * last / (TRIED - 1)]))
+        (0..=TRIED).all(|k| {
+            let place = k as f64;
+            let near = [0.0, 1.0 / PARTS, -1.0 / PARTS].map(|aside| match k {
+                TRIED => place - aside.abs(),
+                _ => (place + aside).abs(),
+            });
+            near.into_iter().any(|place| {
+                let point = other.point(place / TRIED as f64 * other.length);
+                self.passes(curve, region, point)
+            })
+        })
+    }
+
+    /// The point after a way along the curve.
+    fn point(&self, way: f64) -> [f64; 2] {
+        let mut gone = 0.0;
+        for pair in self.points.windows(2) {
+            gone += apart(pair[0], pair[1]);
+            if gone >= way {
+                return pair[1];
+            }
+        }
+        self.points.last().copied().unwrap_or_default()
     }
 }
 

@@ -26,7 +26,10 @@ pub fn note(coupled: &[Coupled]) -> Option<String> {
         .filter_map(|c| match c.origin_loses? {
             0 => None,
             1 => Some(format!("the origin of {} alone loses 1 freedom", c.output)),
-            n => Some(format!("the origin of {} alone loses {n} freedoms", c.output)),
+            n => Some(format!(
+                "the origin of {} alone loses {n} freedoms",
+                c.output
+            )),
         })
         .collect();
     let hidden = match lost.is_empty() {

@@ -1,6 +1,7 @@
 //! Loci drawn in their box.
 
 use crate::analysis::singularities::{Kind, Locus, LocusReport, Shape};
+use crate::description::listed;
 use crate::mechanism::Mechanism;
 use crate::output::plot::{self, Chart, Marks, Series};
 
@@ -27,9 +28,13 @@ pub fn svg(mechanism: &Mechanism, report: &LocusReport) -> String {
         label: format!("{} {}", kind(locus), i + 1),
         points: locus.points.iter().map(point).collect(),
     });
-    let single = of(Shape::Point).map(|(i, locus)| Marks {
-        label: format!("{} {}", kind(locus), i + 1),
-        points: locus.points.iter().map(point).collect(),
+    let single = ["direct", "inverse"].map(|wanted| {
+        let points = of(Shape::Point).filter(|(_, locus)| kind(locus) == wanted);
+        let numbers: Vec<String> = points.clone().map(|(i, _)| (i + 1).to_string()).collect();
+        Marks {
+            label: format!("{wanted} {}", listed(&numbers)),
+            points: points.flat_map(|(_, l)| l.points.iter().map(point)).collect(),
+        }
     });
     let crossings = report.loci.iter().flat_map(|locus| &locus.crossings);
     let crossings: Vec<(f64, f64)> = crossings.map(point).collect();
@@ -49,7 +54,8 @@ pub fn svg(mechanism: &Mechanism, report: &LocusReport) -> String {
             (left, low),
         ],
     });
-    let mut marks: Vec<Marks> = single.collect();
+    let mut marks: Vec<Marks> = single.into_iter().collect();
+    marks.retain(|marks| !marks.points.is_empty());
     if !crossings.is_empty() {
         marks.push(Marks {
             label: "loci cross".into(),

@@ -2,8 +2,7 @@
 
 use super::names;
 use crate::analysis::singularities::{
-    AlongReport, Crossing, Ending, Kind, Locus, LocusEnd, LocusReport, Shape, Singularity,
-    Zlatanov,
+    AlongReport, Crossing, Ending, Kind, Locus, LocusEnd, LocusReport, Shape, Singularity, Zlatanov,
 };
 use crate::description::{count, listed, nearest};
 use crate::mechanism::Mechanism;
@@ -225,7 +224,9 @@ pub(super) fn loci(report: &LocusReport) -> String {
         match (curves, points) {
             (None, None) => format!("no {word} singularities"),
             (Some(one), None) | (None, Some(one)) => format!("{one} of {word} singularities"),
-            (Some(curves), Some(points)) => format!("{curves} and {points} of {word} singularities"),
+            (Some(curves), Some(points)) => {
+                format!("{curves} and {points} of {word} singularities")
+            }
         }
     };
     let inverse = match report.sought[1] {
