@@ -456,6 +456,20 @@ fn a_section_of_the_three_rps_is_bounded_by_the_lengths_of_its_legs() {
         }
         Some(modes)
     });
+    // what follows of the pose, as far as the hinges tell
+    let names = report.following.iter().map(|of| of.name.as_str());
+    assert_eq!(names.collect::<Vec<&str>>(), ["top.x", "top.y", "top.yaw"]);
+    for cell in &report.cells {
+        let yaw = cell.following[2];
+        let (sin, cos) = yaw.sin_cos();
+        let ((sr, cr), (sp, cp)) = (cell.at[0].sin_cos(), cell.at[1].sin_cos());
+        let n = [cos * cp, sin * cp];
+        let sy = sin * sp * sr + cos * cr;
+        let sx = cos * sp * sr - sin * cr;
+        assert!((n[1] - sx).abs() < 1e-9, "{cell:?}");
+        assert!((cell.following[0] - 0.25 * (n[0] - sy)).abs() < 1e-9);
+        assert!((cell.following[1] + 0.5 * n[1]).abs() < 1e-9);
+    }
     let mut met = 0;
     for (i, name) in ["l1", "l2", "l3"].into_iter().enumerate() {
         let points = boundary(
@@ -553,6 +567,108 @@ fn where_two_legs_fold_at_once_modes_are_not_taken_for_one() {
             "{nodes:?}"
         );
     }
+}
+
+/// A map of the ways a mechanism gets somewhere, without its boundaries.
+fn modes_of(
+    mechanism: &Mechanism,
+    axes: [(&str, f64, f64); 2],
+    held: &[(&str, f64)],
+    settings: WorkspaceSettings,
+) -> WorkspaceReport {
+    let mut question = Question::new(mechanism).free("actuated").unwrap();
+    let middles = axes.map(|(name, from, to)| (name, 0.5 * (from + to)));
+    for (name, value) in held.iter().copied().chain(middles) {
+        question = question.hold(name, &format!("{value:?}")).unwrap();
+    }
+    let axes = axes.map(|(name, from, to)| Driven {
+        coordinate: question.value(name, "home").unwrap().0,
+        from,
+        to,
+    });
+    workspace(&question, &axes, &[], &settings, &mut |_| {}).unwrap()
+}
+
+#[test]
+fn a_leg_does_not_pass_through_length_zero_from_one_mode_to_another() {
+    // grid lines run by the feet of the legs at a small part of a cell, where the leg turns round
+    // within it: a step that is too long finds the leg of negative length instead
+    let mechanism = written(&text("planar_3rpr"), &[]);
+    let axes = [("platform.x", -20.0, 40.0), ("platform.y", -20.0, 40.0)];
+    for nodes in [20, 50, 60, 61] {
+        let settings = WorkspaceSettings {
+            nodes: vec![nodes; 2],
+            boundaries: false,
+            ..WorkspaceSettings::default()
+        };
+        let yaw = 57f64.to_radians();
+        let report = modes_of(&mechanism, axes, &[("platform.yaw", yaw)], settings);
+        let mut signs: Vec<Vec<bool>> = Vec::new();
+        for mode in 1..=report.modes.len() {
+            let cells = report.cells.iter().filter(|cell| cell.mode == mode);
+            let mut of = cells.map(|cell| [1, 3, 5].map(|rho| cell.joints[rho] > 0.0).to_vec());
+            let first = of.next().unwrap();
+            assert!(of.all(|other| other == first), "{nodes}: mode {mode}");
+            signs.push(first);
+        }
+        signs.sort();
+        signs.dedup();
+        assert_eq!((signs.len(), report.modes.len()), (8, 8), "{nodes}");
+        // the conic of singular poses parts each mode in two
+        assert_eq!(report.aspects.len(), 16, "{nodes}");
+    }
+}
+
+#[test]
+fn nodes_on_a_singularity_part_aspects_and_belong_to_none() {
+    // flat on the ground the platform is singular whatever its legs
+    let mechanism = written(&text("three_rps"), &[]);
+    let axes = [("top.z", 0.0, 1.2), ("top.roll", -1.0, 1.0)];
+    let report = map(&mechanism, &axes, &[("top.pitch", 0.0)], 24);
+    let (flat, raised): (Vec<&Cell>, Vec<&Cell>) =
+        report.cells.iter().partition(|cell| cell.at[0] == 0.0);
+    assert_eq!(flat.len(), 24);
+    for cell in flat {
+        assert_eq!((cell.aspect, cell.direct), (None, Some(0.0)), "{cell:?}");
+        assert_eq!(cell.condition, None);
+    }
+    assert!(raised.iter().any(|cell| cell.aspect.is_some()));
+    for aspect in &report.aspects {
+        assert!(aspect.nodes > 50, "{aspect:?}");
+    }
+    // the border there is one curve, as far as the legs reach
+    let along = report.curves.iter().filter(|curve| {
+        let points = &curve.points;
+        curve.kind == BoundaryKind::Direct && points.iter().all(|point| point[0].abs() < 1e-9)
+    });
+    let along: Vec<_> = along.collect();
+    assert_eq!(along.len(), 1);
+    let rolls = along[0].points.iter().map(|point| point[1]);
+    let (low, high) = rolls.fold((1.0f64, -1.0f64), |(a, b), x| (a.min(x), b.max(x)));
+    assert!(low < -0.999 && high > 0.999, "{low} {high}");
+}
+
+#[test]
+fn a_small_region_by_itself_is_found_by_the_few_starts_at_every_node() {
+    // beside the lens of both outer circles the two inner ones leave a pocket of a few nodes
+    let mechanism = five_bar(&[]);
+    let axes = [("hand.x", -0.6, 0.8), ("hand.y", -0.1, 0.7)];
+    let with = |probed: usize| {
+        let settings = WorkspaceSettings {
+            nodes: vec![60; 2],
+            boundaries: false,
+            probed,
+            ..WorkspaceSettings::default()
+        };
+        modes_of(&mechanism, axes, &[], settings)
+    };
+    let report = with(10_000);
+    agrees(&report, |at| {
+        let rings = [0.0, 0.2].map(|x| between((at[0] - x).hypot(at[1]), 0.1, 0.7));
+        Some(if all(rings)? { 4 } else { 0 })
+    });
+    assert!(with(0).reached < report.reached);
+    assert_eq!(report.probed[0], report.nodes);
 }
 
 #[test]

@@ -1,8 +1,8 @@
 //! The workspace: which values of some coordinates a mechanism reaches, in which modes, and what
 //! bounds it.
 //!
-//! At some nodes of a grid assembled configurations are sought from random starts. From there the
-//! nodes are reached one from another by steps of Newton's method, eight side by side, that are
+//! At some nodes of a grid assembled configurations are sought from many random starts, and then
+//! from a few at all the others. From there the nodes are reached one from another by steps of Newton's method, eight side by side, that are
 //! short beside what would lead to another solution; where one is not, the way is followed in the
 //! sure steps of [`Continuation`](crate::solve::Continuation). What is connected in this way is a
 //! *mode*: a working mode where coordinates of platforms are mapped, an assembly mode where the
@@ -17,11 +17,14 @@
 mod asked;
 mod aspects;
 mod boundary;
+mod condition;
 mod curves;
 mod edge;
 mod fill;
 mod grid;
+mod join;
 mod map;
+mod measure;
 mod rates;
 mod report;
 mod seeds;
@@ -29,20 +32,23 @@ mod step;
 
 pub use boundary::{BoundaryCurve, BoundaryKind, Piece};
 pub use report::{
-    AspectReport, AxisReport, BoundaryPoint, Cell, Conditioned, HeldReport, ModeReport,
-    WorkspaceReport,
+    AspectReport, AxisReport, BoundaryPoint, Cell, Conditioned, CoordinateReport, HeldReport,
+    ModeReport, WorkspaceReport,
 };
 
+use crate::linear::Factorable;
 use crate::mechanism::{Configuration, Mechanism};
-use crate::number::Lanes;
+use crate::number::{Lanes, Packed};
 use crate::solve::Newton;
 use crate::system::{Driven, Question};
 use asked::Asked;
 use boundary::Boundary;
-use fill::Fill;
+use fill::{Fill, Filled};
 use grid::Grid;
 use map::Map;
-use step::Measure;
+use measure::Measure;
+use seeds::Sown;
+use step::Steps;
 
 /// How to map a workspace.
 #[derive(Clone, Debug, PartialEq)]
@@ -53,6 +59,9 @@ pub struct WorkspaceSettings {
     pub searched: usize,
     /// Random starts at each of them.
     pub starts: usize,
+    /// Nodes at which a few more starts are made afterwards, at most, so that small regions are not
+    /// missed.
+    pub probed: usize,
     /// Seed of the random starts.
     pub seed: u64,
     /// The iteration from random starts.
@@ -71,6 +80,7 @@ impl Default for WorkspaceSettings {
             nodes: Vec::new(),
             searched: 64,
             starts: 30,
+            probed: 10_000,
             seed: 1,
             newton: Newton::default(),
             side_by_side: true,
@@ -128,16 +138,17 @@ pub fn workspace(
         measure: &measure,
         most: settings.most,
     };
-    let filled = match settings.side_by_side {
-        true => fill.from::<Lanes>(sown.seeds, told),
-        false => fill.from::<f64>(sown.seeds, told),
+    let probed = grid.spread(settings.probed);
+    let (filled, aspects, outside) = match settings.side_by_side {
+        true => filled::<Lanes>(&fill, &sown, (&probed, settings.seed), told),
+        false => filled::<f64>(&fill, &sown, (&probed, settings.seed), told),
     };
     if filled.overflow {
         return Err(WorkspaceError::TooMany {
             most: settings.most,
         });
     }
-    let map = Map::new(&asked, &grid, &filled);
+    let map = Map::new(&asked, &grid, &filled, aspects);
     let boundary = Boundary {
         asked: &asked,
         grid: &grid,
@@ -153,7 +164,31 @@ pub fn workspace(
     let mut report = map.report(&crossings);
     report.curves = curves;
     report.searched = [nodes.len(), settings.starts];
-    report.outside = sown.outside;
+    report.probed = [probed.len(), seeds::PROBES];
+    report.outside = sown.outside + outside;
     report.seed = settings.seed;
     Ok(report)
+}
+
+/// All that is reached from seeds, and from what is then found in between; for each sheet its
+/// aspect; and how much of what was found in between is outside limits.
+fn filled<T: Factorable + Packed + Send + Sync>(
+    fill: &Fill,
+    sown: &Sown,
+    (probed, seed): (&[usize], u64),
+    told: &mut dyn FnMut(usize),
+) -> (Filled, Vec<Option<usize>>, usize) {
+    let steps: Steps<T> = Steps::new(fill.asked);
+    let mut filled = fill.nothing();
+    fill.spread(&mut filled, &steps, &sown.seeds, told);
+    if filled.overflow {
+        return (filled, Vec::new(), 0);
+    }
+    let more = seeds::probe(fill, &filled, &steps, probed, seed);
+    fill.spread(&mut filled, &steps, &more.seeds, told);
+    if filled.overflow {
+        return (filled, Vec::new(), 0);
+    }
+    let aspects = join::joined(fill, &steps, &filled);
+    (filled, aspects, more.outside)
 }

@@ -45,6 +45,9 @@ pub struct Workspace {
     /// Nodes along each mapped coordinate, or along all of them [default: 200, 60 or 24 each]
     #[arg(long, value_name = "NUMBER", value_delimiter = ',')]
     grid: Vec<usize>,
+    /// Nodes, spread over the box, that are searched for modes; some starts are then made at all nodes
+    #[arg(long = "search", value_name = "NUMBER", default_value_t = WorkspaceSettings::default().searched)]
+    searched: usize,
     /// Random starts at each node that is searched for modes
     #[arg(long, value_name = "NUMBER", default_value_t = WorkspaceSettings::default().starts)]
     starts: usize,
@@ -86,11 +89,20 @@ impl Workspace {
         let axes = self.axes(mechanism)?;
         let question = self.question(mechanism, &axes)?;
         let nodes = self.nodes(mechanism, &axes)?;
-        if self.starts == 0 || self.starts > MOST_STARTS {
-            return Err(Refusal(format!(
-                "error: {} random starts are made at each node searched: give --starts from 1 to {MOST_STARTS}\n",
-                self.starts
-            )));
+        let counts = [
+            (
+                self.starts,
+                "--starts",
+                "random starts are made at each node searched",
+            ),
+            (self.searched, "--search", "nodes are searched"),
+        ];
+        for (count, option, what) in counts {
+            if count == 0 || count > MOST_STARTS {
+                return Err(Refusal(format!(
+                    "error: {count} {what}: give {option} from 1 to {MOST_STARTS}\n"
+                )));
+            }
         }
         if self.boundary && axes.len() == 1 {
             return Err(Refusal(output::boundary_flat().render(style())));
@@ -109,6 +121,7 @@ impl Workspace {
         let known = self.known(&question)?;
         let settings = WorkspaceSettings {
             nodes,
+            searched: self.searched,
             starts: self.starts,
             seed: self.search.seed,
             most: (MOST_BYTES / cell_bytes(mechanism, axes.len()) as f64) as usize,

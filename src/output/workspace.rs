@@ -48,6 +48,8 @@ fn columns(mechanism: &Mechanism, report: &WorkspaceReport) -> Vec<String> {
     let mut columns: Vec<String> = axes.map(|a| format!("{} ({})", a.name, a.unit)).collect();
     columns.extend(["mode", "aspect", "condition", "direct", "inverse"].map(str::to_owned));
     columns.extend(joint_columns(mechanism));
+    let following = report.following.iter();
+    columns.extend(following.map(|c| format!("{} ({})", c.name, c.unit)));
     columns
 }
 
@@ -61,13 +63,13 @@ fn joint_columns(mechanism: &Mechanism) -> Vec<String> {
         .collect()
 }
 
-/// An aspect that is missing stands for a node outside limits.
+/// An aspect that is missing stands for a node outside limits or on a singularity.
 fn row(cell: &Cell) -> Vec<Option<f64>> {
     let mut row: Vec<Option<f64>> = cell.at.iter().copied().map(Some).collect();
     row.push(Some(cell.mode as f64));
     row.push(cell.aspect.map(|aspect| aspect as f64));
     row.extend([cell.condition, cell.direct, cell.inverse]);
-    row.extend(cell.joints.iter().copied().map(Some));
+    row.extend(cell.joints.iter().chain(&cell.following).copied().map(Some));
     row
 }
 
@@ -218,18 +220,22 @@ fn aspects(report: &WorkspaceReport, most: usize) -> String {
         table.add_row(row);
     }
     align_right(&mut table, [0, 1, 2, 6, 8]);
-    let small = match small {
-        0 => String::new(),
-        n => format!(
-            "  and {} of fewer than {FEW} nodes, where a mode is thinner than a cell\n",
-            count(n, "aspect")
-        ),
+    let few = match (small, listed.clone().next()) {
+        (0, _) => String::new(),
+        (n, Some(_)) => format!("  and {} of fewer than {FEW} nodes\n", count(n, "aspect")),
+        (n, None) => format!("  {} of fewer than {FEW} nodes\n", count(n, "aspect")),
+    };
+    if report.aspects.is_empty() {
+        return String::new();
+    }
+    let table = match listed.clone().next() {
+        Some(_) => indented(&table.to_string()),
+        None => String::new(),
     };
     format!(
-        "\nAspects{}\n{}{small}  {}\n",
+        "\nAspects{}\n{table}{few}{}",
         more(listed.count(), most),
-        indented(&table.to_string()),
-        words::condition(report)
+        words::explanation(report)
     )
 }
 

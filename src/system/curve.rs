@@ -206,7 +206,19 @@ impl Curve {
         from: &Configuration<f64>,
         to: &Configuration<f64>,
     ) -> Vec<f64> {
-        let mut step = self.system.difference(from, to);
+        let mut step = vec![0.0; self.system.unknowns().len()];
+        self.difference_but_turns_into(from, to, &mut step);
+        step
+    }
+
+    /// The same, into a slice as long as there are unknowns.
+    pub fn difference_but_turns_into(
+        &self,
+        from: &Configuration<f64>,
+        to: &Configuration<f64>,
+        step: &mut [f64],
+    ) {
+        self.system.difference_into(from, to, step);
         for (x, unknown) in step.iter_mut().zip(self.system.unknowns()) {
             if let Unknown::Joint(joint) = *unknown
                 && self.repeats[joint]
@@ -214,7 +226,6 @@ impl Curve {
                 *x -= TAU * (*x / TAU).round();
             }
         }
-        step
     }
 }
 

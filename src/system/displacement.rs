@@ -34,6 +34,12 @@ impl<T: Factorable> System<T> {
     /// `displaced(from, difference(from, to))` is `to`.
     pub fn difference(&self, from: &Configuration<T>, to: &Configuration<T>) -> Vec<T> {
         let mut step = vec![T::zero(); self.unknowns().len()];
+        self.difference_into(from, to, &mut step);
+        step
+    }
+
+    /// The same, into a slice as long as there are unknowns.
+    pub fn difference_into(&self, from: &Configuration<T>, to: &Configuration<T>, step: &mut [T]) {
         for (i, &unknown) in self.unknowns().iter().enumerate() {
             match unknown {
                 Unknown::Joint(joint) => {
@@ -50,7 +56,6 @@ impl<T: Factorable> System<T> {
                 Unknown::Twist { .. } => {}
             }
         }
-        step
     }
 
     /// The dimensionless twist that leads from one pose to another.

@@ -84,6 +84,9 @@ pub struct Region<'m> {
     pub method: &'m Continuation,
 }
 
+/// A curve this little beyond a bound, in rad or m, still runs along it.
+const BESIDE: f64 = 1e-9;
+
 impl Region<'_> {
     /// A coordinate of the box at a configuration; angles of platforms near the middle of the box.
     pub fn side(&self, at: &Configuration<f64>, side: &Driven) -> f64 {
@@ -116,7 +119,7 @@ impl Region<'_> {
 
     /// Whether it is inside all of them.
     pub fn inside(&self, at: &Configuration<f64>) -> bool {
-        self.margins(at).into_iter().all(|margin| margin >= -1e-9)
+        self.margins(at).into_iter().all(|margin| margin >= -BESIDE)
     }
 
     /// The whole curve through a place.
@@ -184,7 +187,7 @@ impl Region<'_> {
             );
             let left = (before.iter().zip(&after))
                 .enumerate()
-                .filter(|(_, (b, a))| **a < 0.0 && **a < **b)
+                .filter(|(_, (b, a))| **a < -BESIDE && **a < **b)
                 .map(|(i, (b, a))| (i, b.max(0.0) / (b.max(0.0) - a)))
                 .min_by(|a, b| a.1.total_cmp(&b.1));
             if let Some((i, _)) = left {

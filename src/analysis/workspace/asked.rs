@@ -86,6 +86,16 @@ impl<'m> Asked<'m> {
             .at_values(axes.zip(values.iter().copied()))
     }
 
+    /// Whether direct singularities are other than where modes end.
+    pub fn tells_direct(&self) -> bool {
+        !self.inputs.is_empty() && !self.holds(&self.inputs)
+    }
+
+    /// Whether inverse singularities are.
+    pub fn tells_inverse(&self) -> bool {
+        !self.outputs.is_empty() && !self.holds(&self.outputs)
+    }
+
     /// What stands still in a motion within the map.
     pub fn locks(of: &[Holdable]) -> Vec<Lock> {
         of.iter().copied().map(Lock::Coordinate).collect()

@@ -1,12 +1,16 @@
 //! Aspects: regions of one mode without singularities, within limits; and how large regions are.
 
-use super::fill::{Filled, Link, root};
+use super::fill::{Filled, Link, Sheet, root};
 use super::grid::Grid;
 
-/// For each sheet the first of its aspect; none outside limits.
+/// For each sheet the first of its aspect; none outside limits and on singularities.
 pub(super) fn aspects(filled: &Filled) -> Vec<Option<usize>> {
     let mut roots: Vec<usize> = (0..filled.sheets.len()).collect();
-    for (s, sheet) in filled.sheets.iter().enumerate().filter(|(_, s)| s.within) {
+    let inside = |sheet: &Sheet| {
+        let told = &sheet.arrival.told;
+        sheet.within && told.direct != 0.0 && told.inverse != 0.0
+    };
+    for (s, sheet) in filled.sheets.iter().enumerate().filter(|(_, s)| inside(s)) {
         for link in &sheet.links {
             let Link::To(t) = *link else {
                 continue;
@@ -14,7 +18,7 @@ pub(super) fn aspects(filled: &Filled) -> Vec<Option<usize>> {
             let other = &filled.sheets[t];
             let [a, b] = [sheet, other].map(|s| &s.arrival.told);
             let alike = |x: f64, y: f64| (x < 0.0) == (y < 0.0);
-            if other.within && alike(a.direct, b.direct) && alike(a.inverse, b.inverse) {
+            if inside(other) && alike(a.direct, b.direct) && alike(a.inverse, b.inverse) {
                 let (a, b) = (root(&mut roots, s), root(&mut roots, t));
                 roots[a.max(b)] = a.min(b);
             }
@@ -22,7 +26,7 @@ pub(super) fn aspects(filled: &Filled) -> Vec<Option<usize>> {
     }
     let sheets = 0..filled.sheets.len();
     sheets
-        .map(|s| filled.sheets[s].within.then(|| root(&mut roots, s)))
+        .map(|s| inside(&filled.sheets[s]).then(|| root(&mut roots, s)))
         .collect()
 }
 

@@ -8,7 +8,7 @@ use super::curves::Tracer;
 use super::edge::{Edge, Met, Until, walk};
 use super::fill::{Filled, Link};
 use super::grid::Grid;
-use super::step::Measure;
+use super::measure::Measure;
 use crate::mechanism::Configuration;
 use crate::solve::{Continuation, each};
 use crate::system::{
@@ -43,10 +43,12 @@ pub(super) struct Crossing {
     pub at: Configuration<f64>,
     /// The part of the way from the sheet to its neighbour.
     pub part: f64,
+    /// Whether the same point was met on another edge, at a node that they share.
+    pub again: bool,
 }
 
 /// A kind by numbers.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub(super) enum Kind {
     Fold,
     Direct,
@@ -96,21 +98,14 @@ impl Boundary<'_> {
     pub fn crossings(&self) -> Vec<Crossing> {
         let inputs = Asked::locks(&self.asked.inputs);
         let outputs = Asked::locks(&self.asked.outputs);
-        let limited = self
-            .asked
-            .mechanism
-            .joints()
-            .iter()
-            .any(|j| j.limits.is_some());
+        let joints = self.asked.mechanism.joints();
+        let limited = joints.iter().any(|joint| joint.limits.is_some());
         let mut wanted: Vec<(usize, usize, Until)> = Vec::new();
-        for (s, sheet) in self
-            .filled
-            .sheets
-            .iter()
-            .enumerate()
-            .filter(|(_, s)| s.within)
-        {
-            for (d, link) in sheet.links.iter().enumerate() {
+        let mut found: Vec<Crossing> = Vec::new();
+        let sheets = self.filled.sheets.iter().enumerate();
+        for (s, sheet) in sheets.filter(|(_, sheet)| sheet.within) {
+            let links = sheet.links[..2 * self.grid.dimensions()].iter();
+            for (d, link) in links.enumerate() {
                 match *link {
                     Link::Fold if limited => wanted.push((s, d, Until::Limit)),
                     Link::Fold => wanted.push((s, d, Until::End)),
@@ -119,19 +114,35 @@ impl Boundary<'_> {
                     }
                     Link::To(t) if d % 2 == 1 => {
                         let [a, b] = [s, t].map(|s| &self.filled.sheets[s].arrival.told);
-                        let parts = |x: f64, y: f64| (x < 0.0) != (y < 0.0);
-                        if parts(a.direct, b.direct) {
-                            wanted.push((s, d, Until::Singular(&inputs)));
-                        }
-                        if parts(a.inverse, b.inverse) {
-                            wanted.push((s, d, Until::Singular(&outputs)));
-                        }
+                        let mut parted = |x: f64, y: f64, kind: Kind, until| match (x, y) {
+                            (0.0, 0.0) => {}
+                            (0.0, _) => found.push(self.at_node((s, d), s, 0.0, kind)),
+                            (_, 0.0) => found.push(self.at_node((s, d), t, 1.0, kind)),
+                            _ if (x < 0.0) != (y < 0.0) => wanted.push((s, d, until)),
+                            _ => {}
+                        };
+                        let until = Until::Singular(&inputs);
+                        parted(a.direct, b.direct, Kind::Direct, until);
+                        let until = Until::Singular(&outputs);
+                        parted(a.inverse, b.inverse, Kind::Inverse, until);
                     }
                     _ => {}
                 }
             }
         }
-        let found = each(wanted.len(), &(), |(), i| {
+        let mut at_nodes = std::collections::HashSet::new();
+        for crossing in &mut found {
+            let Link::To(t) = self.filled.sheets[crossing.sheet].links[crossing.direction] else {
+                continue;
+            };
+            let node = if crossing.part > 0.0 {
+                t
+            } else {
+                crossing.sheet
+            };
+            crossing.again = !at_nodes.insert((node, crossing.kind));
+        }
+        let walked = each(wanted.len(), &(), |(), i| {
             let (s, d, until) = wanted[i];
             let sheet = &self.filled.sheets[s];
             let node = self.grid.neighbour(sheet.node, d)?;
@@ -157,9 +168,29 @@ impl Boundary<'_> {
                 kind,
                 at,
                 part,
+                again: false,
             })
         });
-        found.into_iter().flatten().collect()
+        found.extend(walked.into_iter().flatten());
+        found
+    }
+
+    /// A singularity at a node, an end of an edge.
+    fn at_node(
+        &self,
+        (sheet, direction): (usize, usize),
+        singular: usize,
+        part: f64,
+        kind: Kind,
+    ) -> Crossing {
+        Crossing {
+            sheet,
+            direction,
+            kind,
+            at: self.filled.sheets[singular].arrival.at.clone(),
+            part,
+            again: false,
+        }
     }
 
     /// The curves through crossings, of the slices of the first two coordinates one after another.

@@ -1,7 +1,7 @@
 //! The way from a node to its neighbour, in steps that cannot change branch unnoticed.
 
 use super::asked::Asked;
-use super::step::Measure;
+use super::measure::Measure;
 use crate::linear::Decomposition;
 use crate::mechanism::Configuration;
 use crate::solve::{Continuation, Place};

@@ -2,9 +2,10 @@
 
 use super::asked::Asked;
 use super::edge::{Edge, Met, reach};
-use super::grid::Grid;
-use super::step::{Arrival, Measure, SURE, Start, Steps};
-use crate::linear::Factorable;
+use super::grid::{Grid, MOST_DIRECTIONS};
+use super::measure::Measure;
+use super::step::{Arrival, SURE, Start, Steps};
+use crate::linear::{Factorable, norm};
 use crate::mechanism::Configuration;
 use crate::number::Packed;
 use crate::solve::each;
@@ -18,7 +19,7 @@ pub(super) struct Sheet {
     /// Whether all joints are within their limits.
     pub within: bool,
     /// For each direction of the grid.
-    pub links: Vec<Link>,
+    pub links: [Link; MOST_DIRECTIONS],
 }
 
 /// How a node goes on in a direction.
@@ -45,6 +46,7 @@ pub(super) struct Filled {
     pub overflow: bool,
 }
 
+#[derive(Clone, Copy)]
 pub(super) struct Fill<'a> {
     pub asked: &'a Asked<'a>,
     pub grid: &'a Grid,
@@ -58,38 +60,37 @@ type Task = (usize, usize);
 
 /// Steps given to one thread at once.
 const JOB: usize = 64;
-/// Configurations this near are the same.
-const SAME: f64 = 1e-6;
 
 impl Fill<'_> {
-    /// Spreads from assembled configurations at nodes. The order of work does not depend on the
-    /// number of threads: fronts are merged in the order of their steps.
-    pub fn from<T: Factorable + Packed + Send + Sync>(
-        &self,
-        seeds: Vec<(usize, Configuration<f64>)>,
-        told: &mut dyn FnMut(usize),
-    ) -> Filled {
-        let steps: Steps<T> = Steps::new(self.asked);
-        let mut filled = Filled {
+    /// Nothing reached yet.
+    pub fn nothing(&self) -> Filled {
+        Filled {
             sheets: Vec::new(),
             of_node: vec![Vec::new(); self.grid.len()],
             roots: Vec::new(),
             overflow: false,
-        };
+        }
+    }
+
+    /// Spreads from assembled configurations at nodes. The order of work does not depend on the
+    /// number of threads: fronts are merged in the order of their steps.
+    pub fn spread<T: Factorable + Packed + Send + Sync>(
+        &self,
+        filled: &mut Filled,
+        steps: &Steps<T>,
+        seeds: &[(usize, Configuration<f64>)],
+        told: &mut dyn FnMut(usize),
+    ) {
         let starts: Vec<Start> = (seeds.iter())
-            .map(|(node, at)| Start {
-                guess: at.clone(),
-                reach: 1e-3,
-                values: self.grid.values(*node),
-            })
+            .map(|(node, at)| self.here(*node, at))
             .collect();
-        let settled = self.settled(&steps, &starts);
+        let settled = self.settled(steps, &starts);
         let mut front = Vec::new();
         for ((node, _), arrival) in seeds.iter().zip(settled) {
             if let Some(arrival) = arrival
-                && self.known(&filled, *node, &arrival.at).is_none()
+                && self.known(filled, *node, &arrival.at).is_none()
             {
-                front.push(self.add(&mut filled, *node, arrival));
+                front.push(self.add(filled, *node, arrival));
             }
         }
         while !front.is_empty() {
@@ -102,24 +103,33 @@ impl Fill<'_> {
                 .collect();
             front = Vec::new();
             while !waiting.is_empty() {
-                waiting = self.linked(&mut filled, &waiting);
-                let (now, later) = self.chosen(&mut filled, waiting);
-                let ends = self.ends(&steps, &filled, &now);
+                waiting = self.linked(filled, &waiting);
+                let (now, later) = self.chosen(filled, waiting);
+                let ends = self.ends(steps, filled, &now);
                 for ((s, d), end) in now.into_iter().zip(ends) {
-                    self.merge(&mut filled, (s, d), end, &mut front);
+                    self.merge(filled, (s, d), end, &mut front);
                 }
                 waiting = later;
                 told(filled.sheets.len());
                 if filled.sheets.len() > self.most {
                     filled.overflow = true;
-                    return filled;
+                    return;
                 }
             }
         }
         for s in 0..filled.roots.len() {
             filled.roots[s] = root(&mut filled.roots, s);
         }
-        filled
+    }
+
+    /// A start beside an assembled configuration at a node.
+    fn here<'s>(&self, node: usize, at: &'s Configuration<f64>) -> Start<'s> {
+        Start {
+            from: at,
+            along: None,
+            reach: 1e-3,
+            values: self.grid.values(node),
+        }
     }
 
     fn settled<T: Factorable + Packed + Send + Sync>(
@@ -148,7 +158,7 @@ impl Fill<'_> {
             within: joints
                 .into_iter()
                 .all(|(joint, value)| joint.allows(*value)),
-            links: vec![Link::Open; 2 * self.grid.dimensions()],
+            links: [Link::Open; MOST_DIRECTIONS],
         });
         filled.of_node[node].push(new);
         filled.roots.push(new);
@@ -156,16 +166,9 @@ impl Fill<'_> {
     }
 
     /// The sheet of a node with this configuration.
-    fn known(&self, filled: &Filled, node: usize, at: &Configuration<f64>) -> Option<usize> {
+    pub fn known(&self, filled: &Filled, node: usize, at: &Configuration<f64>) -> Option<usize> {
         let mut sheets = filled.of_node[node].iter().copied();
-        sheets.find(|s| self.measure.apart(&filled.sheets[*s].arrival.at, at) < SAME)
-    }
-
-    /// Where the motion of a sheet leads in a direction.
-    fn ahead(&self, sheet: &Sheet, direction: usize) -> (Configuration<f64>, f64, f64) {
-        let (axis, change) = self.change(sheet.node, direction);
-        let motion = &sheet.arrival.motions[axis];
-        self.measure.ahead(&sheet.arrival.at, motion, axis, change)
+        sheets.find(|s| self.measure.same(&filled.sheets[*s].arrival.at, at))
     }
 
     fn change(&self, node: usize, direction: usize) -> (usize, f64) {
@@ -183,8 +186,8 @@ impl Fill<'_> {
     /// Links sheets to known ones that lie where both their motions say; what is left.
     fn linked(&self, filled: &mut Filled, tasks: &[Task]) -> Vec<Task> {
         let jobs: Vec<&[Task]> = tasks.chunks(8 * JOB).collect();
-        let found = each(jobs.len(), &(), |(), i| {
-            let near = jobs[i].iter().map(|&task| self.near(filled, task));
+        let found = each(jobs.len(), &Vec::new(), |storage, i| {
+            let near = jobs[i].iter().map(|&task| self.near(filled, task, storage));
             near.collect::<Vec<Option<usize>>>()
         });
         let mut left = Vec::new();
@@ -198,27 +201,17 @@ impl Fill<'_> {
         left
     }
 
-    fn near(&self, filled: &Filled, (s, d): Task) -> Option<usize> {
+    fn near(&self, filled: &Filled, (s, d): Task, storage: &mut Vec<f64>) -> Option<usize> {
         let sheet = &filled.sheets[s];
         let node = self.grid.neighbour(sheet.node, d)?;
         let known = &filled.of_node[node];
         if known.is_empty() || sheet.links[d] != Link::Open {
             return None;
         }
-        let (to, _, length) = self.ahead(sheet, d);
+        let (axis, change) = self.change(sheet.node, d);
         let mut near = known.iter().copied().filter(|&t| {
-            let other = &filled.sheets[t];
-            if self.measure.apart(&to, &other.arrival.at) > SURE * length + SAME {
-                return false;
-            }
-            if !self
-                .measure
-                .alike(&sheet.arrival.motions, &other.arrival.motions)
-            {
-                return false;
-            }
-            let (back, _, length) = self.ahead(other, d ^ 1);
-            self.measure.apart(&back, &sheet.arrival.at) <= SURE * length + SAME
+            let both = [&sheet.arrival, &filled.sheets[t].arrival];
+            self.measure.linked(both, axis, change, storage)
         });
         let first = near.next()?;
         // two as near are for surer steps to tell apart
@@ -248,9 +241,11 @@ impl Fill<'_> {
                 .collect();
             let packs = starts.chunks(T::WIDTH);
             let arrivals = packs.flat_map(|pack| steps.settle(pack));
-            let sure = arrivals.zip(jobs[i]).map(|(arrival, task)| {
-                let from = &filled.sheets[task.0].arrival.motions;
-                arrival.filter(|to| self.measure.alike(from, &to.motions))
+            let sure = arrivals.zip(jobs[i]).map(|(arrival, &(s, d))| {
+                let from = &filled.sheets[s];
+                let (axis, change) = self.change(from.node, d);
+                let (_, length) = self.measure.motion(&from.arrival, axis, change);
+                arrival.filter(|to| self.measure.alike(&from.arrival, to, length))
             });
             sure.collect::<Vec<Option<Arrival>>>()
         });
@@ -277,11 +272,11 @@ impl Fill<'_> {
         });
         let again: Vec<Start> = (unsure.iter().zip(&met))
             .filter_map(|(task, met)| match met {
-                Met::Neighbour(at) => Some(Start {
-                    guess: at.clone(),
-                    reach: 1e-3,
-                    values: self.start_values(filled, *task),
-                }),
+                Met::Neighbour(at) => {
+                    let node = filled.sheets[task.0].node;
+                    let to = self.grid.neighbour(node, task.1).unwrap_or(node);
+                    Some(self.here(to, at))
+                }
                 _ => None,
             })
             .collect();
@@ -309,11 +304,14 @@ impl Fill<'_> {
             .values(self.grid.neighbour(node, d).unwrap_or(node))
     }
 
-    fn start(&self, filled: &Filled, (s, d): Task) -> Start {
-        let (guess, length, _) = self.ahead(&filled.sheets[s], d);
+    fn start<'f>(&self, filled: &'f Filled, (s, d): Task) -> Start<'f> {
+        let sheet = &filled.sheets[s];
+        let (axis, change) = self.change(sheet.node, d);
+        let (motion, factor) = self.measure.motion(&sheet.arrival, axis, change);
         Start {
-            guess,
-            reach: SURE * length,
+            from: &sheet.arrival.at,
+            along: Some((motion, factor)),
+            reach: SURE * factor.abs() * norm(motion),
             values: self.start_values(filled, (s, d)),
         }
     }

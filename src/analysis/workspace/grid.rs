@@ -2,6 +2,9 @@
 
 use crate::system::Driven;
 
+/// Directions to neighbours there are at most: there and back along three axes.
+pub(super) const MOST_DIRECTIONS: usize = 6;
+
 /// Nodes at equal distances in a box, the first coordinate running fastest.
 #[derive(Clone, Debug)]
 pub(super) struct Grid {
@@ -72,6 +75,9 @@ impl Grid {
 
     /// Nodes spread over the grid, no more than `most`, none of them at its edge if that can be.
     pub fn spread(&self, most: usize) -> Vec<usize> {
+        if self.len() <= most {
+            return (0..self.len()).collect();
+        }
         let root = (most as f64).powf(1.0 / self.dimensions() as f64).floor();
         let each = (root as usize).max(1);
         let mut nodes = vec![0];

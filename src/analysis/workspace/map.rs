@@ -7,11 +7,12 @@ use super::aspects;
 use super::boundary::{Crossing, named};
 use super::fill::{Filled, Link};
 use super::grid::Grid;
+use super::join;
 use super::report::{
-    AspectReport, AxisReport, BoundaryPoint, Cell, Conditioned, HeldReport, ModeReport,
-    WorkspaceReport,
+    AspectReport, AxisReport, BoundaryPoint, Cell, Conditioned, CoordinateReport, HeldReport,
+    ModeReport, WorkspaceReport,
 };
-use crate::mechanism::Configuration;
+use crate::mechanism::{Configuration, Coordinate};
 use crate::system::{Holdable, Walk};
 
 /// Sheets with their modes and aspects.
@@ -27,7 +28,12 @@ pub(super) struct Map<'a> {
 }
 
 impl<'a> Map<'a> {
-    pub fn new(asked: &'a Asked<'a>, grid: &'a Grid, filled: &'a Filled) -> Self {
+    pub fn new(
+        asked: &'a Asked<'a>,
+        grid: &'a Grid,
+        filled: &'a Filled,
+        aspect: Vec<Option<usize>>,
+    ) -> Self {
         let mut within = vec![false; filled.sheets.len()];
         // of each mode the sheet at its first node, with the least joints
         let mut first: Vec<Option<usize>> = vec![None; filled.sheets.len()];
@@ -62,7 +68,7 @@ impl<'a> Map<'a> {
         Map {
             mode: (0..filled.sheets.len()).map(number).collect(),
             modes: roots.len(),
-            aspect: aspects::aspects(filled),
+            aspect,
             asked,
             grid,
             filled,
@@ -115,6 +121,14 @@ impl<'a> Map<'a> {
                     value,
                 })
                 .collect(),
+            following: self
+                .following()
+                .map(|(p, c)| Holdable::Coordinate(p, c))
+                .map(|of| CoordinateReport {
+                    name: name(&of),
+                    unit: unit(of),
+                })
+                .collect(),
             inputs: self.asked.inputs.iter().map(name).collect(),
             outputs: self.asked.outputs.iter().map(name).collect(),
             nodes: self.grid.len(),
@@ -149,6 +163,7 @@ impl<'a> Map<'a> {
             curves: Vec::new(),
             points: crossings
                 .iter()
+                .filter(|crossing| !crossing.again)
                 .filter_map(|crossing| {
                     let node = self.filled.sheets[crossing.sheet].node;
                     let mut at = self.grid.values(node);
@@ -165,7 +180,9 @@ impl<'a> Map<'a> {
                 })
                 .collect(),
             unsure,
+            parts: join::parts(self.grid.dimensions()),
             searched: [0; 2],
+            probed: [0; 2],
             outside: 0,
             seed: 0,
             normalising_length: mechanism.characteristic_length(),
@@ -185,6 +202,16 @@ impl<'a> Map<'a> {
         let mapped = |of: &Holdable| self.asked.axes.iter().any(|axis| axis.coordinate == *of);
         let all = joints.chain(platforms);
         all.filter(|(of, _)| !mapped(of)).collect()
+    }
+
+    /// Coordinates of platforms that are neither mapped nor held.
+    fn following(&self) -> impl Iterator<Item = (usize, Coordinate)> {
+        let platforms = 0..self.asked.mechanism.platforms().len();
+        let all = platforms.flat_map(|p| Coordinate::ALL.map(|c| (p, c)));
+        all.filter(|&(p, c)| {
+            let values = self.asked.question.held_values(p);
+            !values.iter().any(|(held, _)| *held == c)
+        })
     }
 
     /// The first sheet of a node that is wanted.
@@ -242,8 +269,8 @@ impl<'a> Map<'a> {
                     mode: self.mode[first].map_or(0, |mode| mode + 1),
                     nodes: sheets.len(),
                     size: self.size(&wanted, cut),
-                    direct: sign(told(first).direct, !self.asked.inputs.is_empty()),
-                    inverse: sign(told(first).inverse, !self.asked.outputs.is_empty()),
+                    direct: sign(told(first).direct, self.asked.tells_direct()),
+                    inverse: sign(told(first).inverse, self.asked.tells_inverse()),
                     best: first_of(conditions.clone().fold(f64::INFINITY, f64::min)),
                     worst: first_of(conditions.fold(0.0, f64::max)),
                 };
@@ -278,6 +305,7 @@ impl<'a> Map<'a> {
             .collect();
         sheets.sort_by_key(|&s| (self.filled.sheets[s].node, self.mode[s], s));
         let told = |x: f64, told: bool| told.then_some(x);
+        let following: Vec<(usize, Coordinate)> = self.following().collect();
         sheets
             .into_iter()
             .map(|s| {
@@ -289,9 +317,12 @@ impl<'a> Map<'a> {
                     mode: self.mode[s].map_or(0, |mode| mode + 1),
                     aspect: self.aspect[s].and_then(|first| numbers.get(&first).copied()),
                     condition: of.condition.is_finite().then_some(of.condition),
-                    direct: told(of.direct, !self.asked.inputs.is_empty()),
-                    inverse: told(of.inverse, !self.asked.outputs.is_empty()),
+                    direct: told(of.direct, self.asked.tells_direct()),
+                    inverse: told(of.inverse, self.asked.tells_inverse()),
                     joints: brought(self.asked, &sheet.arrival.at, false).joints,
+                    following: (following.iter())
+                        .map(|&(p, c)| c.of(&sheet.arrival.at.platforms[p].pose()))
+                        .collect(),
                 }
             })
             .collect()

@@ -1,30 +1,39 @@
 //! What moves how fast when the mapped and held coordinates do.
 
 use super::asked::Asked;
-use crate::linear::{Factorable, Qr, RANK_TOLERANCE};
-use crate::mechanism::{Configuration, Role};
+use super::condition::{condition, determinant};
+use crate::geometry::Vector3;
+use crate::linear::Factorable;
+use crate::mechanism::{Configuration, Coordinate, Role, orientation_rows};
 use crate::number::Packed;
 use crate::solve::Equations;
-use crate::system::{Held, Holdable, System, Unknown, Work};
+use crate::system::{Held, HeldPlatform, Holdable, System, Unknown, Work};
 
-/// The closures linearised with nothing held, above the rates of what is held: M = [J; H]. The
-/// columns of N = M⁺[0; 1] are the motions for unit rates of the held coordinates, dimensionless.
+/// The motions for unit rates of the held coordinates one by one, the columns of N, dimensionless:
+/// J N = 0 for the closures linearised with nothing held, and H N = 1 for the rates of what is held.
 ///
-/// With the rates A N of the inputs, det(A N) = det[J; A]/det[J; H] for square J; it is defined for
-/// redundant rows as well, smooth on a sheet, and changes sign at direct singularities only. With
-/// those of outputs it tells the inverse ones.
+/// With the rates A N of the inputs, det(A N) is the determinant of the derivative of the inputs by
+/// what is mapped and held; it is defined for redundant rows as well, smooth on a sheet, and changes
+/// sign at direct singularities only. With those of outputs it tells the inverse ones.
 #[derive(Clone, Debug)]
 pub(super) struct Rates<T: Factorable> {
-    system: System<T>,
+    /// The closures with nothing held.
+    free: System<T>,
     work: Work<T>,
-    qr: Qr<T>,
+    /// For each row of the closures at a node the same row with nothing held.
+    rows: Vec<usize>,
+    /// For each unknown at a node its place among all.
+    places: Vec<usize>,
     held: Vec<Row>,
+    ways: Vec<Way>,
     inputs: Vec<Row>,
     outputs: Vec<Row>,
     /// Unknowns whose rates are what moves out.
     moved: Vec<usize>,
+    /// Rates of the equations at a node, and of those with nothing held.
     right: Vec<T>,
-    columns: Vec<T>,
+    column: Vec<T>,
+    motions: Vec<T>,
 }
 
 /// A coordinate and the first of the unknowns it depends on.
@@ -34,12 +43,25 @@ struct Row {
     first: usize,
 }
 
+/// How the rate of a held coordinate enters the equations at a node.
+#[derive(Clone, Copy, Debug)]
+enum Way {
+    /// A joint or displacement that is no unknown there: by its column.
+    Unknown(usize),
+    /// An angle of a platform whose pose is no unknown: by the columns of its turning.
+    Turned(usize, Coordinate),
+    /// A coordinate that is one of the equations.
+    Row(usize),
+    /// An angle of an orientation that three of the equations hold.
+    Turning(usize, Coordinate),
+}
+
 /// What is told of a configuration in one place.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Told {
-    /// Whether M has full rank, so far as elimination tells.
+    /// Whether the held coordinates can have any rates.
     pub regular: bool,
-    /// det(A N): zero at direct singularities; 1 where it is not told.
+    /// det(A N): zero where A N has lost rank, at direct singularities; 1 where it is not told.
     pub direct: f64,
     /// The same for outputs: zero at inverse singularities.
     pub inverse: f64,
@@ -48,12 +70,13 @@ pub(super) struct Told {
 }
 
 impl<T: Factorable + Packed> Rates<T> {
-    pub fn new(asked: &Asked) -> Self {
+    /// `system` is that of the question.
+    pub fn new(asked: &Asked, system: &System<T>) -> Self {
         let mechanism = asked.mechanism;
         let dimensions = mechanism.dimensions().map(&mut T::from_f64);
-        let system = System::new(&dimensions, &Held::nothing(mechanism).map(T::from_f64));
+        let free = System::new(&dimensions, &Held::nothing(mechanism).map(T::from_f64));
         let place = |unknown: Unknown| {
-            let place = system.unknowns().iter().position(|u| *u == unknown);
+            let place = free.unknowns().iter().position(|u| *u == unknown);
             place.expect("nothing is held")
         };
         let row = |of: &Holdable| Row {
@@ -69,259 +92,254 @@ impl<T: Factorable + Packed> Rates<T> {
             },
         };
         let rows = |of: &[Holdable]| of.iter().map(row).collect::<Vec<Row>>();
+        let mut matching = vec![0; system.hold_rows().start];
+        for (here, there) in system.closure_rows().zip(free.closure_rows()) {
+            here.zip(there).for_each(|(h, t)| matching[h] = t);
+        }
         let whole = mechanism.platforms().is_empty();
-        let unknowns = system.unknowns().iter().enumerate();
+        let unknowns = free.unknowns().iter().enumerate();
         let moved = unknowns.filter(|(_, unknown)| match **unknown {
             Unknown::Joint(joint) => whole && mechanism.joints()[joint].role != Role::Actuated,
             Unknown::Twist { .. } => true,
         });
-        let moved = moved.map(|(i, _)| i).collect();
-        let (all, columns) = (system.rows() + asked.held.len(), system.unknowns().len());
+        let unknowns = free.unknowns().len();
         Rates {
-            qr: Qr::new(all, columns, asked.held.len()),
+            rows: matching,
+            places: system.unknowns().iter().map(|u| place(*u)).collect(),
             held: rows(&asked.held),
+            ways: ways(asked, system, &place),
             inputs: rows(&asked.inputs),
-            outputs: match asked.holds(&asked.outputs) {
-                true => Vec::new(),
-                false => rows(&asked.outputs),
+            outputs: match asked.tells_inverse() {
+                true => rows(&asked.outputs),
+                false => Vec::new(),
             },
-            moved,
-            right: vec![T::zero(); all],
-            columns: vec![T::zero(); columns * asked.held.len()],
-            work: system.work(),
-            system,
+            moved: moved.map(|(i, _)| i).collect(),
+            right: vec![T::zero(); system.rows()],
+            column: vec![T::zero(); free.rows()],
+            motions: vec![T::zero(); unknowns * asked.held.len()],
+            work: free.work(),
+            free,
         }
+    }
+
+    /// A configuration moved by steps of all unknowns.
+    pub fn displaced(&self, at: &Configuration<T>, step: &[T]) -> Configuration<T> {
+        self.free.displaced(at, step)
     }
 
     pub fn unknowns(&self) -> usize {
-        self.system.unknowns().len()
+        self.free.unknowns().len()
     }
 
-    fn slope(&self, row: Row, at: &Configuration<T>) -> Vec<T> {
-        match row.of {
-            Holdable::Joint(_) => vec![T::one()],
-            Holdable::Coordinate(platform, c) => {
-                let pose = at.platforms[platform].pose();
-                c.slope(&pose).to_vec()
-            }
-            Holdable::Turn(_, axis) => {
-                let one = |i: usize| {
-                    if i == axis as usize {
-                        T::one()
-                    } else {
-                        T::zero()
-                    }
-                };
-                (0..6).map(one).collect()
-            }
-        }
-    }
-
-    /// Works N out and tells what follows from it, for each place.
-    pub fn at(&mut self, at: &Configuration<T>) -> Vec<Told> {
-        self.system.linearise(at, &mut self.work);
-        let jacobian = self.system.dense_jacobian(&mut self.work);
-        let (rows, n) = (self.system.rows(), self.held.len());
-        let columns = self.unknowns();
-        self.qr.reset(rows + n);
-        for (j, column) in jacobian.chunks_exact(rows.max(1)).take(columns).enumerate() {
-            self.qr.column_mut(j)[..rows].copy_from_slice(&column[..rows]);
-        }
-        for (i, row) in self.held.clone().into_iter().enumerate() {
-            for (k, slope) in self.slope(row, at).into_iter().enumerate() {
-                self.qr.column_mut(row.first + k)[rows + i] = slope;
-            }
-            self.qr.column_mut(columns + i)[rows + i] = T::one();
-        }
-        self.qr.factorise(1.0);
+    /// Works N out and tells what follows from it, for each place, where the equations of the
+    /// question are solved.
+    pub fn at(
+        &mut self,
+        at: &Configuration<T>,
+        system: &System<T>,
+        work: &mut Work<T>,
+    ) -> Vec<Told> {
+        self.free.linearise(at, &mut self.work);
+        system.linearise(at, work);
+        system.factorise(0.0, work);
+        let (n, unknowns) = (self.held.len(), self.unknowns());
+        // the largest that J N is off
+        let mut gap = vec![0.0f64; T::WIDTH];
         for i in 0..n {
-            self.right.copy_from_slice(self.qr.carried(i));
-            let to = &mut self.columns[i * columns..(i + 1) * columns];
-            self.qr.back_substitute(&mut self.right, to);
+            let mut motion = std::mem::take(&mut self.motions);
+            self.move_one(at, system, work, i, &mut motion[i * unknowns..][..unknowns]);
+            let one = &motion[i * unknowns..][..unknowns];
+            self.free
+                .product_into(one, &mut self.work, &mut self.column);
+            for (place, gap) in gap.iter_mut().enumerate() {
+                let largest = |of: &[T]| {
+                    let sizes = of.iter().map(|x| x.part(place).abs());
+                    // a NaN is larger than any
+                    sizes.fold(0.0, |most, x| if x <= most { most } else { x })
+                };
+                let relative = largest(&self.column) / (1.0 + largest(one));
+                *gap = if relative <= *gap { *gap } else { relative };
+            }
+            self.motions = motion;
         }
         // unit rates come out again if the held coordinates are independent
-        let back = self.matrix(&self.held.clone(), at);
-        let input = self.matrix(&self.inputs.clone(), at);
-        let output = self.matrix(&self.outputs.clone(), at);
-        let moved: Vec<Vec<T>> = (0..n)
-            .map(|j| {
-                self.moved
-                    .iter()
-                    .map(|&i| self.columns[j * columns + i])
-                    .collect()
-            })
-            .collect();
-        let conditions = match self.inputs.is_empty() {
-            true => vec![f64::INFINITY; T::WIDTH],
-            false => condition(input.clone(), moved),
+        let back = self.matrix(&self.held, at);
+        let mut input = self.matrix(&self.inputs, at);
+        let mut output = self.matrix(&self.outputs, at);
+        let each = 0..T::WIDTH;
+        let direct: Vec<f64> = (each.clone().map(|p| determinant(&input, n, p))).collect();
+        let inverse: Vec<f64> = (each.clone().map(|p| determinant(&output, n, p))).collect();
+        let told = |rows: &[Row]| !rows.is_empty();
+        let (of_inputs, of_outputs) = (told(&self.inputs), told(&self.outputs));
+        let conditions = match of_inputs {
+            true => {
+                let motions = self.motions.chunks_exact(unknowns.max(1));
+                let moved = motions.flat_map(|motion| self.moved.iter().map(|&i| motion[i]));
+                let mut moved: Vec<T> = moved.collect();
+                condition(&mut input, &mut moved, n)
+            }
+            false => vec![(false, f64::INFINITY); T::WIDTH],
         };
-        (0..T::WIDTH)
-            .map(|place| {
-                let unit = |i: usize, j: usize| f64::from(u8::from(i == j));
-                let misses = back.iter().enumerate().flat_map(|(j, column)| {
-                    let column = column.iter().enumerate();
-                    column.map(move |(i, x)| (x.part(place) - unit(i, j)).abs())
-                });
-                let finite = |m: &[Vec<T>]| m.iter().flatten().all(|x| x.part(place).is_finite());
-                // a NaN is not regular
-                let regular = misses.fold(0.0, f64::max) < 1e-6 && finite(&back);
-                Told {
-                    regular,
-                    direct: determinant(&input, place),
-                    inverse: determinant(&output, place),
-                    condition: conditions[place],
-                }
-            })
-            .collect()
+        let lost = match of_outputs {
+            true => condition(&mut output, &mut [], n),
+            false => vec![(false, f64::INFINITY); T::WIDTH],
+        };
+        let of = |told: bool, lost: bool, determinant: f64| match (told, lost) {
+            (false, _) => 1.0,
+            (true, true) => 0.0,
+            (true, false) => determinant,
+        };
+        each.map(|place| {
+            let unit = |i: usize, j: usize| f64::from(u8::from(i == j));
+            let misses = back.iter().enumerate();
+            let misses = misses.map(|(k, x)| (x.part(place) - unit(k % n, k / n)).abs());
+            // a NaN is not regular
+            let regular = misses.fold(true, |all, miss| all && miss < 1e-6) && gap[place] < 1e-6;
+            Told {
+                regular,
+                direct: of(of_inputs, conditions[place].0, direct[place]),
+                inverse: of(of_outputs, lost[place].0, inverse[place]),
+                condition: conditions[place].1,
+            }
+        })
+        .collect()
     }
 
-    /// The motion for a unit rate of held coordinate `i`, in one place.
-    pub fn motion(&self, i: usize, place: usize) -> Vec<f64> {
-        let columns = self.unknowns();
-        let column = &self.columns[i * columns..(i + 1) * columns];
-        column.iter().map(|x| x.part(place)).collect()
+    /// The motion for a unit rate of held coordinate `i`: what is held moves, and the step −J⁺r for
+    /// the rate r of the residual that this would make takes the rest along.
+    fn move_one(
+        &mut self,
+        at: &Configuration<T>,
+        system: &System<T>,
+        work: &mut Work<T>,
+        i: usize,
+        motion: &mut [T],
+    ) {
+        motion.fill(T::zero());
+        self.right.fill(T::zero());
+        match self.ways[i] {
+            Way::Unknown(unknown) => motion[unknown] = T::one(),
+            Way::Turned(first, c) => {
+                let Holdable::Coordinate(platform, _) = self.held[i].of else {
+                    return;
+                };
+                let omega = turning(at, platform, c);
+                motion[first..first + 3].copy_from_slice(&omega.0);
+            }
+            Way::Row(row) => self.right[row] = -T::one(),
+            Way::Turning(row, c) => {
+                let (omega, platform) = match self.held[i].of {
+                    Holdable::Coordinate(platform, _) => (turning(at, platform, c), platform),
+                    Holdable::Turn(platform, axis) => (Vector3::unit(axis as usize), platform),
+                    Holdable::Joint(_) => return,
+                };
+                let actual = at.platforms[platform].orientation.rotation();
+                let (_, slopes) = orientation_rows(&actual, &actual);
+                for (right, slope) in self.right[row..].iter_mut().zip(slopes) {
+                    *right = -slope.dot(&omega);
+                }
+            }
+        }
+        for (unknown, rate) in motion.iter().enumerate() {
+            // most do not move; where one does not in any place the sum is the same without it
+            if (0..T::WIDTH).all(|place| rate.part(place) == 0.0) {
+                continue;
+            }
+            (self.free).column_into(unknown, &mut self.work, &mut self.column);
+            for (right, &row) in self.right.iter_mut().zip(&self.rows) {
+                *right += self.column[row] * *rate;
+            }
+        }
+        system.step_for(&self.right, work);
+        let step = system.step_of(work);
+        for (&place, &rate) in self.places.iter().zip(step) {
+            motion[place] = rate;
+        }
+    }
+
+    /// The motions for unit rates of all held coordinates in one place, one after another.
+    pub fn motions(&self, place: usize) -> Vec<f64> {
+        self.motions.iter().map(|x| x.part(place)).collect()
     }
 
     /// The rates of coordinates, a column for each held one.
-    fn matrix(&self, rows: &[Row], at: &Configuration<T>) -> Vec<Vec<T>> {
-        let slopes: Vec<Vec<T>> = rows.iter().map(|row| self.slope(*row, at)).collect();
-        let motions = self.columns.chunks_exact(self.unknowns().max(1));
-        motions
-            .map(|motion| {
-                let rate = |(row, slope): (&Row, &Vec<T>)| {
-                    let motion = &motion[row.first..row.first + slope.len()];
-                    let products = motion.iter().zip(slope);
-                    products.fold(T::zero(), |sum, (x, s)| sum + *x * *s)
+    fn matrix(&self, rows: &[Row], at: &Configuration<T>) -> Vec<T> {
+        let mut matrix = vec![T::zero(); rows.len() * self.held.len()];
+        let motions = self.motions.chunks_exact(self.unknowns().max(1));
+        for (i, row) in rows.iter().enumerate() {
+            let slope = match row.of {
+                Holdable::Joint(_) => None,
+                Holdable::Coordinate(platform, c) => Some(c.slope(&at.platforms[platform].pose())),
+                Holdable::Turn(_, axis) => {
+                    let mut slope = [T::zero(); 6];
+                    slope[axis as usize] = T::one();
+                    Some(slope)
+                }
+            };
+            for (j, motion) in motions.clone().enumerate() {
+                matrix[j * rows.len() + i] = match slope {
+                    None => motion[row.first],
+                    Some(slope) => {
+                        let products = motion[row.first..].iter().zip(slope);
+                        products.fold(T::zero(), |sum, (x, s)| sum + *x * s)
+                    }
                 };
-                rows.iter().zip(&slopes).map(rate).collect()
-            })
-            .collect()
-    }
-}
-
-/// The determinant of a square matrix of columns in one place; 1 of none.
-fn determinant<T: Packed>(columns: &[Vec<T>], place: usize) -> f64 {
-    let n = columns.len();
-    if columns.iter().any(|column| column.len() != n) {
-        return 1.0;
-    }
-    nalgebra::DMatrix::from_fn(n, n, |i, j| columns[j][i].part(place)).determinant()
-}
-
-/// The condition number of the matrix that takes the columns of `input` to those of `moved`, in each
-/// place: infinite if `input` loses rank.
-///
-/// With the singular value decomposition input = U Σ Vᵀ it is that of moved·V·Σ⁻¹. One-sided Jacobi
-/// rotations (Hestenes 1958) do the same in every place, so that places side by side do not wait
-/// for one another.
-fn condition<T: Packed>(mut input: Vec<Vec<T>>, mut moved: Vec<Vec<T>>) -> Vec<f64> {
-    rotate(&mut input, &mut moved);
-    let sizes: Vec<T> = input.iter().map(|column| square(column).sqrt()).collect();
-    let inputs = extremes(&sizes);
-    for (column, size) in moved.iter_mut().zip(&sizes) {
-        column.iter_mut().for_each(|x| *x = *x / *size);
-    }
-    rotate(&mut moved, &mut Vec::new());
-    let sizes: Vec<T> = moved.iter().map(|column| square(column).sqrt()).collect();
-    let quotient = |((least, greatest), of): (&(f64, f64), &(f64, f64))| {
-        let lost = *least <= RANK_TOLERANCE * greatest || of.0 <= RANK_TOLERANCE * of.1;
-        match lost || !of.1.is_finite() || of.0.is_nan() {
-            true => f64::INFINITY,
-            false => of.1 / of.0,
+            }
         }
-    };
-    inputs.iter().zip(&extremes(&sizes)).map(quotient).collect()
+        matrix
+    }
 }
 
-fn square<T: Packed>(column: &[T]) -> T {
-    column.iter().fold(T::zero(), |sum, x| sum + *x * *x)
-}
-
-/// The least and the greatest, in each place.
-fn extremes<T: Packed>(sizes: &[T]) -> Vec<(f64, f64)> {
-    let of = |place: usize| {
-        let parts = sizes.iter().map(|size| size.part(place));
-        parts.fold((f64::INFINITY, 0.0), |(least, most): (f64, f64), x| {
-            (
-                if x < least { x } else { least },
-                if x > most { x } else { most },
-            )
+/// How the rate of each held coordinate enters the equations of the question.
+fn ways<T: Factorable>(
+    asked: &Asked,
+    system: &System<T>,
+    place: &impl Fn(Unknown) -> usize,
+) -> Vec<Way> {
+    let held = asked.question.held();
+    let twist = |platform, component| {
+        place(Unknown::Twist {
+            platform,
+            component,
         })
     };
-    (0..T::WIDTH).map(of).collect()
-}
-
-/// Makes columns orthogonal to one another by rotations, which other columns go along with.
-fn rotate<T: Packed>(columns: &mut [Vec<T>], with: &mut [Vec<T>]) {
-    let n = columns.len();
-    // two columns take one rotation; six are orthogonal to rounding after seven rounds
-    let rounds = if n <= 2 { 1 } else { 3 + n / 2 + 1 };
-    for _ in 0..rounds {
-        for i in 0..n {
-            for j in i + 1..n {
-                let (a, b) = (square(&columns[i]), square(&columns[j]));
-                let both = columns[i].iter().zip(&columns[j]);
-                let c = both.fold(T::zero(), |sum, (x, y)| sum + *x * *y);
-                let turn = |place: usize| {
-                    let (a, b, c) = (a.part(place), b.part(place), c.part(place));
-                    if c == 0.0 {
-                        return 0.0;
-                    }
-                    let z = (b - a) / (2.0 * c);
-                    1.0f64.copysign(z) / (z.abs() + (1.0 + z * z).sqrt())
-                };
-                let tan = T::of_parts(turn);
-                let cos = T::one() / (T::one() + tan * tan).sqrt();
-                let sin = cos * tan;
-                let pair = |all: &mut [Vec<T>]| {
-                    let (left, right) = all.split_at_mut(j);
-                    for (x, y) in left[i].iter_mut().zip(&mut right[0]) {
-                        (*x, *y) = (*x * cos - *y * sin, *x * sin + *y * cos);
-                    }
-                };
-                pair(columns);
-                if !with.is_empty() {
-                    pair(with);
-                }
+    let way = |of: &Holdable| match *of {
+        Holdable::Joint(joint) => Way::Unknown(place(Unknown::Joint(joint))),
+        Holdable::Coordinate(platform, c) => {
+            let known = held.platforms[platform] == HeldPlatform::Pose;
+            let row = system.coordinate_row(platform, c);
+            match (known, c.is_angle(), row) {
+                (true, true, _) => Way::Turned(twist(platform, 0), c),
+                (true, false, _) => Way::Unknown(twist(platform, 3 + c as usize)),
+                (false, _, Some(row)) => Way::Row(row),
+                (false, _, None) => Way::Turning(orientation(system, platform), c),
             }
         }
-    }
+        Holdable::Turn(platform, axis) => match held.platforms[platform] {
+            HeldPlatform::Pose => Way::Unknown(twist(platform, axis as usize)),
+            _ => Way::Turning(orientation(system, platform), Coordinate::Yaw),
+        },
+    };
+    asked.held.iter().map(way).collect()
 }
 
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::number::Lanes;
+fn orientation<T: Factorable>(system: &System<T>, platform: usize) -> usize {
+    let row = system.orientation_row(platform);
+    row.expect("three held angles are an orientation")
+}
 
-    #[test]
-    fn conditions_are_those_of_a_singular_value_decomposition_in_every_lane() {
-        for n in 1..=6usize {
-            let entry = |i: usize, j: usize, k: usize| {
-                (12.9898 * (i + 7 * j + 53 * k + 1) as f64).sin() * 43758.5453 % 1.0
-            };
-            let lanes = |rows: usize, shift: usize| -> Vec<Vec<Lanes>> {
-                let column = |j| {
-                    let row = |i| Lanes::of_parts(|k| entry(i, j, k + shift));
-                    (0..rows).map(row).collect()
-                };
-                (0..n).map(column).collect()
-            };
-            let (input, moved) = (lanes(n, 0), lanes(6, 100));
-            let found = condition(input.clone(), moved.clone());
-            for (k, found) in found.into_iter().enumerate() {
-                let input = nalgebra::DMatrix::from_fn(n, n, |i, j| input[j][i].0[k]);
-                let moved = nalgebra::DMatrix::from_fn(6, n, |i, j| moved[j][i].0[k]);
-                let values = (moved * input.try_inverse().unwrap()).singular_values();
-                let exact = values[0] / values[n - 1];
-                assert!((found / exact - 1.0).abs() < 1e-9, "{n}: {found} {exact}");
-            }
-        }
-    }
-
-    #[test]
-    fn where_inputs_depend_on_one_another_the_condition_is_infinite() {
-        let input = vec![vec![1.0, 2.0], vec![2.0, 4.0]];
-        let moved = vec![vec![1.0, 0.0], vec![0.0, 1.0]];
-        assert_eq!(condition::<f64>(input, moved), [f64::INFINITY]);
-    }
+/// The angular velocity for a unit rate of one angle of a platform, the other two at rest.
+fn turning<T: Packed>(at: &Configuration<T>, platform: usize, c: Coordinate) -> Vector3<T> {
+    let pose = at.platforms[platform].pose();
+    let slope = |c: Coordinate| {
+        let slope = c.slope(&pose);
+        Vector3([slope[0], slope[1], slope[2]])
+    };
+    let [next, last] = match c {
+        Coordinate::Roll => [Coordinate::Pitch, Coordinate::Yaw],
+        Coordinate::Pitch => [Coordinate::Yaw, Coordinate::Roll],
+        _ => [Coordinate::Roll, Coordinate::Pitch],
+    };
+    let across = slope(next).cross(&slope(last));
+    across.times(T::one() / slope(c).dot(&across))
 }

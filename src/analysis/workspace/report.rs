@@ -11,6 +11,8 @@ pub struct WorkspaceReport {
     pub axes: Vec<AxisReport>,
     /// What is held beside them.
     pub held: Vec<HeldReport>,
+    /// Coordinates of platforms that are neither mapped nor held.
+    pub following: Vec<CoordinateReport>,
     /// The joints that direct singularities are told of; none if not as many joints are actuated as
     /// there are freedoms.
     pub inputs: Vec<String>,
@@ -18,7 +20,7 @@ pub struct WorkspaceReport {
     pub outputs: Vec<String>,
     /// Nodes of the grid.
     pub nodes: usize,
-    /// Nodes that are reached within limits in some mode.
+    /// Nodes that are reached within limits in some mode. A node exactly where a mode ends is not.
     pub reached: usize,
     /// The unit of the sizes, e.g. m² or rad·m.
     pub unit: String,
@@ -36,8 +38,12 @@ pub struct WorkspaceReport {
     pub points: Vec<BoundaryPoint>,
     /// Edges of the grid at whose end nothing sure was found.
     pub unsure: usize,
+    /// Aspects are parts that this fraction of a cell does not join: one over it.
+    pub parts: usize,
     /// Nodes that were searched for modes, and random starts at each.
     pub searched: [usize; 2],
+    /// Nodes that were searched afterwards, and random starts at each.
+    pub probed: [usize; 2],
     /// Assembled configurations met in the search with a joint outside its limits.
     pub outside: usize,
     /// The seed of the random starts.
@@ -62,6 +68,15 @@ pub struct AxisReport {
     pub to: f64,
     /// Nodes along it.
     pub nodes: usize,
+}
+
+/// A coordinate.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct CoordinateReport {
+    /// Its name.
+    pub name: String,
+    /// rad or m.
+    pub unit: &'static str,
 }
 
 /// A coordinate that is held.
@@ -105,9 +120,11 @@ pub struct AspectReport {
     pub nodes: usize,
     /// Its size.
     pub size: f64,
-    /// Sign of the determinant of the direct problem; zero if that is not told.
+    /// Sign of the determinant of the derivatives of the inputs by what is mapped and held; zero if
+    /// that is not told.
     pub direct: i8,
-    /// Sign of the determinant of the inverse problem; zero if that is not told.
+    /// Sign of the determinant of the derivatives of the outputs by what is mapped and held; zero if
+    /// that is not told.
     pub inverse: i8,
     /// The node with the least condition number.
     pub best: Option<Conditioned>,
@@ -146,7 +163,7 @@ pub struct Cell {
     pub at: Vec<f64>,
     /// The mode.
     pub mode: usize,
-    /// The aspect; none outside limits.
+    /// The aspect; none outside limits and on singularities.
     pub aspect: Option<usize>,
     /// The condition number of the Jacobian from inputs to platforms, lengths over the normalising
     /// length; none if it is singular or not told.
@@ -158,4 +175,6 @@ pub struct Cell {
     pub inverse: Option<f64>,
     /// The joints, rad or m, in the order of the file.
     pub joints: Vec<f64>,
+    /// The coordinates of platforms that follow, rad or m.
+    pub following: Vec<f64>,
 }

@@ -4,17 +4,33 @@ use rand::SeedableRng;
 use rand_pcg::Pcg64Mcg;
 
 use super::asked::{Asked, Targets};
+use super::fill::{Fill, Filled};
 use super::grid::Grid;
-use super::step::{Measure, Steps};
+use super::measure::Measure;
+use super::step::{Start, Steps};
+use crate::linear::Factorable;
 use crate::mechanism::{Configuration, PlatformPose};
-use crate::solve::{Equations, Stop, each};
+use crate::number::Packed;
+use crate::solve::{Stop, each};
 use crate::system::{System, Walk, Work, random_configuration, with_coordinates};
 
 /// What was found at the nodes that were searched.
+#[derive(Default)]
 pub(super) struct Sown {
     pub seeds: Vec<(usize, Configuration<f64>)>,
     /// Assembled configurations with a joint outside its limits, which are no seeds.
     pub outside: usize,
+}
+
+impl Sown {
+    fn add(&mut self, asked: &Asked, node: usize, mut at: Configuration<f64>) {
+        Walk::within_limits(asked.mechanism, &mut at);
+        let mut joints = asked.mechanism.joints().iter().zip(&at.joints);
+        match joints.all(|(joint, value)| joint.allows(*value)) {
+            true => self.seeds.push((node, at)),
+            false => self.outside += 1,
+        }
+    }
 }
 
 #[derive(Clone)]
@@ -52,32 +68,24 @@ pub(super) fn sow(
                 0 => around.clone(),
                 _ => random_configuration(asked.mechanism, &around, &mut rng),
             };
+            let at = put_in(asked, &values, &at);
             take(asked, measure, storage, &values, at, &mut found);
         }
         (node, found)
     });
-    let mut sown = Sown {
-        seeds: Vec::new(),
-        outside: 0,
-    };
+    let mut sown = Sown::default();
     let mut last = storage.clone();
     let here = given.iter().filter_map(|at| {
         let node = nearest(asked, grid, at)?;
         let mut found = Vec::new();
         let values = grid.values(node);
-        take(asked, measure, &mut last, &values, at.clone(), &mut found);
+        let at = put_in(asked, &values, at);
+        take(asked, measure, &mut last, &values, at, &mut found);
         Some((node, found))
     });
     let all: Vec<_> = found.into_iter().chain(here.collect::<Vec<_>>()).collect();
     for (node, found) in all {
-        for mut at in found {
-            Walk::within_limits(asked.mechanism, &mut at);
-            let mut joints = asked.mechanism.joints().iter().zip(&at.joints);
-            match joints.all(|(joint, value)| joint.allows(*value)) {
-                true => sown.seeds.push((node, at)),
-                false => sown.outside += 1,
-            }
-        }
+        found.into_iter().for_each(|at| sown.add(asked, node, at));
     }
     sown
 }
@@ -91,8 +99,23 @@ fn take(
     mut at: Configuration<f64>,
     found: &mut Vec<Configuration<f64>>,
 ) {
-    const SAME: f64 = 1e-6;
+    let targets = [values.to_vec()];
+    (storage.targets).ask(&mut storage.system, &mut at, &targets);
+    let mut trial = at.clone();
+    let report = (asked.newton).solve(&storage.system, &mut at, &mut trial, &mut storage.work);
+    if report.stop != Stop::Solved || found.iter().any(|known| measure.same(known, &at)) {
+        return;
+    }
+    // where the mapped coordinates do not tell how things move there is nothing to go on from
+    if (storage.steps.told(&at, values)).is_some_and(|told| told.regular) {
+        found.push(at);
+    }
+}
+
+/// A configuration with the held values of a node put in.
+fn put_in(asked: &Asked, values: &[f64], at: &Configuration<f64>) -> Configuration<f64> {
     let held = asked.at(values);
+    let mut at = at.clone();
     for (platform, pose) in at.platforms.iter_mut().enumerate() {
         let coordinates = held.held_values(platform);
         if !coordinates.is_empty() {
@@ -100,22 +123,57 @@ fn take(
             *pose = PlatformPose::from_pose(&with);
         }
     }
-    let mut at = asked.put(&at, values);
-    let targets = [values.to_vec()];
-    (storage.targets).ask(&mut storage.system, &mut at, &targets);
-    let mut trial = at.clone();
-    let report = (asked.newton).solve(&storage.system, &mut at, &mut trial, &mut storage.work);
-    if report.stop != Stop::Solved || found.iter().any(|known| measure.apart(known, &at) < SAME) {
-        return;
+    asked.put(&at, values)
+}
+
+/// Starts at each node that is probed.
+pub(super) const PROBES: usize = 8;
+
+/// Plain Newton's method from a few random starts at each of many nodes, side by side: what it finds
+/// that is not reached yet, so that small regions by themselves are not missed.
+pub(super) fn probe<T: Factorable + Packed + Send + Sync>(
+    fill: &Fill,
+    filled: &Filled,
+    steps: &Steps<T>,
+    nodes: &[usize],
+    seed: u64,
+) -> Sown {
+    let asked = fill.asked;
+    let found = each(nodes.len(), steps, |steps, i| {
+        let node = nodes[i];
+        // other numbers than those drawn by `sow`
+        let mut rng = Pcg64Mcg::seed_from_u64(!seed.wrapping_add(node as u64));
+        let values = fill.grid.values(node);
+        let around = asked.at(&values).start();
+        let drawn: Vec<Configuration<f64>> = (0..PROBES)
+            .map(|_| {
+                let at = random_configuration(asked.mechanism, &around, &mut rng);
+                put_in(asked, &values, &at)
+            })
+            .collect();
+        let starts: Vec<Start> = (drawn.iter())
+            .map(|at| Start {
+                from: at,
+                along: None,
+                reach: f64::INFINITY,
+                values: values.clone(),
+            })
+            .collect();
+        let mut new: Vec<Configuration<f64>> = Vec::new();
+        let arrivals = starts.chunks(T::WIDTH).flat_map(|pack| steps.settle(pack));
+        for arrival in arrivals.flatten() {
+            let known = |of: &Configuration<f64>| fill.measure.same(of, &arrival.at);
+            if fill.known(filled, node, &arrival.at).is_none() && !new.iter().any(known) {
+                new.push(arrival.at);
+            }
+        }
+        (node, new)
+    });
+    let mut sown = Sown::default();
+    for (node, found) in found {
+        found.into_iter().for_each(|at| sown.add(asked, node, at));
     }
-    storage.system.residual(&at, &mut storage.work);
-    let [told] = &storage.steps.rates.at(&at)[..] else {
-        return;
-    };
-    // where the mapped coordinates do not tell how things move there is nothing to go on from
-    if told.regular {
-        found.push(at);
-    }
+    sown
 }
 
 /// The node nearest to a configuration, if it is in the box.

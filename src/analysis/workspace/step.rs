@@ -2,18 +2,19 @@
 
 use super::asked::{Asked, Targets};
 use super::rates::{Rates, Told};
-use crate::linear::{Factorable, norm};
-use crate::mechanism::{Configuration, Role};
+use crate::linear::Factorable;
+use crate::mechanism::Configuration;
 use crate::number::Packed;
-use crate::solve::{Equations, SolutionCurve};
-use crate::system::{Curve, Held, Holdable, System, Unknown, Work};
+use crate::solve::Equations;
+use crate::system::{System, Work};
 
 /// Where a step begins.
 #[derive(Clone, Debug)]
-pub(super) struct Start {
-    /// Near what is looked for.
-    pub guess: Configuration<f64>,
-    /// How far that may be, dimensionless.
+pub(super) struct Start<'a> {
+    pub from: &'a Configuration<f64>,
+    /// A motion and how far along it what is looked for may be near.
+    pub along: Option<(&'a [f64], f64)>,
+    /// How far that may be, dimensionless; infinite if anything is as good.
     pub reach: f64,
     /// The mapped coordinates there.
     pub values: Vec<f64>,
@@ -23,8 +24,9 @@ pub(super) struct Start {
 #[derive(Clone, Debug)]
 pub(super) struct Arrival {
     pub at: Configuration<f64>,
-    /// The motions for unit rates of the mapped coordinates, dimensionless.
-    pub motions: Vec<Vec<f64>>,
+    /// The motions for unit rates of the held coordinates one after another, the mapped ones first,
+    /// dimensionless.
+    pub motions: Vec<f64>,
     pub told: Told,
 }
 
@@ -36,13 +38,21 @@ pub(super) struct Steps<T: Factorable> {
     system: System<T>,
     work: Work<T>,
     spare: Configuration<T>,
-    pub rates: Rates<T>,
-    axes: usize,
+    rates: Rates<T>,
 }
 
 /// The part of a step that its first correction may be, and of a correction that the next may be:
 /// beyond it another solution may be as near.
 pub(super) const SURE: f64 = 0.3;
+
+/// What came of a start.
+enum Outcome {
+    Arrived(Arrival),
+    /// The steps are too long.
+    Unsure,
+    /// Rank is lost, which places side by side cannot lose one by one.
+    Spoiled,
+}
 
 impl<T: Factorable + Packed> Steps<T> {
     pub fn new(asked: &Asked) -> Self {
@@ -50,27 +60,44 @@ impl<T: Factorable + Packed> Steps<T> {
         Steps {
             targets: Targets::new(asked),
             work: system.work(),
-            system,
             spare: asked.question.start().map(T::from_f64),
-            rates: Rates::new(asked),
-            axes: asked.axes.len(),
+            rates: Rates::new(asked, &system),
+            system,
         }
     }
 
     /// The configurations that are surely meant; at most as many starts as places.
     pub fn settle(&mut self, starts: &[Start]) -> Vec<Option<Arrival>> {
-        const STEPS: usize = 8;
+        let ends = self.together(starts);
+        let spoiled = ends.iter().any(|end| matches!(end, Outcome::Spoiled));
+        let ends = ends.into_iter().zip(starts);
+        let settled = ends.map(|(end, start)| match end {
+            Outcome::Arrived(arrival) => Some(arrival),
+            _ if !spoiled || starts.len() == 1 => None,
+            // the same in all places
+            _ => match self.together(std::slice::from_ref(start)).pop() {
+                Some(Outcome::Arrived(arrival)) => Some(arrival),
+                _ => None,
+            },
+        });
+        settled.collect()
+    }
+
+    fn together(&mut self, starts: &[Start]) -> Vec<Outcome> {
+        /// Corrections, and those from anywhere.
+        const STEPS: [usize; 2] = [8, 20];
         const TOLERANCE: f64 = 1e-12;
         /// Corrections this small are rounding.
         const SMALL: f64 = 1e-9;
         let start = |place: usize| &starts[place.min(starts.len() - 1)];
-        let mut point = self.packed(|place| &start(place).guess);
+        let mut point = self.begin(&start);
         let values: Vec<Vec<f64>> = (0..T::WIDTH).map(|p| start(p).values.clone()).collect();
         self.targets.ask(&mut self.system, &mut point, &values);
         let mut sure = vec![true; T::WIDTH];
         let mut solved = vec![false; T::WIDTH];
         let mut bounds: Vec<f64> = (0..T::WIDTH).map(|place| start(place).reach).collect();
-        for step in 0..=STEPS {
+        let most = STEPS[usize::from(bounds.iter().any(|bound| bound.is_infinite()))];
+        for step in 0..=most {
             self.system.linearise(&point, &mut self.work);
             for (place, solved) in solved.iter_mut().enumerate() {
                 let rows = self.system.residual_of(&self.work).iter();
@@ -79,12 +106,8 @@ impl<T: Factorable + Packed> Steps<T> {
                     .map(|row| row.part(place).abs())
                     .all(|row| row <= TOLERANCE);
             }
-            if step == STEPS
-                || solved
-                    .iter()
-                    .zip(&sure)
-                    .all(|(solved, sure)| *solved || !sure)
-            {
+            let mut settled = solved.iter().zip(&sure);
+            if step == most || settled.all(|(solved, sure)| *solved || !sure) {
                 break;
             }
             self.system.factorise(0.0, &mut self.work);
@@ -97,8 +120,12 @@ impl<T: Factorable + Packed> Steps<T> {
                 if solved[place] || !sure[place] {
                     continue;
                 }
-                sure[place] = sizes[place] <= bounds[place].max(SMALL);
-                bounds[place] = SURE * sizes[place];
+                let bound = &mut bounds[place];
+                // what is not finite is not sure either
+                sure[place] = sizes[place].is_finite() && sizes[place] <= bound.max(SMALL);
+                if bound.is_finite() {
+                    *bound = SURE * sizes[place];
+                }
                 moves[place] = f64::from(u8::from(sure[place]));
             }
             for x in steps.iter_mut() {
@@ -110,19 +137,48 @@ impl<T: Factorable + Packed> Steps<T> {
             self.system.advance(from, 1.0, &self.work, to);
             std::mem::swap(&mut point, &mut self.spare);
         }
-        let told = self.rates.at(&point);
-        (0..starts.len())
-            .map(|place| {
-                let told = &told[place];
-                (sure[place] && solved[place] && told.regular).then(|| Arrival {
-                    at: point.map(|x| x.part(place)),
-                    motions: (0..self.axes)
-                        .map(|i| self.rates.motion(i, place))
-                        .collect(),
-                    told: told.clone(),
-                })
-            })
-            .collect()
+        if !solved
+            .iter()
+            .zip(&sure)
+            .any(|(solved, sure)| *solved && *sure)
+        {
+            return starts.iter().map(|_| Outcome::Unsure).collect();
+        }
+        let told = self.rates.at(&point, &self.system, &mut self.work);
+        let outcomes = told.into_iter().take(starts.len()).enumerate();
+        let outcomes = outcomes.map(|(place, told)| match told.regular {
+            _ if !sure[place] || !solved[place] => Outcome::Unsure,
+            false => Outcome::Spoiled,
+            true => Outcome::Arrived(Arrival {
+                at: point.map(|x| x.part(place)),
+                motions: self.rates.motions(place),
+                told,
+            }),
+        });
+        outcomes.collect()
+    }
+
+    /// What is told of a configuration that solves the equations for its mapped coordinates.
+    pub fn told(&mut self, at: &Configuration<f64>, values: &[f64]) -> Option<Told> {
+        let mut point = at.map(T::from_f64);
+        let values = vec![values.to_vec(); T::WIDTH];
+        self.targets.ask(&mut self.system, &mut point, &values);
+        let told = self.rates.at(&point, &self.system, &mut self.work);
+        told.into_iter().next()
+    }
+
+    /// Near where each place is to arrive.
+    fn begin<'s, 'a: 's>(&self, start: &impl Fn(usize) -> &'s Start<'a>) -> Configuration<T> {
+        let point = self.packed(|place| start(place).from);
+        if (0..T::WIDTH).all(|place| start(place).along.is_none()) {
+            return point;
+        }
+        let part = |place: usize, k: usize| match start(place).along {
+            Some((motion, factor)) => motion[k] * factor,
+            None => 0.0,
+        };
+        let step = (0..self.rates.unknowns()).map(|k| T::of_parts(|place| part(place, k)));
+        self.rates.displaced(&point, &step.collect::<Vec<T>>())
     }
 
     fn packed<'c>(&self, of: impl Fn(usize) -> &'c Configuration<f64>) -> Configuration<T> {
@@ -140,89 +196,5 @@ impl<T: Factorable + Packed> Steps<T> {
             }
         }
         all
-    }
-}
-
-/// How far configurations are apart.
-#[derive(Clone, Debug)]
-pub(super) struct Measure {
-    free: Curve,
-    /// Unknowns that tell modes apart: of platforms, actuated joints and joints with limits; without
-    /// platforms of all joints. Legs that are folded the other way about their passive joints, or
-    /// spin, do not make another mode.
-    seen: Vec<bool>,
-    /// rad or m in one unit of the mapped coordinates.
-    units: Vec<f64>,
-}
-
-impl Measure {
-    pub fn new(asked: &Asked) -> Self {
-        let mechanism = asked.mechanism;
-        let free = Curve::new(mechanism, &Held::nothing(mechanism));
-        let whole = mechanism.platforms().is_empty();
-        let seen = free
-            .system()
-            .unknowns()
-            .iter()
-            .map(|unknown| match *unknown {
-                Unknown::Joint(joint) => {
-                    let joint = &mechanism.joints()[joint];
-                    whole || joint.role == Role::Actuated || joint.limits.is_some()
-                }
-                Unknown::Twist { .. } => true,
-            });
-        Measure {
-            seen: seen.collect(),
-            units: (asked.axes.iter())
-                .map(|axis| match axis.coordinate {
-                    Holdable::Joint(joint) => free.system().joint_scale(joint),
-                    Holdable::Coordinate(_, c) if !c.is_angle() => {
-                        mechanism.characteristic_length()
-                    }
-                    Holdable::Coordinate(..) | Holdable::Turn(..) => 1.0,
-                })
-                .collect(),
-            free,
-        }
-    }
-
-    /// How far two configurations are apart, so far as modes are concerned.
-    pub fn apart(&self, a: &Configuration<f64>, b: &Configuration<f64>) -> f64 {
-        let step = self.free.difference_but_turns(a, b);
-        let seen = step.iter().zip(&self.seen).filter(|(_, seen)| **seen);
-        seen.map(|(x, _)| x * x).sum::<f64>().sqrt()
-    }
-
-    /// Whether the motions at two configurations are near enough for these to be on one sheet.
-    ///
-    /// With M as in [`Rates`], N₁ − N₀ = −M₁⁺(M₁ − M₀) N₀ is short beside N wherever Newton's
-    /// theorem makes a step sure. Across a point where several legs fold at once the configuration
-    /// may go on smoothly, and only motions to the side tell: they turn round.
-    pub fn alike(&self, a: &[Vec<f64>], b: &[Vec<f64>]) -> bool {
-        const CHANGE: f64 = 0.6;
-        let seen = |motion: &[f64]| {
-            let seen = motion.iter().zip(&self.seen).filter(|(_, seen)| **seen);
-            seen.map(|(x, _)| x * x).sum::<f64>().sqrt()
-        };
-        a.iter().zip(b).all(|(a, b)| {
-            let change: Vec<f64> = a.iter().zip(b).map(|(a, b)| b - a).collect();
-            seen(&change) <= CHANGE * seen(a).max(seen(b))
-        })
-    }
-
-    /// Where a motion leads when a mapped coordinate changes by so much, how long the step is, and
-    /// how long the part of it is that tells modes apart.
-    pub fn ahead(
-        &self,
-        at: &Configuration<f64>,
-        motion: &[f64],
-        axis: usize,
-        change: f64,
-    ) -> (Configuration<f64>, f64, f64) {
-        let factor = change / self.units[axis];
-        let step: Vec<f64> = motion.iter().map(|x| x * factor).collect();
-        let seen = step.iter().zip(&self.seen).filter(|(_, seen)| **seen);
-        let seen = seen.map(|(x, _)| x * x).sum::<f64>().sqrt();
-        (self.free.displaced(at, &step), norm(&step), seen)
     }
 }

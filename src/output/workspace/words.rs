@@ -1,7 +1,7 @@
 //! What is said about a map of the workspace.
 
 use super::{percent, range};
-use crate::analysis::workspace::{BoundaryKind, WorkspaceReport};
+use crate::analysis::workspace::{AspectReport, BoundaryKind, WorkspaceReport};
 use crate::description::{count, listed};
 use crate::mechanism::{Mechanism, Role};
 use crate::output::option::{Complaint, Part};
@@ -62,37 +62,65 @@ pub fn sentence(report: &WorkspaceReport) -> String {
     )
 }
 
-/// What the condition number is of.
-pub(super) fn condition(report: &WorkspaceReport) -> String {
-    match report.inputs.is_empty() {
-        true => {
-            "no condition and no direct singularities are told: it takes as many actuated joints \
-                 as freedoms"
-                .into()
+/// What the columns of aspects tell, line by line.
+pub(super) fn explanation(report: &WorkspaceReport) -> String {
+    let names = |names: &[String]| match names {
+        [one] => one.clone(),
+        all => format!("({})", all.join(", ")),
+    };
+    let axes = report.axes.iter().map(|axis| axis.name.clone());
+    let held = report.held.iter().map(|held| held.name.clone());
+    let coordinates: Vec<String> = axes.chain(held).collect();
+    let mut lines: Vec<String> = Vec::new();
+    let mut sign = |column: &str, of: &[String], told: bool| {
+        if told {
+            lines.push(format!(
+                "{column}: sign of det ∂{}/∂{}",
+                names(of),
+                names(&coordinates)
+            ));
         }
+    };
+    let told = |sign: fn(&AspectReport) -> i8| report.aspects.iter().any(|a| sign(a) != 0);
+    sign("direct", &report.inputs, told(|a| a.direct));
+    sign("inverse", &report.outputs, told(|a| a.inverse));
+    lines.push(match report.inputs.is_empty() {
+        true => "no condition and no direct singularities are told: it takes as many actuated joints \
+                 as freedoms"
+            .into(),
         false => format!(
             "best and worst: condition number of the Jacobian from {} to what moves, at nodes, with \
              lengths over {} m",
             listed(&report.inputs),
             number(report.normalising_length)
         ),
-    }
+    });
+    lines.iter().map(|line| format!("  {line}\n")).collect()
 }
 
 /// How sure the map is.
 pub fn completeness(report: &WorkspaceReport) -> String {
     let [nodes, starts] = report.searched;
+    let [probed, few] = report.probed;
+    let all = if probed == report.nodes { "all " } else { "" };
     let mut text = format!(
-        "Modes were sought at {} from {} each (seed {}): a region with none of them inside can be \
-         missing, and so can what is smaller than a cell of the grid. Aspects joined only where they \
-         are thinner than a cell count as several.",
+        "Modes were sought at {} from {} each and at {all}{} from {few} (seed {}): what none of these \
+         led to can be missing, and so can what is smaller than a cell of the grid. Aspects of few \
+         nodes were joined with others only where {} of a cell tells that they are.",
         count(nodes, "node"),
         count(starts, "start"),
-        report.seed
+        count(probed, "node"),
+        report.seed,
+        if report.parts == 8 {
+            "an eighth"
+        } else {
+            "a quarter"
+        }
     );
     if report.unsure > 0 {
         text += &format!(
-            " At the ends of {} no sure step led on; such an end counts as half an edge.",
+            " At the ends of {} no sure step led on, as at a node exactly where modes end; such an \
+             end counts as half an edge.",
             count(report.unsure, "edge")
         );
     }

@@ -3,6 +3,7 @@
 use super::{System, Work};
 use crate::geometry::Rotation;
 use crate::linear::{Factorable, Qr};
+use crate::mechanism::Coordinate;
 use crate::number::Extent;
 use crate::solve::Equations;
 use crate::system::layout::HoldRow;
@@ -17,6 +18,59 @@ impl<T: Factorable> System<T> {
     pub fn step_for(&self, residual: &[T], work: &mut Work<T>) -> f64 {
         work.residual.copy_from_slice(residual);
         self.step(work)
+    }
+
+    /// A column of the Jacobian last evaluated, over all rows.
+    pub fn column_into(&self, unknown: usize, work: &mut Work<T>, out: &mut [T]) {
+        out.fill(T::zero());
+        let mut row = 0;
+        for (b, block) in self.empty.blocks().enumerate() {
+            let mut unknowns = block.own.iter().chain(&block.shared);
+            if let Some(place) = unknowns.position(|u| *u == unknown) {
+                let entries = &work.jacobian.block_mut(b)[place * block.rows..][..block.rows];
+                out[row..row + block.rows].copy_from_slice(entries);
+            }
+            row += block.rows;
+        }
+        let shared = self.empty.shared();
+        if let Some(place) = shared.iter().position(|u| *u == unknown) {
+            let rows = work.hold_rows.chunks_exact(shared.len());
+            (out[row..].iter_mut().zip(rows)).for_each(|(out, entries)| *out = entries[place]);
+        }
+    }
+
+    /// The product J x of the Jacobian last evaluated, over the rows of the closures.
+    pub fn product_into(&self, x: &[T], work: &mut Work<T>, out: &mut [T]) {
+        out.fill(T::zero());
+        let mut row = 0;
+        for (b, block) in self.empty.blocks().enumerate() {
+            let out = &mut out[row..row + block.rows];
+            let columns = work.jacobian.block_mut(b).chunks_exact(block.rows.max(1));
+            for (column, &unknown) in columns.zip(block.own.iter().chain(&block.shared)) {
+                for (out, &entry) in out.iter_mut().zip(column) {
+                    *out += entry * x[unknown];
+                }
+            }
+            row += block.rows;
+        }
+    }
+
+    /// The row of a platform coordinate that is held at a value by itself.
+    pub fn coordinate_row(&self, platform: usize, coordinate: Coordinate) -> Option<usize> {
+        self.hold_row(|hold| {
+            matches!(hold, HoldRow::Coordinate(p, c, _) if (*p, *c) == (platform, coordinate))
+        })
+    }
+
+    /// The first of the three rows of a platform's orientation that is held whole.
+    pub fn orientation_row(&self, platform: usize) -> Option<usize> {
+        self.hold_row(|hold| matches!(hold, HoldRow::Orientation(p, _) if *p == platform))
+    }
+
+    fn hold_row(&self, wanted: impl Fn(&HoldRow<T>) -> bool) -> Option<usize> {
+        let at = self.holds.iter().position(wanted)?;
+        let before = self.holds[..at].iter().map(HoldRow::rows);
+        Some(self.hold_rows().start + before.sum::<usize>())
     }
 
     /// How many unknowns the factors last made leave undetermined.

@@ -1,0 +1,126 @@
+//! Aspects of few nodes: whether they hang together with others where the grid is too coarse to tell.
+
+use super::aspects::aspects;
+use super::fill::{Fill, Filled, root};
+use super::grid::Grid;
+use super::step::Steps;
+use crate::linear::Factorable;
+use crate::number::Packed;
+use crate::system::Driven;
+
+/// Aspects of fewer nodes are looked at again.
+const FEW: usize = 10;
+/// How many are at most.
+const MOST: usize = 500;
+/// Sheets of a finer grid at most.
+const MOST_SHEETS: usize = 50_000;
+
+/// Parts of a cell of the finer grids, by the number of mapped coordinates.
+pub(super) fn parts(dimensions: usize) -> usize {
+    if dimensions < 3 { 8 } else { 4 }
+}
+
+/// For each sheet the first of its aspect, aspects of few nodes joined with those that a finer grid
+/// around them leads to.
+pub(super) fn joined<T: Factorable + Packed + Send + Sync>(
+    fill: &Fill,
+    steps: &Steps<T>,
+    filled: &Filled,
+) -> Vec<Option<usize>> {
+    let found = aspects(filled);
+    let mut roots: Vec<usize> = (0..found.len()).collect();
+    let mut sheets: std::collections::BTreeMap<usize, Vec<usize>> = Default::default();
+    for (s, aspect) in found.iter().enumerate() {
+        if let Some(aspect) = aspect {
+            sheets.entry(*aspect).or_default().push(s);
+        }
+    }
+    let few = sheets.values().filter(|sheets| sheets.len() < FEW);
+    for small in few.take(MOST) {
+        for other in reached(fill, steps, filled, small) {
+            let Some(aspect) = found[other] else {
+                continue;
+            };
+            let (a, b) = (root(&mut roots, small[0]), root(&mut roots, aspect));
+            roots[a.max(b)] = a.min(b);
+        }
+    }
+    let all = found.into_iter();
+    all.map(|aspect| aspect.map(|first| root(&mut roots, first)))
+        .collect()
+}
+
+/// The sheets at nodes that a finer grid around an aspect leads to within it.
+fn reached<T: Factorable + Packed + Send + Sync>(
+    fill: &Fill,
+    steps: &Steps<T>,
+    filled: &Filled,
+    aspect: &[usize],
+) -> Vec<usize> {
+    let grid = fill.grid;
+    let dimensions = grid.dimensions();
+    let parts = parts(dimensions);
+    let margin = if dimensions < 3 { 2 } else { 1 };
+    let sides: Vec<(usize, usize)> = (0..dimensions)
+        .map(|axis| {
+            let places = aspect
+                .iter()
+                .map(|s| grid.place(filled.sheets[*s].node, axis));
+            let (low, high) = places.fold((usize::MAX, 0), |(a, b), p| (a.min(p), b.max(p)));
+            (
+                low.saturating_sub(margin),
+                (high + margin).min(grid.count(axis) - 1),
+            )
+        })
+        .collect();
+    let axes = fill.asked.axes.iter().zip(&sides).enumerate();
+    let axes = axes.map(|(i, (axis, &(low, high)))| Driven {
+        coordinate: axis.coordinate,
+        from: grid.coordinate(i, low),
+        to: grid.coordinate(i, high),
+    });
+    let counts = sides.iter().map(|(low, high)| (high - low) * parts + 1);
+    let fine = Grid::new(
+        &axes.collect::<Vec<Driven>>(),
+        &counts.collect::<Vec<usize>>(),
+    );
+    let finer = Fill {
+        grid: &fine,
+        most: MOST_SHEETS,
+        ..*fill
+    };
+    // a node of the grid among those of the finer one
+    let same = |node: usize| {
+        let (mut there, mut stride) = (0, 1);
+        for (axis, (low, _)) in sides.iter().enumerate() {
+            there += (grid.place(node, axis) - low) * parts * stride;
+            stride *= fine.count(axis);
+        }
+        there
+    };
+    let seeds: Vec<_> = (aspect.iter())
+        .map(|s| &filled.sheets[*s])
+        .map(|sheet| (same(sheet.node), sheet.arrival.at.clone()))
+        .collect();
+    let mut found = finer.nothing();
+    finer.spread(&mut found, steps, &seeds, &mut |_| {});
+    if found.overflow {
+        return Vec::new();
+    }
+    let parts_of = aspects(&found);
+    let own: Vec<usize> = (seeds.iter())
+        .filter_map(|(node, at)| parts_of[finer.known(&found, *node, at)?])
+        .collect();
+    let within = |node: usize| {
+        let mut axes = sides.iter().enumerate();
+        axes.all(|(axis, (low, high))| (*low..=*high).contains(&grid.place(node, axis)))
+    };
+    let mut matching = Vec::new();
+    for node in (0..grid.len()).filter(|node| within(*node)) {
+        let there = found.of_node[same(node)].iter();
+        let inside = there.filter(|t| parts_of[**t].is_some_and(|aspect| own.contains(&aspect)));
+        let at = inside.map(|t| &found.sheets[*t].arrival.at);
+        matching.extend(at.filter_map(|at| fill.known(filled, node, at)));
+    }
+    matching
+}

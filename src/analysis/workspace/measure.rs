@@ -1,0 +1,124 @@
+//! How far configurations and their motions are apart, and what is surely one mode.
+
+use super::asked::Asked;
+use super::step::{Arrival, SURE};
+use crate::mechanism::{Configuration, Role};
+use crate::solve::SolutionCurve;
+use crate::system::{Curve, Held, Holdable, Unknown};
+
+/// How far configurations are apart.
+#[derive(Clone, Debug)]
+pub(super) struct Measure {
+    free: Curve,
+    /// Unknowns that tell modes apart: of platforms, actuated joints and joints with limits; without
+    /// platforms of all joints. Legs that are folded the other way about their passive joints, or
+    /// spin, do not make another mode.
+    seen: Vec<bool>,
+    /// rad or m in one unit of the mapped coordinates.
+    units: Vec<f64>,
+}
+
+/// Configurations this near are the same.
+const SAME: f64 = 1e-6;
+
+impl Measure {
+    pub fn new(asked: &Asked) -> Self {
+        let mechanism = asked.mechanism;
+        let free = Curve::new(mechanism, &Held::nothing(mechanism));
+        let whole = mechanism.platforms().is_empty();
+        let seen = (free.system().unknowns().iter()).map(|unknown| match *unknown {
+            Unknown::Joint(joint) => {
+                let joint = &mechanism.joints()[joint];
+                whole || joint.role == Role::Actuated || joint.limits.is_some()
+            }
+            Unknown::Twist { .. } => true,
+        });
+        Measure {
+            seen: seen.collect(),
+            units: (asked.axes.iter())
+                .map(|axis| match axis.coordinate {
+                    Holdable::Joint(joint) => free.system().joint_scale(joint),
+                    Holdable::Coordinate(_, c) if !c.is_angle() => {
+                        mechanism.characteristic_length()
+                    }
+                    Holdable::Coordinate(..) | Holdable::Turn(..) => 1.0,
+                })
+                .collect(),
+            free,
+        }
+    }
+
+    /// How far two configurations are apart, so far as modes are concerned.
+    pub fn apart(&self, a: &Configuration<f64>, b: &Configuration<f64>) -> f64 {
+        self.seen_length(self.free.difference_but_turns(a, b).into_iter())
+    }
+
+    /// Whether two configurations are the same, so far as modes are concerned.
+    pub fn same(&self, a: &Configuration<f64>, b: &Configuration<f64>) -> bool {
+        self.apart(a, b) < SAME
+    }
+
+    fn seen_length(&self, step: impl Iterator<Item = f64>) -> f64 {
+        let seen = step.zip(&self.seen).filter(|(_, seen)| **seen);
+        seen.map(|(x, _)| x * x).sum::<f64>().sqrt()
+    }
+
+    /// The motion for a unit rate of a mapped coordinate, and how far along it a change of the
+    /// coordinate leads.
+    pub fn motion<'a>(&self, from: &'a Arrival, axis: usize, change: f64) -> (&'a [f64], f64) {
+        let unknowns = self.free.unknowns();
+        let motion = &from.motions[axis * unknowns..][..unknowns];
+        (motion, change / self.units[axis])
+    }
+
+    /// Whether two configurations lie where each other's motions say when a mapped coordinate
+    /// changes by so much, and the motions are [alike](Self::alike). `step` is storage.
+    pub fn linked(
+        &self,
+        [a, b]: [&Arrival; 2],
+        axis: usize,
+        change: f64,
+        step: &mut Vec<f64>,
+    ) -> bool {
+        step.resize(self.free.unknowns(), 0.0);
+        self.free.difference_but_turns_into(&a.at, &b.at, step);
+        let near = |from: &Arrival| {
+            let (motion, factor) = self.motion(from, axis, change);
+            let length = self.seen_length(motion.iter().map(|x| x * factor));
+            let miss = motion.iter().zip(&*step).map(|(x, d)| d - x * factor);
+            self.seen_length(miss) <= SURE * length + SAME
+        };
+        near(a) && near(b) && self.alike(a, b, change / self.units[axis])
+    }
+
+    /// Whether the motions at two configurations, a step of the given length of the mapped
+    /// coordinates apart, are near enough for these to be on one sheet.
+    ///
+    /// With M as in [`Rates`](super::rates::Rates), N₁ − N₀ = −M₁⁺(M₁ − M₀) N₀ is short beside N
+    /// wherever Newton's theorem makes a step sure. Across a point where legs fold the configuration
+    /// may go on smoothly, and only motions to the side tell: they turn round. Where one leg folds, as
+    /// one of length ρ = 0, that may be seen in one passive joint only: it turns by dθ = ds/ρ to
+    /// one side before and to the other after, so that over a step s from −ρ₀ to ρ₁ the difference
+    /// of both is s/ρ₀ + s/ρ₁ ≥ 4 rad. No joint is to differ by so much.
+    pub fn alike(&self, a: &Arrival, b: &Arrival, length: f64) -> bool {
+        const CHANGE: f64 = 0.6;
+        const SWING: f64 = 1.0;
+        let unknowns = self.free.unknowns();
+        let mut swings = vec![0.0; unknowns];
+        let columns = a.motions.chunks_exact(unknowns);
+        for (a, b) in columns.zip(b.motions.chunks_exact(unknowns)) {
+            for (swing, (a, b)) in swings.iter_mut().zip(a.iter().zip(b)) {
+                *swing += (b - a) * (b - a);
+            }
+            let change = self.seen_length(a.iter().zip(b).map(|(a, b)| b - a));
+            let [a, b] = [a, b].map(|motion| self.seen_length(motion.iter().copied()));
+            if change > CHANGE * a.max(b) {
+                return false;
+            }
+        }
+        let swings = swings.into_iter().map(f64::sqrt);
+        swings
+            .map(|swing| swing * length.abs())
+            .all(|swing| swing <= SWING)
+    }
+}
