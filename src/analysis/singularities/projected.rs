@@ -4,6 +4,7 @@
 use serde::Serialize;
 
 use super::classify::Singularity;
+use crate::linear::norm;
 use crate::solve::Place;
 use crate::system::{LocusCurve, Region, Singular, Traced};
 
@@ -65,6 +66,15 @@ impl<'t> Projection<'t> {
             true => Shape::Point,
             false => Shape::Curve,
         }
+    }
+
+    /// Whether all its configurations are one.
+    fn stands_still(&self, curve: &LocusCurve) -> bool {
+        let mut places = self.traced.places.iter();
+        let Some(first) = places.next() else {
+            return true;
+        };
+        places.all(|place| norm(&curve.apart(&first.at, &place.at)) < SAME)
     }
 
     /// Points of the box without those that come again.
@@ -147,6 +157,9 @@ impl<'t> Projection<'t> {
 
 /// Curves that lie over one another in the box, by their numbers: in each group the first passes over
 /// all the others, and is the shortest that does.
+///
+/// Where several motions are possible at once they turn into one another while the mechanism stands
+/// still. That is no locus of its own where others cross there.
 pub(super) fn groups(
     curve: &mut LocusCurve,
     region: &Region,
@@ -174,5 +187,13 @@ pub(super) fn groups(
             group.swap(0, whole);
         }
     }
+    let mut crossed = |group: &Vec<usize>| {
+        let own = &projections[group[0]];
+        own.stands_still(curve)
+            && projections.iter().any(|other| {
+                other.shape() == Shape::Curve && other.passes(curve, region, own.points[0])
+            })
+    };
+    groups.retain(|group| !crossed(group));
     groups
 }

@@ -33,7 +33,9 @@ pub fn svg(mechanism: &Mechanism, report: &LocusReport) -> String {
         let numbers: Vec<String> = points.clone().map(|(i, _)| (i + 1).to_string()).collect();
         Marks {
             label: format!("{wanted} {}", listed(&numbers)),
-            points: points.flat_map(|(_, l)| l.points.iter().map(point)).collect(),
+            points: points
+                .flat_map(|(_, l)| l.points.iter().map(point))
+                .collect(),
         }
     });
     let crossings = report.loci.iter().flat_map(|locus| &locus.crossings);
