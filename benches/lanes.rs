@@ -37,7 +37,8 @@ const WORK: [Work; 4] = [
     Work {
         name: "three_rps",
         joints: &["l1", "l2", "l3"],
-        amplitude: 0.03,
+        // home is near a fold
+        amplitude: 0.005,
     },
     Work {
         name: "stewart_gough_6sps",

@@ -196,23 +196,23 @@ impl Targets {
     }
 
     /// Asks for the values of each place.
-    pub fn ask<T: Factorable + Packed>(
+    pub fn ask<'v, T: Factorable + Packed>(
         &self,
         system: &mut System<T>,
         at: &mut Configuration<T>,
-        values: &[Vec<f64>],
+        values: impl Fn(usize) -> &'v [f64],
     ) {
         for &(joint, axis) in &self.joints {
-            at.joints[joint] = T::of_parts(|place| values[place][axis]);
+            at.joints[joint] = T::of_parts(|place| values(place)[axis]);
         }
         for &(platform, c, axis) in &self.single {
-            system.set_target(platform, c, T::of_parts(|place| values[place][axis]));
+            system.set_target(platform, c, T::of_parts(|place| values(place)[axis]));
         }
         for whole in &self.whole {
-            let poses: Vec<Pose<f64>> = (values.iter())
-                .map(|values| {
+            let poses: Vec<Pose<f64>> = (0..T::WIDTH)
+                .map(|place| {
                     let sources = whole.sources.iter().map(|&(c, source)| match source {
-                        Source::Axis(axis) => (c, values[axis]),
+                        Source::Axis(axis) => (c, values(place)[axis]),
                         Source::Value(value) => (c, value),
                     });
                     with_coordinates(&Pose::identity(), sources)

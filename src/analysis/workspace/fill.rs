@@ -2,7 +2,7 @@
 
 use super::asked::Asked;
 use super::edge::{Edge, Met, reach};
-use super::grid::{Grid, MOST_DIRECTIONS};
+use super::grid::{Grid, MOST_AXES, MOST_DIRECTIONS};
 use super::measure::Measure;
 use super::step::{Arrival, SURE, Start, Steps};
 use crate::linear::{Factorable, norm};
@@ -128,7 +128,7 @@ impl Fill<'_> {
             from: at,
             along: None,
             reach: 1e-3,
-            values: self.grid.values(node),
+            values: self.grid.point(node),
         }
     }
 
@@ -298,10 +298,10 @@ impl Fill<'_> {
         ends.collect()
     }
 
-    fn start_values(&self, filled: &Filled, (s, d): Task) -> Vec<f64> {
+    fn start_values(&self, filled: &Filled, (s, d): Task) -> [f64; MOST_AXES] {
         let node = filled.sheets[s].node;
         self.grid
-            .values(self.grid.neighbour(node, d).unwrap_or(node))
+            .point(self.grid.neighbour(node, d).unwrap_or(node))
     }
 
     fn start<'f>(&self, filled: &'f Filled, (s, d): Task) -> Start<'f> {

@@ -2,8 +2,10 @@
 
 use crate::system::Driven;
 
-/// Directions to neighbours there are at most: there and back along three axes.
-pub(super) const MOST_DIRECTIONS: usize = 6;
+/// Mapped coordinates there are at most.
+pub(super) const MOST_AXES: usize = 3;
+/// Directions to neighbours there are at most.
+pub(super) const MOST_DIRECTIONS: usize = 2 * MOST_AXES;
 
 /// Nodes at equal distances in a box, the first coordinate running fastest.
 #[derive(Clone, Debug)]
@@ -57,9 +59,15 @@ impl Grid {
 
     /// The coordinates of a node.
     pub fn values(&self, node: usize) -> Vec<f64> {
-        let axes = 0..self.dimensions();
-        axes.map(|axis| self.coordinate(axis, self.place(node, axis)))
-            .collect()
+        self.point(node)[..self.dimensions()].to_vec()
+    }
+
+    /// The coordinates of a node, zeros behind them.
+    pub fn point(&self, node: usize) -> [f64; MOST_AXES] {
+        std::array::from_fn(|axis| match axis < self.dimensions() {
+            true => self.coordinate(axis, self.place(node, axis)),
+            false => 0.0,
+        })
     }
 
     /// The neighbour in a direction: axis 0 back and forth, then axis 1 and so on.

@@ -104,21 +104,18 @@ impl Measure {
         const CHANGE: f64 = 0.6;
         const SWING: f64 = 1.0;
         let unknowns = self.free.unknowns();
-        let mut swings = vec![0.0; unknowns];
         let columns = a.motions.chunks_exact(unknowns);
-        for (a, b) in columns.zip(b.motions.chunks_exact(unknowns)) {
-            for (swing, (a, b)) in swings.iter_mut().zip(a.iter().zip(b)) {
-                *swing += (b - a) * (b - a);
-            }
+        let mut columns = columns.zip(b.motions.chunks_exact(unknowns));
+        let same_way = columns.all(|(a, b)| {
             let change = self.seen_length(a.iter().zip(b).map(|(a, b)| b - a));
             let [a, b] = [a, b].map(|motion| self.seen_length(motion.iter().copied()));
-            if change > CHANGE * a.max(b) {
-                return false;
-            }
-        }
-        let swings = swings.into_iter().map(f64::sqrt);
-        swings
-            .map(|swing| swing * length.abs())
-            .all(|swing| swing <= SWING)
+            change <= CHANGE * a.max(b)
+        });
+        let swing = |joint: usize| {
+            let both = a.motions[joint..].iter().zip(&b.motions[joint..]);
+            let change = both.step_by(unknowns).map(|(a, b)| (b - a) * (b - a));
+            change.sum::<f64>().sqrt() * length.abs()
+        };
+        same_way && (0..unknowns).all(|joint| swing(joint) <= SWING)
     }
 }

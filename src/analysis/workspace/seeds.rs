@@ -99,8 +99,7 @@ fn take(
     mut at: Configuration<f64>,
     found: &mut Vec<Configuration<f64>>,
 ) {
-    let targets = [values.to_vec()];
-    (storage.targets).ask(&mut storage.system, &mut at, &targets);
+    (storage.targets).ask(&mut storage.system, &mut at, |_| values);
     let mut trial = at.clone();
     let report = (asked.newton).solve(&storage.system, &mut at, &mut trial, &mut storage.work);
     if report.stop != Stop::Solved || found.iter().any(|known| measure.same(known, &at)) {
@@ -156,7 +155,7 @@ pub(super) fn probe<T: Factorable + Packed + Send + Sync>(
                 from: at,
                 along: None,
                 reach: f64::INFINITY,
-                values: values.clone(),
+                values: fill.grid.point(node),
             })
             .collect();
         let mut new: Vec<Configuration<f64>> = Vec::new();

@@ -1,6 +1,7 @@
 //! From a node to its neighbour: several such steps side by side.
 
 use super::asked::{Asked, Targets};
+use super::grid::MOST_AXES;
 use super::rates::{Rates, Told};
 use crate::linear::Factorable;
 use crate::mechanism::Configuration;
@@ -16,8 +17,8 @@ pub(super) struct Start<'a> {
     pub along: Option<(&'a [f64], f64)>,
     /// How far that may be, dimensionless; infinite if anything is as good.
     pub reach: f64,
-    /// The mapped coordinates there.
-    pub values: Vec<f64>,
+    /// The mapped coordinates there, and zeros.
+    pub values: [f64; MOST_AXES],
 }
 
 /// An assembled configuration at a node.
@@ -91,8 +92,7 @@ impl<T: Factorable + Packed> Steps<T> {
         const SMALL: f64 = 1e-9;
         let start = |place: usize| &starts[place.min(starts.len() - 1)];
         let mut point = self.begin(&start);
-        let values: Vec<Vec<f64>> = (0..T::WIDTH).map(|p| start(p).values.clone()).collect();
-        self.targets.ask(&mut self.system, &mut point, &values);
+        (self.targets).ask(&mut self.system, &mut point, |p| &start(p).values);
         let mut sure = vec![true; T::WIDTH];
         let mut solved = vec![false; T::WIDTH];
         let mut bounds: Vec<f64> = (0..T::WIDTH).map(|place| start(place).reach).collect();
@@ -161,8 +161,7 @@ impl<T: Factorable + Packed> Steps<T> {
     /// What is told of a configuration that solves the equations for its mapped coordinates.
     pub fn told(&mut self, at: &Configuration<f64>, values: &[f64]) -> Option<Told> {
         let mut point = at.map(T::from_f64);
-        let values = vec![values.to_vec(); T::WIDTH];
-        self.targets.ask(&mut self.system, &mut point, &values);
+        (self.targets).ask(&mut self.system, &mut point, |_| values);
         let told = self.rates.at(&point, &self.system, &mut self.work);
         told.into_iter().next()
     }
