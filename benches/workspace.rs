@@ -88,6 +88,7 @@ fn compare(criterion: &mut Criterion, work: &Work) {
             // of the map alone: few places are searched for modes, no boundaries followed
             searched: 4,
             starts: 8,
+            probed: 0,
             boundaries: false,
             ..WorkspaceSettings::default()
         };

@@ -18,7 +18,7 @@ pub use endgame::{Ending, Turning, ending};
 pub use homotopy::{Arrival, Homotopy, Stages, Track, Tracker};
 pub use minimum::walk_down;
 pub use newton::{Newton, Report, Stop};
-pub use threads::each;
+pub use threads::{Pool, each};
 pub use warm::{Trail, Warm, WarmReport};
 
 use crate::number::{Extent, Field, Number};

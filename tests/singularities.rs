@@ -4,8 +4,8 @@ use std::f64::consts::PI;
 use std::path::Path;
 
 use linkwork::analysis::singularities::{
-    AlongReport, Ending, Kind, LocusEnd, LocusReport, SingularitiesReport, SingularitiesSettings,
-    Zlatanov, along, inputs_of, loci, singularities,
+    AlongReport, Ending, Kind, LocusEnd, LocusReport, Shape, SingularitiesReport,
+    SingularitiesSettings, Zlatanov, along, inputs_of, loci, singularities,
 };
 use linkwork::description::Description;
 use linkwork::mechanism::{Configuration, Mechanism};
@@ -696,6 +696,243 @@ fn an_orthogonal_3r_arm_is_regular_at_its_published_solutions_and_singular_betwe
         assert!(determinant(q).abs() < 1e-12, "{}", determinant(q));
         assert_eq!(crossing.singularity.gosselin_angeles, Some(1));
         assert_eq!(crossing.singularity.loss, 1);
+    }
+}
+
+// ---- what the outputs are
+
+/// The command's answer as JSON.
+fn told(arguments: &[&str]) -> serde_json::Value {
+    let (code, stdout, stderr) = run(&[arguments, &["--format", "json"]].concat());
+    assert_eq!(code, 0, "{arguments:?}: {stderr}");
+    serde_json::from_str(&stdout).unwrap()
+}
+
+fn list(of: &serde_json::Value) -> Vec<&str> {
+    let names = of.as_array().unwrap().iter();
+    names.map(|name| name.as_str().unwrap()).collect()
+}
+
+#[test]
+fn a_stretched_arm_loses_a_direction_of_its_hand_though_not_of_its_twist() {
+    // det ∂(x, y)/∂(θ₁, θ₂) = a₁ a₂ sin θ₂
+    let arm = |theta2: &'static str, more: &[&'static str]| {
+        let hold = ["mechanisms/planar_2r.ron", "--hold", "theta1=30deg"];
+        told(&[&hold[..], &["--hold", theta2], more].concat())
+    };
+    let kind = |json: &serde_json::Value| json["singularity"]["gosselin_angeles"].as_u64();
+    for (theta2, lost) in [("theta2=0", 1), ("theta2=60deg", 0)] {
+        let whole = arm(theta2, &[]);
+        assert_eq!(kind(&whole), None, "the hand turns and shifts");
+        assert_eq!(list(&whole["outputs"]), ["hand"]);
+        let [coupled] = &whole["coupled"].as_array().unwrap()[..] else {
+            panic!("{whole}")
+        };
+        assert_eq!(coupled["freedoms"], 2);
+        assert_eq!(coupled["origin_loses"], lost, "{coupled}");
+        let note = whole["note"].as_str().unwrap();
+        for question in ["--point hand", "--output hand.x --output hand.y"] {
+            assert!(note.contains(question), "{note}");
+        }
+        for asked in [
+            &["--point", "hand"][..],
+            &["--output", "hand.x", "--output", "hand.y"],
+        ] {
+            let part = arm(theta2, asked);
+            assert_eq!(kind(&part), (lost == 1).then_some(1), "{part}");
+            assert_eq!(part["singularity"]["loss"], lost);
+            assert!(part["note"].is_null() && part["coupled"] == serde_json::json!([]));
+        }
+    }
+    // stretched it takes a force along itself without torques
+    let part = arm("theta2=0", &["--output", "hand.x", "--output", "hand.y"]);
+    let [resisted] = &part["singularity"]["resisted"].as_array().unwrap()[..] else {
+        panic!("{part}")
+    };
+    let wrench = &resisted["wrenches"][0];
+    assert_eq!(
+        (&resisted["output"], &wrench["pitch"]),
+        (&"hand".into(), &0.0.into())
+    );
+    let of = |name: &str| [0, 1, 2].map(|i| wrench[name][i].as_f64().unwrap());
+    let along = Vector3::new((PI / 6.0).cos(), (PI / 6.0).sin(), 0.0);
+    assert!(
+        (Vector3::from(of("direction")) - along).norm() < 1e-9,
+        "{wrench}"
+    );
+    assert!(
+        Vector3::from(of("point")).cross(&along).norm() < 1e-9,
+        "{wrench}"
+    );
+}
+
+#[test]
+fn nothing_is_noted_of_outputs_with_as_many_freedoms_as_directions() {
+    for name in ["planar_3rpr", "four_bar"] {
+        let json = told(&[&format!("mechanisms/{name}.ron")]);
+        assert!(json["note"].is_null(), "{json}");
+    }
+    // three freedoms in six directions
+    let json = told(&["mechanisms/three_rps.ron"]);
+    assert!(json["note"].as_str().unwrap().contains("--point top"));
+    assert_eq!(json["coupled"][0]["freedoms"], 3);
+}
+
+#[test]
+fn platform_coordinates_in_question_are_the_outputs_and_free_the_actuated_joints() {
+    let rpr = "mechanisms/planar_3rpr.ron";
+    let pose = [
+        "--hold",
+        "platform.x=14",
+        "--hold",
+        "platform.y=-1",
+        "--hold",
+        "platform.yaw=50deg",
+    ];
+    let json = told(&[&[rpr], &pose[..]].concat());
+    assert_eq!(list(&json["inputs"]), ["rho1", "rho2", "rho3"]);
+    let asked = ["platform.x", "platform.y", "platform.yaw"];
+    assert_eq!(list(&json["outputs"]), asked);
+    assert_eq!(
+        json,
+        told(&[&[rpr], &pose[..], &["--free", "actuated"]].concat())
+    );
+    let along = ["--input", "platform.x=14..15"];
+    let json = told(&[&[rpr], &along[..], &pose[2..]].concat());
+    assert_eq!(list(&json["outputs"]), asked);
+    // what --output says goes before
+    let json = told(&[&[rpr], &pose[..], &["--output", "platform"]].concat());
+    assert_eq!(list(&json["outputs"]), ["platform"]);
+    // a joint that is held is not freed, and one coordinate is too little
+    let (code, _, stderr) = run(&[rpr, "--hold", "platform.x=14", "--hold", "rho1=15"]);
+    assert_eq!(code, 2, "{stderr}");
+    assert!(stderr.contains("--hold"), "{stderr}");
+    // a question that was whole with the joints the file holds keeps them
+    let json = told(&[rpr, "--free", "rho3", "--hold", "platform.x=14.9"]);
+    assert_eq!(json["joints"][1], 14.98, "{json}");
+    assert_eq!(list(&json["outputs"]), ["platform"]);
+}
+
+#[test]
+fn inverse_loci_of_a_five_bar_in_the_plane_of_its_hand_are_four_circles() {
+    // each leg stretched or folded: |P − O| = r ± c; where both are the circles cross, and that two
+    // cranks are idle at once is no locus of its own
+    let five_bar = mechanism("five_bar_hand", &[]);
+    let sides = [("hand.x", -0.8, 1.0), ("hand.y", -0.8, 0.8)];
+    let report = locus(&five_bar, sides, &[], 40);
+    assert_eq!(report.outputs, ["hand.x", "hand.y"]);
+    let circles = [(0.0, 0.7), (0.0, 0.1), (0.2, 0.7), (0.2, 0.1)];
+    let on = |points: &[[f64; 2]], (x, radius): (f64, f64)| {
+        let off = |p: &[f64; 2]| ((p[0] - x).hypot(p[1]) - radius).abs();
+        points.iter().all(|p| off(p) < 1e-9)
+    };
+    let of = |kind: Kind| report.loci.iter().filter(move |locus| locus.kind == kind);
+    assert_eq!(of(Kind::Inverse).count(), 4);
+    for circle in circles {
+        let lying = of(Kind::Inverse).filter(|locus| on(&locus.points, circle));
+        assert_eq!(lying.count(), 1, "{circle:?}");
+        assert!(of(Kind::Direct).all(|locus| !on(&locus.points, circle)));
+    }
+    assert!(report.loci.iter().all(|locus| locus.shape == Shape::Curve));
+    assert!(report.coupled.is_empty());
+}
+
+#[test]
+fn legs_of_either_sign_make_one_locus_and_legs_without_length_points() {
+    let rpr = mechanism("planar_3rpr", &[]);
+    let yaw = 57f64.to_radians();
+    let sides = [("platform.x", -20.0, 40.0), ("platform.y", -20.0, 40.0)];
+    let report = locus(&rpr, sides, &[("platform.yaw", yaw)], 40);
+    // geometry of the file: A1 = 0, A2 = (15.91, 0), A3 = (0, 10), and B at the corners
+    let (b12, b23, b31) = (17.04f64, 16.54f64, 20.84f64);
+    let b3x = (b12 * b12 + b31 * b31 - b23 * b23) / (2.0 * b12);
+    let b3y = (b31 * b31 - b3x * b3x).sqrt();
+    let bases = [[0.0, 0.0], [15.91, 0.0], [0.0, 10.0]];
+    let corners = [[0.0, 0.0], [b12, 0.0], [b3x, b3y]].map(|[x, y]| {
+        let (s, c) = yaw.sin_cos();
+        [c * x - s * y, s * x + c * y]
+    });
+    // the determinant of the leg lines, each times its length
+    let determinant = |p: [f64; 2]| {
+        let columns = (0..3).flat_map(|k| {
+            let [ax, ay] = bases[k];
+            let [dx, dy] = [p[0] + corners[k][0] - ax, p[1] + corners[k][1] - ay];
+            [dx, dy, ax * dy - ay * dx]
+        });
+        DMatrix::from_iterator(3, 3, columns).determinant()
+    };
+    let of = |kind: Kind, shape: Shape| {
+        let loci = report.loci.iter();
+        loci.filter(move |locus| locus.kind == kind && locus.shape == shape)
+    };
+    let direct: Vec<_> = of(Kind::Direct, Shape::Curve).collect();
+    let [ellipse] = &direct[..] else {
+        panic!("{} curves", direct.len())
+    };
+    // each sign of the three lengths that was met
+    assert!(ellipse.configurations > 1 && ellipse.configurations <= 8);
+    assert!(ellipse.points.len() > 100);
+    for point in &ellipse.points {
+        assert!(determinant(*point).abs() < 1e-4, "{point:?}");
+    }
+    assert!(determinant([14.9, -1.3]).abs() > 1.0);
+    for kind in [Kind::Direct, Kind::Inverse] {
+        let points: Vec<_> = of(kind, Shape::Point).collect();
+        assert_eq!(points.len(), 3);
+        for (base, corner) in bases.iter().zip(corners) {
+            let at = [base[0] - corner[0], base[1] - corner[1]];
+            let near = |p: &[f64; 2]| (p[0] - at[0]).hypot(p[1] - at[1]) < 1e-6;
+            assert_eq!(points.iter().filter(|l| near(&l.points[0])).count(), 1);
+        }
+        for point in points {
+            assert_eq!((point.points.len(), point.joints.len()), (1, 1));
+        }
+    }
+    assert_eq!(of(Kind::Inverse, Shape::Curve).count(), 0);
+    // rows say so too
+    let csv = linkwork::output::singularities::locus_csv(&rpr, &report);
+    let columns: Vec<&str> = csv.lines().next().unwrap().split(',').collect();
+    let mut unique = columns.clone();
+    unique.sort_unstable();
+    unique.dedup();
+    assert_eq!(unique.len(), columns.len(), "{columns:?}");
+    assert!(columns.contains(&"platform.x (m)") && columns.contains(&"platform.z (m)"));
+    let place = |name: &str| columns.iter().position(|c| *c == name).unwrap();
+    let (shape, over) = (place("shape"), place("configurations"));
+    let mut points = 0;
+    for line in csv.lines().skip(1) {
+        let fields: Vec<&str> = line.split(',').collect();
+        assert_eq!(fields.len(), columns.len());
+        assert!(fields[over].parse::<usize>().unwrap() >= 1);
+        points += usize::from(fields[shape] == "point");
+    }
+    assert_eq!(points, 6);
+}
+
+#[test]
+fn columns_of_rows_are_named_once() {
+    for arguments in [
+        &["mechanisms/four_bar.ron", "--input", "theta1=0deg..360deg"][..],
+        &[
+            "mechanisms/three_rps.ron",
+            "--locus",
+            "l1=0.4..1",
+            "--locus",
+            "l2=0.4..1",
+            "--starts",
+            "4",
+        ],
+    ] {
+        let (code, stdout, stderr) = run(&[arguments, &["--format", "csv"]].concat());
+        assert_eq!(code, 0, "{stderr}");
+        let columns: Vec<&str> = stdout.lines().next().unwrap().split(',').collect();
+        let mut unique = columns.clone();
+        unique.sort_unstable();
+        unique.dedup();
+        assert_eq!(unique.len(), columns.len(), "{columns:?}");
+        for line in stdout.lines() {
+            assert_eq!(line.split(',').count(), columns.len());
+        }
     }
 }
 

@@ -893,6 +893,39 @@ fn the_class_of_a_four_bar_follows_from_its_circuits_and_agrees_with_grashof() {
 }
 
 #[test]
+fn each_angle_of_a_crossing_is_told_once_with_the_number_of_crossings_there() {
+    let peaucellier = ["sweep", "mechanisms/peaucellier.ron", "--circuits"];
+    let linkwork = |more: &[&str]| {
+        let output = assert_cmd::Command::cargo_bin("linkwork")
+            .unwrap()
+            .current_dir(env!("CARGO_MANIFEST_DIR"))
+            .args([&peaucellier[..], more].concat())
+            .output()
+            .unwrap();
+        String::from_utf8(output.stdout).unwrap()
+    };
+    let json: serde_json::Value = serde_json::from_str(&linkwork(&["--format", "json"])).unwrap();
+    let crossings = json["circuits"][0]["crossings"].as_array().unwrap().len();
+    let text = linkwork(&[]);
+    let line = text
+        .lines()
+        .find(|line| line.contains("crosses circuit 2 at"));
+    let (_, places) = line.unwrap().split_once(" = ").unwrap();
+    let places: Vec<&str> = places.split(", ").flat_map(|p| p.split(" and ")).collect();
+    let angle = |place: &str| place.split('°').next().unwrap().parse::<f64>().unwrap();
+    for pair in places.windows(2) {
+        assert!(angle(pair[0]) < angle(pair[1]), "{places:?}");
+    }
+    let times = |place: &&str| match place.split_once('(') {
+        Some((_, times)) => times.trim_end_matches(" times)").parse().unwrap(),
+        None => 1,
+    };
+    let counted: usize = places.iter().map(times).sum();
+    assert_eq!(counted, crossings);
+    assert!(counted > places.len(), "{places:?}");
+}
+
+#[test]
 fn the_curves_of_a_parallelogram_meet_at_both_change_points() {
     let report = circuits_of([4.0, 2.0, 4.0, 2.0]);
     assert_eq!(report.circuits.len(), 2);

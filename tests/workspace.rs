@@ -790,6 +790,78 @@ fn questions_that_make_no_sense_are_told_what_to_ask_instead() {
     }
 }
 
+/// Texts of a picture of a map, and the picture.
+fn drawn(map: &[&str]) -> (Vec<String>, String) {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("map.svg");
+    let svg = ["--svg", path.to_str().unwrap(), "--starts", "8"];
+    let (code, _, err) = linkwork(&[&["workspace"], map, &svg].concat());
+    assert_eq!(code, 0, "{err}");
+    let svg = std::fs::read_to_string(path).unwrap();
+    let texts = svg.split("<text").skip(1).map(|text| {
+        let text = text.split_once('>').unwrap().1;
+        text.split_once('<').unwrap().0.to_owned()
+    });
+    (texts.collect(), svg)
+}
+
+#[test]
+fn axes_of_a_picture_end_where_the_map_does_and_what_is_not_reached_is_left_open() {
+    let map = ["mechanisms/five_bar_hand.ron", "--map", "hand.x=-0.6..0.8"];
+    let map = [&map[..], &["--map", "hand.y=-0.1..0.7", "--grid", "15,9"]].concat();
+    let (texts, svg) = drawn(&map);
+    // half a cell more at each end; the scale of colours is from 0 to 1 at most
+    let numbers = texts
+        .iter()
+        .filter_map(|text| text.replace('−', "-").parse::<f64>().ok());
+    let numbers: Vec<f64> = numbers.collect();
+    assert!(numbers.len() > 20 && numbers.contains(&-0.5), "{numbers:?}");
+    assert!(
+        numbers.iter().all(|x| (-0.65..=1.0).contains(x)),
+        "{numbers:?}"
+    );
+    // white are only the boxes of the legends; each picture has cells that are not reached
+    let pictures = texts.iter().filter(|text| text.contains(": mode ")).count();
+    let filled = |with: &str| svg.matches(&format!("fill=\"{with}\"")).count();
+    assert!(pictures > 0 && filled("#ffffff") <= pictures);
+    assert!(filled("none") > 20 * pictures && !svg.contains("NaN"));
+}
+
+#[test]
+fn every_slice_of_a_map_is_drawn_with_one_scale_of_colours() {
+    let map = [
+        "mechanisms/three_rps.ron",
+        "--map",
+        "top.roll=-40deg..40deg",
+        "--map",
+        "top.pitch=-40deg..40deg",
+        "--map",
+        "top.z=0.4..0.7",
+        "--grid",
+        "6,6,7",
+    ];
+    let (texts, _) = drawn(&map);
+    let titles = texts.iter().filter(|text| text.contains(", top.z = "));
+    let pictures = titles.clone().count();
+    let modes = titles
+        .clone()
+        .filter(|text| text.ends_with("top.z = 0.4 m"))
+        .count();
+    assert_eq!(pictures, 7 * modes, "{texts:?}");
+    let mut different: Vec<&String> = titles.collect();
+    different.sort();
+    different.dedup();
+    assert_eq!(different.len(), pictures);
+    // the same figures stand at each picture, at its axes and its scale
+    let mut numbers: Vec<&String> = (texts.iter())
+        .filter(|text| text.replace('−', "-").parse::<f64>().is_ok())
+        .collect();
+    numbers.sort();
+    for same in numbers.chunk_by(|a, b| a == b) {
+        assert_eq!(same.len() % pictures, 0, "{same:?} in {pictures} pictures");
+    }
+}
+
 #[test]
 fn the_command_writes_whole_rows_of_numbers() {
     let map = [

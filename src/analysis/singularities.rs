@@ -8,22 +8,27 @@ mod along;
 mod classify;
 mod drops;
 mod locus;
+mod outputs;
+mod projected;
 
 pub use crate::system::LocusEnd;
 pub use along::{AlongReport, Crossing, Ending, along};
 pub use classify::{Distances, Movement, Resisted, Singularity, Zlatanov};
 pub use locus::{Bound, Kind, Locus, LocusReport, loci};
+pub use outputs::{Coupled, default_outputs, inputs_of};
+pub use projected::Shape;
 
 use serde::Serialize;
 
-use crate::description::Role;
-use crate::mechanism::{Body, Frame, Mechanism};
+use crate::linear::RANK_TOLERANCE;
+use crate::mechanism::{Configuration, Mechanism};
 use crate::solve::{Continuation, Newton};
 use crate::system::{
     Analysed, Holdable, Lock, Question, QuestionError, WidestGap, check_angles, check_count, close,
     too_large,
 };
 use classify::Classifier;
+use outputs::{coupled, outputs_of};
 
 /// How to look for singularities.
 #[derive(Clone, Debug, PartialEq)]
@@ -34,8 +39,8 @@ pub struct SingularitiesSettings {
     pub restarts: usize,
     /// Seed of all random starts.
     pub seed: u64,
-    /// The outputs; where there are none, the platforms, or what stands for them
-    /// ([`default_outputs`]).
+    /// The outputs; where there are none, the coordinates of platforms that are held or move, or
+    /// else the platforms, or what stands for them ([`default_outputs`]).
     pub outputs: Vec<Lock>,
     /// Whether a motion along inputs goes round folds and straight through crossings.
     pub follow: bool,
@@ -67,6 +72,8 @@ pub struct SingularitiesReport {
     pub inputs: Vec<String>,
     /// The outputs.
     pub outputs: Vec<String>,
+    /// Outputs that may hide what their positions lose.
+    pub coupled: Vec<Coupled>,
     /// Joint values there, rad or m, in the order of the file.
     pub joints: Vec<f64>,
     /// What is singular.
@@ -79,72 +86,6 @@ pub struct SingularitiesReport {
     pub kept: bool,
     /// Names of the joints that are outside their limits.
     pub outside_limits: Vec<String>,
-}
-
-/// What is driven: the held coordinates if all of them are joints, else the actuated joints.
-pub fn inputs_of(question: &Question) -> Vec<Holdable> {
-    let held = question.held_coordinates();
-    if held.iter().all(|h| matches!(h, Holdable::Joint(_))) {
-        let mut held = held;
-        held.sort_by_key(|h| match h {
-            Holdable::Joint(joint) => *joint,
-            Holdable::Coordinate(..) | Holdable::Turn(..) => usize::MAX,
-        });
-        return held;
-    }
-    let joints = question.mechanism().joints().iter().enumerate();
-    let actuated = joints.filter(|(_, joint)| joint.role == Role::Actuated);
-    let actuated: Vec<Holdable> = actuated.map(|(i, _)| Holdable::Joint(i)).collect();
-    match actuated.is_empty() {
-        true => held,
-        false => actuated,
-    }
-}
-
-/// What moves out where nothing else is asked for: the platforms; of an open chain the tips; else
-/// the joints on the ground that are not driven; else the points where the chains are joined.
-pub fn default_outputs(mechanism: &Mechanism, inputs: &[Holdable]) -> Vec<Lock> {
-    let platforms = 0..mechanism.platforms().len();
-    let platforms: Vec<Lock> = platforms
-        .map(|platform| Lock::Frame(Frame::Platform { platform }))
-        .collect();
-    if !platforms.is_empty() {
-        return platforms;
-    }
-    if mechanism.closures().is_empty() {
-        let tips = 0..mechanism.chains().len();
-        return tips
-            .map(|chain| Lock::Frame(Frame::Tip { chain }))
-            .collect();
-    }
-    let mut grounded: Vec<Holdable> = Vec::new();
-    for chain in mechanism.chains() {
-        let first = chain.rows.iter().map(|row| row.joints());
-        let first = first.into_iter().find(|joints| !joints.is_empty());
-        if mechanism.body(chain.on) == Body::Ground {
-            grounded.extend(first.into_iter().flatten().map(Holdable::Joint));
-        }
-    }
-    grounded.retain(|joint| !inputs.contains(joint));
-    grounded.dedup();
-    if !grounded.is_empty() {
-        return grounded.into_iter().map(Lock::Coordinate).collect();
-    }
-    let closures = mechanism.closures().iter();
-    closures
-        .map(|closure| Lock::Point(closure.frames[0]))
-        .collect()
-}
-
-fn outputs_of(
-    mechanism: &Mechanism,
-    inputs: &[Holdable],
-    settings: &SingularitiesSettings,
-) -> Vec<Lock> {
-    match settings.outputs.is_empty() {
-        true => default_outputs(mechanism, inputs),
-        false => settings.outputs.clone(),
-    }
 }
 
 fn names(mechanism: &Mechanism, inputs: &[Holdable]) -> Vec<String> {
@@ -188,11 +129,13 @@ pub fn singularities(
     {
         check_angles(question, at)?;
     }
-    let outputs = outputs_of(mechanism, &inputs, settings);
+    let outputs = outputs_of(mechanism, &question.held(), &[], &inputs, settings);
+    check_outputs(mechanism, &outputs, at)?;
     let mut classifier = Classifier::new(mechanism, &inputs, &outputs, at);
     Ok(Analysed::Closed(SingularitiesReport {
         inputs: names(mechanism, &inputs),
         outputs: output_names(mechanism, &outputs),
+        coupled: coupled(mechanism, &inputs, &outputs, at, settings, true),
         joints: at.joints.clone(),
         singularity: classifier.at(at),
         normalising_length: mechanism.characteristic_length(),
@@ -200,4 +143,25 @@ pub fn singularities(
         given_gap: closed.given.filter(|gap| gap.size(mechanism) > 1e-9),
         kept: closed.kept,
     }))
+}
+
+/// Angles of a platform pitched by ±90° do not tell its motion.
+fn check_outputs(
+    mechanism: &Mechanism,
+    outputs: &[Lock],
+    at: &Configuration<f64>,
+) -> Result<(), QuestionError> {
+    for output in outputs {
+        let Lock::Coordinate(coordinate @ Holdable::Coordinate(platform, _)) = *output else {
+            continue;
+        };
+        let pose = at.platforms[platform].pose();
+        let slope = coordinate.slope(&pose, mechanism.characteristic_length());
+        if !slope.iter().all(|x| x.abs() < 1.0 / RANK_TOLERANCE) {
+            return Err(QuestionError::AnglesLocked {
+                platform: mechanism.platforms()[platform].name.clone(),
+            });
+        }
+    }
+    Ok(())
 }

@@ -25,6 +25,7 @@ mod grid;
 mod join;
 mod map;
 mod measure;
+mod pace;
 mod rates;
 mod report;
 mod seeds;
@@ -39,7 +40,7 @@ pub use report::{
 use crate::linear::Factorable;
 use crate::mechanism::{Configuration, Mechanism};
 use crate::number::{Lanes, Packed};
-use crate::solve::Newton;
+use crate::solve::{Newton, Pool};
 use crate::system::{Driven, Question};
 use asked::Asked;
 use boundary::Boundary;
@@ -178,7 +179,7 @@ fn filled<T: Factorable + Packed + Send + Sync>(
     (probed, seed): (&[usize], u64),
     told: &mut dyn FnMut(usize),
 ) -> (Filled, Vec<Option<usize>>, usize) {
-    let steps: Steps<T> = Steps::new(fill.asked);
+    let steps: Pool<Steps<T>> = Pool::new(Steps::new(fill.asked));
     let mut filled = fill.nothing();
     fill.spread(&mut filled, &steps, &sown.seeds, told);
     if filled.overflow {

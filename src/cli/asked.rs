@@ -68,7 +68,15 @@ pub struct Asked {
 impl Asked {
     /// The split, with guesses for what is free.
     pub fn question<'a>(&self, mechanism: &'a Mechanism) -> Result<Question<'a>, Refusal> {
-        let mut question = self.split.question(mechanism)?;
+        self.guessed(self.split.question(mechanism)?)
+    }
+
+    /// The same for a mechanism whose joints are held only if --hold says so.
+    pub fn released<'a>(&self, mechanism: &'a Mechanism) -> Result<Question<'a>, Refusal> {
+        self.guessed(self.split.released(mechanism)?)
+    }
+
+    fn guessed<'a>(&self, mut question: Question<'a>) -> Result<Question<'a>, Refusal> {
         for assignment in &self.guess {
             let Assignment { name, value } = assignment;
             let given = assignment.given("--guess");

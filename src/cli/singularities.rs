@@ -5,14 +5,15 @@ use std::path::PathBuf;
 use clap::{Args, ValueEnum};
 use linkwork::analysis::assemblies::Wanted;
 use linkwork::analysis::singularities::{
-    Ending, SingularitiesSettings, along, inputs_of, loci, singularities,
+    Coupled, Ending, SingularitiesSettings, along, inputs_of, loci, singularities,
 };
 use linkwork::mechanism::{Configuration, Mechanism};
 use linkwork::output::option::Given;
 use linkwork::output::{closing as analysed, singularities as output, sweep as motion};
 use linkwork::solve::Newton;
 use linkwork::system::{
-    Driven, Held, Holdable, Lock, Question, Search as NearbySearch, check_count, too_large,
+    Driven, Held, Holdable, Lock, Question, QuestionError, Search as NearbySearch, check_count,
+    too_large,
 };
 
 use super::asked::{Asked, frame, refusal};
@@ -25,10 +26,11 @@ use super::{Answer, Refusal, style};
 
 /// Find singularities: at a configuration, along inputs, or as curves in two inputs.
 ///
-/// The inputs are the joints that are held; where platform coordinates are held, the actuated joints of the file. The
-/// outputs are the platforms; without platforms the joints on the ground that are not driven, or else the points where
-/// chains are joined. Every singularity is located to rounding and told by its types (Gosselin and Angeles 1, 2, 3;
-/// Zlatanov, Fenton and Benhabib), by the freedoms lost and gained, and by what moves.
+/// The inputs are the joints that are held, and the outputs the platforms; without platforms the joints on the ground
+/// that are not driven, or else the points where chains are joined. Where coordinates of platforms are held or moved
+/// these are the outputs, the actuated joints are free, and are the inputs. Every singularity is located to rounding
+/// and told by its types (Gosselin and Angeles 1, 2, 3; Zlatanov, Fenton and Benhabib), by the freedoms lost and gained,
+/// and by what moves.
 #[derive(Args)]
 #[command(after_help = "Examples:\n  \
     linkwork singularities mechanisms/parallelogram.ron --hold theta1=0\n  \
@@ -147,8 +149,7 @@ impl Singularities {
         mechanism: &Mechanism,
         settings: &SingularitiesSettings,
     ) -> Result<Answer, Refusal> {
-        let mut question = self.asked.question(mechanism)?;
-        check_count(&question).map_err(|error| refusal(&error, None))?;
+        let (mut question, _) = self.holding(mechanism, "--hold", &[], [].into_iter())?;
         self.inputs(&question)?;
         if self.mode.is_some() {
             let start = self.start(&question)?;
@@ -184,9 +185,9 @@ impl Singularities {
         };
         let moved = ranges(mechanism, "--input", &self.input, |a, b| a == b, &words)?;
         let ends = moved.iter().map(|input| input.from);
-        let question = self.holding(mechanism, "--input", &self.input, ends)?;
+        let (question, held) = self.holding(mechanism, "--input", &self.input, ends)?;
         let inputs = self.inputs(&question)?;
-        let held = self.still(mechanism, &moved)?;
+        let held = still(held, &moved);
         let start = self.start(&question)?;
         let report = along(mechanism, &held, &moved, &inputs, &start, settings);
         let yes = matches!(
@@ -202,7 +203,7 @@ impl Singularities {
             remarks: match self.format {
                 Format::Csv if !yes => format!("note: {}\n", output::ending(&report)),
                 _ => String::new(),
-            },
+            } + &self.beside_rows(&report.coupled),
             yes,
         })
     }
@@ -221,14 +222,14 @@ impl Singularities {
             return Err(Refusal(output::not_two_sides(sides.len()).render(style())));
         };
         let middles = sides.iter().map(|side| 0.5 * (side.from + side.to));
-        let question = self.holding(mechanism, "--locus", &self.locus, middles)?;
+        let (question, held) = self.holding(mechanism, "--locus", &self.locus, middles)?;
         if let Some(unknowns) = too_large(mechanism) {
             return Err(Refusal(format!(
                 "error: the mechanism has {unknowns} unknowns, too many for loci: ask about a part of it\n"
             )));
         }
         let inputs = self.inputs(&question)?;
-        let held = self.still(mechanism, &sides)?;
+        let held = still(held, &sides);
         #[cfg(not(feature = "plot"))]
         if self.svg.is_some() {
             return Err(Refusal(
@@ -251,34 +252,49 @@ impl Singularities {
             remarks: match self.format {
                 Format::Csv => format!("note: {}\n", output::completeness(&report)),
                 _ => String::new(),
-            },
+            } + &self.beside_rows(&report.coupled),
             yes: !report.loci.is_empty(),
         })
     }
 
-    /// The question with what moves held at values, which must leave no freedom.
+    /// What is said of the outputs where only rows are written.
+    fn beside_rows(&self, coupled: &[Coupled]) -> String {
+        match (self.format, output::note(coupled)) {
+            (Format::Csv, Some(note)) => format!("note: {note}\n"),
+            _ => String::new(),
+        }
+    }
+
+    /// The question with what moves held at values, which must leave no freedom, and what it holds
+    /// without that. Where coordinates of platforms make it hold too much, the actuated joints that
+    /// only the file holds are free.
     fn holding<'a>(
         &self,
         mechanism: &'a Mechanism,
         option: &str,
         moved: &[Assignment],
-        values: impl Iterator<Item = f64>,
-    ) -> Result<Question<'a>, Refusal> {
-        let mut question = self.asked.question(mechanism)?;
-        for (assignment, value) in moved.iter().zip(values) {
-            // all digits, so that the value is the one that was read
-            let held = question.hold(&assignment.name, &format!("{value:?}"));
-            question = held.map_err(|error| refusal(&error, Some(assignment.given(option))))?;
+        values: impl Iterator<Item = f64> + Clone,
+    ) -> Result<(Question<'a>, Held<f64>), Refusal> {
+        let with_moved = |asked: Question<'a>| {
+            let held = asked.held();
+            let mut question = asked;
+            for (assignment, value) in moved.iter().zip(values.clone()) {
+                // all digits, so that the value is the one that was read
+                let held = question.hold(&assignment.name, &format!("{value:?}"));
+                question = held.map_err(|error| refusal(&error, Some(assignment.given(option))))?;
+            }
+            Ok((question, held))
+        };
+        let mut asked = with_moved(self.asked.question(mechanism)?)?;
+        let mut count = check_count(&asked.0);
+        let platform = |h: &Holdable| !matches!(h, Holdable::Joint(_));
+        let inverse = asked.0.held_coordinates().iter().any(platform);
+        if inverse && matches!(count, Err(QuestionError::TooMany { .. })) {
+            asked = with_moved(self.asked.released(mechanism)?)?;
+            count = check_count(&asked.0);
         }
-        check_count(&question).map_err(|error| refusal(&error, None))?;
-        Ok(question)
-    }
-
-    /// What is held while these move.
-    fn still(&self, mechanism: &Mechanism, moved: &[Driven]) -> Result<Held<f64>, Refusal> {
-        let held = self.asked.question(mechanism)?.held();
-        let without = |held: Held<f64>, input: &Driven| held.without(input.coordinate);
-        Ok(moved.iter().fold(held, without))
+        count.map_err(|error| refusal(&error, None))?;
+        Ok(asked)
     }
 
     /// The assembled configuration of the mode that is asked for, or near the start.
@@ -314,4 +330,10 @@ impl Singularities {
                 })
             })
     }
+}
+
+/// What is held while these move.
+fn still(held: Held<f64>, moved: &[Driven]) -> Held<f64> {
+    let without = |held: Held<f64>, input: &Driven| held.without(input.coordinate);
+    moved.iter().fold(held, without)
 }

@@ -27,15 +27,17 @@ pub struct Marks {
     pub points: Vec<(f64, f64)>,
 }
 
-/// Values between 0 and 1 on a grid, as colours.
+/// Values from 0 on a grid, as colours.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Heat {
     /// Where the grid begins and ends, cells and all.
     pub x: (f64, f64),
     /// The same upwards.
     pub y: (f64, f64),
-    /// Rows from below; what is not finite is left white.
+    /// Rows from below; what is not finite is left open.
     pub rows: Vec<Vec<f64>>,
+    /// The upper end of the scale of colours, positive: the same for charts that are compared.
+    pub highest: f64,
     /// What the values are.
     pub label: String,
 }
@@ -74,27 +76,75 @@ const SHAPES: [MarkerShape; 5] = [
 
 /// The charts one below the other.
 pub fn svg(charts: &[Chart]) -> String {
-    const WIDTH: f64 = 760.0;
-    const HEIGHT: f64 = 520.0;
+    sheet(None, 1, charts)
+}
+
+const WIDTH: f64 = 760.0;
+const HEIGHT: f64 = 520.0;
+
+/// The charts side by side in columns, row after row, under a title.
+pub fn sheet(title: Option<&str>, columns: usize, charts: &[Chart]) -> String {
+    let columns = columns.clamp(1, charts.len().max(1));
+    let rows = charts.len().div_ceil(columns);
     let plots: Vec<Vec<Plot>> = charts.iter().map(plots).collect();
-    let layouts = charts.iter().zip(&plots).map(|(chart, plots)| {
-        let layout = Layout::auto_from_plots(plots)
-            .with_title(chart.title.as_str())
-            .with_x_label(chart.x.as_str())
-            .with_y_label(chart.y.as_str())
-            .with_legend_position(LegendPosition::OutsideRightTop);
-        match chart.equal {
-            true => layout.with_equal_aspect(),
-            false => layout,
-        }
-    });
-    let layouts: Vec<Layout> = layouts.collect();
-    let scene = Figure::new(charts.len(), 1)
+    let layouts = charts.iter().zip(&plots);
+    let layouts = layouts.map(|(chart, plots)| layout(chart, plots)).collect();
+    let mut figure = Figure::new(rows, columns)
         .with_cell_size(WIDTH, HEIGHT)
         .with_layouts(layouts)
-        .with_plots(plots)
-        .render();
-    SvgBackend::new().render_scene(&scene)
+        .with_plots(plots);
+    for (row, charts) in charts.chunks(columns).enumerate() {
+        let heights = charts.iter().map(|chart| match frame(chart) {
+            Some([_, height]) => height + ABOVE + BELOW,
+            None => HEIGHT,
+        });
+        figure = figure.with_row_height(row, heights.fold(0.0, f64::max));
+    }
+    if let Some(title) = title {
+        figure = figure.with_title(title);
+    }
+    SvgBackend::new().render_scene(&figure.render())
+}
+
+/// Room beside the axes in pixels: for the labels, the title, and the legend with the scale.
+const LEFT: f64 = 80.0;
+const ABOVE: f64 = 50.0;
+const BELOW: f64 = 65.0;
+const RIGHT: f64 = 260.0;
+
+/// Width and height of the axes in pixels, where they are just as large as the map of colours and a
+/// unit is as long along both.
+fn frame(chart: &Chart) -> Option<[f64; 2]> {
+    const HIGHEST: f64 = 600.0;
+    const LEAST: f64 = 40.0;
+    let heat = chart.heat.as_ref().filter(|_| chart.equal)?;
+    let ratio = (heat.y.1 - heat.y.0) / (heat.x.1 - heat.x.0);
+    let width = (WIDTH - LEFT - RIGHT).min(HIGHEST / ratio);
+    // what is so thin that no label fits is drawn thicker
+    Some([width.max(LEAST), (width * ratio).max(LEAST)])
+}
+
+fn layout(chart: &Chart, plots: &[Plot]) -> Layout {
+    let mut layout = Layout::auto_from_plots(plots)
+        .with_title(chart.title.as_str())
+        .with_x_label(chart.x.as_str())
+        .with_y_label(chart.y.as_str())
+        .with_legend_position(LegendPosition::OutsideRightTop);
+    if let Some(heat) = &chart.heat {
+        // axes end where the map does
+        layout = layout
+            .with_x_axis_min(heat.x.0)
+            .with_x_axis_max(heat.x.1)
+            .with_y_axis_min(heat.y.0)
+            .with_y_axis_max(heat.y.1);
+    }
+    match frame(chart) {
+        Some([width, _]) => layout
+            .with_force_margins(LEFT, WIDTH - LEFT - width)
+            .with_force_margins_y(ABOVE, BELOW),
+        None if chart.equal => layout.with_equal_aspect(),
+        None => layout,
+    }
 }
 
 /// Light greys to blue, so that curves of any colour stand out.
@@ -105,13 +155,23 @@ fn heat(heat: &Heat) -> Plot {
             let (r, g, b) = (mix(250.0, 60.0), mix(225.0, 150.0), mix(190.0, 215.0));
             format!("#{r:02x}{g:02x}{b:02x}")
         }
-        false => "#ffffff".to_owned(),
+        false => "none".to_owned(),
     };
+    // the library's colours go from the least to the greatest value of one map: a row above the
+    // axes, which is clipped, holds the ends of the scale; cells overlap, hence one between
+    let mut rows = heat.rows.clone();
+    let across = heat.rows.first().map_or(0, Vec::len);
+    let mut ends = vec![f64::NAN; across];
+    for (end, value) in ends.iter_mut().zip([0.0, heat.highest]) {
+        *end = value;
+    }
+    rows.extend([vec![f64::NAN; across], ends]);
+    let row = (heat.y.1 - heat.y.0) / heat.rows.len().max(1) as f64;
     let mut map = Heatmap::new()
-        .with_data(heat.rows.clone())
+        .with_data(rows)
         .with_color_map(ColorMap::Custom(Arc::new(shade)))
         .with_x_range(heat.x.0, heat.x.1)
-        .with_y_range(heat.y.0, heat.y.1);
+        .with_y_range(heat.y.0, heat.y.1 + 2.0 * row);
     map.cell_size = 1.0;
     map.legend_label = Some(heat.label.clone());
     map.into()

@@ -1,9 +1,11 @@
 //! Singularities as text, JSON and CSV, and loci as pictures.
 
+mod coupled;
 #[cfg(feature = "plot")]
 mod picture;
 mod words;
 
+pub use coupled::note;
 #[cfg(feature = "plot")]
 pub use picture::svg;
 pub use words::{
@@ -20,32 +22,39 @@ use super::layout::{align_right, indented, plain};
 use super::quantity::{number, quantity, short};
 use super::screws::{screw_words, twists};
 use crate::analysis::singularities::{
-    AlongReport, Distances, Kind, LocusReport, Movement, Resisted, SingularitiesReport, Singularity,
+    AlongReport, Distances, Kind, LocusReport, Movement, Resisted, Shape, SingularitiesReport,
+    Singularity,
 };
 use crate::description::{count, listed};
 use crate::mechanism::Mechanism;
 
 /// What is special about a configuration as JSON: the fields of [`SingularitiesReport`] after one
-/// sentence.
+/// sentence and the [`note`] on its outputs.
 pub fn json(mechanism: &Mechanism, report: &SingularitiesReport) -> String {
     #[derive(Serialize)]
     struct Json<'a> {
         sentence: String,
+        note: Option<String>,
         #[serde(flatten)]
         report: &'a SingularitiesReport,
     }
-    let sentence = words::sentence(&report.singularity, &report.inputs, &report.outputs);
-    document(mechanism.name(), &Json { sentence, report })
+    let json = Json {
+        sentence: words::sentence(&report.singularity, &report.inputs, &report.outputs),
+        note: note(&report.coupled),
+        report,
+    };
+    document(mechanism.name(), &json)
 }
 
 /// What is special about a configuration as text.
 pub fn text(mechanism: &Mechanism, report: &SingularitiesReport) -> String {
     let singularity = &report.singularity;
     let mut text = format!(
-        "{}\n{}\n{}\n",
+        "{}\n{}\n{}\n{}",
         mechanism.name(),
         words::split(&report.inputs, &report.outputs),
-        words::sentence(singularity, &report.inputs, &report.outputs)
+        words::sentence(singularity, &report.inputs, &report.outputs),
+        coupled::line(&report.coupled)
     );
     if let Some(gap) = &report.given_gap {
         text += &format!("{}\n", super::closing::given(gap, report.kept));
@@ -139,25 +148,32 @@ fn distances(distances: &Distances, length: f64) -> String {
     )
 }
 
-/// A motion along inputs as JSON: the fields of [`AlongReport`] after one sentence.
+/// A motion along inputs as JSON: the fields of [`AlongReport`] after one sentence and the [`note`] on
+/// its outputs.
 pub fn along_json(mechanism: &Mechanism, report: &AlongReport) -> String {
     #[derive(Serialize)]
     struct Json<'a> {
         sentence: String,
+        note: Option<String>,
         #[serde(flatten)]
         report: &'a AlongReport,
     }
-    let sentence = words::ending(report);
-    document(mechanism.name(), &Json { sentence, report })
+    let json = Json {
+        sentence: words::ending(report),
+        note: note(&report.coupled),
+        report,
+    };
+    document(mechanism.name(), &json)
 }
 
 /// A motion along inputs as text.
 pub fn along_text(mechanism: &Mechanism, report: &AlongReport) -> String {
     let mut text = format!(
-        "{}\n{}\n{}\n",
+        "{}\n{}\n{}\n{}",
         mechanism.name(),
         words::split(&report.inputs, &report.outputs),
-        words::ending(report)
+        words::ending(report),
+        coupled::line(&report.coupled)
     );
     for (i, crossing) in report.crossings.iter().enumerate() {
         let _ = writeln!(
@@ -177,6 +193,7 @@ pub fn along_csv(mechanism: &Mechanism, report: &AlongReport) -> String {
     let mut columns: Vec<String> = ["number", "part", "type", "zlatanov", "fold", "branches"]
         .map(str::to_owned)
         .to_vec();
+    let own = columns.len();
     columns.extend(
         report
             .moved
@@ -184,6 +201,7 @@ pub fn along_csv(mechanism: &Mechanism, report: &AlongReport) -> String {
             .map(|m| field(&format!("{} ({})", m.name, m.unit))),
     );
     columns.extend(joint_columns(mechanism));
+    let once = once(&mut columns, own);
     let mut text = columns.join(",") + "\n";
     for (i, crossing) in report.crossings.iter().enumerate() {
         let kind = crossing.singularity.gosselin_angeles;
@@ -198,7 +216,8 @@ pub fn along_csv(mechanism: &Mechanism, report: &AlongReport) -> String {
             crossing.branches.to_string(),
         ];
         let values = crossing.moved.iter().chain(&crossing.joints);
-        fields.extend(values.map(f64::to_string));
+        let values = values.zip(&once).filter(|(_, once)| **once);
+        fields.extend(values.map(|(value, _)| value.to_string()));
         text += &(fields.join(",") + "\n");
     }
     text
@@ -222,6 +241,17 @@ fn joint_columns(mechanism: &Mechanism) -> Vec<String> {
         .collect()
 }
 
+/// Leaves out what comes again after the first columns, and tells which of those that follow stay: a
+/// coordinate that moves or bounds the box is also a joint or part of a pose.
+fn once(columns: &mut Vec<String>, own: usize) -> Vec<bool> {
+    let stays: Vec<bool> = (0..columns.len())
+        .map(|i| !columns[..i].contains(&columns[i]))
+        .collect();
+    let mut of = stays.iter();
+    columns.retain(|_| of.next().copied().unwrap_or(true));
+    stays[own..].to_vec()
+}
+
 fn kind_word(kind: Kind) -> &'static str {
     match kind {
         Kind::Direct => "direct",
@@ -229,18 +259,20 @@ fn kind_word(kind: Kind) -> &'static str {
     }
 }
 
-/// Loci as JSON: the fields of [`LocusReport`] after two sentences.
+/// Loci as JSON: the fields of [`LocusReport`] after two sentences and the [`note`] on its outputs.
 pub fn locus_json(mechanism: &Mechanism, report: &LocusReport) -> String {
     #[derive(Serialize)]
     struct Json<'a> {
         sentence: String,
         completeness: String,
+        note: Option<String>,
         #[serde(flatten)]
         report: &'a LocusReport,
     }
     let json = Json {
         sentence: words::loci(report),
         completeness: words::completeness(report),
+        note: note(&report.coupled),
         report,
     };
     document(mechanism.name(), &json)
@@ -249,14 +281,15 @@ pub fn locus_json(mechanism: &Mechanism, report: &LocusReport) -> String {
 /// Loci as text: each curve with its extent.
 pub fn locus_text(mechanism: &Mechanism, report: &LocusReport) -> String {
     let mut text = format!(
-        "{}\n{}\n{}\n",
+        "{}\n{}\n{}\n{}",
         mechanism.name(),
         words::split(&report.inputs, &report.outputs),
-        words::loci(report)
+        words::loci(report),
+        coupled::line(&report.coupled)
     );
     if !report.loci.is_empty() {
         let [a, b] = report.bounds.each_ref().map(|bound| bound.name.as_str());
-        let mut table = plain(["locus", "type", "kind", a, b, "ends", "points"]);
+        let mut table = plain(["locus", "type", "kind", a, b, "ends", "points", "over it"]);
         for (i, locus) in report.loci.iter().enumerate() {
             let extent = |k: usize| {
                 let values = locus.points.iter().map(|point| point[k]);
@@ -278,10 +311,14 @@ pub fn locus_text(mechanism: &Mechanism, report: &LocusReport) -> String {
                 extent(1),
                 words::ends(locus),
                 locus.points.len().to_string(),
+                locus.configurations.to_string(),
             ]);
         }
-        align_right(&mut table, [0, 6]);
+        align_right(&mut table, [0, 6, 7]);
         text += &indented(&table.to_string());
+        if report.loci.iter().any(|locus| locus.configurations > 1) {
+            text += "  Over a locus lie so many curves of configurations, which look alike in the box.\n";
+        }
         let crossings: usize = report.loci.iter().map(|locus| locus.crossings.len()).sum();
         if crossings > 0 {
             let crossings = count(crossings, "crossing");
@@ -294,7 +331,10 @@ pub fn locus_text(mechanism: &Mechanism, report: &LocusReport) -> String {
 
 /// Points of loci as CSV, in m and rad with all digits.
 pub fn locus_csv(mechanism: &Mechanism, report: &LocusReport) -> String {
-    let mut columns = vec!["locus".to_owned(), "kind".into(), "type".into()];
+    let mut columns: Vec<String> = ["locus", "kind", "type", "shape", "configurations"]
+        .map(str::to_owned)
+        .to_vec();
+    let own = columns.len();
     let sides = report.bounds.iter();
     columns.extend(sides.map(|bound| field(&format!("{} ({})", bound.name, bound.unit))));
     columns.extend(joint_columns(mechanism));
@@ -302,13 +342,25 @@ pub fn locus_csv(mechanism: &Mechanism, report: &LocusReport) -> String {
         let parts = ["x (m)", "y (m)", "z (m)", "qw", "qx", "qy", "qz"];
         columns.extend(parts.map(|part| field(&format!("{}.{part}", platform.name))));
     }
+    let once = once(&mut columns, own);
     let mut text = columns.join(",") + "\n";
     for (i, locus) in report.loci.iter().enumerate() {
         let kind = locus.singularity.gosselin_angeles;
         let kind = kind.map_or(String::new(), |kind| kind.to_string());
         for ((point, joints), poses) in locus.points.iter().zip(&locus.joints).zip(&locus.poses) {
-            let _ = write!(text, "{},{},{kind}", i + 1, kind_word(locus.kind));
-            for value in point.iter().chain(joints).chain(poses.iter().flatten()) {
+            let _ = write!(
+                text,
+                "{},{},{kind},{},{}",
+                i + 1,
+                kind_word(locus.kind),
+                match locus.shape {
+                    Shape::Curve => "curve",
+                    Shape::Point => "point",
+                },
+                locus.configurations
+            );
+            let values = point.iter().chain(joints).chain(poses.iter().flatten());
+            for (value, _) in values.zip(&once).filter(|(_, once)| **once) {
                 let _ = write!(text, ",{value}");
             }
             text.push('\n');

@@ -1,6 +1,8 @@
 //! Independent pieces of work on all cores or one after another, with the same results in the same
 //! order.
 
+use std::sync::{Mutex, MutexGuard, PoisonError};
+
 /// `f(storage, i)` for `i` below `count`; storage is cloned for each thread and must not carry
 /// anything from one piece to the next.
 #[cfg(feature = "parallel")]
@@ -24,4 +26,37 @@ where
 pub fn each<S: Clone, R>(count: usize, storage: &S, f: impl Fn(&mut S, usize) -> R) -> Vec<R> {
     let mut storage = storage.clone();
     (0..count).map(|i| f(&mut storage, i)).collect()
+}
+
+/// Storage that is cloned once for each thread at work and kept from call to call.
+#[derive(Debug)]
+pub struct Pool<S> {
+    first: S,
+    spare: Mutex<Vec<S>>,
+}
+
+impl<S: Clone + Send + Sync> Pool<S> {
+    /// Clones are made of this.
+    pub fn new(first: S) -> Self {
+        Pool {
+            first,
+            spare: Mutex::new(Vec::new()),
+        }
+    }
+
+    /// The same as [`each`] with storage of the pool.
+    pub fn each<R: Send>(&self, count: usize, f: impl Fn(&mut S, usize) -> R + Sync) -> Vec<R> {
+        each(count, &(), |(), i| {
+            let spare = self.spare().pop();
+            let mut storage = spare.unwrap_or_else(|| self.first.clone());
+            let result = f(&mut storage, i);
+            self.spare().push(storage);
+            result
+        })
+    }
+
+    fn spare(&self) -> MutexGuard<'_, Vec<S>> {
+        // a panic elsewhere leaves the list whole
+        self.spare.lock().unwrap_or_else(PoisonError::into_inner)
+    }
 }

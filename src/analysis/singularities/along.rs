@@ -4,7 +4,8 @@ use serde::Serialize;
 
 use super::classify::{Classifier, Singularity};
 use super::drops::Drops;
-use super::{SingularitiesSettings, names, output_names, outputs_of};
+use super::outputs::{Coupled, coupled, outputs_of};
+use super::{SingularitiesSettings, names, output_names};
 use crate::linear::norm;
 use crate::mechanism::{Configuration, Mechanism};
 use crate::solve::{Continuation, Place, SolutionCurve, Stray};
@@ -19,6 +20,8 @@ pub struct AlongReport {
     pub inputs: Vec<String>,
     /// The outputs.
     pub outputs: Vec<String>,
+    /// Outputs that may hide what their positions lose.
+    pub coupled: Vec<Coupled>,
     /// What is moved: name, unit (rad or m), from, to.
     pub moved: Vec<Moved>,
     /// How the motion ended.
@@ -103,10 +106,11 @@ pub fn along(
     start: &Configuration<f64>,
     settings: &SingularitiesSettings,
 ) -> AlongReport {
-    let outputs = outputs_of(mechanism, inputs, settings);
+    let outputs = outputs_of(mechanism, held, moved, inputs, settings);
     let mut report = AlongReport {
         inputs: names(mechanism, inputs),
         outputs: output_names(mechanism, &outputs),
+        coupled: coupled(mechanism, inputs, &outputs, start, settings, false),
         moved: (moved.iter())
             .map(|input| Moved {
                 name: input.coordinate.name(mechanism),

@@ -1,13 +1,12 @@
 //! What kind of singularity a configuration is.
 
+mod resisted;
+
 use serde::Serialize;
 
-use crate::geometry::Vector3;
-use crate::linear::{complement, dot, norm, orthonormal, remove};
+use crate::linear::{orthonormal, remove};
 use crate::mechanism::{Configuration, Mechanism};
-use crate::system::{
-    Holdable, Lock, Locked, Mobility, Neighbourhood, Screw, TwistSpace, Unknown, wrench_screws,
-};
+use crate::system::{Holdable, Lock, Locked, Mobility, Neighbourhood, Screw, TwistSpace, Unknown};
 
 /// The types of D. Zlatanov, R. G. Fenton and B. Benhabib 1994.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
@@ -83,7 +82,7 @@ pub struct Moving {
 /// Wrenches that an output takes without help of the inputs.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Resisted {
-    /// The output.
+    /// The output; the platform, where outputs are coordinates of one.
     pub output: String,
     /// As screws: the direction is that of the force, or of the moment where there is no point.
     pub wrenches: Vec<Screw>,
@@ -298,83 +297,6 @@ impl<'m> Classifier<'m> {
             joints: joints.collect(),
             twists: self.near.twist_spaces(at, &motions, &[]),
         }
-    }
-
-    /// What the motions of the mechanism make of the outputs, orthonormal.
-    fn image(&mut self, at: &Configuration<f64>) -> Vec<Vec<f64>> {
-        let motions = self.closures.decomposition(at).null_space();
-        let entries = self.inverse.jacobian(at);
-        let (rows, first) = (self.inverse.rows(), self.closures.rows());
-        let images: Vec<Vec<f64>> = (motions.iter())
-            .map(|motion| {
-                let mut image = vec![0.0; rows - first];
-                for (column, rate) in entries.chunks_exact(rows.max(1)).zip(motion) {
-                    let outputs = column[first..].iter();
-                    (image.iter_mut().zip(outputs)).for_each(|(sum, x)| *sum += rate * x);
-                }
-                image
-            })
-            .collect();
-        orthonormal(&images, crate::linear::RANK_TOLERANCE)
-    }
-
-    /// Wrenches reciprocal to all that the outputs can do here, but not to all they can do nearby. The
-    /// latter must contain the former: it does if the outputs have all freedoms, or stay in a plane.
-    fn resisted(&mut self, at: &Configuration<f64>) -> Vec<Resisted> {
-        let Some(beside) = self.beside.clone() else {
-            return Vec::new();
-        };
-        let (here, there) = (self.image(at), self.image(&beside));
-        let size = self.inverse.rows() - self.closures.rows();
-        let outside = here.iter().any(|direction| {
-            let mut left = direction.clone();
-            remove(&mut left, &there);
-            norm(&left) > 1e-6
-        });
-        if outside {
-            return Vec::new();
-        }
-        // of what is reciprocal here, the part within what is possible nearby
-        let within = complement(&here, size).into_iter().map(|w| {
-            let mut inside = vec![0.0; size];
-            for direction in &there {
-                let along = dot(&w, direction);
-                (inside.iter_mut().zip(direction)).for_each(|(x, d)| *x += along * d);
-            }
-            inside
-        });
-        let within = orthonormal(&within.collect::<Vec<_>>(), 1e-3);
-        let mechanism = self.near.mechanism();
-        let length = mechanism.characteristic_length();
-        let mut resisted = Vec::new();
-        let mut row = 0;
-        for output in &self.outputs {
-            let Lock::Frame(frame) = *output else {
-                row += match output {
-                    Lock::Point(_) => 3,
-                    _ => 1,
-                };
-                continue;
-            };
-            let origin = mechanism.poses([frame, frame], at)[0].position;
-            let wrenches: Vec<Vec<f64>> = (within.iter())
-                .map(|w| {
-                    let part = |k: usize| Vector3([w[row + k], w[row + k + 1], w[row + k + 2]]);
-                    let (moment, force) = (part(0), part(3));
-                    let moment = moment + origin.cross(&force).times(1.0 / length);
-                    [force.0, moment.0].concat()
-                })
-                .collect();
-            row += 6;
-            let wrenches = wrench_screws(&wrenches, length);
-            if !wrenches.is_empty() {
-                resisted.push(Resisted {
-                    output: output.name(mechanism),
-                    wrenches,
-                });
-            }
-        }
-        resisted
     }
 }
 

@@ -5,7 +5,9 @@ use rand_pcg::Pcg64Mcg;
 use serde::Serialize;
 
 use super::classify::{Classifier, Singularity};
-use super::{SingularitiesSettings, names, output_names, outputs_of};
+use super::outputs::{Coupled, coupled, outputs_of};
+use super::projected::{Projection, Shape, groups};
+use super::{SingularitiesSettings, names, output_names};
 use crate::mechanism::{Configuration, Mechanism, PlatformPose};
 use crate::solve::Place;
 use crate::system::{
@@ -22,9 +24,13 @@ pub struct LocusReport {
     pub inputs: Vec<String>,
     /// The outputs.
     pub outputs: Vec<String>,
+    /// Outputs that may hide what their positions lose.
+    pub coupled: Vec<Coupled>,
     /// The box.
     pub bounds: [Bound; 2],
-    /// The curves, those of direct singularities first, sorted by where they begin.
+    /// The loci, those of direct singularities first, sorted by where they begin. Curves of
+    /// configurations that look alike in the box, such as those with a leg folded the other way, are
+    /// one.
     pub loci: Vec<Locus>,
     /// Random starts that were made, direct and inverse.
     pub starts: [usize; 2],
@@ -63,20 +69,25 @@ pub enum Kind {
     Inverse,
 }
 
-/// A curve of singular configurations.
+/// What a curve of singular configurations is in the box, or several that look alike there.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Locus {
     /// Which matrix loses rank on it.
     pub kind: Kind,
+    /// Whether it is a curve, or a point where only what is not in the box moves.
+    pub shape: Shape,
+    /// The curves of configurations that were found over it, each over all of it or a part.
+    pub configurations: usize,
     /// How many random starts led to it.
     pub met: usize,
-    /// Whether it closes.
+    /// Whether its configurations make a closed curve.
     pub closed: bool,
-    /// How its first and its last point end it; the same if it closes.
+    /// How its first and its last configuration end it; the same if it closes.
     pub ends: [LocusEnd; 2],
-    /// Its points: the two coordinates, rad or m.
+    /// Its points: the two coordinates, rad or m; one if it is a point.
     pub points: Vec<[f64; 2]>,
-    /// The joints at its points, rad or m, in the order of the file.
+    /// The joints at its points on one of its curves of configurations, rad or m, in the order of
+    /// the file.
     pub joints: Vec<Vec<f64>>,
     /// Positions (m) and quaternions (w, x, y, z) of the platforms at its points.
     pub poses: Vec<Vec<[f64; 7]>>,
@@ -104,7 +115,7 @@ pub fn loci(
     start: &Configuration<f64>,
     settings: &SingularitiesSettings,
 ) -> Result<LocusReport, usize> {
-    let outputs = outputs_of(mechanism, inputs, settings);
+    let outputs = outputs_of(mechanism, held, &sides, inputs, settings);
     let mut search = Search {
         region: Region {
             mechanism,
@@ -126,6 +137,7 @@ pub fn loci(
     let mut report = LocusReport {
         inputs: names(mechanism, inputs),
         outputs: output_names(mechanism, &outputs),
+        coupled: coupled(mechanism, inputs, &outputs, start, settings, false),
         bounds: sides.map(|side| Bound {
             name: side.coordinate.name(mechanism),
             unit: match side.coordinate.is_angle(mechanism) {
@@ -246,10 +258,7 @@ impl Search<'_> {
                 known.push((traced, 1));
             }
         }
-        let mut loci: Vec<Locus> = known
-            .into_iter()
-            .map(|(traced, met)| self.locus(kind, traced, met))
-            .collect();
+        let mut loci = self.folded(kind, &mut curve, known);
         let order = |locus: &Locus| {
             locus
                 .points
@@ -309,12 +318,52 @@ impl Search<'_> {
         Walk::within_limits(self.region.mechanism, at);
     }
 
-    fn locus(&mut self, kind: Kind, traced: Traced<Singular>, met: usize) -> Locus {
-        let sides = self.sides;
-        let coordinates =
-            |search: &Self, place: &At| sides.map(|side| search.region.side(&place.at.at, &side));
-        let middle = &traced.places[traced.places.len() / 2];
-        let singularity = self.classifier.at(&middle.at.at);
+    /// The loci that curves of configurations are in the box.
+    fn folded(
+        &mut self,
+        kind: Kind,
+        curve: &mut LocusCurve,
+        known: Vec<(Traced<Singular>, usize)>,
+    ) -> Vec<Locus> {
+        let kinds: Vec<Singularity> = (known.iter())
+            .map(|(traced, _)| {
+                let middle = &traced.places[traced.places.len() / 2];
+                self.classifier.at(&middle.at.at)
+            })
+            .collect();
+        let projections: Vec<Projection> = (known.iter().zip(&kinds))
+            .map(|((traced, _), kind)| Projection::new(&self.region, traced, kind))
+            .collect();
+        let groups = groups(curve, &self.region, &projections);
+        let loci = groups.into_iter().map(|group| {
+            let chosen = group[0];
+            let mut locus = self.locus(kind, &known[chosen].0, kinds[chosen].clone());
+            locus.shape = projections[chosen].shape();
+            locus.configurations = group.len();
+            locus.met = group.iter().map(|member| known[*member].1).sum();
+            match locus.shape {
+                Shape::Point => {
+                    locus.points.truncate(1);
+                    locus.joints.truncate(1);
+                    locus.poses.truncate(1);
+                    locus.crossings.clear();
+                }
+                Shape::Curve => {
+                    let crossings = group.iter().flat_map(|member| &known[*member].0.crossings);
+                    let crossings = crossings.map(|place| self.coordinates(place));
+                    locus.crossings = projections[chosen].distinct(crossings);
+                }
+            }
+            locus
+        });
+        loci.collect()
+    }
+
+    fn coordinates(&self, place: &At) -> [f64; 2] {
+        self.sides.map(|side| self.region.side(&place.at.at, &side))
+    }
+
+    fn locus(&self, kind: Kind, traced: &Traced<Singular>, singularity: Singularity) -> Locus {
         let poses = |place: &At| {
             let platforms = place.at.at.platforms.iter();
             platforms
@@ -326,20 +375,20 @@ impl Search<'_> {
         };
         Locus {
             kind,
-            met,
+            shape: Shape::Curve,
+            configurations: 1,
+            met: 0,
             closed: traced.ends[1] == LocusEnd::Closed,
             ends: traced.ends,
             points: (traced.places.iter())
-                .map(|p| coordinates(self, p))
+                .map(|p| self.coordinates(p))
                 .collect(),
             joints: (traced.places.iter())
                 .map(|p| p.at.at.joints.clone())
                 .collect(),
             poses: traced.places.iter().map(poses).collect(),
             singularity,
-            crossings: (traced.crossings.iter())
-                .map(|p| coordinates(self, p))
-                .collect(),
+            crossings: Vec::new(),
         }
     }
 }

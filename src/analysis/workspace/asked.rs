@@ -22,6 +22,8 @@ pub(super) struct Asked<'m> {
     /// As many coordinates of platforms, if there are so many that are independent.
     pub outputs: Vec<Holdable>,
     pub newton: Newton,
+    /// For each joint whether whole turns of it change nothing that is held.
+    pub turns: Vec<bool>,
 }
 
 impl<'m> Asked<'m> {
@@ -75,6 +77,9 @@ impl<'m> Asked<'m> {
             outputs: whole(outputs),
             held,
             newton: newton.clone(),
+            turns: (question.held().joints.iter().enumerate())
+                .map(|(joint, held)| !held && mechanism.repeats(joint))
+                .collect(),
         }
     }
 

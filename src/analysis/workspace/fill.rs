@@ -4,11 +4,12 @@ use super::asked::Asked;
 use super::edge::{Edge, Met, reach};
 use super::grid::{Grid, MOST_AXES, MOST_DIRECTIONS};
 use super::measure::Measure;
+use super::pace::Paced;
 use super::step::{Arrival, SURE, Start, Steps};
 use crate::linear::{Factorable, norm};
 use crate::mechanism::Configuration;
 use crate::number::Packed;
-use crate::solve::each;
+use crate::solve::{Pool, each};
 use crate::system::Walk;
 
 /// An assembled configuration at a node.
@@ -56,7 +57,7 @@ pub(super) struct Fill<'a> {
 }
 
 /// A step to be taken: from a sheet in a direction.
-type Task = (usize, usize);
+pub(super) type Task = (usize, usize);
 
 /// Steps given to one thread at once.
 const JOB: usize = 64;
@@ -77,7 +78,7 @@ impl Fill<'_> {
     pub fn spread<T: Factorable + Packed + Send + Sync>(
         &self,
         filled: &mut Filled,
-        steps: &Steps<T>,
+        steps: &Pool<Steps<T>>,
         seeds: &[(usize, Configuration<f64>)],
         told: &mut dyn FnMut(usize),
     ) {
@@ -132,13 +133,13 @@ impl Fill<'_> {
         }
     }
 
-    fn settled<T: Factorable + Packed + Send + Sync>(
+    pub(super) fn settled<T: Factorable + Packed + Send + Sync>(
         &self,
-        steps: &Steps<T>,
+        steps: &Pool<Steps<T>>,
         starts: &[Start],
     ) -> Vec<Option<Arrival>> {
         let jobs: Vec<&[Start]> = starts.chunks(JOB).collect();
-        let ends = each(jobs.len(), steps, |steps, i| {
+        let ends = steps.each(jobs.len(), |steps, i| {
             let packs = jobs[i].chunks(T::WIDTH);
             packs
                 .flat_map(|pack| steps.settle(pack))
@@ -171,7 +172,7 @@ impl Fill<'_> {
         sheets.find(|s| self.measure.same(&filled.sheets[*s].arrival.at, at))
     }
 
-    fn change(&self, node: usize, direction: usize) -> (usize, f64) {
+    pub(super) fn change(&self, node: usize, direction: usize) -> (usize, f64) {
         let axis = direction / 2;
         let place = self.grid.place(node, axis);
         let next = if direction.is_multiple_of(2) {
@@ -229,12 +230,12 @@ impl Fill<'_> {
 
     fn ends<T: Factorable + Packed + Send + Sync>(
         &self,
-        steps: &Steps<T>,
+        steps: &Pool<Steps<T>>,
         filled: &Filled,
         tasks: &[Task],
     ) -> Vec<End> {
         let jobs: Vec<&[Task]> = tasks.chunks(JOB).collect();
-        let arrivals = each(jobs.len(), steps, |steps, i| {
+        let arrivals = steps.each(jobs.len(), |steps, i| {
             let starts: Vec<Start> = jobs[i]
                 .iter()
                 .map(|task| self.start(filled, *task))
@@ -250,12 +251,27 @@ impl Fill<'_> {
             sure.collect::<Vec<Option<Arrival>>>()
         });
         let arrivals: Vec<Option<Arrival>> = arrivals.into_iter().flatten().collect();
-        // the others by smaller steps, each of which takes as long as hundreds of these
-        let unsure = tasks
-            .iter()
-            .zip(&arrivals)
-            .filter(|(_, arrival)| arrival.is_none());
-        let unsure: Vec<Task> = unsure.map(|(task, _)| *task).collect();
+        let tasks_of = |ends: &[End]| -> Vec<Task> {
+            let open = tasks.iter().zip(ends);
+            let open = open.filter(|(_, end)| matches!(end, End::Stuck));
+            open.map(|(task, _)| *task).collect()
+        };
+        let mut ends: Vec<End> = (arrivals.into_iter())
+            .map(|arrival| arrival.map_or(End::Stuck, End::Arrived))
+            .collect();
+        // the others by shorter steps
+        let unsure = tasks_of(&ends);
+        let paced = self.paced(steps, filled, &unsure).into_iter();
+        fill_in(
+            &mut ends,
+            paced.map(|paced| match paced {
+                Paced::Arrived(arrival) => End::Arrived(arrival),
+                Paced::Fold => End::Fold,
+                Paced::Open => End::Stuck,
+            }),
+        );
+        // and what is left by steps along the curve, each of which takes as long as hundreds of these
+        let unsure = tasks_of(&ends);
         let met = each(unsure.len(), &(), |(), i| {
             let (s, d) = unsure[i];
             let edge = Edge {
@@ -263,12 +279,8 @@ impl Fill<'_> {
                 values: self.grid.values(filled.sheets[s].node),
                 to: self.start_values(filled, (s, d))[d / 2],
             };
-            reach(
-                self.asked,
-                self.measure,
-                &edge,
-                &filled.sheets[s].arrival.at,
-            )
+            let from = &filled.sheets[s].arrival.at;
+            reach(self.asked, self.measure, &edge, from)
         });
         let again: Vec<Start> = (unsure.iter().zip(&met))
             .filter_map(|(task, met)| match met {
@@ -281,24 +293,18 @@ impl Fill<'_> {
             })
             .collect();
         let mut again = self.settled(steps, &again).into_iter();
-        let mut met = met.into_iter();
-        let ends = arrivals.into_iter().map(|arrival| {
-            if let Some(arrival) = arrival {
-                return End::Arrived(arrival);
-            }
-            match met.next() {
-                Some(Met::Neighbour(_)) => match again.next().flatten() {
-                    Some(arrival) => End::Arrived(arrival),
-                    None => End::Stuck,
-                },
-                Some(Met::Fold(..)) => End::Fold,
+        fill_in(
+            &mut ends,
+            met.iter().map(|met| match met {
+                Met::Neighbour(_) => again.next().flatten().map_or(End::Stuck, End::Arrived),
+                Met::Fold(..) => End::Fold,
                 _ => End::Stuck,
-            }
-        });
-        ends.collect()
+            }),
+        );
+        ends
     }
 
-    fn start_values(&self, filled: &Filled, (s, d): Task) -> [f64; MOST_AXES] {
+    pub(super) fn start_values(&self, filled: &Filled, (s, d): Task) -> [f64; MOST_AXES] {
         let node = filled.sheets[s].node;
         self.grid
             .point(self.grid.neighbour(node, d).unwrap_or(node))
@@ -307,12 +313,24 @@ impl Fill<'_> {
     fn start<'f>(&self, filled: &'f Filled, (s, d): Task) -> Start<'f> {
         let sheet = &filled.sheets[s];
         let (axis, change) = self.change(sheet.node, d);
-        let (motion, factor) = self.measure.motion(&sheet.arrival, axis, change);
+        let values = self.start_values(filled, (s, d));
+        self.towards(&sheet.arrival, axis, change, values)
+    }
+
+    /// A start for a change of one mapped coordinate, which leads to these values.
+    pub(super) fn towards<'f>(
+        &self,
+        from: &'f Arrival,
+        axis: usize,
+        change: f64,
+        values: [f64; MOST_AXES],
+    ) -> Start<'f> {
+        let (motion, factor) = self.measure.motion(from, axis, change);
         Start {
-            from: &sheet.arrival.at,
+            from: &from.at,
             along: Some((motion, factor)),
             reach: SURE * factor.abs() * norm(motion),
-            values: self.start_values(filled, (s, d)),
+            values,
         }
     }
 
@@ -342,6 +360,12 @@ enum End {
     Arrived(Arrival),
     Fold,
     Stuck,
+}
+
+/// Puts what was found into the places that are stuck, in order.
+fn fill_in(ends: &mut [End], found: impl Iterator<Item = End>) {
+    let stuck = ends.iter_mut().filter(|end| matches!(end, End::Stuck));
+    stuck.zip(found).for_each(|(end, found)| *end = found);
 }
 
 fn link(filled: &mut Filled, s: usize, d: usize, t: usize) {

@@ -6,6 +6,7 @@ use super::grid::Grid;
 use super::step::Steps;
 use crate::linear::Factorable;
 use crate::number::Packed;
+use crate::solve::Pool;
 use crate::system::Driven;
 
 /// Aspects of fewer nodes are looked at again.
@@ -24,7 +25,7 @@ pub(super) fn parts(dimensions: usize) -> usize {
 /// around them leads to.
 pub(super) fn joined<T: Factorable + Packed + Send + Sync>(
     fill: &Fill,
-    steps: &Steps<T>,
+    steps: &Pool<Steps<T>>,
     filled: &Filled,
 ) -> Vec<Option<usize>> {
     let found = aspects(filled);
@@ -53,7 +54,7 @@ pub(super) fn joined<T: Factorable + Packed + Send + Sync>(
 /// The sheets at nodes that a finer grid around an aspect leads to within it.
 fn reached<T: Factorable + Packed + Send + Sync>(
     fill: &Fill,
-    steps: &Steps<T>,
+    steps: &Pool<Steps<T>>,
     filled: &Filled,
     aspect: &[usize],
 ) -> Vec<usize> {

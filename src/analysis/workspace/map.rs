@@ -332,9 +332,8 @@ impl<'a> Map<'a> {
 /// Angles within limits, or in (−π, π]; all of the latter kind where modes are compared.
 fn brought(asked: &Asked, at: &Configuration<f64>, plain: bool) -> Configuration<f64> {
     let mut at = at.clone();
-    let held = asked.question.held();
     for (joint, value) in at.joints.iter_mut().enumerate() {
-        if asked.mechanism.repeats(joint) && !held.joints[joint] {
+        if asked.turns[joint] {
             let turn = std::f64::consts::TAU;
             *value -= turn * ((*value - 1e-9) / turn).round();
         }

@@ -192,9 +192,9 @@ impl<T: Factorable + Packed> Rates<T> {
         each.map(|place| {
             let unit = |i: usize, j: usize| f64::from(u8::from(i == j));
             let misses = back.iter().enumerate();
-            let misses = misses.map(|(k, x)| (x.part(place) - unit(k % n, k / n)).abs());
+            let mut misses = misses.map(|(k, x)| (x.part(place) - unit(k % n, k / n)).abs());
             // a NaN is not regular
-            let regular = misses.fold(true, |all, miss| all && miss < 1e-6) && gap[place] < 1e-6;
+            let regular = misses.all(|miss| miss < 1e-6) && gap[place] < 1e-6;
             Told {
                 regular,
                 direct: of(of_inputs, conditions[place].0, direct[place]),

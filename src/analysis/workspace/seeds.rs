@@ -11,7 +11,7 @@ use super::step::{Start, Steps};
 use crate::linear::Factorable;
 use crate::mechanism::{Configuration, PlatformPose};
 use crate::number::Packed;
-use crate::solve::{Stop, each};
+use crate::solve::{Pool, Stop, each};
 use crate::system::{System, Walk, Work, random_configuration, with_coordinates};
 
 /// What was found at the nodes that were searched.
@@ -133,12 +133,12 @@ pub(super) const PROBES: usize = 8;
 pub(super) fn probe<T: Factorable + Packed + Send + Sync>(
     fill: &Fill,
     filled: &Filled,
-    steps: &Steps<T>,
+    steps: &Pool<Steps<T>>,
     nodes: &[usize],
     seed: u64,
 ) -> Sown {
     let asked = fill.asked;
-    let found = each(nodes.len(), steps, |steps, i| {
+    let found = steps.each(nodes.len(), |steps, i| {
         let node = nodes[i];
         // other numbers than those drawn by `sow`
         let mut rng = Pcg64Mcg::seed_from_u64(!seed.wrapping_add(node as u64));

@@ -1,6 +1,7 @@
 //! Loci drawn in their box.
 
-use crate::analysis::singularities::{Kind, LocusReport};
+use crate::analysis::singularities::{Kind, Locus, LocusReport, Shape};
+use crate::description::listed;
 use crate::mechanism::Mechanism;
 use crate::output::plot::{self, Chart, Marks, Series};
 
@@ -15,16 +16,27 @@ pub fn svg(mechanism: &Mechanism, report: &LocusReport) -> String {
         let unit = if bound.unit == "rad" { "°" } else { "m" };
         format!("{} ({unit})", bound.name)
     });
-    let series = report.loci.iter().enumerate().map(|(i, locus)| Series {
-        label: format!(
-            "{} {}",
-            match locus.kind {
-                Kind::Direct => "direct",
-                Kind::Inverse => "inverse",
-            },
-            i + 1
-        ),
+    let kind = |locus: &Locus| match locus.kind {
+        Kind::Direct => "direct",
+        Kind::Inverse => "inverse",
+    };
+    let of = |shape: Shape| {
+        let loci = report.loci.iter().enumerate();
+        loci.filter(move |(_, locus)| locus.shape == shape)
+    };
+    let series = of(Shape::Curve).map(|(i, locus)| Series {
+        label: format!("{} {}", kind(locus), i + 1),
         points: locus.points.iter().map(point).collect(),
+    });
+    let single = ["direct", "inverse"].map(|wanted| {
+        let points = of(Shape::Point).filter(|(_, locus)| kind(locus) == wanted);
+        let numbers: Vec<String> = points.clone().map(|(i, _)| (i + 1).to_string()).collect();
+        Marks {
+            label: format!("{wanted} {}", listed(&numbers)),
+            points: points
+                .flat_map(|(_, l)| l.points.iter().map(point))
+                .collect(),
+        }
     });
     let crossings = report.loci.iter().flat_map(|locus| &locus.crossings);
     let crossings: Vec<(f64, f64)> = crossings.map(point).collect();
@@ -44,13 +56,14 @@ pub fn svg(mechanism: &Mechanism, report: &LocusReport) -> String {
             (left, low),
         ],
     });
-    let marks = match crossings.is_empty() {
-        true => Vec::new(),
-        false => vec![Marks {
+    let mut marks: Vec<Marks> = single.into_iter().collect();
+    marks.retain(|marks| !marks.points.is_empty());
+    if !crossings.is_empty() {
+        marks.push(Marks {
             label: "loci cross".into(),
             points: crossings,
-        }],
-    };
+        });
+    }
     plot::svg(&[Chart {
         title: format!("{}: singularities", mechanism.name()),
         x,

@@ -2,7 +2,7 @@
 
 use super::names;
 use crate::analysis::singularities::{
-    AlongReport, Crossing, Ending, Kind, Locus, LocusEnd, LocusReport, Singularity, Zlatanov,
+    AlongReport, Crossing, Ending, Kind, Locus, LocusEnd, LocusReport, Shape, Singularity, Zlatanov,
 };
 use crate::description::{count, listed, nearest};
 use crate::mechanism::Mechanism;
@@ -198,11 +198,9 @@ pub fn ending(report: &AlongReport) -> String {
 
 /// How many loci there are.
 pub(super) fn loci(report: &LocusReport) -> String {
-    let of = |kind: Kind| {
-        report
-            .loci
-            .iter()
-            .filter(|locus| locus.kind == kind)
+    let of = |kind: Kind, shape: Shape| {
+        let loci = report.loci.iter();
+        loci.filter(|locus| locus.kind == kind && locus.shape == shape)
             .count()
     };
     let in_box = report.bounds.each_ref().map(|bound| {
@@ -214,19 +212,31 @@ pub(super) fn loci(report: &LocusReport) -> String {
             value(bound.to)
         )
     });
-    let curves = |number: usize, word: &str| match number {
-        0 => format!("no {word} singularities"),
-        1 => format!("1 curve of {word} singularities"),
-        n => format!("{n} curves of {word} singularities"),
+    let curves = |kind: Kind, word: &str| {
+        let points = match of(kind, Shape::Point) {
+            0 => None,
+            n => Some(count(n, "single point")),
+        };
+        let curves = match of(kind, Shape::Curve) {
+            0 => None,
+            n => Some(count(n, "curve")),
+        };
+        match (curves, points) {
+            (None, None) => format!("no {word} singularities"),
+            (Some(one), None) | (None, Some(one)) => format!("{one} of {word} singularities"),
+            (Some(curves), Some(points)) => {
+                format!("{curves} and {points} of {word} singularities")
+            }
+        }
     };
     let inverse = match report.sought[1] {
-        true => curves(of(Kind::Inverse), "inverse"),
+        true => curves(Kind::Inverse, "inverse"),
         false => "inverse ones not sought, because the outputs determine the inputs nowhere".into(),
     };
     format!(
         "In the box {}: {} and {inverse}.",
         listed(&in_box),
-        curves(of(Kind::Direct), "direct"),
+        curves(Kind::Direct, "direct"),
     )
 }
 
@@ -242,12 +252,12 @@ pub fn completeness(report: &LocusReport) -> String {
     let sure = match (report.loci.len(), once) {
         (0, _) => "That there is none is likely, not proven",
         (_, 0) => {
-            "Every curve was met by several starts; that none is missing is likely, not proven"
+            "Every locus was met by several starts; that none is missing is likely, not proven"
         }
-        (_, 1) => "1 curve was met by one start only, so that others may be missing",
+        (_, 1) => "1 locus was met by one start only, so that others may be missing",
         (_, once) => {
             return format!(
-                "{} {once} curves were met by one start only, so that others may be missing: \
+                "{} {once} loci were met by one start only, so that others may be missing: \
                  --starts makes more.",
                 sought(report, [direct, inverse], &last)
             );
@@ -283,6 +293,7 @@ pub(super) fn ends(locus: &Locus) -> String {
         LocusEnd::Lost => "lost",
     };
     match locus.ends {
+        _ if locus.shape == Shape::Point => "point".into(),
         [a, b] if a == b => end(a).into(),
         [a, b] => format!("{}, {}", end(a), end(b)),
     }

@@ -120,9 +120,10 @@ fn one(mechanism: &Mechanism, report: &CircuitsReport, circuit: &Circuit) -> Str
     }
     if !circuit.crossings.is_empty() {
         let input = mechanism.joint(&report.input).unwrap_or(0);
-        let places: Vec<String> = (circuit.crossings.iter())
-            .map(|joints| quantity(joints[input], is_angle))
-            .collect();
+        let places = places(
+            circuit.crossings.iter().map(|joints| joints[input]),
+            is_angle,
+        );
         let others: Vec<String> = circuit.crosses.iter().map(|n| n.to_string()).collect();
         let with = match others.is_empty() {
             true => "other branches".to_owned(),
@@ -135,4 +136,18 @@ fn one(mechanism: &Mechanism, report: &CircuitsReport, circuit: &Circuit) -> Str
         );
     }
     text
+}
+
+/// Values in order, each once, with the number of crossings there if there are several: they differ
+/// in other joints.
+fn places(values: impl Iterator<Item = f64>, is_angle: bool) -> Vec<String> {
+    const SAME: f64 = 1e-6;
+    let mut values: Vec<f64> = values.collect();
+    values.sort_by(f64::total_cmp);
+    let same = values.chunk_by(|a, b| b - a < SAME);
+    let named = same.map(|same| match same.len() {
+        1 => quantity(same[0], is_angle),
+        n => format!("{} ({n} times)", quantity(same[0], is_angle)),
+    });
+    named.collect()
 }

@@ -2,33 +2,71 @@
 
 use crate::analysis::workspace::{AxisReport, BoundaryKind, WorkspaceReport};
 use crate::mechanism::Mechanism;
-use crate::output::plot::{Chart, Heat, Series, svg as drawn};
+use crate::output::plot::{Chart, Heat, Series, sheet};
 use crate::output::quantity::quantity;
 
-/// Modes drawn at most, and slices of each.
-const MOST: usize = 12;
+/// Pictures drawn at most: more make a file that nothing shows.
+const MOST: usize = 120;
+
+/// Pictures side by side, where there are slices.
+const COLUMNS: usize = 4;
+
+/// What is drawn of a map: modes, and slices of each.
+struct Drawn {
+    modes: usize,
+    /// Nodes of the third coordinate, evenly spread.
+    slices: Vec<usize>,
+}
+
+fn drawn(report: &WorkspaceReport) -> Drawn {
+    let modes = report.modes.len().min(MOST);
+    let slices = report.axes.get(2).map_or(Vec::new(), |z| {
+        let number = (MOST / modes.max(1)).clamp(1, z.nodes);
+        let places = (0..number).map(|k| (2 * k + 1) * z.nodes / (2 * number));
+        places.collect()
+    });
+    Drawn { modes, slices }
+}
+
+/// What of a map is not drawn, if there is too much of it.
+fn left_out(report: &WorkspaceReport) -> Option<String> {
+    let drawn = drawn(report);
+    let mut parts = Vec::new();
+    if report.axes.len() > 1 && drawn.modes < report.modes.len() {
+        parts.push(format!("{} of {} modes", drawn.modes, report.modes.len()));
+    }
+    if let Some(z) = report.axes.get(2).filter(|z| drawn.slices.len() < z.nodes) {
+        parts.push(format!("{} of {} slices", drawn.slices.len(), z.nodes));
+    }
+    (!parts.is_empty()).then(|| format!("{} drawn", parts.join(" and ")))
+}
 
 /// The map as SVG: where it has two coordinates a picture for each mode, where it has three also for
-/// some slices of the third, where it has one a curve for each mode.
+/// each slice of the third, where it has one a curve for each mode. All have one scale of colours.
 pub fn svg(mechanism: &Mechanism, report: &WorkspaceReport) -> String {
-    let charts = match &report.axes[..] {
-        [axis] => vec![along(mechanism, report, axis)],
-        [x, y] => (1..=report.modes.len().min(MOST))
-            .map(|mode| picture(mechanism, report, [x, y], mode, None))
-            .collect(),
-        [x, y, z, ..] => {
-            // no more slices than can be looked at, evenly spread
-            let slices = (MOST / report.modes.len().max(1)).clamp(1, 6).min(z.nodes);
-            let places = (0..slices).map(|k| (2 * k + 1) * z.nodes / (2 * slices));
-            let places: Vec<usize> = places.collect();
-            (1..=report.modes.len().min(MOST))
-                .flat_map(|mode| places.iter().map(move |place| (mode, *place)))
-                .map(|(mode, place)| picture(mechanism, report, [x, y], mode, Some((z, place))))
-                .collect()
-        }
-        [] => Vec::new(),
+    let Drawn { modes, slices } = drawn(report);
+    let inside = report.cells.iter().filter(|cell| cell.aspect.is_some());
+    let highest = inside
+        .map(|cell| quality(cell.condition))
+        .fold(0.0, f64::max);
+    let highest = if highest > 0.0 { highest } else { 1.0 };
+    let draw = |axes, mode, slice| picture(mechanism, report, axes, mode, slice, highest);
+    let (columns, charts): (usize, Vec<Chart>) = match &report.axes[..] {
+        [axis] => (1, vec![along(mechanism, report, axis)]),
+        [x, y] => (
+            1,
+            (1..=modes).map(|mode| draw([x, y], mode, None)).collect(),
+        ),
+        [x, y, z, ..] => (
+            COLUMNS,
+            (1..=modes)
+                .flat_map(|mode| slices.iter().map(move |place| (mode, *place)))
+                .map(|(mode, place)| draw([x, y], mode, Some((z, place))))
+                .collect(),
+        ),
+        [] => (1, Vec::new()),
     };
-    drawn(&charts)
+    sheet(left_out(report).as_deref(), columns, &charts)
 }
 
 fn shown(axis: &AxisReport, x: f64) -> f64 {
@@ -60,6 +98,7 @@ fn picture(
     [x, y]: [&AxisReport; 2],
     mode: usize,
     slice: Option<(&AxisReport, usize)>,
+    highest: f64,
 ) -> Chart {
     let plane = x.nodes * y.nodes;
     let mut rows = vec![vec![f64::NAN; x.nodes]; y.nodes];
@@ -114,6 +153,7 @@ fn picture(
             x: extent(x),
             y: extent(y),
             rows,
+            highest,
             label: "1/condition".into(),
         }),
         series,

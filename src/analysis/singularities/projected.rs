@@ -1,0 +1,199 @@
+//! Curves of configurations as they look in the box of two coordinates: which are one there, and
+//! which are but a point.
+
+use serde::Serialize;
+
+use super::classify::Singularity;
+use crate::linear::norm;
+use crate::solve::Place;
+use crate::system::{LocusCurve, Region, Singular, Traced};
+
+/// What a curve of configurations is in the box.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Shape {
+    /// A curve.
+    Curve,
+    /// One point: only what is not in the box moves along it.
+    Point,
+}
+
+/// Points of the box this near are the same: in rad and characteristic lengths.
+const SAME: f64 = 1e-6;
+
+/// A curve of configurations with its points in the box, in rad and characteristic lengths.
+pub(super) struct Projection<'t> {
+    traced: &'t Traced<Singular>,
+    kind: Option<u8>,
+    points: Vec<[f64; 2]>,
+    length: f64,
+    scales: [f64; 2],
+}
+
+fn apart(a: [f64; 2], b: [f64; 2]) -> f64 {
+    (a[0] - b[0]).hypot(a[1] - b[1])
+}
+
+fn scaled(region: &Region, scales: [f64; 2], place: &Place<Singular>) -> [f64; 2] {
+    [0, 1].map(|k| region.side(&place.at.at, &region.sides[k]) / scales[k])
+}
+
+impl<'t> Projection<'t> {
+    pub fn new(
+        region: &Region,
+        traced: &'t Traced<Singular>,
+        singularity: &Singularity,
+    ) -> Projection<'t> {
+        let mechanism = region.mechanism;
+        let scales = [0, 1].map(|k| match region.sides[k].coordinate.is_angle(mechanism) {
+            true => 1.0,
+            false => mechanism.characteristic_length(),
+        });
+        let points = traced.places.iter();
+        let points: Vec<[f64; 2]> = points.map(|p| scaled(region, scales, p)).collect();
+        Projection {
+            length: points.windows(2).map(|pair| apart(pair[0], pair[1])).sum(),
+            kind: singularity.gosselin_angeles,
+            traced,
+            points,
+            scales,
+        }
+    }
+
+    pub fn shape(&self) -> Shape {
+        let first = self.points.first().copied().unwrap_or_default();
+        match self.points.iter().all(|point| apart(first, *point) < SAME) {
+            true => Shape::Point,
+            false => Shape::Curve,
+        }
+    }
+
+    /// Whether all its configurations are one.
+    fn stands_still(&self, curve: &LocusCurve) -> bool {
+        let mut places = self.traced.places.iter();
+        let Some(first) = places.next() else {
+            return true;
+        };
+        places.all(|place| norm(&curve.apart(&first.at, &place.at)) < SAME)
+    }
+
+    /// Points of the box without those that come again.
+    pub fn distinct(&self, points: impl Iterator<Item = [f64; 2]>) -> Vec<[f64; 2]> {
+        let mut distinct: Vec<[f64; 2]> = Vec::new();
+        let scaled = |point: [f64; 2]| [0, 1].map(|k| point[k] / self.scales[k]);
+        for point in points {
+            let known = |other: &[f64; 2]| apart(scaled(*other), scaled(point)) < SAME;
+            if !distinct.iter().any(known) {
+                distinct.push(point);
+            }
+        }
+        distinct
+    }
+
+    /// Whether the curve passes over a point of the box: the foot of the point on the pieces of the
+    /// curve near it, found to rounding.
+    fn passes(&self, curve: &mut LocusCurve, region: &Region, point: [f64; 2]) -> bool {
+        if self.points.iter().any(|own| apart(*own, point) < SAME) {
+            return true;
+        }
+        for (i, ends) in self.points.windows(2).enumerate() {
+            let way = [ends[1][0] - ends[0][0], ends[1][1] - ends[0][1]];
+            let size = way[0].hypot(way[1]);
+            let along = |p: [f64; 2]| (p[0] - point[0]) * way[0] + (p[1] - point[1]) * way[1];
+            let off = (point[0] - ends[0][0]) * way[1] - (point[1] - ends[0][1]) * way[0];
+            // a piece bends less than that
+            let beside = along(ends[0]) < 0.0 && along(ends[1]) > 0.0;
+            if size < SAME || !beside || off.abs() > 0.5 * size * size {
+                continue;
+            }
+            let places = &self.traced.places[i..i + 2];
+            let mut ahead =
+                |_: &mut LocusCurve, p: &Place<Singular>| along(scaled(region, self.scales, p));
+            let foot = (region.method).root(curve, &places[0], &places[1], &mut ahead);
+            if apart(scaled(region, self.scales, &foot), point) < SAME {
+                return true;
+            }
+        }
+        false
+    }
+
+    /// Whether the curve passes over all of another, as far as points spread over that tell: both are
+    /// pieces of algebraic curves, which share a whole component or only so many points.
+    ///
+    /// Where curves cross in the space of configurations a point may be lost to rounding: a place
+    /// is not covered if none of three points there is.
+    fn covers(&self, other: &Projection, curve: &mut LocusCurve, region: &Region) -> bool {
+        /// Places that are tried, the ends among them, and parts of the way between two.
+        const TRIED: usize = 12;
+        const PARTS: f64 = 10.0;
+        if self.kind != other.kind || self.shape() != other.shape() {
+            return false;
+        }
+        (0..=TRIED).all(|k| {
+            let place = k as f64;
+            let near = [0.0, 1.0 / PARTS, -1.0 / PARTS].map(|aside| match k {
+                TRIED => place - aside.abs(),
+                _ => (place + aside).abs(),
+            });
+            near.into_iter().any(|place| {
+                let point = other.point(place / TRIED as f64 * other.length);
+                self.passes(curve, region, point)
+            })
+        })
+    }
+
+    /// The point after a way along the curve.
+    fn point(&self, way: f64) -> [f64; 2] {
+        let mut gone = 0.0;
+        for pair in self.points.windows(2) {
+            gone += apart(pair[0], pair[1]);
+            if gone >= way {
+                return pair[1];
+            }
+        }
+        self.points.last().copied().unwrap_or_default()
+    }
+}
+
+/// Curves that lie over one another in the box, by their numbers: in each group the first passes over
+/// all the others, and is the shortest that does.
+///
+/// Where several motions are possible at once they turn into one another while the mechanism stands
+/// still. That is no locus of its own where others cross there.
+pub(super) fn groups(
+    curve: &mut LocusCurve,
+    region: &Region,
+    projections: &[Projection],
+) -> Vec<Vec<usize>> {
+    let mut longest: Vec<usize> = (0..projections.len()).collect();
+    longest.sort_by(|a, b| projections[*b].length.total_cmp(&projections[*a].length));
+    let mut groups: Vec<Vec<usize>> = Vec::new();
+    for number in longest {
+        let own = &projections[number];
+        let known = groups
+            .iter()
+            .position(|group| projections[group[0]].covers(own, curve, region));
+        match known {
+            Some(group) => groups[group].push(number),
+            None => groups.push(vec![number]),
+        }
+    }
+    for group in &mut groups {
+        // one that goes round twice is told by one that goes round once
+        let whole = (1..group.len()).rev().find(|member| {
+            projections[group[*member]].covers(&projections[group[0]], curve, region)
+        });
+        if let Some(whole) = whole {
+            group.swap(0, whole);
+        }
+    }
+    let mut crossed = |group: &Vec<usize>| {
+        let own = &projections[group[0]];
+        own.stands_still(curve)
+            && projections.iter().any(|other| {
+                other.shape() == Shape::Curve && other.passes(curve, region, own.points[0])
+            })
+    };
+    groups.retain(|group| !crossed(group));
+    groups
+}
