@@ -13,6 +13,7 @@ use super::report::{
     ModeReport, WorkspaceReport,
 };
 use crate::mechanism::{Configuration, Coordinate};
+use crate::solve::each;
 use crate::system::{Holdable, Walk};
 
 /// Sheets with their modes and aspects.
@@ -136,28 +137,26 @@ impl<'a> Map<'a> {
             unit: size_unit(self.asked.axes.iter().map(|axis| unit(axis.coordinate))),
             size: (self.asked.axes.iter().map(|a| a.to - a.from)).product(),
             reached_size: self.size(&whole, &cut),
-            modes: (0..self.modes)
-                .map(|mode| {
-                    let of = sheets().filter(|(s, _)| self.mode[*s] == Some(mode));
-                    let mut nodes: Vec<usize> = of.clone().map(|(_, sheet)| sheet.node).collect();
-                    let all = nodes.len();
-                    nodes.sort_unstable();
-                    nodes.dedup();
-                    let at_first = of.clone().filter(|(_, s)| Some(&s.node) == nodes.first());
-                    let joints = at_first.map(|(_, s)| brought(self.asked, &s.arrival.at, true));
-                    let joints = joints.map(|at| at.joints);
-                    ModeReport {
-                        mode: mode + 1,
-                        nodes: nodes.len(),
-                        within: of.filter(|(_, sheet)| sheet.within).count(),
-                        size: self.size(&of_mode(mode), &cut),
-                        repeated: all - nodes.len(),
-                        joints: joints
-                            .min_by(|a, b| a.partial_cmp(b).unwrap_or(std::cmp::Ordering::Equal))
-                            .unwrap_or_default(),
-                    }
-                })
-                .collect(),
+            modes: each(self.modes, &(), |(), mode| {
+                let of = sheets().filter(|(s, _)| self.mode[*s] == Some(mode));
+                let mut nodes: Vec<usize> = of.clone().map(|(_, sheet)| sheet.node).collect();
+                let all = nodes.len();
+                nodes.sort_unstable();
+                nodes.dedup();
+                let at_first = of.clone().filter(|(_, s)| Some(&s.node) == nodes.first());
+                let joints = at_first.map(|(_, s)| brought(self.asked, &s.arrival.at, true));
+                let joints = joints.map(|at| at.joints);
+                ModeReport {
+                    mode: mode + 1,
+                    nodes: nodes.len(),
+                    within: of.filter(|(_, sheet)| sheet.within).count(),
+                    size: self.size(&of_mode(mode), &cut),
+                    repeated: all - nodes.len(),
+                    joints: joints
+                        .min_by(|a, b| a.partial_cmp(b).unwrap_or(std::cmp::Ordering::Equal))
+                        .unwrap_or_default(),
+                }
+            }),
             cells: self.cells(&numbers),
             aspects,
             curves: Vec::new(),
@@ -245,38 +244,38 @@ impl<'a> Map<'a> {
             (_, true) => -1,
             (_, false) => 1,
         };
-        let mut all: Vec<(usize, AspectReport)> = (of.into_iter())
-            .map(|(first, sheets)| {
-                let wanted = |s: &usize| self.aspect[*s] == Some(first);
-                let mut finite: Vec<usize> = (sheets.iter().copied())
-                    .filter(|s| told(*s).condition.is_finite())
-                    .collect();
-                finite.sort_by_key(|s| self.filled.sheets[*s].node);
-                // of nodes that are as good but for rounding the first
-                let first_of = |wanted: f64| {
-                    let of = |s: usize| told(s).condition;
-                    let mut alike = finite
-                        .iter()
-                        .filter(|s| (of(**s) / wanted - 1.0).abs() < 1e-9);
-                    alike.next().map(|s| Conditioned {
-                        at: self.grid.values(self.filled.sheets[*s].node),
-                        condition: of(*s),
-                    })
-                };
-                let conditions = finite.iter().map(|s| told(*s).condition);
-                let report = AspectReport {
-                    aspect: 0,
-                    mode: self.mode[first].map_or(0, |mode| mode + 1),
-                    nodes: sheets.len(),
-                    size: self.size(&wanted, cut),
-                    direct: sign(told(first).direct, self.asked.tells_direct()),
-                    inverse: sign(told(first).inverse, self.asked.tells_inverse()),
-                    best: first_of(conditions.clone().fold(f64::INFINITY, f64::min)),
-                    worst: first_of(conditions.fold(0.0, f64::max)),
-                };
-                (first, report)
-            })
-            .collect();
+        let of: Vec<(usize, Vec<usize>)> = of.into_iter().collect();
+        let mut all: Vec<(usize, AspectReport)> = each(of.len(), &(), |(), i| {
+            let (first, ref sheets) = of[i];
+            let wanted = |s: &usize| self.aspect[*s] == Some(first);
+            let mut finite: Vec<usize> = (sheets.iter().copied())
+                .filter(|s| told(*s).condition.is_finite())
+                .collect();
+            finite.sort_by_key(|s| self.filled.sheets[*s].node);
+            // of nodes that are as good but for rounding the first
+            let first_of = |wanted: f64| {
+                let of = |s: usize| told(s).condition;
+                let mut alike = finite
+                    .iter()
+                    .filter(|s| (of(**s) / wanted - 1.0).abs() < 1e-9);
+                alike.next().map(|s| Conditioned {
+                    at: self.grid.values(self.filled.sheets[*s].node),
+                    condition: of(*s),
+                })
+            };
+            let conditions = finite.iter().map(|s| told(*s).condition);
+            let report = AspectReport {
+                aspect: 0,
+                mode: self.mode[first].map_or(0, |mode| mode + 1),
+                nodes: sheets.len(),
+                size: self.size(&wanted, cut),
+                direct: sign(told(first).direct, self.asked.tells_direct()),
+                inverse: sign(told(first).inverse, self.asked.tells_inverse()),
+                best: first_of(conditions.clone().fold(f64::INFINITY, f64::min)),
+                worst: first_of(conditions.fold(0.0, f64::max)),
+            };
+            (first, report)
+        });
         all.sort_by(|a, b| {
             let order = a.1.mode.cmp(&b.1.mode).then(b.1.nodes.cmp(&a.1.nodes));
             order.then_with(|| {
@@ -306,26 +305,25 @@ impl<'a> Map<'a> {
         sheets.sort_by_key(|&s| (self.filled.sheets[s].node, self.mode[s], s));
         let told = |x: f64, told: bool| told.then_some(x);
         let following: Vec<(usize, Coordinate)> = self.following().collect();
-        sheets
-            .into_iter()
-            .map(|s| {
-                let sheet = &self.filled.sheets[s];
-                let of = &sheet.arrival.told;
-                Cell {
-                    node: sheet.node,
-                    at: self.grid.values(sheet.node),
-                    mode: self.mode[s].map_or(0, |mode| mode + 1),
-                    aspect: self.aspect[s].and_then(|first| numbers.get(&first).copied()),
-                    condition: of.condition.is_finite().then_some(of.condition),
-                    direct: told(of.direct, self.asked.tells_direct()),
-                    inverse: told(of.inverse, self.asked.tells_inverse()),
-                    joints: brought(self.asked, &sheet.arrival.at, false).joints,
-                    following: (following.iter())
-                        .map(|&(p, c)| c.of(&sheet.arrival.at.platforms[p].pose()))
-                        .collect(),
-                }
-            })
-            .collect()
+        let (direct, inverse) = (self.asked.tells_direct(), self.asked.tells_inverse());
+        each(sheets.len(), &(), |(), i| {
+            let sheet = &self.filled.sheets[sheets[i]];
+            let of = &sheet.arrival.told;
+            let aspect = self.aspect[sheets[i]];
+            Cell {
+                node: sheet.node,
+                at: self.grid.values(sheet.node),
+                mode: self.mode[sheets[i]].map_or(0, |mode| mode + 1),
+                aspect: aspect.and_then(|first| numbers.get(&first).copied()),
+                condition: of.condition.is_finite().then_some(of.condition),
+                direct: told(of.direct, direct),
+                inverse: told(of.inverse, inverse),
+                joints: brought(self.asked, &sheet.arrival.at, false).joints,
+                following: (following.iter())
+                    .map(|&(p, c)| c.of(&sheet.arrival.at.platforms[p].pose()))
+                    .collect(),
+            }
+        })
     }
 }
 
