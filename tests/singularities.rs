@@ -1065,3 +1065,35 @@ fn no_report_of_a_shipped_mechanism_holds_nan() {
     }
     assert!(told > 30, "{told}");
 }
+
+/// Over each point of the circle of the stretched arm there is one configuration: a start that meets the closed curve just
+/// before its beginning has met it.
+#[test]
+fn a_closed_locus_is_known_where_it_begins_and_ends() {
+    let arm = mechanism("planar_2r", &[]);
+    let question = holding(&arm, &[("hand.x", 0.3), ("hand.y", 0.4)]);
+    let sides = [("hand.x", -2.0), ("hand.y", -2.0)].map(|(name, from)| Driven {
+        coordinate: question.value(name, "home").unwrap().0,
+        from,
+        to: 2.0,
+    });
+    let free = sides
+        .iter()
+        .fold(question.clone(), |q, s| q.without(s.coordinate));
+    let inputs = inputs_of(&question);
+    for seed in [1, 5] {
+        let settings = SingularitiesSettings {
+            seed,
+            starts: 200,
+            ..SingularitiesSettings::default()
+        };
+        let start = question.start();
+        let report = loci(&arm, &free.held(), sides, &inputs, &start, &settings).unwrap();
+        assert_eq!(report.loci.len(), 1);
+        assert_eq!(report.loci[0].configurations, 1, "{seed}");
+        assert!(report.loci[0].closed && report.loci[0].met > 10);
+        for point in &report.loci[0].points {
+            assert!((point[0].hypot(point[1]) - 1.8).abs() < 1e-9);
+        }
+    }
+}

@@ -167,23 +167,22 @@ fn a_two_link_arm_reaches_a_ring_in_two_modes() {
         assert!((at[0].hypot(at[1]) - inner).abs() < 1e-9, "{at:?}");
         assert!((joints[1].abs() - 160f64.to_radians()).abs() < 1e-12);
     }
-    // the Jacobian (ω; v/L) of the arm, by hand
-    let length = report.normalising_length;
+    // the Jacobian of x and y, by hand: it tells of the stretched arm
+    let mut worst = 0.0f64;
     for cell in report.cells.iter().filter(|cell| cell.aspect.is_some()) {
         let (a, b) = (cell.joints[0], cell.joints[0] + cell.joints[1]);
-        let second = [1.0, -0.8 * b.sin() / length, 0.8 * b.cos() / length];
-        let first = [
-            1.0,
-            second[1] - a.sin() / length,
-            second[2] + a.cos() / length,
-        ];
-        let dot = |a: [f64; 3], b: [f64; 3]| a.iter().zip(b).map(|(a, b)| a * b).sum::<f64>();
+        let second = [-0.8 * b.sin(), 0.8 * b.cos()];
+        let first = [second[0] - a.sin(), second[1] + a.cos()];
+        let dot = |a: [f64; 2], b: [f64; 2]| a.iter().zip(b).map(|(a, b)| a * b).sum::<f64>();
         let (p, q, r) = (dot(first, first), dot(first, second), dot(second, second));
         let root = ((p - r).powi(2) + 4.0 * q * q).sqrt();
-        let exact = ((p + r + root) / (p + r - root)).sqrt();
+        let determinant = first[0] * second[1] - first[1] * second[0];
+        let exact = 0.5 * (p + r + root) / determinant.abs();
         let told = cell.condition.unwrap();
         assert!((told / exact - 1.0).abs() < 1e-8, "{told} {exact}");
+        worst = worst.max(told);
     }
+    assert!(worst > 10.0, "{worst}");
     assert!(report.modes.iter().all(|mode| mode.repeated == 0));
 }
 
@@ -540,6 +539,36 @@ fn one_coordinate_is_mapped_to_intervals() {
 }
 
 #[test]
+fn a_singularity_on_the_way_along_one_coordinate_does_not_end_a_mode() {
+    // through the flat 3-RPS, and tilted legs at the same heights below and above
+    let mechanism = written(&text("three_rps"), &[]);
+    let held = [("top.roll", 10f64.to_radians()), ("top.pitch", 0.0)];
+    let report = map(&mechanism, &[("top.z", -0.51, 1.0)], &held, 60);
+    let direct = |kind: &BoundaryKind| *kind == BoundaryKind::Direct;
+    let met: Vec<_> = report.points.iter().filter(|p| direct(&p.kind)).collect();
+    assert!(met.len() >= 3);
+    assert!(met.iter().all(|point| !point.ends_reach));
+    assert!(met.iter().any(|point| point.at[0].abs() < 1e-9));
+    assert_eq!(report.modes.len(), 1);
+}
+
+#[test]
+fn nodes_reached_in_several_configurations_of_a_mode_are_counted_once() {
+    let mechanism = written(&text("delta"), &[]);
+    let axes = [("hand.x", -0.9, 0.9), ("hand.y", -0.9, 0.9)];
+    let settings = WorkspaceSettings {
+        nodes: vec![16; 2],
+        boundaries: false,
+        ..WorkspaceSettings::default()
+    };
+    let report = modes_of(&mechanism, axes, &[("hand.z", -1.0)], settings);
+    assert!(report.modes.iter().any(|mode| mode.repeated > 0));
+    for mode in &report.modes {
+        assert!(mode.within <= mode.nodes, "{mode:?}");
+    }
+}
+
+#[test]
 fn where_two_legs_fold_at_once_modes_are_not_taken_for_one() {
     // at (0.1, 0) the inner circles of both rings touch; straight up through that point both elbows
     // would turn over together, smoothly
@@ -736,6 +765,16 @@ fn questions_that_make_no_sense_are_told_what_to_ask_instead() {
         (&[hand, "--map", "hand.x=0.2..0.2"], "the map is empty"),
         (&[hand, "--map", "hand.x=0.3..0.2"], "the map is empty"),
         (&[hand, "--map", "hand.q=0..1"], "did you mean"),
+        (
+            &[
+                "mechanisms/planar_2r.ron",
+                "--map",
+                "theta1=0..1e9",
+                "--hold",
+                "theta2=10deg",
+            ],
+            "wider than a full turn",
+        ),
         (
             &[hand, x[0], x[1], "--hold", "hand.x=0"],
             "both mapped and held",

@@ -22,6 +22,7 @@ use super::search::Search;
 use super::source::{Assignment, Source};
 #[cfg(feature = "plot")]
 use super::written::save;
+use super::written::{INTERRUPTED_REMARK, rows};
 use super::{Answer, Refusal, style};
 
 /// Find singularities: at a configuration, along inputs, or as curves in two inputs.
@@ -243,17 +244,23 @@ impl Singularities {
         if let Some(path) = &self.svg {
             save(path, &output::svg(mechanism, &report))?;
         }
+        let mut whole = true;
+        let data = match self.format {
+            Format::Text => output::locus_text(mechanism, &report),
+            Format::Json => output::locus_json(mechanism, &report),
+            Format::Csv => {
+                whole = rows(output::locus_csv(mechanism, &report).split_inclusive('\n'))?;
+                String::new()
+            }
+        };
         Ok(Answer {
-            data: match self.format {
-                Format::Text => output::locus_text(mechanism, &report),
-                Format::Json => output::locus_json(mechanism, &report),
-                Format::Csv => output::locus_csv(mechanism, &report),
-            },
+            data,
             remarks: match self.format {
+                Format::Csv if !whole => INTERRUPTED_REMARK.to_owned(),
                 Format::Csv => format!("note: {}\n", output::completeness(&report)),
                 _ => String::new(),
             } + &self.beside_rows(&report.coupled),
-            yes: !report.loci.is_empty(),
+            yes: !report.loci.is_empty() && whole,
         })
     }
 

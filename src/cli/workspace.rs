@@ -1,12 +1,11 @@
 //! `linkwork workspace`
 
+use std::f64::consts::TAU;
 use std::path::PathBuf;
 
 use clap::{Args, ValueEnum};
 use linkwork::analysis::assemblies::Wanted;
-use linkwork::analysis::workspace::{
-    WorkspaceError, WorkspaceReport, WorkspaceSettings, cell_bytes, workspace,
-};
+use linkwork::analysis::workspace::{WorkspaceError, WorkspaceSettings, cell_bytes, workspace};
 use linkwork::mechanism::{Configuration, Coordinate, Mechanism};
 use linkwork::output::workspace as output;
 use linkwork::system::{
@@ -18,9 +17,9 @@ use super::progress::Progress;
 use super::range::{RangeWords, ranges};
 use super::search::Search;
 use super::source::{Assignment, Source};
-use super::written::Lines;
 #[cfg(feature = "plot")]
 use super::written::save;
+use super::written::{INTERRUPTED_REMARK, rows};
 use super::{Answer, Refusal, style};
 
 /// Map where the mechanism reaches, in which modes, and what bounds it.
@@ -140,37 +139,28 @@ impl Workspace {
         if let Some(path) = &self.svg {
             save(path, &output::svg(mechanism, &report))?;
         }
+        let mut whole = true;
+        let data = match self.format {
+            Format::Text => output::text(mechanism, &report),
+            Format::Json => output::json(mechanism, &report),
+            Format::Csv => {
+                whole = match self.boundary {
+                    true => rows(output::boundary_csv(mechanism, &report))?,
+                    false => rows(output::csv(mechanism, &report))?,
+                };
+                String::new()
+            }
+        };
         Ok(Answer {
-            data: match self.format {
-                Format::Text => output::text(mechanism, &report),
-                Format::Json => output::json(mechanism, &report),
-                Format::Csv => {
-                    self.rows(mechanism, &report)?;
-                    String::new()
-                }
-            },
+            data,
             remarks: loaded.warnings()
                 + &match self.format {
+                    Format::Csv if !whole => INTERRUPTED_REMARK.to_owned(),
                     Format::Csv => format!("note: {}\n", output::completeness(&report)),
                     Format::Text | Format::Json => String::new(),
                 },
-            yes: report.reached > 0,
+            yes: report.reached > 0 && whole,
         })
-    }
-
-    fn rows(&self, mechanism: &Mechanism, report: &WorkspaceReport) -> Result<(), Refusal> {
-        let rows: Box<dyn Iterator<Item = String>> = match self.boundary {
-            true => Box::new(output::boundary_csv(mechanism, report)),
-            false => Box::new(output::csv(mechanism, report)),
-        };
-        let mut lines = Lines::new(true);
-        for row in rows {
-            if !lines.open() {
-                break;
-            }
-            lines.add(&row);
-        }
-        lines.finish()
     }
 
     /// The mapped coordinates with their ranges.
@@ -192,6 +182,16 @@ impl Workspace {
         // a range that is no number is refused too
         let refuse = |a: f64, b: f64| a >= b || !(b - a).is_finite();
         let axes = ranges(mechanism, "--map", &self.map, refuse, &words)?;
+        // what comes round again is mapped once
+        let turns = |axis: &Driven| match axis.coordinate {
+            Holdable::Joint(joint) => mechanism.repeats(joint),
+            of => of.is_angle(mechanism),
+        };
+        let round = |axis: &&Driven| turns(axis) && axis.to - axis.from > TAU * (1.0 + 1e-9);
+        if let Some(axis) = axes.iter().find(round) {
+            let name = axis.coordinate.name(mechanism);
+            return Err(Refusal(output::more_than_a_turn(&name).render(style())));
+        }
         match axes.len() {
             1..=3 => Ok(axes),
             n => Err(Refusal(output::too_many_axes(mechanism, n).render(style()))),

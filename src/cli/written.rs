@@ -68,6 +68,22 @@ impl Lines {
     }
 }
 
+/// What is said where an interruption ended the rows before their time.
+pub const INTERRUPTED_REMARK: &str = "note: interrupted: the rows end before the answer does\n";
+
+/// All lines of a text to stdout; whether nobody interrupted.
+pub fn rows<L: AsRef<str>>(all: impl Iterator<Item = L>) -> Result<bool, Refusal> {
+    let mut lines = Lines::new(true);
+    for line in all {
+        if !lines.open() {
+            break;
+        }
+        lines.add(line.as_ref());
+    }
+    lines.finish()?;
+    Ok(!INTERRUPTED.load(Ordering::Relaxed))
+}
+
 /// Written beside and then put in its place, so that it is never half written.
 #[cfg(feature = "plot")]
 pub fn save(path: &Path, picture: &str) -> Result<(), Refusal> {

@@ -1,5 +1,13 @@
 //! Numbers as people read them; JSON keeps every digit instead.
 
+/// All digits, with a power of ten where noughts would fill the line.
+pub fn digits(x: f64) -> String {
+    match x != 0.0 && !(1e-5..1e16).contains(&x.abs()) {
+        true => format!("{x:e}"),
+        false => x.to_string(),
+    }
+}
+
 /// A count with the minus sign of the formulas it stands in.
 pub(super) fn signed(count: i64) -> String {
     count.to_string().replace('-', "−")

@@ -19,7 +19,7 @@ use serde::Serialize;
 
 use super::json::document;
 use super::layout::{align_right, indented, plain};
-use super::quantity::{number, quantity, short};
+use super::quantity::{digits, number, quantity, short};
 use super::screws::{screw_words, twists};
 use crate::analysis::singularities::{
     AlongReport, Distances, Kind, LocusReport, Movement, Resisted, Shape, SingularitiesReport,
@@ -217,7 +217,7 @@ pub fn along_csv(mechanism: &Mechanism, report: &AlongReport) -> String {
         ];
         let values = crossing.moved.iter().chain(&crossing.joints);
         let values = values.zip(&once).filter(|(_, once)| **once);
-        fields.extend(values.map(|(value, _)| value.to_string()));
+        fields.extend(values.map(|(value, _)| digits(*value)));
         text += &(fields.join(",") + "\n");
     }
     text
@@ -361,7 +361,7 @@ pub fn locus_csv(mechanism: &Mechanism, report: &LocusReport) -> String {
             );
             let values = point.iter().chain(joints).chain(poses.iter().flatten());
             for (value, _) in values.zip(&once).filter(|(_, once)| **once) {
-                let _ = write!(text, ",{value}");
+                let _ = write!(text, ",{}", digits(*value));
             }
             text.push('\n');
         }

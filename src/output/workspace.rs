@@ -7,8 +7,8 @@ mod words;
 #[cfg(feature = "plot")]
 pub use picture::svg;
 pub use words::{
-    also_held, boundary_flat, completeness, empty_side, no_platform, no_range, sentence, too_fine,
-    too_many_axes, too_many_cells, wrong_count, wrong_grid,
+    also_held, boundary_flat, completeness, empty_side, more_than_a_turn, no_platform, no_range,
+    sentence, too_fine, too_many_axes, too_many_cells, wrong_count, wrong_grid,
 };
 
 use std::fmt::Write;
@@ -17,7 +17,7 @@ use serde::Serialize;
 
 use super::json::document;
 use super::layout::{align_right, indented, plain};
-use super::quantity::{number, quantity, size};
+use super::quantity::{digits, number, quantity, size};
 use crate::analysis::workspace::{AspectReport, BoundaryKind, Cell, Conditioned, WorkspaceReport};
 use crate::description::count;
 use crate::mechanism::Mechanism;
@@ -90,9 +90,7 @@ pub fn csv<'a>(
     let first = header(&columns(mechanism, report));
     let rows = report.cells.iter().map(|cell| {
         let fields = row(cell);
-        let fields = fields
-            .iter()
-            .map(|x| x.map_or(String::new(), |x| x.to_string()));
+        let fields = fields.iter().map(|x| x.map_or(String::new(), digits));
         fields.collect::<Vec<String>>().join(",") + "\n"
     });
     std::iter::once(first).chain(rows)
@@ -119,7 +117,7 @@ pub fn boundary_csv<'a>(
             let mut line = start.clone();
             for value in point.iter().chain(&curve.slice).chain(joints) {
                 // writing to a string cannot fail
-                let _ = write!(line, ",{value}");
+                let _ = write!(line, ",{}", digits(*value));
             }
             line + "\n"
         })
@@ -243,8 +241,7 @@ fn boundary(report: &WorkspaceReport) -> String {
     let mut kinds: Vec<(&BoundaryKind, bool)> = Vec::new();
     for point in &report.points {
         if !kinds.iter().any(|(kind, _)| **kind == point.kind) {
-            let ends = report.curves.iter().find(|c| c.kind == point.kind);
-            kinds.push((&point.kind, ends.is_none_or(|c| c.ends_reach)));
+            kinds.push((&point.kind, point.ends_reach));
         }
     }
     if kinds.is_empty() {

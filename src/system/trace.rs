@@ -310,13 +310,14 @@ pub fn met_at<C: ConfigurationCurve>(
         let met = norm(&curve.seen(&curve.apart(&foot.at, &place.at))) < SAME;
         met.then(|| i as f64 + before / (before - after))
     };
-    let before = (i > 0).then(|| foot(curve, i - 1)).flatten();
-    let after = |curve: &mut C| {
-        (i + 1 < traced.places.len())
-            .then(|| foot(curve, i))
-            .flatten()
+    // a closed curve begins and ends at one place
+    let pieces = traced.places.len() - 1;
+    let round = traced.ends[1] == LocusEnd::Closed && (i == 0 || i == pieces);
+    let beside = match round {
+        true => [pieces.checked_sub(1), (pieces > 0).then_some(0)],
+        false => [i.checked_sub(1), (i < pieces).then_some(i)],
     };
-    before.or_else(|| after(curve))
+    beside.into_iter().flatten().find_map(|i| foot(curve, i))
 }
 
 /// The place between two where the curve comes back to its start.

@@ -56,6 +56,13 @@ pub(super) enum Kind {
     Limit(usize, bool),
 }
 
+impl Kind {
+    /// Whether modes end there, or only aspects are parted.
+    pub fn ends_reach(self) -> bool {
+        matches!(self, Kind::Fold | Kind::Limit(..))
+    }
+}
+
 /// A boundary curve.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct BoundaryCurve {

@@ -91,7 +91,7 @@ impl Tracer<'_> {
         }
         BoundaryCurve {
             kind: named(self.asked, self.kind),
-            ends_reach: matches!(self.kind, Kind::Fold | Kind::Limit(..)),
+            ends_reach: self.kind.ends_reach(),
             slice: self.third,
             ends,
             pieces,

@@ -141,15 +141,19 @@ impl<'a> Map<'a> {
                 let of = sheets().filter(|(s, _)| self.mode[*s] == Some(mode));
                 let mut nodes: Vec<usize> = of.clone().map(|(_, sheet)| sheet.node).collect();
                 let all = nodes.len();
-                nodes.sort_unstable();
-                nodes.dedup();
+                let within = of.clone().filter(|(_, sheet)| sheet.within);
+                let mut within: Vec<usize> = within.map(|(_, sheet)| sheet.node).collect();
+                for nodes in [&mut nodes, &mut within] {
+                    nodes.sort_unstable();
+                    nodes.dedup();
+                }
                 let at_first = of.clone().filter(|(_, s)| Some(&s.node) == nodes.first());
                 let joints = at_first.map(|(_, s)| brought(self.asked, &s.arrival.at, true));
                 let joints = joints.map(|at| at.joints);
                 ModeReport {
                     mode: mode + 1,
                     nodes: nodes.len(),
-                    within: of.filter(|(_, sheet)| sheet.within).count(),
+                    within: within.len(),
                     size: self.size(&of_mode(mode), &cut),
                     repeated: all - nodes.len(),
                     joints: joints
@@ -172,6 +176,7 @@ impl<'a> Map<'a> {
                     at[along] += crossing.part * (end - at[along]);
                     Some(BoundaryPoint {
                         kind: named(self.asked, crossing.kind),
+                        ends_reach: crossing.kind.ends_reach(),
                         mode: self.mode[crossing.sheet]? + 1,
                         at,
                         joints: brought(self.asked, &crossing.at, false).joints,

@@ -28,7 +28,9 @@ pub(super) struct Rates<T: Factorable> {
     ways: Vec<Way>,
     inputs: Vec<Row>,
     outputs: Vec<Row>,
-    /// Unknowns whose rates are what moves out.
+    /// Whether outputs are other than what is held.
+    tells_inverse: bool,
+    /// Unknowns whose rates are what moves out where there are no outputs.
     moved: Vec<usize>,
     /// Rates of the equations at a node, and of those with nothing held.
     right: Vec<T>,
@@ -65,7 +67,8 @@ pub(super) struct Told {
     pub direct: f64,
     /// The same for outputs: zero at inverse singularities.
     pub inverse: f64,
-    /// Largest over smallest singular value of what moves out for what is put in.
+    /// Largest over smallest singular value of the outputs' rates, or else of what moves, by those of
+    /// the inputs.
     pub condition: f64,
 }
 
@@ -109,10 +112,8 @@ impl<T: Factorable + Packed> Rates<T> {
             held: rows(&asked.held),
             ways: ways(asked, system, &place),
             inputs: rows(&asked.inputs),
-            outputs: match asked.tells_inverse() {
-                true => rows(&asked.outputs),
-                false => Vec::new(),
-            },
+            outputs: rows(&asked.outputs),
+            tells_inverse: asked.tells_inverse(),
             moved: moved.map(|(i, _)| i).collect(),
             right: vec![T::zero(); system.rows()],
             column: vec![T::zero(); free.rows()],
@@ -170,12 +171,15 @@ impl<T: Factorable + Packed> Rates<T> {
         let direct: Vec<f64> = (each.clone().map(|p| determinant(&input, n, p))).collect();
         let inverse: Vec<f64> = (each.clone().map(|p| determinant(&output, n, p))).collect();
         let told = |rows: &[Row]| !rows.is_empty();
-        let (of_inputs, of_outputs) = (told(&self.inputs), told(&self.outputs));
+        let (of_inputs, of_outputs) = (told(&self.inputs), self.tells_inverse);
         let conditions = match of_inputs {
             true => {
                 let motions = self.motions.chunks_exact(unknowns.max(1));
                 let moved = motions.flat_map(|motion| self.moved.iter().map(|&i| motion[i]));
-                let mut moved: Vec<T> = moved.collect();
+                let mut moved: Vec<T> = match told(&self.outputs) {
+                    true => output.clone(),
+                    false => moved.collect(),
+                };
                 condition(&mut input, &mut moved, n)
             }
             false => vec![(false, f64::INFINITY); T::WIDTH],

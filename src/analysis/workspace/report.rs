@@ -146,6 +146,8 @@ pub struct Conditioned {
 pub struct BoundaryPoint {
     /// What bounds.
     pub kind: BoundaryKind,
+    /// Whether the mode ends there, or only aspects are parted.
+    pub ends_reach: bool,
     /// The mode that it bounds.
     pub mode: usize,
     /// The mapped coordinates, rad or m.
@@ -165,7 +167,7 @@ pub struct Cell {
     pub mode: usize,
     /// The aspect; none outside limits and on singularities.
     pub aspect: Option<usize>,
-    /// The condition number of the Jacobian from inputs to platforms, lengths over the normalising
+    /// The condition number of the Jacobian from inputs to outputs, lengths over the normalising
     /// length; none if it is singular or not told.
     pub condition: Option<f64>,
     /// The determinant of the rates of the inputs for those of what is mapped and held: zero at

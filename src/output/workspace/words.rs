@@ -84,14 +84,21 @@ pub(super) fn explanation(report: &WorkspaceReport) -> String {
     let told = |sign: fn(&AspectReport) -> i8| report.aspects.iter().any(|a| sign(a) != 0);
     sign("direct", &report.inputs, told(|a| a.direct));
     sign("inverse", &report.outputs, told(|a| a.inverse));
+    if report.outputs.is_empty() {
+        lines.push("no inverse singularities are told: it takes as many independent coordinates of platforms as freedoms".into());
+    }
     lines.push(match report.inputs.is_empty() {
         true => "no condition and no direct singularities are told: it takes as many actuated joints \
                  as freedoms"
             .into(),
         false => format!(
-            "best and worst: condition number of the Jacobian from {} to what moves, at nodes, with \
-             lengths over {} m",
+            "best and worst: condition number of the Jacobian from {} to {}, at nodes, with lengths \
+             over {} m",
             listed(&report.inputs),
+            match report.outputs.is_empty() {
+                true => "what moves".into(),
+                false => listed(&report.outputs),
+            },
             number(report.normalising_length)
         ),
     });
@@ -106,7 +113,8 @@ pub fn completeness(report: &WorkspaceReport) -> String {
     let mut text = format!(
         "Modes were sought at {} from {} each and at {all}{} from {few} (seed {}): what none of these \
          led to can be missing, and so can what is smaller than a cell of the grid. Aspects of few \
-         nodes were joined with others only where {} of a cell tells that they are.",
+         nodes were joined with others only where {} of a cell tells that they are. Sizes are those of \
+         polygons in the cells: what is as thin as a cell comes out too small.",
         count(nodes, "node"),
         count(starts, "start"),
         count(probed, "node"),
@@ -160,6 +168,17 @@ pub fn no_range(name: &str) -> (Complaint, Part) {
             help,
         ),
         Part::WholeValue,
+    )
+}
+
+/// A range that comes round again.
+pub fn more_than_a_turn(name: &str) -> Complaint {
+    said(
+        format!(
+            "the map of `{name}` is wider than a full turn, after which everything comes again"
+        ),
+        "too wide",
+        format!("map a turn, e.g. --map {name}=-180deg..180deg"),
     )
 }
 
