@@ -938,3 +938,39 @@ fn the_command_writes_whole_rows_of_numbers() {
     ]);
     assert_eq!(code, 1);
 }
+
+/// As in a sweep: rows end with a whole one, and the status says that the answer did not.
+#[cfg(unix)]
+#[test]
+fn an_interrupted_map_leaves_whole_rows_and_says_so() {
+    use std::io::Read;
+    use std::process::{Command, Stdio};
+    let mut child = Command::new(env!("CARGO_BIN_EXE_linkwork"))
+        .args(["workspace", "mechanisms/planar_2r.ron", "--grid", "50"])
+        .args(["--map", "hand.x=-2..2", "--map", "hand.y=-2..2"])
+        .args(["--format", "csv"])
+        .current_dir(env!("CARGO_MANIFEST_DIR"))
+        .stdout(Stdio::piped())
+        .stderr(Stdio::piped())
+        .spawn()
+        .unwrap();
+    // more rows than a pipe holds: they wait to be read
+    let mut written = vec![0; 100];
+    let mut stdout = child.stdout.take().unwrap();
+    stdout.read_exact(&mut written).unwrap();
+    let told = Command::new("kill")
+        .args(["-INT", &child.id().to_string()])
+        .status();
+    assert!(told.unwrap().success());
+    std::thread::sleep(std::time::Duration::from_millis(300));
+    stdout.read_to_end(&mut written).unwrap();
+    let output = child.wait_with_output().unwrap();
+    assert_eq!(output.status.code(), Some(1));
+    let remark = String::from_utf8(output.stderr).unwrap();
+    assert!(remark.contains("note: interrupted"), "{remark}");
+    let written = String::from_utf8(written).unwrap();
+    assert!(written.ends_with('\n'));
+    let columns = written.lines().next().unwrap().split(',').count();
+    let mut lines = written.lines();
+    assert!(lines.all(|line| line.split(',').count() == columns));
+}
