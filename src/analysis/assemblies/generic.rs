@@ -64,10 +64,44 @@ struct Search<'a> {
     quiet_loops: usize,
 }
 
-/// Searches a generic member. `None` if a dimension has no value anywhere near.
+/// Searches a generic member, and where fewer solutions than the bound were found another one: the
+/// loops about one member may miss what those about another find. `None` if a dimension has no value
+/// anywhere near.
 pub(super) fn search(
     family: &Family,
     question: String,
+    bound: Option<usize>,
+    settings: &AssembliesSettings,
+    watch: &dyn Fn(Progress),
+) -> Option<GenericSolutions> {
+    let first = search_one(family, &question, bound, settings, watch)?;
+    if first.stances.is_empty()
+        || first.exhausted
+        || bound.is_none_or(|bound| count(&first.stances) >= bound)
+    {
+        return Some(first);
+    }
+    let other = AssembliesSettings {
+        seed: !settings.seed,
+        ..settings.clone()
+    };
+    let second = search_one(family, &question, bound, &other, watch)?;
+    let (seeds, loops) = (first.seeds + second.seeds, first.loops + second.loops);
+    let better = match count(&second.stances) > count(&first.stances) {
+        true => second,
+        false => first,
+    };
+    Some(GenericSolutions {
+        seeds,
+        loops,
+        seed: settings.seed,
+        ..better
+    })
+}
+
+fn search_one(
+    family: &Family,
+    question: &str,
     bound: Option<usize>,
     settings: &AssembliesSettings,
     watch: &dyn Fn(Progress),
@@ -91,7 +125,7 @@ pub(super) fn search(
     };
     let exhausted = search.run()?;
     Some(GenericSolutions {
-        question,
+        question: question.to_owned(),
         parameters: pairs(&search.base.parameters),
         inputs: pairs(&search.base.inputs),
         stances: (search.stances.iter())
