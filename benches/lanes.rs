@@ -112,7 +112,7 @@ fn compare(criterion: &mut Criterion, work: &Work) {
             let report = tracker.solve(|at| {
                 for (i, &place) in places.iter().enumerate() {
                     let value = |lane| work.value(home.joints[place], i, lane, k);
-                    at.joints[place] = Lanes(std::array::from_fn(value));
+                    at.joints[place] = Lanes::new(std::array::from_fn(value));
                 }
             });
             assert!(report.solved);

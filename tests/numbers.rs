@@ -30,7 +30,7 @@ impl Sample for Complex<f64> {
 impl Sample for Lanes {
     fn sample(real: f64, seed: f64) -> Self {
         // near the first lane, so that all are inside the same interval
-        Lanes(std::array::from_fn(|i| {
+        Lanes::new(std::array::from_fn(|i| {
             real * (1.0 + 1e-3 * i as f64 * (2.3 * seed + i as f64).sin())
         }))
     }

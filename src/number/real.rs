@@ -29,14 +29,7 @@ impl Number for f64 {
         pxfm::f_atan(self)
     }
     fn atan2(self, x: Self) -> Self {
-        // the quotient itself but for a part t²/3 < 2⁻⁵⁵; rounding it for sure takes thirty times as
-        // long, and Newton's method ends with such gaps
-        const SMALL: f64 = 1.0 / (1u64 << 27) as f64;
-        let quotient = self / x;
-        if x > 0.0 && quotient.abs() < SMALL && quotient.is_normal() {
-            return quotient;
-        }
-        pxfm::f_atan2(self, x)
+        trigonometry::atan2(self, x)
     }
     fn exp(self) -> Self {
         pxfm::f_exp(self)
