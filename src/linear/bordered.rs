@@ -153,13 +153,17 @@ impl<T: Factorable> Bordered<T> {
         for block in &mut self.blocks {
             let (rows, own) = (block.layout.rows, block.layout.own.len());
             let total = if self.damped { rows + own } else { rows };
-            block.qr.reset(total);
-            for (j, column) in block.matrix.chunks_exact(rows.max(1)).enumerate() {
-                let target = block.qr.column_mut(j);
-                target[..rows].copy_from_slice(column);
-                if self.damped && j < own {
-                    target[rows + j] = root;
+            if self.damped {
+                block.qr.reset(total);
+                for (j, column) in block.matrix.chunks_exact(rows.max(1)).enumerate() {
+                    let target = block.qr.column_mut(j);
+                    target[..rows].copy_from_slice(column);
+                    if j < own {
+                        target[rows + j] = root;
+                    }
                 }
+            } else {
+                block.qr.load(rows, &block.matrix);
             }
             // rows and unknowns are dimensionless, so a pivot is measured against 1
             block.qr.factorise(1.0);

@@ -39,6 +39,12 @@ impl<T: Field> Qr<T> {
         self.entries[..rows * self.columns].fill(T::zero());
     }
 
+    /// Starts with a matrix of `rows` rows, all columns one after another.
+    pub fn load(&mut self, rows: usize, matrix: &[T]) {
+        self.rows = rows;
+        self.entries[..rows * self.columns].copy_from_slice(matrix);
+    }
+
     /// The number of rows of the matrix now held.
     pub fn rows(&self) -> usize {
         self.rows

@@ -362,42 +362,39 @@ impl<T: Number> Rows<T> {
     }
 
     /// The derivatives of every row along a platform's twist (ω; v/L) about its origin, from which
-    /// `arm` leads to the side's velocity point: a force f there has the moment arm × f.
+    /// `arm` leads to the side's velocity point: a force f there has the moment arm × f. `put` is
+    /// given the number of each row with its six derivatives.
     #[inline(always)]
     pub(crate) fn twist_rows(
         &self,
         side: Side,
         arm: &Vector3<T>,
         length: f64,
-    ) -> [[T; 6]; MOST_ROWS] {
+        mut put: impl FnMut(usize, [T; 6]),
+    ) {
         let sign = match side {
             Side::A => -1.0,
             Side::B => 1.0,
         };
-        let mut rows = [[T::zero(); 6]; MOST_ROWS];
-        let mut next = rows.iter_mut();
-        let force_row = |row: &mut [T; 6], force: &Vector3<T>| {
-            let moment = arm.cross(force);
-            let twist = moment.0.map(|m| m.scale(sign));
-            let shift = force.0.map(|f| f.scale(sign * length));
-            row[..3].copy_from_slice(&twist);
-            row[3..].copy_from_slice(&shift);
+        let force_row = |force: &Vector3<T>| {
+            let [a, b, c] = arm.cross(force).0.map(|m| m.scale(sign));
+            let [x, y, z] = force.0.map(|f| f.scale(sign * length));
+            [a, b, c, x, y, z]
         };
+        let mut next = 0..MOST_ROWS;
         if self.point {
             for (i, row) in next.by_ref().take(3).enumerate() {
-                force_row(
-                    row,
-                    &Vector3::unit(i).times(T::from_f64(self.inverse_length)),
-                );
+                let force = Vector3::unit(i).times(T::from_f64(self.inverse_length));
+                put(row, force_row(&force));
             }
         }
         for (moment, row) in self.moments[..self.moment_count].iter().zip(next.by_ref()) {
-            row[..3].copy_from_slice(&moment.0.map(|m| m.scale(sign)));
+            let [a, b, c] = moment.0.map(|m| m.scale(sign));
+            put(row, [a, b, c, T::zero(), T::zero(), T::zero()]);
         }
         for (force, row) in self.forces[..self.force_count].iter().zip(next) {
-            force_row(row, force);
+            put(row, force_row(force));
         }
-        rows
     }
 
     /// Where the velocity of a side is to be taken.

@@ -9,10 +9,16 @@ impl<T: Factorable> System<T> {
     /// The configuration moved by dimensionless steps of the unknowns: at ⊕ step.
     pub fn displaced(&self, at: &Configuration<T>, step: &[T]) -> Configuration<T> {
         let mut to = at.clone();
+        self.displace(&mut to, step);
+        to
+    }
+
+    /// The same in place.
+    pub fn displace(&self, at: &mut Configuration<T>, step: &[T]) {
         for (&unknown, i) in self.unknowns().iter().zip(0..) {
             match unknown {
                 Unknown::Joint(joint) => {
-                    to.joints[joint] += step[i].scale(self.joint_scale(joint));
+                    at.joints[joint] += step[i].scale(self.joint_scale(joint));
                 }
                 Unknown::Twist {
                     platform,
@@ -21,13 +27,12 @@ impl<T: Factorable> System<T> {
                     let omega = Vector3([step[i], step[i + 1], step[i + 2]]);
                     let length = self.characteristic_length();
                     let shift = [3, 4, 5].map(|k| step[i + k].scale(length));
-                    to.platforms[platform] =
-                        at.platforms[platform].moved_by(&omega, Vector3(shift));
+                    let pose = &mut at.platforms[platform];
+                    *pose = pose.moved_by(&omega, Vector3(shift));
                 }
                 Unknown::Twist { .. } => {}
             }
         }
-        to
     }
 
     /// The dimensionless step that leads from one configuration to another:

@@ -297,12 +297,11 @@ impl<T: Factorable> System<T> {
             }
             for &(side, platform, column) in &plan.platforms {
                 let arm = *rows.velocity_point(side) - at.platforms[platform].position;
-                let twist_rows = rows.twist_rows(side, &arm, self.length);
-                for (i, row) in twist_rows[..plan.rows].iter().enumerate() {
-                    for (k, &entry) in row.iter().enumerate() {
+                rows.twist_rows(side, &arm, self.length, |i, row| {
+                    for (k, entry) in row.into_iter().enumerate() {
                         entries[place(column + k).start + i] += entry;
                     }
-                }
+                });
             }
         }
     }

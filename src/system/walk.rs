@@ -92,14 +92,14 @@ impl<'m> Walk<'m> {
     }
 
     /// Brings angles that count modulo a turn within their limits.
-    pub fn within_limits(mechanism: &Mechanism, at: &mut Configuration<f64>) {
+    pub fn within_limits(mechanism: &Mechanism, joints: &mut [f64]) {
         for (i, joint) in mechanism.joints().iter().enumerate() {
             if let Some((low, high)) = joint.limits
                 && mechanism.repeats(i)
             {
                 let turn = std::f64::consts::TAU;
                 let middle = 0.5 * (low + high);
-                at.joints[i] -= turn * ((at.joints[i] - middle) / turn).round();
+                joints[i] -= turn * ((joints[i] - middle) / turn).round();
             }
         }
     }

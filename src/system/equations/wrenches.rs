@@ -28,11 +28,13 @@ impl<T: Factorable> System<T> {
         wrenches
             .map(|(closure, plan)| {
                 let rows = closure.rows(&work.placement, at);
-                let here = rows.twist_rows(Side::B, &Vector3::zero(), self.length);
+                let mut wrenches = Vec::with_capacity(plan.rows);
+                let put = |_, row| wrenches.push(row);
+                rows.twist_rows(Side::B, &Vector3::zero(), self.length, put);
                 ClosureWrenches {
                     points: [Side::A, Side::B].map(|side| *rows.velocity_point(side)),
                     first_row: plan.row,
-                    rows: here[..plan.rows].to_vec(),
+                    rows: wrenches,
                 }
             })
             .collect()
