@@ -9,6 +9,7 @@
 //! platforms; angles lie in (−π, π]. Nothing random enters. A mode keeps its name when it is
 //! followed from home ([`AssemblySolver::follow`]).
 
+mod along;
 mod answer;
 mod bound;
 mod carry;

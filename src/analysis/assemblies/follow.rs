@@ -3,10 +3,10 @@
 use serde::Serialize;
 
 use super::AssembliesError;
+use super::along::polish;
 use super::coordinates::C;
 use super::family::{Family, Member};
 use super::fold::located;
-use super::generic::polish;
 use super::real::{named_joints, real_solution};
 use super::report::Named;
 use super::way::Way;

@@ -2,8 +2,8 @@
 
 use nalgebra::{DMatrix, DVector};
 
+use super::along::polish;
 use super::coordinates::{C, size};
-use super::generic::polish;
 use super::local::Local;
 use super::simple::{are_one, stands_alone};
 use super::way::Way;

@@ -2,8 +2,8 @@
 
 use rand_pcg::Pcg64;
 
+use super::along::polish;
 use super::coordinates::{C, size};
-use super::generic::polish;
 use super::simple::stands_alone;
 use super::way::Way;
 use crate::mechanism::Configuration;

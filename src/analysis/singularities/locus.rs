@@ -315,7 +315,7 @@ impl Search<'_> {
                 *value -= turn * ((*value - middle) / turn).round();
             }
         }
-        Walk::within_limits(self.region.mechanism, at);
+        Walk::within_limits(self.region.mechanism, &mut at.joints);
     }
 
     /// The loci that curves of configurations are in the box.

@@ -73,21 +73,17 @@ impl Classifier<'_> {
                 wrenches.collect::<Vec<_>>()
             };
             match *output {
-                Lock::Frame(frame) => {
+                Lock::Frame(frame) | Lock::Point(frame) => {
+                    let (first, size) = match output {
+                        Lock::Frame(_) => (0, 6),
+                        _ => (3, 3),
+                    };
                     parts.push(Part {
                         frame,
                         name: output.name(mechanism),
-                        wrenches: rates(0, 6),
+                        wrenches: rates(first, size),
                     });
-                    row += 6;
-                }
-                Lock::Point(frame) => {
-                    parts.push(Part {
-                        frame,
-                        name: output.name(mechanism),
-                        wrenches: rates(3, 3),
-                    });
-                    row += 3;
+                    row += size;
                 }
                 Lock::Coordinate(
                     coordinate @ (Holdable::Coordinate(platform, _) | Holdable::Turn(platform, _)),
