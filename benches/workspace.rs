@@ -24,13 +24,13 @@ const WORK: [Work; 3] = [
         name: "five_bar_hand",
         mapped: &[("hand.x", -0.63, 0.81), ("hand.y", -0.72, 0.74)],
         held: &[],
-        nodes: 200,
+        nodes: 400,
     },
     Work {
         name: "three_rps",
         mapped: &[("top.roll", -1.2, 1.2), ("top.pitch", -1.2, 1.2)],
         held: &[("top.z", "0.7")],
-        nodes: 200,
+        nodes: 400,
     },
     Work {
         name: "stewart_gough_6ups",
@@ -41,7 +41,7 @@ const WORK: [Work; 3] = [
             ("top.pitch", "home"),
             ("top.yaw", "home"),
         ],
-        nodes: 120,
+        nodes: 240,
     },
 ];
 

@@ -792,6 +792,10 @@ fn questions_that_make_no_sense_are_told_what_to_ask_instead() {
             "do not map hand.yaw",
         ),
         (
+            &[hand, x[0], x[1], "--map", "hand.z=-1..1"],
+            "do not map hand.z; map or hold theta1 instead",
+        ),
+        (
             &[hand, x[0], x[1], "--map", "hand.y=0..1", "--grid", "1"],
             "at least 2 nodes",
         ),

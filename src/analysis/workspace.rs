@@ -21,6 +21,7 @@ mod condition;
 mod curves;
 mod edge;
 mod fill;
+mod filled;
 mod grid;
 mod join;
 mod map;
@@ -30,6 +31,7 @@ mod rates;
 mod report;
 mod seeds;
 mod step;
+mod tile;
 
 pub use boundary::{BoundaryCurve, BoundaryKind, Piece};
 pub use report::{
@@ -44,7 +46,8 @@ use crate::solve::{Newton, Pool};
 use crate::system::{Driven, Question};
 use asked::Asked;
 use boundary::Boundary;
-use fill::{Fill, Filled};
+use fill::Fill;
+use filled::Filled;
 use grid::Grid;
 use map::Map;
 use measure::Measure;
@@ -143,12 +146,7 @@ pub fn workspace(
     let (filled, aspects, outside) = match settings.side_by_side {
         true => filled::<Lanes>(&fill, &sown, (&probed, settings.seed), told),
         false => filled::<f64>(&fill, &sown, (&probed, settings.seed), told),
-    };
-    if filled.overflow {
-        return Err(WorkspaceError::TooMany {
-            most: settings.most,
-        });
-    }
+    }?;
     let map = Map::new(&asked, &grid, &filled, aspects);
     let boundary = Boundary {
         asked: &asked,
@@ -178,18 +176,13 @@ fn filled<T: Factorable + Packed + Send + Sync>(
     sown: &Sown,
     (probed, seed): (&[usize], u64),
     told: &mut dyn FnMut(usize),
-) -> (Filled, Vec<Option<usize>>, usize) {
+) -> Result<(Filled, Vec<Option<usize>>, usize), WorkspaceError> {
     let steps: Pool<Steps<T>> = Pool::new(Steps::new(fill.asked));
-    let mut filled = fill.nothing();
-    fill.spread(&mut filled, &steps, &sown.seeds, told);
-    if filled.overflow {
-        return (filled, Vec::new(), 0);
-    }
-    let more = seeds::probe(fill, &filled, &steps, probed, seed);
-    fill.spread(&mut filled, &steps, &more.seeds, told);
-    if filled.overflow {
-        return (filled, Vec::new(), 0);
-    }
+    let mut reached = fill.nothing();
+    fill.spread(&mut reached, &steps, &sown.seeds, told)?;
+    let more = seeds::probe(fill, &reached, &steps, probed, seed);
+    fill.spread(&mut reached, &steps, &more.seeds, told)?;
+    let filled = reached.filled(fill.grid);
     let aspects = join::joined(fill, &steps, &filled);
-    (filled, aspects, more.outside)
+    Ok((filled, aspects, more.outside))
 }

@@ -101,6 +101,12 @@ impl<'m> Asked<'m> {
         !self.outputs.is_empty() && !self.holds(&self.outputs)
     }
 
+    /// Whether all joints are within their limits.
+    pub fn allows(&self, at: &Configuration<f64>) -> bool {
+        let mut joints = self.mechanism.joints().iter().zip(&at.joints);
+        joints.all(|(joint, value)| joint.allows(*value))
+    }
+
     /// What stands still in a motion within the map.
     pub fn locks(of: &[Holdable]) -> Vec<Lock> {
         of.iter().copied().map(Lock::Coordinate).collect()

@@ -1,32 +1,32 @@
 //! Aspects: regions of one mode without singularities, within limits; and how large regions are.
 
-use super::fill::{Filled, Link, Sheet, root};
+use super::filled::{Filled, Link, Sheet, join, root};
 use super::grid::Grid;
+use crate::solve::each;
 
 /// For each sheet the first of its aspect; none outside limits and on singularities.
 pub(super) fn aspects(filled: &Filled) -> Vec<Option<usize>> {
-    let mut roots: Vec<usize> = (0..filled.sheets.len()).collect();
+    let mut roots: Vec<usize> = (0..filled.len()).collect();
     let inside = |sheet: &Sheet| {
-        let told = &sheet.arrival.told;
+        let told = &sheet.told;
         sheet.within && told.direct != 0.0 && told.inverse != 0.0
     };
-    for (s, sheet) in filled.sheets.iter().enumerate().filter(|(_, s)| inside(s)) {
+    for (s, sheet) in filled.sheets().filter(|(_, s)| inside(s)) {
         for link in &sheet.links {
-            let Link::To(t) = *link else {
+            let Link::To(name) = *link else {
                 continue;
             };
-            let other = &filled.sheets[t];
-            let [a, b] = [sheet, other].map(|s| &s.arrival.told);
+            let t = filled.number(name);
+            let other = filled.sheet(t);
+            let [a, b] = [sheet, other].map(|s| &s.told);
             let alike = |x: f64, y: f64| (x < 0.0) == (y < 0.0);
             if inside(other) && alike(a.direct, b.direct) && alike(a.inverse, b.inverse) {
-                let (a, b) = (root(&mut roots, s), root(&mut roots, t));
-                roots[a.max(b)] = a.min(b);
+                join(&mut roots, s, t);
             }
         }
     }
-    let sheets = 0..filled.sheets.len();
-    sheets
-        .map(|s| inside(&filled.sheets[s]).then(|| root(&mut roots, s)))
+    let all = filled.sheets();
+    all.map(|(s, sheet)| inside(sheet).then(|| root(&mut roots, s)))
         .collect()
 }
 
@@ -37,8 +37,8 @@ pub(super) fn aspects(filled: &Filled) -> Vec<Option<usize>> {
 /// towards its neighbour in a direction that does not, as a part of the way.
 pub(super) fn size(
     grid: &Grid,
-    inside: &dyn Fn(usize) -> bool,
-    cut: &dyn Fn(usize, usize) -> f64,
+    inside: &(dyn Fn(usize) -> bool + Sync),
+    cut: &(dyn Fn(usize, usize) -> f64 + Sync),
 ) -> f64 {
     let scale: f64 = (0..grid.dimensions())
         .map(|axis| grid.spacing(axis))
@@ -70,57 +70,60 @@ pub(super) fn size(
 fn slice(
     grid: &Grid,
     first: usize,
-    inside: &dyn Fn(usize) -> bool,
-    cut: &dyn Fn(usize, usize) -> f64,
+    inside: &(dyn Fn(usize) -> bool + Sync),
+    cut: &(dyn Fn(usize, usize) -> f64 + Sync),
 ) -> f64 {
     let n = grid.count(0);
-    let cells = (0..grid.count(1) - 1).flat_map(|j| (0..n - 1).map(move |i| first + i + j * n));
-    cells
-        .map(|corner| {
-            // corners and the directions to the next, counterclockwise
-            let corners = [corner, corner + 1, corner + 1 + n, corner + n];
-            let is = corners.map(inside);
-            if is == [false; 4] {
-                return 0.0;
-            }
-            if is == [true; 4] {
-                return 1.0;
-            }
-            let ahead = [1, 3, 0, 2];
-            let to = |k: usize| {
-                let (a, b) = (corners[k], corners[(k + 1) % 4]);
-                match (is[k], is[(k + 1) % 4]) {
-                    (true, false) => Some(cut(a, ahead[k])),
-                    (false, true) => Some(1.0 - cut(b, ahead[k] ^ 1)),
-                    _ => None,
+    let rows = each(grid.count(1) - 1, &(), |(), j| {
+        let cells = (0..n - 1).map(|i| first + i + j * n);
+        cells
+            .map(|corner| {
+                // corners and the directions to the next, counterclockwise
+                let corners = [corner, corner + 1, corner + 1 + n, corner + n];
+                let is = corners.map(inside);
+                if is == [false; 4] {
+                    return 0.0;
                 }
-            };
-            let place = |k: usize, part: f64| match k {
-                0 => [part, 0.0],
-                1 => [1.0, part],
-                2 => [1.0 - part, 1.0],
-                _ => [0.0, 1.0 - part],
-            };
-            if is[0] == is[2] && is[1] == is[3] {
-                // opposite corners, each by itself
-                let corner = |k: usize| {
-                    let before = to((k + 3) % 4).map_or(0.0, |part| 1.0 - part);
-                    0.5 * before * to(k).unwrap_or(0.0)
+                if is == [true; 4] {
+                    return 1.0;
+                }
+                let ahead = [1, 3, 0, 2];
+                let to = |k: usize| {
+                    let (a, b) = (corners[k], corners[(k + 1) % 4]);
+                    match (is[k], is[(k + 1) % 4]) {
+                        (true, false) => Some(cut(a, ahead[k])),
+                        (false, true) => Some(1.0 - cut(b, ahead[k] ^ 1)),
+                        _ => None,
+                    }
                 };
-                return (0..4).filter(|&k| is[k]).map(corner).sum();
-            }
-            let mut polygon: Vec<[f64; 2]> = Vec::new();
-            for (k, is) in is.into_iter().enumerate() {
-                if is {
-                    polygon.push(place(k, 0.0));
+                let place = |k: usize, part: f64| match k {
+                    0 => [part, 0.0],
+                    1 => [1.0, part],
+                    2 => [1.0 - part, 1.0],
+                    _ => [0.0, 1.0 - part],
+                };
+                if is[0] == is[2] && is[1] == is[3] {
+                    // opposite corners, each by itself
+                    let corner = |k: usize| {
+                        let before = to((k + 3) % 4).map_or(0.0, |part| 1.0 - part);
+                        0.5 * before * to(k).unwrap_or(0.0)
+                    };
+                    return (0..4).filter(|&k| is[k]).map(corner).sum();
                 }
-                polygon.extend(to(k).map(|part| place(k, part)));
-            }
-            let next = polygon.iter().cycle().skip(1);
-            let cross = polygon.iter().zip(next);
-            0.5 * cross.map(|(a, b)| a[0] * b[1] - b[0] * a[1]).sum::<f64>()
-        })
-        .sum()
+                let mut polygon: Vec<[f64; 2]> = Vec::new();
+                for (k, is) in is.into_iter().enumerate() {
+                    if is {
+                        polygon.push(place(k, 0.0));
+                    }
+                    polygon.extend(to(k).map(|part| place(k, part)));
+                }
+                let next = polygon.iter().cycle().skip(1);
+                let cross = polygon.iter().zip(next);
+                0.5 * cross.map(|(a, b)| a[0] * b[1] - b[0] * a[1]).sum::<f64>()
+            })
+            .sum::<f64>()
+    });
+    rows.into_iter().sum()
 }
 
 #[cfg(test)]

@@ -6,7 +6,7 @@ use serde::Serialize;
 use super::asked::Asked;
 use super::curves::Tracer;
 use super::edge::{Edge, Met, Until, walk};
-use super::fill::{Filled, Link};
+use super::filled::{Filled, Link};
 use super::grid::Grid;
 use super::measure::Measure;
 use crate::mechanism::Configuration;
@@ -109,18 +109,19 @@ impl Boundary<'_> {
         let limited = joints.iter().any(|joint| joint.limits.is_some());
         let mut wanted: Vec<(usize, usize, Until)> = Vec::new();
         let mut found: Vec<Crossing> = Vec::new();
-        let sheets = self.filled.sheets.iter().enumerate();
+        let sheets = self.filled.sheets();
         for (s, sheet) in sheets.filter(|(_, sheet)| sheet.within) {
             let links = sheet.links[..2 * self.grid.dimensions()].iter();
             for (d, link) in links.enumerate() {
                 match *link {
                     Link::Fold if limited => wanted.push((s, d, Until::Limit)),
                     Link::Fold => wanted.push((s, d, Until::End)),
-                    Link::To(t) if !self.filled.sheets[t].within => {
+                    Link::To(t) if !self.filled.named(t).within => {
                         wanted.push((s, d, Until::Limit));
                     }
                     Link::To(t) if d % 2 == 1 => {
-                        let [a, b] = [s, t].map(|s| &self.filled.sheets[s].arrival.told);
+                        let t = self.filled.number(t);
+                        let [a, b] = [s, t].map(|s| &self.filled.sheet(s).told);
                         let mut parted = |x: f64, y: f64, kind: Kind, until| match (x, y) {
                             (0.0, 0.0) => {}
                             (0.0, _) => found.push(self.at_node((s, d), s, 0.0, kind)),
@@ -139,11 +140,12 @@ impl Boundary<'_> {
         }
         let mut at_nodes = std::collections::HashSet::new();
         for crossing in &mut found {
-            let Link::To(t) = self.filled.sheets[crossing.sheet].links[crossing.direction] else {
+            let links = &self.filled.sheet(crossing.sheet).links;
+            let Link::To(t) = links[crossing.direction] else {
                 continue;
             };
             let node = if crossing.part > 0.0 {
-                t
+                self.filled.number(t)
             } else {
                 crossing.sheet
             };
@@ -151,14 +153,14 @@ impl Boundary<'_> {
         }
         let walked = each(wanted.len(), &(), |(), i| {
             let (s, d, until) = wanted[i];
-            let sheet = &self.filled.sheets[s];
+            let sheet = self.filled.sheet(s);
             let node = self.grid.neighbour(sheet.node, d)?;
             let edge = Edge {
                 axis: d / 2,
                 values: self.grid.values(sheet.node),
                 to: self.grid.values(node)[d / 2],
             };
-            let met = walk(self.asked, self.measure, &edge, &sheet.arrival.at, until);
+            let met = walk(self.asked, self.measure, &edge, &sheet.at, until);
             let kind = |locks: &[Lock]| match locks == &inputs[..] {
                 true => Kind::Direct,
                 false => Kind::Inverse,
@@ -194,7 +196,7 @@ impl Boundary<'_> {
             sheet,
             direction,
             kind,
-            at: self.filled.sheets[singular].arrival.at.clone(),
+            at: self.filled.sheet(singular).at.clone(),
             part,
             again: false,
         }
@@ -222,7 +224,7 @@ impl Boundary<'_> {
         };
         let asked = Asked::new(&question, &self.asked.axes[..2], &self.asked.newton);
         let here = |crossing: &&Crossing| {
-            let node = self.filled.sheets[crossing.sheet].node;
+            let node = self.filled.sheet(crossing.sheet).node;
             crossing.direction < 4 && (third.is_none() || self.grid.place(node, 2) == slice)
         };
         let here: Vec<&Crossing> = crossings.iter().filter(here).collect();

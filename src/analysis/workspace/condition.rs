@@ -3,22 +3,39 @@
 use crate::linear::RANK_TOLERANCE;
 use crate::number::Packed;
 
-/// The determinant of a square matrix of `n` columns in one place; 1 of none.
-pub(super) fn determinant<T: Packed>(columns: &[T], n: usize, place: usize) -> f64 {
-    const MOST: usize = 6;
+/// The determinant of a square matrix of `n` columns, which it destroys, in each place; 1 if it is
+/// not square.
+///
+/// Reflections (Householder 1958) make it triangular; each has the determinant −1.
+pub(super) fn determinant<T: Packed>(columns: &mut [T], n: usize) -> T {
     if columns.len() != n * n || n == 0 {
-        return 1.0;
+        return T::one();
     }
-    let entry = |i: usize, j: usize| columns[j * n + i].part(place);
-    if n > MOST {
-        return nalgebra::DMatrix::from_fn(n, n, entry).determinant();
+    let mut product = T::one();
+    for k in 0..n - 1 {
+        let (done, rest) = columns.split_at_mut((k + 1) * n);
+        let mirror = &mut done[k * n + k..];
+        let (head, norm) = (mirror[0], square(mirror).sqrt());
+        // away from the entry, so that nothing cancels
+        let to = T::of_parts(|p| -norm.part(p).copysign(head.part(p)));
+        mirror[0] = head - to;
+        // half the square of the mirror's length
+        let half = norm * norm - head * to;
+        let factor = T::of_parts(|p| match half.part(p) {
+            0.0 => 0.0,
+            half => 1.0 / half,
+        });
+        for column in rest.chunks_exact_mut(n) {
+            let column = &mut column[k..];
+            let both = mirror.iter().zip(column.iter());
+            let along = both.fold(T::zero(), |sum, (m, x)| sum + *m * *x) * factor;
+            for (x, m) in column.iter_mut().zip(mirror.iter()) {
+                *x -= along * *m;
+            }
+        }
+        product = -(product * to);
     }
-    // with ones beside it on the diagonal it needs no memory of its own
-    nalgebra::SMatrix::<f64, MOST, MOST>::from_fn(|i, j| match (i < n, j < n) {
-        (true, true) => entry(i, j),
-        _ => f64::from(u8::from(i == j)),
-    })
-    .determinant()
+    product * columns[n * n - 1]
 }
 
 /// Whether `input` loses rank, and the condition number of the matrix that takes its `n` columns to
@@ -29,21 +46,22 @@ pub(super) fn determinant<T: Packed>(columns: &[T], n: usize, place: usize) -> f
 /// for one another.
 pub(super) fn condition<T: Packed>(input: &mut [T], moved: &mut [T], n: usize) -> Vec<(bool, f64)> {
     rotate(input, moved, n);
-    let sizes: Vec<T> = columns(input, n).map(|c| square(c).sqrt()).collect();
-    let inputs = extremes(&sizes);
+    let inputs = extremes(columns(input, n));
     let rows = moved.len() / n.max(1);
-    for (column, size) in moved.chunks_exact_mut(rows.max(1)).zip(&sizes) {
-        column.iter_mut().for_each(|x| *x = *x / *size);
+    for (column, of) in moved.chunks_exact_mut(rows.max(1)).zip(columns(input, n)) {
+        let size = square(of).sqrt();
+        column.iter_mut().for_each(|x| *x = *x / size);
     }
     rotate(moved, &mut [], n);
-    let sizes: Vec<T> = columns(moved, n).map(|c| square(c).sqrt()).collect();
-    let quotient = |((least, greatest), of): (&(f64, f64), &(f64, f64))| {
-        let lost = *least <= RANK_TOLERANCE * greatest;
-        let flat = of.1 <= 0.0 || of.0 <= RANK_TOLERANCE * of.1;
-        let none = lost || flat || !of.1.is_finite() || of.0.is_nan();
-        (lost, if none { f64::INFINITY } else { of.1 / of.0 })
+    let outputs = extremes(columns(moved, n));
+    let quotient = |place: usize| {
+        let [of_inputs, of] = [inputs, outputs].map(|of| of.map(|x| x.part(place)));
+        let lost = of_inputs[0] <= RANK_TOLERANCE * of_inputs[1];
+        let flat = of[1] <= 0.0 || of[0] <= RANK_TOLERANCE * of[1];
+        let none = lost || flat || !of[1].is_finite() || of[0].is_nan();
+        (lost, if none { f64::INFINITY } else { of[1] / of[0] })
     };
-    inputs.iter().zip(&extremes(&sizes)).map(quotient).collect()
+    (0..T::WIDTH).map(quotient).collect()
 }
 
 fn columns<T>(all: &[T], n: usize) -> impl Iterator<Item = &[T]> {
@@ -54,26 +72,30 @@ fn square<T: Packed>(column: &[T]) -> T {
     column.iter().fold(T::zero(), |sum, x| sum + *x * *x)
 }
 
-/// The least and the greatest, in each place.
-fn extremes<T: Packed>(sizes: &[T]) -> Vec<(f64, f64)> {
-    let of = |place: usize| {
-        let parts = sizes.iter().map(|size| size.part(place));
-        parts.fold((f64::INFINITY, 0.0), |(least, most): (f64, f64), x| {
-            (
-                if x < least { x } else { least },
-                if x > most { x } else { most },
-            )
-        })
-    };
-    (0..T::WIDTH).map(of).collect()
+/// The least and the greatest length of columns, in each place.
+fn extremes<'c, T: Packed>(columns: impl Iterator<Item = &'c [T]>) -> [T; 2] {
+    let none = [f64::INFINITY, 0.0].map(T::from_f64);
+    columns.fold(none, |[least, most], column| {
+        let size = square(column).sqrt();
+        let chosen = |old: T, better: fn(f64, f64) -> bool| {
+            T::of_parts(|p| {
+                let (new, old) = (size.part(p), old.part(p));
+                if better(new, old) { new } else { old }
+            })
+        };
+        [chosen(least, |x, y| x < y), chosen(most, |x, y| x > y)]
+    })
 }
 
 /// Makes `n` columns orthogonal to one another by rotations, which other columns go along with.
 fn rotate<T: Packed>(columns: &mut [T], with: &mut [T], n: usize) {
+    /// Cosines of this square are rounding, and so is what one more rotation leaves.
+    const ROUNDING: f64 = 1e-24;
     let (rows, others) = (columns.len() / n.max(1), with.len() / n.max(1));
-    // two columns take one rotation; six are orthogonal to rounding after seven rounds
+    // two columns take one rotation; six are orthogonal to rounding after seven rounds at most
     let rounds = if n <= 2 { 1 } else { 3 + n / 2 + 1 };
     for _ in 0..rounds {
+        let mut straight = true;
         for i in 0..n {
             for j in i + 1..n {
                 let (left, right) = columns.split_at_mut(j * rows);
@@ -81,6 +103,10 @@ fn rotate<T: Packed>(columns: &mut [T], with: &mut [T], n: usize) {
                 let (a, b) = (square(x), square(y));
                 let both = x.iter().zip(y.iter());
                 let c = both.fold(T::zero(), |sum, (x, y)| sum + *x * *y);
+                straight &= (0..T::WIDTH).all(|place| {
+                    let (a, b, c) = (a.part(place), b.part(place), c.part(place));
+                    c * c <= ROUNDING * a * b
+                });
                 let turn = |place: usize| {
                     let (a, b, c) = (a.part(place), b.part(place), c.part(place));
                     let z = (b - a) / (2.0 * c);
@@ -101,6 +127,9 @@ fn rotate<T: Packed>(columns: &mut [T], with: &mut [T], n: usize) {
                     pair(&mut left[i * others..][..others], &mut right[..others]);
                 }
             }
+        }
+        if straight {
+            return;
         }
     }
 }
@@ -124,8 +153,8 @@ mod tests {
             let (input, moved) = (lanes(n, 0), lanes(6, 100));
             let found = condition(&mut input.clone(), &mut moved.clone(), n);
             for (k, (lost, found)) in found.into_iter().enumerate() {
-                let input = nalgebra::DMatrix::from_fn(n, n, |i, j| input[j * n + i].0[k]);
-                let moved = nalgebra::DMatrix::from_fn(6, n, |i, j| moved[j * 6 + i].0[k]);
+                let input = nalgebra::DMatrix::from_fn(n, n, |i, j| input[j * n + i].part(k));
+                let moved = nalgebra::DMatrix::from_fn(6, n, |i, j| moved[j * 6 + i].part(k));
                 let values = (moved * input.try_inverse().unwrap()).singular_values();
                 let exact = values[0] / values[n - 1];
                 assert!((found / exact - 1.0).abs() < 1e-9, "{n}: {found} {exact}");
@@ -141,12 +170,22 @@ mod tests {
             let lanes: Vec<Lanes> = (0..n * n)
                 .map(|i| Lanes::of_parts(|k| entry(i * i, k)))
                 .collect();
+            let found = determinant(&mut lanes.clone(), n);
             for k in 0..8 {
-                let exact = nalgebra::DMatrix::from_fn(n, n, |i, j| lanes[j * n + i].0[k]);
+                let exact = nalgebra::DMatrix::from_fn(n, n, |i, j| lanes[j * n + i].part(k));
                 let exact = exact.determinant();
-                assert!((determinant(&lanes, n, k) - exact).abs() < 1e-12 * (1.0 + exact.abs()));
+                assert!((found.part(k) - exact).abs() < 1e-12 * (1.0 + exact.abs()));
             }
         }
+    }
+
+    #[test]
+    fn the_determinant_of_dependent_columns_is_zero_and_that_of_none_one() {
+        assert_eq!(determinant(&mut [0.0, 1.0, 0.0, 2.0], 2), 0.0);
+        // rounding of the product of the columns' lengths, 20
+        assert!(determinant(&mut [1.0, 3.0, 2.0, 6.0], 2).abs() < 20.0 * 4.0 * f64::EPSILON);
+        assert_eq!(determinant(&mut [0.0, 1.0, -1.0, 0.0], 2), 1.0);
+        assert_eq!(determinant::<f64>(&mut [], 0), 1.0);
     }
 
     #[test]

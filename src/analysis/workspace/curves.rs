@@ -29,7 +29,7 @@ impl Tracer<'_> {
         let mut known: Vec<Known<C::Point>> = Vec::new();
         for crossing in crossings {
             let mut at = crossing.at.clone();
-            Walk::within_limits(self.asked.mechanism, &mut at);
+            Walk::within_limits(self.asked.mechanism, &mut at.joints);
             // where it stands on no regular curve the point remains by itself
             let Some(place) = place(curve, &at) else {
                 continue;

@@ -65,12 +65,12 @@ fn begun(
     let mut curve = Curve::along(asked.mechanism, &held, vec![moved]);
     let mut start = asked.put(from, &edge.values);
     if within {
-        Walk::within_limits(asked.mechanism, &mut start);
+        Walk::within_limits(asked.mechanism, &mut start.joints);
     }
     let Ok(place) = method.settle(&mut curve, start) else {
         return Err(Met::Nothing);
     };
-    if place.is_beside_a_crossing() || measure.apart(&place.at, from) > 1e-6 {
+    if place.is_beside_a_crossing() || !measure.same(&place.at, from) {
         return Err(Met::Nothing);
     }
     let rate = curve.part_rate(&place.at, &place.tangent);

@@ -1,50 +1,27 @@
 //! Spreading over the grid from seeds: every node in every mode that regular steps lead to.
 
+use std::collections::HashSet;
+
+use super::WorkspaceError;
 use super::asked::Asked;
 use super::edge::{Edge, Met, reach};
-use super::grid::{Grid, MOST_AXES, MOST_DIRECTIONS};
+use super::filled::{Filled, Link, Name, Sheet};
+use super::grid::{Grid, MOST_AXES};
 use super::measure::Measure;
 use super::pace::Paced;
-use super::step::{Arrival, SURE, Start, Steps};
+use super::step::{Arrival, Moving, SURE, Start, Steps};
+use super::tile::{Task, Tile, Tiling};
 use crate::linear::{Factorable, norm};
 use crate::mechanism::Configuration;
 use crate::number::Packed;
 use crate::solve::{Pool, each};
-use crate::system::Walk;
 
-/// An assembled configuration at a node.
-#[derive(Clone, Debug)]
-pub(super) struct Sheet {
-    pub node: usize,
-    pub arrival: Arrival,
-    /// Whether all joints are within their limits.
-    pub within: bool,
-    /// For each direction of the grid.
-    pub links: [Link; MOST_DIRECTIONS],
-}
-
-/// How a node goes on in a direction.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) enum Link {
-    /// Not looked at, or out of the box.
-    Open,
-    /// To this sheet there, by regular motion.
-    To(usize),
-    /// The mode folds back before the neighbour.
-    Fold,
-    /// No sure step leads on.
-    Stuck,
-}
-
-/// All that was reached, in the order in which it was.
-pub(super) struct Filled {
-    pub sheets: Vec<Sheet>,
-    /// For each node its sheets.
-    pub of_node: Vec<Vec<usize>>,
-    /// For each sheet the first of those connected with it.
-    pub roots: Vec<usize>,
-    /// Whether there were more sheets than may be kept.
-    pub overflow: bool,
+/// What was reached so far.
+pub(super) struct Spread {
+    tiling: Tiling,
+    tiles: Vec<Tile>,
+    /// Sheets of different parts that are linked.
+    seams: Vec<[Name; 2]>,
 }
 
 #[derive(Clone, Copy)]
@@ -56,71 +33,160 @@ pub(super) struct Fill<'a> {
     pub most: usize,
 }
 
-/// A step to be taken: from a sheet in a direction.
-pub(super) type Task = (usize, usize);
+/// Starts given to one thread at once.
+const JOB: usize = 16;
+/// Parts of the grid that are spread over before more is told.
+const PARTS: usize = 64;
 
-/// Steps given to one thread at once.
-const JOB: usize = 64;
+impl Spread {
+    pub fn sheet(&self, name: Name) -> &Sheet {
+        &self.tiles[name.tile as usize].sheets[name.sheet as usize]
+    }
 
-impl Fill<'_> {
-    /// Nothing reached yet.
-    pub fn nothing(&self) -> Filled {
-        Filled {
-            sheets: Vec::new(),
-            of_node: vec![Vec::new(); self.grid.len()],
-            roots: Vec::new(),
-            overflow: false,
+    fn link_mut(&mut self, name: Name, direction: usize) -> &mut Link {
+        &mut self.tiles[name.tile as usize].sheets[name.sheet as usize].links[direction]
+    }
+
+    fn link(&mut self, from: Name, direction: usize, to: Name) {
+        if from.tile == to.tile {
+            let tile = &mut self.tiles[from.tile as usize];
+            return tile.link(from.sheet as usize, direction, to.sheet as usize);
+        }
+        self.seams.push([from, to]);
+        *self.link_mut(from, direction) = Link::To(to);
+        let back = self.link_mut(to, direction ^ 1);
+        if *back == Link::Open {
+            *back = Link::To(from);
         }
     }
 
-    /// Spreads from assembled configurations at nodes. The order of work does not depend on the
-    /// number of threads: fronts are merged in the order of their steps.
+    /// The sheet of a node with this configuration.
+    pub fn known(&self, fill: &Fill, node: usize, at: &Configuration<f64>) -> Option<Name> {
+        fill.known(self.at(fill.grid, node), at)
+    }
+
+    fn at(&self, grid: &Grid, node: usize) -> impl Iterator<Item = (Name, &Sheet)> {
+        self.tiles[self.tiling.of(grid, node)].at(grid, node)
+    }
+
+    fn len(&self) -> usize {
+        self.tiles.iter().map(|tile| tile.sheets.len()).sum()
+    }
+
+    /// The way from a sheet to its neighbour.
+    pub fn step(&self, fill: &Fill, (from, direction): Task) -> Step<'_> {
+        self.tiles[from.tile as usize].step(fill, from.sheet as usize, direction)
+    }
+
+    /// All of it.
+    pub fn filled(self, grid: &Grid) -> Filled {
+        let tiles = self.tiles.into_iter().map(Tile::finished);
+        Filled::new(tiles.collect(), &self.seams, grid.len())
+    }
+}
+
+/// An edge of the grid that is to be gone along.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Step<'a> {
+    pub from: Moving<'a>,
+    pub axis: usize,
+    /// The mapped coordinates at its end, and zeros.
+    pub to: [f64; MOST_AXES],
+    /// By how much the mapped coordinate of its axis changes.
+    pub change: f64,
+}
+
+impl Fill<'_> {
+    /// Nothing reached yet.
+    pub fn nothing(&self) -> Spread {
+        let tiling = Tiling::new(self.grid);
+        Spread {
+            tiles: tiling.tiles(self.grid),
+            seams: Vec::new(),
+            tiling,
+        }
+    }
+
+    /// Spreads from assembled configurations at nodes: in all parts of the grid at once as far as
+    /// single steps lead, then over their seams; last, where single steps are too long. The order of
+    /// work does not depend on the number of threads: parts are what they are, and what comes of
+    /// several at once is taken in their order.
+    ///
+    /// # Errors
+    /// If more is reached than may be kept.
     pub fn spread<T: Factorable + Packed + Send + Sync>(
         &self,
-        filled: &mut Filled,
+        spread: &mut Spread,
         steps: &Pool<Steps<T>>,
         seeds: &[(usize, Configuration<f64>)],
         told: &mut dyn FnMut(usize),
-    ) {
+    ) -> Result<(), WorkspaceError> {
         let starts: Vec<Start> = (seeds.iter())
             .map(|(node, at)| self.here(*node, at))
             .collect();
         let settled = self.settled(steps, &starts);
-        let mut front = Vec::new();
         for ((node, _), arrival) in seeds.iter().zip(settled) {
             if let Some(arrival) = arrival
-                && self.known(filled, *node, &arrival.at).is_none()
+                && spread.known(self, *node, &arrival.at).is_none()
             {
-                front.push(self.add(filled, *node, arrival));
+                self.add(spread, *node, arrival);
             }
         }
-        while !front.is_empty() {
-            let directions = 0..2 * self.grid.dimensions();
-            let tasks = front
-                .iter()
-                .flat_map(|&s| directions.clone().map(move |d| (s, d)));
-            let mut waiting: Vec<Task> = tasks
-                .filter(|&(s, d)| self.grid.neighbour(filled.sheets[s].node, d).is_some())
-                .collect();
-            front = Vec::new();
-            while !waiting.is_empty() {
-                waiting = self.linked(filled, &waiting);
-                let (now, later) = self.chosen(filled, waiting);
-                let ends = self.ends(steps, filled, &now);
-                for ((s, d), end) in now.into_iter().zip(ends) {
-                    self.merge(filled, (s, d), end, &mut front);
+        loop {
+            self.grow(spread, steps, told)?;
+            let mut seams = taken(spread, |tile| &mut tile.seams);
+            let mut failed = Vec::new();
+            while !seams.is_empty() {
+                let (now, later) = self.chosen(spread, seams);
+                for (task, arrival) in now.iter().zip(self.steps(spread, steps, &now)) {
+                    match arrival {
+                        Some(arrival) => self.arrive(spread, *task, arrival),
+                        None => failed.push(*task),
+                    }
                 }
-                waiting = later;
-                told(filled.sheets.len());
-                if filled.sheets.len() > self.most {
-                    filled.overflow = true;
-                    return;
+                seams = later;
+            }
+            keep(spread, failed);
+            if spread.tiles.iter().any(Tile::grows) {
+                continue;
+            }
+            let unsure = taken(spread, |tile| &mut tile.unsure);
+            let (now, later) = self.chosen(spread, unsure);
+            if now.is_empty() {
+                return Ok(());
+            }
+            keep(spread, later);
+            for (task, end) in now.iter().zip(self.ends(spread, steps, &now)) {
+                match end {
+                    End::Arrived(arrival) => self.arrive(spread, *task, arrival),
+                    End::Fold => *spread.link_mut(task.0, task.1) = Link::Fold,
+                    End::Stuck => *spread.link_mut(task.0, task.1) = Link::Stuck,
                 }
             }
         }
-        for s in 0..filled.roots.len() {
-            filled.roots[s] = root(&mut filled.roots, s);
+    }
+
+    /// Spreads in each part by itself.
+    fn grow<T: Factorable + Packed + Send + Sync>(
+        &self,
+        spread: &mut Spread,
+        steps: &Pool<Steps<T>>,
+        told: &mut dyn FnMut(usize),
+    ) -> Result<(), WorkspaceError> {
+        for first in (0..spread.tiles.len()).step_by(PARTS) {
+            let here = spread.tiles[first..].iter_mut().take(PARTS);
+            let growing: Vec<&mut Tile> = here.filter(|tile| tile.grows()).collect();
+            if growing.is_empty() {
+                continue;
+            }
+            steps.each_of(growing, |steps, tile| tile.grow(self, steps));
+            let reached = spread.len();
+            told(reached);
+            if reached > self.most {
+                return Err(WorkspaceError::TooMany { most: self.most });
+            }
         }
+        Ok(())
     }
 
     /// A start beside an assembled configuration at a node.
@@ -148,211 +214,190 @@ impl Fill<'_> {
         ends.into_iter().flatten().collect()
     }
 
-    fn add(&self, filled: &mut Filled, node: usize, arrival: Arrival) -> usize {
-        let mut brought = arrival.at.clone();
-        Walk::within_limits(self.asked.mechanism, &mut brought);
-        let joints = self.asked.mechanism.joints().iter().zip(&brought.joints);
-        let new = filled.sheets.len();
-        filled.sheets.push(Sheet {
-            node,
-            arrival,
-            within: joints
-                .into_iter()
-                .all(|(joint, value)| joint.allows(*value)),
-            links: [Link::Open; MOST_DIRECTIONS],
-        });
-        filled.of_node[node].push(new);
-        filled.roots.push(new);
-        new
+    fn add(&self, spread: &mut Spread, node: usize, arrival: Arrival) -> Name {
+        let tile = spread.tiling.of(self.grid, node);
+        spread.tiles[tile].add(self, node, arrival)
     }
 
-    /// The sheet of a node with this configuration.
-    pub fn known(&self, filled: &Filled, node: usize, at: &Configuration<f64>) -> Option<usize> {
-        let mut sheets = filled.of_node[node].iter().copied();
-        sheets.find(|s| self.measure.same(&filled.sheets[*s].arrival.at, at))
+    /// Which of the sheets of a node has this configuration.
+    pub(super) fn known<'s>(
+        &self,
+        mut sheets: impl Iterator<Item = (Name, &'s Sheet)>,
+        at: &Configuration<f64>,
+    ) -> Option<Name> {
+        let known = sheets.find(|(_, sheet)| self.measure.same(&sheet.at, at));
+        known.map(|(name, _)| name)
     }
 
-    pub(super) fn change(&self, node: usize, direction: usize) -> (usize, f64) {
+    /// The way from a configuration at a node to its neighbour in a direction, if there is one;
+    /// otherwise one that leads nowhere.
+    pub(super) fn step<'f>(&self, node: usize, from: Moving<'f>, direction: usize) -> Step<'f> {
         let axis = direction / 2;
-        let place = self.grid.place(node, axis);
-        let next = if direction.is_multiple_of(2) {
-            place - 1
-        } else {
-            place + 1
-        };
-        let coordinate = |place| self.grid.coordinate(axis, place);
-        (axis, coordinate(next) - coordinate(place))
+        let next = self.grid.neighbour(node, direction).unwrap_or(node);
+        let to = self.grid.point(next);
+        let here = self.grid.coordinate(axis, self.grid.place(node, axis));
+        Step {
+            from,
+            axis,
+            to,
+            change: to[axis] - here,
+        }
     }
 
-    /// Links sheets to known ones that lie where both their motions say; what is left.
-    fn linked(&self, filled: &mut Filled, tasks: &[Task]) -> Vec<Task> {
-        let jobs: Vec<&[Task]> = tasks.chunks(8 * JOB).collect();
-        let found = each(jobs.len(), &Vec::new(), |storage, i| {
-            let near = jobs[i].iter().map(|&task| self.near(filled, task, storage));
-            near.collect::<Vec<Option<usize>>>()
+    /// Of the sheets at the neighbour the one that lies where both motions say.
+    pub(super) fn near<'s>(
+        &self,
+        step: &Step,
+        there: impl Iterator<Item = (Name, Moving<'s>)>,
+        storage: &mut Vec<f64>,
+    ) -> Option<Name> {
+        let mut near = there.filter(|(_, to)| {
+            let both = [step.from, *to];
+            self.measure.linked(both, step.axis, step.change, storage)
         });
-        let mut left = Vec::new();
-        for (&(s, d), found) in tasks.iter().zip(found.into_iter().flatten()) {
-            match found {
-                _ if filled.sheets[s].links[d] != Link::Open => {}
-                Some(t) => link(filled, s, d, t),
-                None => left.push((s, d)),
-            }
-        }
-        left
-    }
-
-    fn near(&self, filled: &Filled, (s, d): Task, storage: &mut Vec<f64>) -> Option<usize> {
-        let sheet = &filled.sheets[s];
-        let node = self.grid.neighbour(sheet.node, d)?;
-        let known = &filled.of_node[node];
-        if known.is_empty() || sheet.links[d] != Link::Open {
-            return None;
-        }
-        let (axis, change) = self.change(sheet.node, d);
-        let mut near = known.iter().copied().filter(|&t| {
-            let both = [&sheet.arrival, &filled.sheets[t].arrival];
-            self.measure.linked(both, axis, change, storage)
-        });
-        let first = near.next()?;
+        let (first, _) = near.next()?;
         // two as near are for surer steps to tell apart
         near.next().is_none().then_some(first)
     }
 
-    /// One step to each node from each mode known so far; the others wait for what it finds.
-    fn chosen(&self, filled: &mut Filled, waiting: Vec<Task>) -> (Vec<Task>, Vec<Task>) {
-        let mut taken = std::collections::HashSet::new();
-        waiting.into_iter().partition(|&(s, d)| {
-            let node = self.grid.neighbour(filled.sheets[s].node, d);
-            taken.insert((node, root(&mut filled.roots, s)))
+    /// Of steps over seams, or that were not sure, first those that lead to known sheets are linked;
+    /// then one step is chosen to each node from each mode known so far. The others wait for what it
+    /// finds.
+    fn chosen(&self, spread: &mut Spread, tasks: Vec<Task>) -> (Vec<Task>, Vec<Task>) {
+        let jobs: Vec<&[Task]> = tasks.chunks(8 * JOB).collect();
+        let found = each(jobs.len(), &Vec::new(), |storage, i| {
+            let near = jobs[i].iter().map(|&(from, d)| {
+                let node = self.grid.neighbour(spread.sheet(from).node, d)?;
+                let tile = &spread.tiles[spread.tiling.of(self.grid, node)];
+                let there = tile.moving_at(self.grid, node);
+                self.near(&spread.step(self, (from, d)), there, storage)
+            });
+            near.collect::<Vec<Option<Name>>>()
+        });
+        let mut left = Vec::new();
+        for (&(from, d), found) in tasks.iter().zip(found.into_iter().flatten()) {
+            match found {
+                _ if spread.sheet(from).links[d] != Link::Open => {}
+                Some(to) => spread.link(from, d, to),
+                None => left.push((from, d)),
+            }
+        }
+        let mut taken = HashSet::new();
+        left.into_iter().partition(|&(from, d)| {
+            let node = self.grid.neighbour(spread.sheet(from).node, d);
+            let root = spread.tiles[from.tile as usize].root(from.sheet as usize);
+            taken.insert((node, root))
         })
     }
 
+    /// Single steps, where they are sure.
+    fn steps<T: Factorable + Packed + Send + Sync>(
+        &self,
+        spread: &Spread,
+        steps: &Pool<Steps<T>>,
+        tasks: &[Task],
+    ) -> Vec<Option<Arrival>> {
+        let jobs: Vec<&[Task]> = tasks.chunks(JOB).collect();
+        let ends = steps.each(jobs.len(), |steps, i| {
+            let packs = jobs[i].chunks(T::WIDTH);
+            let ends = packs.flat_map(|pack| {
+                let planned = pack.iter().map(|task| spread.step(self, *task));
+                self.sure(steps, &planned.collect::<Vec<Step>>())
+            });
+            ends.collect::<Vec<_>>()
+        });
+        ends.into_iter().flatten().collect()
+    }
+
+    /// The same for one pack.
+    pub(super) fn sure<T: Factorable + Packed>(
+        &self,
+        steps: &mut Steps<T>,
+        planned: &[Step],
+    ) -> Vec<Option<Arrival>> {
+        let starts: Vec<Start> = (planned.iter())
+            .map(|step| self.towards(step.from, step.axis, step.change, step.to))
+            .collect();
+        let arrivals = steps.settle(&starts).into_iter().zip(planned);
+        let sure = arrivals.map(|(arrival, step)| {
+            let (_, length) = self.measure.motion(step.from, step.axis, step.change);
+            arrival.filter(|to| self.measure.alike(step.from, to.moving(), length))
+        });
+        sure.collect()
+    }
+
+    /// Where single steps are too long: by shorter ones, and what is left by steps along the curve,
+    /// each of which takes as long as hundreds of those.
     fn ends<T: Factorable + Packed + Send + Sync>(
         &self,
+        spread: &Spread,
         steps: &Pool<Steps<T>>,
-        filled: &Filled,
         tasks: &[Task],
     ) -> Vec<End> {
-        let jobs: Vec<&[Task]> = tasks.chunks(JOB).collect();
-        let arrivals = steps.each(jobs.len(), |steps, i| {
-            let starts: Vec<Start> = jobs[i]
-                .iter()
-                .map(|task| self.start(filled, *task))
-                .collect();
-            let packs = starts.chunks(T::WIDTH);
-            let arrivals = packs.flat_map(|pack| steps.settle(pack));
-            let sure = arrivals.zip(jobs[i]).map(|(arrival, &(s, d))| {
-                let from = &filled.sheets[s];
-                let (axis, change) = self.change(from.node, d);
-                let (_, length) = self.measure.motion(&from.arrival, axis, change);
-                arrival.filter(|to| self.measure.alike(&from.arrival, to, length))
-            });
-            sure.collect::<Vec<Option<Arrival>>>()
-        });
-        let arrivals: Vec<Option<Arrival>> = arrivals.into_iter().flatten().collect();
-        let tasks_of = |ends: &[End]| -> Vec<Task> {
-            let open = tasks.iter().zip(ends);
-            let open = open.filter(|(_, end)| matches!(end, End::Stuck));
-            open.map(|(task, _)| *task).collect()
-        };
-        let mut ends: Vec<End> = (arrivals.into_iter())
-            .map(|arrival| arrival.map_or(End::Stuck, End::Arrived))
-            .collect();
-        // the others by shorter steps
-        let unsure = tasks_of(&ends);
-        let paced = self.paced(steps, filled, &unsure).into_iter();
-        fill_in(
-            &mut ends,
-            paced.map(|paced| match paced {
+        let paced = self.paced(steps, spread, tasks).into_iter();
+        let mut ends: Vec<End> = paced
+            .map(|paced| match paced {
                 Paced::Arrived(arrival) => End::Arrived(arrival),
                 Paced::Fold => End::Fold,
                 Paced::Open => End::Stuck,
-            }),
-        );
-        // and what is left by steps along the curve, each of which takes as long as hundreds of these
-        let unsure = tasks_of(&ends);
+            })
+            .collect();
+        let open = tasks.iter().zip(&ends);
+        let open = open.filter(|(_, end)| matches!(end, End::Stuck));
+        let unsure: Vec<Task> = open.map(|(task, _)| *task).collect();
         let met = each(unsure.len(), &(), |(), i| {
-            let (s, d) = unsure[i];
+            let step = spread.step(self, unsure[i]);
             let edge = Edge {
-                axis: d / 2,
-                values: self.grid.values(filled.sheets[s].node),
-                to: self.start_values(filled, (s, d))[d / 2],
+                axis: step.axis,
+                values: self.grid.values(spread.sheet(unsure[i].0).node),
+                to: step.to[step.axis],
             };
-            let from = &filled.sheets[s].arrival.at;
-            reach(self.asked, self.measure, &edge, from)
+            reach(self.asked, self.measure, &edge, step.from.at)
         });
         let again: Vec<Start> = (unsure.iter().zip(&met))
-            .filter_map(|(task, met)| match met {
+            .filter_map(|(&(from, d), met)| match met {
                 Met::Neighbour(at) => {
-                    let node = filled.sheets[task.0].node;
-                    let to = self.grid.neighbour(node, task.1).unwrap_or(node);
-                    Some(self.here(to, at))
+                    let node = spread.sheet(from).node;
+                    Some(self.here(self.grid.neighbour(node, d).unwrap_or(node), at))
                 }
                 _ => None,
             })
             .collect();
         let mut again = self.settled(steps, &again).into_iter();
-        fill_in(
-            &mut ends,
-            met.iter().map(|met| match met {
-                Met::Neighbour(_) => again.next().flatten().map_or(End::Stuck, End::Arrived),
-                Met::Fold(..) => End::Fold,
-                _ => End::Stuck,
-            }),
-        );
+        let found = met.iter().map(|met| match met {
+            Met::Neighbour(_) => again.next().flatten().map_or(End::Stuck, End::Arrived),
+            Met::Fold(..) => End::Fold,
+            _ => End::Stuck,
+        });
+        let stuck = ends.iter_mut().filter(|end| matches!(end, End::Stuck));
+        stuck.zip(found).for_each(|(end, found)| *end = found);
         ends
-    }
-
-    pub(super) fn start_values(&self, filled: &Filled, (s, d): Task) -> [f64; MOST_AXES] {
-        let node = filled.sheets[s].node;
-        self.grid
-            .point(self.grid.neighbour(node, d).unwrap_or(node))
-    }
-
-    fn start<'f>(&self, filled: &'f Filled, (s, d): Task) -> Start<'f> {
-        let sheet = &filled.sheets[s];
-        let (axis, change) = self.change(sheet.node, d);
-        let values = self.start_values(filled, (s, d));
-        self.towards(&sheet.arrival, axis, change, values)
     }
 
     /// A start for a change of one mapped coordinate, which leads to these values.
     pub(super) fn towards<'f>(
         &self,
-        from: &'f Arrival,
+        from: Moving<'f>,
         axis: usize,
         change: f64,
         values: [f64; MOST_AXES],
     ) -> Start<'f> {
         let (motion, factor) = self.measure.motion(from, axis, change);
         Start {
-            from: &from.at,
+            from: from.at,
             along: Some((motion, factor)),
             reach: SURE * factor.abs() * norm(motion),
             values,
         }
     }
 
-    fn merge(&self, filled: &mut Filled, (s, d): Task, end: End, front: &mut Vec<usize>) {
-        match end {
-            End::Arrived(arrival) => {
-                let Some(node) = self.grid.neighbour(filled.sheets[s].node, d) else {
-                    return;
-                };
-                let t = match self.known(filled, node, &arrival.at) {
-                    Some(known) => known,
-                    None => {
-                        let new = self.add(filled, node, arrival);
-                        front.push(new);
-                        new
-                    }
-                };
-                link(filled, s, d, t);
-            }
-            End::Fold => filled.sheets[s].links[d] = Link::Fold,
-            End::Stuck => filled.sheets[s].links[d] = Link::Stuck,
-        }
+    fn arrive(&self, spread: &mut Spread, (from, d): Task, arrival: Arrival) {
+        let Some(node) = self.grid.neighbour(spread.sheet(from).node, d) else {
+            return;
+        };
+        let known = spread.known(self, node, &arrival.at);
+        let to = known.unwrap_or_else(|| self.add(spread, node, arrival));
+        spread.link(from, d, to);
     }
 }
 
@@ -362,26 +407,15 @@ enum End {
     Stuck,
 }
 
-/// Puts what was found into the places that are stuck, in order.
-fn fill_in(ends: &mut [End], found: impl Iterator<Item = End>) {
-    let stuck = ends.iter_mut().filter(|end| matches!(end, End::Stuck));
-    stuck.zip(found).for_each(|(end, found)| *end = found);
+/// Steps of all parts, in their order, which are no longer kept there.
+fn taken(spread: &mut Spread, of: impl Fn(&mut Tile) -> &mut Vec<Task>) -> Vec<Task> {
+    let tiles = spread.tiles.iter_mut();
+    tiles.flat_map(|tile| std::mem::take(of(tile))).collect()
 }
 
-fn link(filled: &mut Filled, s: usize, d: usize, t: usize) {
-    filled.sheets[s].links[d] = Link::To(t);
-    if filled.sheets[t].links[d ^ 1] == Link::Open {
-        filled.sheets[t].links[d ^ 1] = Link::To(s);
+/// Puts steps that are not sure by for later.
+fn keep(spread: &mut Spread, tasks: Vec<Task>) {
+    for task in tasks {
+        spread.tiles[task.0.tile as usize].unsure.push(task);
     }
-    let (a, b) = (root(&mut filled.roots, s), root(&mut filled.roots, t));
-    filled.roots[a.max(b)] = a.min(b);
-}
-
-/// The first of all that are connected with one.
-pub(super) fn root(roots: &mut [usize], mut of: usize) -> usize {
-    while roots[of] != of {
-        roots[of] = roots[roots[of]];
-        of = roots[of];
-    }
-    of
 }

@@ -1,12 +1,13 @@
 //! Aspects of few nodes: whether they hang together with others where the grid is too coarse to tell.
 
 use super::aspects::aspects;
-use super::fill::{Fill, Filled, root};
+use super::fill::Fill;
+use super::filled::{Filled, join, root};
 use super::grid::Grid;
 use super::step::Steps;
 use crate::linear::Factorable;
 use crate::number::Packed;
-use crate::solve::Pool;
+use crate::solve::{Pool, each};
 use crate::system::Driven;
 
 /// Aspects of fewer nodes are looked at again.
@@ -37,13 +38,11 @@ pub(super) fn joined<T: Factorable + Packed + Send + Sync>(
         }
     }
     let few = sheets.values().filter(|sheets| sheets.len() < FEW);
-    for small in few.take(MOST) {
-        for other in reached(fill, steps, filled, small) {
-            let Some(aspect) = found[other] else {
-                continue;
-            };
-            let (a, b) = (root(&mut roots, small[0]), root(&mut roots, aspect));
-            roots[a.max(b)] = a.min(b);
+    let few: Vec<&Vec<usize>> = few.take(MOST).collect();
+    let others = each(few.len(), &(), |(), i| reached(fill, steps, filled, few[i]));
+    for (small, others) in few.iter().zip(others) {
+        for aspect in others.into_iter().filter_map(|other| found[other]) {
+            join(&mut roots, small[0], aspect);
         }
     }
     let all = found.into_iter();
@@ -66,7 +65,7 @@ fn reached<T: Factorable + Packed + Send + Sync>(
         .map(|axis| {
             let places = aspect
                 .iter()
-                .map(|s| grid.place(filled.sheets[*s].node, axis));
+                .map(|s| grid.place(filled.sheet(*s).node, axis));
             let (low, high) = places.fold((usize::MAX, 0), |(a, b), p| (a.min(p), b.max(p)));
             (
                 low.saturating_sub(margin),
@@ -100,17 +99,17 @@ fn reached<T: Factorable + Packed + Send + Sync>(
         there
     };
     let seeds: Vec<_> = (aspect.iter())
-        .map(|s| &filled.sheets[*s])
-        .map(|sheet| (same(sheet.node), sheet.arrival.at.clone()))
+        .map(|s| filled.sheet(*s))
+        .map(|sheet| (same(sheet.node), sheet.at.clone()))
         .collect();
     let mut found = finer.nothing();
-    finer.spread(&mut found, steps, &seeds, &mut |_| {});
-    if found.overflow {
+    if (finer.spread(&mut found, steps, &seeds, &mut |_| {})).is_err() {
         return Vec::new();
     }
+    let found = found.filled(&fine);
     let parts_of = aspects(&found);
     let own: Vec<usize> = (seeds.iter())
-        .filter_map(|(node, at)| parts_of[finer.known(&found, *node, at)?])
+        .filter_map(|(node, at)| parts_of[found.known(fill.measure, *node, at)?])
         .collect();
     let within = |node: usize| {
         let mut axes = sides.iter().enumerate();
@@ -118,10 +117,10 @@ fn reached<T: Factorable + Packed + Send + Sync>(
     };
     let mut matching = Vec::new();
     for node in (0..grid.len()).filter(|node| within(*node)) {
-        let there = found.of_node[same(node)].iter();
-        let inside = there.filter(|t| parts_of[**t].is_some_and(|aspect| own.contains(&aspect)));
-        let at = inside.map(|t| &found.sheets[*t].arrival.at);
-        matching.extend(at.filter_map(|at| fill.known(filled, node, at)));
+        let there = found.at(same(node));
+        let inside = there.filter(|t| parts_of[*t].is_some_and(|aspect| own.contains(&aspect)));
+        let at = inside.map(|t| &found.sheet(t).at);
+        matching.extend(at.filter_map(|at| filled.known(fill.measure, node, at)));
     }
     matching
 }

@@ -5,8 +5,8 @@ use std::collections::{BTreeMap, HashMap};
 use super::asked::Asked;
 use super::aspects;
 use super::boundary::{Crossing, named};
-use super::fill::{Filled, Link};
-use super::grid::Grid;
+use super::filled::{Filled, Link};
+use super::grid::{Grid, MOST_DIRECTIONS};
 use super::join;
 use super::report::{
     AspectReport, AxisReport, BoundaryPoint, Cell, Conditioned, CoordinateReport, HeldReport,
@@ -35,12 +35,12 @@ impl<'a> Map<'a> {
         filled: &'a Filled,
         aspect: Vec<Option<usize>>,
     ) -> Self {
-        let mut within = vec![false; filled.sheets.len()];
+        let mut within = vec![false; filled.len()];
         // of each mode the sheet at its first node, with the least joints
-        let mut first: Vec<Option<usize>> = vec![None; filled.sheets.len()];
+        let mut first: Vec<Option<usize>> = vec![None; filled.len()];
         let order = |a: usize, b: usize| {
-            let node = |s: usize| filled.sheets[s].node;
-            let joints = |s: usize| brought(asked, &filled.sheets[s].arrival.at, true).joints;
+            let node = |s: usize| filled.node(s);
+            let joints = |s: usize| brought(asked, &filled.sheet(s).at, true);
             let joint_order = || {
                 let (a, b) = (joints(a), joints(b));
                 let pairs = a.iter().zip(&b);
@@ -52,9 +52,9 @@ impl<'a> Map<'a> {
             };
             node(a).cmp(&node(b)).then_with(joint_order)
         };
-        for (s, sheet) in filled.sheets.iter().enumerate() {
+        for s in 0..filled.len() {
             let root = filled.roots[s];
-            within[root] |= sheet.within;
+            within[root] |= filled.within(s);
             match first[root] {
                 Some(known) if order(known, s).is_le() => {}
                 _ => first[root] = Some(s),
@@ -67,7 +67,7 @@ impl<'a> Map<'a> {
         roots.sort_by(|a, b| order(a.1, b.1).then(a.0.cmp(&b.0)));
         let number = |s: usize| roots.iter().position(|(root, _)| *root == filled.roots[s]);
         Map {
-            mode: (0..filled.sheets.len()).map(number).collect(),
+            mode: (0..filled.len()).map(number).collect(),
             modes: roots.len(),
             aspect,
             asked,
@@ -85,24 +85,29 @@ impl<'a> Map<'a> {
         let name = |of: &Holdable| of.name(mechanism);
         let axes = self.asked.axes.iter().enumerate();
         let held = self.held();
-        let mut cut = vec![vec![0.5; 2 * self.grid.dimensions()]; self.filled.sheets.len()];
+        let mut cut = vec![[0.5; MOST_DIRECTIONS]; self.filled.len()];
         for crossing in crossings {
             cut[crossing.sheet][crossing.direction] = crossing.part;
-            let link = self.filled.sheets[crossing.sheet].links[crossing.direction];
+            let link = self.filled.sheet(crossing.sheet).links[crossing.direction];
             if let Link::To(other) = link {
-                cut[other][crossing.direction ^ 1] = 1.0 - crossing.part;
+                cut[self.filled.number(other)][crossing.direction ^ 1] = 1.0 - crossing.part;
             }
         }
-        let sheets = || self.filled.sheets.iter().enumerate();
-        let of_mode = |mode: usize| {
-            move |&s: &usize| self.mode[s] == Some(mode) && self.filled.sheets[s].within
-        };
-        let whole = |sheet: &usize| self.filled.sheets[*sheet].within;
+        let mut of_modes: Vec<Vec<usize>> = vec![Vec::new(); self.modes];
+        for (s, mode) in self.mode.iter().enumerate() {
+            if let Some(mode) = mode {
+                of_modes[*mode].push(s);
+            }
+        }
+        let node = |s: &usize| self.filled.node(*s);
+        let whole = |s: &usize| self.filled.within(*s);
+        let of_mode = |mode: usize| move |s: &usize| self.mode[*s] == Some(mode) && whole(s);
         let reached = (0..self.grid.len()).filter(|n| self.first(*n, &whole).is_some());
         let mut unsure = 0;
-        for (s, sheet) in sheets() {
-            let stuck = sheet.links.iter().filter(|link| **link == Link::Stuck);
-            unsure += if whole(&s) { stuck.count() } else { 0 };
+        for (_, sheet) in self.filled.sheets().filter(|(s, _)| whole(s)) {
+            unsure += (sheet.links.iter())
+                .filter(|link| **link == Link::Stuck)
+                .count();
         }
         let (aspects, numbers) = self.aspects(&cut);
         WorkspaceReport {
@@ -138,18 +143,15 @@ impl<'a> Map<'a> {
             size: (self.asked.axes.iter().map(|a| a.to - a.from)).product(),
             reached_size: self.size(&whole, &cut),
             modes: each(self.modes, &(), |(), mode| {
-                let of = sheets().filter(|(s, _)| self.mode[*s] == Some(mode));
-                let mut nodes: Vec<usize> = of.clone().map(|(_, sheet)| sheet.node).collect();
+                let of = &of_modes[mode];
+                let mut nodes: Vec<usize> = of.iter().map(node).collect();
                 let all = nodes.len();
-                let within = of.clone().filter(|(_, sheet)| sheet.within);
-                let mut within: Vec<usize> = within.map(|(_, sheet)| sheet.node).collect();
-                for nodes in [&mut nodes, &mut within] {
-                    nodes.sort_unstable();
-                    nodes.dedup();
-                }
-                let at_first = of.clone().filter(|(_, s)| Some(&s.node) == nodes.first());
-                let joints = at_first.map(|(_, s)| brought(self.asked, &s.arrival.at, true));
-                let joints = joints.map(|at| at.joints);
+                let within = of.iter().filter(|s| whole(s));
+                let mut within: Vec<usize> = within.map(node).collect();
+                nodes.dedup();
+                within.dedup();
+                let at_first = of.iter().take_while(|s| Some(&node(s)) == nodes.first());
+                let joints = at_first.map(|s| brought(self.asked, &self.filled.sheet(*s).at, true));
                 ModeReport {
                     mode: mode + 1,
                     nodes: nodes.len(),
@@ -168,7 +170,7 @@ impl<'a> Map<'a> {
                 .iter()
                 .filter(|crossing| !crossing.again)
                 .filter_map(|crossing| {
-                    let node = self.filled.sheets[crossing.sheet].node;
+                    let node = self.filled.node(crossing.sheet);
                     let mut at = self.grid.values(node);
                     let along = crossing.direction / 2;
                     let next = self.grid.neighbour(node, crossing.direction)?;
@@ -179,7 +181,7 @@ impl<'a> Map<'a> {
                         ends_reach: crossing.kind.ends_reach(),
                         mode: self.mode[crossing.sheet]? + 1,
                         at,
-                        joints: brought(self.asked, &crossing.at, false).joints,
+                        joints: brought(self.asked, &crossing.at, false),
                     })
                 })
                 .collect(),
@@ -219,31 +221,35 @@ impl<'a> Map<'a> {
     }
 
     /// The first sheet of a node that is wanted.
-    fn first(&self, node: usize, wanted: &dyn Fn(&usize) -> bool) -> Option<usize> {
-        self.filled.of_node[node]
-            .iter()
-            .copied()
-            .find(|s| wanted(s))
+    fn first(&self, node: usize, wanted: &(dyn Fn(&usize) -> bool + Sync)) -> Option<usize> {
+        self.filled.at(node).find(|s| wanted(s))
     }
 
-    fn size(&self, wanted: &dyn Fn(&usize) -> bool, cut: &[Vec<f64>]) -> f64 {
+    fn size(
+        &self,
+        wanted: &(dyn Fn(&usize) -> bool + Sync),
+        cut: &[[f64; MOST_DIRECTIONS]],
+    ) -> f64 {
         let inside = |node: usize| self.first(node, wanted).is_some();
         let reach = |node: usize, direction: usize| {
-            let sheets = self.filled.of_node[node].iter().filter(|s| wanted(s));
-            sheets.map(|s| cut[*s][direction]).fold(0.0, f64::max)
+            let sheets = self.filled.at(node).filter(|s| wanted(s));
+            sheets.map(|s| cut[s][direction]).fold(0.0, f64::max)
         };
         aspects::size(self.grid, &inside, &reach)
     }
 
     /// The aspects, and for the first sheet of each its number.
-    fn aspects(&self, cut: &[Vec<f64>]) -> (Vec<AspectReport>, HashMap<usize, usize>) {
+    fn aspects(
+        &self,
+        cut: &[[f64; MOST_DIRECTIONS]],
+    ) -> (Vec<AspectReport>, HashMap<usize, usize>) {
         let mut of: BTreeMap<usize, Vec<usize>> = Default::default();
         for (s, aspect) in self.aspect.iter().enumerate() {
             if let (Some(aspect), Some(_)) = (aspect, self.mode[s]) {
                 of.entry(*aspect).or_default().push(s);
             }
         }
-        let told = |s: usize| &self.filled.sheets[s].arrival.told;
+        let told = |s: usize| &self.filled.sheet(s).told;
         let sign = |x: f64, told: bool| match (told, x < 0.0) {
             (false, _) => 0,
             (_, true) => -1,
@@ -253,10 +259,9 @@ impl<'a> Map<'a> {
         let mut all: Vec<(usize, AspectReport)> = each(of.len(), &(), |(), i| {
             let (first, ref sheets) = of[i];
             let wanted = |s: &usize| self.aspect[*s] == Some(first);
-            let mut finite: Vec<usize> = (sheets.iter().copied())
+            let finite: Vec<usize> = (sheets.iter().copied())
                 .filter(|s| told(*s).condition.is_finite())
                 .collect();
-            finite.sort_by_key(|s| self.filled.sheets[*s].node);
             // of nodes that are as good but for rounding the first
             let first_of = |wanted: f64| {
                 let of = |s: usize| told(s).condition;
@@ -264,7 +269,7 @@ impl<'a> Map<'a> {
                     .iter()
                     .filter(|s| (of(**s) / wanted - 1.0).abs() < 1e-9);
                 alike.next().map(|s| Conditioned {
-                    at: self.grid.values(self.filled.sheets[*s].node),
+                    at: self.grid.values(self.filled.node(*s)),
                     condition: of(*s),
                 })
             };
@@ -284,7 +289,7 @@ impl<'a> Map<'a> {
         all.sort_by(|a, b| {
             let order = a.1.mode.cmp(&b.1.mode).then(b.1.nodes.cmp(&a.1.nodes));
             order.then_with(|| {
-                let node = |first: usize| self.filled.sheets[first].node;
+                let node = |first: usize| self.filled.node(first);
                 node(a.0).cmp(&node(b.0)).then(a.0.cmp(&b.0))
             })
         });
@@ -304,16 +309,16 @@ impl<'a> Map<'a> {
     }
 
     fn cells(&self, numbers: &HashMap<usize, usize>) -> Vec<Cell> {
-        let mut sheets: Vec<usize> = (0..self.filled.sheets.len())
+        let mut sheets: Vec<usize> = (0..self.filled.len())
             .filter(|s| self.mode[*s].is_some())
             .collect();
-        sheets.sort_by_key(|&s| (self.filled.sheets[s].node, self.mode[s], s));
+        sheets.sort_by_key(|&s| (self.filled.node(s), self.mode[s], s));
         let told = |x: f64, told: bool| told.then_some(x);
         let following: Vec<(usize, Coordinate)> = self.following().collect();
         let (direct, inverse) = (self.asked.tells_direct(), self.asked.tells_inverse());
         each(sheets.len(), &(), |(), i| {
-            let sheet = &self.filled.sheets[sheets[i]];
-            let of = &sheet.arrival.told;
+            let sheet = self.filled.sheet(sheets[i]);
+            let of = &sheet.told;
             let aspect = self.aspect[sheets[i]];
             Cell {
                 node: sheet.node,
@@ -323,28 +328,28 @@ impl<'a> Map<'a> {
                 condition: of.condition.is_finite().then_some(of.condition),
                 direct: told(of.direct, direct),
                 inverse: told(of.inverse, inverse),
-                joints: brought(self.asked, &sheet.arrival.at, false).joints,
+                joints: brought(self.asked, &sheet.at, false),
                 following: (following.iter())
-                    .map(|&(p, c)| c.of(&sheet.arrival.at.platforms[p].pose()))
+                    .map(|&(p, c)| c.of(&sheet.at.platforms[p].pose()))
                     .collect(),
             }
         })
     }
 }
 
-/// Angles within limits, or in (−π, π]; all of the latter kind where modes are compared.
-fn brought(asked: &Asked, at: &Configuration<f64>, plain: bool) -> Configuration<f64> {
-    let mut at = at.clone();
-    for (joint, value) in at.joints.iter_mut().enumerate() {
+/// The joints, angles within limits or in (−π, π]; all of the latter kind where modes are compared.
+fn brought(asked: &Asked, at: &Configuration<f64>, plain: bool) -> Vec<f64> {
+    let mut joints = at.joints.clone();
+    for (joint, value) in joints.iter_mut().enumerate() {
         if asked.turns[joint] {
             let turn = std::f64::consts::TAU;
             *value -= turn * ((*value - 1e-9) / turn).round();
         }
     }
     if !plain {
-        Walk::within_limits(asked.mechanism, &mut at);
+        Walk::within_limits(asked.mechanism, &mut joints);
     }
-    at
+    joints
 }
 
 /// `m²`, `rad·m`

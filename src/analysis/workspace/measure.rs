@@ -1,7 +1,7 @@
 //! How far configurations and their motions are apart, and what is surely one mode.
 
 use super::asked::Asked;
-use super::step::{Arrival, SURE};
+use super::step::{Moving, SURE};
 use crate::mechanism::{Configuration, Role};
 use crate::solve::SolutionCurve;
 use crate::system::{Curve, Held, Holdable, Unknown};
@@ -12,8 +12,8 @@ pub(super) struct Measure {
     free: Curve,
     /// Unknowns that tell modes apart: of platforms, actuated joints and joints with limits; without
     /// platforms of all joints. Legs that are folded the other way about their passive joints, or
-    /// spin, do not make another mode.
-    seen: Vec<bool>,
+    /// spin, do not make another mode. 1 for those that do, 0 for the others.
+    seen: Vec<f64>,
     /// rad or m in one unit of the mapped coordinates.
     units: Vec<f64>,
 }
@@ -34,7 +34,7 @@ impl Measure {
             Unknown::Twist { .. } => true,
         });
         Measure {
-            seen: seen.collect(),
+            seen: seen.map(|seen| f64::from(u8::from(seen))).collect(),
             units: (asked.axes.iter())
                 .map(|axis| match axis.coordinate {
                     Holdable::Joint(joint) => free.system().joint_scale(joint),
@@ -59,13 +59,13 @@ impl Measure {
     }
 
     fn seen_length(&self, step: impl Iterator<Item = f64>) -> f64 {
-        let seen = step.zip(&self.seen).filter(|(_, seen)| **seen);
-        seen.map(|(x, _)| x * x).sum::<f64>().sqrt()
+        let squares = step.zip(&self.seen).map(|(x, seen)| seen * x * x);
+        squares.sum::<f64>().sqrt()
     }
 
     /// The motion for a unit rate of a mapped coordinate, and how far along it a change of the
     /// coordinate leads.
-    pub fn motion<'a>(&self, from: &'a Arrival, axis: usize, change: f64) -> (&'a [f64], f64) {
+    pub fn motion<'a>(&self, from: Moving<'a>, axis: usize, change: f64) -> (&'a [f64], f64) {
         let unknowns = self.free.unknowns();
         let motion = &from.motions[axis * unknowns..][..unknowns];
         (motion, change / self.units[axis])
@@ -75,14 +75,14 @@ impl Measure {
     /// changes by so much, and the motions are [alike](Self::alike). `step` is storage.
     pub fn linked(
         &self,
-        [a, b]: [&Arrival; 2],
+        [a, b]: [Moving; 2],
         axis: usize,
         change: f64,
         step: &mut Vec<f64>,
     ) -> bool {
         step.resize(self.free.unknowns(), 0.0);
-        self.free.difference_but_turns_into(&a.at, &b.at, step);
-        let near = |from: &Arrival| {
+        self.free.difference_but_turns_into(a.at, b.at, step);
+        let near = |from: Moving| {
             let (motion, factor) = self.motion(from, axis, change);
             let length = self.seen_length(motion.iter().map(|x| x * factor));
             let miss = motion.iter().zip(&*step).map(|(x, d)| d - x * factor);
@@ -100,22 +100,26 @@ impl Measure {
     /// one of length ρ = 0, that may be seen in one passive joint only: it turns by dθ = ds/ρ to
     /// one side before and to the other after, so that over a step s from −ρ₀ to ρ₁ the difference
     /// of both is s/ρ₀ + s/ρ₁ ≥ 4 rad. No joint is to differ by so much.
-    pub fn alike(&self, a: &Arrival, b: &Arrival, length: f64) -> bool {
+    pub fn alike(&self, a: Moving, b: Moving, length: f64) -> bool {
         const CHANGE: f64 = 0.6;
         const SWING: f64 = 1.0;
         let unknowns = self.free.unknowns();
+        let mut swings = vec![0.0; unknowns];
         let columns = a.motions.chunks_exact(unknowns);
         let mut columns = columns.zip(b.motions.chunks_exact(unknowns));
         let same_way = columns.all(|(a, b)| {
-            let change = self.seen_length(a.iter().zip(b).map(|(a, b)| b - a));
-            let [a, b] = [a, b].map(|motion| self.seen_length(motion.iter().copied()));
-            change <= CHANGE * a.max(b)
+            let [mut change, mut from, mut to] = [0.0; 3];
+            let pairs = a.iter().zip(b).zip(&self.seen);
+            for (((a, b), seen), swing) in pairs.zip(&mut swings) {
+                let squared = (b - a) * (b - a);
+                *swing += squared;
+                change += seen * squared;
+                from += seen * a * a;
+                to += seen * b * b;
+            }
+            change <= CHANGE * CHANGE * f64::max(from, to)
         });
-        let swing = |joint: usize| {
-            let both = a.motions[joint..].iter().zip(&b.motions[joint..]);
-            let change = both.step_by(unknowns).map(|(a, b)| (b - a) * (b - a));
-            change.sum::<f64>().sqrt() * length.abs()
-        };
-        same_way && (0..unknowns).all(|joint| swing(joint) <= SWING)
+        let most = SWING / length.abs();
+        same_way && swings.iter().all(|swing| *swing <= most * most)
     }
 }

@@ -1,8 +1,11 @@
 //! The way from a node to its neighbour in shorter steps, many ways side by side.
 
-use super::fill::{Fill, Filled, Task};
-use super::step::{Arrival, Start, Steps};
+use super::fill::{Fill, Spread};
+use super::grid::MOST_AXES;
+use super::step::{Arrival, Moving, Start, Steps};
+use super::tile::Task;
 use crate::linear::{Factorable, norm};
+use crate::mechanism::Configuration;
 use crate::number::Packed;
 use crate::solve::Pool;
 
@@ -18,10 +21,11 @@ pub(super) enum Paced {
 
 /// How far an edge has been gone.
 struct Way {
-    at: Arrival,
+    at: Configuration<f64>,
+    motions: Vec<f64>,
     axis: usize,
     /// The mapped coordinates at the neighbour.
-    end: [f64; 3],
+    end: [f64; MOST_AXES],
     /// The mapped coordinate now.
     x: f64,
     /// How far it is to change next.
@@ -33,6 +37,13 @@ struct Way {
 }
 
 impl Way {
+    fn moving(&self) -> Moving<'_> {
+        Moving {
+            at: &self.at,
+            motions: &self.motions,
+        }
+    }
+
     fn rest(&self) -> f64 {
         self.end[self.axis] - self.x
     }
@@ -53,7 +64,7 @@ impl Way {
         if slowness < self.slowness {
             self.fold = self.x + gone * slowness / (self.slowness - slowness);
         }
-        (self.at, self.slowness) = (at, slowness);
+        (self.at, self.motions, self.slowness) = (at.at, at.motions, slowness);
         let (left, rest) = (self.fold - self.x, self.rest());
         let ahead = left.is_finite() && left.abs() < 1.5 * rest.abs();
         let next = if ahead { NEXT * left } else { 2.0 * gone };
@@ -68,29 +79,29 @@ impl Fill<'_> {
     pub(super) fn paced<T: Factorable + Packed + Send + Sync>(
         &self,
         steps: &Pool<Steps<T>>,
-        filled: &Filled,
+        spread: &Spread,
         tasks: &[Task],
     ) -> Vec<Paced> {
         const ROUNDS: usize = 30;
         /// The shortest step as a part of an edge.
         const SHORTEST: f64 = 1.0 / 256.0;
-        let slowness = |at: &Arrival, axis: usize| {
+        let slowness = |at: Moving, axis: usize| {
             let (motion, _) = self.measure.motion(at, axis, 1.0);
             norm(motion).powi(-2)
         };
         let mut ends: Vec<Paced> = tasks.iter().map(|_| Paced::Open).collect();
         let mut ways: Vec<(usize, Way)> = (tasks.iter().enumerate())
-            .map(|(i, &(s, d))| {
-                let sheet = &filled.sheets[s];
-                let (axis, change) = self.change(sheet.node, d);
+            .map(|(i, task)| {
+                let edge = spread.step(self, *task);
                 let way = Way {
-                    axis,
-                    end: self.start_values(filled, (s, d)),
-                    x: self.grid.point(sheet.node)[axis],
-                    step: 0.5 * change,
-                    slowness: slowness(&sheet.arrival, axis),
+                    axis: edge.axis,
+                    end: edge.to,
+                    x: edge.to[edge.axis] - edge.change,
+                    step: 0.5 * edge.change,
+                    slowness: slowness(edge.from, edge.axis),
                     fold: f64::INFINITY,
-                    at: sheet.arrival.clone(),
+                    at: edge.from.at.clone(),
+                    motions: edge.from.motions.to_vec(),
                 };
                 (i, way)
             })
@@ -103,12 +114,13 @@ impl Fill<'_> {
             let arrivals = self.settled(steps, &starts);
             let mut left = Vec::new();
             for ((i, mut way), arrival) in ways.into_iter().zip(arrivals) {
-                let (_, length) = self.measure.motion(&way.at, way.axis, way.step);
-                let sure = arrival.filter(|to| self.measure.alike(&way.at, to, length));
+                let (_, length) = self.measure.motion(way.moving(), way.axis, way.step);
+                let sure =
+                    arrival.filter(|to| self.measure.alike(way.moving(), to.moving(), length));
                 match sure {
                     Some(arrival) if way.step == way.rest() => ends[i] = Paced::Arrived(arrival),
                     Some(arrival) => {
-                        let slowness = slowness(&arrival, way.axis);
+                        let slowness = slowness(arrival.moving(), way.axis);
                         match way.on(arrival, slowness) {
                             true => ends[i] = Paced::Fold,
                             false => left.push((i, way)),
@@ -133,7 +145,7 @@ impl Fill<'_> {
         if way.step != way.rest() {
             values[way.axis] = way.x + way.step;
         }
-        self.towards(&way.at, way.axis, way.step, values)
+        self.towards(way.moving(), way.axis, way.step, values)
     }
 }
 
@@ -141,11 +153,11 @@ impl Fill<'_> {
 mod tests {
     use super::*;
     use crate::analysis::workspace::rates::Told;
-    use crate::mechanism::Configuration;
 
     fn way(slowness: f64) -> Way {
         Way {
-            at: arrival(),
+            at: arrival().at,
+            motions: Vec::new(),
             axis: 0,
             end: [1.0, 0.0, 0.0],
             x: 0.0,

@@ -36,6 +36,9 @@ pub(super) struct Rates<T: Factorable> {
     right: Vec<T>,
     column: Vec<T>,
     motions: Vec<T>,
+    /// Rates of what is held, of the inputs, of the outputs and of what moves.
+    rates: [Vec<T>; 4],
+    spare: Vec<T>,
 }
 
 /// A coordinate and the first of the unknowns it depends on.
@@ -118,14 +121,16 @@ impl<T: Factorable + Packed> Rates<T> {
             right: vec![T::zero(); system.rows()],
             column: vec![T::zero(); free.rows()],
             motions: vec![T::zero(); unknowns * asked.held.len()],
+            rates: Default::default(),
+            spare: Vec::new(),
             work: free.work(),
             free,
         }
     }
 
-    /// A configuration moved by steps of all unknowns.
-    pub fn displaced(&self, at: &Configuration<T>, step: &[T]) -> Configuration<T> {
-        self.free.displaced(at, step)
+    /// Moves a configuration by steps of all unknowns.
+    pub fn displace(&self, at: &mut Configuration<T>, step: &[T]) {
+        self.free.displace(at, step);
     }
 
     pub fn unknowns(&self) -> usize {
@@ -133,7 +138,7 @@ impl<T: Factorable + Packed> Rates<T> {
     }
 
     /// Works N out and tells what follows from it, for each place, where the equations of the
-    /// question are solved.
+    /// question are solved and have been linearised.
     pub fn at(
         &mut self,
         at: &Configuration<T>,
@@ -141,7 +146,6 @@ impl<T: Factorable + Packed> Rates<T> {
         work: &mut Work<T>,
     ) -> Vec<Told> {
         self.free.linearise(at, &mut self.work);
-        system.linearise(at, work);
         system.factorise(0.0, work);
         let (n, unknowns) = (self.held.len(), self.unknowns());
         // the largest that J N is off
@@ -164,22 +168,25 @@ impl<T: Factorable + Packed> Rates<T> {
             self.motions = motion;
         }
         // unit rates come out again if the held coordinates are independent
-        let back = self.matrix(&self.held, at);
-        let mut input = self.matrix(&self.inputs, at);
-        let mut output = self.matrix(&self.outputs, at);
+        let [mut back, mut input, mut output, mut moved] = std::mem::take(&mut self.rates);
+        self.matrix(&self.held, at, &mut back);
+        self.matrix(&self.inputs, at, &mut input);
+        self.matrix(&self.outputs, at, &mut output);
         let each = 0..T::WIDTH;
-        let direct: Vec<f64> = (each.clone().map(|p| determinant(&input, n, p))).collect();
-        let inverse: Vec<f64> = (each.clone().map(|p| determinant(&output, n, p))).collect();
+        let mut of = |matrix: &Vec<T>| {
+            self.spare.clone_from(matrix);
+            determinant(&mut self.spare, n)
+        };
+        let (direct, inverse) = (of(&input), of(&output));
         let told = |rows: &[Row]| !rows.is_empty();
         let (of_inputs, of_outputs) = (told(&self.inputs), self.tells_inverse);
         let conditions = match of_inputs {
             true => {
-                let motions = self.motions.chunks_exact(unknowns.max(1));
-                let moved = motions.flat_map(|motion| self.moved.iter().map(|&i| motion[i]));
-                let mut moved: Vec<T> = match told(&self.outputs) {
-                    true => output.clone(),
-                    false => moved.collect(),
-                };
+                moved.clone_from(&output);
+                if !told(&self.outputs) {
+                    let motions = self.motions.chunks_exact(unknowns.max(1));
+                    moved.extend(motions.flat_map(|one| self.moved.iter().map(|&i| one[i])));
+                }
                 condition(&mut input, &mut moved, n)
             }
             false => vec![(false, f64::INFINITY); T::WIDTH],
@@ -193,7 +200,7 @@ impl<T: Factorable + Packed> Rates<T> {
             (true, true) => 0.0,
             (true, false) => determinant,
         };
-        each.map(|place| {
+        let told = each.map(|place| {
             let unit = |i: usize, j: usize| f64::from(u8::from(i == j));
             let misses = back.iter().enumerate();
             let mut misses = misses.map(|(k, x)| (x.part(place) - unit(k % n, k / n)).abs());
@@ -201,12 +208,14 @@ impl<T: Factorable + Packed> Rates<T> {
             let regular = misses.all(|miss| miss < 1e-6) && gap[place] < 1e-6;
             Told {
                 regular,
-                direct: of(of_inputs, conditions[place].0, direct[place]),
-                inverse: of(of_outputs, lost[place].0, inverse[place]),
+                direct: of(of_inputs, conditions[place].0, direct.part(place)),
+                inverse: of(of_outputs, lost[place].0, inverse.part(place)),
                 condition: conditions[place].1,
             }
-        })
-        .collect()
+        });
+        let told = told.collect();
+        self.rates = [back, input, output, moved];
+        told
     }
 
     /// The motion for a unit rate of held coordinate `i`: what is held moves, and the step −J⁺r for
@@ -267,8 +276,9 @@ impl<T: Factorable + Packed> Rates<T> {
     }
 
     /// The rates of coordinates, a column for each held one.
-    fn matrix(&self, rows: &[Row], at: &Configuration<T>) -> Vec<T> {
-        let mut matrix = vec![T::zero(); rows.len() * self.held.len()];
+    fn matrix(&self, rows: &[Row], at: &Configuration<T>, matrix: &mut Vec<T>) {
+        matrix.clear();
+        matrix.resize(rows.len() * self.held.len(), T::zero());
         let motions = self.motions.chunks_exact(self.unknowns().max(1));
         for (i, row) in rows.iter().enumerate() {
             let slope = match row.of {
@@ -281,16 +291,15 @@ impl<T: Factorable + Packed> Rates<T> {
                 }
             };
             for (j, motion) in motions.clone().enumerate() {
-                matrix[j * rows.len() + i] = match slope {
+                matrix[j * rows.len() + i] = match &slope {
                     None => motion[row.first],
                     Some(slope) => {
                         let products = motion[row.first..].iter().zip(slope);
-                        products.fold(T::zero(), |sum, (x, s)| sum + *x * s)
+                        products.fold(T::zero(), |sum, (x, s)| sum + *x * *s)
                     }
                 };
             }
         }
-        matrix
     }
 }
 

@@ -4,7 +4,7 @@ use rand::SeedableRng;
 use rand_pcg::Pcg64Mcg;
 
 use super::asked::{Asked, Targets};
-use super::fill::{Fill, Filled};
+use super::fill::{Fill, Spread};
 use super::grid::Grid;
 use super::measure::Measure;
 use super::step::{Start, Steps};
@@ -24,9 +24,8 @@ pub(super) struct Sown {
 
 impl Sown {
     fn add(&mut self, asked: &Asked, node: usize, mut at: Configuration<f64>) {
-        Walk::within_limits(asked.mechanism, &mut at);
-        let mut joints = asked.mechanism.joints().iter().zip(&at.joints);
-        match joints.all(|(joint, value)| joint.allows(*value)) {
+        Walk::within_limits(asked.mechanism, &mut at.joints);
+        match asked.allows(&at) {
             true => self.seeds.push((node, at)),
             false => self.outside += 1,
         }
@@ -132,7 +131,7 @@ pub(super) const PROBES: usize = 8;
 /// that is not reached yet, so that small regions by themselves are not missed.
 pub(super) fn probe<T: Factorable + Packed + Send + Sync>(
     fill: &Fill,
-    filled: &Filled,
+    reached: &Spread,
     steps: &Pool<Steps<T>>,
     nodes: &[usize],
     seed: u64,
@@ -162,7 +161,7 @@ pub(super) fn probe<T: Factorable + Packed + Send + Sync>(
         let arrivals = starts.chunks(T::WIDTH).flat_map(|pack| steps.settle(pack));
         for arrival in arrivals.flatten() {
             let known = |of: &Configuration<f64>| fill.measure.same(of, &arrival.at);
-            if fill.known(filled, node, &arrival.at).is_none() && !new.iter().any(known) {
+            if reached.known(fill, node, &arrival.at).is_none() && !new.iter().any(known) {
                 new.push(arrival.at);
             }
         }

@@ -31,6 +31,22 @@ pub(super) struct Arrival {
     pub told: Told,
 }
 
+/// A configuration with its motions.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Moving<'a> {
+    pub at: &'a Configuration<f64>,
+    pub motions: &'a [f64],
+}
+
+impl Arrival {
+    pub fn moving(&self) -> Moving<'_> {
+        Moving {
+            at: &self.at,
+            motions: &self.motions,
+        }
+    }
+}
+
 /// Newton's method in several places at once. A place whose steps are too long stands still from
 /// there on and does no harm to the others.
 #[derive(Clone, Debug)]
@@ -38,7 +54,10 @@ pub(super) struct Steps<T: Factorable> {
     targets: Targets,
     system: System<T>,
     work: Work<T>,
+    point: Configuration<T>,
     spare: Configuration<T>,
+    /// From where steps begin to near where they are to arrive.
+    ahead: Vec<T>,
     rates: Rates<T>,
 }
 
@@ -61,7 +80,9 @@ impl<T: Factorable + Packed> Steps<T> {
         Steps {
             targets: Targets::new(asked),
             work: system.work(),
+            point: asked.question.start().map(T::from_f64),
             spare: asked.question.start().map(T::from_f64),
+            ahead: Vec::new(),
             rates: Rates::new(asked, &system),
             system,
         }
@@ -91,14 +112,14 @@ impl<T: Factorable + Packed> Steps<T> {
         /// Corrections this small are rounding.
         const SMALL: f64 = 1e-9;
         let start = |place: usize| &starts[place.min(starts.len() - 1)];
-        let mut point = self.begin(&start);
-        (self.targets).ask(&mut self.system, &mut point, |p| &start(p).values);
+        self.begin(&start);
+        (self.targets).ask(&mut self.system, &mut self.point, |p| &start(p).values);
         let mut sure = vec![true; T::WIDTH];
         let mut solved = vec![false; T::WIDTH];
         let mut bounds: Vec<f64> = (0..T::WIDTH).map(|place| start(place).reach).collect();
         let most = STEPS[usize::from(bounds.iter().any(|bound| bound.is_infinite()))];
         for step in 0..=most {
-            self.system.linearise(&point, &mut self.work);
+            self.system.linearise(&self.point, &mut self.work);
             for (place, solved) in solved.iter_mut().enumerate() {
                 let rows = self.system.residual_of(&self.work).iter();
                 // a NaN is not small
@@ -133,9 +154,9 @@ impl<T: Factorable + Packed> Steps<T> {
                 // not a product: what is not finite is to stay behind
                 *x = T::of_parts(|p| if moves[p] > 0.0 { old.part(p) } else { 0.0 });
             }
-            let (from, to) = (&point, &mut self.spare);
+            let (from, to) = (&self.point, &mut self.spare);
             self.system.advance(from, 1.0, &self.work, to);
-            std::mem::swap(&mut point, &mut self.spare);
+            std::mem::swap(&mut self.point, &mut self.spare);
         }
         if !solved
             .iter()
@@ -144,13 +165,13 @@ impl<T: Factorable + Packed> Steps<T> {
         {
             return starts.iter().map(|_| Outcome::Unsure).collect();
         }
-        let told = self.rates.at(&point, &self.system, &mut self.work);
+        let told = (self.rates).at(&self.point, &self.system, &mut self.work);
         let outcomes = told.into_iter().take(starts.len()).enumerate();
         let outcomes = outcomes.map(|(place, told)| match told.regular {
             _ if !sure[place] || !solved[place] => Outcome::Unsure,
             false => Outcome::Spoiled,
             true => Outcome::Arrived(Arrival {
-                at: point.map(|x| x.part(place)),
+                at: self.point.map(|x| x.part(place)),
                 motions: self.rates.motions(place),
                 told,
             }),
@@ -162,38 +183,36 @@ impl<T: Factorable + Packed> Steps<T> {
     pub fn told(&mut self, at: &Configuration<f64>, values: &[f64]) -> Option<Told> {
         let mut point = at.map(T::from_f64);
         (self.targets).ask(&mut self.system, &mut point, |_| values);
+        self.system.linearise(&point, &mut self.work);
         let told = self.rates.at(&point, &self.system, &mut self.work);
         told.into_iter().next()
     }
 
-    /// Near where each place is to arrive.
-    fn begin<'s, 'a: 's>(&self, start: &impl Fn(usize) -> &'s Start<'a>) -> Configuration<T> {
-        let point = self.packed(|place| start(place).from);
+    /// Puts the point near where each place is to arrive.
+    fn begin<'s, 'a: 's>(&mut self, start: &impl Fn(usize) -> &'s Start<'a>) {
+        let at = |place: usize| start(place).from;
+        for (joint, to) in self.point.joints.iter_mut().enumerate() {
+            *to = T::of_parts(|place| at(place).joints[joint]);
+        }
+        for (platform, to) in self.point.platforms.iter_mut().enumerate() {
+            let pose = |place: usize| &at(place).platforms[platform];
+            for (k, to) in to.orientation.0.iter_mut().enumerate() {
+                *to = T::of_parts(|place| pose(place).orientation.0[k]);
+            }
+            for (k, to) in to.position.0.iter_mut().enumerate() {
+                *to = T::of_parts(|place| pose(place).position.0[k]);
+            }
+        }
         if (0..T::WIDTH).all(|place| start(place).along.is_none()) {
-            return point;
+            return;
         }
         let part = |place: usize, k: usize| match start(place).along {
             Some((motion, factor)) => motion[k] * factor,
             None => 0.0,
         };
-        let step = (0..self.rates.unknowns()).map(|k| T::of_parts(|place| part(place, k)));
-        self.rates.displaced(&point, &step.collect::<Vec<T>>())
-    }
-
-    fn packed<'c>(&self, of: impl Fn(usize) -> &'c Configuration<f64>) -> Configuration<T> {
-        let mut all = self.spare.clone();
-        for (joint, to) in all.joints.iter_mut().enumerate() {
-            *to = T::of_parts(|place| of(place).joints[joint]);
-        }
-        for (platform, to) in all.platforms.iter_mut().enumerate() {
-            for k in 0..4 {
-                to.orientation.0[k] =
-                    T::of_parts(|place| of(place).platforms[platform].orientation.0[k]);
-            }
-            for k in 0..3 {
-                to.position.0[k] = T::of_parts(|place| of(place).platforms[platform].position.0[k]);
-            }
-        }
-        all
+        let steps = (0..self.rates.unknowns()).map(|k| T::of_parts(|place| part(place, k)));
+        self.ahead.clear();
+        self.ahead.extend(steps);
+        self.rates.displace(&mut self.point, &self.ahead);
     }
 }

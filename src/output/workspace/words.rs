@@ -295,6 +295,30 @@ pub fn wrong_count(
             );
             Some(said(title, "", help))
         }
+        QuestionError::Dependent { free, hold } => {
+            let (away, rest): (Vec<String>, Vec<String>) =
+                free.iter().cloned().partition(|name| mapped.contains(name));
+            let mut ways = Vec::new();
+            if !away.is_empty() {
+                ways.push(format!("do not map {}", listed(&away)));
+            }
+            if !rest.is_empty() {
+                ways.push(format!("do not hold {}", listed(&rest)));
+            }
+            let title = format!(
+                "as much is mapped and held as there are freedoms, but {} cannot be chosen beside \
+                 the others, and {} {} undetermined",
+                listed(free),
+                listed(hold),
+                if hold.len() == 1 { "stays" } else { "stay" }
+            );
+            let help = format!(
+                "{}; map or hold {} instead",
+                ways.join(" and "),
+                listed(hold)
+            );
+            (!away.is_empty()).then(|| said(title, "", help))
+        }
         _ => None,
     }
 }

@@ -1,0 +1,168 @@
+//! What was reached, in the order of its nodes.
+
+use std::ops::Range;
+
+use super::grid::MOST_DIRECTIONS;
+use super::measure::Measure;
+use super::rates::Told;
+use crate::mechanism::Configuration;
+
+/// An assembled configuration at a node.
+#[derive(Clone, Debug)]
+pub(super) struct Sheet {
+    pub node: usize,
+    pub at: Configuration<f64>,
+    pub told: Told,
+    /// Whether all joints are within their limits.
+    pub within: bool,
+    /// For each direction of the grid.
+    pub links: [Link; MOST_DIRECTIONS],
+}
+
+/// Which sheet of which part of the grid.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub(super) struct Name {
+    pub tile: u32,
+    pub sheet: u32,
+}
+
+/// How a node goes on in a direction.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) enum Link {
+    /// Not looked at, or out of the box.
+    Open,
+    /// To this sheet there, by regular motion.
+    To(Name),
+    /// The mode folds back before the neighbour.
+    Fold,
+    /// No sure step leads on.
+    Stuck,
+}
+
+/// All that was reached, numbered in the order of the nodes.
+pub(super) struct Filled {
+    tiles: Vec<Vec<Sheet>>,
+    names: Vec<Name>,
+    /// The numbers by name.
+    numbers: Vec<Vec<usize>>,
+    /// For each node its first sheet, and their number at the end.
+    firsts: Vec<usize>,
+    nodes: Vec<usize>,
+    within: Vec<bool>,
+    /// For each sheet one of those connected with it, the same for all of them.
+    pub roots: Vec<usize>,
+}
+
+impl Filled {
+    /// The sheets of each part of the grid, and for each of them the first of those connected with it
+    /// in that part; and what else is connected.
+    pub fn new(tiles: Vec<(Vec<Sheet>, Vec<usize>)>, seams: &[[Name; 2]], nodes: usize) -> Self {
+        let mut firsts = vec![0; nodes + 1];
+        for sheet in tiles.iter().flat_map(|(sheets, _)| sheets) {
+            firsts[sheet.node + 1] += 1;
+        }
+        for node in 0..nodes {
+            firsts[node + 1] += firsts[node];
+        }
+        let count = firsts[nodes];
+        let mut next = firsts.clone();
+        let mut filled = Filled {
+            tiles: Vec::with_capacity(tiles.len()),
+            names: vec![Name { tile: 0, sheet: 0 }; count],
+            numbers: Vec::with_capacity(tiles.len()),
+            firsts,
+            nodes: vec![0; count],
+            within: vec![false; count],
+            roots: vec![0; count],
+        };
+        for (tile, (sheets, roots)) in tiles.into_iter().enumerate() {
+            let numbers = sheets.iter().enumerate().map(|(sheet, at)| {
+                let number = next[at.node];
+                next[at.node] += 1;
+                filled.names[number] = Name::new(tile, sheet);
+                (filled.nodes[number], filled.within[number]) = (at.node, at.within);
+                number
+            });
+            let numbers: Vec<usize> = numbers.collect();
+            for (&number, root) in numbers.iter().zip(roots) {
+                filled.roots[number] = numbers[root];
+            }
+            filled.numbers.push(numbers);
+            filled.tiles.push(sheets);
+        }
+        let mut roots = std::mem::take(&mut filled.roots);
+        for &[a, b] in seams {
+            join(&mut roots, filled.number(a), filled.number(b));
+        }
+        for s in 0..roots.len() {
+            roots[s] = root(&mut roots, s);
+        }
+        Filled { roots, ..filled }
+    }
+
+    pub fn len(&self) -> usize {
+        self.names.len()
+    }
+
+    pub fn sheet(&self, number: usize) -> &Sheet {
+        self.named(self.names[number])
+    }
+
+    pub fn named(&self, name: Name) -> &Sheet {
+        &self.tiles[name.tile as usize][name.sheet as usize]
+    }
+
+    pub fn node(&self, number: usize) -> usize {
+        self.nodes[number]
+    }
+
+    /// Whether all joints of a sheet are within their limits.
+    pub fn within(&self, number: usize) -> bool {
+        self.within[number]
+    }
+
+    /// All sheets by their numbers.
+    pub fn sheets(&self) -> impl Iterator<Item = (usize, &Sheet)> + Clone {
+        (0..self.len()).map(|s| (s, self.sheet(s)))
+    }
+
+    pub fn number(&self, name: Name) -> usize {
+        self.numbers[name.tile as usize][name.sheet as usize]
+    }
+
+    /// The sheets of a node.
+    pub fn at(&self, node: usize) -> Range<usize> {
+        self.firsts[node]..self.firsts[node + 1]
+    }
+
+    /// The sheet of a node with this configuration.
+    pub fn known(&self, measure: &Measure, node: usize, at: &Configuration<f64>) -> Option<usize> {
+        let mut sheets = self.at(node);
+        sheets.find(|s| measure.same(&self.sheet(*s).at, at))
+    }
+}
+
+impl Name {
+    pub fn new(tile: usize, sheet: usize) -> Self {
+        let short = |number: usize| u32::try_from(number).expect("as many do not fit in memory");
+        Name {
+            tile: short(tile),
+            sheet: short(sheet),
+        }
+    }
+}
+
+/// The first of all that are connected with one.
+pub(super) fn root(roots: &mut [usize], mut of: usize) -> usize {
+    while roots[of] != of {
+        roots[of] = roots[roots[of]];
+        of = roots[of];
+    }
+    of
+}
+
+/// Connects two.
+pub(super) fn join(roots: &mut [usize], a: usize, b: usize) {
+    let (a, b) = (root(roots, a), root(roots, b));
+    roots[a.max(b)] = a.min(b);
+}
