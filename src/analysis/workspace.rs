@@ -2,13 +2,15 @@
 //! bounds it.
 //!
 //! At some nodes of a grid assembled configurations are sought from many random starts, and then
-//! from a few at all the others. From there the nodes are reached one from another by steps of Newton's method, eight side by side, that are
-//! short beside what would lead to another solution; where one is not, the way is followed in the
-//! sure steps of [`Continuation`](crate::solve::Continuation). What is connected in this way is a
-//! *mode*: a working mode where coordinates of platforms are mapped, an assembly mode where the
-//! inputs are. On the edges of the grid where a mode ends, at a limit or where a determinant changes
-//! sign, the point is located to rounding, and the boundary curves through these points are followed.
-//! The same sign of both determinants, within limits, makes an *aspect*.
+//! from a few at all the others. From there the nodes are reached one from another by steps of
+//! Newton's method, eight side by side, that are short beside what would lead to another solution;
+//! parts of the grid grow side by side so, and then over their seams. Where a step is too long, the
+//! way is gone in shorter ones, and at last in the sure steps of
+//! [`Continuation`](crate::solve::Continuation). What is connected in this way is a *mode*: a working
+//! mode where coordinates of platforms are mapped, an assembly mode where the inputs are. On the
+//! edges of the grid where a mode ends, at a limit or where a determinant changes sign, the point is
+//! located to rounding, and the boundary curves through these points are followed. The same sign of
+//! both determinants, within limits, makes an *aspect*.
 //!
 //! Sources: Borrel and Liégeois 1986, Wenger 1992 (aspects); Wenger and Chablat 1997 (of parallel
 //! manipulators, with working modes); Gosselin and Angeles 1990 (singularities); Bohigas, Manubens
@@ -182,7 +184,10 @@ fn filled<T: Factorable + Packed + Send + Sync>(
     fill.spread(&mut reached, &steps, &sown.seeds, told)?;
     let more = seeds::probe(fill, &reached, &steps, probed, seed);
     fill.spread(&mut reached, &steps, &more.seeds, told)?;
-    let filled = reached.filled(fill.grid);
+    let mut filled = reached.filled(fill.grid);
     let aspects = join::joined(fill, &steps, &filled);
+    // what hangs together on a finer grid is of one mode
+    let together = aspects.iter().enumerate();
+    filled.connect(together.filter_map(|(s, first)| Some([s, (*first)?])));
     Ok((filled, aspects, more.outside))
 }

@@ -90,14 +90,18 @@ impl Filled {
             filled.numbers.push(numbers);
             filled.tiles.push(sheets);
         }
-        let mut roots = std::mem::take(&mut filled.roots);
-        for &[a, b] in seams {
-            join(&mut roots, filled.number(a), filled.number(b));
+        let seams = seams.iter();
+        let seams: Vec<[usize; 2]> = seams.map(|ends| ends.map(|s| filled.number(s))).collect();
+        filled.connect(seams.into_iter());
+        filled
+    }
+
+    /// Takes sheets to be connected.
+    pub fn connect(&mut self, pairs: impl Iterator<Item = [usize; 2]>) {
+        pairs.for_each(|[a, b]| join(&mut self.roots, a, b));
+        for s in 0..self.roots.len() {
+            self.roots[s] = root(&mut self.roots, s);
         }
-        for s in 0..roots.len() {
-            roots[s] = root(&mut roots, s);
-        }
-        Filled { roots, ..filled }
     }
 
     pub fn len(&self) -> usize {
