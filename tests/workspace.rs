@@ -486,6 +486,25 @@ fn a_section_of_the_three_rps_is_bounded_by_the_lengths_of_its_legs() {
 }
 
 #[test]
+fn an_aspect_is_of_one_mode_where_only_a_finer_grid_joins_a_node_to_it() {
+    let mechanism = written(&text("three_rps"), &[]);
+    let axes = [("l1", 0.5, 1.0), ("l2", 0.5, 1.0)];
+    let report = map(&mechanism, &axes, &[("l3", 0.75)], 30);
+    let mut met = 0;
+    for aspect in &report.aspects {
+        let mode = &report.modes[aspect.mode - 1];
+        assert!(aspect.nodes <= mode.within + mode.repeated, "{aspect:?}");
+        for cell in &report.cells {
+            if cell.aspect == Some(aspect.aspect) {
+                met += 1;
+                assert_eq!(cell.mode, aspect.mode, "{cell:?}");
+            }
+        }
+    }
+    assert!(met > 4000);
+}
+
+#[test]
 fn three_coordinates_are_mapped_in_slices() {
     let mechanism = written(&text("three_rps"), &[]);
     let axes = [
