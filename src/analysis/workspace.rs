@@ -32,6 +32,7 @@ mod pace;
 mod rates;
 mod report;
 mod seeds;
+mod spread;
 mod step;
 mod tile;
 
@@ -54,6 +55,7 @@ use grid::Grid;
 use map::Map;
 use measure::Measure;
 use seeds::Sown;
+use spread::Spread;
 use step::Steps;
 
 /// How to map a workspace.
@@ -180,7 +182,7 @@ fn filled<T: Factorable + Packed + Send + Sync>(
     told: &mut dyn FnMut(usize),
 ) -> Result<(Filled, Vec<Option<usize>>, usize), WorkspaceError> {
     let steps: Pool<Steps<T>> = Pool::new(Steps::new(fill.asked));
-    let mut reached = fill.nothing();
+    let mut reached = Spread::new(fill.grid);
     fill.spread(&mut reached, &steps, &sown.seeds, told)?;
     let more = seeds::probe(fill, &reached, &steps, probed, seed);
     fill.spread(&mut reached, &steps, &more.seeds, told)?;

@@ -5,24 +5,17 @@ use std::collections::HashSet;
 use super::WorkspaceError;
 use super::asked::Asked;
 use super::edge::{Edge, Met, reach};
-use super::filled::{Filled, Link, Name, Sheet};
+use super::filled::{Link, Name, Sheet};
 use super::grid::{Grid, MOST_AXES};
 use super::measure::Measure;
 use super::pace::Paced;
+use super::spread::Spread;
 use super::step::{Arrival, Moving, SURE, Start, Steps};
-use super::tile::{Task, Tile, Tiling};
+use super::tile::{Task, Tile};
 use crate::linear::{Factorable, norm};
 use crate::mechanism::Configuration;
 use crate::number::Packed;
 use crate::solve::{Pool, each};
-
-/// What was reached so far.
-pub(super) struct Spread {
-    tiling: Tiling,
-    tiles: Vec<Tile>,
-    /// Sheets of different parts that are linked.
-    seams: Vec<[Name; 2]>,
-}
 
 #[derive(Clone, Copy)]
 pub(super) struct Fill<'a> {
@@ -38,53 +31,6 @@ const JOB: usize = 16;
 /// Parts of the grid that are spread over before more is told.
 const PARTS: usize = 64;
 
-impl Spread {
-    pub fn sheet(&self, name: Name) -> &Sheet {
-        &self.tiles[name.tile as usize].sheets[name.sheet as usize]
-    }
-
-    fn link_mut(&mut self, name: Name, direction: usize) -> &mut Link {
-        &mut self.tiles[name.tile as usize].sheets[name.sheet as usize].links[direction]
-    }
-
-    fn link(&mut self, from: Name, direction: usize, to: Name) {
-        if from.tile == to.tile {
-            let tile = &mut self.tiles[from.tile as usize];
-            return tile.link(from.sheet as usize, direction, to.sheet as usize);
-        }
-        self.seams.push([from, to]);
-        *self.link_mut(from, direction) = Link::To(to);
-        let back = self.link_mut(to, direction ^ 1);
-        if *back == Link::Open {
-            *back = Link::To(from);
-        }
-    }
-
-    /// The sheet of a node with this configuration.
-    pub fn known(&self, fill: &Fill, node: usize, at: &Configuration<f64>) -> Option<Name> {
-        fill.known(self.at(fill.grid, node), at)
-    }
-
-    fn at(&self, grid: &Grid, node: usize) -> impl Iterator<Item = (Name, &Sheet)> {
-        self.tiles[self.tiling.of(grid, node)].at(grid, node)
-    }
-
-    fn len(&self) -> usize {
-        self.tiles.iter().map(|tile| tile.sheets.len()).sum()
-    }
-
-    /// The way from a sheet to its neighbour.
-    pub fn step(&self, fill: &Fill, (from, direction): Task) -> Step<'_> {
-        self.tiles[from.tile as usize].step(fill, from.sheet as usize, direction)
-    }
-
-    /// All of it.
-    pub fn filled(self, grid: &Grid) -> Filled {
-        let tiles = self.tiles.into_iter().map(Tile::finished);
-        Filled::new(tiles.collect(), &self.seams, grid.len())
-    }
-}
-
 /// An edge of the grid that is to be gone along.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Step<'a> {
@@ -97,16 +43,6 @@ pub(super) struct Step<'a> {
 }
 
 impl Fill<'_> {
-    /// Nothing reached yet.
-    pub fn nothing(&self) -> Spread {
-        let tiling = Tiling::new(self.grid);
-        Spread {
-            tiles: tiling.tiles(self.grid),
-            seams: Vec::new(),
-            tiling,
-        }
-    }
-
     /// Spreads from assembled configurations at nodes: in all parts of the grid at once as far as
     /// single steps lead, then over their seams; last, where single steps are too long. The order of
     /// work does not depend on the number of threads: parts are what they are, and what comes of
@@ -129,12 +65,12 @@ impl Fill<'_> {
             if let Some(arrival) = arrival
                 && spread.known(self, *node, &arrival.at).is_none()
             {
-                self.add(spread, *node, arrival);
+                spread.add(self, *node, arrival);
             }
         }
         loop {
             self.grow(spread, steps, told)?;
-            let mut seams = taken(spread, |tile| &mut tile.seams);
+            let mut seams = spread.taken(|tile| &mut tile.seams);
             let mut failed = Vec::new();
             while !seams.is_empty() {
                 let (now, later) = self.chosen(spread, seams);
@@ -146,16 +82,16 @@ impl Fill<'_> {
                 }
                 seams = later;
             }
-            keep(spread, failed);
+            spread.keep(failed);
             if spread.tiles.iter().any(Tile::grows) {
                 continue;
             }
-            let unsure = taken(spread, |tile| &mut tile.unsure);
+            let unsure = spread.taken(|tile| &mut tile.unsure);
             let (now, later) = self.chosen(spread, unsure);
             if now.is_empty() {
                 return Ok(());
             }
-            keep(spread, later);
+            spread.keep(later);
             for (task, end) in now.iter().zip(self.ends(spread, steps, &now)) {
                 match end {
                     End::Arrived(arrival) => self.arrive(spread, *task, arrival),
@@ -204,19 +140,7 @@ impl Fill<'_> {
         steps: &Pool<Steps<T>>,
         starts: &[Start],
     ) -> Vec<Option<Arrival>> {
-        let jobs: Vec<&[Start]> = starts.chunks(JOB).collect();
-        let ends = steps.each(jobs.len(), |steps, i| {
-            let packs = jobs[i].chunks(T::WIDTH);
-            packs
-                .flat_map(|pack| steps.settle(pack))
-                .collect::<Vec<_>>()
-        });
-        ends.into_iter().flatten().collect()
-    }
-
-    fn add(&self, spread: &mut Spread, node: usize, arrival: Arrival) -> Name {
-        let tile = spread.tiling.of(self.grid, node);
-        spread.tiles[tile].add(self, node, arrival)
+        in_packs(steps, starts, |steps, pack| steps.settle(pack))
     }
 
     /// Which of the sheets of a node has this configuration.
@@ -297,16 +221,10 @@ impl Fill<'_> {
         steps: &Pool<Steps<T>>,
         tasks: &[Task],
     ) -> Vec<Option<Arrival>> {
-        let jobs: Vec<&[Task]> = tasks.chunks(JOB).collect();
-        let ends = steps.each(jobs.len(), |steps, i| {
-            let packs = jobs[i].chunks(T::WIDTH);
-            let ends = packs.flat_map(|pack| {
-                let planned = pack.iter().map(|task| spread.step(self, *task));
-                self.sure(steps, &planned.collect::<Vec<Step>>())
-            });
-            ends.collect::<Vec<_>>()
-        });
-        ends.into_iter().flatten().collect()
+        in_packs(steps, tasks, |steps, pack| {
+            let planned = pack.iter().map(|task| spread.step(self, *task));
+            self.sure(steps, &planned.collect::<Vec<Step>>())
+        })
     }
 
     /// The same for one pack.
@@ -396,7 +314,7 @@ impl Fill<'_> {
             return;
         };
         let known = spread.known(self, node, &arrival.at);
-        let to = known.unwrap_or_else(|| self.add(spread, node, arrival));
+        let to = known.unwrap_or_else(|| spread.add(self, node, arrival));
         spread.link(from, d, to);
     }
 }
@@ -407,15 +325,16 @@ enum End {
     Stuck,
 }
 
-/// Steps of all parts, in their order, which are no longer kept there.
-fn taken(spread: &mut Spread, of: impl Fn(&mut Tile) -> &mut Vec<Task>) -> Vec<Task> {
-    let tiles = spread.tiles.iter_mut();
-    tiles.flat_map(|tile| std::mem::take(of(tile))).collect()
-}
-
-/// Puts steps that are not sure by for later.
-fn keep(spread: &mut Spread, tasks: Vec<Task>) {
-    for task in tasks {
-        spread.tiles[task.0.tile as usize].unsure.push(task);
-    }
+/// What comes of items given to as many lanes as there are, in their order.
+fn in_packs<T: Factorable + Packed + Send + Sync, I: Sync>(
+    steps: &Pool<Steps<T>>,
+    items: &[I],
+    of: impl Fn(&mut Steps<T>, &[I]) -> Vec<Option<Arrival>> + Sync,
+) -> Vec<Option<Arrival>> {
+    let jobs: Vec<&[I]> = items.chunks(JOB).collect();
+    let ends = steps.each(jobs.len(), |steps, i| {
+        let packs = jobs[i].chunks(T::WIDTH);
+        packs.flat_map(|pack| of(steps, pack)).collect::<Vec<_>>()
+    });
+    ends.into_iter().flatten().collect()
 }

@@ -4,6 +4,7 @@ use super::aspects::aspects;
 use super::fill::Fill;
 use super::filled::{Filled, join, root};
 use super::grid::Grid;
+use super::spread::Spread;
 use super::step::Steps;
 use crate::linear::Factorable;
 use crate::number::Packed;
@@ -102,7 +103,7 @@ fn reached<T: Factorable + Packed + Send + Sync>(
         .map(|s| filled.sheet(*s))
         .map(|sheet| (same(sheet.node), sheet.at.clone()))
         .collect();
-    let mut found = finer.nothing();
+    let mut found = Spread::new(&fine);
     if (finer.spread(&mut found, steps, &seeds, &mut |_| {})).is_err() {
         return Vec::new();
     }

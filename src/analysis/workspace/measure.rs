@@ -48,14 +48,9 @@ impl Measure {
         }
     }
 
-    /// How far two configurations are apart, so far as modes are concerned.
-    pub fn apart(&self, a: &Configuration<f64>, b: &Configuration<f64>) -> f64 {
-        self.seen_length(self.free.difference_but_turns(a, b).into_iter())
-    }
-
     /// Whether two configurations are the same, so far as modes are concerned.
     pub fn same(&self, a: &Configuration<f64>, b: &Configuration<f64>) -> bool {
-        self.apart(a, b) < SAME
+        self.seen_length(self.free.difference_but_turns(a, b).into_iter()) < SAME
     }
 
     fn seen_length(&self, step: impl Iterator<Item = f64>) -> f64 {

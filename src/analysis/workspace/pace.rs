@@ -1,7 +1,8 @@
 //! The way from a node to its neighbour in shorter steps, many ways side by side.
 
-use super::fill::{Fill, Spread};
+use super::fill::Fill;
 use super::grid::MOST_AXES;
+use super::spread::Spread;
 use super::step::{Arrival, Moving, Start, Steps};
 use super::tile::Task;
 use crate::linear::{Factorable, norm};

@@ -4,9 +4,10 @@ use rand::SeedableRng;
 use rand_pcg::Pcg64Mcg;
 
 use super::asked::{Asked, Targets};
-use super::fill::{Fill, Spread};
+use super::fill::Fill;
 use super::grid::Grid;
 use super::measure::Measure;
+use super::spread::Spread;
 use super::step::{Start, Steps};
 use crate::linear::Factorable;
 use crate::mechanism::{Configuration, PlatformPose};
