@@ -69,8 +69,8 @@ fn map(
 }
 
 /// Every node with its coordinates and the cells within limits.
-fn nodes(report: &WorkspaceReport) -> Vec<(Vec<f64>, Vec<&Cell>)> {
-    let mut of: BTreeMap<usize, Vec<&Cell>> = BTreeMap::new();
+fn nodes(report: &WorkspaceReport) -> Vec<(Vec<f64>, Vec<Cell<'_>>)> {
+    let mut of: BTreeMap<usize, Vec<Cell>> = BTreeMap::new();
     for cell in report.cells.iter().filter(|cell| cell.aspect.is_some()) {
         of.entry(cell.node).or_default().push(cell);
     }
@@ -276,7 +276,7 @@ fn a_five_bar_reaches_the_overlap_of_two_rings_in_four_working_modes() {
     for mode in 1..=4 {
         let cells = report.cells.iter().filter(|cell| cell.mode == mode);
         let signs = cells.map(|cell| {
-            let triangle = alignment([cell.at[0], cell.at[1]], &cell.joints, [0.2, 0.3]);
+            let triangle = alignment([cell.at[0], cell.at[1]], cell.joints, [0.2, 0.3]);
             (triangle > 0.0) == (cell.direct.unwrap() > 0.0)
         });
         let signs: Vec<bool> = signs.collect();
@@ -301,8 +301,8 @@ fn within_one_aspect_of_a_five_bar_nothing_is_singular() {
         &[],
         15,
     );
-    let outwards = |cell: &&Cell| cell.joints[2] < 0.0 && cell.joints[3] > 0.0;
-    let cells: Vec<&Cell> = report.cells.iter().filter(outwards).collect();
+    let outwards = |cell: &Cell| cell.joints[2] < 0.0 && cell.joints[3] > 0.0;
+    let cells: Vec<Cell> = report.cells.iter().filter(outwards).collect();
     assert_eq!(cells.len(), 225);
     assert!(cells.iter().all(|cell| cell.aspect == cells[0].aspect));
     let mode = cells[0].mode;
@@ -411,7 +411,7 @@ fn a_three_rpr_platform_reaches_where_the_rings_of_its_legs_overlap() {
     }
     let mut same = Vec::new();
     for cell in report.cells.iter().filter(|cell| cell.aspect.is_some()) {
-        same.push((lines(&cell.at) > 0.0) == (cell.direct.unwrap() > 0.0));
+        same.push((lines(cell.at) > 0.0) == (cell.direct.unwrap() > 0.0));
     }
     assert!(same.iter().all(|s| *s == same[0]));
 }
@@ -458,7 +458,7 @@ fn a_section_of_the_three_rps_is_bounded_by_the_lengths_of_its_legs() {
     // what follows of the pose, as far as the hinges tell
     let names = report.following.iter().map(|of| of.name.as_str());
     assert_eq!(names.collect::<Vec<&str>>(), ["top.x", "top.y", "top.yaw"]);
-    for cell in &report.cells {
+    for cell in report.cells.iter() {
         let yaw = cell.following[2];
         let (sin, cos) = yaw.sin_cos();
         let ((sr, cr), (sp, cp)) = (cell.at[0].sin_cos(), cell.at[1].sin_cos());
@@ -494,7 +494,7 @@ fn an_aspect_is_of_one_mode_where_only_a_finer_grid_joins_a_node_to_it() {
     for aspect in &report.aspects {
         let mode = &report.modes[aspect.mode - 1];
         assert!(aspect.nodes <= mode.within + mode.repeated, "{aspect:?}");
-        for cell in &report.cells {
+        for cell in report.cells.iter() {
             if cell.aspect == Some(aspect.aspect) {
                 met += 1;
                 assert_eq!(cell.mode, aspect.mode, "{cell:?}");
@@ -673,7 +673,7 @@ fn nodes_on_a_singularity_part_aspects_and_belong_to_none() {
     let mechanism = written(&text("three_rps"), &[]);
     let axes = [("top.z", 0.0, 1.2), ("top.roll", -1.0, 1.0)];
     let report = map(&mechanism, &axes, &[("top.pitch", 0.0)], 24);
-    let (flat, raised): (Vec<&Cell>, Vec<&Cell>) =
+    let (flat, raised): (Vec<Cell>, Vec<Cell>) =
         report.cells.iter().partition(|cell| cell.at[0] == 0.0);
     assert_eq!(flat.len(), 24);
     for cell in flat {
@@ -745,7 +745,7 @@ fn lanes_and_threads_change_nothing() {
     assert_eq!(bits(&one), bits(&two));
     let alone = on(1, false);
     assert_eq!(one.cells.len(), alone.cells.len());
-    for (a, b) in one.cells.iter().zip(&alone.cells) {
+    for (a, b) in one.cells.iter().zip(alone.cells.iter()) {
         assert_eq!((a.node, a.mode, a.aspect), (b.node, b.mode, b.aspect));
         let (a, b) = (a.condition.unwrap(), b.condition.unwrap());
         assert!((a / b - 1.0).abs() < 1e-6);

@@ -16,9 +16,11 @@
 //! manipulators, with working modes); Gosselin and Angeles 1990 (singularities); Bohigas, Manubens
 //! and Ros 2012 (boundaries by continuation).
 
+mod arrivals;
 mod asked;
 mod aspects;
 mod boundary;
+mod cells;
 mod condition;
 mod curves;
 mod edge;
@@ -37,9 +39,10 @@ mod step;
 mod tile;
 
 pub use boundary::{BoundaryCurve, BoundaryKind, Piece};
+pub use cells::{Cell, Cells};
 pub use report::{
-    AspectReport, AxisReport, BoundaryPoint, Cell, Conditioned, CoordinateReport, HeldReport,
-    ModeReport, WorkspaceReport,
+    AspectReport, AxisReport, BoundaryPoint, Conditioned, CoordinateReport, HeldReport, ModeReport,
+    WorkspaceReport,
 };
 
 use crate::linear::Factorable;

@@ -38,7 +38,7 @@ pub fn json(mechanism: &Mechanism, report: &WorkspaceReport) -> String {
         completeness: completeness(report),
         report,
         columns: columns(mechanism, report),
-        values: report.cells.iter().map(row).collect(),
+        values: report.cells.iter().map(|cell| row(&cell)).collect(),
     };
     document(mechanism.name(), &json)
 }
@@ -69,7 +69,7 @@ fn row(cell: &Cell) -> Vec<Option<f64>> {
     row.push(Some(cell.mode as f64));
     row.push(cell.aspect.map(|aspect| aspect as f64));
     row.extend([cell.condition, cell.direct, cell.inverse]);
-    row.extend(cell.joints.iter().chain(&cell.following).copied().map(Some));
+    row.extend(cell.joints.iter().chain(cell.following).copied().map(Some));
     row
 }
 
@@ -89,7 +89,7 @@ pub fn csv<'a>(
 ) -> impl Iterator<Item = String> + 'a {
     let first = header(&columns(mechanism, report));
     let rows = report.cells.iter().map(|cell| {
-        let fields = row(cell);
+        let fields = row(&cell);
         let fields = fields.iter().map(|x| x.map_or(String::new(), digits));
         fields.collect::<Vec<String>>().join(",") + "\n"
     });

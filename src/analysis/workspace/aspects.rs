@@ -1,65 +1,79 @@
 //! Aspects: regions of one mode without singularities, within limits; and how large regions are.
 
-use super::filled::{Filled, Link, Sheet, join, root};
+use std::ops::Range;
+
+use super::filled::Filled;
 use super::grid::Grid;
 use crate::solve::each;
 
 /// For each sheet the first of its aspect; none outside limits and on singularities.
 pub(super) fn aspects(filled: &Filled) -> Vec<Option<usize>> {
-    let mut roots: Vec<usize> = (0..filled.len()).collect();
-    let inside = |sheet: &Sheet| {
+    filled.parted(|sheet| {
         let told = &sheet.told;
-        sheet.within && told.direct != 0.0 && told.inverse != 0.0
-    };
-    for (s, sheet) in filled.sheets().filter(|(_, s)| inside(s)) {
-        for link in &sheet.links {
-            let Link::To(name) = *link else {
-                continue;
-            };
-            let t = filled.number(name);
-            let other = filled.sheet(t);
-            let [a, b] = [sheet, other].map(|s| &s.told);
-            let alike = |x: f64, y: f64| (x < 0.0) == (y < 0.0);
-            if inside(other) && alike(a.direct, b.direct) && alike(a.inverse, b.inverse) {
-                join(&mut roots, s, t);
-            }
+        let inside = sheet.within && told.direct != 0.0 && told.inverse != 0.0;
+        inside.then_some([told.direct < 0.0, told.inverse < 0.0])
+    })
+}
+
+/// A set of nodes.
+pub(super) struct Region {
+    inside: Vec<bool>,
+    /// The first node and the one behind the last.
+    ends: [usize; 2],
+}
+
+impl Region {
+    pub fn new(grid: &Grid, nodes: impl Iterator<Item = usize>) -> Self {
+        let (mut inside, mut ends) = (vec![false; grid.len()], [grid.len(), 0]);
+        for node in nodes {
+            inside[node] = true;
+            ends = [ends[0].min(node), ends[1].max(node + 1)];
         }
+        Region { inside, ends }
     }
-    let all = filled.sheets();
-    all.map(|(s, sheet)| inside(sheet).then(|| root(&mut roots, s)))
-        .collect()
+
+    /// How many they are.
+    pub fn count(&self) -> usize {
+        self.inside.iter().filter(|inside| **inside).count()
+    }
+
+    /// Whether some may be among these.
+    fn meets(&self, nodes: Range<usize>) -> bool {
+        nodes.start < self.ends[1] && nodes.end > self.ends[0]
+    }
 }
 
 /// How large a set of nodes is, in the units of the mapped coordinates: a length, an area of
 /// polygons, or the volume between parallel areas (trapezoidal rule).
 ///
-/// `inside` tells whether a node belongs to it; `cut` how far it reaches from a node that does
-/// towards its neighbour in a direction that does not, as a part of the way.
+/// `cut` tells how far it reaches from a node of it towards its neighbour in a direction that is
+/// not, as a part of the way.
 pub(super) fn size(
     grid: &Grid,
-    inside: &(dyn Fn(usize) -> bool + Sync),
+    region: &Region,
     cut: &(dyn Fn(usize, usize) -> f64 + Sync),
 ) -> f64 {
+    let inside = &region.inside;
     let scale: f64 = (0..grid.dimensions())
         .map(|axis| grid.spacing(axis))
         .product();
     let parts = match grid.dimensions() {
         1 => (0..grid.count(0) - 1)
-            .map(|i| match (inside(i), inside(i + 1)) {
+            .map(|i| match (inside[i], inside[i + 1]) {
                 (true, true) => 1.0,
                 (true, false) => cut(i, 1),
                 (false, true) => cut(i + 1, 0),
                 (false, false) => 0.0,
             })
             .sum(),
-        2 => slice(grid, 0, inside, cut),
+        2 => slice(grid, 0, region, cut),
         _ => {
             let plane = grid.count(0) * grid.count(1);
             let last = grid.count(2) - 1;
             let weight = |k: usize| if k == 0 || k == last { 0.5 } else { 1.0 };
             let slices = 0..=last;
             slices
-                .map(|k| weight(k) * slice(grid, k * plane, inside, cut))
+                .map(|k| weight(k) * slice(grid, k * plane, region, cut))
                 .sum()
         }
     };
@@ -70,17 +84,20 @@ pub(super) fn size(
 fn slice(
     grid: &Grid,
     first: usize,
-    inside: &(dyn Fn(usize) -> bool + Sync),
+    region: &Region,
     cut: &(dyn Fn(usize, usize) -> f64 + Sync),
 ) -> f64 {
     let n = grid.count(0);
     let rows = each(grid.count(1) - 1, &(), |(), j| {
-        let cells = (0..n - 1).map(|i| first + i + j * n);
-        cells
+        let row = first + j * n;
+        if !region.meets(row..row + 2 * n) {
+            return 0.0;
+        }
+        (row..row + n - 1)
             .map(|corner| {
                 // corners and the directions to the next, counterclockwise
                 let corners = [corner, corner + 1, corner + 1 + n, corner + n];
-                let is = corners.map(inside);
+                let is = corners.map(|corner| region.inside[corner]);
                 if is == [false; 4] {
                     return 0.0;
                 }
@@ -140,7 +157,11 @@ mod tests {
                 to: 1.5,
             };
             let grid = Grid::new(&[axis, axis], &[n, n]);
-            let inside = |node: usize| grid.values(node).iter().map(|x| x * x).sum::<f64>() <= 1.0;
+            let inside = |node: &usize| {
+                let squares = grid.point(*node).map(|x| x * x);
+                squares.iter().sum::<f64>() <= 1.0
+            };
+            let disc = Region::new(&grid, (0..grid.len()).filter(inside));
             let cut = |node: usize, direction: usize| {
                 let values = grid.values(node);
                 let (along, across) = (values[direction / 2], values[1 - direction / 2]);
@@ -151,7 +172,7 @@ mod tests {
                 };
                 ((1.0 - across * across).sqrt() - sign * along) / grid.spacing(0)
             };
-            size(&grid, &inside, &cut)
+            size(&grid, &disc, &cut)
         };
         let error = |n| (area(n) - std::f64::consts::PI).abs();
         assert!(error(41) < 1e-2 && error(81) < 0.35 * error(41));

@@ -3,6 +3,7 @@
 use std::collections::HashSet;
 
 use super::WorkspaceError;
+use super::arrivals::{Arrival, Arrivals, Moving};
 use super::asked::Asked;
 use super::edge::{Edge, Met, reach};
 use super::filled::{Link, Name, Sheet};
@@ -10,7 +11,7 @@ use super::grid::{Grid, MOST_AXES};
 use super::measure::Measure;
 use super::pace::Paced;
 use super::spread::Spread;
-use super::step::{Arrival, Moving, SURE, Start, Steps};
+use super::step::{SURE, Start, Steps};
 use super::tile::{Task, Tile};
 use crate::linear::{Factorable, norm};
 use crate::mechanism::Configuration;
@@ -61,9 +62,10 @@ impl Fill<'_> {
             .map(|(node, at)| self.here(*node, at))
             .collect();
         let settled = self.settled(steps, &starts);
+        let settled = settled.iter().flat_map(Arrivals::iter);
         for ((node, _), arrival) in seeds.iter().zip(settled) {
             if let Some(arrival) = arrival
-                && spread.known(self, *node, &arrival.at).is_none()
+                && spread.known(self, *node, arrival.at).is_none()
             {
                 spread.add(self, *node, arrival);
             }
@@ -74,7 +76,9 @@ impl Fill<'_> {
             let mut failed = Vec::new();
             while !seams.is_empty() {
                 let (now, later) = self.chosen(spread, seams);
-                for (task, arrival) in now.iter().zip(self.steps(spread, steps, &now)) {
+                let arrivals = self.steps(spread, steps, &now);
+                let arrivals = arrivals.iter().flat_map(Arrivals::iter);
+                for (task, arrival) in now.iter().zip(arrivals) {
                     match arrival {
                         Some(arrival) => self.arrive(spread, *task, arrival),
                         None => failed.push(*task),
@@ -94,7 +98,7 @@ impl Fill<'_> {
             spread.keep(later);
             for (task, end) in now.iter().zip(self.ends(spread, steps, &now)) {
                 match end {
-                    End::Arrived(arrival) => self.arrive(spread, *task, arrival),
+                    End::Arrived(arrival) => self.arrive(spread, *task, arrival.moving()),
                     End::Fold => *spread.link_mut(task.0, task.1) = Link::Fold,
                     End::Stuck => *spread.link_mut(task.0, task.1) = Link::Stuck,
                 }
@@ -139,8 +143,12 @@ impl Fill<'_> {
         &self,
         steps: &Pool<Steps<T>>,
         starts: &[Start],
-    ) -> Vec<Option<Arrival>> {
-        in_packs(steps, starts, |steps, pack| steps.settle(pack))
+    ) -> Vec<Arrivals> {
+        in_packs(steps, starts, |steps, pack| {
+            let mut arrivals = Arrivals::default();
+            steps.settle(pack, &mut arrivals);
+            arrivals
+        })
     }
 
     /// Which of the sheets of a node has this configuration.
@@ -220,10 +228,17 @@ impl Fill<'_> {
         spread: &Spread,
         steps: &Pool<Steps<T>>,
         tasks: &[Task],
-    ) -> Vec<Option<Arrival>> {
+    ) -> Vec<Arrivals> {
         in_packs(steps, tasks, |steps, pack| {
             let planned = pack.iter().map(|task| spread.step(self, *task));
-            self.sure(steps, &planned.collect::<Vec<Step>>())
+            let (mut arrivals, mut storage) = Default::default();
+            self.sure(
+                steps,
+                &planned.collect::<Vec<Step>>(),
+                &mut arrivals,
+                &mut storage,
+            );
+            arrivals
         })
     }
 
@@ -232,16 +247,20 @@ impl Fill<'_> {
         &self,
         steps: &mut Steps<T>,
         planned: &[Step],
-    ) -> Vec<Option<Arrival>> {
+        arrivals: &mut Arrivals,
+        storage: &mut Vec<f64>,
+    ) {
         let starts: Vec<Start> = (planned.iter())
             .map(|step| self.towards(step.from, step.axis, step.change, step.to))
             .collect();
-        let arrivals = steps.settle(&starts).into_iter().zip(planned);
-        let sure = arrivals.map(|(arrival, step)| {
+        steps.settle(&starts, arrivals);
+        for (i, step) in planned.iter().enumerate() {
             let (_, length) = self.measure.motion(step.from, step.axis, step.change);
-            arrival.filter(|to| self.measure.alike(step.from, to.moving(), length))
-        });
-        sure.collect()
+            let alike = |to| self.measure.alike(step.from, to, length, storage);
+            if !arrivals.get(i).is_some_and(alike) {
+                arrivals.reject(i);
+            }
+        }
     }
 
     /// Where single steps are too long: by shorter ones, and what is left by steps along the curve,
@@ -281,9 +300,13 @@ impl Fill<'_> {
                 _ => None,
             })
             .collect();
-        let mut again = self.settled(steps, &again).into_iter();
+        let again = self.settled(steps, &again);
+        let mut again = again.iter().flat_map(Arrivals::iter);
         let found = met.iter().map(|met| match met {
-            Met::Neighbour(_) => again.next().flatten().map_or(End::Stuck, End::Arrived),
+            Met::Neighbour(_) => match again.next().flatten() {
+                Some(arrival) => End::Arrived(arrival.arrival()),
+                None => End::Stuck,
+            },
             Met::Fold(..) => End::Fold,
             _ => End::Stuck,
         });
@@ -309,11 +332,11 @@ impl Fill<'_> {
         }
     }
 
-    fn arrive(&self, spread: &mut Spread, (from, d): Task, arrival: Arrival) {
+    fn arrive(&self, spread: &mut Spread, (from, d): Task, arrival: Moving) {
         let Some(node) = self.grid.neighbour(spread.sheet(from).node, d) else {
             return;
         };
-        let known = spread.known(self, node, &arrival.at);
+        let known = spread.known(self, node, arrival.at);
         let to = known.unwrap_or_else(|| spread.add(self, node, arrival));
         spread.link(from, d, to);
     }
@@ -326,15 +349,15 @@ enum End {
 }
 
 /// What comes of items given to as many lanes as there are, in their order.
-fn in_packs<T: Factorable + Packed + Send + Sync, I: Sync>(
+fn in_packs<T: Factorable + Packed + Send + Sync, I: Sync, R: Send>(
     steps: &Pool<Steps<T>>,
     items: &[I],
-    of: impl Fn(&mut Steps<T>, &[I]) -> Vec<Option<Arrival>> + Sync,
-) -> Vec<Option<Arrival>> {
+    of: impl Fn(&mut Steps<T>, &[I]) -> R + Sync,
+) -> Vec<R> {
     let jobs: Vec<&[I]> = items.chunks(JOB).collect();
     let ends = steps.each(jobs.len(), |steps, i| {
         let packs = jobs[i].chunks(T::WIDTH);
-        packs.flat_map(|pack| of(steps, pack)).collect::<Vec<_>>()
+        packs.map(|pack| of(steps, pack)).collect::<Vec<R>>()
     });
     ends.into_iter().flatten().collect()
 }

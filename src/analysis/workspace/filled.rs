@@ -6,6 +6,7 @@ use super::grid::MOST_DIRECTIONS;
 use super::measure::Measure;
 use super::rates::Told;
 use crate::mechanism::Configuration;
+use crate::solve::each;
 
 /// An assembled configuration at a node.
 #[derive(Clone, Debug)]
@@ -104,6 +105,70 @@ impl Filled {
         }
     }
 
+    /// For each sheet of some kind the first of those of its kind that links connect with it.
+    pub fn parted<K: PartialEq + Send + Sync>(
+        &self,
+        kind: impl Fn(&Sheet) -> Option<K> + Sync,
+    ) -> Vec<Option<usize>> {
+        let parts = each(self.tiles.len(), &(), |(), tile| {
+            self.parted_in(tile, &kind)
+        });
+        let mut roots: Vec<usize> = (0..self.len()).collect();
+        let mut parted = vec![false; self.len()];
+        for (numbers, (within, _)) in self.numbers.iter().zip(&parts) {
+            for (&number, root) in numbers.iter().zip(within) {
+                if let Some(root) = *root {
+                    (roots[number], parted[number]) = (numbers[root], true);
+                }
+            }
+        }
+        for [a, b] in parts.into_iter().flat_map(|(_, across)| across) {
+            join(&mut roots, self.number(a), self.number(b));
+        }
+        let mut firsts = vec![None; self.len()];
+        let all = parted
+            .into_iter()
+            .enumerate()
+            .map(|(s, parted)| parted.then(|| *firsts[root(&mut roots, s)].get_or_insert(s)));
+        all.collect()
+    }
+
+    /// For each sheet of a part of the grid one of its kind connected with it in there, the same for
+    /// all of them; and what of its kind is linked with it elsewhere.
+    fn parted_in<K: PartialEq>(
+        &self,
+        tile: usize,
+        kind: &impl Fn(&Sheet) -> Option<K>,
+    ) -> (Vec<Option<usize>>, Vec<[Name; 2]>) {
+        let sheets = &self.tiles[tile];
+        let kinds: Vec<Option<K>> = sheets.iter().map(kind).collect();
+        let mut roots: Vec<usize> = (0..sheets.len()).collect();
+        let mut across = Vec::new();
+        for (s, sheet) in sheets
+            .iter()
+            .enumerate()
+            .filter(|(s, _)| kinds[*s].is_some())
+        {
+            for link in &sheet.links {
+                let Link::To(other) = *link else {
+                    continue;
+                };
+                match other.tile as usize == tile {
+                    true if kinds[s] == kinds[other.sheet as usize] => {
+                        join(&mut roots, s, other.sheet as usize);
+                    }
+                    false if kinds[s] == kind(self.named(other)) => {
+                        across.push([Name::new(tile, s), other]);
+                    }
+                    _ => {}
+                }
+            }
+        }
+        let all = kinds.iter().enumerate();
+        let all = all.map(|(s, kind)| kind.as_ref().map(|_| root(&mut roots, s)));
+        (all.collect(), across)
+    }
+
     pub fn len(&self) -> usize {
         self.names.len()
     }
@@ -128,6 +193,14 @@ impl Filled {
     /// All sheets by their numbers.
     pub fn sheets(&self) -> impl Iterator<Item = (usize, &Sheet)> + Clone {
         (0..self.len()).map(|s| (s, self.sheet(s)))
+    }
+
+    /// How many of something all sheets together have.
+    pub fn count(&self, of: impl Fn(&Sheet) -> usize + Sync) -> usize {
+        let counts = each(self.tiles.len(), &(), |(), tile| {
+            self.tiles[tile].iter().map(&of).sum::<usize>()
+        });
+        counts.into_iter().sum()
     }
 
     pub fn number(&self, name: Name) -> usize {

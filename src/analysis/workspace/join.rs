@@ -1,5 +1,7 @@
 //! Aspects of few nodes: whether they hang together with others where the grid is too coarse to tell.
 
+use std::collections::BTreeMap;
+
 use super::aspects::aspects;
 use super::fill::Fill;
 use super::filled::{Filled, join, root};
@@ -32,15 +34,24 @@ pub(super) fn joined<T: Factorable + Packed + Send + Sync>(
 ) -> Vec<Option<usize>> {
     let found = aspects(filled);
     let mut roots: Vec<usize> = (0..found.len()).collect();
-    let mut sheets: std::collections::BTreeMap<usize, Vec<usize>> = Default::default();
-    for (s, aspect) in found.iter().enumerate() {
-        if let Some(aspect) = aspect {
-            sheets.entry(*aspect).or_default().push(s);
+    let mut counts = vec![0; found.len()];
+    for first in found.iter().flatten() {
+        counts[*first] += 1;
+    }
+    let few = |first: &usize| (1..FEW).contains(&counts[*first]);
+    let few: Vec<usize> = (0..found.len()).filter(few).take(MOST).collect();
+    let mut sheets: BTreeMap<usize, Vec<usize>> = few.iter().map(|f| (*f, Vec::new())).collect();
+    if !few.is_empty() {
+        for (s, aspect) in found.iter().enumerate() {
+            if let Some(sheets) = aspect.and_then(|first| sheets.get_mut(&first)) {
+                sheets.push(s);
+            }
         }
     }
-    let few = sheets.values().filter(|sheets| sheets.len() < FEW);
-    let few: Vec<&Vec<usize>> = few.take(MOST).collect();
-    let others = each(few.len(), &(), |(), i| reached(fill, steps, filled, few[i]));
+    let few: Vec<Vec<usize>> = sheets.into_values().collect();
+    let others = each(few.len(), &(), |(), i| {
+        reached(fill, steps, filled, &few[i])
+    });
     for (small, others) in few.iter().zip(others) {
         for aspect in others.into_iter().filter_map(|other| found[other]) {
             join(&mut roots, small[0], aspect);

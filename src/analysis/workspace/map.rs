@@ -1,16 +1,17 @@
 //! What was reached, put in order: modes, aspects, cells.
 
-use std::collections::{BTreeMap, HashMap};
+use std::collections::HashMap;
 
 use super::asked::Asked;
-use super::aspects;
+use super::aspects::{self, Region};
 use super::boundary::{Crossing, named};
+use super::cells::{Cells, Head, Part};
 use super::filled::{Filled, Link};
-use super::grid::{Grid, MOST_DIRECTIONS};
+use super::grid::Grid;
 use super::join;
 use super::report::{
-    AspectReport, AxisReport, BoundaryPoint, Cell, Conditioned, CoordinateReport, HeldReport,
-    ModeReport, WorkspaceReport,
+    AspectReport, AxisReport, BoundaryPoint, Conditioned, CoordinateReport, HeldReport, ModeReport,
+    WorkspaceReport,
 };
 use crate::mechanism::{Configuration, Coordinate};
 use crate::solve::each;
@@ -27,6 +28,10 @@ pub(super) struct Map<'a> {
     /// For each sheet the first sheet of its aspect.
     aspect: Vec<Option<usize>>,
 }
+
+/// How far from a sheet in a direction what it belongs to reaches, as a part of an edge; half if
+/// nothing is known.
+type Cuts = HashMap<(usize, usize), f64>;
 
 impl<'a> Map<'a> {
     pub fn new(
@@ -65,9 +70,12 @@ impl<'a> Map<'a> {
             .filter_map(|(root, first)| Some((root, (*first)?)))
             .collect();
         roots.sort_by(|a, b| order(a.1, b.1).then(a.0.cmp(&b.0)));
-        let number = |s: usize| roots.iter().position(|(root, _)| *root == filled.roots[s]);
+        let mut numbers = vec![None; filled.len()];
+        for (number, (root, _)) in roots.iter().enumerate() {
+            numbers[*root] = Some(number);
+        }
         Map {
-            mode: (0..filled.len()).map(number).collect(),
+            mode: filled.roots.iter().map(|root| numbers[*root]).collect(),
             modes: roots.len(),
             aspect,
             asked,
@@ -85,12 +93,13 @@ impl<'a> Map<'a> {
         let name = |of: &Holdable| of.name(mechanism);
         let axes = self.asked.axes.iter().enumerate();
         let held = self.held();
-        let mut cut = vec![[0.5; MOST_DIRECTIONS]; self.filled.len()];
+        let mut cuts = Cuts::new();
         for crossing in crossings {
-            cut[crossing.sheet][crossing.direction] = crossing.part;
+            cuts.insert((crossing.sheet, crossing.direction), crossing.part);
             let link = self.filled.sheet(crossing.sheet).links[crossing.direction];
             if let Link::To(other) = link {
-                cut[self.filled.number(other)][crossing.direction ^ 1] = 1.0 - crossing.part;
+                let other = (self.filled.number(other), crossing.direction ^ 1);
+                cuts.insert(other, 1.0 - crossing.part);
             }
         }
         let mut of_modes: Vec<Vec<usize>> = vec![Vec::new(); self.modes];
@@ -102,14 +111,13 @@ impl<'a> Map<'a> {
         let node = |s: &usize| self.filled.node(*s);
         let whole = |s: &usize| self.filled.within(*s);
         let of_mode = |mode: usize| move |s: &usize| self.mode[*s] == Some(mode) && whole(s);
-        let reached = (0..self.grid.len()).filter(|n| self.first(*n, &whole).is_some());
-        let mut unsure = 0;
-        for (_, sheet) in self.filled.sheets().filter(|(s, _)| whole(s)) {
-            unsure += (sheet.links.iter())
-                .filter(|link| **link == Link::Stuck)
-                .count();
-        }
-        let (aspects, numbers) = self.aspects(&cut);
+        let all = (0..self.filled.len()).filter(whole);
+        let reached = Region::new(self.grid, all.map(|s| node(&s)));
+        let unsure = self.filled.count(|sheet| {
+            let stuck = sheet.links.iter().filter(|link| **link == Link::Stuck);
+            if sheet.within { stuck.count() } else { 0 }
+        });
+        let (aspects, numbers) = self.aspects(&cuts);
         WorkspaceReport {
             axes: axes
                 .map(|(i, axis)| AxisReport {
@@ -141,23 +149,21 @@ impl<'a> Map<'a> {
             reached: reached.count(),
             unit: size_unit(self.asked.axes.iter().map(|axis| unit(axis.coordinate))),
             size: (self.asked.axes.iter().map(|a| a.to - a.from)).product(),
-            reached_size: self.size(&whole, &cut),
+            reached_size: self.size(&reached, &whole, &cuts),
             modes: each(self.modes, &(), |(), mode| {
                 let of = &of_modes[mode];
-                let mut nodes: Vec<usize> = of.iter().map(node).collect();
-                let all = nodes.len();
+                let nodes = Region::new(self.grid, of.iter().map(node)).count();
                 let within = of.iter().filter(|s| whole(s));
-                let mut within: Vec<usize> = within.map(node).collect();
-                nodes.dedup();
-                within.dedup();
-                let at_first = of.iter().take_while(|s| Some(&node(s)) == nodes.first());
+                let within = Region::new(self.grid, within.map(node));
+                let first = of.first().map(node);
+                let at_first = of.iter().take_while(|s| Some(node(s)) == first);
                 let joints = at_first.map(|s| brought(self.asked, &self.filled.sheet(*s).at, true));
                 ModeReport {
                     mode: mode + 1,
-                    nodes: nodes.len(),
-                    within: within.len(),
-                    size: self.size(&of_mode(mode), &cut),
-                    repeated: all - nodes.len(),
+                    nodes,
+                    within: within.count(),
+                    size: self.size(&within, &of_mode(mode), &cuts),
+                    repeated: of.len() - nodes,
                     joints: joints
                         .min_by(|a, b| a.partial_cmp(b).unwrap_or(std::cmp::Ordering::Equal))
                         .unwrap_or_default(),
@@ -220,33 +226,27 @@ impl<'a> Map<'a> {
         })
     }
 
-    /// The first sheet of a node that is wanted.
-    fn first(&self, node: usize, wanted: &(dyn Fn(&usize) -> bool + Sync)) -> Option<usize> {
-        self.filled.at(node).find(|s| wanted(s))
-    }
-
-    fn size(
-        &self,
-        wanted: &(dyn Fn(&usize) -> bool + Sync),
-        cut: &[[f64; MOST_DIRECTIONS]],
-    ) -> f64 {
-        let inside = |node: usize| self.first(node, wanted).is_some();
+    /// How large a region is, where these of the sheets at its nodes belong to it.
+    fn size(&self, region: &Region, belongs: &(dyn Fn(&usize) -> bool + Sync), cuts: &Cuts) -> f64 {
         let reach = |node: usize, direction: usize| {
-            let sheets = self.filled.at(node).filter(|s| wanted(s));
-            sheets.map(|s| cut[s][direction]).fold(0.0, f64::max)
+            let sheets = self.filled.at(node).filter(belongs);
+            let cut = |s: usize| cuts.get(&(s, direction)).copied().unwrap_or(0.5);
+            sheets.map(cut).fold(0.0, f64::max)
         };
-        aspects::size(self.grid, &inside, &reach)
+        aspects::size(self.grid, region, &reach)
     }
 
     /// The aspects, and for the first sheet of each its number.
-    fn aspects(
-        &self,
-        cut: &[[f64; MOST_DIRECTIONS]],
-    ) -> (Vec<AspectReport>, HashMap<usize, usize>) {
-        let mut of: BTreeMap<usize, Vec<usize>> = Default::default();
+    fn aspects(&self, cuts: &Cuts) -> (Vec<AspectReport>, Vec<Option<usize>>) {
+        let mut of: Vec<(usize, Vec<usize>)> = Vec::new();
+        let mut places = vec![None; self.filled.len()];
         for (s, aspect) in self.aspect.iter().enumerate() {
-            if let (Some(aspect), Some(_)) = (aspect, self.mode[s]) {
-                of.entry(*aspect).or_default().push(s);
+            if let (Some(first), Some(_)) = (*aspect, self.mode[s]) {
+                let place = *places[first].get_or_insert_with(|| {
+                    of.push((first, Vec::new()));
+                    of.len() - 1
+                });
+                of[place].1.push(s);
             }
         }
         let told = |s: usize| &self.filled.sheet(s).told;
@@ -255,10 +255,10 @@ impl<'a> Map<'a> {
             (_, true) => -1,
             (_, false) => 1,
         };
-        let of: Vec<(usize, Vec<usize>)> = of.into_iter().collect();
         let mut all: Vec<(usize, AspectReport)> = each(of.len(), &(), |(), i| {
             let (first, ref sheets) = of[i];
-            let wanted = |s: &usize| self.aspect[*s] == Some(first);
+            let belongs = |s: &usize| self.aspect[*s] == Some(first);
+            let region = Region::new(self.grid, sheets.iter().map(|s| self.filled.node(*s)));
             let finite: Vec<usize> = (sheets.iter().copied())
                 .filter(|s| told(*s).condition.is_finite())
                 .collect();
@@ -278,7 +278,7 @@ impl<'a> Map<'a> {
                 aspect: 0,
                 mode: self.mode[first].map_or(0, |mode| mode + 1),
                 nodes: sheets.len(),
-                size: self.size(&wanted, cut),
+                size: self.size(&region, &belongs, cuts),
                 direct: sign(told(first).direct, self.asked.tells_direct()),
                 inverse: sign(told(first).inverse, self.asked.tells_inverse()),
                 best: first_of(conditions.clone().fold(f64::INFINITY, f64::min)),
@@ -293,11 +293,10 @@ impl<'a> Map<'a> {
                 node(a.0).cmp(&node(b.0)).then(a.0.cmp(&b.0))
             })
         });
-        let numbers = all
-            .iter()
-            .enumerate()
-            .map(|(i, (first, _))| (*first, i + 1));
-        let numbers = numbers.collect();
+        let mut numbers = places;
+        for (i, (first, _)) in all.iter().enumerate() {
+            numbers[*first] = Some(i + 1);
+        }
         let reports = all
             .into_iter()
             .enumerate()
@@ -308,38 +307,64 @@ impl<'a> Map<'a> {
         (reports.collect(), numbers)
     }
 
-    fn cells(&self, numbers: &HashMap<usize, usize>) -> Vec<Cell> {
-        let mut sheets: Vec<usize> = (0..self.filled.len())
-            .filter(|s| self.mode[*s].is_some())
+    /// The table, given for the first sheet of each aspect its number.
+    fn cells(&self, numbers: &[Option<usize>]) -> Cells {
+        /// Rows that one thread makes at a time.
+        const ROWS: usize = 1000;
+        let mut sheets: Vec<(usize, usize)> = (self.mode.iter().enumerate())
+            .filter_map(|(s, mode)| Some((s, (*mode)?)))
             .collect();
-        sheets.sort_by_key(|&s| (self.filled.node(s), self.mode[s], s));
-        let told = |x: f64, told: bool| told.then_some(x);
+        // sheets are in the order of their nodes
+        for of_node in
+            sheets.chunk_by_mut(|(a, _), (b, _)| self.filled.node(*a) == self.filled.node(*b))
+        {
+            of_node.sort_by_key(|(s, mode)| (*mode, *s));
+        }
         let following: Vec<(usize, Coordinate)> = self.following().collect();
         let (direct, inverse) = (self.asked.tells_direct(), self.asked.tells_inverse());
-        each(sheets.len(), &(), |(), i| {
-            let sheet = self.filled.sheet(sheets[i]);
-            let of = &sheet.told;
-            let aspect = self.aspect[sheets[i]];
-            Cell {
-                node: sheet.node,
-                at: self.grid.values(sheet.node),
-                mode: self.mode[sheets[i]].map_or(0, |mode| mode + 1),
-                aspect: aspect.and_then(|first| numbers.get(&first).copied()),
-                condition: of.condition.is_finite().then_some(of.condition),
-                direct: told(of.direct, direct),
-                inverse: told(of.inverse, inverse),
-                joints: brought(self.asked, &sheet.at, false),
-                following: (following.iter())
-                    .map(|&(p, c)| c.of(&sheet.at.platforms[p].pose()))
-                    .collect(),
+        let told = |x: f64, told: bool| told.then_some(x);
+        let axes = self.grid.dimensions();
+        let widths = [axes, self.asked.mechanism.joints().len(), following.len()];
+        let parts: Vec<&[(usize, usize)]> = sheets.chunks(ROWS).collect();
+        let parts = each(parts.len(), &(), |(), i| {
+            let mut part = Part {
+                heads: Vec::with_capacity(parts[i].len()),
+                values: Vec::with_capacity(parts[i].len() * widths.iter().sum::<usize>()),
+            };
+            for &(s, mode) in parts[i] {
+                let sheet = self.filled.sheet(s);
+                let of = &sheet.told;
+                part.heads.push(Head {
+                    node: sheet.node,
+                    mode: mode + 1,
+                    aspect: self.aspect[s].and_then(|first| numbers[first]),
+                    condition: of.condition.is_finite().then_some(of.condition),
+                    direct: told(of.direct, direct),
+                    inverse: told(of.inverse, inverse),
+                });
+                part.values.extend(&self.grid.point(sheet.node)[..axes]);
+                let joints = part.values.len();
+                part.values.extend(&sheet.at.joints);
+                bring(self.asked, &mut part.values[joints..], false);
+                let coordinates = following.iter();
+                let coordinates = coordinates.map(|&(p, c)| c.of(&sheet.at.platforms[p].pose()));
+                part.values.extend(coordinates);
             }
-        })
+            part
+        });
+        Cells { widths, parts }
     }
 }
 
 /// The joints, angles within limits or in (−π, π]; all of the latter kind where modes are compared.
 fn brought(asked: &Asked, at: &Configuration<f64>, plain: bool) -> Vec<f64> {
     let mut joints = at.joints.clone();
+    bring(asked, &mut joints, plain);
+    joints
+}
+
+/// The same in place.
+fn bring(asked: &Asked, joints: &mut [f64], plain: bool) {
     for (joint, value) in joints.iter_mut().enumerate() {
         if asked.turns[joint] {
             let turn = std::f64::consts::TAU;
@@ -347,9 +372,8 @@ fn brought(asked: &Asked, at: &Configuration<f64>, plain: bool) -> Vec<f64> {
         }
     }
     if !plain {
-        Walk::within_limits(asked.mechanism, &mut joints);
+        Walk::within_limits(asked.mechanism, joints);
     }
-    joints
 }
 
 /// `m²`, `rad·m`

@@ -1,7 +1,8 @@
 //! How far configurations and their motions are apart, and what is surely one mode.
 
+use super::arrivals::Moving;
 use super::asked::Asked;
-use super::step::{Moving, SURE};
+use super::step::SURE;
 use crate::mechanism::{Configuration, Role};
 use crate::solve::SolutionCurve;
 use crate::system::{Curve, Held, Holdable, Unknown};
@@ -67,15 +68,16 @@ impl Measure {
     }
 
     /// Whether two configurations lie where each other's motions say when a mapped coordinate
-    /// changes by so much, and the motions are [alike](Self::alike). `step` is storage.
+    /// changes by so much, and the motions are [alike](Self::alike).
     pub fn linked(
         &self,
         [a, b]: [Moving; 2],
         axis: usize,
         change: f64,
-        step: &mut Vec<f64>,
+        storage: &mut Vec<f64>,
     ) -> bool {
-        step.resize(self.free.unknowns(), 0.0);
+        storage.resize(self.free.unknowns(), 0.0);
+        let step = &mut storage[..];
         self.free.difference_but_turns_into(a.at, b.at, step);
         let near = |from: Moving| {
             let (motion, factor) = self.motion(from, axis, change);
@@ -83,7 +85,7 @@ impl Measure {
             let miss = motion.iter().zip(&*step).map(|(x, d)| d - x * factor);
             self.seen_length(miss) <= SURE * length + SAME
         };
-        near(a) && near(b) && self.alike(a, b, change / self.units[axis])
+        near(a) && near(b) && self.alike(a, b, change / self.units[axis], storage)
     }
 
     /// Whether the motions at two configurations, a step of the given length of the mapped
@@ -95,17 +97,19 @@ impl Measure {
     /// one of length ρ = 0, that may be seen in one passive joint only: it turns by dθ = ds/ρ to
     /// one side before and to the other after, so that over a step s from −ρ₀ to ρ₁ the difference
     /// of both is s/ρ₀ + s/ρ₁ ≥ 4 rad. No joint is to differ by so much.
-    pub fn alike(&self, a: Moving, b: Moving, length: f64) -> bool {
+    pub fn alike(&self, a: Moving, b: Moving, length: f64, storage: &mut Vec<f64>) -> bool {
         const CHANGE: f64 = 0.6;
         const SWING: f64 = 1.0;
         let unknowns = self.free.unknowns();
-        let mut swings = vec![0.0; unknowns];
+        storage.clear();
+        storage.resize(unknowns, 0.0);
+        let swings = &mut storage[..];
         let columns = a.motions.chunks_exact(unknowns);
         let mut columns = columns.zip(b.motions.chunks_exact(unknowns));
         let same_way = columns.all(|(a, b)| {
             let [mut change, mut from, mut to] = [0.0; 3];
             let pairs = a.iter().zip(b).zip(&self.seen);
-            for (((a, b), seen), swing) in pairs.zip(&mut swings) {
+            for (((a, b), seen), swing) in pairs.zip(&mut *swings) {
                 let squared = (b - a) * (b - a);
                 *swing += squared;
                 change += seen * squared;

@@ -1,12 +1,12 @@
 //! The way from a node to its neighbour in shorter steps, many ways side by side.
 
+use super::arrivals::{Arrival, Arrivals, Moving};
 use super::fill::Fill;
 use super::grid::MOST_AXES;
 use super::spread::Spread;
-use super::step::{Arrival, Moving, Start, Steps};
+use super::step::{Start, Steps};
 use super::tile::Task;
 use crate::linear::{Factorable, norm};
-use crate::mechanism::Configuration;
 use crate::number::Packed;
 use crate::solve::Pool;
 
@@ -22,8 +22,7 @@ pub(super) enum Paced {
 
 /// How far an edge has been gone.
 struct Way {
-    at: Configuration<f64>,
-    motions: Vec<f64>,
+    at: Arrival,
     axis: usize,
     /// The mapped coordinates at the neighbour.
     end: [f64; MOST_AXES],
@@ -38,13 +37,6 @@ struct Way {
 }
 
 impl Way {
-    fn moving(&self) -> Moving<'_> {
-        Moving {
-            at: &self.at,
-            motions: &self.motions,
-        }
-    }
-
     fn rest(&self) -> f64 {
         self.end[self.axis] - self.x
     }
@@ -65,7 +57,7 @@ impl Way {
         if slowness < self.slowness {
             self.fold = self.x + gone * slowness / (self.slowness - slowness);
         }
-        (self.at, self.motions, self.slowness) = (at.at, at.motions, slowness);
+        (self.at, self.slowness) = (at, slowness);
         let (left, rest) = (self.fold - self.x, self.rest());
         let ahead = left.is_finite() && left.abs() < 1.5 * rest.abs();
         let next = if ahead { NEXT * left } else { 2.0 * gone };
@@ -101,28 +93,31 @@ impl Fill<'_> {
                     step: 0.5 * edge.change,
                     slowness: slowness(edge.from, edge.axis),
                     fold: f64::INFINITY,
-                    at: edge.from.at.clone(),
-                    motions: edge.from.motions.to_vec(),
+                    at: edge.from.arrival(),
                 };
                 (i, way)
             })
             .collect();
+        let mut storage = Vec::new();
         for _ in 0..ROUNDS {
             if ways.is_empty() {
                 break;
             }
             let starts: Vec<Start> = (ways.iter()).map(|(_, way)| self.start_of(way)).collect();
             let arrivals = self.settled(steps, &starts);
+            let arrivals = arrivals.iter().flat_map(Arrivals::iter);
             let mut left = Vec::new();
             for ((i, mut way), arrival) in ways.into_iter().zip(arrivals) {
-                let (_, length) = self.measure.motion(way.moving(), way.axis, way.step);
-                let sure =
-                    arrival.filter(|to| self.measure.alike(way.moving(), to.moving(), length));
+                let from = way.at.moving();
+                let (_, length) = self.measure.motion(from, way.axis, way.step);
+                let sure = arrival.filter(|to| self.measure.alike(from, *to, length, &mut storage));
                 match sure {
-                    Some(arrival) if way.step == way.rest() => ends[i] = Paced::Arrived(arrival),
+                    Some(arrival) if way.step == way.rest() => {
+                        ends[i] = Paced::Arrived(arrival.arrival());
+                    }
                     Some(arrival) => {
-                        let slowness = slowness(arrival.moving(), way.axis);
-                        match way.on(arrival, slowness) {
+                        let slowness = slowness(arrival, way.axis);
+                        match way.on(arrival.arrival(), slowness) {
                             true => ends[i] = Paced::Fold,
                             false => left.push((i, way)),
                         }
@@ -146,7 +141,7 @@ impl Fill<'_> {
         if way.step != way.rest() {
             values[way.axis] = way.x + way.step;
         }
-        self.towards(way.moving(), way.axis, way.step, values)
+        self.towards(way.at.moving(), way.axis, way.step, values)
     }
 }
 
@@ -154,11 +149,11 @@ impl Fill<'_> {
 mod tests {
     use super::*;
     use crate::analysis::workspace::rates::Told;
+    use crate::mechanism::Configuration;
 
     fn way(slowness: f64) -> Way {
         Way {
-            at: arrival().at,
-            motions: Vec::new(),
+            at: arrival(),
             axis: 0,
             end: [1.0, 0.0, 0.0],
             x: 0.0,

@@ -5,7 +5,7 @@ use super::condition::{condition, determinant};
 use crate::geometry::Vector3;
 use crate::linear::Factorable;
 use crate::mechanism::{Configuration, Coordinate, Role, orientation_rows};
-use crate::number::Packed;
+use crate::number::{LANES, Packed};
 use crate::solve::Equations;
 use crate::system::{Held, HeldPlatform, Holdable, System, Unknown, Work};
 
@@ -62,7 +62,7 @@ enum Way {
 }
 
 /// What is told of a configuration in one place.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq)]
 pub(super) struct Told {
     /// Whether the held coordinates can have any rates.
     pub regular: bool,
@@ -144,25 +144,21 @@ impl<T: Factorable + Packed> Rates<T> {
         at: &Configuration<T>,
         system: &System<T>,
         work: &mut Work<T>,
-    ) -> Vec<Told> {
+    ) -> [Told; LANES] {
         self.free.linearise(at, &mut self.work);
         system.factorise(0.0, work);
         let (n, unknowns) = (self.held.len(), self.unknowns());
         // the largest that J N is off
-        let mut gap = vec![0.0f64; T::WIDTH];
+        let mut gap = [0.0f64; LANES];
         for i in 0..n {
             let mut motion = std::mem::take(&mut self.motions);
             self.move_one(at, system, work, i, &mut motion[i * unknowns..][..unknowns]);
             let one = &motion[i * unknowns..][..unknowns];
             self.free
                 .product_into(one, &mut self.work, &mut self.column);
-            for (place, gap) in gap.iter_mut().enumerate() {
-                let largest = |of: &[T]| {
-                    let sizes = of.iter().map(|x| x.part(place).abs());
-                    // a NaN is larger than any
-                    sizes.fold(0.0, |most, x| if x <= most { most } else { x })
-                };
-                let relative = largest(&self.column) / (1.0 + largest(one));
+            let (off, size) = (largest(&self.column), largest(one));
+            for (gap, (off, size)) in gap.iter_mut().zip(off.iter().zip(size)) {
+                let relative = off / (1.0 + size);
                 *gap = if relative <= *gap { *gap } else { relative };
             }
             self.motions = motion;
@@ -172,7 +168,6 @@ impl<T: Factorable + Packed> Rates<T> {
         self.matrix(&self.held, at, &mut back);
         self.matrix(&self.inputs, at, &mut input);
         self.matrix(&self.outputs, at, &mut output);
-        let each = 0..T::WIDTH;
         let mut of = |matrix: &Vec<T>| {
             self.spare.clone_from(matrix);
             determinant(&mut self.spare, n)
@@ -189,31 +184,34 @@ impl<T: Factorable + Packed> Rates<T> {
                 }
                 condition(&mut input, &mut moved, n)
             }
-            false => vec![(false, f64::INFINITY); T::WIDTH],
+            false => [(false, f64::INFINITY); LANES],
         };
         let lost = match of_outputs {
             true => condition(&mut output, &mut [], n),
-            false => vec![(false, f64::INFINITY); T::WIDTH],
+            false => [(false, f64::INFINITY); LANES],
         };
         let of = |told: bool, lost: bool, determinant: f64| match (told, lost) {
             (false, _) => 1.0,
             (true, true) => 0.0,
             (true, false) => determinant,
         };
-        let told = each.map(|place| {
-            let unit = |i: usize, j: usize| f64::from(u8::from(i == j));
-            let misses = back.iter().enumerate();
-            let mut misses = misses.map(|(k, x)| (x.part(place) - unit(k % n, k / n)).abs());
-            // a NaN is not regular
-            let regular = misses.all(|miss| miss < 1e-6) && gap[place] < 1e-6;
-            Told {
-                regular,
+        let mut regular = [true; LANES];
+        for (k, x) in back.iter().enumerate() {
+            let unit = f64::from(u8::from(k % n == k / n));
+            for (place, regular) in regular.iter_mut().enumerate().take(T::WIDTH) {
+                // a NaN is not regular
+                *regular &= (x.part(place) - unit).abs() < 1e-6;
+            }
+        }
+        let told = std::array::from_fn(|place| match place < T::WIDTH {
+            true => Told {
+                regular: regular[place] && gap[place] < 1e-6,
                 direct: of(of_inputs, conditions[place].0, direct.part(place)),
                 inverse: of(of_outputs, lost[place].0, inverse.part(place)),
                 condition: conditions[place].1,
-            }
+            },
+            false => Told::default(),
         });
-        let told = told.collect();
         self.rates = [back, input, output, moved];
         told
     }
@@ -270,9 +268,9 @@ impl<T: Factorable + Packed> Rates<T> {
         }
     }
 
-    /// The motions for unit rates of all held coordinates in one place, one after another.
-    pub fn motions(&self, place: usize) -> Vec<f64> {
-        self.motions.iter().map(|x| x.part(place)).collect()
+    /// The motions for unit rates of all held coordinates, one after another.
+    pub fn motions(&self) -> &[T] {
+        &self.motions
     }
 
     /// The rates of coordinates, a column for each held one.
@@ -301,6 +299,18 @@ impl<T: Factorable + Packed> Rates<T> {
             }
         }
     }
+}
+
+/// The largest of several numbers without their signs, in each place; a NaN is larger than any.
+fn largest<T: Packed>(of: &[T]) -> [f64; LANES] {
+    let mut most = [0.0; LANES];
+    for x in of {
+        for (place, most) in most.iter_mut().enumerate().take(T::WIDTH) {
+            let size = x.part(place).abs();
+            *most = if size <= *most { *most } else { size };
+        }
+    }
+    most
 }
 
 /// How the rate of each held coordinate enters the equations of the question.

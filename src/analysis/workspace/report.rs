@@ -3,6 +3,7 @@
 use serde::Serialize;
 
 use super::boundary::{BoundaryCurve, BoundaryKind};
+use super::cells::Cells;
 
 /// Where a mechanism reaches in a box of coordinates, and how.
 #[derive(Clone, Debug, PartialEq, Serialize)]
@@ -52,7 +53,7 @@ pub struct WorkspaceReport {
     pub normalising_length: f64,
     /// Every node in every mode that reaches it, those outside limits too.
     #[serde(skip)]
-    pub cells: Vec<Cell>,
+    pub cells: Cells,
 }
 
 /// A mapped coordinate.
@@ -154,29 +155,4 @@ pub struct BoundaryPoint {
     pub at: Vec<f64>,
     /// The joints there, rad or m, in the order of the file.
     pub joints: Vec<f64>,
-}
-
-/// A node in a mode.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Cell {
-    /// The number of the node, the first coordinate running fastest.
-    pub node: usize,
-    /// The mapped coordinates, rad or m.
-    pub at: Vec<f64>,
-    /// The mode.
-    pub mode: usize,
-    /// The aspect; none outside limits and on singularities.
-    pub aspect: Option<usize>,
-    /// The condition number of the Jacobian from inputs to outputs, lengths over the normalising
-    /// length; none if it is singular or not told.
-    pub condition: Option<f64>,
-    /// The determinant of the rates of the inputs for those of what is mapped and held: zero at
-    /// direct singularities. Dimensionless; none if it is not told.
-    pub direct: Option<f64>,
-    /// The same for outputs: zero at inverse singularities.
-    pub inverse: Option<f64>,
-    /// The joints, rad or m, in the order of the file.
-    pub joints: Vec<f64>,
-    /// The coordinates of platforms that follow, rad or m.
-    pub following: Vec<f64>,
 }

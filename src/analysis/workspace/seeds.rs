@@ -3,6 +3,7 @@
 use rand::SeedableRng;
 use rand_pcg::Pcg64Mcg;
 
+use super::arrivals::Arrivals;
 use super::asked::{Asked, Targets};
 use super::fill::Fill;
 use super::grid::Grid;
@@ -106,7 +107,7 @@ fn take(
         return;
     }
     // where the mapped coordinates do not tell how things move there is nothing to go on from
-    if (storage.steps.told(&at, values)).is_some_and(|told| told.regular) {
+    if storage.steps.told(&at, values).regular {
         found.push(at);
     }
 }
@@ -159,11 +160,14 @@ pub(super) fn probe<T: Factorable + Packed + Send + Sync>(
             })
             .collect();
         let mut new: Vec<Configuration<f64>> = Vec::new();
-        let arrivals = starts.chunks(T::WIDTH).flat_map(|pack| steps.settle(pack));
-        for arrival in arrivals.flatten() {
-            let known = |of: &Configuration<f64>| fill.measure.same(of, &arrival.at);
-            if reached.known(fill, node, &arrival.at).is_none() && !new.iter().any(known) {
-                new.push(arrival.at);
+        let mut arrivals = Arrivals::default();
+        for pack in starts.chunks(T::WIDTH) {
+            steps.settle(pack, &mut arrivals);
+            for arrival in arrivals.iter().flatten() {
+                let known = |of: &Configuration<f64>| fill.measure.same(of, arrival.at);
+                if reached.known(fill, node, arrival.at).is_none() && !new.iter().any(known) {
+                    new.push(arrival.at.clone());
+                }
             }
         }
         (node, new)

@@ -1,9 +1,9 @@
 //! What was reached so far, in the parts of the grid.
 
+use super::arrivals::Moving;
 use super::fill::{Fill, Step};
 use super::filled::{Filled, Link, Name, Sheet};
 use super::grid::Grid;
-use super::step::Arrival;
 use super::tile::{Task, Tile, Tiling};
 use crate::mechanism::Configuration;
 
@@ -74,7 +74,7 @@ impl Spread {
     }
 
     /// Adds what was not reached before.
-    pub fn add(&mut self, fill: &Fill, node: usize, arrival: Arrival) -> Name {
+    pub fn add(&mut self, fill: &Fill, node: usize, arrival: Moving) -> Name {
         let tile = self.tiling.of(fill.grid, node);
         self.tiles[tile].add(fill, node, arrival)
     }

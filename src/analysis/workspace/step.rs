@@ -1,11 +1,12 @@
 //! From a node to its neighbour: several such steps side by side.
 
+use super::arrivals::Arrivals;
 use super::asked::{Asked, Targets};
 use super::grid::MOST_AXES;
 use super::rates::{Rates, Told};
 use crate::linear::Factorable;
 use crate::mechanism::Configuration;
-use crate::number::Packed;
+use crate::number::{LANES, Packed};
 use crate::solve::Equations;
 use crate::system::{System, Work};
 
@@ -19,32 +20,6 @@ pub(super) struct Start<'a> {
     pub reach: f64,
     /// The mapped coordinates there, and zeros.
     pub values: [f64; MOST_AXES],
-}
-
-/// An assembled configuration at a node.
-#[derive(Clone, Debug)]
-pub(super) struct Arrival {
-    pub at: Configuration<f64>,
-    /// The motions for unit rates of the held coordinates one after another, the mapped ones first,
-    /// dimensionless.
-    pub motions: Vec<f64>,
-    pub told: Told,
-}
-
-/// A configuration with its motions.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Moving<'a> {
-    pub at: &'a Configuration<f64>,
-    pub motions: &'a [f64],
-}
-
-impl Arrival {
-    pub fn moving(&self) -> Moving<'_> {
-        Moving {
-            at: &self.at,
-            motions: &self.motions,
-        }
-    }
 }
 
 /// Newton's method in several places at once. A place whose steps are too long stands still from
@@ -65,15 +40,6 @@ pub(super) struct Steps<T: Factorable> {
 /// beyond it another solution may be as near.
 pub(super) const SURE: f64 = 0.3;
 
-/// What came of a start.
-enum Outcome {
-    Arrived(Arrival),
-    /// The steps are too long.
-    Unsure,
-    /// Rank is lost, which places side by side cannot lose one by one.
-    Spoiled,
-}
-
 impl<T: Factorable + Packed> Steps<T> {
     pub fn new(asked: &Asked) -> Self {
         let system: System<T> = asked.question.system_over();
@@ -89,23 +55,23 @@ impl<T: Factorable + Packed> Steps<T> {
     }
 
     /// The configurations that are surely meant; at most as many starts as places.
-    pub fn settle(&mut self, starts: &[Start]) -> Vec<Option<Arrival>> {
-        let ends = self.together(starts);
-        let spoiled = ends.iter().any(|end| matches!(end, Outcome::Spoiled));
-        let ends = ends.into_iter().zip(starts);
-        let settled = ends.map(|(end, start)| match end {
-            Outcome::Arrived(arrival) => Some(arrival),
-            _ if !spoiled || starts.len() == 1 => None,
-            // the same in all places
-            _ => match self.together(std::slice::from_ref(start)).pop() {
-                Some(Outcome::Arrived(arrival)) => Some(arrival),
-                _ => None,
-            },
-        });
-        settled.collect()
+    pub fn settle(&mut self, starts: &[Start], arrivals: &mut Arrivals) {
+        arrivals.begin(starts.len());
+        let spoiled = self.together(starts, 0, arrivals);
+        if !spoiled || starts.len() == 1 {
+            return;
+        }
+        for (i, start) in starts.iter().enumerate() {
+            if arrivals.get(i).is_none() {
+                // the same in all places
+                self.together(std::slice::from_ref(start), i, arrivals);
+            }
+        }
     }
 
-    fn together(&mut self, starts: &[Start]) -> Vec<Outcome> {
+    /// The same with all of them, the first of which has this number. Whether rank is lost, which
+    /// places side by side cannot lose one by one.
+    fn together(&mut self, starts: &[Start], first: usize, arrivals: &mut Arrivals) -> bool {
         /// Corrections, and those from anywhere.
         const STEPS: [usize; 2] = [8, 20];
         const TOLERANCE: f64 = 1e-12;
@@ -114,78 +80,79 @@ impl<T: Factorable + Packed> Steps<T> {
         let start = |place: usize| &starts[place.min(starts.len() - 1)];
         self.begin(&start);
         (self.targets).ask(&mut self.system, &mut self.point, |p| &start(p).values);
-        let mut sure = vec![true; T::WIDTH];
-        let mut solved = vec![false; T::WIDTH];
-        let mut bounds: Vec<f64> = (0..T::WIDTH).map(|place| start(place).reach).collect();
-        let most = STEPS[usize::from(bounds.iter().any(|bound| bound.is_infinite()))];
+        let places = 0..T::WIDTH;
+        let mut sure = [true; LANES];
+        let mut solved = [false; LANES];
+        let mut bounds = [0.0; LANES];
+        for place in places.clone() {
+            bounds[place] = start(place).reach;
+        }
+        let far = bounds.iter().any(|bound| bound.is_infinite());
+        let most = STEPS[usize::from(far)];
         for step in 0..=most {
             self.system.linearise(&self.point, &mut self.work);
-            for (place, solved) in solved.iter_mut().enumerate() {
-                let rows = self.system.residual_of(&self.work).iter();
-                // a NaN is not small
-                *solved = rows
-                    .map(|row| row.part(place).abs())
-                    .all(|row| row <= TOLERANCE);
+            solved = [true; LANES];
+            for row in self.system.residual_of(&self.work) {
+                for place in places.clone() {
+                    // a NaN is not small
+                    solved[place] &= row.part(place).abs() <= TOLERANCE;
+                }
             }
-            let mut settled = solved.iter().zip(&sure);
-            if step == most || settled.all(|(solved, sure)| *solved || !sure) {
+            if step == most || places.clone().all(|p| solved[p] || !sure[p]) {
                 break;
             }
             self.system.factorise(0.0, &mut self.work);
             self.system.step(&mut self.work);
             let steps = self.system.step_mut(&mut self.work);
-            let square = |place: usize| steps.iter().map(|x| x.part(place) * x.part(place)).sum();
-            let sizes: Vec<f64> = (0..T::WIDTH).map(|p| f64::sqrt(square(p))).collect();
-            let mut moves = vec![0.0; T::WIDTH];
-            for place in 0..T::WIDTH {
+            let squares = steps.iter().fold(T::zero(), |sum, x| sum + *x * *x);
+            let sizes = squares.sqrt();
+            let mut moves = [false; LANES];
+            for place in places.clone() {
                 if solved[place] || !sure[place] {
                     continue;
                 }
-                let bound = &mut bounds[place];
+                let (size, bound) = (sizes.part(place), &mut bounds[place]);
                 // what is not finite is not sure either
-                sure[place] = sizes[place].is_finite() && sizes[place] <= bound.max(SMALL);
+                sure[place] = size.is_finite() && size <= bound.max(SMALL);
                 if bound.is_finite() {
-                    *bound = SURE * sizes[place];
+                    *bound = SURE * size;
                 }
-                moves[place] = f64::from(u8::from(sure[place]));
+                moves[place] = sure[place];
             }
-            for x in steps.iter_mut() {
-                let old = *x;
-                // not a product: what is not finite is to stay behind
-                *x = T::of_parts(|p| if moves[p] > 0.0 { old.part(p) } else { 0.0 });
+            if places.clone().any(|place| !moves[place]) {
+                for x in steps.iter_mut() {
+                    let old = *x;
+                    // not a product: what is not finite is to stay behind
+                    *x = T::of_parts(|p| if moves[p] { old.part(p) } else { 0.0 });
+                }
             }
             let (from, to) = (&self.point, &mut self.spare);
             self.system.advance(from, 1.0, &self.work, to);
             std::mem::swap(&mut self.point, &mut self.spare);
         }
-        if !solved
-            .iter()
-            .zip(&sure)
-            .any(|(solved, sure)| *solved && *sure)
-        {
-            return starts.iter().map(|_| Outcome::Unsure).collect();
+        if !places.clone().any(|place| solved[place] && sure[place]) {
+            return false;
         }
         let told = (self.rates).at(&self.point, &self.system, &mut self.work);
-        let outcomes = told.into_iter().take(starts.len()).enumerate();
-        let outcomes = outcomes.map(|(place, told)| match told.regular {
-            _ if !sure[place] || !solved[place] => Outcome::Unsure,
-            false => Outcome::Spoiled,
-            true => Outcome::Arrived(Arrival {
-                at: self.point.map(|x| x.part(place)),
-                motions: self.rates.motions(place),
-                told,
-            }),
-        });
-        outcomes.collect()
+        let mut spoiled = false;
+        let mut arrived: [Option<Told>; LANES] = Default::default();
+        let places = places.take(starts.len());
+        for place in places.clone().filter(|p| solved[*p] && sure[*p]) {
+            spoiled |= !told[place].regular;
+            arrived[place] = told[place].regular.then(|| told[place].clone());
+        }
+        let motions = self.rates.motions();
+        arrivals.put(first, &self.point, motions, &arrived[..places.len()]);
+        spoiled
     }
 
     /// What is told of a configuration that solves the equations for its mapped coordinates.
-    pub fn told(&mut self, at: &Configuration<f64>, values: &[f64]) -> Option<Told> {
+    pub fn told(&mut self, at: &Configuration<f64>, values: &[f64]) -> Told {
         let mut point = at.map(T::from_f64);
         (self.targets).ask(&mut self.system, &mut point, |_| values);
         self.system.linearise(&point, &mut self.work);
-        let told = self.rates.at(&point, &self.system, &mut self.work);
-        told.into_iter().next()
+        let [told, ..] = self.rates.at(&point, &self.system, &mut self.work);
+        told
     }
 
     /// Puts the point near where each place is to arrive.

@@ -2,10 +2,11 @@
 
 use std::collections::HashSet;
 
+use super::arrivals::{Arrivals, Moving};
 use super::fill::{Fill, Step};
 use super::filled::{Link, Name, Sheet, join, root};
 use super::grid::{Grid, MOST_AXES, MOST_DIRECTIONS};
-use super::step::{Arrival, Moving, Steps};
+use super::step::Steps;
 use crate::linear::Factorable;
 use crate::number::Packed;
 
@@ -143,6 +144,7 @@ impl Tile {
         Moving {
             at: &self.sheets[sheet].at,
             motions: &self.motions[sheet * length..][..length],
+            told: &self.sheets[sheet].told,
         }
     }
 
@@ -160,13 +162,13 @@ impl Tile {
     }
 
     /// Adds what was not reached before, at one of its nodes.
-    pub fn add(&mut self, fill: &Fill, node: usize, arrival: Arrival) -> Name {
+    pub fn add(&mut self, fill: &Fill, node: usize, arrival: Moving) -> Name {
         let new = self.sheets.len();
         self.sheets.push(Sheet {
             node,
-            within: fill.asked.allows(&arrival.at),
-            at: arrival.at,
-            told: arrival.told,
+            within: fill.asked.allows(arrival.at),
+            at: arrival.at.clone(),
+            told: arrival.told.clone(),
             links: [Link::Open; MOST_DIRECTIONS],
         });
         self.motions.extend(arrival.motions);
@@ -203,6 +205,7 @@ impl Tile {
     /// Spreads as far as single steps surely lead in it.
     pub fn grow<T: Factorable + Packed>(&mut self, fill: &Fill, steps: &mut Steps<T>) {
         let mut storage = Vec::new();
+        let mut arrivals = Arrivals::default();
         while self.grows() && self.sheets.len() <= fill.most {
             let front = std::mem::take(&mut self.front);
             let mut waiting = self.ahead(fill.grid, &front);
@@ -211,8 +214,9 @@ impl Tile {
                 let [now, later] = self.chosen(fill.grid, waiting);
                 for pack in now.chunks(T::WIDTH) {
                     let planned = pack.iter().map(|&(s, d)| self.step(fill, s, d));
-                    let arrivals = fill.sure(steps, &planned.collect::<Vec<Step>>());
-                    for (&(s, d), arrival) in pack.iter().zip(arrivals) {
+                    let planned: Vec<Step> = planned.collect();
+                    fill.sure(steps, &planned, &mut arrivals, &mut storage);
+                    for (&(s, d), arrival) in pack.iter().zip(arrivals.iter()) {
                         match arrival {
                             Some(arrival) => self.arrive(fill, s, d, arrival),
                             None => self.unsure.push((self.name(s), d)),
@@ -259,11 +263,11 @@ impl Tile {
         near.is_some()
     }
 
-    fn arrive(&mut self, fill: &Fill, s: usize, d: usize, arrival: Arrival) {
+    fn arrive(&mut self, fill: &Fill, s: usize, d: usize, arrival: Moving) {
         let Some(node) = fill.grid.neighbour(self.sheets[s].node, d) else {
             return;
         };
-        let known = fill.known(self.at(fill.grid, node), &arrival.at);
+        let known = fill.known(self.at(fill.grid, node), arrival.at);
         let to = known.unwrap_or_else(|| self.add(fill, node, arrival));
         self.link(s, d, to.sheet as usize);
     }
