@@ -66,6 +66,13 @@ impl Coordinate {
         }
     }
 
+    /// The values of all six at a pose, in the order of [`ALL`](Self::ALL).
+    pub fn all_of<T: Number>(pose: &Pose<T>) -> [T; 6] {
+        let [x, y, z] = pose.position.0;
+        let RollPitchYaw { roll, pitch, yaw } = RollPitchYaw::from_rotation(&pose.rotation);
+        [x, y, z, roll, pitch, yaw]
+    }
+
     /// For roll and yaw x c + y s, which is cos(pitch) where the angle is `value` and −cos(pitch) where
     /// it is half a turn from it, as pitch lies in [−π/2, π/2]. None for the others.
     pub(crate) fn along<T: Number>(self, rotation: &Rotation<T>, value: T) -> Option<T> {

@@ -32,7 +32,8 @@ pub fn each<S: Clone, R>(count: usize, storage: &S, f: impl Fn(&mut S, usize) ->
 #[derive(Debug)]
 pub struct Pool<S> {
     first: S,
-    spare: Mutex<Vec<S>>,
+    // boxed: one goes in and out for every piece of work
+    spare: Mutex<Vec<Box<S>>>,
 }
 
 impl<S: Clone + Send + Sync> Pool<S> {
@@ -48,7 +49,7 @@ impl<S: Clone + Send + Sync> Pool<S> {
     pub fn each<R: Send>(&self, count: usize, f: impl Fn(&mut S, usize) -> R + Sync) -> Vec<R> {
         each(count, &(), |(), i| {
             let spare = self.spare().pop();
-            let mut storage = spare.unwrap_or_else(|| self.first.clone());
+            let mut storage = spare.unwrap_or_else(|| Box::new(self.first.clone()));
             let result = f(&mut storage, i);
             self.spare().push(storage);
             result
@@ -69,7 +70,7 @@ impl<S: Clone + Send + Sync> Pool<S> {
         });
     }
 
-    fn spare(&self) -> MutexGuard<'_, Vec<S>> {
+    fn spare(&self) -> MutexGuard<'_, Vec<Box<S>>> {
         // a panic elsewhere leaves the list whole
         self.spare.lock().unwrap_or_else(PoisonError::into_inner)
     }

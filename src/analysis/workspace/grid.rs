@@ -81,6 +81,19 @@ impl Grid {
         }
     }
 
+    /// The nodes whose places along each axis are in these ranges, ends included.
+    pub fn nodes_within(&self, sides: &[(usize, usize)]) -> Vec<usize> {
+        let (mut nodes, mut stride) = (vec![0], 1);
+        for (&(low, high), axis) in sides.iter().zip(&self.axes) {
+            // the first axis runs fastest
+            nodes = (low..=high)
+                .flat_map(|place| nodes.iter().map(move |node| node + stride * place))
+                .collect();
+            stride *= axis.2;
+        }
+        nodes
+    }
+
     /// Nodes spread over the grid, no more than `most`, none of them at its edge if that can be.
     pub fn spread(&self, most: usize) -> Vec<usize> {
         if self.len() <= most {
@@ -139,6 +152,13 @@ mod tests {
                 }
             }
         }
+        let sides = [(1, 2), (0, 3), (2, 4)];
+        let inside = |node: &usize| {
+            let mut sides = sides.iter().enumerate();
+            sides.all(|(axis, (low, high))| (low..=high).contains(&&grid.place(*node, axis)))
+        };
+        let wanted: Vec<usize> = (0..grid.len()).filter(inside).collect();
+        assert_eq!(grid.nodes_within(&sides), wanted);
         assert_eq!(grid.spread(8).len(), 8);
         assert_eq!(grid.spread(1).len(), 1);
     }

@@ -123,12 +123,8 @@ fn reached<T: Factorable + Packed + Send + Sync>(
     let own: Vec<usize> = (seeds.iter())
         .filter_map(|(node, at)| parts_of[found.known(fill.measure, *node, at)?])
         .collect();
-    let within = |node: usize| {
-        let mut axes = sides.iter().enumerate();
-        axes.all(|(axis, (low, high))| (*low..=*high).contains(&grid.place(node, axis)))
-    };
     let mut matching = Vec::new();
-    for node in (0..grid.len()).filter(|node| within(*node)) {
+    for node in grid.nodes_within(&sides) {
         let there = found.at(same(node));
         let inside = there.filter(|t| parts_of[*t].is_some_and(|aspect| own.contains(&aspect)));
         let at = inside.map(|t| &found.sheet(t).at);

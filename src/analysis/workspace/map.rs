@@ -346,9 +346,11 @@ impl<'a> Map<'a> {
                 let joints = part.values.len();
                 part.values.extend(&sheet.at.joints);
                 bring(self.asked, &mut part.values[joints..], false);
-                let coordinates = following.iter();
-                let coordinates = coordinates.map(|&(p, c)| c.of(&sheet.at.platforms[p].pose()));
-                part.values.extend(coordinates);
+                for of_platform in following.chunk_by(|(a, _), (b, _)| a == b) {
+                    let pose = sheet.at.platforms[of_platform[0].0].pose();
+                    let all = Coordinate::all_of(&pose);
+                    part.values.extend(of_platform.iter().map(|(_, c)| all[*c as usize]));
+                }
             }
             part
         });

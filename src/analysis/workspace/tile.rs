@@ -164,6 +164,12 @@ impl Tile {
     /// Adds what was not reached before, at one of its nodes.
     pub fn add(&mut self, fill: &Fill, node: usize, arrival: Moving) -> Name {
         let new = self.sheets.len();
+        if new == 0 {
+            // where one node is reached most are
+            let nodes = self.last.len();
+            self.sheets.reserve(nodes);
+            self.motions.reserve(nodes * arrival.motions.len());
+        }
         self.sheets.push(Sheet {
             node,
             within: fill.asked.allows(arrival.at),
