@@ -98,8 +98,11 @@ impl<T: Field> Qr<T> {
             (_, 0) => reference,
             (3, 1) => self.factorise_sized(3, 1, reference),
             (3, 2) => self.factorise_sized(3, 2, reference),
+            (3, 3) => self.factorise_sized(3, 3, reference),
             (5, 2) => self.factorise_sized(5, 2, reference),
+            (6, 2) => self.factorise_sized(6, 2, reference),
             (6, 6) => self.factorise_sized(6, 6, reference),
+            (9, 6) => self.factorise_sized(9, 6, reference),
             (rows, pivots) => self.factorise_sized(rows, pivots, reference),
         }
     }
@@ -178,7 +181,10 @@ impl<T: Field> Qr<T> {
         match (self.rows, self.rank) {
             (3, 1) => self.rotate_sized(3, 1, b),
             (3, 2) => self.rotate_sized(3, 2, b),
+            (3, 3) => self.rotate_sized(3, 3, b),
             (5, 2) => self.rotate_sized(5, 2, b),
+            (6, 2) => self.rotate_sized(6, 2, b),
+            (9, 6) => self.rotate_sized(9, 6, b),
             (rows, rank) => self.rotate_sized(rows, rank, b),
         }
     }
