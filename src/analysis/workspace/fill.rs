@@ -183,10 +183,8 @@ impl Fill<'_> {
         there: impl Iterator<Item = (Name, Moving<'s>)>,
         storage: &mut Vec<f64>,
     ) -> Option<Name> {
-        let mut near = there.filter(|(_, to)| {
-            let both = [step.from, *to];
-            self.measure.linked(both, step.axis, step.change, storage)
-        });
+        let ahead = (self.measure).ahead(step.from, step.axis, step.change);
+        let mut near = there.filter(|(_, to)| self.measure.linked(&ahead, *to, storage));
         let (first, _) = near.next()?;
         // two as near are for surer steps to tell apart
         near.next().is_none().then_some(first)

@@ -349,7 +349,8 @@ impl<'a> Map<'a> {
                 for of_platform in following.chunk_by(|(a, _), (b, _)| a == b) {
                     let pose = sheet.at.platforms[of_platform[0].0].pose();
                     let all = Coordinate::all_of(&pose);
-                    part.values.extend(of_platform.iter().map(|(_, c)| all[*c as usize]));
+                    part.values
+                        .extend(of_platform.iter().map(|(_, c)| all[*c as usize]));
                 }
             }
             part

@@ -1,5 +1,7 @@
 //! How far configurations and their motions are apart, and what is surely one mode.
 
+use std::f64::consts::{PI, TAU};
+
 use super::arrivals::Moving;
 use super::asked::Asked;
 use super::step::SURE;
@@ -15,8 +17,33 @@ pub(super) struct Measure {
     /// platforms of all joints. Legs that are folded the other way about their passive joints, or
     /// spin, do not make another mode. 1 for those that do, 0 for the others.
     seen: Vec<f64>,
+    /// Joints among them.
+    joints: Vec<SeenJoint>,
     /// rad or m in one unit of the mapped coordinates.
     units: Vec<f64>,
+}
+
+/// A joint that tells modes apart.
+#[derive(Clone, Copy, Debug)]
+struct SeenJoint {
+    joint: usize,
+    /// Its place among the unknowns.
+    place: usize,
+    scale: f64,
+    repeats: bool,
+}
+
+/// What the motion of one configuration says of another after a step.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Ahead<'a> {
+    from: Moving<'a>,
+    axis: usize,
+    change: f64,
+    motion: &'a [f64],
+    /// How far along the motion it is.
+    factor: f64,
+    /// How far from there it may be.
+    miss: f64,
 }
 
 /// Configurations this near are the same.
@@ -34,8 +61,24 @@ impl Measure {
             }
             Unknown::Twist { .. } => true,
         });
+        let seen: Vec<bool> = seen.collect();
+        let unknowns = free.system().unknowns().iter().enumerate();
+        let joints = unknowns.filter(|(place, _)| seen[*place]);
+        let joints = joints.filter_map(|(place, unknown)| match *unknown {
+            Unknown::Joint(joint) => Some(SeenJoint {
+                joint,
+                place,
+                scale: free.system().joint_scale(joint),
+                repeats: mechanism.repeats(joint),
+            }),
+            Unknown::Twist { .. } => None,
+        });
         Measure {
-            seen: seen.map(|seen| f64::from(u8::from(seen))).collect(),
+            joints: joints.collect(),
+            seen: seen
+                .into_iter()
+                .map(|seen| f64::from(u8::from(seen)))
+                .collect(),
             units: (asked.axes.iter())
                 .map(|axis| match axis.coordinate {
                     Holdable::Joint(joint) => free.system().joint_scale(joint),
@@ -51,7 +94,10 @@ impl Measure {
 
     /// Whether two configurations are the same, so far as modes are concerned.
     pub fn same(&self, a: &Configuration<f64>, b: &Configuration<f64>) -> bool {
-        self.seen_length(self.free.difference_but_turns(a, b).into_iter()) < SAME
+        // most that are not are told by one joint
+        let mut joints = self.joints.iter();
+        joints.all(|joint| joint.change(a, b).abs() < SAME)
+            && self.seen_length(self.free.difference_but_turns(a, b).into_iter()) < SAME
     }
 
     fn seen_length(&self, step: impl Iterator<Item = f64>) -> f64 {
@@ -67,25 +113,43 @@ impl Measure {
         (motion, change / self.units[axis])
     }
 
-    /// Whether two configurations lie where each other's motions say when a mapped coordinate
-    /// changes by so much, and the motions are [alike](Self::alike).
-    pub fn linked(
-        &self,
-        [a, b]: [Moving; 2],
-        axis: usize,
-        change: f64,
-        storage: &mut Vec<f64>,
-    ) -> bool {
+    /// What the motion says for a change of a mapped coordinate.
+    pub fn ahead<'a>(&self, from: Moving<'a>, axis: usize, change: f64) -> Ahead<'a> {
+        let (motion, factor) = self.motion(from, axis, change);
+        let length = self.seen_length(motion.iter().map(|x| x * factor));
+        Ahead {
+            from,
+            axis,
+            change,
+            motion,
+            factor,
+            miss: SURE * length + SAME,
+        }
+    }
+
+    /// Whether a configuration lies where the motion of another says, this one where its own says
+    /// of that, and the motions are [alike](Self::alike).
+    pub fn linked(&self, ahead: &Ahead, to: Moving, storage: &mut Vec<f64>) -> bool {
+        let from = ahead.from;
+        // most that lie elsewhere are told by one joint
+        let mut joints = self.joints.iter();
+        let elsewhere = joints.any(|joint| {
+            let wanted = ahead.motion[joint.place] * ahead.factor;
+            (joint.change(from.at, to.at) - wanted).abs() > ahead.miss
+        });
+        if elsewhere {
+            return false;
+        }
         storage.resize(self.free.unknowns(), 0.0);
         let step = &mut storage[..];
-        self.free.difference_but_turns_into(a.at, b.at, step);
-        let near = |from: Moving| {
-            let (motion, factor) = self.motion(from, axis, change);
-            let length = self.seen_length(motion.iter().map(|x| x * factor));
-            let miss = motion.iter().zip(&*step).map(|(x, d)| d - x * factor);
-            self.seen_length(miss) <= SURE * length + SAME
+        self.free.difference_but_turns_into(from.at, to.at, step);
+        let near = |ahead: &Ahead| {
+            let both = ahead.motion.iter().zip(&*step);
+            self.seen_length(both.map(|(x, d)| d - x * ahead.factor)) <= ahead.miss
         };
-        near(a) && near(b) && self.alike(a, b, change / self.units[axis], storage)
+        near(ahead)
+            && near(&self.ahead(to, ahead.axis, ahead.change))
+            && self.alike(from, to, ahead.change / self.units[ahead.axis], storage)
     }
 
     /// Whether the motions at two configurations, a step of the given length of the mapped
@@ -120,5 +184,17 @@ impl Measure {
         });
         let most = SWING / length.abs();
         same_way && swings.iter().all(|swing| *swing <= most * most)
+    }
+}
+
+impl SeenJoint {
+    /// How far it is from one configuration to another, dimensionless, turns that change nothing left
+    /// out.
+    fn change(&self, from: &Configuration<f64>, to: &Configuration<f64>) -> f64 {
+        let change = (to.joints[self.joint] - from.joints[self.joint]) / self.scale;
+        match self.repeats && change.abs() > PI {
+            true => change - TAU * (change / TAU).round(),
+            false => change,
+        }
     }
 }
