@@ -7,6 +7,7 @@
 mod along;
 mod classify;
 mod drops;
+mod extents;
 mod locus;
 mod outputs;
 mod projected;

@@ -5,6 +5,7 @@ use rand_pcg::Pcg64Mcg;
 use serde::Serialize;
 
 use super::classify::{Classifier, Singularity};
+use super::extents::extents;
 use super::outputs::{Coupled, coupled, outputs_of};
 use super::projected::{Projection, Shape, groups};
 use super::{SingularitiesSettings, names, output_names};
@@ -84,6 +85,9 @@ pub struct Locus {
     pub closed: bool,
     /// How its first and its last configuration end it; the same if it closes.
     pub ends: [LocusEnd; 2],
+    /// The lowest and the highest value of each of the two coordinates on it, rad or m: located as
+    /// such, not taken from its points.
+    pub extents: [[f64; 2]; 2],
     /// Its points: the two coordinates, rad or m; one if it is a point.
     pub points: Vec<[f64; 2]>,
     /// The joints at its points on one of its curves of configurations, rad or m, in the order of
@@ -343,12 +347,14 @@ impl Search<'_> {
             locus.met = group.iter().map(|member| known[*member].1).sum();
             match locus.shape {
                 Shape::Point => {
+                    locus.extents = self.coordinates(&known[chosen].0.places[0]).map(|x| [x; 2]);
                     locus.points.truncate(1);
                     locus.joints.truncate(1);
                     locus.poses.truncate(1);
                     locus.crossings.clear();
                 }
                 Shape::Curve => {
+                    locus.extents = extents(curve, &self.region, &known[chosen].0);
                     let crossings = group.iter().flat_map(|member| &known[*member].0.crossings);
                     let crossings = crossings.map(|place| self.coordinates(place));
                     locus.crossings = projections[chosen].distinct(crossings);
@@ -380,6 +386,7 @@ impl Search<'_> {
             met: 0,
             closed: traced.ends[1] == LocusEnd::Closed,
             ends: traced.ends,
+            extents: [[0.0; 2]; 2],
             points: (traced.places.iter())
                 .map(|p| self.coordinates(p))
                 .collect(),
