@@ -838,14 +838,50 @@ fn inverse_loci_of_a_five_bar_in_the_plane_of_its_hand_are_four_circles() {
         points.iter().all(|p| off(p) < 1e-9)
     };
     let of = |kind: Kind| report.loci.iter().filter(move |locus| locus.kind == kind);
+    let direct = || of(Kind::Direct).filter(|locus| locus.shape == Shape::Curve);
     assert_eq!(of(Kind::Inverse).count(), 4);
     for circle in circles {
         let lying = of(Kind::Inverse).filter(|locus| on(&locus.points, circle));
         assert_eq!(lying.count(), 1, "{circle:?}");
-        assert!(of(Kind::Direct).all(|locus| !on(&locus.points, circle)));
+        assert!(direct().all(|locus| !on(&locus.points, circle)));
     }
-    assert!(report.loci.iter().all(|locus| locus.shape == Shape::Curve));
+    assert!(of(Kind::Inverse).all(|locus| locus.shape == Shape::Curve));
     assert!(report.coupled.is_empty());
+}
+
+#[test]
+fn a_direct_singularity_that_is_a_single_point_is_found_where_inverse_loci_touch() {
+    // the cranks reach r beyond their pivots, g apart, and couplers of c = r + g/2 just reach both ends,
+    // in one line; each leg is folded there
+    let sides = [("hand.x", -0.8, 1.0), ("hand.y", -0.8, 0.8)];
+    let direct = |c: &str, seed: u64| {
+        let five_bar = mechanism("five_bar_hand", &[("c", c)]);
+        let report = seeded_locus(&five_bar, sides, &[], 40, seed);
+        let loci = report.loci.into_iter();
+        loci.filter(|l| l.kind == Kind::Direct).collect::<Vec<_>>()
+    };
+    for seed in [1, 2, 3] {
+        let loci = direct("0.4", seed);
+        let points: Vec<_> = loci.iter().filter(|l| l.shape == Shape::Point).collect();
+        let [point] = &points[..] else {
+            panic!("{seed}: {} points", points.len())
+        };
+        let [x, y] = point.points[0];
+        assert!((x - 0.1).abs() < 1e-9 && y.abs() < 1e-9, "{x} {y}");
+        let [theta1, theta2, ..] = point.joints[0][..] else {
+            panic!("four joints")
+        };
+        assert!(theta1.cos() < -1.0 + 1e-12 && theta2.cos() > 1.0 - 1e-12);
+        assert_eq!(point.singularity.gosselin_angeles, Some(3));
+        assert_eq!(loci.len(), 3);
+    }
+    // longer couplers never come into line, shorter ones do along a curve round that point
+    let longer = direct("0.41", 1);
+    assert!(longer.iter().all(|l| l.shape == Shape::Curve));
+    assert_eq!(longer.len(), 2);
+    let shorter = direct("0.39", 1);
+    assert!(shorter.iter().all(|l| l.shape == Shape::Curve && l.closed));
+    assert_eq!(shorter.len(), 3);
 }
 
 /// The lowest and highest x and y on a circle.
