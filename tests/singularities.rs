@@ -884,6 +884,41 @@ fn a_direct_singularity_that_is_a_single_point_is_found_where_inverse_loci_touch
     assert_eq!(shorter.len(), 3);
 }
 
+#[test]
+fn few_starts_promise_no_more_than_they_can() {
+    let said = |starts: &str, seed: &str| {
+        let sides = ["--locus", "hand.x=-0.8..1", "--locus", "hand.y=-0.8..0.8"];
+        let search = ["--starts", starts, "--seed", seed];
+        told(&[&["mechanisms/five_bar_hand.ron"], &sides[..], &search].concat())
+    };
+    // none of 30 starts leads to one of the four circles
+    let json = said("30", "3");
+    let loci = json["loci"].as_array().unwrap();
+    assert_eq!(loci.iter().filter(|l| l["kind"] == "inverse").count(), 3);
+    assert!(loci.iter().all(|locus| locus["met"] != 1));
+    assert_eq!(json["starts"], serde_json::json!([30, 30]));
+    let words = json["completeness"].as_str().unwrap();
+    let honest = "one that fewer than 1 in 10 starts lead to may be missing (95 %)";
+    assert!(
+        words.contains(honest) && !words.contains("likely"),
+        "{words}"
+    );
+    // what was met but once says that more is likely, and no bound holds
+    let json = said("1", "3");
+    assert!(
+        json["loci"]
+            .as_array()
+            .unwrap()
+            .iter()
+            .any(|l| l["met"] == 1)
+    );
+    let words = json["completeness"].as_str().unwrap();
+    assert!(
+        words.contains("by one start only") && !words.contains("95 %"),
+        "{words}"
+    );
+}
+
 /// The lowest and highest x and y on a circle.
 fn round([x, y]: [f64; 2], radius: f64) -> [[f64; 2]; 2] {
     [x, y].map(|middle| [middle - radius, middle + radius])
