@@ -14,6 +14,7 @@ mod model;
 mod names;
 mod parameters;
 mod serial_axes;
+mod turns;
 
 pub use configuration::{Configuration, PlatformPose};
 pub use coordinate::Coordinate;
@@ -35,6 +36,7 @@ pub(crate) use closure::{Closure, Side, needs};
 pub(crate) use coordinate::orientation_rows;
 pub(crate) use kinematics::Mover;
 pub(crate) use letters::{Formal, Letters};
+pub(crate) use turns::principal;
 
 /// A valid mechanism. It never changes; holding one proves that its description makes sense.
 #[derive(Clone, Debug)]

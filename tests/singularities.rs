@@ -94,6 +94,16 @@ fn locus(
     held: &[(&str, f64)],
     starts: usize,
 ) -> LocusReport {
+    seeded_locus(mechanism, sides, held, starts, 1)
+}
+
+fn seeded_locus(
+    mechanism: &Mechanism,
+    sides: [(&str, f64, f64); 2],
+    held: &[(&str, f64)],
+    starts: usize,
+    seed: u64,
+) -> LocusReport {
     let question = holding(mechanism, held);
     let sides = sides.map(|(name, from, to)| {
         let (coordinate, _) = question.value(name, "0").unwrap();
@@ -106,6 +116,7 @@ fn locus(
     let inputs = inputs_of(&Question::new(mechanism));
     let settings = SingularitiesSettings {
         starts,
+        seed,
         ..SingularitiesSettings::default()
     };
     loci(
@@ -827,14 +838,141 @@ fn inverse_loci_of_a_five_bar_in_the_plane_of_its_hand_are_four_circles() {
         points.iter().all(|p| off(p) < 1e-9)
     };
     let of = |kind: Kind| report.loci.iter().filter(move |locus| locus.kind == kind);
+    let direct = || of(Kind::Direct).filter(|locus| locus.shape == Shape::Curve);
     assert_eq!(of(Kind::Inverse).count(), 4);
     for circle in circles {
         let lying = of(Kind::Inverse).filter(|locus| on(&locus.points, circle));
         assert_eq!(lying.count(), 1, "{circle:?}");
-        assert!(of(Kind::Direct).all(|locus| !on(&locus.points, circle)));
+        assert!(direct().all(|locus| !on(&locus.points, circle)));
     }
-    assert!(report.loci.iter().all(|locus| locus.shape == Shape::Curve));
+    assert!(of(Kind::Inverse).all(|locus| locus.shape == Shape::Curve));
     assert!(report.coupled.is_empty());
+}
+
+#[test]
+fn a_direct_singularity_that_is_a_single_point_is_found_where_inverse_loci_touch() {
+    // the cranks reach r beyond their pivots, g apart, and couplers of c = r + g/2 just reach both ends,
+    // in one line; each leg is folded there
+    let sides = [("hand.x", -0.8, 1.0), ("hand.y", -0.8, 0.8)];
+    let direct = |c: &str, seed: u64| {
+        let five_bar = mechanism("five_bar_hand", &[("c", c)]);
+        let report = seeded_locus(&five_bar, sides, &[], 40, seed);
+        let loci = report.loci.into_iter();
+        loci.filter(|l| l.kind == Kind::Direct).collect::<Vec<_>>()
+    };
+    for seed in [1, 2, 3] {
+        let loci = direct("0.4", seed);
+        let points: Vec<_> = loci.iter().filter(|l| l.shape == Shape::Point).collect();
+        let [point] = &points[..] else {
+            panic!("{seed}: {} points", points.len())
+        };
+        let [x, y] = point.points[0];
+        assert!((x - 0.1).abs() < 1e-9 && y.abs() < 1e-9, "{x} {y}");
+        let [theta1, theta2, ..] = point.joints[0][..] else {
+            panic!("four joints")
+        };
+        assert!(theta1.cos() < -1.0 + 1e-12 && theta2.cos() > 1.0 - 1e-12);
+        assert_eq!(point.singularity.gosselin_angeles, Some(3));
+        assert_eq!(loci.len(), 3);
+    }
+    // longer couplers never come into line, shorter ones do along a curve round that point
+    let longer = direct("0.41", 1);
+    assert!(longer.iter().all(|l| l.shape == Shape::Curve));
+    assert_eq!(longer.len(), 2);
+    let shorter = direct("0.39", 1);
+    assert!(shorter.iter().all(|l| l.shape == Shape::Curve && l.closed));
+    assert_eq!(shorter.len(), 3);
+}
+
+#[test]
+fn few_starts_promise_no_more_than_they_can() {
+    let said = |starts: &str, seed: &str| {
+        let sides = ["--locus", "hand.x=-0.8..1", "--locus", "hand.y=-0.8..0.8"];
+        let search = ["--starts", starts, "--seed", seed];
+        told(&[&["mechanisms/five_bar_hand.ron"], &sides[..], &search].concat())
+    };
+    // none of 30 starts leads to one of the four circles
+    let json = said("30", "3");
+    let loci = json["loci"].as_array().unwrap();
+    assert_eq!(loci.iter().filter(|l| l["kind"] == "inverse").count(), 3);
+    assert!(loci.iter().all(|locus| locus["met"] != 1));
+    assert_eq!(json["starts"], serde_json::json!([30, 30]));
+    let words = json["completeness"].as_str().unwrap();
+    let honest = "one that fewer than 1 in 10 starts lead to may be missing (95 %)";
+    assert!(
+        words.contains(honest) && !words.contains("likely"),
+        "{words}"
+    );
+    // what was met but once says that more is likely, and no bound holds
+    let json = said("1", "3");
+    assert!(
+        json["loci"]
+            .as_array()
+            .unwrap()
+            .iter()
+            .any(|l| l["met"] == 1)
+    );
+    let words = json["completeness"].as_str().unwrap();
+    assert!(
+        words.contains("by one start only") && !words.contains("95 %"),
+        "{words}"
+    );
+}
+
+/// The lowest and highest x and y on a circle.
+fn round([x, y]: [f64; 2], radius: f64) -> [[f64; 2]; 2] {
+    [x, y].map(|middle| [middle - radius, middle + radius])
+}
+
+fn apart(a: &[[f64; 2]; 2], b: &[[f64; 2]; 2]) -> f64 {
+    let pairs = a.iter().flatten().zip(b.iter().flatten());
+    pairs.map(|(a, b)| (a - b).abs()).fold(0.0, f64::max)
+}
+
+#[test]
+fn extents_of_loci_are_those_of_the_closed_forms_whatever_the_seed() {
+    // the cranks, r = 0.3, meet at (0.1, ±√0.08), and the hand is c = 0.4 from there; or a leg is
+    // stretched or folded, |P − O| = c ± r, as far as the other leg reaches: from x = 0.1, where both
+    // are stretched
+    let five_bar = mechanism("five_bar_hand", &[]);
+    let (meet, both) = (0.08f64.sqrt(), 0.48f64.sqrt());
+    let direct = [round([0.1, meet], 0.4), round([0.1, -meet], 0.4)];
+    let inverse = [
+        round([0.0, 0.0], 0.1),
+        round([0.2, 0.0], 0.1),
+        [[-0.5, 0.1], [-both, both]],
+        [[0.1, 0.7], [-both, both]],
+    ];
+    let sides = [("hand.x", -0.8, 1.0), ("hand.y", -0.8, 0.8)];
+    for seed in [1, 2] {
+        let report = seeded_locus(&five_bar, sides, &[], 60, seed);
+        for (kind, wanted) in [(Kind::Direct, &direct[..]), (Kind::Inverse, &inverse)] {
+            for wanted in wanted {
+                let near = |locus: &&linkwork::analysis::singularities::Locus| {
+                    locus.kind == kind && apart(&locus.extents, wanted) < 1e-11
+                };
+                let found = report.loci.iter().filter(near).count();
+                assert_eq!(found, 1, "{seed} {wanted:?}");
+            }
+        }
+    }
+    // what an edge cuts off reaches to that edge
+    let sides = [("hand.x", -0.8, 1.0), ("hand.y", 0.05, 0.8)];
+    let report = locus(&five_bar, sides, &[], 60);
+    let half = [[-0.3, 0.5], [0.05, meet + 0.4]];
+    let direct = report.loci.iter().filter(|l| l.kind == Kind::Direct);
+    assert!(direct.clone().any(|l| apart(&l.extents, &half) < 1e-11));
+    for locus in &report.loci {
+        let [x, y] = locus.extents;
+        assert!(x[0] >= -0.8 && x[1] <= 1.0 && y[0] >= 0.05 - 1e-9 && y[1] <= 0.8);
+        for point in &locus.points {
+            let within = |k: usize| {
+                let [low, high] = locus.extents[k];
+                low <= point[k] && point[k] <= high
+            };
+            assert!(within(0) && within(1), "{point:?}");
+        }
+    }
 }
 
 #[test]
@@ -876,6 +1014,35 @@ fn legs_of_either_sign_make_one_locus_and_legs_without_length_points() {
         assert!(determinant(*point).abs() < 1e-4, "{point:?}");
     }
     assert!(determinant([14.9, -1.3]).abs() > 1.0);
+    // det = a x² + b xy + c y² + d x + e y + f, its coefficients from exact values: x turns where the
+    // discriminant in y, a quadratic in x, vanishes, and likewise y
+    let at = |x: f64, y: f64| determinant([x, y]);
+    let f = at(0.0, 0.0);
+    let (a, d) = (
+        0.5 * (at(1.0, 0.0) + at(-1.0, 0.0)) - f,
+        0.5 * (at(1.0, 0.0) - at(-1.0, 0.0)),
+    );
+    let (c, e) = (
+        0.5 * (at(0.0, 1.0) + at(0.0, -1.0)) - f,
+        0.5 * (at(0.0, 1.0) - at(0.0, -1.0)),
+    );
+    let b = at(1.0, 1.0) - a - c - d - e - f;
+    let turns = |a: f64, d: f64, c: f64, e: f64| {
+        let (p, q, r) = (
+            b * b - 4.0 * a * c,
+            b * e - 2.0 * c * d,
+            e * e - 4.0 * c * f,
+        );
+        let root = (q * q - p * r).sqrt();
+        let (one, other) = ((-q - root) / p, (-q + root) / p);
+        [one.min(other), one.max(other)]
+    };
+    let exact = [turns(a, d, c, e), turns(c, e, a, d)];
+    assert!(
+        apart(&ellipse.extents, &exact) < 1e-9,
+        "{:?} {exact:?}",
+        ellipse.extents
+    );
     for kind in [Kind::Direct, Kind::Inverse] {
         let points: Vec<_> = of(kind, Shape::Point).collect();
         assert_eq!(points.len(), 3);
@@ -886,6 +1053,7 @@ fn legs_of_either_sign_make_one_locus_and_legs_without_length_points() {
         }
         for point in points {
             assert_eq!((point.points.len(), point.joints.len()), (1, 1));
+            assert_eq!(point.extents, point.points[0].map(|x| [x; 2]));
         }
     }
     assert_eq!(of(Kind::Inverse, Shape::Curve).count(), 0);

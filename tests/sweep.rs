@@ -942,6 +942,67 @@ fn the_curves_of_a_parallelogram_meet_at_both_change_points() {
 }
 
 #[test]
+fn a_swing_through_a_half_turn_is_told_where_its_values_are() {
+    // crank and coupler in line: l0² + l3² + 2 l0 l3 cos φ₁ = (l1 + l2)², on both sides of φ₁ = π
+    let lengths = [5.0, 3.5, 3.0, 4.0];
+    let dead = ((42.25f64 - 41.0) / 40.0).acos();
+    let seeds_of = |mechanism: &Mechanism, turns: f64| {
+        let mut seeds = Vec::new();
+        for (crank, side) in [(0.5, 1.0), (0.5, -1.0), (-0.5, 1.0), (-0.5, -1.0)] {
+            let mut at = mechanism.home();
+            at.joints[0] = crank;
+            for (name, value) in four_bar_guess(lengths, crank, side) {
+                at.joints[mechanism.joint(name).unwrap()] = value + TAU * turns;
+            }
+            seeds.push(at);
+        }
+        seeds
+    };
+    let swing = |mechanism: &Mechanism, seeds: &[Configuration<f64>]| {
+        let held = Held::nothing(mechanism);
+        let report = circuits(mechanism, &held, 0, seeds, &CircuitsSettings::default());
+        let [circuit] = &report.circuits[..] else {
+            panic!("{report:#?}")
+        };
+        let rocker = mechanism.joint("phi1").unwrap();
+        (circuit.joints[rocker].low, circuit.joints[rocker].high)
+    };
+    let free = four_bar(lengths);
+    for turns in [-1.0, 0.0, 1.0] {
+        for seed in seeds_of(&free, turns) {
+            let (low, high) = swing(&free, &[seed]);
+            assert!((low - dead).abs() < 1e-11, "{low}");
+            assert!((high - (TAU - dead)).abs() < 1e-11, "{high}");
+        }
+    }
+    // limits say where else
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("mechanisms/four_bar.ron");
+    let text = std::fs::read_to_string(path).unwrap().replace(
+        r#"Passive(home: "129 deg")"#,
+        r#"Passive(home: "-231 deg", limits: ("-290 deg", "-70 deg"))"#,
+    );
+    let description = Description::read(&text).unwrap();
+    let description = description.with_parameter("l1", "3.5").unwrap();
+    let limited = Mechanism::new(&description).unwrap();
+    let (low, high) = swing(&limited, &seeds_of(&limited, 0.0)[..1]);
+    assert!((low - (dead - TAU)).abs() < 1e-11, "{low}");
+    assert!((high + dead).abs() < 1e-11, "{high}");
+}
+
+#[test]
+fn angles_of_crossings_are_told_within_a_turn() {
+    let report = circuits_of([4.0, 2.0, 4.0, 2.0]);
+    let joints = report.circuits.iter().flat_map(|c| &c.crossings).flatten();
+    let mut told = 0;
+    for x in joints {
+        // all links in one line: 0 or π, never −π or a turn more
+        assert!(x.abs() < 1e-9 || (x - PI).abs() < 1e-9, "{x}");
+        told += 1;
+    }
+    assert_eq!(told, 12);
+}
+
+#[test]
 fn seeds_of_one_circuit_find_only_that_one() {
     let lengths = [5.0, 1.0, 3.0, 4.0];
     let mechanism = four_bar(lengths);

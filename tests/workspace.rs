@@ -852,8 +852,8 @@ fn questions_that_make_no_sense_are_told_what_to_ask_instead() {
     }
 }
 
-/// Texts of a picture of a map, and the picture.
-fn drawn(map: &[&str]) -> (Vec<String>, String) {
+/// Texts of a picture of a map, the picture, and what is noted of it.
+fn drawn(map: &[&str]) -> (Vec<String>, String, String) {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("map.svg");
     let svg = ["--svg", path.to_str().unwrap(), "--starts", "8"];
@@ -864,14 +864,15 @@ fn drawn(map: &[&str]) -> (Vec<String>, String) {
         let text = text.split_once('>').unwrap().1;
         text.split_once('<').unwrap().0.to_owned()
     });
-    (texts.collect(), svg)
+    (texts.collect(), svg, err)
 }
 
 #[test]
 fn axes_of_a_picture_end_where_the_map_does_and_what_is_not_reached_is_left_open() {
     let map = ["mechanisms/five_bar_hand.ron", "--map", "hand.x=-0.6..0.8"];
     let map = [&map[..], &["--map", "hand.y=-0.1..0.7", "--grid", "15,9"]].concat();
-    let (texts, svg) = drawn(&map);
+    let (texts, svg, noted) = drawn(&map);
+    assert!(!noted.contains("drawn"), "{noted}");
     // half a cell more at each end; the scale of colours is from 0 to 1 at most
     let numbers = texts
         .iter()
@@ -902,7 +903,8 @@ fn every_slice_of_a_map_is_drawn_with_one_scale_of_colours() {
         "--grid",
         "6,6,7",
     ];
-    let (texts, _) = drawn(&map);
+    let (texts, _, noted) = drawn(&map);
+    assert!(!noted.contains("drawn"), "{noted}");
     let titles = texts.iter().filter(|text| text.contains(", top.z = "));
     let pictures = titles.clone().count();
     let modes = titles
@@ -922,6 +924,37 @@ fn every_slice_of_a_map_is_drawn_with_one_scale_of_colours() {
     for same in numbers.chunk_by(|a, b| a == b) {
         assert_eq!(same.len() % pictures, 0, "{same:?} in {pictures} pictures");
     }
+}
+
+#[test]
+fn slices_that_are_too_many_to_draw_are_noted_on_stderr_as_in_the_picture() {
+    let map = [
+        "mechanisms/three_rps.ron",
+        "--map",
+        "top.roll=-20deg..20deg",
+    ];
+    let map = [&map[..], &["--map", "top.pitch=-20deg..20deg"]].concat();
+    let (texts, _, noted) =
+        drawn(&[&map[..], &["--map", "top.z=0.5..0.6", "--grid", "2,2,121"]].concat());
+    let pictures = texts
+        .iter()
+        .filter(|text| text.contains(", top.z = "))
+        .count();
+    assert!(pictures > 0 && pictures <= 120, "{pictures}");
+    let note = noted
+        .lines()
+        .find(|line| line.contains("drawn"))
+        .expect(&noted);
+    let (said, file) = note
+        .strip_prefix("note: ")
+        .unwrap()
+        .split_once(" in ")
+        .unwrap();
+    assert!(
+        said.ends_with(" of 121 slices drawn") && file.ends_with("map.svg"),
+        "{note}"
+    );
+    assert!(texts.iter().any(|text| text == said), "{said} {texts:?}");
 }
 
 #[test]

@@ -5,11 +5,14 @@
 //! zero beyond what they do at a configuration nearby that is not special is what is gained or lost.
 
 mod along;
+mod arrival;
 mod classify;
 mod drops;
+mod extents;
 mod locus;
 mod outputs;
 mod projected;
+mod starts;
 
 pub use crate::system::LocusEnd;
 pub use along::{AlongReport, Crossing, Ending, along};

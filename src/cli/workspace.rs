@@ -135,9 +135,13 @@ impl Workspace {
                 Refusal(output::too_many_cells(most, MOST_BYTES).render(style()))
             }
         })?;
+        let mut remarks = loaded.warnings();
         #[cfg(feature = "plot")]
         if let Some(path) = &self.svg {
             save(path, &output::svg(mechanism, &report))?;
+            if let Some(drawn) = output::left_out(&report) {
+                remarks += &format!("note: {drawn} in {}\n", path.display());
+            }
         }
         let mut whole = true;
         let data = match self.format {
@@ -151,14 +155,14 @@ impl Workspace {
                 String::new()
             }
         };
+        remarks += &match self.format {
+            Format::Csv if !whole => INTERRUPTED_REMARK.to_owned(),
+            Format::Csv => format!("note: {}\n", output::completeness(&report)),
+            Format::Text | Format::Json => String::new(),
+        };
         Ok(Answer {
             data,
-            remarks: loaded.warnings()
-                + &match self.format {
-                    Format::Csv if !whole => INTERRUPTED_REMARK.to_owned(),
-                    Format::Csv => format!("note: {}\n", output::completeness(&report)),
-                    Format::Text | Format::Json => String::new(),
-                },
+            remarks,
             yes: report.reached > 0 && whole,
         })
     }

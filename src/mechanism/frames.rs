@@ -185,38 +185,6 @@ impl Mechanism {
         })
     }
 
-    /// Whether a whole turn of the joint leaves every frame where it is: not if it also slides, or
-    /// its variable turns some row by a fraction.
-    pub fn repeats(&self, joint: usize) -> bool {
-        let rows = self.dimensions.chains.iter().flat_map(|chain| &chain.rows);
-        let whole = |c: f64| c == c.round();
-        self.joints[joint].kind == JointKind::Revolute
-            && rows.map(|row| row.turn.coefficient(joint)).all(whole)
-    }
-
-    /// The value of a joint by the turn within its limits that is nearest to it, where whole turns
-    /// change nothing and one of them is; otherwise the value itself. In rad or m.
-    pub fn by_limits(&self, joint: usize, value: f64) -> f64 {
-        // as much as `Joint::allows`
-        const ROUNDING: f64 = 1e-9;
-        let Some((low, high)) = self.joints[joint].limits else {
-            return value;
-        };
-        let turn = std::f64::consts::TAU;
-        let (below, above) = (low - ROUNDING - value, value - high - ROUNDING);
-        let turned = match (below > 0.0, above > 0.0) {
-            (true, _) => value + turn * (below / turn).ceil(),
-            (_, true) => value - turn * (above / turn).ceil(),
-            _ => value,
-        };
-        let within = turned >= low - ROUNDING && turned <= high + ROUNDING;
-        if self.repeats(joint) && within {
-            turned
-        } else {
-            value
-        }
-    }
-
     /// The body that a frame is fixed to.
     pub fn body(&self, frame: Frame) -> Body {
         let mut frame = frame;

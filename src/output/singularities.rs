@@ -292,10 +292,7 @@ pub fn locus_text(mechanism: &Mechanism, report: &LocusReport) -> String {
         let mut table = plain(["locus", "type", "kind", a, b, "ends", "points", "over it"]);
         for (i, locus) in report.loci.iter().enumerate() {
             let extent = |k: usize| {
-                let values = locus.points.iter().map(|point| point[k]);
-                let (low, high) = values.fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), x| {
-                    (l.min(x), h.max(x))
-                });
+                let [low, high] = locus.extents[k];
                 let angle = report.bounds[k].unit == "rad";
                 match high - low < 1e-9 {
                     true => quantity(low, angle),

@@ -5,7 +5,7 @@ mod picture;
 mod words;
 
 #[cfg(feature = "plot")]
-pub use picture::svg;
+pub use picture::{left_out, svg};
 pub use words::{
     also_held, boundary_flat, completeness, empty_side, more_than_a_turn, no_platform, no_range,
     sentence, too_fine, too_many_axes, too_many_cells, wrong_count, wrong_grid,

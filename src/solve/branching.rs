@@ -12,6 +12,9 @@ pub struct BranchPoint<P> {
     pub freedoms: usize,
     /// Unit tangents of the branches that pass, each once; none if no branch could be told apart.
     pub directions: Vec<Vec<f64>>,
+    /// Whether nothing passes: no direction leads on even to second order, and no other solution
+    /// is near.
+    pub isolated: bool,
     /// The rank defect that is left there, beside the largest singular value: rounding.
     pub defect: f64,
 }
@@ -34,6 +37,9 @@ impl<P> BranchPoint<P> {
         }
     }
 }
+
+/// Forms below this are rounding of the differences.
+const NOTHING: f64 = 1e-7;
 
 /// Step of the differences of the Jacobian: their error, of second order, only delays convergence.
 const STEP: f64 = 1e-5;
@@ -133,7 +139,9 @@ impl Continuation {
         let defect = values.get(unknowns - freedoms).copied().unwrap_or(0.0);
         let (left, right) = (here.left_null_space(), here.null_space());
         let forms = forms(curve, &at, &left, &right);
-        let directions = zeros(&forms, right.len()).into_iter().map(|weights| {
+        let zeros = zeros(&forms, right.len());
+        let isolated = zeros.is_empty() && forms.iter().any(|form| norm(form) > NOTHING);
+        let directions = zeros.into_iter().map(|weights| {
             let mut direction = vec![0.0; unknowns];
             for (v, weight) in right.iter().zip(&weights) {
                 direction
@@ -153,6 +161,7 @@ impl Continuation {
             at,
             freedoms,
             directions: found,
+            isolated,
             defect: defect
                 / values
                     .first()
@@ -277,8 +286,6 @@ fn forms<C: SolutionCurve>(
 /// Unit vectors on which all quadratic forms vanish, each once up to its sign, where they are
 /// isolated: Newton's method from points spread over the sphere.
 fn zeros(forms: &[Vec<f64>], n: usize) -> Vec<Vec<f64>> {
-    /// Forms below this are rounding of the differences.
-    const NOTHING: f64 = 1e-7;
     let largest = forms.iter().map(|form| norm(form)).fold(0.0, f64::max);
     let forms: Vec<&Vec<f64>> = forms
         .iter()
@@ -398,6 +405,37 @@ mod tests {
                 .branch_point(&mut Plain(2, near), &vec![0.02, 0.025], 0.2)
                 .is_none()
         );
+    }
+
+    #[test]
+    fn a_point_that_nothing_passes_is_told_from_a_crossing() {
+        // x² + s y² + y³ = 0 on z = x: a point for s = 2, a crossing for s = −2, a cusp for s = 0
+        let cubic = |s: f64| {
+            move |x: &[f64]| {
+                (
+                    vec![x[0] * x[0] + s * x[1] * x[1] + x[1].powi(3), x[2] - x[0]],
+                    vec![
+                        2.0 * x[0],
+                        -1.0,
+                        2.0 * s * x[1] + 3.0 * x[1] * x[1],
+                        0.0,
+                        0.0,
+                        1.0,
+                    ],
+                )
+            }
+        };
+        let method = Continuation::default();
+        let at = |s: f64| {
+            let mut curve = Plain(3, cubic(s));
+            method.branch_point(&mut curve, &vec![0.01, -0.02, 0.01], 0.2)
+        };
+        let point = at(2.0).unwrap();
+        assert!(norm(&point.at) < 1e-12 && point.isolated);
+        assert!(point.directions.is_empty());
+        let crossing = at(-2.0).unwrap();
+        assert!(!crossing.isolated && crossing.directions.len() == 2);
+        assert!(at(0.0).is_none_or(|cusp| !cusp.isolated));
     }
 
     #[test]

@@ -2,7 +2,7 @@
 
 use super::coordinates::{C, Coordinates, size};
 use crate::geometry::RollPitchYaw;
-use crate::mechanism::{Configuration, Coordinate, Mechanism};
+use crate::mechanism::{Configuration, Coordinate, Mechanism, principal};
 use crate::number::Number;
 use crate::solve::{Equations, Newton, Stop};
 use crate::system::{System, Work};
@@ -63,8 +63,7 @@ fn steepness(point: &Configuration<f64>, coordinates: &Coordinates) -> f64 {
     steepest.fold(1.0, |least, cos| least.min(cos.abs()).max(f64::EPSILON))
 }
 
-/// −π and π are one angle, and rounding must not decide which is printed: angles this near to −π are
-/// near π. Where solutions meet, only half the digits are sure.
+/// How near to −π an angle is told as π. Where solutions meet, only half the digits are sure.
 fn rounding(sure: bool) -> f64 {
     if sure { 1e-9 } else { 1e-6 }
 }
@@ -76,15 +75,11 @@ pub(super) fn tidied(
     coordinates: &Coordinates,
     sure: bool,
 ) -> Configuration<f64> {
-    use std::f64::consts::{PI, TAU};
     let rounding = rounding(sure);
     for &j in &coordinates.free_joints {
         let value = &mut point.joints[j];
         if coordinates.periodic[j] {
-            *value -= TAU * (*value / TAU).round();
-            if *value <= -PI + rounding {
-                *value += TAU;
-            }
+            *value = principal(*value, rounding);
         }
     }
     for &p in &coordinates.free_platforms {
@@ -100,15 +95,11 @@ pub(super) fn tidied(
 /// Complex angles with their real part in (−π, π], complex quaternions with the first component that
 /// is not zero on the right half of the complex plane.
 pub(super) fn tidied_complex(x: &[C], coordinates: &Coordinates) -> Vec<C> {
-    use std::f64::consts::{PI, TAU};
     const ROUNDING: f64 = 1e-7;
     let mut x = x.to_vec();
     for (z, &j) in x.iter_mut().zip(&coordinates.free_joints) {
         if coordinates.periodic[j] {
-            z.re -= TAU * (z.re / TAU).round();
-            if z.re <= -PI + ROUNDING {
-                z.re += TAU;
-            }
+            z.re = principal(z.re, ROUNDING);
         }
     }
     for pose in x[coordinates.free_joints.len()..].chunks_exact_mut(7) {

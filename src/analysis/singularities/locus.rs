@@ -1,19 +1,16 @@
 //! Singularities in two inputs: loci as curves.
 
-use rand::{Rng, SeedableRng};
-use rand_pcg::Pcg64Mcg;
 use serde::Serialize;
 
 use super::classify::{Classifier, Singularity};
+use super::extents::extents;
 use super::outputs::{Coupled, coupled, outputs_of};
 use super::projected::{Projection, Shape, groups};
+use super::starts::{Found, Search};
 use super::{SingularitiesSettings, names, output_names};
-use crate::mechanism::{Configuration, Mechanism, PlatformPose};
+use crate::mechanism::{Configuration, Mechanism};
 use crate::solve::Place;
-use crate::system::{
-    Driven, Held, Holdable, Lock, LocusCurve, LocusEnd, Region, Singular, System, Traced, Walk,
-    passes, random_configuration, settled, with_coordinates,
-};
+use crate::system::{Driven, Held, Holdable, Lock, LocusCurve, LocusEnd, Region, Singular, Traced};
 
 type At = Place<Singular>;
 
@@ -74,16 +71,19 @@ pub enum Kind {
 pub struct Locus {
     /// Which matrix loses rank on it.
     pub kind: Kind,
-    /// Whether it is a curve, or a point where only what is not in the box moves.
+    /// Whether it is a curve, or a point where only what is not in the box moves, if anything does.
     pub shape: Shape,
     /// The curves of configurations that were found over it, each over all of it or a part.
     pub configurations: usize,
-    /// How many random starts led to it.
+    /// How many random starts led to it; none if it was found where other loci cross.
     pub met: usize,
     /// Whether its configurations make a closed curve.
     pub closed: bool,
     /// How its first and its last configuration end it; the same if it closes.
     pub ends: [LocusEnd; 2],
+    /// The lowest and the highest value of each of the two coordinates on it, rad or m: located as
+    /// such, not taken from its points.
+    pub extents: [[f64; 2]; 2],
     /// Its points: the two coordinates, rad or m; one if it is a point.
     pub points: Vec<[f64; 2]>,
     /// The joints at its points on one of its curves of configurations, rad or m, in the order of
@@ -102,7 +102,9 @@ pub struct Locus {
 /// `held` holds what stands still and leaves the two coordinates free; `inputs` are those that
 /// singularities are told of. Random configurations are brought onto the augmented system closure and
 /// singularity condition by Gauss–Newton steps, and the curve through each that is not on a known one
-/// is followed both ways: to its own beginning, an edge of the box or a limit.
+/// is followed both ways: to its own beginning, an edge of the box or a limit. Singular points through
+/// which no curve passes are found too. Where inverse loci cross there may be a direct singularity that
+/// random starts hardly meet, and the other way round: crossings are starts as well.
 ///
 /// # Errors
 /// If links spin about their own lines: then the motion that is gained is not unique. The number of
@@ -156,6 +158,7 @@ pub fn loci(
         normalising_length: mechanism.characteristic_length(),
     };
     let inputs: Vec<Lock> = inputs.iter().copied().map(Lock::Coordinate).collect();
+    let mut found: Vec<(usize, Found)> = Vec::new();
     for (i, (kind, locks)) in [(Kind::Direct, &inputs), (Kind::Inverse, &outputs)]
         .into_iter()
         .enumerate()
@@ -165,99 +168,35 @@ pub fn loci(
         if regular < search.classifier.direct.columns() {
             continue;
         }
+        found.push((i, search.of(kind, locks)));
+    }
+    let crossings: Vec<Vec<Configuration<f64>>> =
+        found.iter().map(|(_, found)| found.crossings()).collect();
+    for (number, (_, found)) in found.iter_mut().enumerate() {
+        let others = crossings.iter().enumerate();
+        for (_, at) in others.filter(|(other, _)| *other != number) {
+            at.iter().for_each(|at| search.at_crossing(found, at));
+        }
+    }
+    for (i, found) in found {
         report.sought[i] = true;
-        let found = search.of(kind, locks);
-        report.loci.extend(found.loci);
         report.starts[i] = found.starts;
         report.arrived[i] = found.arrived;
         report.last_new[i] = found.last_new;
+        report.loci.extend(search.told(found));
     }
     Ok(report)
 }
 
-/// So many times the starts that are asked for are made while more curves are likely.
-const MORE: usize = 10;
-
-struct Search<'m> {
-    region: Region<'m>,
-    sides: [Driven; 2],
-    start: Configuration<f64>,
-    inputs: Vec<Holdable>,
-    settings: &'m SingularitiesSettings,
-    classifier: Classifier<'m>,
-}
-
-/// What random starts led to.
-struct Found {
-    loci: Vec<Locus>,
-    starts: usize,
-    arrived: usize,
-    last_new: Option<usize>,
-}
-
-/// Whether more starts are likely to lead to new curves: while some curve was met only once, the chance
-/// that the next arrival is on a new one is about that of such meetings among all (Good 1953).
-fn more_is_likely(known: &[(Traced<Singular>, usize)], arrived: usize) -> bool {
-    /// Fewer arrivals say nothing.
-    const ARRIVALS: usize = 20;
-    arrived > 0 && (arrived < ARRIVALS || known.iter().any(|(_, met)| *met == 1))
-}
-
 impl Search<'_> {
-    fn of(&mut self, kind: Kind, locks: &[Lock]) -> Found {
-        let mut curve =
-            LocusCurve::new(self.region.mechanism, self.region.held, &self.inputs, locks);
-        let system = System::new(self.region.mechanism.dimensions(), self.region.held);
-        let (mut starts, mut arrived, mut last_new) = (0, 0, None);
-        let mut known: Vec<(Traced<Singular>, usize)> = Vec::new();
-        let mut rng = Pcg64Mcg::seed_from_u64(self.settings.seed);
-        let method = &self.settings.continuation;
-        for number in 1..=MORE * self.settings.starts {
-            if number > self.settings.starts && !more_is_likely(&known, arrived) {
-                break;
-            }
-            starts = number;
-            let mut at = match number {
-                1 => self.start.clone(),
-                _ => self.random(&mut rng),
-            };
-            let mut trial = at.clone();
-            let mut work = system.work();
-            // where it cannot close the gap it ends in a singular point as well
-            (self.settings.newton).solve(&system, &mut at, &mut trial, &mut work);
-            let poses = at.platforms.iter();
-            let mut parts =
-                poses.flat_map(|pose| pose.position.0.into_iter().chain(pose.orientation.0));
-            if !at.joints.iter().all(|x| x.is_finite()) || !parts.all(f64::is_finite) {
-                continue;
-            }
-            let columns = curve.locked().columns();
-            let decomposition = curve.locked().of_rank(&at, columns);
-            let Some(motion) = decomposition.weakest().map(|(_, v)| v.to_vec()) else {
-                continue;
-            };
-            let Some(place) = settled(&mut curve, Singular { at, motion }, method) else {
-                continue;
-            };
-            let mut place = place;
-            self.bring_home(&mut place);
-            if !self.region.inside(&place.at.at) {
-                continue;
-            }
-            arrived += 1;
-            let mut curves = known.iter_mut();
-            if let Some((_, met)) =
-                curves.find(|(traced, _)| passes(&mut curve, traced, &place, method))
-            {
-                *met += 1;
-                continue;
-            }
-            let traced = self.region.traced(&mut curve, place);
-            if traced.places.len() > 1 {
-                last_new = Some(number);
-                known.push((traced, 1));
-            }
-        }
+    /// The loci, sorted by where they begin.
+    fn told(&mut self, found: Found) -> Vec<Locus> {
+        let Found {
+            kind,
+            mut curve,
+            known,
+            ..
+        } = found;
         let mut loci = self.folded(kind, &mut curve, known);
         let order = |locus: &Locus| {
             locus
@@ -271,51 +210,7 @@ impl Search<'_> {
                 .partial_cmp(&order(b))
                 .unwrap_or(std::cmp::Ordering::Equal)
         });
-        Found {
-            loci,
-            starts,
-            arrived,
-            last_new,
-        }
-    }
-
-    /// A random configuration with the two coordinates in the box.
-    fn random(&self, rng: &mut Pcg64Mcg) -> Configuration<f64> {
-        let mut at = random_configuration(self.region.mechanism, &self.start, rng);
-        for (joint, value) in at.joints.iter_mut().enumerate() {
-            if self.region.held.joints[joint] {
-                *value = self.start.joints[joint];
-            }
-        }
-        for side in self.region.sides {
-            let value = side.from + (side.to - side.from) * rng.random::<f64>();
-            match side.coordinate {
-                Holdable::Joint(joint) => at.joints[joint] = value,
-                Holdable::Coordinate(platform, coordinate) => {
-                    let pose = at.platforms[platform].pose();
-                    let pose = with_coordinates(&pose, [(coordinate, value)]);
-                    at.platforms[platform] = PlatformPose::from_pose(&pose);
-                }
-                // never a side: it has no value
-                Holdable::Turn(..) => {}
-            }
-        }
-        at
-    }
-
-    /// Brings angles into the box and within limits by whole turns.
-    fn bring_home(&self, place: &mut At) {
-        let at = &mut place.at.at;
-        for (joint, value) in at.joints.iter_mut().enumerate() {
-            if self.region.mechanism.repeats(joint) {
-                let side =
-                    (self.region.sides.iter()).find(|s| s.coordinate == Holdable::Joint(joint));
-                let middle = side.map_or(0.0, |side| 0.5 * (side.from + side.to));
-                let turn = std::f64::consts::TAU;
-                *value -= turn * ((*value - middle) / turn).round();
-            }
-        }
-        Walk::within_limits(self.region.mechanism, &mut at.joints);
+        loci
     }
 
     /// The loci that curves of configurations are in the box.
@@ -343,12 +238,14 @@ impl Search<'_> {
             locus.met = group.iter().map(|member| known[*member].1).sum();
             match locus.shape {
                 Shape::Point => {
+                    locus.extents = self.coordinates(&known[chosen].0.places[0]).map(|x| [x; 2]);
                     locus.points.truncate(1);
                     locus.joints.truncate(1);
                     locus.poses.truncate(1);
                     locus.crossings.clear();
                 }
                 Shape::Curve => {
+                    locus.extents = extents(curve, &self.region, &known[chosen].0);
                     let crossings = group.iter().flat_map(|member| &known[*member].0.crossings);
                     let crossings = crossings.map(|place| self.coordinates(place));
                     locus.crossings = projections[chosen].distinct(crossings);
@@ -380,6 +277,7 @@ impl Search<'_> {
             met: 0,
             closed: traced.ends[1] == LocusEnd::Closed,
             ends: traced.ends,
+            extents: [[0.0; 2]; 2],
             points: (traced.places.iter())
                 .map(|p| self.coordinates(p))
                 .collect(),

@@ -14,7 +14,7 @@ use crate::system::{LocusCurve, Region, Singular, Traced};
 pub enum Shape {
     /// A curve.
     Curve,
-    /// One point: only what is not in the box moves along it.
+    /// One point: only what is not in the box moves along it, or nothing does.
     Point,
 }
 

@@ -312,18 +312,13 @@ fn described(
         let whole = found.closed && mechanism.repeats(joint);
         let turns = if whole { (net / TAU).round() as i64 } else { 0 };
         let of = &mechanism.joints()[joint];
-        // swings are named where angles are usually measured
-        let middle = 0.5 * (low + high);
-        let shift = match mechanism.repeats(joint) && of.limits.is_none() {
-            true => TAU * (middle / TAU).round(),
-            false => 0.0,
-        };
+        let shift = turned(mechanism, joint, low, high);
         JointMotion {
             name: of.name.clone(),
             unit: if of.kind.is_angle() { "rad" } else { "m" },
             turns,
-            low: low - shift,
-            high: high - shift,
+            low: low + shift,
+            high: high + shift,
         }
     };
     let moves = |joint: &usize| curve.column(*joint).is_some();
@@ -347,7 +342,12 @@ fn described(
         joints,
         crossings: crossings
             .iter()
-            .map(|point| point.at.joints.clone())
+            .map(|point| (0..).zip(&point.at.joints))
+            .map(|joints| {
+                joints
+                    .map(|(joint, x)| mechanism.as_told(joint, *x))
+                    .collect()
+            })
             .collect(),
         crosses: (0..traced.len())
             .filter(|&other| other != i && meets(&traced[other]))
@@ -355,6 +355,13 @@ fn described(
             .collect(),
         seeds: found.seeds,
     }
+}
+
+/// By how much a range of a joint is told further on, rad or m: whole turns after which its middle is
+/// told as a value is.
+fn turned(mechanism: &Mechanism, joint: usize, low: f64, high: f64) -> f64 {
+    let middle = 0.5 * (low + high);
+    mechanism.as_told(joint, middle) - middle
 }
 
 impl CircuitsReport {

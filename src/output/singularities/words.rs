@@ -248,25 +248,43 @@ pub fn completeness(report: &LocusReport) -> String {
         Some(last) => format!("the last new curve came from start {last}"),
         None => "none led to a curve".into(),
     };
-    let once = report.loci.iter().filter(|locus| locus.met == 1).count();
-    let sure = match (report.loci.len(), once) {
-        (0, _) => "That there is none is likely, not proven",
+    let met = |times: usize| report.loci.iter().filter(move |l| l.met == times).count();
+    let sure = match (report.loci.len(), met(1)) {
+        (0, _) => missing(report),
         (_, 0) => {
-            "Every locus was met by several starts; that none is missing is likely, not proven"
+            let beside = match met(0) {
+                0 => "",
+                _ => " or lies where others cross",
+            };
+            let missing = missing(report);
+            format!("Every locus was met by several starts{beside}; {missing}")
         }
-        (_, 1) => "1 locus was met by one start only, so that others may be missing",
+        (_, 1) => "1 locus was met by one start only, so that others may be missing".into(),
         (_, once) => {
-            return format!(
-                "{} {once} loci were met by one start only, so that others may be missing: \
-                 --starts makes more.",
-                sought(report, [direct, inverse], &last)
-            );
+            format!("{once} loci were met by one start only, so that others may be missing")
         }
     };
+    let mut sure = sure.chars();
+    let first = sure.next().map(|c| c.to_uppercase().to_string());
     format!(
-        "{} {sure}: --starts makes more.",
-        sought(report, [direct, inverse], &last)
+        "{} {}{}: --starts makes more.",
+        sought(report, [direct, inverse], &last),
+        first.unwrap_or_default(),
+        sure.as_str()
     )
+}
+
+/// What may be missing though nothing hints at it. What n starts in a row do not lead to, a start leads
+/// to with a probability below 3/n, with a confidence of 95 % (the rule of three).
+fn missing(report: &LocusReport) -> String {
+    let starts = report.starts.iter().zip(report.sought);
+    let fewest = starts.filter(|(_, sought)| *sought).map(|(n, _)| n / 3);
+    match fewest.min() {
+        Some(n @ 2..) => {
+            format!("one that fewer than 1 in {n} starts lead to may be missing (95 %)")
+        }
+        _ => "so few starts say nothing of what is missing".into(),
+    }
 }
 
 fn sought(report: &LocusReport, [direct, inverse]: [usize; 2], last: &str) -> String {

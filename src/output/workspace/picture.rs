@@ -28,8 +28,8 @@ fn drawn(report: &WorkspaceReport) -> Drawn {
     Drawn { modes, slices }
 }
 
-/// What of a map is not drawn, if there is too much of it.
-fn left_out(report: &WorkspaceReport) -> Option<String> {
+/// What of a map is drawn, if there is too much of it to draw all: `120 of 576 slices drawn`.
+pub fn left_out(report: &WorkspaceReport) -> Option<String> {
     let drawn = drawn(report);
     let mut parts = Vec::new();
     if report.axes.len() > 1 && drawn.modes < report.modes.len() {

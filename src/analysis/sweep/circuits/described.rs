@@ -1,8 +1,6 @@
 //! Branches of a circuit, and the class of a 4-bar.
 
-use std::f64::consts::TAU;
-
-use super::{At, Branch, Circuit, FourBarClass, Traced};
+use super::{At, Branch, Circuit, FourBarClass, Traced, turned};
 use crate::description::ClosureKind;
 use crate::mechanism::{Frame, JointKind, Mechanism};
 
@@ -17,38 +15,29 @@ pub(super) fn branches(mechanism: &Mechanism, input: usize, found: &Traced) -> V
     let Some((first, last)) = ends.map(|(a, b)| (value(a), value(b))) else {
         return Vec::new();
     };
-    let joint = &mechanism.joints()[input];
-    let repeats = mechanism.repeats(input) && joint.limits.is_none();
-    let piece = |(a, b): (f64, f64)| {
+    let piece = |(a, b): (f64, f64), turns: bool| {
         let (low, high) = (a.min(b), a.max(b));
-        let shift = match repeats {
-            true => TAU * (0.5 * (low + high) / TAU).round(),
-            false => 0.0,
-        };
+        let shift = turned(mechanism, input, low, high);
         Branch {
-            low: low - shift,
-            high: high - shift,
-            turns: false,
+            low: low + shift,
+            high: high + shift,
+            turns,
         }
     };
     if found.closed {
         let Some(&again) = cuts.first() else {
-            return vec![Branch {
-                low: first.min(last),
-                high: first.max(last),
-                turns: true,
-            }];
+            return vec![piece((first, last), true)];
         };
         // once round, with the turns it made on the way
         cuts.push(again + last - first);
         return cuts
             .windows(2)
-            .map(|pair| piece((pair[0], pair[1])))
+            .map(|pair| piece((pair[0], pair[1]), false))
             .collect();
     }
     let all: Vec<f64> = std::iter::once(first).chain(cuts).chain([last]).collect();
     all.windows(2)
-        .map(|pair| piece((pair[0], pair[1])))
+        .map(|pair| piece((pair[0], pair[1]), false))
         .collect()
 }
 

@@ -1,0 +1,62 @@
+//! How far a curve of configurations reaches in the coordinates of the box.
+
+use crate::solve::Place;
+use crate::system::{Driven, LocusCurve, Region, Singular, Traced};
+
+type At = Place<Singular>;
+
+/// The lowest and the highest value of each coordinate on a curve, rad or m: at its ends, where other
+/// curves cross it, and where it turns back in that coordinate. There its unit tangent has no part
+/// along the coordinate, and the place is found as a root of that part, not among the places that
+/// happened to be followed.
+pub(super) fn extents(
+    curve: &mut LocusCurve,
+    region: &Region,
+    traced: &Traced<Singular>,
+) -> [[f64; 2]; 2] {
+    [0, 1].map(|k| {
+        let side = region.sides[k];
+        let value = |place: &At| region.side(&place.at.at, &side);
+        let (mut low, mut high) = (f64::INFINITY, f64::NEG_INFINITY);
+        let mut take = |x: f64| (low, high) = (low.min(x), high.max(x));
+        traced.places.iter().for_each(|place| take(value(place)));
+        traced.crossings.iter().for_each(|place| take(value(place)));
+        for ends in traced.places.windows(2) {
+            if let Some(place) = turning(curve, region, &side, &ends[0], &ends[1]) {
+                take(value(&place));
+            }
+        }
+        [low, high]
+    })
+}
+
+/// The place between two followed ones where the curve turns back in a coordinate, if it does.
+fn turning(
+    curve: &mut LocusCurve,
+    region: &Region,
+    side: &Driven,
+    from: &At,
+    to: &At,
+) -> Option<At> {
+    /// Rates below this are those of a coordinate that stands still.
+    const STILL: f64 = 1e-8;
+    /// Off the turn by this much, the coordinate is off by its square.
+    const THERE: f64 = 1e-6;
+    let mut rate = |curve: &mut LocusCurve, place: &At| {
+        curve
+            .closed()
+            .rate(&place.at.at, &place.tangent, side.coordinate)
+    };
+    let (before, after) = (rate(curve, from), rate(curve, to));
+    if (before < 0.0) == (after < 0.0) || before.abs().max(after.abs()) <= STILL {
+        return None;
+    }
+    let found = region.method.root(curve, from, to, &mut rate);
+    if rate(curve, &found).abs() < THERE {
+        return Some(found);
+    }
+    // where others cross between them, only one of both leads to the turn by sure steps
+    let (from, to) = (to.clone().reversed(), from.clone().reversed());
+    let found = region.method.root(curve, &from, &to, &mut rate);
+    (rate(curve, &found).abs() < THERE).then_some(found)
+}

@@ -1,0 +1,216 @@
+//! From where loci are sought, and what that leads to.
+
+use rand::{Rng, SeedableRng};
+use rand_pcg::Pcg64Mcg;
+
+use super::SingularitiesSettings;
+use super::arrival::Arrival;
+use super::classify::Classifier;
+use super::locus::Kind;
+use crate::mechanism::{Configuration, PlatformPose};
+use crate::system::{
+    Driven, Holdable, Lock, LocusCurve, LocusEnd, Region, Singular, System, Traced, Walk, passes,
+    random_configuration, with_coordinates,
+};
+
+/// So many times the starts that are asked for are made while more curves are likely.
+const MORE: usize = 10;
+
+/// A search for loci in a box.
+pub(super) struct Search<'m> {
+    pub region: Region<'m>,
+    pub sides: [Driven; 2],
+    pub start: Configuration<f64>,
+    pub inputs: Vec<Holdable>,
+    pub settings: &'m SingularitiesSettings,
+    pub classifier: Classifier<'m>,
+}
+
+/// What starts led to.
+pub(super) struct Found {
+    pub kind: Kind,
+    pub curve: LocusCurve,
+    /// Curves, and isolated points as curves of one place, each with how many random starts met it.
+    pub known: Vec<(Traced<Singular>, usize)>,
+    pub starts: usize,
+    /// How many of them led into the box.
+    pub arrived: usize,
+    /// The start that led to the locus found last.
+    pub last_new: Option<usize>,
+}
+
+/// Whether more starts are likely to lead to new curves: while some curve was met only once, the chance
+/// that the next arrival is on a new one is about that of such meetings among all (Good 1953).
+///
+/// Steps lead to an isolated point too seldom for this to say anything of it.
+fn more_is_likely(found: &Found) -> bool {
+    /// Fewer arrivals say nothing.
+    const ARRIVALS: usize = 20;
+    let once = |(traced, met): &(Traced<Singular>, usize)| *met == 1 && traced.places.len() > 1;
+    found.arrived > 0 && (found.arrived < ARRIVALS || found.known.iter().any(once))
+}
+
+impl Found {
+    /// Configurations where its curves cross.
+    pub fn crossings(&self) -> Vec<Configuration<f64>> {
+        let crossings = self.known.iter().flat_map(|(traced, _)| &traced.crossings);
+        crossings.map(|place| place.at.at.clone()).collect()
+    }
+}
+
+impl Search<'_> {
+    /// All that random starts lead to.
+    pub fn of(&mut self, kind: Kind, locks: &[Lock]) -> Found {
+        let mut found = Found {
+            kind,
+            curve: LocusCurve::new(self.region.mechanism, self.region.held, &self.inputs, locks),
+            known: Vec::new(),
+            starts: 0,
+            arrived: 0,
+            last_new: None,
+        };
+        let system = System::new(self.region.mechanism.dimensions(), self.region.held);
+        let mut rng = Pcg64Mcg::seed_from_u64(self.settings.seed);
+        for number in 1..=MORE * self.settings.starts {
+            if number > self.settings.starts && !more_is_likely(&found) {
+                break;
+            }
+            found.starts = number;
+            let mut at = match number {
+                1 => self.start.clone(),
+                _ => self.random(&mut rng),
+            };
+            let mut trial = at.clone();
+            let mut work = system.work();
+            // where it cannot close the gap it ends in a singular point as well
+            (self.settings.newton).solve(&system, &mut at, &mut trial, &mut work);
+            let Some(arrival) = self.arrival(&mut found.curve, at) else {
+                continue;
+            };
+            found.arrived += 1;
+            let before = found.known.len();
+            if let Some(locus) = self.locus_through(&mut found, arrival) {
+                found.known[locus].1 += 1;
+            }
+            if found.known.len() > before {
+                found.last_new = Some(number);
+            }
+        }
+        found
+    }
+
+    /// Begins where loci of the other kind cross, if it is singular in this way too.
+    pub fn at_crossing(&mut self, found: &mut Found, at: &Configuration<f64>) {
+        let kind = self.classifier.at(at).gosselin_angeles;
+        let own = match found.kind {
+            Kind::Direct => 2,
+            Kind::Inverse => 1,
+        };
+        if kind != Some(3) && kind != Some(own) {
+            return;
+        }
+        if let Some(arrival) = self.arrival(&mut found.curve, at.clone()) {
+            self.locus_through(found, arrival);
+        }
+    }
+
+    /// The singular configuration in the box that steps lead to.
+    fn arrival(&self, curve: &mut LocusCurve, at: Configuration<f64>) -> Option<Arrival> {
+        let poses = at.platforms.iter();
+        let mut parts =
+            poses.flat_map(|pose| pose.position.0.into_iter().chain(pose.orientation.0));
+        if !at.joints.iter().all(|x| x.is_finite()) || !parts.all(f64::is_finite) {
+            return None;
+        }
+        let columns = curve.locked().columns();
+        let decomposition = curve.locked().of_rank(&at, columns);
+        let (_, motion) = decomposition.weakest()?;
+        let motion = motion.to_vec();
+        let point = Singular { at, motion };
+        let near = |point: &Singular| self.near_box(&point.at);
+        let mut arrival = Arrival::from(curve, point, &self.settings.continuation, near)?;
+        let (Arrival::Curve(place) | Arrival::Point(place)) = &mut arrival;
+        self.bring_home(&mut place.at.at);
+        let inside = self.region.inside(&place.at.at);
+        inside.then_some(arrival)
+    }
+
+    /// The number of the known locus through a place, which is known from now on.
+    fn locus_through(&self, found: &mut Found, arrival: Arrival) -> Option<usize> {
+        let method = &self.settings.continuation;
+        let (Arrival::Curve(place) | Arrival::Point(place)) = &arrival;
+        let curve = &mut found.curve;
+        let mut curves = found.known.iter();
+        let known = curves.position(|(traced, _)| passes(curve, traced, place, method));
+        if known.is_some() {
+            return known;
+        }
+        let traced = match arrival {
+            Arrival::Curve(place) => self.region.traced(curve, place),
+            Arrival::Point(place) => {
+                let point = Traced {
+                    places: vec![place],
+                    ends: [LocusEnd::Closed; 2],
+                    crossings: Vec::new(),
+                };
+                found.known.push((point, 0));
+                return Some(found.known.len() - 1);
+            }
+        };
+        // where no step leads on there is no curve to tell of
+        (traced.places.len() > 1).then(|| {
+            found.known.push((traced, 0));
+            found.known.len() - 1
+        })
+    }
+
+    /// A random configuration with the two coordinates in the box.
+    fn random(&self, rng: &mut Pcg64Mcg) -> Configuration<f64> {
+        let mut at = random_configuration(self.region.mechanism, &self.start, rng);
+        for (joint, value) in at.joints.iter_mut().enumerate() {
+            if self.region.held.joints[joint] {
+                *value = self.start.joints[joint];
+            }
+        }
+        for side in self.region.sides {
+            let value = side.from + (side.to - side.from) * rng.random::<f64>();
+            match side.coordinate {
+                Holdable::Joint(joint) => at.joints[joint] = value,
+                Holdable::Coordinate(platform, coordinate) => {
+                    let pose = at.platforms[platform].pose();
+                    let pose = with_coordinates(&pose, [(coordinate, value)]);
+                    at.platforms[platform] = PlatformPose::from_pose(&pose);
+                }
+                // never a side: it has no value
+                Holdable::Turn(..) => {}
+            }
+        }
+        at
+    }
+
+    /// Brings angles into the box and within limits by whole turns.
+    fn bring_home(&self, at: &mut Configuration<f64>) {
+        for (joint, value) in at.joints.iter_mut().enumerate() {
+            if self.region.mechanism.repeats(joint) {
+                let side =
+                    (self.region.sides.iter()).find(|s| s.coordinate == Holdable::Joint(joint));
+                let middle = side.map_or(0.0, |side| 0.5 * (side.from + side.to));
+                let turn = std::f64::consts::TAU;
+                *value -= turn * ((*value - middle) / turn).round();
+            }
+        }
+        Walk::within_limits(self.region.mechanism, &mut at.joints);
+    }
+
+    /// Whether a configuration lies in the box or a little beside it.
+    fn near_box(&self, at: &Configuration<f64>) -> bool {
+        /// Part of the box.
+        const BESIDE: f64 = 0.1;
+        let mut at = at.clone();
+        self.bring_home(&mut at);
+        self.sides.iter().all(|side| {
+            let (x, slack) = (self.region.side(&at, side), BESIDE * (side.to - side.from));
+            x >= side.from - slack && x <= side.to + slack
+        })
+    }
+}

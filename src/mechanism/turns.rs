@@ -1,0 +1,61 @@
+//! Which of the angles a whole turn apart a joint is told to have.
+
+use std::f64::consts::{PI, TAU};
+
+use super::Mechanism;
+use super::model::JointKind;
+
+/// As much as `Joint::allows`, in rad or m.
+const ROUNDING: f64 = 1e-9;
+
+/// The turn of an angle in (−π, π], in rad. −π and π are one angle, and rounding must not decide which
+/// of them is told: what is this near to −π is near π.
+pub(crate) fn principal(angle: f64, rounding: f64) -> f64 {
+    let within = angle - TAU * (angle / TAU).round();
+    match within <= -PI + rounding {
+        true => within + TAU,
+        false => within,
+    }
+}
+
+impl Mechanism {
+    /// Whether a whole turn of the joint leaves every frame where it is: not if it also slides, or
+    /// its variable turns some row by a fraction.
+    pub fn repeats(&self, joint: usize) -> bool {
+        let rows = self.dimensions.chains.iter().flat_map(|chain| &chain.rows);
+        let whole = |c: f64| c == c.round();
+        self.joints[joint].kind == JointKind::Revolute
+            && rows.map(|row| row.turn.coefficient(joint)).all(whole)
+    }
+
+    /// The value of a joint by the turn within its limits that is nearest to it, where whole turns
+    /// change nothing and one of them is; otherwise the value itself. In rad or m.
+    pub fn by_limits(&self, joint: usize, value: f64) -> f64 {
+        let Some((low, high)) = self.joints[joint].limits else {
+            return value;
+        };
+        let (below, above) = (low - ROUNDING - value, value - high - ROUNDING);
+        let turned = match (below > 0.0, above > 0.0) {
+            (true, _) => value + TAU * (below / TAU).ceil(),
+            (_, true) => value - TAU * (above / TAU).ceil(),
+            _ => value,
+        };
+        let within = turned >= low - ROUNDING && turned <= high + ROUNDING;
+        if self.repeats(joint) && within {
+            turned
+        } else {
+            value
+        }
+    }
+
+    /// The value of a joint as reports tell it: where whole turns change nothing, its turn within its
+    /// limits, or else that in (−π, π]. In rad or m.
+    pub fn as_told(&self, joint: usize, value: f64) -> f64 {
+        let of = &self.joints[joint];
+        match (self.repeats(joint), of.limits) {
+            (false, _) => value,
+            (true, Some(_)) if of.allows(value) => self.by_limits(joint, value),
+            (true, _) => principal(value, ROUNDING),
+        }
+    }
+}
