@@ -212,7 +212,7 @@ impl Fill<'_> {
                 None => left.push((from, d)),
             }
         }
-        let mut taken = HashSet::new();
+        let mut taken = HashSet::with_capacity(left.len());
         left.into_iter().partition(|&(from, d)| {
             let node = self.grid.neighbour(spread.sheet(from).node, d);
             let root = spread.tiles[from.tile as usize].root(from.sheet as usize);

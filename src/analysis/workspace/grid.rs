@@ -10,14 +10,33 @@ pub(super) const MOST_DIRECTIONS: usize = 2 * MOST_AXES;
 /// Nodes at equal distances in a box, the first coordinate running fastest.
 #[derive(Clone, Debug)]
 pub(super) struct Grid {
-    axes: Vec<(f64, f64, usize)>,
+    axes: Vec<Axis>,
+}
+
+#[derive(Clone, Copy, Debug)]
+struct Axis {
+    from: f64,
+    to: f64,
+    nodes: usize,
+    /// From a node to the next along it.
+    stride: usize,
 }
 
 impl Grid {
     pub fn new(axes: &[Driven], counts: &[usize]) -> Self {
-        let axes = axes.iter().zip(counts);
+        let mut stride = 1;
+        let axes = axes.iter().zip(counts).map(|(axis, &nodes)| {
+            let before = stride;
+            stride *= nodes;
+            Axis {
+                from: axis.from,
+                to: axis.to,
+                nodes,
+                stride: before,
+            }
+        });
         Grid {
-            axes: axes.map(|(axis, n)| (axis.from, axis.to, *n)).collect(),
+            axes: axes.collect(),
         }
     }
 
@@ -27,33 +46,37 @@ impl Grid {
 
     /// Nodes along an axis.
     pub fn count(&self, axis: usize) -> usize {
-        self.axes[axis].2
+        self.axes[axis].nodes
     }
 
     /// All nodes.
     pub fn len(&self) -> usize {
-        self.axes.iter().map(|axis| axis.2).product()
+        self.axes.iter().map(|axis| axis.nodes).product()
     }
 
     /// How far neighbours along an axis are apart.
     pub fn spacing(&self, axis: usize) -> f64 {
-        let (from, to, n) = self.axes[axis];
-        (to - from) / (n - 1) as f64
+        let Axis {
+            from, to, nodes, ..
+        } = self.axes[axis];
+        (to - from) / (nodes - 1) as f64
     }
 
     /// The place of a node along an axis.
     pub fn place(&self, node: usize, axis: usize) -> usize {
-        let stride: usize = self.axes[..axis].iter().map(|axis| axis.2).product();
-        node / stride % self.axes[axis].2
+        let Axis { nodes, stride, .. } = self.axes[axis];
+        node / stride % nodes
     }
 
     /// A coordinate; the ends themselves without rounding.
     pub fn coordinate(&self, axis: usize, place: usize) -> f64 {
-        let (from, to, n) = self.axes[axis];
+        let Axis {
+            from, to, nodes, ..
+        } = self.axes[axis];
         match place {
             0 => from,
-            last if last + 1 == n => to,
-            _ => from + (to - from) * place as f64 / (n - 1) as f64,
+            last if last + 1 == nodes => to,
+            _ => from + (to - from) * place as f64 / (nodes - 1) as f64,
         }
     }
 
@@ -73,23 +96,23 @@ impl Grid {
     /// The neighbour in a direction: axis 0 back and forth, then axis 1 and so on.
     pub fn neighbour(&self, node: usize, direction: usize) -> Option<usize> {
         let axis = direction / 2;
-        let stride: usize = self.axes[..axis].iter().map(|axis| axis.2).product();
+        let Axis { nodes, stride, .. } = self.axes[axis];
         let place = self.place(node, axis);
         match direction % 2 {
             0 => (place > 0).then(|| node - stride),
-            _ => (place + 1 < self.axes[axis].2).then(|| node + stride),
+            _ => (place + 1 < nodes).then(|| node + stride),
         }
     }
 
     /// The nodes whose places along each axis are in these ranges, ends included.
     pub fn nodes_within(&self, sides: &[(usize, usize)]) -> Vec<usize> {
-        let (mut nodes, mut stride) = (vec![0], 1);
+        let mut nodes = vec![0];
         for (&(low, high), axis) in sides.iter().zip(&self.axes) {
+            let stride = axis.stride;
             // the first axis runs fastest
             nodes = (low..=high)
                 .flat_map(|place| nodes.iter().map(move |node| node + stride * place))
                 .collect();
-            stride *= axis.2;
         }
         nodes
     }
@@ -102,15 +125,16 @@ impl Grid {
         let root = (most as f64).powf(1.0 / self.dimensions() as f64).floor();
         let each = (root as usize).max(1);
         let mut nodes = vec![0];
-        let mut stride = 1;
-        for &(_, _, n) in &self.axes {
+        for &Axis {
+            nodes: n, stride, ..
+        } in &self.axes
+        {
             let each = each.min(n);
             let places: Vec<usize> = (0..each).map(|k| (2 * k + 1) * n / (2 * each)).collect();
             let further = nodes.iter();
             nodes = further
                 .flat_map(|node| places.iter().map(move |place| node + stride * place))
                 .collect();
-            stride *= n;
         }
         nodes.sort_unstable();
         nodes

@@ -200,7 +200,7 @@ impl Tile {
 
     /// One step to each node from each mode known so far; the others wait for what it finds.
     fn chosen(&mut self, grid: &Grid, waiting: Vec<(usize, usize)>) -> [Vec<(usize, usize)>; 2] {
-        let mut taken = HashSet::new();
+        let mut taken = HashSet::with_capacity(waiting.len());
         let (now, later) = waiting.into_iter().partition(|&(s, d)| {
             let node = grid.neighbour(self.sheets[s].node, d);
             taken.insert((node, root(&mut self.roots, s)))
