@@ -16,7 +16,7 @@ mod parameters;
 mod serial_axes;
 mod turns;
 
-pub use configuration::{Configuration, PlatformPose};
+pub use configuration::{Configuration, ConfigurationRef, PlatformPose};
 pub use coordinate::Coordinate;
 pub use dimensions::{ChainDimensions, ClosureDimensions, Dimensions, LinearForm, RowDimensions};
 pub use frames::Body;

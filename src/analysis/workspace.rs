@@ -22,6 +22,7 @@ mod aspects;
 mod boundary;
 mod cells;
 mod condition;
+mod configurations;
 mod curves;
 mod edge;
 mod fill;
@@ -148,6 +149,7 @@ pub fn workspace(
         grid: &grid,
         measure: &measure,
         most: settings.most,
+        only: None,
     };
     let probed = grid.spread(settings.probed);
     let (filled, aspects, outside) = match settings.side_by_side {

@@ -51,6 +51,35 @@ pub struct Configuration<T> {
     pub platforms: Vec<PlatformPose<T>>,
 }
 
+/// A configuration whose numbers are kept elsewhere.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct ConfigurationRef<'a, T> {
+    /// As in [`Configuration`].
+    pub joints: &'a [T],
+    /// As in [`Configuration`].
+    pub platforms: &'a [PlatformPose<T>],
+}
+
+impl<T: Clone> ConfigurationRef<'_, T> {
+    /// The same by itself.
+    pub fn owned(self) -> Configuration<T> {
+        Configuration {
+            joints: self.joints.to_vec(),
+            platforms: self.platforms.to_vec(),
+        }
+    }
+}
+
+impl<T> Configuration<T> {
+    /// Its numbers where they are.
+    pub fn view(&self) -> ConfigurationRef<'_, T> {
+        ConfigurationRef {
+            joints: &self.joints,
+            platforms: &self.platforms,
+        }
+    }
+}
+
 impl Configuration<Lanes> {
     /// Several configurations of one mechanism side by side, one for each lane.
     pub fn beside<'a>(of: impl Fn(usize) -> &'a Configuration<f64>) -> Self {

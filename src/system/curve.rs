@@ -3,7 +3,7 @@
 use std::f64::consts::TAU;
 
 use super::{Held, HeldPlatform, Holdable, System, Unknown, Work};
-use crate::mechanism::{Configuration, Coordinate, Mechanism};
+use crate::mechanism::{Configuration, ConfigurationRef, Coordinate, Mechanism};
 use crate::solve::{Equations, Place, SolutionCurve};
 
 /// A coordinate that moves along a segment, in m or rad.
@@ -207,15 +207,15 @@ impl Curve {
         to: &Configuration<f64>,
     ) -> Vec<f64> {
         let mut step = vec![0.0; self.system.unknowns().len()];
-        self.difference_but_turns_into(from, to, &mut step);
+        self.difference_but_turns_into(from.view(), to.view(), &mut step);
         step
     }
 
     /// The same, into a slice as long as there are unknowns.
     pub fn difference_but_turns_into(
         &self,
-        from: &Configuration<f64>,
-        to: &Configuration<f64>,
+        from: ConfigurationRef<f64>,
+        to: ConfigurationRef<f64>,
         step: &mut [f64],
     ) {
         self.system.difference_into(from, to, step);

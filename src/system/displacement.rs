@@ -2,7 +2,7 @@ use super::layout::Unknown;
 use super::{System, Work};
 use crate::geometry::{Quaternion, Vector3};
 use crate::linear::Factorable;
-use crate::mechanism::{Configuration, PlatformPose};
+use crate::mechanism::{Configuration, ConfigurationRef, PlatformPose};
 use crate::solve::Equations;
 
 impl<T: Factorable> System<T> {
@@ -39,12 +39,17 @@ impl<T: Factorable> System<T> {
     /// `displaced(from, difference(from, to))` is `to`.
     pub fn difference(&self, from: &Configuration<T>, to: &Configuration<T>) -> Vec<T> {
         let mut step = vec![T::zero(); self.unknowns().len()];
-        self.difference_into(from, to, &mut step);
+        self.difference_into(from.view(), to.view(), &mut step);
         step
     }
 
     /// The same, into a slice as long as there are unknowns.
-    pub fn difference_into(&self, from: &Configuration<T>, to: &Configuration<T>, step: &mut [T]) {
+    pub fn difference_into(
+        &self,
+        from: ConfigurationRef<T>,
+        to: ConfigurationRef<T>,
+        step: &mut [T],
+    ) {
         for (i, &unknown) in self.unknowns().iter().enumerate() {
             match unknown {
                 Unknown::Joint(joint) => {

@@ -1,13 +1,14 @@
 //! What steps arrive at.
 
+use super::configurations::Configurations;
 use super::rates::Told;
-use crate::mechanism::Configuration;
+use crate::mechanism::{Configuration, ConfigurationRef};
 use crate::number::Packed;
 
 /// A configuration with its motions.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Moving<'a> {
-    pub at: &'a Configuration<f64>,
+    pub at: ConfigurationRef<'a, f64>,
     /// The motions for unit rates of the held coordinates one after another, the mapped ones first,
     /// dimensionless.
     pub motions: &'a [f64],
@@ -25,7 +26,7 @@ pub(super) struct Arrival {
 impl Arrival {
     pub fn moving(&self) -> Moving<'_> {
         Moving {
-            at: &self.at,
+            at: self.at.view(),
             motions: &self.motions,
             told: &self.told,
         }
@@ -35,7 +36,7 @@ impl Arrival {
 impl Moving<'_> {
     pub fn arrival(&self) -> Arrival {
         Arrival {
-            at: self.at.clone(),
+            at: self.at.owned(),
             motions: self.motions.to_vec(),
             told: self.told.clone(),
         }
@@ -47,7 +48,7 @@ impl Moving<'_> {
 pub(super) struct Arrivals {
     /// For each step whether it does.
     arrived: Vec<bool>,
-    at: Vec<Configuration<f64>>,
+    at: Configurations,
     told: Vec<Told>,
     motions: Vec<f64>,
 }
@@ -70,9 +71,7 @@ impl Arrivals {
         told: &[Option<Told>],
     ) {
         let steps = self.arrived.len();
-        if self.at.len() < steps {
-            self.at.resize(steps, at.map(|x| x.part(0)));
-        }
+        self.at.fill(steps, &at.map(|x| x.part(0)));
         self.motions.resize(steps * motions.len(), 0.0);
         for (i, told) in (first..).zip(told) {
             if let Some(told) = told {
@@ -83,12 +82,12 @@ impl Arrivals {
         let places = || (first..).zip(0..told.len());
         for (joint, x) in at.joints.iter().enumerate() {
             for (i, place) in places() {
-                self.at[i].joints[joint] = x.part(place);
+                *self.at.joint_mut(i, joint) = x.part(place);
             }
         }
         for (platform, pose) in at.platforms.iter().enumerate() {
             for (i, place) in places() {
-                let to = &mut self.at[i].platforms[platform];
+                let to = self.at.platform_mut(i, platform);
                 to.orientation.0 = pose.orientation.0.map(|x| x.part(place));
                 to.position.0 = pose.position.0.map(|x| x.part(place));
             }
@@ -109,7 +108,7 @@ impl Arrivals {
     pub fn get(&self, step: usize) -> Option<Moving<'_>> {
         let length = self.motions.len() / self.arrived.len().max(1);
         self.arrived[step].then(|| Moving {
-            at: &self.at[step],
+            at: self.at.get(step),
             motions: &self.motions[step * length..][..length],
             told: &self.told[step],
         })

@@ -102,8 +102,8 @@ impl<'m> Asked<'m> {
     }
 
     /// Whether all joints are within their limits.
-    pub fn allows(&self, at: &Configuration<f64>) -> bool {
-        let mut joints = self.mechanism.joints().iter().zip(&at.joints);
+    pub fn allows(&self, joints: &[f64]) -> bool {
+        let mut joints = self.mechanism.joints().iter().zip(joints);
         joints.all(|(joint, value)| joint.allows(*value))
     }
 

@@ -153,14 +153,14 @@ impl Boundary<'_> {
         }
         let walked = each(wanted.len(), &(), |(), i| {
             let (s, d, until) = wanted[i];
-            let sheet = self.filled.sheet(s);
+            let (sheet, at) = (self.filled.sheet(s), self.filled.configuration(s).owned());
             let node = self.grid.neighbour(sheet.node, d)?;
             let edge = Edge {
                 axis: d / 2,
                 values: self.grid.values(sheet.node),
                 to: self.grid.values(node)[d / 2],
             };
-            let met = walk(self.asked, self.measure, &edge, &sheet.at, until);
+            let met = walk(self.asked, self.measure, &edge, &at, until);
             let kind = |locks: &[Lock]| match locks == &inputs[..] {
                 true => Kind::Direct,
                 false => Kind::Inverse,
@@ -196,7 +196,7 @@ impl Boundary<'_> {
             sheet,
             direction,
             kind,
-            at: self.filled.sheet(singular).at.clone(),
+            at: self.filled.configuration(singular).owned(),
             part,
             again: false,
         }

@@ -70,7 +70,7 @@ fn begun(
     let Ok(place) = method.settle(&mut curve, start) else {
         return Err(Met::Nothing);
     };
-    if place.is_beside_a_crossing() || !measure.same(&place.at, from) {
+    if place.is_beside_a_crossing() || !measure.same(place.at.view(), from.view()) {
         return Err(Met::Nothing);
     }
     let rate = curve.part_rate(&place.at, &place.tangent);

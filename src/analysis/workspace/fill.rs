@@ -1,10 +1,11 @@
 //! Spreading over the grid from seeds: every node in every mode that regular steps lead to.
 
-use std::collections::HashSet;
+use rustc_hash::FxHashSet;
 
 use super::WorkspaceError;
 use super::arrivals::{Arrival, Arrivals, Moving};
 use super::asked::Asked;
+use super::aspects::{Signs, signs};
 use super::edge::{Edge, Met, reach};
 use super::filled::{Link, Name, Sheet};
 use super::grid::{Grid, MOST_AXES};
@@ -14,7 +15,7 @@ use super::spread::Spread;
 use super::step::{SURE, Start, Steps};
 use super::tile::{Task, Tile};
 use crate::linear::{Factorable, norm};
-use crate::mechanism::Configuration;
+use crate::mechanism::{Configuration, ConfigurationRef};
 use crate::number::Packed;
 use crate::solve::{Pool, each};
 
@@ -25,6 +26,8 @@ pub(super) struct Fill<'a> {
     pub measure: &'a Measure,
     /// Sheets kept at most.
     pub most: usize,
+    /// The signs of the one aspect that is to be spread over, if not all are.
+    pub only: Option<Signs>,
 }
 
 /// Starts given to one thread at once.
@@ -129,10 +132,15 @@ impl Fill<'_> {
         Ok(())
     }
 
+    /// Whether what is reached from a sheet is asked for.
+    pub(super) fn goes_on_from(&self, sheet: &Sheet) -> bool {
+        self.only.is_none() || signs(sheet) == self.only
+    }
+
     /// A start beside an assembled configuration at a node.
     fn here<'s>(&self, node: usize, at: &'s Configuration<f64>) -> Start<'s> {
         Start {
-            from: at,
+            from: at.view(),
             along: None,
             reach: 1e-3,
             values: self.grid.point(node),
@@ -154,10 +162,10 @@ impl Fill<'_> {
     /// Which of the sheets of a node has this configuration.
     pub(super) fn known<'s>(
         &self,
-        mut sheets: impl Iterator<Item = (Name, &'s Sheet)>,
-        at: &Configuration<f64>,
+        mut sheets: impl Iterator<Item = (Name, ConfigurationRef<'s, f64>)>,
+        at: ConfigurationRef<f64>,
     ) -> Option<Name> {
-        let known = sheets.find(|(_, sheet)| self.measure.same(&sheet.at, at));
+        let known = sheets.find(|(_, known)| self.measure.same(*known, at));
         known.map(|(name, _)| name)
     }
 
@@ -212,7 +220,7 @@ impl Fill<'_> {
                 None => left.push((from, d)),
             }
         }
-        let mut taken = HashSet::with_capacity(left.len());
+        let mut taken = FxHashSet::with_capacity_and_hasher(left.len(), Default::default());
         left.into_iter().partition(|&(from, d)| {
             let node = self.grid.neighbour(spread.sheet(from).node, d);
             let root = spread.tiles[from.tile as usize].root(from.sheet as usize);
@@ -287,7 +295,7 @@ impl Fill<'_> {
                 values: self.grid.values(spread.sheet(unsure[i].0).node),
                 to: step.to[step.axis],
             };
-            reach(self.asked, self.measure, &edge, step.from.at)
+            reach(self.asked, self.measure, &edge, &step.from.at.owned())
         });
         let again: Vec<Start> = (unsure.iter().zip(&met))
             .filter_map(|(&(from, d), met)| match met {

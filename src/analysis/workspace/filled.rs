@@ -2,22 +2,29 @@
 
 use std::ops::Range;
 
+use super::configurations::Configurations;
 use super::grid::MOST_DIRECTIONS;
 use super::measure::Measure;
 use super::rates::Told;
-use crate::mechanism::Configuration;
+use crate::mechanism::ConfigurationRef;
 use crate::solve::each;
 
 /// An assembled configuration at a node.
 #[derive(Clone, Debug)]
 pub(super) struct Sheet {
     pub node: usize,
-    pub at: Configuration<f64>,
     pub told: Told,
     /// Whether all joints are within their limits.
     pub within: bool,
     /// For each direction of the grid.
     pub links: [Link; MOST_DIRECTIONS],
+}
+
+/// Sheets of one part of the grid.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Sheets {
+    pub all: Vec<Sheet>,
+    at: Configurations,
 }
 
 /// Which sheet of which part of the grid.
@@ -42,7 +49,7 @@ pub(super) enum Link {
 
 /// All that was reached, numbered in the order of the nodes.
 pub(super) struct Filled {
-    tiles: Vec<Vec<Sheet>>,
+    tiles: Vec<Sheets>,
     names: Vec<Name>,
     /// The numbers by name.
     numbers: Vec<Vec<usize>>,
@@ -57,9 +64,9 @@ pub(super) struct Filled {
 impl Filled {
     /// The sheets of each part of the grid, and for each of them the first of those connected with it
     /// in that part; and what else is connected.
-    pub fn new(tiles: Vec<(Vec<Sheet>, Vec<usize>)>, seams: &[[Name; 2]], nodes: usize) -> Self {
+    pub fn new(tiles: Vec<(Sheets, Vec<usize>)>, seams: &[[Name; 2]], nodes: usize) -> Self {
         let mut firsts = vec![0; nodes + 1];
-        for sheet in tiles.iter().flat_map(|(sheets, _)| sheets) {
+        for sheet in tiles.iter().flat_map(|(sheets, _)| &sheets.all) {
             firsts[sheet.node + 1] += 1;
         }
         for node in 0..nodes {
@@ -77,7 +84,7 @@ impl Filled {
             roots: vec![0; count],
         };
         for (tile, (sheets, roots)) in tiles.into_iter().enumerate() {
-            let numbers = sheets.iter().enumerate().map(|(sheet, at)| {
+            let numbers = sheets.all.iter().enumerate().map(|(sheet, at)| {
                 let number = next[at.node];
                 next[at.node] += 1;
                 filled.names[number] = Name::new(tile, sheet);
@@ -140,7 +147,7 @@ impl Filled {
         tile: usize,
         kind: &impl Fn(&Sheet) -> Option<K>,
     ) -> (Vec<Option<usize>>, Vec<[Name; 2]>) {
-        let sheets = &self.tiles[tile];
+        let sheets = &self.tiles[tile].all;
         let kinds: Vec<Option<K>> = sheets.iter().map(kind).collect();
         let mut roots: Vec<usize> = (0..sheets.len()).collect();
         let mut across = Vec::new();
@@ -177,8 +184,13 @@ impl Filled {
         self.named(self.names[number])
     }
 
+    pub fn configuration(&self, number: usize) -> ConfigurationRef<'_, f64> {
+        let name = self.names[number];
+        self.tiles[name.tile as usize].at(name.sheet as usize)
+    }
+
     pub fn named(&self, name: Name) -> &Sheet {
-        &self.tiles[name.tile as usize][name.sheet as usize]
+        &self.tiles[name.tile as usize].all[name.sheet as usize]
     }
 
     pub fn node(&self, number: usize) -> usize {
@@ -198,7 +210,7 @@ impl Filled {
     /// How many of something all sheets together have.
     pub fn count(&self, of: impl Fn(&Sheet) -> usize + Sync) -> usize {
         let counts = each(self.tiles.len(), &(), |(), tile| {
-            self.tiles[tile].iter().map(&of).sum::<usize>()
+            self.tiles[tile].all.iter().map(&of).sum::<usize>()
         });
         counts.into_iter().sum()
     }
@@ -213,9 +225,36 @@ impl Filled {
     }
 
     /// The sheet of a node with this configuration.
-    pub fn known(&self, measure: &Measure, node: usize, at: &Configuration<f64>) -> Option<usize> {
+    pub fn known(
+        &self,
+        measure: &Measure,
+        node: usize,
+        at: ConfigurationRef<f64>,
+    ) -> Option<usize> {
         let mut sheets = self.at(node);
-        sheets.find(|s| measure.same(&self.sheet(*s).at, at))
+        sheets.find(|s| measure.same(self.configuration(*s), at))
+    }
+}
+
+impl Sheets {
+    pub fn len(&self) -> usize {
+        self.all.len()
+    }
+
+    /// The configuration of one.
+    pub fn at(&self, sheet: usize) -> ConfigurationRef<'_, f64> {
+        self.at.get(sheet)
+    }
+
+    /// Room for so many more with configurations like this one.
+    pub fn reserve(&mut self, more: usize, like: ConfigurationRef<f64>) {
+        self.all.reserve(more);
+        self.at.reserve(more, like);
+    }
+
+    pub fn push(&mut self, sheet: Sheet, at: ConfigurationRef<f64>) {
+        self.all.push(sheet);
+        self.at.push(at);
     }
 }
 

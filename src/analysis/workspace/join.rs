@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use super::aspects::aspects;
+use super::aspects::{aspects, signs};
 use super::fill::Fill;
 use super::filled::{Filled, join, root};
 use super::grid::Grid;
@@ -99,6 +99,8 @@ fn reached<T: Factorable + Packed + Send + Sync>(
     let finer = Fill {
         grid: &fine,
         most: MOST_SHEETS,
+        // what lies beyond other signs is of other aspects
+        only: signs(filled.sheet(aspect[0])),
         ..*fill
     };
     // a node of the grid among those of the finer one
@@ -111,8 +113,7 @@ fn reached<T: Factorable + Packed + Send + Sync>(
         there
     };
     let seeds: Vec<_> = (aspect.iter())
-        .map(|s| filled.sheet(*s))
-        .map(|sheet| (same(sheet.node), sheet.at.clone()))
+        .map(|s| (same(filled.node(*s)), filled.configuration(*s).owned()))
         .collect();
     let mut found = Spread::new(&fine);
     if (finer.spread(&mut found, steps, &seeds, &mut |_| {})).is_err() {
@@ -121,13 +122,13 @@ fn reached<T: Factorable + Packed + Send + Sync>(
     let found = found.filled(&fine);
     let parts_of = aspects(&found);
     let own: Vec<usize> = (seeds.iter())
-        .filter_map(|(node, at)| parts_of[found.known(fill.measure, *node, at)?])
+        .filter_map(|(node, at)| parts_of[found.known(fill.measure, *node, at.view())?])
         .collect();
     let mut matching = Vec::new();
     for node in grid.nodes_within(&sides) {
         let there = found.at(same(node));
         let inside = there.filter(|t| parts_of[*t].is_some_and(|aspect| own.contains(&aspect)));
-        let at = inside.map(|t| &found.sheet(t).at);
+        let at = inside.map(|t| found.configuration(t));
         matching.extend(at.filter_map(|at| filled.known(fill.measure, node, at)));
     }
     matching

@@ -13,7 +13,7 @@ use super::report::{
     AspectReport, AxisReport, BoundaryPoint, Conditioned, CoordinateReport, HeldReport, ModeReport,
     WorkspaceReport,
 };
-use crate::mechanism::{Configuration, Coordinate};
+use crate::mechanism::Coordinate;
 use crate::solve::each;
 use crate::system::{Holdable, Walk};
 
@@ -45,7 +45,7 @@ impl<'a> Map<'a> {
         let mut first: Vec<Option<usize>> = vec![None; filled.len()];
         let order = |a: usize, b: usize| {
             let node = |s: usize| filled.node(s);
-            let joints = |s: usize| brought(asked, &filled.sheet(s).at, true);
+            let joints = |s: usize| brought(asked, filled.configuration(s).joints, true);
             let joint_order = || {
                 let (a, b) = (joints(a), joints(b));
                 let pairs = a.iter().zip(&b);
@@ -157,7 +157,8 @@ impl<'a> Map<'a> {
                 let within = Region::new(self.grid, within.map(node));
                 let first = of.first().map(node);
                 let at_first = of.iter().take_while(|s| Some(node(s)) == first);
-                let joints = at_first.map(|s| brought(self.asked, &self.filled.sheet(*s).at, true));
+                let joints = at_first
+                    .map(|s| brought(self.asked, self.filled.configuration(*s).joints, true));
                 ModeReport {
                     mode: mode + 1,
                     nodes,
@@ -187,7 +188,7 @@ impl<'a> Map<'a> {
                         ends_reach: crossing.kind.ends_reach(),
                         mode: self.mode[crossing.sheet]? + 1,
                         at,
-                        joints: brought(self.asked, &crossing.at, false),
+                        joints: brought(self.asked, &crossing.at.joints, false),
                     })
                 })
                 .collect(),
@@ -332,7 +333,7 @@ impl<'a> Map<'a> {
                 values: Vec::with_capacity(parts[i].len() * widths.iter().sum::<usize>()),
             };
             for &(s, mode) in parts[i] {
-                let sheet = self.filled.sheet(s);
+                let (sheet, at) = (self.filled.sheet(s), self.filled.configuration(s));
                 let of = &sheet.told;
                 part.heads.push(Head {
                     node: sheet.node,
@@ -344,10 +345,10 @@ impl<'a> Map<'a> {
                 });
                 part.values.extend(&self.grid.point(sheet.node)[..axes]);
                 let joints = part.values.len();
-                part.values.extend(&sheet.at.joints);
+                part.values.extend(at.joints);
                 bring(self.asked, &mut part.values[joints..], false);
                 for of_platform in following.chunk_by(|(a, _), (b, _)| a == b) {
-                    let pose = sheet.at.platforms[of_platform[0].0].pose();
+                    let pose = at.platforms[of_platform[0].0].pose();
                     let all = Coordinate::all_of(&pose);
                     part.values
                         .extend(of_platform.iter().map(|(_, c)| all[*c as usize]));
@@ -360,8 +361,8 @@ impl<'a> Map<'a> {
 }
 
 /// The joints, angles within limits or in (−π, π]; all of the latter kind where modes are compared.
-fn brought(asked: &Asked, at: &Configuration<f64>, plain: bool) -> Vec<f64> {
-    let mut joints = at.joints.clone();
+fn brought(asked: &Asked, joints: &[f64], plain: bool) -> Vec<f64> {
+    let mut joints = joints.to_vec();
     bring(asked, &mut joints, plain);
     joints
 }

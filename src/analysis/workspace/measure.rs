@@ -5,7 +5,7 @@ use std::f64::consts::{PI, TAU};
 use super::arrivals::Moving;
 use super::asked::Asked;
 use super::step::SURE;
-use crate::mechanism::{Configuration, Role};
+use crate::mechanism::{ConfigurationRef, Role};
 use crate::solve::SolutionCurve;
 use crate::system::{Curve, Held, Holdable, Unknown};
 
@@ -93,11 +93,15 @@ impl Measure {
     }
 
     /// Whether two configurations are the same, so far as modes are concerned.
-    pub fn same(&self, a: &Configuration<f64>, b: &Configuration<f64>) -> bool {
+    pub fn same(&self, a: ConfigurationRef<f64>, b: ConfigurationRef<f64>) -> bool {
         // most that are not are told by one joint
         let mut joints = self.joints.iter();
-        joints.all(|joint| joint.change(a, b).abs() < SAME)
-            && self.seen_length(self.free.difference_but_turns(a, b).into_iter()) < SAME
+        if joints.any(|joint| joint.change(a, b).abs() >= SAME) {
+            return false;
+        }
+        let mut step = vec![0.0; self.free.unknowns()];
+        self.free.difference_but_turns_into(a, b, &mut step);
+        self.seen_length(step.into_iter()) < SAME
     }
 
     fn seen_length(&self, step: impl Iterator<Item = f64>) -> f64 {
@@ -190,7 +194,7 @@ impl Measure {
 impl SeenJoint {
     /// How far it is from one configuration to another, dimensionless, turns that change nothing left
     /// out.
-    fn change(&self, from: &Configuration<f64>, to: &Configuration<f64>) -> f64 {
+    fn change(&self, from: ConfigurationRef<f64>, to: ConfigurationRef<f64>) -> f64 {
         let change = (to.joints[self.joint] - from.joints[self.joint]) / self.scale;
         match self.repeats && change.abs() > PI {
             true => change - TAU * (change / TAU).round(),

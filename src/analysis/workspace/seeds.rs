@@ -27,7 +27,7 @@ pub(super) struct Sown {
 impl Sown {
     fn add(&mut self, asked: &Asked, node: usize, mut at: Configuration<f64>) {
         Walk::within_limits(asked.mechanism, &mut at.joints);
-        match asked.allows(&at) {
+        match asked.allows(&at.joints) {
             true => self.seeds.push((node, at)),
             false => self.outside += 1,
         }
@@ -103,7 +103,11 @@ fn take(
     (storage.targets).ask(&mut storage.system, &mut at, |_| values);
     let mut trial = at.clone();
     let report = (asked.newton).solve(&storage.system, &mut at, &mut trial, &mut storage.work);
-    if report.stop != Stop::Solved || found.iter().any(|known| measure.same(known, &at)) {
+    if report.stop != Stop::Solved
+        || found
+            .iter()
+            .any(|known| measure.same(known.view(), at.view()))
+    {
         return;
     }
     // where the mapped coordinates do not tell how things move there is nothing to go on from
@@ -153,7 +157,7 @@ pub(super) fn probe<T: Factorable + Packed + Send + Sync>(
             .collect();
         let starts: Vec<Start> = (drawn.iter())
             .map(|at| Start {
-                from: at,
+                from: at.view(),
                 along: None,
                 reach: f64::INFINITY,
                 values: fill.grid.point(node),
@@ -164,9 +168,9 @@ pub(super) fn probe<T: Factorable + Packed + Send + Sync>(
         for pack in starts.chunks(T::WIDTH) {
             steps.settle(pack, &mut arrivals);
             for arrival in arrivals.iter().flatten() {
-                let known = |of: &Configuration<f64>| fill.measure.same(of, arrival.at);
+                let known = |of: &Configuration<f64>| fill.measure.same(of.view(), arrival.at);
                 if reached.known(fill, node, arrival.at).is_none() && !new.iter().any(known) {
-                    new.push(arrival.at.clone());
+                    new.push(arrival.at.owned());
                 }
             }
         }

@@ -5,7 +5,7 @@ use super::fill::{Fill, Step};
 use super::filled::{Filled, Link, Name, Sheet};
 use super::grid::Grid;
 use super::tile::{Task, Tile, Tiling};
-use crate::mechanism::Configuration;
+use crate::mechanism::ConfigurationRef;
 
 /// What was reached so far.
 pub(super) struct Spread {
@@ -27,11 +27,11 @@ impl Spread {
     }
 
     pub fn sheet(&self, name: Name) -> &Sheet {
-        &self.tiles[name.tile as usize].sheets[name.sheet as usize]
+        &self.tiles[name.tile as usize].sheets.all[name.sheet as usize]
     }
 
     pub fn link_mut(&mut self, name: Name, direction: usize) -> &mut Link {
-        &mut self.tiles[name.tile as usize].sheets[name.sheet as usize].links[direction]
+        &mut self.tiles[name.tile as usize].sheets.all[name.sheet as usize].links[direction]
     }
 
     /// Links two sheets.
@@ -49,13 +49,9 @@ impl Spread {
     }
 
     /// The sheet of a node with this configuration.
-    pub fn known(&self, fill: &Fill, node: usize, at: &Configuration<f64>) -> Option<Name> {
-        fill.known(self.at(fill.grid, node), at)
-    }
-
-    /// The sheets of a node.
-    pub fn at(&self, grid: &Grid, node: usize) -> impl Iterator<Item = (Name, &Sheet)> {
-        self.tiles[self.tiling.of(grid, node)].at(grid, node)
+    pub fn known(&self, fill: &Fill, node: usize, at: ConfigurationRef<f64>) -> Option<Name> {
+        let tile = &self.tiles[self.tiling.of(fill.grid, node)];
+        fill.known(tile.at(fill.grid, node), at)
     }
 
     pub fn len(&self) -> usize {

@@ -5,7 +5,7 @@ use super::asked::{Asked, Targets};
 use super::grid::MOST_AXES;
 use super::rates::{Rates, Told};
 use crate::linear::Factorable;
-use crate::mechanism::Configuration;
+use crate::mechanism::{Configuration, ConfigurationRef};
 use crate::number::{LANES, Packed};
 use crate::solve::Equations;
 use crate::system::{System, Work};
@@ -13,7 +13,7 @@ use crate::system::{System, Work};
 /// Where a step begins.
 #[derive(Clone, Debug)]
 pub(super) struct Start<'a> {
-    pub from: &'a Configuration<f64>,
+    pub from: ConfigurationRef<'a, f64>,
     /// A motion and how far along it what is looked for may be near.
     pub along: Option<(&'a [f64], f64)>,
     /// How far that may be, dimensionless; infinite if anything is as good.

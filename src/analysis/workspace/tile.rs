@@ -1,13 +1,14 @@
 //! Parts of the grid, over each of which one thread spreads by itself.
 
-use std::collections::HashSet;
+use rustc_hash::FxHashSet;
 
 use super::arrivals::{Arrivals, Moving};
 use super::fill::{Fill, Step};
-use super::filled::{Link, Name, Sheet, join, root};
+use super::filled::{Link, Name, Sheet, Sheets, join, root};
 use super::grid::{Grid, MOST_AXES, MOST_DIRECTIONS};
 use super::step::Steps;
 use crate::linear::Factorable;
+use crate::mechanism::ConfigurationRef;
 use crate::number::Packed;
 
 /// How the grid is parted.
@@ -58,7 +59,7 @@ impl Tiling {
                     number,
                     low,
                     sides,
-                    sheets: Vec::new(),
+                    sheets: Sheets::default(),
                     motions: Vec::new(),
                     last: vec![None; sides.iter().product()],
                     before: Vec::new(),
@@ -80,7 +81,7 @@ pub(super) struct Tile {
     number: usize,
     low: [usize; MOST_AXES],
     sides: [usize; MOST_AXES],
-    pub sheets: Vec<Sheet>,
+    pub sheets: Sheets,
     /// The motions of its sheets, one after another.
     motions: Vec<f64>,
     /// For each of its nodes the last sheet there, and for each sheet the one before it there.
@@ -116,22 +117,31 @@ impl Tile {
     }
 
     /// The sheets at a node.
-    pub fn at(&self, grid: &Grid, node: usize) -> impl Iterator<Item = (Name, &Sheet)> {
+    fn sheets_at(&self, grid: &Grid, node: usize) -> impl Iterator<Item = usize> {
         let last = self.place(grid, node).and_then(|place| self.last[place]);
         let sheets = std::iter::successors(last, |sheet| self.before[*sheet as usize]);
-        let sheets = sheets.map(|sheet| sheet as usize);
-        sheets.map(|sheet| (self.name(sheet), &self.sheets[sheet]))
+        sheets.map(|sheet| sheet as usize)
+    }
+
+    /// The sheets at a node with their configurations.
+    pub fn at(
+        &self,
+        grid: &Grid,
+        node: usize,
+    ) -> impl Iterator<Item = (Name, ConfigurationRef<'_, f64>)> {
+        let sheets = self.sheets_at(grid, node);
+        sheets.map(|sheet| (self.name(sheet), self.sheets.at(sheet)))
     }
 
     /// The same with their motions.
     pub fn moving_at(&self, grid: &Grid, node: usize) -> impl Iterator<Item = (Name, Moving<'_>)> {
-        let names = self.at(grid, node).map(|(name, _)| name);
-        names.map(|name| (name, self.moving(name.sheet as usize)))
+        let sheets = self.sheets_at(grid, node);
+        sheets.map(|sheet| (self.name(sheet), self.moving(sheet)))
     }
 
     /// The way from a sheet to its neighbour.
     pub fn step(&self, fill: &Fill, sheet: usize, direction: usize) -> Step<'_> {
-        fill.step(self.sheets[sheet].node, self.moving(sheet), direction)
+        fill.step(self.sheets.all[sheet].node, self.moving(sheet), direction)
     }
 
     fn name(&self, sheet: usize) -> Name {
@@ -142,14 +152,14 @@ impl Tile {
     pub fn moving(&self, sheet: usize) -> Moving<'_> {
         let length = self.motions.len() / self.sheets.len();
         Moving {
-            at: &self.sheets[sheet].at,
+            at: self.sheets.at(sheet),
             motions: &self.motions[sheet * length..][..length],
-            told: &self.sheets[sheet].told,
+            told: &self.sheets.all[sheet].told,
         }
     }
 
     /// Its sheets, and for each the first of those connected with it in here.
-    pub fn finished(mut self) -> (Vec<Sheet>, Vec<usize>) {
+    pub fn finished(mut self) -> (Sheets, Vec<usize>) {
         let roots = (0..self.sheets.len()).map(|sheet| root(&mut self.roots, sheet));
         let roots = roots.collect();
         (self.sheets, roots)
@@ -167,31 +177,33 @@ impl Tile {
         if new == 0 {
             // where one node is reached most are
             let nodes = self.last.len();
-            self.sheets.reserve(nodes);
+            self.sheets.reserve(nodes, arrival.at);
             self.motions.reserve(nodes * arrival.motions.len());
         }
-        self.sheets.push(Sheet {
+        let sheet = Sheet {
             node,
-            within: fill.asked.allows(arrival.at),
-            at: arrival.at.clone(),
+            within: fill.asked.allows(arrival.at.joints),
             told: arrival.told.clone(),
             links: [Link::Open; MOST_DIRECTIONS],
-        });
+        };
+        if fill.goes_on_from(&sheet) {
+            self.front.push(new);
+        }
+        self.sheets.push(sheet, arrival.at);
         self.motions.extend(arrival.motions);
         let place = self.place(fill.grid, node);
         let place = place.expect("a node of this part");
         let name = self.name(new);
         self.before.push(self.last[place].replace(name.sheet));
         self.roots.push(new);
-        self.front.push(new);
         name
     }
 
     /// Links two of its sheets.
     pub fn link(&mut self, from: usize, direction: usize, to: usize) {
         let (from_name, to_name) = (self.name(from), self.name(to));
-        self.sheets[from].links[direction] = Link::To(to_name);
-        let back = &mut self.sheets[to].links[direction ^ 1];
+        self.sheets.all[from].links[direction] = Link::To(to_name);
+        let back = &mut self.sheets.all[to].links[direction ^ 1];
         if *back == Link::Open {
             *back = Link::To(from_name);
         }
@@ -200,9 +212,9 @@ impl Tile {
 
     /// One step to each node from each mode known so far; the others wait for what it finds.
     fn chosen(&mut self, grid: &Grid, waiting: Vec<(usize, usize)>) -> [Vec<(usize, usize)>; 2] {
-        let mut taken = HashSet::with_capacity(waiting.len());
+        let mut taken = FxHashSet::with_capacity_and_hasher(waiting.len(), Default::default());
         let (now, later) = waiting.into_iter().partition(|&(s, d)| {
-            let node = grid.neighbour(self.sheets[s].node, d);
+            let node = grid.neighbour(self.sheets.all[s].node, d);
             taken.insert((node, root(&mut self.roots, s)))
         });
         [now, later]
@@ -239,7 +251,7 @@ impl Tile {
         let mut inside = Vec::new();
         for &s in front {
             for d in 0..2 * grid.dimensions() {
-                match grid.neighbour(self.sheets[s].node, d) {
+                match grid.neighbour(self.sheets.all[s].node, d) {
                     None => {}
                     Some(node) if self.place(grid, node).is_some() => inside.push((s, d)),
                     Some(_) => self.seams.push((self.name(s), d)),
@@ -251,7 +263,7 @@ impl Tile {
 
     /// Whether a sheet is linked already or now can be, with one that lies where both motions say.
     fn linked(&mut self, fill: &Fill, s: usize, d: usize, storage: &mut Vec<f64>) -> bool {
-        let sheet = &self.sheets[s];
+        let sheet = &self.sheets.all[s];
         if sheet.links[d] != Link::Open {
             return true;
         }
@@ -270,7 +282,7 @@ impl Tile {
     }
 
     fn arrive(&mut self, fill: &Fill, s: usize, d: usize, arrival: Moving) {
-        let Some(node) = fill.grid.neighbour(self.sheets[s].node, d) else {
+        let Some(node) = fill.grid.neighbour(self.sheets.all[s].node, d) else {
             return;
         };
         let known = fill.known(self.at(fill.grid, node), arrival.at);
