@@ -152,6 +152,8 @@ pub trait Extent: Number {
     fn least(self) -> f64;
     /// The largest real, NaN if any is.
     fn greatest(self) -> f64;
+    /// The larger of two in each place; where one is NaN, either.
+    fn larger(self, other: Self) -> Self;
 }
 
 /// A number that carries several reals side by side, or one.

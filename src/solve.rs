@@ -60,16 +60,17 @@ impl Size {
     /// The size of the given rows. A NaN anywhere gives an infinite size.
     #[inline]
     pub fn of<T: Field>(rows: &[T]) -> Self {
-        let (mut largest, mut squares) = (0.0f64, T::Size::zero());
+        let (mut largest, mut squares) = (T::Size::zero(), T::Size::zero());
         for row in rows {
             let square = row.norm_squared();
             squares += square;
-            largest = largest.max(square.greatest());
+            largest = largest.larger(square);
         }
+        // a NaN among the largest may have been passed over, in the sum it is not
         let squares = squares.greatest();
         if squares.is_finite() {
             Size {
-                largest: largest.sqrt(),
+                largest: largest.greatest().sqrt(),
                 squares,
             }
         } else {

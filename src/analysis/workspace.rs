@@ -192,9 +192,8 @@ fn filled<T: Factorable + Packed + Send + Sync>(
     let more = seeds::probe(fill, &reached, &steps, probed, seed);
     fill.spread(&mut reached, &steps, &more.seeds, told)?;
     let mut filled = reached.filled(fill.grid);
-    let aspects = join::joined(fill, &steps, &filled);
+    let (aspects, together) = join::joined(fill, &steps, &filled);
     // what hangs together on a finer grid is of one mode
-    let together = aspects.iter().enumerate();
-    filled.connect(together.filter_map(|(s, first)| Some([s, (*first)?])));
+    filled.connect(together.into_iter());
     Ok((filled, aspects, more.outside))
 }

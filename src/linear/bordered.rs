@@ -134,6 +134,13 @@ impl<T: Factorable> Bordered<T> {
         &mut self.blocks[b].matrix
     }
 
+    /// Makes all entries of blocks zero, as at first; factors stay.
+    pub fn clear(&mut self) {
+        for block in &mut self.blocks {
+            block.matrix.fill(T::zero());
+        }
+    }
+
     /// Factorises the blocks as filled in and then the border; `extra` holds the extra rows, one
     /// after another over the shared unknowns.
     pub fn factorise(&mut self, extra: &[T], damping: f64) {

@@ -215,6 +215,10 @@ impl Extent for Lanes {
         }
         lanes[0]
     }
+    #[inline(always)]
+    fn larger(self, other: Self) -> Self {
+        Lanes(self.0.fast_max(other.0))
+    }
 }
 
 impl Packed for Lanes {

@@ -78,6 +78,10 @@ impl Extent for f64 {
     fn greatest(self) -> f64 {
         self
     }
+    #[inline(always)]
+    fn larger(self, other: Self) -> Self {
+        self.max(other)
+    }
 }
 
 impl Packed for f64 {

@@ -41,6 +41,8 @@ struct ClosurePlan<T> {
     block_rows: usize,
     movers: Vec<(Side, Mover<T>, usize)>,
     extensions: Vec<(usize, usize)>,
+    /// Columns of movers and extensions, each once: sums are made there.
+    sums: Vec<usize>,
     /// Side, platform and the column of its first twist component.
     platforms: Vec<(Side, usize, usize)>,
 }
@@ -79,20 +81,27 @@ impl<T: Factorable> System<T> {
             .map(|(closure, &(block, block_row))| {
                 let column = |unknown| layout.column(block, unknown);
                 let sides = [Side::A, Side::B];
+                let movers: Vec<(Side, Mover<T>, usize)> = (sides.iter().zip(&closure.movers))
+                    .flat_map(|(&side, movers)| movers.iter().map(move |m| (side, *m)))
+                    .filter_map(|(side, m)| Some((side, m, column(Unknown::Joint(m.joint))?)))
+                    .collect();
+                let extensions: Vec<(usize, usize)> = (closure.joints().into_iter())
+                    .filter(|&joint| closure.extends_with(joint))
+                    .filter_map(|joint| Some((joint, column(Unknown::Joint(joint))?)))
+                    .collect();
+                let moved = movers.iter().map(|(_, _, column)| *column);
+                let mut sums: Vec<usize> = moved.chain(extensions.iter().map(|e| e.1)).collect();
+                sums.sort_unstable();
+                sums.dedup();
                 ClosurePlan {
                     row: block_start[block] + block_row,
                     rows: closure.kind.equations(),
                     block,
                     block_row,
                     block_rows: layout.blocks[block].rows,
-                    movers: (sides.iter().zip(&closure.movers))
-                        .flat_map(|(&side, movers)| movers.iter().map(move |m| (side, *m)))
-                        .filter_map(|(side, m)| Some((side, m, column(Unknown::Joint(m.joint))?)))
-                        .collect(),
-                    extensions: (closure.joints().into_iter())
-                        .filter(|&joint| closure.extends_with(joint))
-                        .filter_map(|joint| Some((joint, column(Unknown::Joint(joint))?)))
-                        .collect(),
+                    movers,
+                    extensions,
+                    sums,
                     platforms: (sides.into_iter().zip(closure.platforms))
                         .filter_map(|(side, platform)| {
                             let platform = platform?;
@@ -139,7 +148,11 @@ impl<T: Factorable> System<T> {
     /// Factors last made stay, those of the other system.
     pub fn refit(&self, work: &mut Work<T>) {
         match self.empty.blocks().eq(work.jacobian.blocks()) {
-            true => work.placement = self.kinematics.placement(),
+            true => {
+                work.placement = self.kinematics.placement();
+                // what a closure felt there it need not feel here
+                work.jacobian.clear();
+            }
             // a coefficient that is zero there and not here
             false => *work = self.work(),
         }
@@ -276,9 +289,6 @@ impl<T: Factorable> System<T> {
     }
 
     fn jacobian_columns(&self, at: &Configuration<T>, work: &mut Work<T>) {
-        for block in 0..self.empty.blocks().len() {
-            work.jacobian.block_mut(block).fill(T::zero());
-        }
         for (plan, closure) in self.plans.iter().zip(&self.closures) {
             let rows = closure.rows(&work.placement, at);
             let residual = &rows.residual[..plan.rows];
@@ -288,6 +298,10 @@ impl<T: Factorable> System<T> {
                 let start = column * plan.block_rows + plan.block_row;
                 start..start + plan.rows
             };
+            // what this closure does not feel is zero from the beginning
+            for column in &plan.sums {
+                entries[place(*column)].fill(T::zero());
+            }
             for (side, mover, column) in &plan.movers {
                 let (omega, v) = work.placement.twist(mover, rows.velocity_point(*side));
                 rows.rates(*side, &omega, &v, &mut entries[place(*column)]);
@@ -295,11 +309,14 @@ impl<T: Factorable> System<T> {
             for &(joint, column) in &plan.extensions {
                 entries[place(column)][0] += closure.length_column(joint, at);
             }
-            for &(side, platform, column) in &plan.platforms {
+            for (i, &(side, platform, column)) in plan.platforms.iter().enumerate() {
+                // a closure may join two parts of one platform
+                let again = plan.platforms[..i].iter().any(|of| of.1 == platform);
                 let arm = *rows.velocity_point(side) - at.platforms[platform].position;
                 rows.twist_rows(side, &arm, self.length, |i, row| {
                     for (k, entry) in row.into_iter().enumerate() {
-                        entries[place(column + k).start + i] += entry;
+                        let to = &mut entries[place(column + k).start + i];
+                        *to = if again { *to + entry } else { entry };
                     }
                 });
             }

@@ -26,12 +26,12 @@ pub(super) fn parts(dimensions: usize) -> usize {
 }
 
 /// For each sheet the first of its aspect, aspects of few nodes joined with those that a finer grid
-/// around them leads to.
+/// around them leads to; and pairs of sheets so joined.
 pub(super) fn joined<T: Factorable + Packed + Send + Sync>(
     fill: &Fill,
     steps: &Pool<Steps<T>>,
     filled: &Filled,
-) -> Vec<Option<usize>> {
+) -> (Vec<Option<usize>>, Vec<[usize; 2]>) {
     let found = aspects(filled);
     let mut roots: Vec<usize> = (0..found.len()).collect();
     let mut counts = vec![0; found.len()];
@@ -40,26 +40,31 @@ pub(super) fn joined<T: Factorable + Packed + Send + Sync>(
     }
     let few = |first: &usize| (1..FEW).contains(&counts[*first]);
     let few: Vec<usize> = (0..found.len()).filter(few).take(MOST).collect();
+    if few.is_empty() {
+        return (found, Vec::new());
+    }
     let mut sheets: BTreeMap<usize, Vec<usize>> = few.iter().map(|f| (*f, Vec::new())).collect();
-    if !few.is_empty() {
-        for (s, aspect) in found.iter().enumerate() {
-            if let Some(sheets) = aspect.and_then(|first| sheets.get_mut(&first)) {
-                sheets.push(s);
-            }
+    for (s, aspect) in found.iter().enumerate() {
+        if let Some(first) = aspect.filter(|first| counts[*first] < FEW)
+            && let Some(sheets) = sheets.get_mut(&first)
+        {
+            sheets.push(s);
         }
     }
     let few: Vec<Vec<usize>> = sheets.into_values().collect();
     let others = each(few.len(), &(), |(), i| {
         reached(fill, steps, filled, &few[i])
     });
+    let mut pairs = Vec::new();
     for (small, others) in few.iter().zip(others) {
         for aspect in others.into_iter().filter_map(|other| found[other]) {
             join(&mut roots, small[0], aspect);
+            pairs.push([small[0], aspect]);
         }
     }
     let all = found.into_iter();
-    all.map(|aspect| aspect.map(|first| root(&mut roots, first)))
-        .collect()
+    let all = all.map(|aspect| aspect.map(|first| root(&mut roots, first)));
+    (all.collect(), pairs)
 }
 
 /// The sheets at nodes that a finer grid around an aspect leads to within it.
