@@ -17,7 +17,7 @@ pub(super) struct Part {
 }
 
 /// What is told of a node in a mode, as in a [`Cell`].
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq)]
 pub(super) struct Head {
     pub node: usize,
     pub mode: usize,

@@ -59,49 +59,99 @@ pub(super) struct Filled {
     within: Vec<bool>,
     /// For each sheet one of those connected with it, the same for all of them.
     pub roots: Vec<usize>,
+    bands: Vec<Band>,
+}
+
+/// Parts of the grid whose nodes follow one another, and so do the numbers of their sheets.
+#[derive(Clone, Debug)]
+pub(super) struct Band {
+    tiles: Range<usize>,
+    pub numbers: Range<usize>,
+}
+
+/// What is numbered of a band, from zero.
+struct Numbered {
+    /// For each node how many sheets it has.
+    counts: Vec<usize>,
+    names: Vec<Name>,
+    nodes: Vec<usize>,
+    within: Vec<bool>,
+    roots: Vec<usize>,
+    numbers: Vec<Vec<usize>>,
 }
 
 impl Filled {
     /// The sheets of each part of the grid, and for each of them the first of those connected with it
-    /// in that part; and what else is connected.
-    pub fn new(tiles: Vec<(Sheets, Vec<usize>)>, seams: &[[Name; 2]], nodes: usize) -> Self {
-        let mut firsts = vec![0; nodes + 1];
-        for sheet in tiles.iter().flat_map(|(sheets, _)| &sheets.all) {
-            firsts[sheet.node + 1] += 1;
+    /// in that part; what else is connected; and for each band how many parts and nodes it has.
+    pub fn new(
+        tiles: Vec<(Sheets, Vec<usize>)>,
+        seams: &[[Name; 2]],
+        bands: &[(usize, usize)],
+    ) -> Self {
+        let mut starts = vec![(0, 0)];
+        for (tiles, nodes) in bands {
+            let (tile, node) = starts[starts.len() - 1];
+            starts.push((tile + tiles, node + nodes));
         }
-        for node in 0..nodes {
-            firsts[node + 1] += firsts[node];
-        }
-        let count = firsts[nodes];
-        let mut next = firsts.clone();
+        let numbered = each(bands.len(), &(), |(), band| {
+            let ((first, node), (end, beyond)) = (starts[band], starts[band + 1]);
+            Numbered::of(first, &tiles[first..end], node..beyond)
+        });
         let mut filled = Filled {
-            tiles: Vec::with_capacity(tiles.len()),
-            names: vec![Name { tile: 0, sheet: 0 }; count],
-            numbers: Vec::with_capacity(tiles.len()),
-            firsts,
-            nodes: vec![0; count],
-            within: vec![false; count],
-            roots: vec![0; count],
+            tiles: tiles.into_iter().map(|(sheets, _)| sheets).collect(),
+            names: Vec::new(),
+            numbers: Vec::new(),
+            firsts: Vec::new(),
+            nodes: Vec::new(),
+            within: Vec::new(),
+            roots: Vec::new(),
+            bands: Vec::new(),
         };
-        for (tile, (sheets, roots)) in tiles.into_iter().enumerate() {
-            let numbers = sheets.all.iter().enumerate().map(|(sheet, at)| {
-                let number = next[at.node];
-                next[at.node] += 1;
-                filled.names[number] = Name::new(tile, sheet);
-                (filled.nodes[number], filled.within[number]) = (at.node, at.within);
-                number
+        for (band, own) in numbered.into_iter().enumerate() {
+            let before = filled.names.len();
+            let mut first = before;
+            filled.firsts.extend(own.counts.iter().map(|count| {
+                first += count;
+                first - count
+            }));
+            filled.names.extend(own.names);
+            filled.nodes.extend(own.nodes);
+            filled.within.extend(own.within);
+            filled
+                .roots
+                .extend(own.roots.iter().map(|root| before + root));
+            filled.bands.push(Band {
+                tiles: starts[band].0..starts[band + 1].0,
+                numbers: before..filled.names.len(),
             });
-            let numbers: Vec<usize> = numbers.collect();
-            for (&number, root) in numbers.iter().zip(roots) {
-                filled.roots[number] = numbers[root];
-            }
-            filled.numbers.push(numbers);
-            filled.tiles.push(sheets);
+            let numbers = own.numbers.into_iter().map(|mut numbers| {
+                numbers.iter_mut().for_each(|number| *number += before);
+                numbers
+            });
+            filled.numbers.extend(numbers);
         }
+        filled.firsts.push(filled.names.len());
         let seams = seams.iter();
         let seams: Vec<[usize; 2]> = seams.map(|ends| ends.map(|s| filled.number(s))).collect();
         filled.connect(seams.into_iter());
         filled
+    }
+
+    /// All bands in their order.
+    pub fn bands(&self) -> &[Band] {
+        &self.bands
+    }
+
+    /// The sheets of a band with their numbers, in the order in which they are kept.
+    pub fn kept(
+        &self,
+        band: &Band,
+    ) -> impl Iterator<Item = (usize, &Sheet, ConfigurationRef<'_, f64>)> {
+        band.tiles.clone().flat_map(|tile| {
+            let (sheets, numbers) = (&self.tiles[tile], &self.numbers[tile]);
+            let all = numbers.iter().zip(&sheets.all).enumerate();
+            all.map(|(i, (number, sheet))| (*number, sheet, sheets.at(i)))
+        })
     }
 
     /// Takes sheets to be connected.
@@ -233,6 +283,46 @@ impl Filled {
     ) -> Option<usize> {
         let mut sheets = self.at(node);
         sheets.find(|s| measure.same(self.configuration(*s), at))
+    }
+}
+
+impl Numbered {
+    /// Of the parts from `first` on that have these nodes.
+    fn of(first: usize, tiles: &[(Sheets, Vec<usize>)], nodes: Range<usize>) -> Self {
+        let mut counts = vec![0; nodes.len()];
+        for sheet in tiles.iter().flat_map(|(sheets, _)| &sheets.all) {
+            counts[sheet.node - nodes.start] += 1;
+        }
+        let mut sum = 0;
+        let next = counts.iter().map(|count| {
+            sum += count;
+            sum - count
+        });
+        let mut next: Vec<usize> = next.collect();
+        let mut numbered = Numbered {
+            names: vec![Name { tile: 0, sheet: 0 }; sum],
+            nodes: vec![0; sum],
+            within: vec![false; sum],
+            roots: vec![0; sum],
+            numbers: Vec::with_capacity(tiles.len()),
+            counts,
+        };
+        for (tile, (sheets, roots)) in (first..).zip(tiles) {
+            let numbers = sheets.all.iter().enumerate().map(|(sheet, at)| {
+                let place = &mut next[at.node - nodes.start];
+                let number = *place;
+                *place += 1;
+                numbered.names[number] = Name::new(tile, sheet);
+                (numbered.nodes[number], numbered.within[number]) = (at.node, at.within);
+                number
+            });
+            let numbers: Vec<usize> = numbers.collect();
+            for (&number, &root) in numbers.iter().zip(roots) {
+                numbered.roots[number] = numbers[root];
+            }
+            numbered.numbers.push(numbers);
+        }
+        numbered
     }
 }
 

@@ -66,7 +66,8 @@ impl Spread {
     /// All of it.
     pub fn filled(self, grid: &Grid) -> Filled {
         let tiles = self.tiles.into_iter().map(Tile::finished);
-        Filled::new(tiles.collect(), &self.seams, grid.len())
+        let bands = self.tiling.bands(grid);
+        Filled::new(tiles.collect(), &self.seams, &bands)
     }
 
     /// Adds what was not reached before.

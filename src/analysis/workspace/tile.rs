@@ -36,6 +36,19 @@ impl Tiling {
         tiling
     }
 
+    /// Parts with one place along the last axis follow one another, and so do their nodes: how many
+    /// of both there are, for each such place.
+    pub fn bands(&self, grid: &Grid) -> Vec<(usize, usize)> {
+        let last = grid.dimensions() - 1;
+        let tiles = self.counts[..last].iter().product();
+        let nodes: usize = (0..last).map(|axis| grid.count(axis)).product();
+        let sides = (0..self.counts[last]).map(|place| {
+            let side = self.sides[last];
+            side.min(grid.count(last) - place * side)
+        });
+        sides.map(|side| (tiles, side * nodes)).collect()
+    }
+
     /// The part with a node.
     pub fn of(&self, grid: &Grid, node: usize) -> usize {
         let axes = (0..grid.dimensions()).rev();
