@@ -36,7 +36,7 @@ pub(crate) use closure::{Closure, Side, needs};
 pub(crate) use coordinate::orientation_rows;
 pub(crate) use kinematics::Mover;
 pub(crate) use letters::{Formal, Letters};
-pub(crate) use turns::principal;
+pub(crate) use turns::{principal, turn_near};
 
 /// A valid mechanism. It never changes; holding one proves that its description makes sense.
 #[derive(Clone, Debug)]

@@ -43,9 +43,7 @@ pub use report::{
 pub use solutions::GenericSolutions;
 pub use store::StoredError;
 
-use std::f64::consts::TAU;
-
-use crate::mechanism::{Configuration, Mechanism};
+use crate::mechanism::{Configuration, Mechanism, turn_near};
 use crate::number::Number;
 use crate::system::{Held, HeldPlatform, System};
 use answer::Question;
@@ -277,7 +275,7 @@ impl AssemblySolver {
         let mut asked = asked.clone();
         for (i, value) in asked.joints.iter_mut().enumerate() {
             if held.joints[i] && self.mechanism.repeats(i) {
-                *value -= TAU * (*value / TAU).round();
+                *value = turn_near(*value, 0.0);
             }
         }
         let asked = &asked;

@@ -157,7 +157,7 @@ pub fn sweep(
     let mut curve = Curve::along(mechanism, held, inputs.to_vec());
     let mut record = Record::new(mechanism, inputs);
     let mut start = start.clone();
-    Walk::within_limits(mechanism, &mut start.joints);
+    mechanism.turn_to_limits(&mut start.joints);
     for input in inputs {
         if let crate::system::Holdable::Joint(joint) = input.coordinate {
             start.joints[joint] = input.from;

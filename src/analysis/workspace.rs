@@ -47,7 +47,7 @@ pub use report::{
 };
 
 use crate::linear::Factorable;
-use crate::mechanism::{Configuration, Mechanism};
+use crate::mechanism::{Configuration, PlatformPose};
 use crate::number::{Lanes, Packed};
 use crate::solve::{Newton, Pool};
 use crate::system::{Driven, Question};
@@ -112,12 +112,16 @@ pub enum WorkspaceError {
     },
 }
 
-/// Bytes that a node in one mode takes, roughly.
-pub fn cell_bytes(mechanism: &Mechanism, axes: usize) -> usize {
+/// Bytes that a node in one mode takes at most at a time, roughly.
+pub fn cell_bytes(question: &Question, axes: usize) -> usize {
+    let mechanism = question.mechanism();
     let (joints, platforms) = (mechanism.joints().len(), mechanism.platforms().len());
-    let configuration = 8 * joints + 56 * platforms;
-    // in the search with its motions, and in the report
-    2 * configuration + 8 * axes * (joints + 6 * platforms) + 500
+    let unknowns = joints + 6 * platforms;
+    let kept = 150 + 8 * joints + size_of::<PlatformPose<f64>>() * platforms;
+    // beside it first the motions, later numbers and a row of the table
+    let motions = 8 * question.held_coordinates().len() * unknowns;
+    let row = 65 + size_of::<cells::Head>() + 8 * (axes + unknowns);
+    kept + motions.max(row)
 }
 
 /// Maps a box of coordinates.

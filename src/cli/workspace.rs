@@ -87,7 +87,7 @@ impl Workspace {
         let mechanism = &loaded.mechanism;
         let axes = self.axes(mechanism)?;
         let question = self.question(mechanism, &axes)?;
-        let nodes = self.nodes(mechanism, &axes)?;
+        let nodes = self.nodes(&question, &axes)?;
         let counts = [
             (
                 self.starts,
@@ -123,7 +123,7 @@ impl Workspace {
             searched: self.searched,
             starts: self.starts,
             seed: self.search.seed,
-            most: (MOST_BYTES / cell_bytes(mechanism, axes.len()) as f64) as usize,
+            most: (MOST_BYTES / cell_bytes(&question, axes.len()) as f64) as usize,
             ..WorkspaceSettings::default()
         };
         let mut progress = Progress::new();
@@ -267,7 +267,7 @@ impl Workspace {
     }
 
     /// Nodes along each coordinate.
-    fn nodes(&self, mechanism: &Mechanism, axes: &[Driven]) -> Result<Vec<usize>, Refusal> {
+    fn nodes(&self, question: &Question, axes: &[Driven]) -> Result<Vec<usize>, Refusal> {
         let nodes = match self.grid[..] {
             [] => vec![[200, 60, 24][axes.len() - 1]; axes.len()],
             [one] => vec![one; axes.len()],
@@ -279,7 +279,7 @@ impl Workspace {
             ));
         }
         let all: f64 = nodes.iter().map(|n| *n as f64).product();
-        let bytes = all * cell_bytes(mechanism, axes.len()) as f64;
+        let bytes = all * cell_bytes(question, axes.len()) as f64;
         match bytes > MOST_BYTES {
             true => Err(Refusal(
                 output::too_fine(all, bytes, MOST_BYTES).render(style()),

@@ -8,10 +8,16 @@ use super::model::JointKind;
 /// As much as `Joint::allows`, in rad or m.
 const ROUNDING: f64 = 1e-9;
 
+/// The turn of an angle that is nearest to another, in rad.
+#[inline]
+pub(crate) fn turn_near(angle: f64, to: f64) -> f64 {
+    angle - TAU * ((angle - to) / TAU).round()
+}
+
 /// The turn of an angle in (−π, π], in rad. −π and π are one angle, and rounding must not decide which
 /// of them is told: what is this near to −π is near π.
 pub(crate) fn principal(angle: f64, rounding: f64) -> f64 {
-    let within = angle - TAU * (angle / TAU).round();
+    let within = turn_near(angle, 0.0);
     match within <= -PI + rounding {
         true => within + TAU,
         false => within,
@@ -26,6 +32,18 @@ impl Mechanism {
         let whole = |c: f64| c == c.round();
         self.joints[joint].kind == JointKind::Revolute
             && rows.map(|row| row.turn.coefficient(joint)).all(whole)
+    }
+
+    /// Turns joints with limits, where whole turns change nothing, to near the middle between these:
+    /// within them if that can be.
+    pub fn turn_to_limits(&self, joints: &mut [f64]) {
+        for (joint, value) in joints.iter_mut().enumerate() {
+            if let Some((low, high)) = self.joints[joint].limits
+                && self.repeats(joint)
+            {
+                *value = turn_near(*value, 0.5 * (low + high));
+            }
+        }
     }
 
     /// The value of a joint by the turn within its limits that is nearest to it, where whole turns

@@ -3,15 +3,16 @@
 mod coupled;
 #[cfg(feature = "plot")]
 mod picture;
+mod refusals;
 mod words;
 
 pub use coupled::note;
 #[cfg(feature = "plot")]
 pub use picture::svg;
-pub use words::{
-    completeness, empty_side, ending, no_side, not_two_sides, nothing_to_drive, spinning,
-    unknown_output,
+pub use refusals::{
+    empty_side, no_side, not_two_sides, nothing_to_drive, spinning, unknown_output,
 };
+pub use words::{completeness, ending};
 
 use std::fmt::Write;
 

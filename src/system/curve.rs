@@ -1,9 +1,7 @@
 //! The assembled configurations of a mechanism with one freedom left, as a curve.
 
-use std::f64::consts::TAU;
-
 use super::{Held, HeldPlatform, Holdable, System, Unknown, Work};
-use crate::mechanism::{Configuration, ConfigurationRef, Coordinate, Mechanism};
+use crate::mechanism::{Configuration, ConfigurationRef, Coordinate, Mechanism, turn_near};
 use crate::solve::{Equations, Place, SolutionCurve};
 
 /// A coordinate that moves along a segment, in m or rad.
@@ -223,7 +221,7 @@ impl Curve {
             if let Unknown::Joint(joint) = *unknown
                 && self.repeats[joint]
             {
-                *x -= TAU * (*x / TAU).round();
+                *x = turn_near(*x, 0.0);
             }
         }
     }

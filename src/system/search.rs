@@ -4,7 +4,7 @@ use rand::SeedableRng;
 use rand_pcg::Pcg64Mcg;
 
 use super::{Held, HeldPlatform, Question, System, Work, fit, random_configuration};
-use crate::mechanism::{Configuration, Mechanism};
+use crate::mechanism::{Configuration, Mechanism, turn_near};
 use crate::solve::{Newton, Report, Stop};
 
 /// One start and where it led.
@@ -205,14 +205,12 @@ impl<'a> Search<'a> {
 
     /// Passive turns found by a long search come back to (−π, π], or into their limits.
     fn normalise_angles(&self, at: &mut Configuration<f64>) {
-        let turn = std::f64::consts::TAU;
         for (i, joint) in self.mechanism.joints().iter().enumerate() {
             if self.held.joints[i] || !self.mechanism.repeats(i) {
                 continue;
             }
             let middle = joint.limits.map_or(0.0, |(low, high)| 0.5 * (low + high));
-            let value = &mut at.joints[i];
-            *value -= turn * ((*value - middle) / turn).round();
+            at.joints[i] = turn_near(at.joints[i], middle);
         }
     }
 }

@@ -4,7 +4,7 @@ use serde::Serialize;
 
 use super::{Curve, Driven, Held, Holdable, LocusCurve, Singular};
 use crate::linear::{Decomposition, dot, norm};
-use crate::mechanism::{Configuration, Mechanism};
+use crate::mechanism::{Configuration, Mechanism, turn_near};
 use crate::solve::{Continuation, Place, SolutionCurve};
 
 /// A curve whose points are, or contain, configurations.
@@ -94,8 +94,7 @@ impl Region<'_> {
         match side.coordinate {
             Holdable::Coordinate(_, c) if c.is_angle() => {
                 let middle = 0.5 * (side.from + side.to);
-                let turn = std::f64::consts::TAU;
-                x - turn * ((x - middle) / turn).round()
+                turn_near(x, middle)
             }
             _ => x,
         }

@@ -65,7 +65,7 @@ pub struct Walk<'m> {
 
 impl<'m> Walk<'m> {
     /// From a regular place, in the direction of its tangent. Joints with limits must have values
-    /// within them (see [`Walk::within_limits`]).
+    /// within them (see [`Mechanism::turn_to_limits`]).
     pub fn new(mechanism: &Mechanism, curve: &Curve, start: At, method: Continuation) -> Self {
         let limits = mechanism.joints().iter().enumerate();
         let limits = limits.filter(|(joint, _)| curve.column(*joint).is_some());
@@ -89,19 +89,6 @@ impl<'m> Walk<'m> {
     pub fn watching(mut self, monitors: Vec<Monitor<'m>>) -> Self {
         self.monitors = monitors;
         self
-    }
-
-    /// Brings angles that count modulo a turn within their limits.
-    pub fn within_limits(mechanism: &Mechanism, joints: &mut [f64]) {
-        for (i, joint) in mechanism.joints().iter().enumerate() {
-            if let Some((low, high)) = joint.limits
-                && mechanism.repeats(i)
-            {
-                let turn = std::f64::consts::TAU;
-                let middle = 0.5 * (low + high);
-                joints[i] -= turn * ((joints[i] - middle) / turn).round();
-            }
-        }
     }
 
     /// Where the walk is.

@@ -127,7 +127,7 @@ pub fn along(
         normalising_length: mechanism.characteristic_length(),
     };
     let mut start = start.clone();
-    Walk::within_limits(mechanism, &mut start.joints);
+    mechanism.turn_to_limits(&mut start.joints);
     for input in moved {
         if let Holdable::Joint(joint) = input.coordinate {
             start.joints[joint] = input.from;

@@ -7,9 +7,9 @@ use super::SingularitiesSettings;
 use super::arrival::Arrival;
 use super::classify::Classifier;
 use super::locus::Kind;
-use crate::mechanism::{Configuration, PlatformPose};
+use crate::mechanism::{Configuration, PlatformPose, turn_near};
 use crate::system::{
-    Driven, Holdable, Lock, LocusCurve, LocusEnd, Region, Singular, System, Traced, Walk, passes,
+    Driven, Holdable, Lock, LocusCurve, LocusEnd, Region, Singular, System, Traced, passes,
     random_configuration, with_coordinates,
 };
 
@@ -195,11 +195,10 @@ impl Search<'_> {
                 let side =
                     (self.region.sides.iter()).find(|s| s.coordinate == Holdable::Joint(joint));
                 let middle = side.map_or(0.0, |side| 0.5 * (side.from + side.to));
-                let turn = std::f64::consts::TAU;
-                *value -= turn * ((*value - middle) / turn).round();
+                *value = turn_near(*value, middle);
             }
         }
-        Walk::within_limits(self.region.mechanism, &mut at.joints);
+        self.region.mechanism.turn_to_limits(&mut at.joints);
     }
 
     /// Whether a configuration lies in the box or a little beside it.

@@ -149,7 +149,7 @@ pub fn circuits(
     let mut unusable = 0;
     for seed in seeds {
         let mut seed = seed.clone();
-        Walk::within_limits(mechanism, &mut seed.joints);
+        mechanism.turn_to_limits(&mut seed.joints);
         let within = mechanism.joints().iter().zip(&seed.joints);
         let within = within
             .into_iter()

@@ -26,7 +26,7 @@ pub fn follow(
     let mut curve = Curve::new(mechanism, held);
     let mut record = Record::new(mechanism, &[]);
     let mut start = start.clone();
-    Walk::within_limits(mechanism, &mut start.joints);
+    mechanism.turn_to_limits(&mut start.joints);
     if let Some(met) = record.outside(&start) {
         return record.ended(met, Ending::OutsideLimits);
     }

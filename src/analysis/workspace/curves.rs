@@ -4,7 +4,7 @@ use super::asked::Asked;
 use super::boundary::{Boundary, BoundaryCurve, Crossing, Kind, Piece, named};
 use crate::mechanism::Configuration;
 use crate::solve::Place;
-use crate::system::{ConfigurationCurve, Locked, LocusEnd, Region, Traced, Walk, met_at};
+use crate::system::{ConfigurationCurve, Locked, LocusEnd, Region, Traced, met_at};
 
 /// A curve with the places along it where modes meet it.
 type Known<P> = (Traced<P>, Vec<(f64, usize)>);
@@ -29,7 +29,7 @@ impl Tracer<'_> {
         let mut known: Vec<Known<C::Point>> = Vec::new();
         for crossing in crossings {
             let mut at = crossing.at.clone();
-            Walk::within_limits(self.asked.mechanism, &mut at.joints);
+            self.asked.mechanism.turn_to_limits(&mut at.joints);
             // where it stands on no regular curve the point remains by itself
             let Some(place) = place(curve, &at) else {
                 continue;

@@ -65,7 +65,7 @@ fn begun(
     let mut curve = Curve::along(asked.mechanism, &held, vec![moved]);
     let mut start = asked.put(from, &edge.values);
     if within {
-        Walk::within_limits(asked.mechanism, &mut start.joints);
+        asked.mechanism.turn_to_limits(&mut start.joints);
     }
     let Ok(place) = method.settle(&mut curve, start) else {
         return Err(Met::Nothing);

@@ -13,9 +13,9 @@ use super::report::{
     AspectReport, AxisReport, BoundaryPoint, Conditioned, CoordinateReport, HeldReport, ModeReport,
     WorkspaceReport,
 };
-use crate::mechanism::Coordinate;
+use crate::mechanism::{Coordinate, turn_near};
 use crate::solve::each;
-use crate::system::{Holdable, Walk};
+use crate::system::Holdable;
 
 /// Sheets with their modes and aspects.
 pub(super) struct Map<'a> {
@@ -385,12 +385,11 @@ fn brought(asked: &Asked, joints: &[f64], plain: bool) -> Vec<f64> {
 fn bring(asked: &Asked, joints: &mut [f64], plain: bool) {
     for (joint, value) in joints.iter_mut().enumerate() {
         if asked.turns[joint] {
-            let turn = std::f64::consts::TAU;
-            *value -= turn * ((*value - 1e-9) / turn).round();
+            *value = turn_near(*value, 1e-9);
         }
     }
     if !plain {
-        Walk::within_limits(asked.mechanism, joints);
+        asked.mechanism.turn_to_limits(joints);
     }
 }
 

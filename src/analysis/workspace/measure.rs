@@ -1,11 +1,11 @@
 //! How far configurations and their motions are apart, and what is surely one mode.
 
-use std::f64::consts::{PI, TAU};
+use std::f64::consts::PI;
 
 use super::arrivals::Moving;
 use super::asked::Asked;
 use super::step::SURE;
-use crate::mechanism::{ConfigurationRef, Role};
+use crate::mechanism::{ConfigurationRef, Role, turn_near};
 use crate::solve::SolutionCurve;
 use crate::system::{Curve, Held, Holdable, Unknown};
 
@@ -197,7 +197,7 @@ impl SeenJoint {
     fn change(&self, from: ConfigurationRef<f64>, to: ConfigurationRef<f64>) -> f64 {
         let change = (to.joints[self.joint] - from.joints[self.joint]) / self.scale;
         match self.repeats && change.abs() > PI {
-            true => change - TAU * (change / TAU).round(),
+            true => turn_near(change, 0.0),
             false => change,
         }
     }

@@ -14,7 +14,7 @@ use crate::linear::Factorable;
 use crate::mechanism::{Configuration, PlatformPose};
 use crate::number::Packed;
 use crate::solve::{Pool, Stop, each};
-use crate::system::{System, Walk, Work, random_configuration, with_coordinates};
+use crate::system::{System, Work, random_configuration, with_coordinates};
 
 /// What was found at the nodes that were searched.
 #[derive(Default)]
@@ -26,7 +26,7 @@ pub(super) struct Sown {
 
 impl Sown {
     fn add(&mut self, asked: &Asked, node: usize, mut at: Configuration<f64>) {
-        Walk::within_limits(asked.mechanism, &mut at.joints);
+        asked.mechanism.turn_to_limits(&mut at.joints);
         match asked.allows(&at.joints) {
             true => self.seeds.push((node, at)),
             false => self.outside += 1,

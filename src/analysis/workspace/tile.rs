@@ -22,7 +22,7 @@ pub(super) struct Tiling {
 impl Tiling {
     pub fn new(grid: &Grid) -> Self {
         /// Nodes of a part, about: fronts in it are to fill several packs.
-        const NODES: f64 = 1000.0;
+        const NODES: f64 = 2000.0;
         let wanted = NODES.powf(1.0 / grid.dimensions() as f64).ceil() as usize;
         let mut tiling = Tiling {
             sides: [1; MOST_AXES],

@@ -1,0 +1,92 @@
+//! Questions about singularities that make no sense: what to ask instead.
+
+use crate::description::{count, nearest};
+use crate::mechanism::Mechanism;
+use crate::output::option::{Complaint, Part};
+
+fn complaint(title: String, label: &str, help: String) -> Complaint {
+    Complaint {
+        title,
+        label: label.into(),
+        help: Some(help),
+    }
+}
+
+/// A side of a box without a range.
+pub fn no_side(name: &str) -> (Complaint, Part) {
+    let said = complaint(
+        format!("the side `{name}` of the box has no range"),
+        "no range",
+        format!("write --locus {name}=FROM..TO, e.g. --locus {name}=0deg..360deg"),
+    );
+    (said, Part::WholeValue)
+}
+
+/// A box without an inside.
+pub fn empty_side(name: &str) -> (Complaint, Part) {
+    let said = complaint(
+        format!("the box is empty: the range of `{name}` does not end above its beginning"),
+        "empty",
+        "write the lower end first; for one value hold it with --hold, and for singularities along \
+         the other coordinate use --input"
+            .into(),
+    );
+    (said, Part::WholeValue)
+}
+
+/// Not two coordinates for a locus.
+pub fn not_two_sides(given: usize) -> Complaint {
+    let help = match given {
+        1 => "for singularities along one coordinate use --input NAME=FROM..TO",
+        _ => "hold the others with --hold",
+    };
+    complaint(
+        format!(
+            "a locus is a curve in two coordinates, and {} given",
+            match given {
+                1 => "1 is".to_owned(),
+                n => format!("{n} are"),
+            }
+        ),
+        "",
+        format!("give --locus twice, e.g. --locus a=0..1 --locus b=0..1; {help}"),
+    )
+}
+
+/// Nothing can be driven.
+pub fn nothing_to_drive() -> Complaint {
+    complaint(
+        "nothing is driven: singularities are told of inputs".into(),
+        "",
+        "hold the joints that are driven with --hold; whether a mechanism without freedoms is shaky \
+         says `linkwork mobility`"
+            .into(),
+    )
+}
+
+/// Links spin about their own lines.
+pub fn spinning(spins: usize) -> Complaint {
+    complaint(
+        format!(
+            "{} of the mechanism stay whatever the inputs do, links that spin about their own lines",
+            count(spins, "freedom")
+        ),
+        "",
+        "a locus needs a motion that is unique: write legs between two balls as `Distance` closures, \
+         or hold a joint of each spinning leg"
+            .into(),
+    )
+}
+
+/// An output that is neither a joint, a coordinate nor a frame.
+pub fn unknown_output(mechanism: &Mechanism, name: &str) -> (Complaint, Part) {
+    let frames = mechanism.frames().into_iter();
+    let mut known: Vec<String> = frames.map(|frame| mechanism.frame_name(frame)).collect();
+    known.extend(mechanism.joints().iter().map(|joint| joint.name.clone()));
+    let help = match nearest(name, known.iter().map(String::as_str)) {
+        Some(meant) => format!("did you mean `{meant}`?"),
+        None => "an output is a joint, a platform coordinate such as `top.x`, or a frame".into(),
+    };
+    let said = complaint(format!("`{name}` is not an output"), "not known", help);
+    (said, Part::Name)
+}
