@@ -498,6 +498,70 @@ fn loci_of_a_3_rps_make_its_leg_forces_and_hinge_forces_dependent() {
     assert!(points > 10, "{points}");
 }
 
+/// The 3-RPS with a joint about some of its legs, between slide and ball, where it changes nothing.
+fn with_swivels(legs: &[usize]) -> Mechanism {
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("mechanisms/three_rps.ron");
+    let mut text = std::fs::read_to_string(path).unwrap();
+    for leg in legs {
+        let slide = format!("d: \"l{leg}\"");
+        assert!(text.contains(&slide));
+        text = text.replace(&slide, &format!("{slide}, theta: \"s{leg}\""));
+        let joints = format!("\"l{leg}\": Actuated");
+        text = text.replace(&joints, &format!("\"s{leg}\": Passive(), {joints}"));
+    }
+    let forms = text.find("closed_forms").unwrap();
+    written(&format!("{})", &text[..forms]))
+}
+
+#[test]
+fn legs_that_may_spin_have_the_loci_of_those_that_may_not() {
+    let sides = [("l1", 0.4, 1.0), ("l2", 0.4, 1.0)];
+    let of = |mechanism: &Mechanism| locus(mechanism, sides, &[("l3", 0.75)], 30);
+    let plain = of(&mechanism("three_rps", &[]));
+    assert!(plain.pinned.is_empty());
+    assert!(plain.loci.iter().any(|l| l.kind == Kind::Direct));
+    for (legs, pinned) in [(&[2][..], &["s2"][..]), (&[1, 2, 3], &["s1", "s2", "s3"])] {
+        let found = of(&with_swivels(legs));
+        assert_eq!(found.pinned, pinned);
+        assert_eq!(found.loci.len(), plain.loci.len());
+        for (a, b) in found.loci.iter().zip(&plain.loci) {
+            assert_eq!((a.kind, a.shape, a.closed), (b.kind, b.shape, b.closed));
+            assert_eq!(a.singularity.zlatanov, b.singularity.zlatanov);
+            let (x, y) = (a.extents.as_flattened(), b.extents.as_flattened());
+            let pairs = x.iter().zip(y);
+            pairs.for_each(|(x, y)| assert!((x - y).abs() < 1e-9, "{x} {y}"));
+        }
+    }
+}
+
+#[test]
+fn what_spins_without_a_joint_of_its_own_is_refused() {
+    // the coupler of an RSSR linkage, a platform between two balls
+    let linkage = written(
+        r#"Mechanism(version: 1, name: "RSSR", convention: Standard,
+        joints: { "a": Actuated(home: "60 deg"), "b": Passive(home: "110 deg") },
+        chains: {
+            "crank": Chain(rows: [(theta: "a", a: 1)]),
+            "rocker": Chain(base: [Tx(3), Rx("90 deg")], rows: [(theta: "b", a: 2)]),
+        },
+        platforms: { "rod": Platform(home: [T(1, 1, 0.5)], frames: { "A": [], "B": [Tx("2.8")] }) },
+        closures: { "A": Spherical("crank", "rod.A"), "B": Spherical("rod.B", "rocker") })"#,
+    );
+    let question = Question::new(&linkage);
+    let start = assembled(&question);
+    let side = |name: &str| Driven {
+        coordinate: question.value(name, "0").unwrap().0,
+        from: 0.0,
+        to: 1.0,
+    };
+    let held = question.held().without(side("a").coordinate);
+    let settings = SingularitiesSettings::default();
+    let inputs = inputs_of(&question);
+    let sides = [side("a"), side("b")];
+    let refused = loci(&linkage, &held, sides, &inputs, &start, &settings);
+    assert_eq!(refused.unwrap_err(), 1);
+}
+
 /// Radial and vertical component of a leg of the 3-RPS at its hinge angle.
 fn leg(phi: f64) -> (f64, f64) {
     // S = (b − l cos(90° − φ)…): see the closed form in the file

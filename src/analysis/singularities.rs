@@ -11,6 +11,7 @@ mod drops;
 mod extents;
 mod locus;
 mod outputs;
+mod pins;
 mod projected;
 mod starts;
 

@@ -282,10 +282,11 @@ pub fn locus_json(mechanism: &Mechanism, report: &LocusReport) -> String {
 /// Loci as text: each curve with its extent.
 pub fn locus_text(mechanism: &Mechanism, report: &LocusReport) -> String {
     let mut text = format!(
-        "{}\n{}\n{}\n{}",
+        "{}\n{}\n{}\n{}{}",
         mechanism.name(),
         words::split(&report.inputs, &report.outputs),
         words::loci(report),
+        words::pinned(report),
         coupled::line(&report.coupled)
     );
     if !report.loci.is_empty() {

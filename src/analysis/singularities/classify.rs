@@ -169,6 +169,13 @@ impl<'m> Classifier<'m> {
         [self.generic.direct, self.generic.inverse].map(|nullity| columns - nullity)
     }
 
+    /// The idle motions where nothing is special, over the unknowns with nothing held: links turn
+    /// about their own lines and nothing else moves.
+    pub fn idle(&mut self, at: &Configuration<f64>) -> Vec<Vec<f64>> {
+        let at = self.beside.as_ref().unwrap_or(at).clone();
+        self.near.tangent(at).idle
+    }
+
     fn nullities(&mut self, at: &Configuration<f64>) -> Nullities {
         let nullity = |locked: &mut Locked| {
             let rank = locked.decomposition(at).rank();

@@ -5,6 +5,7 @@ use serde::Serialize;
 use super::classify::{Classifier, Singularity};
 use super::extents::extents;
 use super::outputs::{Coupled, coupled, outputs_of};
+use super::pins::pins;
 use super::projected::{Projection, Shape, groups};
 use super::starts::{Found, Search};
 use super::{SingularitiesSettings, names, output_names};
@@ -23,6 +24,9 @@ pub struct LocusReport {
     pub outputs: Vec<String>,
     /// Outputs that may hide what their positions lose.
     pub coupled: Vec<Coupled>,
+    /// Passive joints of links that spin about their own lines, which stood still: what their values
+    /// are changes nothing else.
+    pub pinned: Vec<String>,
     /// The box.
     pub bounds: [Bound; 2],
     /// The loci, those of direct singularities first, sorted by where they begin. Curves of
@@ -66,6 +70,17 @@ pub enum Kind {
     Inverse,
 }
 
+impl Kind {
+    /// Whether a singularity is of this kind, or of both.
+    pub(super) fn is_of(self, singularity: &Singularity) -> bool {
+        let own = match self {
+            Kind::Direct => 2,
+            Kind::Inverse => 1,
+        };
+        matches!(singularity.gosselin_angeles, Some(kind) if kind == own || kind == 3)
+    }
+}
+
 /// What a curve of singular configurations is in the box, or several that look alike there.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Locus {
@@ -106,9 +121,11 @@ pub struct Locus {
 /// which no curve passes are found too. Where inverse loci cross there may be a direct singularity that
 /// random starts hardly meet, and the other way round: crossings are starts as well.
 ///
+/// Links may spin about their own lines. For the motion that is gained to be unique one passive joint
+/// of each stands still; what is singular with these at rest only is left out.
+///
 /// # Errors
-/// If links spin about their own lines: then the motion that is gained is not unique. The number of
-/// such freedoms is given.
+/// If some link spins without a joint that could be held. The number of such freedoms is given.
 pub fn loci(
     mechanism: &Mechanism,
     held: &Held<f64>,
@@ -118,10 +135,34 @@ pub fn loci(
     settings: &SingularitiesSettings,
 ) -> Result<LocusReport, usize> {
     let outputs = outputs_of(mechanism, held, &sides, inputs, settings);
+    let mut classifier = Classifier::new(mechanism, inputs, &outputs, start);
+    let columns = classifier.direct.columns();
+    let regular = classifier.regular_ranks();
+    let spins = columns - regular[0];
+    let idle = match spins {
+        0 => Vec::new(),
+        _ => classifier.idle(start),
+    };
+    let taken = |joint: usize| {
+        let asked = |of: &Holdable| *of == Holdable::Joint(joint);
+        held.joints[joint] || inputs.iter().any(asked) || sides.iter().any(|s| asked(&s.coordinate))
+    };
+    let pinned = match idle.len() == spins {
+        true => pins(
+            mechanism,
+            classifier.direct.system().unknowns(),
+            idle,
+            taken,
+        ),
+        false => None,
+    };
+    let pinned = pinned.ok_or(spins)?;
+    let mut still = held.clone();
+    pinned.iter().for_each(|pin| still.joints[*pin] = true);
     let mut search = Search {
         region: Region {
             mechanism,
-            held,
+            held: &still,
             sides: &sides,
             method: &settings.continuation,
         },
@@ -129,17 +170,16 @@ pub fn loci(
         start: start.clone(),
         inputs: inputs.to_vec(),
         settings,
-        classifier: Classifier::new(mechanism, inputs, &outputs, start),
+        spins,
+        classifier,
     };
-    let [direct, _] = search.classifier.regular_ranks();
-    let spins = search.classifier.direct.columns() - direct;
-    if spins > 0 {
-        return Err(spins);
-    }
     let mut report = LocusReport {
         inputs: names(mechanism, inputs),
         outputs: output_names(mechanism, &outputs),
         coupled: coupled(mechanism, inputs, &outputs, start, settings, false),
+        pinned: (pinned.iter())
+            .map(|pin| mechanism.joints()[*pin].name.clone())
+            .collect(),
         bounds: sides.map(|side| Bound {
             name: side.coordinate.name(mechanism),
             unit: match side.coordinate.is_angle(mechanism) {
@@ -157,15 +197,18 @@ pub fn loci(
         seed: settings.seed,
         normalising_length: mechanism.characteristic_length(),
     };
-    let inputs: Vec<Lock> = inputs.iter().copied().map(Lock::Coordinate).collect();
+    let pinned = pinned.iter().copied().map(Holdable::Joint);
+    let pinned: Vec<Lock> = pinned.map(Lock::Coordinate).collect();
+    let inputs = inputs.iter().copied().map(Lock::Coordinate);
+    let direct: Vec<Lock> = inputs.chain(pinned.iter().copied()).collect();
+    let inverse = [&outputs[..], &pinned].concat();
     let mut found: Vec<(usize, Found)> = Vec::new();
-    for (i, (kind, locks)) in [(Kind::Direct, &inputs), (Kind::Inverse, &outputs)]
+    for (i, (kind, locks)) in [(Kind::Direct, &direct), (Kind::Inverse, &inverse)]
         .into_iter()
         .enumerate()
     {
         // outputs that leave some motion undetermined everywhere have no such locus
-        let regular = search.classifier.regular_ranks()[i];
-        if regular < search.classifier.direct.columns() {
+        if regular[i] + spins < columns {
             continue;
         }
         found.push((i, search.of(kind, locks)));
@@ -226,6 +269,10 @@ impl Search<'_> {
                 self.classifier.at(&middle.at.at)
             })
             .collect();
+        // where a joint that stands still does not tell the spin of its link any more
+        let (known, kinds): (Vec<_>, Vec<Singularity>) = (known.into_iter().zip(kinds))
+            .filter(|(_, singularity)| self.spins == 0 || kind.is_of(singularity))
+            .unzip();
         let projections: Vec<Projection> = (known.iter().zip(&kinds))
             .map(|((traced, _), kind)| Projection::new(&self.region, traced, kind))
             .collect();

@@ -23,6 +23,8 @@ pub(super) struct Search<'m> {
     pub start: Configuration<f64>,
     pub inputs: Vec<Holdable>,
     pub settings: &'m SingularitiesSettings,
+    /// Idle freedoms.
+    pub spins: usize,
     pub classifier: Classifier<'m>,
 }
 
@@ -101,12 +103,7 @@ impl Search<'_> {
 
     /// Begins where loci of the other kind cross, if it is singular in this way too.
     pub fn at_crossing(&mut self, found: &mut Found, at: &Configuration<f64>) {
-        let kind = self.classifier.at(at).gosselin_angeles;
-        let own = match found.kind {
-            Kind::Direct => 2,
-            Kind::Inverse => 1,
-        };
-        if kind != Some(3) && kind != Some(own) {
+        if !found.kind.is_of(&self.classifier.at(at)) {
             return;
         }
         if let Some(arrival) = self.arrival(&mut found.curve, at.clone()) {

@@ -64,7 +64,7 @@ pub fn nothing_to_drive() -> Complaint {
     )
 }
 
-/// Links spin about their own lines.
+/// Links spin about their own lines, and no joint tells how far.
 pub fn spinning(spins: usize) -> Complaint {
     complaint(
         format!(
@@ -72,8 +72,8 @@ pub fn spinning(spins: usize) -> Complaint {
             count(spins, "freedom")
         ),
         "",
-        "a locus needs a motion that is unique: write legs between two balls as `Distance` closures, \
-         or hold a joint of each spinning leg"
+        "a locus needs a motion that is unique, and these links have no joint of their own that could \
+         be held: write legs between two balls as `Distance` closures"
             .into(),
     )
 }

@@ -238,6 +238,21 @@ pub(super) fn loci(report: &LocusReport) -> String {
     )
 }
 
+/// Joints that were held because their links spin; nothing if none were.
+pub(super) fn pinned(report: &LocusReport) -> String {
+    match report.pinned.len() {
+        0 => String::new(),
+        1 => format!(
+            "{} stands still: a link spins about its own line, which changes nothing else.\n",
+            report.pinned[0]
+        ),
+        _ => format!(
+            "{} stand still: links spin about their own lines, which changes nothing else.\n",
+            names(&report.pinned)
+        ),
+    }
+}
+
 /// How sure it is that none is missing.
 pub fn completeness(report: &LocusReport) -> String {
     let [direct, inverse] = report.arrived;
