@@ -257,7 +257,11 @@ impl Singularities {
             data,
             remarks: match self.format {
                 Format::Csv if !whole => INTERRUPTED_REMARK.to_owned(),
-                Format::Csv => format!("note: {}\n", output::completeness(&report)),
+                Format::Csv => {
+                    let said = output::pinned(&report).into_iter();
+                    let said = said.chain([output::completeness(&report)]);
+                    said.map(|said| format!("note: {said}\n")).collect()
+                }
                 _ => String::new(),
             } + &self.beside_rows(&report.coupled),
             yes: !report.loci.is_empty() && whole,

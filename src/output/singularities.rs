@@ -12,7 +12,7 @@ pub use picture::svg;
 pub use refusals::{
     empty_side, no_side, not_two_sides, nothing_to_drive, spinning, unknown_output,
 };
-pub use words::{completeness, ending};
+pub use words::{completeness, ending, pinned};
 
 use std::fmt::Write;
 
@@ -286,7 +286,7 @@ pub fn locus_text(mechanism: &Mechanism, report: &LocusReport) -> String {
         mechanism.name(),
         words::split(&report.inputs, &report.outputs),
         words::loci(report),
-        words::pinned(report),
+        words::pinned(report).map_or(String::new(), |said| said + "\n"),
         coupled::line(&report.coupled)
     );
     if !report.loci.is_empty() {
@@ -316,7 +316,7 @@ pub fn locus_text(mechanism: &Mechanism, report: &LocusReport) -> String {
         align_right(&mut table, [0, 6, 7]);
         text += &indented(&table.to_string());
         if report.loci.iter().any(|locus| locus.configurations > 1) {
-            text += "  Over a locus lie so many curves of configurations, which look alike in the box.\n";
+            text += "  Over a locus so many curves of configurations were found, which look alike in the box.\n";
         }
         let crossings: usize = report.loci.iter().map(|locus| locus.crossings.len()).sum();
         if crossings > 0 {

@@ -238,19 +238,17 @@ pub(super) fn loci(report: &LocusReport) -> String {
     )
 }
 
-/// Joints that were held because their links spin; nothing if none were.
-pub(super) fn pinned(report: &LocusReport) -> String {
-    match report.pinned.len() {
-        0 => String::new(),
-        1 => format!(
-            "{} stands still: a link spins about its own line, which changes nothing else.\n",
-            report.pinned[0]
-        ),
-        _ => format!(
-            "{} stand still: links spin about their own lines, which changes nothing else.\n",
-            names(&report.pinned)
-        ),
-    }
+/// Which joints were held because their links spin.
+pub fn pinned(report: &LocusReport) -> Option<String> {
+    let (still, links) = match report.pinned.len() {
+        0 => return None,
+        1 => ("stands", "a link spins about its own line"),
+        _ => ("stand", "links spin about their own lines"),
+    };
+    let names = names(&report.pinned);
+    Some(format!(
+        "{names} {still} still: {links}, which changes nothing else."
+    ))
 }
 
 /// How sure it is that none is missing.
