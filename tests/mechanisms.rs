@@ -547,3 +547,38 @@ fn a_four_bar_broken_at_any_joint_has_the_same_assemblies_over_a_full_turn() {
         }
     }
 }
+
+#[test]
+fn storage_of_another_dimension_forgets_what_a_closure_felt_there() {
+    // with k = 0 the first loop does not feel b, which the second still does
+    let text = r#"Mechanism(version: 1, name: "coupled", convention: Standard,
+        parameters: { "k": 0.5 },
+        joints: { "a": Actuated(home: "20 deg"), "b": Passive(home: "30 deg") },
+        chains: {
+            "one": Chain(rows: [(theta: "a", a: 1), (theta: "k*b", a: 1)]),
+            "two": Chain(rows: [(theta: "a", a: 1), (theta: "b", a: 1)]),
+            "here": Chain(base: [T(1, 1, 0)]),
+            "there": Chain(base: [T(0, 1, 0)]),
+        },
+        closures: { "p": Spherical("one", "here"), "q": Spherical("two", "there") })"#;
+    let description = Description::read(text).unwrap();
+    let mechanisms = ["0.5", "0"]
+        .map(|k| Mechanism::new(&description.clone().with_parameter("k", k).unwrap()).unwrap());
+    let [coupled, free] = mechanisms
+        .each_ref()
+        .map(|mechanism| System::<f64>::new(mechanism.dimensions(), &free(mechanism)));
+    let at = mechanisms[0].home();
+    let jacobian = |system: &System<f64>, work: &mut linkwork::system::Work<f64>| {
+        system.linearise(&at, work);
+        system.dense_jacobian(work)
+    };
+    let mut work = coupled.work();
+    let before = jacobian(&coupled, &mut work);
+    free.refit(&mut work);
+    let after = jacobian(&free, &mut work);
+    assert_eq!(after, jacobian(&free, &mut free.work()));
+    assert_ne!(after, before);
+    // the column of b over the rows of the first closure
+    let column = &after[free.rows()..][..3];
+    assert_eq!(column, [0.0; 3]);
+}

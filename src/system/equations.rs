@@ -1,15 +1,18 @@
 mod axes;
+mod plan;
 mod rates;
 mod wrenches;
 
 pub use axes::ClosureAxes;
 pub use wrenches::ClosureWrenches;
 
+use plan::ClosurePlan;
+
 use super::layout::{Held, HeldPlatform, HoldRow, Layout, Unknown};
 use crate::geometry::Vector3;
 use crate::linear::{Bordered, Factorable};
 use crate::mechanism::{
-    Closure, Configuration, Dimensions, Kinematics, Mover, Placement, Side, needs, orientation_rows,
+    Closure, Configuration, Dimensions, Kinematics, Placement, needs, orientation_rows,
 };
 use crate::number::Field;
 use crate::solve::{Equations, Size};
@@ -28,23 +31,6 @@ pub struct System<T: Factorable> {
     length: f64,
     holds: Vec<HoldRow<T>>,
     empty: Bordered<T>,
-}
-
-/// Where the derivatives of one closure go.
-#[derive(Clone, Debug)]
-struct ClosurePlan<T> {
-    /// First row among all rows.
-    row: usize,
-    rows: usize,
-    block: usize,
-    block_row: usize,
-    block_rows: usize,
-    movers: Vec<(Side, Mover<T>, usize)>,
-    extensions: Vec<(usize, usize)>,
-    /// Columns of movers and extensions, each once: sums are made there.
-    sums: Vec<usize>,
-    /// Side, platform and the column of its first twist component.
-    platforms: Vec<(Side, usize, usize)>,
 }
 
 /// Storage of a [`System`]: nothing in it outlives the question it was made for.
@@ -78,42 +64,7 @@ impl<T: Factorable> System<T> {
             row += block.rows;
         }
         let plans = (closures.iter().zip(&layout.places))
-            .map(|(closure, &(block, block_row))| {
-                let column = |unknown| layout.column(block, unknown);
-                let sides = [Side::A, Side::B];
-                let movers: Vec<(Side, Mover<T>, usize)> = (sides.iter().zip(&closure.movers))
-                    .flat_map(|(&side, movers)| movers.iter().map(move |m| (side, *m)))
-                    .filter_map(|(side, m)| Some((side, m, column(Unknown::Joint(m.joint))?)))
-                    .collect();
-                let extensions: Vec<(usize, usize)> = (closure.joints().into_iter())
-                    .filter(|&joint| closure.extends_with(joint))
-                    .filter_map(|joint| Some((joint, column(Unknown::Joint(joint))?)))
-                    .collect();
-                let moved = movers.iter().map(|(_, _, column)| *column);
-                let mut sums: Vec<usize> = moved.chain(extensions.iter().map(|e| e.1)).collect();
-                sums.sort_unstable();
-                sums.dedup();
-                ClosurePlan {
-                    row: block_start[block] + block_row,
-                    rows: closure.kind.equations(),
-                    block,
-                    block_row,
-                    block_rows: layout.blocks[block].rows,
-                    movers,
-                    extensions,
-                    sums,
-                    platforms: (sides.into_iter().zip(closure.platforms))
-                        .filter_map(|(side, platform)| {
-                            let platform = platform?;
-                            let first = Unknown::Twist {
-                                platform,
-                                component: 0,
-                            };
-                            Some((side, platform, column(first)?))
-                        })
-                        .collect(),
-                }
-            })
+            .map(|(closure, &place)| ClosurePlan::new(closure, &layout, place, &block_start))
             .collect();
         System {
             kinematics,
