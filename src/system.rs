@@ -4,6 +4,7 @@
 
 mod approach;
 mod closing;
+mod coordinate;
 mod count;
 mod curve;
 mod demand;
@@ -33,13 +34,14 @@ mod walk;
 mod way;
 
 pub use approach::approach;
-pub use closing::{Analysed, Closed, NotClosed, WidestGap, close, fit, too_large};
+pub use closing::{Analysed, Closed, NotClosed, WidestGap, close, too_large};
+pub use coordinate::Holdable;
 pub use count::{Count, check_angles, check_count};
 pub use curve::{Curve, Driven};
 pub use demand::{Demand, Verb};
 pub use drive::{Drive, DriveError};
 pub use equations::{ClosureAxes, ClosureWrenches, System, Work};
-pub use freedom::{Freedoms, Holdable, Mobility, moving};
+pub use freedom::{Freedoms, Mobility, moving};
 pub use gap::Gap;
 pub use layout::{Held, HeldPlatform, Unknown};
 pub use load::{Load, LoadError};
@@ -52,7 +54,7 @@ pub use parts::independent_parts;
 pub use question::{Question, with_coordinates};
 pub use question_error::QuestionError;
 pub use screws::{Screw, TwistSpace, spin_lines, without, wrench_screws};
-pub use search::{Attempt, Search, Searched};
+pub use search::{Attempt, Search, Searched, fit};
 pub use starts::{random_configuration, sampling_range};
 pub use trace::{ConfigurationCurve, LocusEnd, Region, Traced, met_at, passes, settled};
 pub use tracker::Tracker;

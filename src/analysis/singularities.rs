@@ -17,8 +17,8 @@ mod starts;
 
 pub use crate::system::LocusEnd;
 pub use along::{AlongReport, Crossing, Ending, along};
-pub use classify::{Distances, Movement, Resisted, Singularity, Zlatanov};
-pub use locus::{Bound, Kind, Locus, LocusReport, loci};
+pub use classify::{Distances, Kind, Movement, Resisted, Singularity, Zlatanov};
+pub use locus::{Bound, Locus, LocusReport, loci};
 pub use outputs::{Coupled, default_outputs, inputs_of};
 pub use projected::Shape;
 

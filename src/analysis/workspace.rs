@@ -29,8 +29,10 @@ mod fill;
 mod filled;
 mod grid;
 mod join;
+mod kinds;
 mod map;
 mod measure;
+mod neighbour;
 mod pace;
 mod rates;
 mod report;
@@ -39,8 +41,8 @@ mod spread;
 mod step;
 mod tile;
 
-pub use boundary::{BoundaryCurve, BoundaryKind, Piece};
 pub use cells::{Cell, Cells};
+pub use kinds::{BoundaryCurve, BoundaryKind, Piece};
 pub use report::{
     AspectReport, AxisReport, BoundaryPoint, Conditioned, CoordinateReport, HeldReport, ModeReport,
     WorkspaceReport,
@@ -53,11 +55,11 @@ use crate::solve::{Newton, Pool};
 use crate::system::{Driven, Question};
 use asked::Asked;
 use boundary::Boundary;
-use fill::Fill;
 use filled::Filled;
 use grid::Grid;
 use map::Map;
 use measure::Measure;
+use neighbour::Fill;
 use seeds::Sown;
 use spread::Spread;
 use step::Steps;

@@ -2,7 +2,7 @@
 
 use serde::Serialize;
 
-use super::{Gap, Held, HeldPlatform, Question, Search, System};
+use super::{Gap, Held, Question, Search, System};
 use crate::linear::SPECTRUM_LIMIT;
 use crate::mechanism::{Configuration, Mechanism};
 use crate::solve::{Equations, Newton, Stop};
@@ -148,48 +148,4 @@ fn widest(mechanism: &Mechanism, at: &Configuration<f64>) -> Option<WidestGap> {
         distance: gap.distance,
         angle: gap.angle,
     })
-}
-
-/// Brings what is not fixed as near to closing as it can come: the formulation decides success more
-/// than the method, and a platform that fits its legs is a far better guess than one that does not.
-pub fn fit(
-    mechanism: &Mechanism,
-    held: &Held<f64>,
-    newton: &Newton,
-    start: Configuration<f64>,
-    joints: Vec<bool>,
-    platforms: &[bool],
-) -> Configuration<f64> {
-    let poses = held.platforms.iter().zip(platforms);
-    let held = Held {
-        joints,
-        platforms: poses
-            .map(|(held, &fixed)| match fixed {
-                true => HeldPlatform::Pose,
-                false => held.clone(),
-            })
-            .collect(),
-    };
-    let system = System::new(mechanism.dimensions(), &held);
-    if system.unknowns().is_empty() {
-        return start;
-    }
-    let mut work = system.work();
-    let newton = Newton {
-        max_steps: 20,
-        ..newton.clone()
-    };
-    let (mut at, mut trial) = (start.clone(), start);
-    newton.solve(&system, &mut at, &mut trial, &mut work);
-    at
-}
-
-impl Held<f64> {
-    /// Nothing held: all joints and platforms are to be found.
-    pub fn nothing(mechanism: &Mechanism) -> Self {
-        Held {
-            joints: vec![false; mechanism.joints().len()],
-            platforms: vec![HeldPlatform::Free; mechanism.platforms().len()],
-        }
-    }
 }

@@ -1,6 +1,6 @@
 use crate::geometry::{Rotation, Vector3};
 use crate::linear::{Block, DENSE_LIMIT, Factorable, SparseStep};
-use crate::mechanism::{Closure, Coordinate};
+use crate::mechanism::{Closure, Coordinate, Mechanism};
 use crate::number::Number;
 
 /// What is held of a platform.
@@ -45,6 +45,16 @@ impl<T: Number> Held<T> {
         Held {
             joints: self.joints.clone(),
             platforms: platforms.collect(),
+        }
+    }
+}
+
+impl Held<f64> {
+    /// Nothing held: all joints and platforms are to be found.
+    pub fn nothing(mechanism: &Mechanism) -> Self {
+        Held {
+            joints: vec![false; mechanism.joints().len()],
+            platforms: vec![HeldPlatform::Free; mechanism.platforms().len()],
         }
     }
 }

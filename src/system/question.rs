@@ -1,8 +1,8 @@
 mod held;
 
+use super::coordinate::Holdable;
 use super::demand::{Demand, Target, Verb};
 use super::equations::System;
-use super::freedom::Holdable;
 use super::layout::{Held, HeldPlatform};
 use super::question_error::QuestionError;
 use super::value;

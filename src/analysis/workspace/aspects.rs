@@ -2,20 +2,9 @@
 
 use std::ops::Range;
 
-use super::filled::{Filled, Sheet};
+use super::filled::{Filled, signs};
 use super::grid::Grid;
 use crate::solve::each;
-
-/// Whether the determinants of direct and of inverse singularities are negative: what sheets of one
-/// aspect share.
-pub(super) type Signs = [bool; 2];
-
-/// The signs of a sheet; none outside limits and on singularities.
-pub(super) fn signs(sheet: &Sheet) -> Option<Signs> {
-    let told = &sheet.told;
-    let inside = sheet.within && told.direct != 0.0 && told.inverse != 0.0;
-    inside.then_some([told.direct < 0.0, told.inverse < 0.0])
-}
 
 /// For each sheet the first of its aspect; none outside limits and on singularities.
 pub(super) fn aspects(filled: &Filled) -> Vec<Option<usize>> {

@@ -1,7 +1,7 @@
 //! Boundary curves through the points found on edges, cut where the mode changes.
 
 use super::asked::Asked;
-use super::boundary::{Boundary, BoundaryCurve, Crossing, Kind, Piece, named};
+use super::kinds::{BoundaryCurve, Crossing, Kind, Piece, named};
 use crate::mechanism::Configuration;
 use crate::solve::Place;
 use crate::system::{ConfigurationCurve, Locked, LocusEnd, Region, Traced, met_at};
@@ -11,7 +11,8 @@ type Known<P> = (Traced<P>, Vec<(f64, usize)>);
 
 /// Curves of one kind.
 pub(super) struct Tracer<'a> {
-    pub boundary: &'a Boundary<'a>,
+    /// For each sheet the number of its mode, from 0; none if it is not listed.
+    pub mode: &'a [Option<usize>],
     pub asked: &'a Asked<'a>,
     pub kind: Kind,
     pub third: Option<f64>,
@@ -37,7 +38,7 @@ impl Tracer<'_> {
             if !region.inside(C::configuration(&place.at)) {
                 continue;
             }
-            let Some(mode) = self.boundary.mode[crossing.sheet] else {
+            let Some(mode) = self.mode[crossing.sheet] else {
                 continue;
             };
             let mut met = known.iter_mut();

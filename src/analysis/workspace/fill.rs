@@ -4,47 +4,20 @@ use rustc_hash::FxHashSet;
 
 use super::WorkspaceError;
 use super::arrivals::{Arrival, Arrivals, Moving};
-use super::asked::Asked;
-use super::aspects::{Signs, signs};
 use super::edge::{Edge, Met, reach};
-use super::filled::{Link, Name, Sheet};
-use super::grid::{Grid, MOST_AXES};
-use super::measure::Measure;
+use super::filled::{Link, Name};
+use super::neighbour::{Fill, JOB, Step, in_packs};
 use super::pace::Paced;
 use super::spread::Spread;
-use super::step::{SURE, Start, Steps};
+use super::step::{Start, Steps};
 use super::tile::{Task, Tile};
-use crate::linear::{Factorable, norm};
-use crate::mechanism::{Configuration, ConfigurationRef};
+use crate::linear::Factorable;
+use crate::mechanism::Configuration;
 use crate::number::Packed;
 use crate::solve::{Pool, each};
 
-#[derive(Clone, Copy)]
-pub(super) struct Fill<'a> {
-    pub asked: &'a Asked<'a>,
-    pub grid: &'a Grid,
-    pub measure: &'a Measure,
-    /// Sheets kept at most.
-    pub most: usize,
-    /// The signs of the one aspect that is to be spread over, if not all are.
-    pub only: Option<Signs>,
-}
-
-/// Starts given to one thread at once.
-const JOB: usize = 16;
 /// Parts of the grid that are spread over before more is told.
 const PARTS: usize = 64;
-
-/// An edge of the grid that is to be gone along.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Step<'a> {
-    pub from: Moving<'a>,
-    pub axis: usize,
-    /// The mapped coordinates at its end, and zeros.
-    pub to: [f64; MOST_AXES],
-    /// By how much the mapped coordinate of its axis changes.
-    pub change: f64,
-}
 
 impl Fill<'_> {
     /// Spreads from assembled configurations at nodes: in all parts of the grid at once as far as
@@ -132,72 +105,6 @@ impl Fill<'_> {
         Ok(())
     }
 
-    /// Whether what is reached from a sheet is asked for.
-    pub(super) fn goes_on_from(&self, sheet: &Sheet) -> bool {
-        self.only.is_none() || signs(sheet) == self.only
-    }
-
-    /// A start beside an assembled configuration at a node.
-    fn here<'s>(&self, node: usize, at: &'s Configuration<f64>) -> Start<'s> {
-        Start {
-            from: at.view(),
-            along: None,
-            reach: 1e-3,
-            values: self.grid.point(node),
-        }
-    }
-
-    pub(super) fn settled<T: Factorable + Packed + Send + Sync>(
-        &self,
-        steps: &Pool<Steps<T>>,
-        starts: &[Start],
-    ) -> Vec<Arrivals> {
-        in_packs(steps, starts, |steps, pack| {
-            let mut arrivals = Arrivals::default();
-            steps.settle(pack, &mut arrivals);
-            arrivals
-        })
-    }
-
-    /// Which of the sheets of a node has this configuration.
-    pub(super) fn known<'s>(
-        &self,
-        mut sheets: impl Iterator<Item = (Name, ConfigurationRef<'s, f64>)>,
-        at: ConfigurationRef<f64>,
-    ) -> Option<Name> {
-        let known = sheets.find(|(_, known)| self.measure.same(*known, at));
-        known.map(|(name, _)| name)
-    }
-
-    /// The way from a configuration at a node to its neighbour in a direction, if there is one;
-    /// otherwise one that leads nowhere.
-    pub(super) fn step<'f>(&self, node: usize, from: Moving<'f>, direction: usize) -> Step<'f> {
-        let axis = direction / 2;
-        let next = self.grid.neighbour(node, direction).unwrap_or(node);
-        let to = self.grid.point(next);
-        let here = self.grid.coordinate(axis, self.grid.place(node, axis));
-        Step {
-            from,
-            axis,
-            to,
-            change: to[axis] - here,
-        }
-    }
-
-    /// Of the sheets at the neighbour the one that lies where both motions say.
-    pub(super) fn near<'s>(
-        &self,
-        step: &Step,
-        there: impl Iterator<Item = (Name, Moving<'s>)>,
-        storage: &mut Vec<f64>,
-    ) -> Option<Name> {
-        let ahead = (self.measure).ahead(step.from, step.axis, step.change);
-        let mut near = there.filter(|(_, to)| self.measure.linked(&ahead, *to, storage));
-        let (first, _) = near.next()?;
-        // two as near are for surer steps to tell apart
-        near.next().is_none().then_some(first)
-    }
-
     /// Of steps over seams, or that were not sure, first those that lead to known sheets are linked;
     /// then one step is chosen to each node from each mode known so far. The others wait for what it
     /// finds.
@@ -246,27 +153,6 @@ impl Fill<'_> {
             );
             arrivals
         })
-    }
-
-    /// The same for one pack.
-    pub(super) fn sure<T: Factorable + Packed>(
-        &self,
-        steps: &mut Steps<T>,
-        planned: &[Step],
-        arrivals: &mut Arrivals,
-        storage: &mut Vec<f64>,
-    ) {
-        let starts: Vec<Start> = (planned.iter())
-            .map(|step| self.towards(step.from, step.axis, step.change, step.to))
-            .collect();
-        steps.settle(&starts, arrivals);
-        for (i, step) in planned.iter().enumerate() {
-            let (_, length) = self.measure.motion(step.from, step.axis, step.change);
-            let alike = |to| self.measure.alike(step.from, to, length, storage);
-            if !arrivals.get(i).is_some_and(alike) {
-                arrivals.reject(i);
-            }
-        }
     }
 
     /// Where single steps are too long: by shorter ones, and what is left by steps along the curve,
@@ -321,23 +207,6 @@ impl Fill<'_> {
         ends
     }
 
-    /// A start for a change of one mapped coordinate, which leads to these values.
-    pub(super) fn towards<'f>(
-        &self,
-        from: Moving<'f>,
-        axis: usize,
-        change: f64,
-        values: [f64; MOST_AXES],
-    ) -> Start<'f> {
-        let (motion, factor) = self.measure.motion(from, axis, change);
-        Start {
-            from: from.at,
-            along: Some((motion, factor)),
-            reach: SURE * factor.abs() * norm(motion),
-            values,
-        }
-    }
-
     fn arrive(&self, spread: &mut Spread, (from, d): Task, arrival: Moving) {
         let Some(node) = self.grid.neighbour(spread.sheet(from).node, d) else {
             return;
@@ -352,18 +221,4 @@ enum End {
     Arrived(Arrival),
     Fold,
     Stuck,
-}
-
-/// What comes of items given to as many lanes as there are, in their order.
-fn in_packs<T: Factorable + Packed + Send + Sync, I: Sync, R: Send>(
-    steps: &Pool<Steps<T>>,
-    items: &[I],
-    of: impl Fn(&mut Steps<T>, &[I]) -> R + Sync,
-) -> Vec<R> {
-    let jobs: Vec<&[I]> = items.chunks(JOB).collect();
-    let ends = steps.each(jobs.len(), |steps, i| {
-        let packs = jobs[i].chunks(T::WIDTH);
-        packs.map(|pack| of(steps, pack)).collect::<Vec<R>>()
-    });
-    ends.into_iter().flatten().collect()
 }

@@ -372,3 +372,14 @@ pub(super) fn join(roots: &mut [usize], a: usize, b: usize) {
     let (a, b) = (root(roots, a), root(roots, b));
     roots[a.max(b)] = a.min(b);
 }
+
+/// Whether the determinants of direct and of inverse singularities are negative: what sheets of one
+/// aspect share.
+pub(super) type Signs = [bool; 2];
+
+/// The signs of a sheet; none outside limits and on singularities.
+pub(super) fn signs(sheet: &Sheet) -> Option<Signs> {
+    let told = &sheet.told;
+    let inside = sheet.within && told.direct != 0.0 && told.inverse != 0.0;
+    inside.then_some([told.direct < 0.0, told.inverse < 0.0])
+}

@@ -2,10 +2,10 @@
 
 use std::collections::BTreeMap;
 
-use super::aspects::{aspects, signs};
-use super::fill::Fill;
-use super::filled::{Filled, join, root};
+use super::aspects::aspects;
+use super::filled::{Filled, join, root, signs};
 use super::grid::Grid;
+use super::neighbour::Fill;
 use super::spread::Spread;
 use super::step::Steps;
 use crate::linear::Factorable;

@@ -1,13 +1,15 @@
 //! What was reached, put in order: modes, aspects, cells.
 
+mod table;
+
 use std::collections::HashMap;
 
 use super::asked::Asked;
 use super::aspects::{self, Region};
-use super::boundary::{Crossing, named};
 use super::filled::{Filled, Link};
 use super::grid::Grid;
 use super::join;
+use super::kinds::{Crossing, named};
 use super::report::{
     AspectReport, AxisReport, BoundaryPoint, Conditioned, CoordinateReport, HeldReport, ModeReport,
     WorkspaceReport,
@@ -316,7 +318,7 @@ fn brought(asked: &Asked, joints: &[f64], plain: bool) -> Vec<f64> {
 }
 
 /// The same in place.
-pub(super) fn bring(asked: &Asked, joints: &mut [f64], plain: bool) {
+fn bring(asked: &Asked, joints: &mut [f64], plain: bool) {
     for (joint, value) in joints.iter_mut().enumerate() {
         if asked.turns[joint] {
             *value = turn_near(*value, 1e-9);

@@ -1,8 +1,8 @@
 //! The way from a node to its neighbour in shorter steps, many ways side by side.
 
 use super::arrivals::{Arrival, Arrivals, Moving};
-use super::fill::Fill;
 use super::grid::MOST_AXES;
+use super::neighbour::Fill;
 use super::spread::Spread;
 use super::step::{Start, Steps};
 use super::tile::Task;

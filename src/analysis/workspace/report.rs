@@ -2,8 +2,8 @@
 
 use serde::Serialize;
 
-use super::boundary::{BoundaryCurve, BoundaryKind};
 use super::cells::Cells;
+use super::kinds::{BoundaryCurve, BoundaryKind};
 
 /// Where a mechanism reaches in a box of coordinates, and how.
 #[derive(Clone, Debug, PartialEq, Serialize)]

@@ -5,9 +5,9 @@ use rand_pcg::Pcg64Mcg;
 
 use super::arrivals::Arrivals;
 use super::asked::{Asked, Targets};
-use super::fill::Fill;
 use super::grid::Grid;
 use super::measure::Measure;
+use super::neighbour::Fill;
 use super::spread::Spread;
 use super::step::{Start, Steps};
 use crate::linear::Factorable;

@@ -1,9 +1,9 @@
 //! What was reached so far, in the parts of the grid.
 
 use super::arrivals::Moving;
-use super::fill::{Fill, Step};
 use super::filled::{Filled, Link, Name, Sheet};
 use super::grid::Grid;
+use super::neighbour::{Fill, Step};
 use super::tile::{Task, Tile, Tiling};
 use crate::mechanism::ConfigurationRef;
 

@@ -3,9 +3,9 @@
 use rustc_hash::FxHashSet;
 
 use super::arrivals::{Arrivals, Moving};
-use super::fill::{Fill, Step};
 use super::filled::{Link, Name, Sheet, Sheets, join, root};
 use super::grid::{Grid, MOST_AXES, MOST_DIRECTIONS};
+use super::neighbour::{Fill, Step};
 use super::step::Steps;
 use crate::linear::Factorable;
 use crate::mechanism::ConfigurationRef;
