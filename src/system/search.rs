@@ -1,11 +1,20 @@
 //! The search for an assembled configuration: from the guess, then from random starts.
 
+mod closing;
+mod starts;
+mod way;
+
+pub use closing::{Analysed, Closed, NotClosed, WidestGap, close, too_large};
+pub use starts::{random_configuration, sampling_range};
+
 use rand::SeedableRng;
 use rand_pcg::Pcg64Mcg;
 
-use super::{Held, HeldPlatform, Question, System, Work, random_configuration};
+use super::equations::{System, Work};
+use super::question::Question;
 use crate::mechanism::{Configuration, Mechanism, turn_near};
 use crate::solve::{Newton, Report, Stop};
+use crate::system::{Held, HeldPlatform};
 
 /// One start and where it led.
 #[derive(Clone, Debug, PartialEq)]

@@ -1,9 +1,13 @@
 //! Aspects: regions of one mode without singularities, within limits; and how large regions are.
 
+mod join;
+
+pub(super) use join::{joined, parts};
+
 use std::ops::Range;
 
-use super::filled::{Filled, signs};
-use super::grid::Grid;
+use super::flood::{Filled, signs};
+use super::problem::Grid;
 use crate::solve::each;
 
 /// For each sheet the first of its aspect; none outside limits and on singularities.

@@ -1,16 +1,19 @@
 //! What bounds modes and separates aspects: points on the edges of the grid, and curves through
 //! them.
 
-use super::asked::Asked;
-use super::curves::Tracer;
-use super::edge::{Edge, Met, Until, walk};
-use super::filled::{Filled, Link};
-use super::grid::Grid;
-use super::kinds::{BoundaryCurve, Crossing, Kind};
-use super::measure::Measure;
+mod curves;
+mod kinds;
+
+pub use kinds::{BoundaryCurve, BoundaryKind, Piece};
+pub(super) use kinds::{Crossing, named};
+
+use super::flood::{Edge, Filled, Link, Measure, Met, Until, walk};
+use super::problem::{Asked, Grid};
 use crate::mechanism::Configuration;
 use crate::solve::{Continuation, each};
 use crate::system::{Curve, Driven, Holdable, Lock, LocusCurve, Region, Singular, settled};
+use curves::Tracer;
+use kinds::Kind;
 
 pub(super) struct Boundary<'a> {
     pub asked: &'a Asked<'a>,

@@ -1,19 +1,22 @@
 //! What was reached, put in order: modes, aspects, cells.
 
+mod cells;
+mod report;
 mod table;
 
-use std::collections::HashMap;
-
-use super::asked::Asked;
-use super::aspects::{self, Region};
-use super::filled::{Filled, Link};
-use super::grid::Grid;
-use super::join;
-use super::kinds::{Crossing, named};
-use super::report::{
+pub(super) use cells::Head;
+pub use cells::{Cell, Cells};
+pub use report::{
     AspectReport, AxisReport, BoundaryPoint, Conditioned, CoordinateReport, HeldReport, ModeReport,
     WorkspaceReport,
 };
+
+use std::collections::HashMap;
+
+use super::aspects::{self, Region};
+use super::boundary::{Crossing, named};
+use super::flood::{Filled, Link};
+use super::problem::{Asked, Grid};
 use crate::mechanism::{Coordinate, turn_near};
 use crate::solve::each;
 use crate::system::Holdable;
@@ -194,7 +197,7 @@ impl<'a> Map<'a> {
                 })
                 .collect(),
             unsure,
-            parts: join::parts(self.grid.dimensions()),
+            parts: aspects::parts(self.grid.dimensions()),
             searched: [0; 2],
             probed: [0; 2],
             outside: 0,

@@ -1,8 +1,8 @@
 //! The nodes of a map as a table.
 
-use super::super::cells::{Cells, Head, Part};
-use super::super::filled::Band;
+use super::cells::{Cells, Head, Part};
 use super::{Map, bring};
+use crate::analysis::workspace::flood::Band;
 use crate::mechanism::Coordinate;
 use crate::solve::each;
 
