@@ -6,7 +6,6 @@ mod fold;
 mod local;
 mod path;
 mod place;
-mod progress;
 mod simple;
 mod way;
 
@@ -15,6 +14,5 @@ pub(super) use carry::{Ends, carry};
 pub(super) use fold::located;
 pub(super) use local::Local;
 pub(super) use path::End;
-pub use progress::Progress;
 pub(super) use simple::{are_one, stands_alone};
 pub(super) use way::Way;

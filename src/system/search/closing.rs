@@ -5,7 +5,7 @@ use serde::Serialize;
 use super::Search;
 use crate::linear::SPECTRUM_LIMIT;
 use crate::mechanism::{Configuration, Mechanism};
-use crate::solve::{Equations, Newton, Stop};
+use crate::solve::{Equations, Newton, Stop, Watch};
 use crate::system::{Gap, Held, Question, System};
 
 /// How far a closure of a given pose is from being whole.
@@ -70,6 +70,9 @@ pub struct NotClosed {
     pub left: Option<WidestGap>,
     /// Names of the held coordinates.
     pub held: Vec<String>,
+    /// Whether the search was stopped before all starts were made.
+    #[serde(default, skip_serializing_if = "std::ops::Not::not")]
+    pub interrupted: bool,
 }
 
 /// Closes a mechanism as a question asks, the same way as for the question itself.
@@ -79,8 +82,8 @@ pub struct NotClosed {
 pub fn close(
     question: &Question,
     newton: &Newton,
-    restarts: usize,
-    seed: u64,
+    (restarts, seed): (usize, u64),
+    watch: &Watch,
 ) -> Result<Closed, NotClosed> {
     let mechanism = question.mechanism();
     let start = question.start();
@@ -97,7 +100,7 @@ pub fn close(
     if !question.differs_from_home() && is_exact(mechanism, &start) {
         return Ok(closed(start, true));
     }
-    let found = Search::new(question, newton).run(restarts, seed);
+    let found = Search::new(question, newton).run(restarts, seed, watch);
     if found.assembles() {
         return Ok(closed(found.attempt.at, true));
     }
@@ -113,6 +116,7 @@ pub fn close(
     Err(NotClosed {
         left: widest(mechanism, &found.attempt.at),
         held: question.held_names(),
+        interrupted: watch.is_stopped(),
     })
 }
 
