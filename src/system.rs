@@ -33,7 +33,7 @@ mod walk;
 mod way;
 
 pub use approach::approach;
-pub use closing::{Analysed, Closed, NotClosed, WidestGap, close, fit, too_large};
+pub use closing::{Analysed, Closed, NotClosed, TooLarge, WidestGap, close, fit, too_large};
 pub use count::{Count, check_angles, check_count};
 pub use curve::{Curve, Driven};
 pub use demand::{Demand, Verb};

@@ -190,8 +190,8 @@ pub struct Elsewhere {
 /// configuration singular, from the branches that small steps in many directions settle on.
 pub fn mobility(question: &Question, settings: &MobilitySettings) -> Analysed<MobilityReport> {
     let mechanism = question.mechanism();
-    if let Some(unknowns) = too_large(mechanism) {
-        return Analysed::TooLarge { unknowns };
+    if let Some(large) = too_large(mechanism) {
+        return Analysed::TooLarge(large);
     }
     let closed = match close(question, &settings.newton, settings.restarts, settings.seed) {
         Ok(closed) => closed,
