@@ -9,7 +9,6 @@ mod mjcf;
 mod names;
 mod page;
 mod problem;
-mod problem_words;
 mod remark;
 mod tree;
 mod unroll;

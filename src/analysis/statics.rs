@@ -6,7 +6,7 @@ use serde::Serialize;
 
 use crate::linear::{Decomposition, RANK_TOLERANCE, norm};
 use crate::mechanism::{Configuration, Frame, Mechanism};
-use crate::solve::Newton;
+use crate::solve::{Newton, Watch};
 use crate::system::{
     Analysed, FrameTwists, Holdable, Load, Neighbourhood, Question, QuestionError, Unknown,
     WidestGap, check_angles, check_count, close, too_large,
@@ -111,13 +111,19 @@ pub fn statics(
     question: &Question,
     load: &Load,
     settings: &StaticsSettings,
+    watch: &Watch,
 ) -> Result<Analysed<StaticsReport>, QuestionError> {
     let mechanism = question.mechanism();
     if let Some(large) = too_large(mechanism) {
         return Ok(Analysed::TooLarge(large));
     }
     check_count(question)?;
-    let closed = match close(question, &settings.newton, settings.restarts, settings.seed) {
+    let closed = match close(
+        question,
+        &settings.newton,
+        (settings.restarts, settings.seed),
+        watch,
+    ) {
         Ok(closed) => closed,
         Err(open) => return Ok(Analysed::NotClosed(open)),
     };

@@ -49,7 +49,7 @@ pub use report::{
 use crate::linear::Factorable;
 use crate::mechanism::{Configuration, PlatformPose};
 use crate::number::{Lanes, Packed};
-use crate::solve::{Newton, Pool};
+use crate::solve::{Newton, Pool, Watch};
 use crate::system::{Driven, Question};
 use asked::Asked;
 use boundary::Boundary;
@@ -128,7 +128,7 @@ pub fn cell_bytes(question: &Question, axes: usize) -> usize {
 ///
 /// `question` holds the mapped coordinates and all others that must be, at any values of the mapped
 /// ones; it must leave no freedom. `known` are assembled configurations to begin with besides those
-/// that random starts lead to. `told` hears again and again how many nodes in modes were reached.
+/// that random starts lead to.
 ///
 /// # Errors
 /// If more is reached than may be kept.
@@ -137,7 +137,7 @@ pub fn workspace(
     axes: &[Driven],
     known: &[Configuration<f64>],
     settings: &WorkspaceSettings,
-    told: &mut dyn FnMut(usize),
+    watch: &Watch,
 ) -> Result<WorkspaceReport, WorkspaceError> {
     let asked = Asked::new(question, axes, &settings.newton);
     let counts: Vec<usize> = (0..axes.len())
@@ -147,7 +147,7 @@ pub fn workspace(
     let measure = Measure::new(&asked);
     let nodes = grid.spread(settings.searched);
     let sought = (&nodes[..], settings.starts, settings.seed);
-    let sown = seeds::sow(&asked, &grid, &measure, sought, known);
+    let sown = seeds::sow(&asked, &grid, &measure, sought, (known, watch));
     let fill = Fill {
         asked: &asked,
         grid: &grid,
@@ -157,8 +157,8 @@ pub fn workspace(
     };
     let probed = grid.spread(settings.probed);
     let (filled, aspects, outside) = match settings.side_by_side {
-        true => filled::<Lanes>(&fill, &sown, (&probed, settings.seed), told),
-        false => filled::<f64>(&fill, &sown, (&probed, settings.seed), told),
+        true => filled::<Lanes>(&fill, &sown, (&probed, settings.seed), watch),
+        false => filled::<f64>(&fill, &sown, (&probed, settings.seed), watch),
     }?;
     let map = Map::new(&asked, &grid, &filled, aspects);
     let boundary = Boundary {
@@ -169,16 +169,17 @@ pub fn workspace(
         mode: &map.mode,
     };
     let crossings = match settings.boundaries {
-        true => boundary.crossings(),
+        true => boundary.crossings(watch),
         false => Vec::new(),
     };
-    let curves = boundary.curves(&crossings);
+    let curves = boundary.curves(&crossings, watch);
     let mut report = map.report(&crossings);
     report.curves = curves;
     report.searched = [nodes.len(), settings.starts];
     report.probed = [probed.len(), seeds::PROBES];
     report.outside = sown.outside + outside;
     report.seed = settings.seed;
+    report.interrupted = watch.is_stopped();
     Ok(report)
 }
 
@@ -188,15 +189,15 @@ fn filled<T: Factorable + Packed + Send + Sync>(
     fill: &Fill,
     sown: &Sown,
     (probed, seed): (&[usize], u64),
-    told: &mut dyn FnMut(usize),
+    watch: &Watch,
 ) -> Result<(Filled, Vec<Option<usize>>, usize), WorkspaceError> {
     let steps: Pool<Steps<T>> = Pool::new(Steps::new(fill.asked));
     let mut reached = Spread::new(fill.grid);
-    fill.spread(&mut reached, &steps, &sown.seeds, told)?;
-    let more = seeds::probe(fill, &reached, &steps, probed, seed);
-    fill.spread(&mut reached, &steps, &more.seeds, told)?;
+    fill.spread(&mut reached, &steps, &sown.seeds, watch)?;
+    let more = seeds::probe(fill, &reached, &steps, (probed, seed), watch);
+    fill.spread(&mut reached, &steps, &more.seeds, watch)?;
     let mut filled = reached.filled(fill.grid);
-    let (aspects, together) = join::joined(fill, &steps, &filled);
+    let (aspects, together) = join::joined(fill, &steps, &filled, watch);
     // what hangs together on a finer grid is of one mode
     filled.connect(together.into_iter());
     Ok((filled, aspects, more.outside))

@@ -5,7 +5,7 @@ use serde::{Deserialize, Serialize};
 use super::{Gap, Held, HeldPlatform, Question, Search, System};
 use crate::linear::SPECTRUM_LIMIT;
 use crate::mechanism::{Configuration, Mechanism};
-use crate::solve::{Equations, Newton, Stop};
+use crate::solve::{Equations, Newton, Stop, Watch};
 
 /// How far a closure of a given pose is from being whole.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -78,6 +78,9 @@ pub struct NotClosed {
     pub left: Option<WidestGap>,
     /// Names of the held coordinates.
     pub held: Vec<String>,
+    /// Whether the search was stopped before all starts were made.
+    #[serde(default, skip_serializing_if = "std::ops::Not::not")]
+    pub interrupted: bool,
 }
 
 /// A mechanism with more unknowns than singular values are computed for
@@ -97,8 +100,8 @@ pub struct TooLarge {
 pub fn close(
     question: &Question,
     newton: &Newton,
-    restarts: usize,
-    seed: u64,
+    (restarts, seed): (usize, u64),
+    watch: &Watch,
 ) -> Result<Closed, NotClosed> {
     let mechanism = question.mechanism();
     let start = question.start();
@@ -115,7 +118,7 @@ pub fn close(
     if !question.differs_from_home() && is_exact(mechanism, &start) {
         return Ok(closed(start, true));
     }
-    let found = Search::new(question, newton).run(restarts, seed);
+    let found = Search::new(question, newton).run(restarts, seed, watch);
     if found.assembles() {
         return Ok(closed(found.attempt.at, true));
     }
@@ -133,6 +136,7 @@ pub fn close(
         closed: false,
         left: widest(mechanism, &found.attempt.at),
         held: question.held_names(),
+        interrupted: watch.is_stopped(),
     })
 }
 

@@ -5,7 +5,7 @@ use rand_pcg::Pcg64Mcg;
 
 use super::{Held, HeldPlatform, Question, System, Work, fit, random_configuration};
 use crate::mechanism::{Configuration, Mechanism, turn_near};
-use crate::solve::{Newton, Report, Stop};
+use crate::solve::{Newton, Report, Stage, Stop, Watch};
 
 /// One start and where it led.
 #[derive(Clone, Debug, PartialEq)]
@@ -71,8 +71,8 @@ impl<'a> Search<'a> {
 
     /// Moves the mechanism from home to what is held, or starts from the guess if there is one; if
     /// that fails, or ends outside the limits, starts from the guess and then from seeded random
-    /// starts within the limits.
-    pub fn run(&mut self, restarts: usize, seed: u64) -> Searched {
+    /// starts within the limits, until it is stopped.
+    pub fn run(&mut self, restarts: usize, seed: u64, watch: &Watch) -> Searched {
         let mut rng = Pcg64Mcg::seed_from_u64(seed);
         let guesses = [
             self.question.guessed_joints(),
@@ -101,7 +101,9 @@ impl<'a> Search<'a> {
         for start in 1..=restarts {
             let assembled = best.report.stop == Stop::Solved;
             // an assembled configuration outside limits is worth a few more starts, not all
-            if assembled && start > restarts / 4 {
+            if assembled && start > restarts / 4
+                || watch.stops(Stage::Starts, start - 1, Some(restarts))
+            {
                 break;
             }
             made = start;

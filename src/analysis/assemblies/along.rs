@@ -3,15 +3,20 @@
 use super::coordinates::{C, size};
 use super::way::Way;
 use crate::number::Number;
-use crate::solve::{Arrival, Homotopy, Stages, Tracker};
+use crate::solve::{Arrival, Homotopy, Progress, Stages, Tracker, Watch};
 
 /// Coordinates beyond this count as infinite on loops. At special dimensions some solutions are
 /// thousands of characteristic lengths away for all inputs, and farther on the way.
 const FARTHEST: f64 = 1e6;
 
 /// Carries solutions along a way. Those that are lost and those that share an end, of which all but
-/// one have jumped, are followed again with greater care; what cannot be told is `None`.
-pub(super) fn carried(way: &Way<'_>, points: &mut [Option<Vec<C>>]) {
+/// one have jumped, are followed again with greater care; what cannot be told is `None`, as are
+/// those that were not followed when the work was stopped.
+pub(super) fn carried(
+    way: &Way<'_>,
+    points: &mut [Option<Vec<C>>],
+    (watch, now): (&Watch, Progress),
+) {
     let coordinates = &way.family.coordinates;
     let starts: Vec<Option<Vec<C>>> = points.to_vec();
     let mut waiting: Vec<usize> = (0..starts.len()).filter(|&i| starts[i].is_some()).collect();
@@ -25,7 +30,10 @@ pub(super) fn carried(way: &Way<'_>, points: &mut [Option<Vec<C>>]) {
             _ => tracker.tightened(care),
         };
         let ends = crate::solve::each(waiting.len(), way, |way, k| {
-            follow(way, &tracker, starts[waiting[k]].as_ref()?)
+            match watch.at(now).is_break() {
+                true => None,
+                false => follow(way, &tracker, starts[waiting[k]].as_ref()?),
+            }
         });
         for (i, end) in waiting.into_iter().zip(ends) {
             points[i] = end;
@@ -36,8 +44,8 @@ pub(super) fn carried(way: &Way<'_>, points: &mut [Option<Vec<C>>]) {
                 .any(|(j, y)| j != i && y.as_ref().is_some_and(|y| coordinates.same(x, y))),
         };
         waiting = (0..points.len()).filter(|&i| doubtful(i)).collect();
-        if waiting.is_empty() {
-            return;
+        if waiting.is_empty() || watch.is_stopped() {
+            break;
         }
     }
     for i in waiting {

@@ -16,6 +16,7 @@ use super::way::Way;
 use crate::geometry::Quaternion;
 use crate::mechanism::{Configuration, Coordinate, Mechanism};
 use crate::number::Number;
+use crate::solve::Watch;
 use crate::system::{Held, HeldPlatform, System, Work};
 
 /// The end of the way, where the asked inputs are.
@@ -32,6 +33,9 @@ pub(super) struct Question<'a> {
     pub asked: &'a Configuration<f64>,
     pub bound: Option<&'a KnownBound>,
     pub system: System<f64>,
+    pub watch: &'a Watch<'a>,
+    /// Whether the search for generic solutions was stopped.
+    pub interrupted: bool,
 }
 
 /// A real solution before it gets its number.
@@ -106,6 +110,7 @@ impl Question<'_> {
             gathered.merged = self.merge(&mut gathered.found, way);
         }
         let mut report = self.empty(generic);
+        report.interrupted = self.interrupted || self.watch.is_stopped();
         let sets: Vec<&Group> = groups.iter().filter(|g| g.dimension > 0).collect();
         if let Some(way) = &mut way {
             self.look_elsewhere(&mut gathered, (&fit, generic, wanted), way, starts);
@@ -116,7 +121,7 @@ impl Question<'_> {
                 self.add(&mut gathered, points, way, (&fit, false));
             }
         }
-        let nearest = match gathered.found.is_empty() {
+        let nearest = match gathered.found.is_empty() && !report.interrupted {
             true => {
                 let starts: Vec<&Vec<C>> = groups.iter().map(|g| &g.x).collect();
                 self.nearest(&starts, &mut work)
@@ -169,6 +174,7 @@ impl Question<'_> {
         if let (true, Some((near, _))) = (report.assemblies.is_empty(), &nearest) {
             report.closest = self.closest(near);
         }
+        report.interrupted |= self.watch.is_stopped();
         report.complete = report.completeness(self.coordinates.length);
         report
     }
@@ -265,6 +271,7 @@ impl Question<'_> {
             complete: String::new(),
             independent_rows: None,
             closest: None,
+            interrupted: false,
         }
     }
 

@@ -1,16 +1,15 @@
 //! Carrying the generic solutions to the inputs that are asked for.
 
-use std::cell::Cell;
+use std::sync::atomic::{AtomicUsize, Ordering};
 
 use super::coordinates::{C, Coordinates};
 use super::family::{Family, Member};
-use super::generic::Progress;
 use super::path::{End, Path, arrived, follow};
 use super::simple::{are_one, near};
-use super::stances::{Stance, count, learn};
+use super::stances::{Stance, learn};
 use super::way::Way;
 use crate::number::Number;
-use crate::solve::Tracker;
+use crate::solve::{Stage, Tracker, Watch};
 
 /// Ends of all paths, and what following them took.
 #[derive(Clone, Debug, Default)]
@@ -23,41 +22,30 @@ pub(super) struct Ends {
     pub retries: usize,
 }
 
-/// Paths between two words about how far it is.
-const BATCH: usize = 64;
-
 /// From the generic member to the asked one: one path for each way of the leg that has most of them,
 /// for each pose. Where all of these end well the other solutions are combinations of what they show;
 /// where one does not, every solution with that pose is followed by itself.
 ///
 /// A path that is lost, or two that end at the same regular solution (one has jumped), are followed
-/// again with greater care, and if that does not help all of them another way round.
+/// again with greater care, and if that does not help all of them another way round. Paths that were
+/// not followed when the work was stopped count as lost.
 pub(super) fn carry(
     family: &Family,
     from: &Member,
     to: &Member,
     stances: &[Stance<C>],
-    watch: &dyn Fn(Progress),
+    watch: &Watch,
 ) -> Option<Ends> {
     let way = family.way(from, to)?;
     let mut best: Option<Ends> = None;
     let mut retries = 0;
-    let (found, followed) = (count(stances), Cell::new(0));
-    let tell = |more: usize| {
-        followed.set(followed.get() + more);
-        watch(Progress {
-            found,
-            seeds: 0,
-            loops: 0,
-            followed: followed.get(),
-        });
-    };
+    let followed = AtomicUsize::new(0);
     for detour in 0..5 {
         // 0: the straight way; then arcs through complex s to either side
         let manner = Manner {
             bend: [0.0, 0.4, -0.4, 0.8, -0.8][detour],
             care: if detour == 0 { 1.0 } else { 0.1 },
-            tell: &tell,
+            followed: (&followed, watch),
         };
         let ends = combined(&way, stances, &manner);
         retries += ends.retries;
@@ -66,7 +54,7 @@ pub(super) fn carry(
         if fewer {
             best = Some(ends);
         }
-        if best.as_ref().is_some_and(|b| lost(b) == 0) {
+        if watch.is_stopped() || best.as_ref().is_some_and(|b| lost(b) == 0) {
             break;
         }
     }
@@ -82,11 +70,18 @@ struct Manner<'a> {
     bend: f64,
     /// The corrections aimed at, beside the usual ones.
     care: f64,
-    /// Hears of paths that were followed.
-    tell: &'a dyn Fn(usize),
+    /// How many paths were followed, each as often as it was.
+    followed: (&'a AtomicUsize, &'a Watch<'a>),
 }
 
 impl Manner<'_> {
+    /// Counts a path that is to be followed; false if the work was stopped.
+    fn goes_on(&self) -> bool {
+        let (followed, watch) = self.followed;
+        let done = followed.fetch_add(1, Ordering::Relaxed);
+        !watch.stops(Stage::Paths, done, None)
+    }
+
     /// For paths followed again at a higher level.
     fn tracker(&self, way: &Way<'_>, level: i32) -> Tracker {
         let tracker = Tracker {
@@ -181,25 +176,24 @@ fn straight(way: &Way<'_>, solutions: &[Vec<C>], manner: &Manner<'_>) -> Ends {
     let mut unsure: Vec<usize> = Vec::new();
     for level in 0..=2 {
         let (tracker, bend) = (manner.tracker(way, level), manner.bend);
-        for batch in waiting.chunks(BATCH) {
-            let followed: Vec<Path> = crate::solve::each(batch.len(), way, |way, k| {
-                follow(way, &tracker, bend, &solutions[batch[k]])
-            });
-            (manner.tell)(batch.len());
-            for (&i, path) in batch.iter().zip(followed) {
-                all.steps += path.steps;
-                all.evaluations += path.evaluations;
-                if path.unsure && level == 0 {
-                    unsure.push(i);
-                }
-                // a second look that sees nothing leaves what the first one saw
-                if path.end != End::Lost || !unsure.contains(&i) || level == 0 {
-                    all.ends[i] = path.end;
-                }
+        let followed: Vec<Option<Path>> = crate::solve::each(waiting.len(), way, |way, k| {
+            let goes_on = manner.goes_on();
+            goes_on.then(|| follow(way, &tracker, bend, &solutions[waiting[k]]))
+        });
+        for (&i, path) in waiting.iter().zip(followed) {
+            let Some(path) = path else { continue };
+            all.steps += path.steps;
+            all.evaluations += path.evaluations;
+            if path.unsure && level == 0 {
+                unsure.push(i);
+            }
+            // a second look that sees nothing leaves what the first one saw
+            if path.end != End::Lost || !unsure.contains(&i) || level == 0 {
+                all.ends[i] = path.end;
             }
         }
         shared_out(way, &mut all.ends);
-        if level == 2 {
+        if level == 2 || manner.followed.1.is_stopped() {
             break;
         }
         waiting = doubtful(way, &all.ends);

@@ -6,7 +6,7 @@ use super::coordinates::{C, Coordinates};
 use super::real::{named_joints, named_poses};
 use super::report::{AssembliesReport, Assembly};
 use crate::number::Number;
-use crate::solve::Equations;
+use crate::solve::{Equations, Stage};
 use crate::system::Work;
 
 /// Assemblies nearer to each other than this, in rad or characteristic lengths, are barely told apart.
@@ -43,6 +43,7 @@ impl Question<'_> {
         let flat = |f: &Found| self.coordinates.flatten(&f.point.map(C::from_f64));
         let flat: Vec<Vec<C>> = found.iter().map(flat).collect();
         for (k, (f, dense)) in found.iter().zip(&jacobians).enumerate() {
+            let stopped = (self.watch).stops(Stage::Certificates, k, Some(found.len()));
             let (first, last) = extremes(rows, columns, dense);
             let condition = match (first, last) {
                 (Some(a), Some(b)) if rows >= columns && b > 1e-12 * a && f.multiplicity == 1 => {
@@ -61,6 +62,7 @@ impl Question<'_> {
                 .map(|(_, other)| self.coordinates.difference(&flat[k], other))
                 .fold(f64::INFINITY, f64::min);
             let certificate = match (&mut certifier, f.multiplicity) {
+                _ if stopped => Certificate::Failed("interrupted"),
                 (_, 0) => {
                     Certificate::Failed("one of infinitely many: others are arbitrarily near")
                 }

@@ -26,6 +26,7 @@ use super::solutions::{GenericSolutions, pairs};
 use super::stances::{Stance, count, learn};
 use super::way::Way;
 use crate::number::Number;
+use crate::solve::{Progress, Stage, Watch};
 use crate::system::System;
 
 fn generator(seed: u64, stream: u64) -> Pcg64 {
@@ -35,21 +36,8 @@ fn generator(seed: u64, stream: u64) -> Pcg64 {
     )
 }
 
-/// How far a search is.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Progress {
-    /// Generic solutions found.
-    pub found: usize,
-    /// Newton seeds tried.
-    pub seeds: usize,
-    /// Monodromy loops gone.
-    pub loops: usize,
-    /// Paths followed to the inputs asked, each as often as it was followed; 0 while searching.
-    pub followed: usize,
-}
-
 struct Search<'a> {
-    watch: &'a dyn Fn(Progress),
+    watch: &'a Watch<'a>,
     bound: Option<usize>,
     family: &'a Family,
     settings: &'a AssembliesSettings,
@@ -72,10 +60,11 @@ pub(super) fn search(
     question: String,
     bound: Option<usize>,
     settings: &AssembliesSettings,
-    watch: &dyn Fn(Progress),
+    watch: &Watch,
 ) -> Option<GenericSolutions> {
     let first = search_one(family, &question, bound, settings, watch)?;
     if first.stances.is_empty()
+        || watch.is_stopped()
         || first.exhausted
         || bound.is_none_or(|bound| count(&first.stances) >= bound)
     {
@@ -104,7 +93,7 @@ fn search_one(
     question: &str,
     bound: Option<usize>,
     settings: &AssembliesSettings,
-    watch: &dyn Fn(Progress),
+    watch: &Watch,
 ) -> Option<GenericSolutions> {
     let mut rng = generator(settings.seed, 0);
     let base = family.generic_member(&mut rng);
@@ -147,7 +136,7 @@ fn search_one(
 const BATCH: usize = 32;
 
 impl Search<'_> {
-    /// Until nothing more is found; whether it ended at its limits before.
+    /// Until nothing more is found; whether it ended at its limits, or was stopped, before.
     fn run(&mut self) -> Option<bool> {
         let still = self.family.way(&self.base, &self.base)?;
         while self.stances.is_empty() {
@@ -156,11 +145,14 @@ impl Search<'_> {
             {
                 return Some(false);
             }
+            if self.is_stopped_sowing() {
+                return Some(true);
+            }
             self.sow(&still);
         }
         loop {
             while self.quiet_loops < self.enough_loops() {
-                if self.loops >= self.settings.most_loops {
+                if self.loops >= self.settings.most_loops || self.is_stopped_in_loops() {
                     return Some(true);
                 }
                 self.spread();
@@ -169,7 +161,7 @@ impl Search<'_> {
                 return Some(false);
             }
             while self.quiet_loops > 0 && self.quiet_seeds < self.settings.quiet_seeds {
-                if self.seeds >= self.settings.most_seeds {
+                if self.seeds >= self.settings.most_seeds || self.is_stopped_sowing() {
                     return Some(true);
                 }
                 self.sow(&still);
@@ -230,13 +222,23 @@ impl Search<'_> {
         }
     }
 
-    fn tell(&self) {
-        (self.watch)(Progress {
-            found: count(&self.stances),
-            seeds: self.seeds,
-            loops: self.loops,
-            followed: 0,
-        });
+    fn is_stopped_sowing(&self) -> bool {
+        let found = count(&self.stances);
+        (self.watch).stops(Stage::Seeds { found }, self.seeds, None)
+    }
+
+    fn is_stopped_in_loops(&self) -> bool {
+        self.watch.at(self.in_loops()).is_break()
+    }
+
+    fn in_loops(&self) -> Progress {
+        Progress {
+            stage: Stage::Loops {
+                found: count(&self.stances),
+            },
+            done: self.loops,
+            of: None,
+        }
     }
 
     /// Newton iterations from random complex points at the member where a way starts; the isolated
@@ -275,7 +277,6 @@ impl Search<'_> {
                 false => self.quiet_seeds += 1,
             }
         }
-        self.tell();
     }
 
     /// One loop through two other random members, followed by every known solution and by what
@@ -310,7 +311,7 @@ impl Search<'_> {
                 let own = pair[0].parameters == self.base.parameters;
                 self.sow_beside(&way, (reach, own), &mut points);
             }
-            carried(&way, &mut points);
+            carried(&way, &mut points, (self.watch, self.in_loops()));
         }
         let Some(mut still) = self.family.way(&self.base, &self.base) else {
             return;
@@ -329,7 +330,6 @@ impl Search<'_> {
             (false, true) => self.quiet_loops += 1,
             (false, false) => {}
         }
-        self.tell();
     }
 
     /// Seeds at a corner of a loop, where these solutions are known already.

@@ -10,7 +10,7 @@ use super::family::Family;
 use crate::geometry::Quaternion;
 use crate::mechanism::Configuration;
 use crate::number::Number;
-use crate::solve::{Newton, Stop};
+use crate::solve::{Newton, Stage, Stop, Watch};
 use crate::system::System;
 
 /// Assembled configurations reached by Newton's method from the asked configuration, start 0, and
@@ -20,9 +20,13 @@ pub(super) fn solved(
     system: &System<f64>,
     asked: &Configuration<f64>,
     which: Range<usize>,
+    watch: &Watch,
 ) -> Vec<Configuration<f64>> {
     let storage = (system.work(), asked.clone());
     let points = crate::solve::each(which.len(), &storage, |(work, trial), k| {
+        if watch.stops(Stage::Starts, k, Some(which.len())) {
+            return None;
+        }
         let mut point = started(family, asked, which.start + k);
         let report = Newton::default().solve(system, &mut point, trial, work);
         (report.stop == Stop::Solved).then_some(point)

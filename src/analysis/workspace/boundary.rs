@@ -10,7 +10,7 @@ use super::filled::{Filled, Link};
 use super::grid::Grid;
 use super::measure::Measure;
 use crate::mechanism::Configuration;
-use crate::solve::{Continuation, each};
+use crate::solve::{Continuation, Stage, Watch, each};
 use crate::system::{
     Curve, Driven, Holdable, Lock, LocusCurve, LocusEnd, Region, Singular, settled,
 };
@@ -102,7 +102,7 @@ pub(super) struct Boundary<'a> {
 
 impl Boundary<'_> {
     /// Where sheets within limits end on the edges of the grid, and where signs change.
-    pub fn crossings(&self) -> Vec<Crossing> {
+    pub fn crossings(&self, watch: &Watch) -> Vec<Crossing> {
         let inputs = Asked::locks(&self.asked.inputs);
         let outputs = Asked::locks(&self.asked.outputs);
         let joints = self.asked.mechanism.joints();
@@ -152,6 +152,9 @@ impl Boundary<'_> {
             crossing.again = !at_nodes.insert((node, crossing.kind));
         }
         let walked = each(wanted.len(), &(), |(), i| {
+            if watch.stops(Stage::Boundary, i, Some(wanted.len())) {
+                return None;
+            }
             let (s, d, until) = wanted[i];
             let (sheet, at) = (self.filled.sheet(s), self.filled.configuration(s).owned());
             let node = self.grid.neighbour(sheet.node, d)?;
@@ -203,17 +206,20 @@ impl Boundary<'_> {
     }
 
     /// The curves through crossings, of the slices of the first two coordinates one after another.
-    pub fn curves(&self, crossings: &[Crossing]) -> Vec<BoundaryCurve> {
+    pub fn curves(&self, crossings: &[Crossing], watch: &Watch) -> Vec<BoundaryCurve> {
         let slices = match self.grid.dimensions() {
             2 => 1,
             3 => self.grid.count(2),
             _ => return Vec::new(),
         };
-        let traced = each(slices, &(), |(), slice| self.slice(crossings, slice));
+        let traced = each(slices, &(), |(), slice| match watch.is_stopped() {
+            true => Vec::new(),
+            false => self.slice(crossings, slice, watch),
+        });
         traced.into_iter().flatten().collect()
     }
 
-    fn slice(&self, crossings: &[Crossing], slice: usize) -> Vec<BoundaryCurve> {
+    fn slice(&self, crossings: &[Crossing], slice: usize, watch: &Watch) -> Vec<BoundaryCurve> {
         let third = (self.grid.dimensions() == 3).then(|| self.grid.coordinate(2, slice));
         let question = match third {
             Some(value) => {
@@ -235,7 +241,10 @@ impl Boundary<'_> {
             }
         }
         let mut curves = Vec::new();
-        for kind in kinds {
+        for (k, kind) in kinds.iter().copied().enumerate() {
+            if watch.stops(Stage::Curves, k, Some(kinds.len())) {
+                break;
+            }
             let of: Vec<&Crossing> = (here.iter().copied())
                 .filter(|crossing| crossing.kind == kind)
                 .collect();

@@ -17,7 +17,7 @@ use super::tile::{Task, Tile};
 use crate::linear::{Factorable, norm};
 use crate::mechanism::{Configuration, ConfigurationRef};
 use crate::number::Packed;
-use crate::solve::{Pool, each};
+use crate::solve::{Pool, Stage, Watch, each};
 
 #[derive(Clone, Copy)]
 pub(super) struct Fill<'a> {
@@ -59,7 +59,7 @@ impl Fill<'_> {
         spread: &mut Spread,
         steps: &Pool<Steps<T>>,
         seeds: &[(usize, Configuration<f64>)],
-        told: &mut dyn FnMut(usize),
+        watch: &Watch,
     ) -> Result<(), WorkspaceError> {
         let starts: Vec<Start> = (seeds.iter())
             .map(|(node, at)| self.here(*node, at))
@@ -74,10 +74,13 @@ impl Fill<'_> {
             }
         }
         loop {
-            self.grow(spread, steps, told)?;
+            self.grow(spread, steps, watch)?;
+            if watch.is_stopped() {
+                return Ok(());
+            }
             let mut seams = spread.taken(|tile| &mut tile.seams);
             let mut failed = Vec::new();
-            while !seams.is_empty() {
+            while !seams.is_empty() && !watch.stops(Stage::Reached, spread.len(), None) {
                 let (now, later) = self.chosen(spread, seams);
                 let arrivals = self.steps(spread, steps, &now);
                 let arrivals = arrivals.iter().flat_map(Arrivals::iter);
@@ -90,16 +93,19 @@ impl Fill<'_> {
                 seams = later;
             }
             spread.keep(failed);
+            if watch.is_stopped() {
+                return Ok(());
+            }
             if spread.tiles.iter().any(Tile::grows) {
                 continue;
             }
             let unsure = spread.taken(|tile| &mut tile.unsure);
             let (now, later) = self.chosen(spread, unsure);
-            if now.is_empty() {
+            if now.is_empty() || watch.stops(Stage::Reached, spread.len(), None) {
                 return Ok(());
             }
             spread.keep(later);
-            for (task, end) in now.iter().zip(self.ends(spread, steps, &now)) {
+            for (task, end) in now.iter().zip(self.ends(spread, steps, &now, watch)) {
                 match end {
                     End::Arrived(arrival) => self.arrive(spread, *task, arrival.moving()),
                     End::Fold => *spread.link_mut(task.0, task.1) = Link::Fold,
@@ -114,9 +120,12 @@ impl Fill<'_> {
         &self,
         spread: &mut Spread,
         steps: &Pool<Steps<T>>,
-        told: &mut dyn FnMut(usize),
+        watch: &Watch,
     ) -> Result<(), WorkspaceError> {
         for first in (0..spread.tiles.len()).step_by(PARTS) {
+            if watch.stops(Stage::Reached, spread.len(), None) {
+                break;
+            }
             let here = spread.tiles[first..].iter_mut().take(PARTS);
             let growing: Vec<&mut Tile> = here.filter(|tile| tile.grows()).collect();
             if growing.is_empty() {
@@ -124,7 +133,6 @@ impl Fill<'_> {
             }
             steps.each_of(growing, |steps, tile| tile.grow(self, steps));
             let reached = spread.len();
-            told(reached);
             if reached > self.most {
                 return Err(WorkspaceError::TooMany { most: self.most });
             }
@@ -276,6 +284,7 @@ impl Fill<'_> {
         spread: &Spread,
         steps: &Pool<Steps<T>>,
         tasks: &[Task],
+        watch: &Watch,
     ) -> Vec<End> {
         let paced = self.paced(steps, spread, tasks).into_iter();
         let mut ends: Vec<End> = paced
@@ -289,6 +298,9 @@ impl Fill<'_> {
         let open = open.filter(|(_, end)| matches!(end, End::Stuck));
         let unsure: Vec<Task> = open.map(|(task, _)| *task).collect();
         let met = each(unsure.len(), &(), |(), i| {
+            if watch.stops(Stage::Reached, spread.len(), None) {
+                return Met::Nothing;
+            }
             let step = spread.step(self, unsure[i]);
             let edge = Edge {
                 axis: step.axis,

@@ -10,7 +10,7 @@ use super::spread::Spread;
 use super::step::Steps;
 use crate::linear::Factorable;
 use crate::number::Packed;
-use crate::solve::{Pool, each};
+use crate::solve::{Pool, Watch, each};
 use crate::system::Driven;
 
 /// Aspects of fewer nodes are looked at again.
@@ -31,6 +31,7 @@ pub(super) fn joined<T: Factorable + Packed + Send + Sync>(
     fill: &Fill,
     steps: &Pool<Steps<T>>,
     filled: &Filled,
+    watch: &Watch,
 ) -> (Vec<Option<usize>>, Vec<[usize; 2]>) {
     let found = aspects(filled);
     let mut roots: Vec<usize> = (0..found.len()).collect();
@@ -53,7 +54,10 @@ pub(super) fn joined<T: Factorable + Packed + Send + Sync>(
     }
     let few: Vec<Vec<usize>> = sheets.into_values().collect();
     let others = each(few.len(), &(), |(), i| {
-        reached(fill, steps, filled, &few[i])
+        match watch.is_stopped() {
+            true => Vec::new(),
+            false => reached(fill, steps, filled, &few[i]),
+        }
     });
     let mut pairs = Vec::new();
     for (small, others) in few.iter().zip(others) {
@@ -121,7 +125,7 @@ fn reached<T: Factorable + Packed + Send + Sync>(
         .map(|s| (same(filled.node(*s)), filled.configuration(*s).owned()))
         .collect();
     let mut found = Spread::new(&fine);
-    if (finer.spread(&mut found, steps, &seeds, &mut |_| {})).is_err() {
+    if (finer.spread(&mut found, steps, &seeds, &Watch::none())).is_err() {
         return Vec::new();
     }
     let found = found.filled(&fine);

@@ -197,6 +197,7 @@ impl<'a> Map<'a> {
             probed: [0; 2],
             outside: 0,
             seed: 0,
+            interrupted: false,
             normalising_length: mechanism.characteristic_length(),
         }
     }

@@ -51,6 +51,9 @@ pub struct WorkspaceReport {
     pub seed: u64,
     /// The length in m that makes the Jacobian dimensionless.
     pub normalising_length: f64,
+    /// Whether the work was stopped before it was done: nodes, modes and boundaries may be missing.
+    #[serde(default, skip_serializing_if = "std::ops::Not::not")]
+    pub interrupted: bool,
     /// Every node in every mode that reaches it, those outside limits too.
     #[serde(skip)]
     pub cells: Cells,

@@ -13,7 +13,7 @@ use super::step::{Start, Steps};
 use crate::linear::Factorable;
 use crate::mechanism::{Configuration, PlatformPose};
 use crate::number::Packed;
-use crate::solve::{Pool, Stop, each};
+use crate::solve::{Pool, Stage, Stop, Watch, each};
 use crate::system::{System, Work, random_configuration, with_coordinates};
 
 /// What was found at the nodes that were searched.
@@ -48,7 +48,7 @@ pub(super) fn sow(
     grid: &Grid,
     measure: &Measure,
     (nodes, starts, seed): (&[usize], usize, u64),
-    given: &[Configuration<f64>],
+    (given, watch): (&[Configuration<f64>], &Watch),
 ) -> Sown {
     let system = asked.question.system();
     let storage = Storage {
@@ -59,6 +59,9 @@ pub(super) fn sow(
     };
     let found = each(nodes.len(), &storage, |storage, i| {
         let node = nodes[i];
+        if watch.stops(Stage::Nodes, i, Some(nodes.len())) {
+            return (node, Vec::new());
+        }
         // each node draws for itself, so that threads do not matter
         let mut rng = Pcg64Mcg::seed_from_u64(seed.wrapping_add(node as u64));
         let values = grid.values(node);
@@ -139,12 +142,15 @@ pub(super) fn probe<T: Factorable + Packed + Send + Sync>(
     fill: &Fill,
     reached: &Spread,
     steps: &Pool<Steps<T>>,
-    nodes: &[usize],
-    seed: u64,
+    (nodes, seed): (&[usize], u64),
+    watch: &Watch,
 ) -> Sown {
     let asked = fill.asked;
     let found = steps.each(nodes.len(), |steps, i| {
         let node = nodes[i];
+        if watch.stops(Stage::Nodes, i, Some(nodes.len())) {
+            return (node, Vec::new());
+        }
         // other numbers than those drawn by `sow`
         let mut rng = Pcg64Mcg::seed_from_u64(!seed.wrapping_add(node as u64));
         let values = fill.grid.values(node);

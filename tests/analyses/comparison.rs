@@ -13,7 +13,7 @@ fn compared(text: &str) -> (Mechanism, CompareReport) {
     (mechanism, report)
 }
 
-const THREE_RPS: &str = include_str!("../mechanisms/three_rps.ron");
+const THREE_RPS: &str = include_str!("../../mechanisms/three_rps.ron");
 
 /// The file with the sign of S1's x coordinate wrong.
 fn wrong() -> String {
@@ -262,7 +262,7 @@ fn a_slip_in_any_entry_of_any_shipped_form_is_refuted_with_that_slip() {
 
 #[test]
 fn a_slip_in_a_loop_equation_is_shown_beside_the_closure_equation() {
-    const FOUR_BAR: &str = include_str!("../mechanisms/four_bar.ron");
+    const FOUR_BAR: &str = include_str!("../../mechanisms/four_bar.ron");
     let wrong = FOUR_BAR.replacen("- (l0 + l3*cos(phi1))", "- (l0 - l3*cos(phi1))", 1);
     assert_ne!(wrong, FOUR_BAR);
     let (mechanism, report) = compared(&wrong);
@@ -352,7 +352,7 @@ fn a_proof_for_one_set_of_dimensions_is_said_to_be_that() {
 
 #[test]
 fn a_file_without_closed_forms_says_so_and_agrees() {
-    let (mechanism, report) = compared(include_str!("../mechanisms/dietmaier.ron"));
+    let (mechanism, report) = compared(include_str!("../../mechanisms/dietmaier.ron"));
     assert!(report.agree);
     assert_eq!(
         comparison::text(&mechanism, &report),

@@ -353,7 +353,7 @@ fn cuts_that_are_not_possible_say_why() {
 
 #[test]
 fn limits_that_a_cut_loses_are_noted_and_other_cuts_are_named() {
-    let text = include_str!("../mechanisms/four_bar.ron");
+    let text = include_str!("../../mechanisms/four_bar.ron");
     let limited = text.replacen(
         "Passive(home: \"-12 deg\"",
         "Passive(limits: (\"-90 deg\", \"90 deg\"), home: \"-12 deg\"",

@@ -11,7 +11,7 @@ use linkwork::mechanism::Mechanism;
 use linkwork::output::diagnostics::{Style, render};
 use proptest::prelude::*;
 
-const EVERYTHING: &str = include_str!("everything.ron");
+const EVERYTHING: &str = include_str!("../everything.ron");
 
 fn wrong_files() -> Vec<PathBuf> {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/wrong");
@@ -57,7 +57,7 @@ fn wrong_files_are_answered_with_all_their_problems() {
             text,
         };
         lines += &format!("{error}\n");
-        insta::with_settings!({ omit_expression => true, prepend_module_to_snapshot => false, snapshot_path => "wrong" }, {
+        insta::with_settings!({ omit_expression => true, prepend_module_to_snapshot => false, snapshot_path => "../wrong" }, {
             #[cfg(feature = "cli")]
             insta::assert_snapshot!(name, render(&error, Style::Plain));
         });

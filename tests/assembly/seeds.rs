@@ -152,7 +152,7 @@ fn three_seeds_give_one_answer_where_searches_take_long() {
     no_seed_matters(|name| LONG.contains(&name), 3);
 }
 
-/// Minutes: `cargo test --release --test seeds -- --ignored`
+/// Minutes: `cargo test --release --test assembly seeds -- --ignored`
 #[test]
 #[ignore = "takes minutes"]
 fn fifty_seeds_give_one_answer_where_searches_take_long() {

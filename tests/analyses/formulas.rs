@@ -549,7 +549,7 @@ fn strange_names_are_escaped() {
 
 #[test]
 fn parameters_that_are_given_numbers_are_written_out() {
-    let file = include_str!("../mechanisms/planar_2r.ron");
+    let file = include_str!("../../mechanisms/planar_2r.ron");
     let file = Description::read(file).unwrap();
     let changed = Mechanism::new(&file.with_parameter("a1", "2.5").unwrap()).unwrap();
     let settings = FormulasSettings {
