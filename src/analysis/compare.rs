@@ -158,11 +158,7 @@ fn as_map<S: Serializer>(values: &[(String, f64)], serializer: S) -> Result<S::O
 /// Entries of poses are checked at random joint values within limits and at the home configuration;
 /// identities, and poses that depend on where a platform is, at the configurations the mechanism
 /// assembles to when the actuated joints are given random values.
-pub fn compare(
-    mechanism: &Mechanism,
-    settings: &CompareSettings,
-    watch: &Watch,
-) -> CompareReport {
+pub fn compare(mechanism: &Mechanism, settings: &CompareSettings, watch: &Watch) -> CompareReport {
     let all = mechanism.closed_forms();
     let mut forms: Vec<Checked> = (all.iter().enumerate())
         .map(|(i, form)| {

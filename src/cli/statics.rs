@@ -8,6 +8,7 @@ use linkwork::system::{Load, LoadError};
 
 use super::asked::{Asked, refusal};
 use super::source::{Assignment, Source};
+use super::watched::watched;
 use super::{Answer, Format, Refusal, style};
 
 /// Find the actuator forces that balance a load, and what every joint has to carry.
@@ -55,7 +56,7 @@ impl Statics {
             load = (load.joint(&question, name, value))
                 .map_err(|error| wrong(mechanism, &error, assignment, "--load"))?;
         }
-        let report = statics(&question, &load, &StaticsSettings::default())
+        let report = watched(|watch| statics(&question, &load, &StaticsSettings::default(), watch))
             .map_err(|error| refusal(&error, None))?;
         let (data, yes) = match self.format {
             Format::Text => analysed::text(mechanism, &report, output::text),

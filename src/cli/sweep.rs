@@ -2,7 +2,6 @@
 
 mod circuits;
 
-use std::ops::ControlFlow;
 use std::path::PathBuf;
 
 use clap::{Args, ValueEnum};
@@ -16,16 +15,16 @@ use linkwork::output::sweep as output;
 #[cfg(feature = "plot")]
 use linkwork::output::sweep::Picture;
 use linkwork::output::sweep::{Motion, Sampled, Table};
-use linkwork::solve::Newton;
+use linkwork::solve::{Newton, Watch};
 use linkwork::system::{
     Driven, Held, Holdable, Question, QuestionError, Search as NearbySearch, check_count,
 };
 
 use super::asked::{Split, refusal};
-use super::progress::Progress;
 use super::range::{RangeWords, ranges};
 use super::search::{Search, mode};
 use super::source::{Assignment, Source};
+use super::watched::watched;
 use super::written::Lines;
 #[cfg(feature = "plot")]
 use super::written::save;
@@ -158,10 +157,8 @@ impl Sweep {
         }
         let mut lines = Lines::new(self.format == Format::Csv);
         lines.add(&table.csv_header());
-        let mut progress = Progress::new();
         let mut motions = Vec::new();
-        let all = starts.len();
-        for (done, (mode, start)) in starts.into_iter().enumerate() {
+        for (mode, start) in starts {
             let mut rows = Sampled::of(match self.format {
                 Format::Text => SHOWN,
                 Format::Json => MOST_KEPT + 2,
@@ -181,26 +178,19 @@ impl Sweep {
                     table.csv_line(mode, row, &mut line);
                     lines.add(&line);
                 }
-                if let Some(step) = row.step {
-                    let part = step as f64 / self.steps as f64;
-                    progress.show((done as f64 + part) / all as f64);
-                }
-                match lines.open() {
-                    true => ControlFlow::Continue(()),
-                    false => ControlFlow::Break(()),
-                }
             };
-            let report: SweepReport = match inputs.is_empty() {
-                true => follow(mechanism, &held, &start, &settings, &mut sink),
-                false => sweep(mechanism, &held, &inputs, &start, &settings, &mut sink),
-            };
+            let report: SweepReport = watched(|watch| match inputs.is_empty() {
+                true => follow(mechanism, &held, &start, &settings, &mut sink, watch),
+                false => sweep(
+                    mechanism, &held, &inputs, &start, &settings, &mut sink, watch,
+                ),
+            });
             motions.push(Motion {
                 mode,
                 report,
                 rows: rows.finished(),
             });
         }
-        progress.clear();
         lines.finish()?;
         #[cfg(feature = "plot")]
         if let Some(path) = &self.svg {
@@ -308,7 +298,8 @@ impl Sweep {
     fn starts(&self, question: &Question) -> Result<Vec<Start>, Refusal> {
         if self.mode.is_none() && !self.all_modes {
             let newton = Newton::default();
-            let found = NearbySearch::new(question, &newton).run(20, self.search.seed);
+            let found =
+                NearbySearch::new(question, &newton).run(20, self.search.seed, &Watch::none());
             if !found.assembles() {
                 return Err(Refusal(format!(
                     "error: the mechanism does not assemble where the motion is to begin\n  \
@@ -318,13 +309,15 @@ impl Sweep {
             }
             return Ok(vec![(None, found.attempt.at)]);
         }
-        let solver = self.search.solver(question)?;
         let wanted = Wanted {
             certificates: false,
             all_complex: false,
             starts: true,
         };
-        let report = solver.at_targets(&question.start(), &question.held(), wanted);
+        let report = watched(|watch| {
+            let solver = self.search.solver(question, watch)?;
+            Ok(solver.at_targets(&question.start(), &question.held(), wanted, watch))
+        })?;
         let like = question.start();
         let modes = report.assemblies.iter();
         let modes: Vec<_> = modes

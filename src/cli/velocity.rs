@@ -9,6 +9,7 @@ use linkwork::system::Drive;
 
 use super::asked::{Asked, driven, frame, refusal, refused_frame};
 use super::source::{Assignment, Source, once};
+use super::watched::watched;
 use super::{Answer, Format, Refusal};
 
 /// Find how everything moves when the inputs move: rates, accelerations, Jacobian.
@@ -68,8 +69,8 @@ impl Velocity {
             points: points.collect::<Result<_, _>>()?,
             ..VelocitySettings::default()
         };
-        let report =
-            velocity(&question, &drive, &settings).map_err(|error| refusal(&error, None))?;
+        let report = watched(|watch| velocity(&question, &drive, &settings, watch))
+            .map_err(|error| refusal(&error, None))?;
         let (data, yes) = match self.format {
             Format::Text => analysed::text(mechanism, &report, output::text),
             Format::Json => analysed::json(mechanism, &report, output::json),

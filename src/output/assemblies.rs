@@ -10,9 +10,7 @@ use super::closing;
 use super::json::document;
 use super::layout::indented;
 use super::quantity::{number, quantity};
-use crate::analysis::assemblies::{
-    AssembliesReport, ClosestApproach, Continuum, Fit, Fold,
-};
+use crate::analysis::assemblies::{AssembliesReport, ClosestApproach, Continuum, Fit, Fold};
 use crate::description::count;
 use crate::description::listed;
 use crate::mechanism::{Coordinate, Mechanism};

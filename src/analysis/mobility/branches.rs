@@ -87,7 +87,8 @@ pub(super) fn find(
     let one = owns.len() == 1;
     let parts = owns.iter().filter_map(|own| {
         let tangent = tangent.clone().within(own);
-        (!tangent.motions.is_empty()).then(|| part(near, own, &tangent, one, (settings, watch), rng))
+        (!tangent.motions.is_empty())
+            .then(|| part(near, own, &tangent, one, (settings, watch), rng))
     });
     let parts: Vec<Part> = parts.collect();
     let gains = |branch: &Branch| branch.freedoms;

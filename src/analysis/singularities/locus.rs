@@ -224,7 +224,7 @@ pub fn loci(
     for (number, (_, found)) in found.iter_mut().enumerate() {
         let others = crossings.iter().enumerate();
         for (_, at) in others.filter(|(other, _)| *other != number) {
-                for at in at.iter().take_while(|_| !watch.is_stopped()) {
+            for at in at.iter().take_while(|_| !watch.is_stopped()) {
                 search.at_crossing(found, at);
             }
         }

@@ -78,7 +78,11 @@ impl Search<'_> {
         for number in 1..=MORE * self.settings.starts {
             let least = number <= self.settings.starts;
             if !least && !more_is_likely(&found)
-                || (self.watch).stops(Stage::Loci, number - 1, least.then_some(self.settings.starts))
+                || (self.watch).stops(
+                    Stage::Loci,
+                    number - 1,
+                    least.then_some(self.settings.starts),
+                )
             {
                 break;
             }

@@ -53,11 +53,9 @@ pub(super) fn joined<T: Factorable + Packed + Send + Sync>(
         }
     }
     let few: Vec<Vec<usize>> = sheets.into_values().collect();
-    let others = each(few.len(), &(), |(), i| {
-        match watch.is_stopped() {
-            true => Vec::new(),
-            false => reached(fill, steps, filled, &few[i]),
-        }
+    let others = each(few.len(), &(), |(), i| match watch.is_stopped() {
+        true => Vec::new(),
+        false => reached(fill, steps, filled, &few[i]),
     });
     let mut pairs = Vec::new();
     for (small, others) in few.iter().zip(others) {
