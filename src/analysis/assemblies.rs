@@ -9,49 +9,26 @@
 //! platforms; angles lie in (−π, π]. Nothing random enters. A mode keeps its name when it is
 //! followed from home ([`AssemblySolver::follow`]).
 
-mod along;
 mod answer;
-mod bound;
-mod carry;
-mod certificate;
-mod closest;
-mod coordinates;
-mod describe;
-mod elsewhere;
 mod family;
-mod fold;
 mod follow;
-mod generic;
-mod local;
-mod path;
-mod place;
-mod real;
 mod report;
-mod seed;
-mod simple;
-mod solutions;
-mod stances;
-mod starts;
-mod store;
-mod way;
+mod search;
+mod track;
 
 pub use follow::{Fold, Followed};
 pub use report::{
     AssembliesReport, Assembly, ClosestApproach, ComplexAssembly, Continuum, Fit, Named, PoseReport,
 };
-pub use solutions::GenericSolutions;
-pub use store::StoredError;
+pub use search::{GenericSolutions, StoredError};
 
 use crate::mechanism::{Configuration, Mechanism, turn_near};
 use crate::number::Number;
 use crate::solve::Watch;
 use crate::system::{Held, HeldPlatform, System};
 use answer::Question;
-use bound::KnownBound;
-use coordinates::C;
-use family::{Family, Member};
-use stances::Stance;
-use store::question;
+use family::{C, Family, KnownBound, Member, Stance};
+use search::question;
 
 /// How hard to search.
 #[derive(Clone, Debug, PartialEq)]
@@ -185,8 +162,8 @@ impl AssemblySolver {
         watch: &Watch,
     ) -> Result<Self, AssembliesError> {
         let family = Family::new(mechanism, held);
-        let bound = bound::known_bound(mechanism, &family).map(|b| b.count);
-        let generic = generic::search(
+        let bound = family::known_bound(mechanism, &family).map(|b| b.count);
+        let generic = search::search(
             &family,
             question(mechanism, &family),
             bound,
@@ -230,7 +207,7 @@ impl AssemblySolver {
         AssemblySolver {
             mechanism: mechanism.clone(),
             held: held.clone(),
-            bound: bound::known_bound(mechanism, &family),
+            bound: family::known_bound(mechanism, &family),
             stances: generic.stances(),
             family,
             generic,
@@ -296,7 +273,7 @@ impl AssemblySolver {
         let member = self.member(asked, held);
         let ends = match self.stances.is_empty() {
             true => None,
-            false => carry::carry(
+            false => track::carry(
                 &self.family,
                 &self.generic.member(),
                 &member,
@@ -304,7 +281,7 @@ impl AssemblySolver {
                 watch,
             ),
         };
-        let starts = |which| starts::solved(&self.family, &question.system, asked, which, watch);
+        let starts = |which| search::solved(&self.family, &question.system, asked, which, watch);
         question.answer(
             &self.generic,
             fit,

@@ -16,34 +16,16 @@
 //! manipulators, with working modes); Gosselin and Angeles 1990 (singularities); Bohigas, Manubens
 //! and Ros 2012 (boundaries by continuation).
 
-mod arrivals;
-mod asked;
 mod aspects;
 mod boundary;
-mod cells;
-mod condition;
-mod configurations;
-mod curves;
-mod edge;
-mod fill;
-mod filled;
-mod grid;
-mod join;
+mod flood;
 mod map;
-mod measure;
-mod pace;
-mod rates;
-mod report;
-mod seeds;
-mod spread;
-mod step;
-mod tile;
+mod problem;
 
 pub use boundary::{BoundaryCurve, BoundaryKind, Piece};
-pub use cells::{Cell, Cells};
-pub use report::{
-    AspectReport, AxisReport, BoundaryPoint, Conditioned, CoordinateReport, HeldReport, ModeReport,
-    WorkspaceReport,
+pub use map::{
+    AspectReport, AxisReport, BoundaryPoint, Cell, Cells, Conditioned, CoordinateReport,
+    HeldReport, ModeReport, WorkspaceReport,
 };
 
 use crate::linear::Factorable;
@@ -51,16 +33,10 @@ use crate::mechanism::{Configuration, PlatformPose};
 use crate::number::{Lanes, Packed};
 use crate::solve::{Newton, Pool, Watch};
 use crate::system::{Driven, Question};
-use asked::Asked;
 use boundary::Boundary;
-use fill::Fill;
-use filled::Filled;
-use grid::Grid;
+use flood::{Fill, Filled, Measure, Sown, Spread, Steps};
 use map::Map;
-use measure::Measure;
-use seeds::Sown;
-use spread::Spread;
-use step::Steps;
+use problem::{Asked, Grid};
 
 /// How to map a workspace.
 #[derive(Clone, Debug, PartialEq)]
@@ -120,7 +96,7 @@ pub fn cell_bytes(question: &Question, axes: usize) -> usize {
     let kept = 150 + 8 * joints + size_of::<PlatformPose<f64>>() * platforms;
     // beside it first the motions, later numbers and a row of the table
     let motions = 8 * question.held_coordinates().len() * unknowns;
-    let row = 65 + size_of::<cells::Head>() + 8 * (axes + unknowns);
+    let row = 65 + size_of::<map::Head>() + 8 * (axes + unknowns);
     kept + motions.max(row)
 }
 
@@ -147,7 +123,7 @@ pub fn workspace(
     let measure = Measure::new(&asked);
     let nodes = grid.spread(settings.searched);
     let sought = (&nodes[..], settings.starts, settings.seed);
-    let sown = seeds::sow(&asked, &grid, &measure, sought, (known, watch));
+    let sown = flood::sow(&asked, &grid, &measure, sought, (known, watch));
     let fill = Fill {
         asked: &asked,
         grid: &grid,
@@ -176,7 +152,7 @@ pub fn workspace(
     let mut report = map.report(&crossings);
     report.curves = curves;
     report.searched = [nodes.len(), settings.starts];
-    report.probed = [probed.len(), seeds::PROBES];
+    report.probed = [probed.len(), flood::PROBES];
     report.outside = sown.outside + outside;
     report.seed = settings.seed;
     report.interrupted = watch.is_stopped();
@@ -194,10 +170,10 @@ fn filled<T: Factorable + Packed + Send + Sync>(
     let steps: Pool<Steps<T>> = Pool::new(Steps::new(fill.asked));
     let mut reached = Spread::new(fill.grid);
     fill.spread(&mut reached, &steps, &sown.seeds, watch)?;
-    let more = seeds::probe(fill, &reached, &steps, (probed, seed), watch);
+    let more = flood::probe(fill, &reached, &steps, (probed, seed), watch);
     fill.spread(&mut reached, &steps, &more.seeds, watch)?;
     let mut filled = reached.filled(fill.grid);
-    let (aspects, together) = join::joined(fill, &steps, &filled, watch);
+    let (aspects, together) = aspects::joined(fill, &steps, &filled, watch);
     // what hangs together on a finer grid is of one mode
     filled.connect(together.into_iter());
     Ok((filled, aspects, more.outside))

@@ -29,11 +29,11 @@ fn input(mechanism: &Mechanism, name: &str, from: f64, to: f64) -> Driven {
 }
 
 /// Whether the work says that it was interrupted, and how much it found.
-type Work = dyn Fn(&Watch) -> (bool, usize);
+type Work<'w> = dyn Fn(&Watch) -> (bool, usize) + 'w;
 
 /// Stops the work at each of the first calls, at some later ones, and not at all. What is stopped at the first call has
 /// less than the whole, and the observer hears no more once it has answered.
-fn stopped(name: &str, work: &Work) {
+fn stopped(name: &str, work: &Work<'_>) {
     let (interrupted, whole) = work(&Watch::none());
     assert!(!interrupted && whole > 0, "{name}: {whole}");
     let calls = AtomicUsize::new(0);

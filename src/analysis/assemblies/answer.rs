@@ -1,23 +1,26 @@
 //! From the ends of the paths to the report.
 
+mod certificate;
+mod closest;
+mod describe;
+mod elsewhere;
+mod real;
+
+pub(super) use real::{named_joints, real_solution};
+
 use std::ops::Range;
 
 use super::Wanted;
-use super::bound::KnownBound;
-use super::carry::Ends;
-use super::coordinates::{C, Coordinates, size};
-use super::local::Local;
-use super::path::End;
-use super::real::{complex_key, key, order, real_solution, tidied, tidied_complex};
+use super::family::{C, Coordinates, KnownBound, size};
 use super::report::{AssembliesReport, ComplexAssembly, Continuum, Fit, Named};
-use super::simple::are_one;
-use super::solutions::GenericSolutions;
-use super::way::Way;
+use super::search::GenericSolutions;
+use super::track::{End, Ends, Local, Way, are_one};
 use crate::geometry::Quaternion;
 use crate::mechanism::{Configuration, Coordinate, Mechanism};
 use crate::number::Number;
 use crate::solve::Watch;
 use crate::system::{Held, HeldPlatform, System, Work};
+use real::{complex_key, key, order, tidied, tidied_complex};
 
 /// The end of the way, where the asked inputs are.
 pub(super) const END: C = C::new(1.0, 0.0);

@@ -4,9 +4,9 @@ mod walk;
 
 use rand::Rng;
 
-use super::cone::Cone;
+use super::cone::{Cone, combination};
 use super::{Character, MobilitySettings};
-use crate::linear::{norm, orthonormal};
+use crate::linear::orthonormal;
 use crate::solve::{Stage, Watch};
 use crate::system::{Neighbourhood, Tangent, independent_parts};
 use walk::{Directions, Seen, contains, explore, fills, same, there};
@@ -166,24 +166,6 @@ pub(super) fn is_regular(
         let direction = combination(&tangent.motions, rng);
         near.free_step(tangent, &direction, distance).is_ok()
     })
-}
-
-/// A random unit vector in the span of orthonormal vectors.
-pub(super) fn combination(basis: &[Vec<f64>], rng: &mut impl Rng) -> Vec<f64> {
-    let mut direction = vec![0.0; basis[0].len()];
-    while norm(&direction) < 0.1 {
-        direction.fill(0.0);
-        for motion in basis {
-            let weight = 2.0 * rng.random::<f64>() - 1.0;
-            direction
-                .iter_mut()
-                .zip(motion)
-                .for_each(|(d, m)| *d += weight * m);
-        }
-    }
-    let length = norm(&direction);
-    direction.iter_mut().for_each(|d| *d /= length);
-    direction
 }
 
 fn see(moved: &mut [bool], step: &[f64], clearly: f64) {

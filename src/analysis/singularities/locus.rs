@@ -2,7 +2,7 @@
 
 use serde::Serialize;
 
-use super::classify::{Classifier, Singularity};
+use super::classify::{Classifier, Kind, Singularity};
 use super::extents::extents;
 use super::outputs::{Coupled, coupled, outputs_of};
 use super::pins::pins;
@@ -61,27 +61,6 @@ pub struct Bound {
     pub from: f64,
     /// Its greatest value.
     pub to: f64,
-}
-
-/// Which matrix loses rank.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
-#[serde(rename_all = "snake_case")]
-pub enum Kind {
-    /// [J; H]: freedoms are gained while the inputs stand still.
-    Direct,
-    /// [J; O]: inputs move while the outputs stand still.
-    Inverse,
-}
-
-impl Kind {
-    /// Whether a singularity is of this kind, or of both.
-    pub(super) fn is_of(self, singularity: &Singularity) -> bool {
-        let own = match self {
-            Kind::Direct => 2,
-            Kind::Inverse => 1,
-        };
-        matches!(singularity.gosselin_angeles, Some(kind) if kind == own || kind == 3)
-    }
 }
 
 /// What a curve of singular configurations is in the box, or several that look alike there.

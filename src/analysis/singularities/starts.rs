@@ -5,8 +5,7 @@ use rand_pcg::Pcg64Mcg;
 
 use super::SingularitiesSettings;
 use super::arrival::Arrival;
-use super::classify::Classifier;
-use super::locus::Kind;
+use super::classify::{Classifier, Kind};
 use crate::mechanism::{Configuration, PlatformPose, turn_near};
 use crate::solve::{Stage, Watch};
 use crate::system::{

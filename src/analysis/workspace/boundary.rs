@@ -1,95 +1,19 @@
 //! What bounds modes and separates aspects: points on the edges of the grid, and curves through
 //! them.
 
-use serde::Serialize;
+mod curves;
+mod kinds;
 
-use super::asked::Asked;
-use super::curves::Tracer;
-use super::edge::{Edge, Met, Until, walk};
-use super::filled::{Filled, Link};
-use super::grid::Grid;
-use super::measure::Measure;
+pub use kinds::{BoundaryCurve, BoundaryKind, Piece};
+pub(super) use kinds::{Crossing, named};
+
+use super::flood::{Edge, Filled, Link, Measure, Met, Until, walk};
+use super::problem::{Asked, Grid};
 use crate::mechanism::Configuration;
 use crate::solve::{Continuation, Stage, Watch, each};
-use crate::system::{
-    Curve, Driven, Holdable, Lock, LocusCurve, LocusEnd, Region, Singular, settled,
-};
-
-/// What a boundary is.
-#[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize)]
-#[serde(rename_all = "snake_case")]
-pub enum BoundaryKind {
-    /// An inverse singularity (type 1 of Gosselin and Angeles): modes of the inverse problem meet.
-    Inverse,
-    /// A direct singularity (type 2): assemblies meet.
-    Direct,
-    /// Solutions meet that are neither, as both joints and coordinates of platforms are held.
-    Fold,
-    /// A joint is at its limit.
-    Limit {
-        /// Its name.
-        joint: String,
-        /// Whether it is the upper one.
-        upper: bool,
-    },
-}
-
-/// A boundary point on an edge of the grid, located to rounding.
-#[derive(Clone, Debug)]
-pub(super) struct Crossing {
-    pub sheet: usize,
-    pub direction: usize,
-    pub kind: Kind,
-    pub at: Configuration<f64>,
-    /// The part of the way from the sheet to its neighbour.
-    pub part: f64,
-    /// Whether the same point was met on another edge, at a node that they share.
-    pub again: bool,
-}
-
-/// A kind by numbers.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub(super) enum Kind {
-    Fold,
-    Direct,
-    Inverse,
-    Limit(usize, bool),
-}
-
-impl Kind {
-    /// Whether modes end there, or only aspects are parted.
-    pub fn ends_reach(self) -> bool {
-        matches!(self, Kind::Fold | Kind::Limit(..))
-    }
-}
-
-/// A boundary curve.
-#[derive(Clone, Debug, PartialEq, Serialize)]
-pub struct BoundaryCurve {
-    /// What it is.
-    pub kind: BoundaryKind,
-    /// Whether modes end there, or only aspects are parted.
-    pub ends_reach: bool,
-    /// The third mapped coordinate, rad or m, if there is one.
-    pub slice: Option<f64>,
-    /// How its first and its last point end it.
-    pub ends: [LocusEnd; 2],
-    /// Points: the first two mapped coordinates, rad or m.
-    pub points: Vec<[f64; 2]>,
-    /// The joints at its points, rad or m, in the order of the file.
-    pub joints: Vec<Vec<f64>>,
-    /// Which of its pieces bound which mode.
-    pub pieces: Vec<Piece>,
-}
-
-/// A piece of a curve on the boundary of a mode.
-#[derive(Clone, Debug, PartialEq, Serialize)]
-pub struct Piece {
-    /// The mode.
-    pub mode: usize,
-    /// Its points: the first two mapped coordinates, rad or m.
-    pub points: Vec<[f64; 2]>,
-}
+use crate::system::{Curve, Driven, Holdable, Lock, LocusCurve, Region, Singular, settled};
+use curves::Tracer;
+use kinds::Kind;
 
 pub(super) struct Boundary<'a> {
     pub asked: &'a Asked<'a>,
@@ -265,7 +189,7 @@ impl Boundary<'_> {
         let mapped = asked.axes.iter();
         let still = mapped.fold(asked.question.clone(), |q, axis| q.without(axis.coordinate));
         let tracer = Tracer {
-            boundary: self,
+            mode: self.mode,
             asked,
             kind,
             third,
@@ -321,21 +245,5 @@ impl Boundary<'_> {
                 tracer.all(&mut curve, &region, crossings, place, curves);
             }
         }
-    }
-}
-
-/// A kind by name.
-pub(super) fn named(asked: &Asked, kind: Kind) -> BoundaryKind {
-    let of_platforms = asked.held.iter().all(|h| !matches!(h, Holdable::Joint(_)));
-    match kind {
-        Kind::Direct => BoundaryKind::Direct,
-        Kind::Inverse => BoundaryKind::Inverse,
-        Kind::Fold if of_platforms => BoundaryKind::Inverse,
-        Kind::Fold if asked.holds(&asked.inputs) => BoundaryKind::Direct,
-        Kind::Fold => BoundaryKind::Fold,
-        Kind::Limit(joint, upper) => BoundaryKind::Limit {
-            joint: asked.mechanism.joints()[joint].name.clone(),
-            upper,
-        },
     }
 }
