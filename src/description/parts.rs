@@ -8,7 +8,7 @@ use std::ops::Range;
 use crate::algebra::Expression;
 
 /// A value and the bytes of the file where it stands.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, Default)]
 pub struct Spanned<T> {
     /// The value.
     pub value: T,
@@ -35,7 +35,7 @@ pub struct Entry {
 }
 
 /// A whole mechanism file. Everything is in the order of the file.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, Default, PartialEq)]
 pub struct Description {
     /// What the mechanism is called.
     pub name: Spanned<String>,
@@ -89,7 +89,7 @@ pub struct JointDescription {
 }
 
 /// A serial chain.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, Default, PartialEq)]
 pub struct ChainDescription {
     /// The frame it stands on; ground if not given.
     pub on: Option<Spanned<String>>,
@@ -139,7 +139,7 @@ pub enum Displacement {
 }
 
 /// A rigid body whose pose is unknown.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, Default, PartialEq)]
 pub struct PlatformDescription {
     /// Its pose in the home configuration.
     pub home: Vec<Displacement>,
@@ -220,6 +220,29 @@ impl<T> Spanned<T> {
     pub fn new(value: T, span: Range<usize>) -> Self {
         Self { value, span }
     }
+
+    /// `value`, which was made and not read from a file.
+    pub fn nowhere(value: T) -> Self {
+        Self::new(value, 0..0)
+    }
+}
+
+impl<T> Named<T> {
+    /// `value` under a name that was not read from a file.
+    pub fn new(name: impl Into<String>, value: T) -> Self {
+        let name = Spanned::nowhere(name.into());
+        Self { name, value }
+    }
+}
+
+/// The place of a name among named things.
+pub fn place_of<T>(named: &[Named<T>], name: &str) -> Option<usize> {
+    named.iter().position(|named| named.name.value == name)
+}
+
+/// The names of named things.
+pub fn names_of<T>(named: &[Named<T>]) -> impl Iterator<Item = &str> {
+    named.iter().map(|named| named.name.value.as_str())
 }
 
 impl Entry {
@@ -231,12 +254,43 @@ impl Entry {
     }
 
     /// The 0 of an entry that is not given.
-    pub(super) fn absent() -> Self {
+    pub(crate) fn absent() -> Self {
         Self::number(0.0, 0..0)
     }
 }
 
+impl From<Expression> for Entry {
+    /// An entry that was not read from a file.
+    fn from(expression: Expression) -> Self {
+        let span = 0..0;
+        Self { expression, span }
+    }
+}
+
+impl Row {
+    /// A row that was not read from a file.
+    pub fn new(alpha: Entry, a: Entry, d: Entry, theta: Entry) -> Self {
+        let span = 0..0;
+        Self {
+            alpha,
+            a,
+            d,
+            theta,
+            span,
+        }
+    }
+}
+
 impl ChainDescription {
+    /// A chain without rows: a frame of its own at a displacement from another one.
+    pub fn frame(on: &str, base: Vec<Displacement>) -> Self {
+        Self {
+            on: (on != GROUND).then(|| Spanned::nowhere(on.to_owned())),
+            base,
+            ..Self::default()
+        }
+    }
+
     /// The frame the chain stands on.
     pub fn stands_on(&self) -> &str {
         self.on.as_ref().map_or(GROUND, |frame| &frame.value)
@@ -246,56 +300,31 @@ impl ChainDescription {
 /// The name of the fixed frame.
 pub const GROUND: &str = "ground";
 
-impl Convention {
-    /// Both conventions.
-    pub const ALL: [Self; 2] = [Self::Modified, Self::Standard];
+/// An enumeration of words of the file: all of them, how each is written, and the one of a word.
+macro_rules! words {
+    ($($part:ident: $($word:ident),+;)+) => {
+        $(impl $part {
+            /// All of them.
+            pub const ALL: [Self; [$(Self::$word),+].len()] = [$(Self::$word),+];
 
-    /// How it is written in a file.
-    pub fn word(self) -> &'static str {
-        match self {
-            Self::Modified => "Modified",
-            Self::Standard => "Standard",
-        }
-    }
+            /// How it is written in a file.
+            pub fn word(self) -> &'static str {
+                match self {
+                    $(Self::$word => stringify!($word)),+
+                }
+            }
+        })+
+    };
 }
+pub(super) use words;
 
-impl Role {
-    /// How it is written in a file.
-    pub fn word(self) -> &'static str {
-        match self {
-            Self::Actuated => "Actuated",
-            Self::Passive => "Passive",
-        }
-    }
+words! {
+    Convention: Modified, Standard;
+    Role: Passive, Actuated;
+    ClosureKind: Spherical, Revolute, Prismatic, Universal, Cylindrical, Planar, Rigid, Distance;
 }
 
 impl ClosureKind {
-    /// Every kind.
-    pub const ALL: [Self; 8] = [
-        Self::Spherical,
-        Self::Revolute,
-        Self::Prismatic,
-        Self::Universal,
-        Self::Cylindrical,
-        Self::Planar,
-        Self::Rigid,
-        Self::Distance,
-    ];
-
-    /// How it is written in a file.
-    pub fn word(self) -> &'static str {
-        match self {
-            Self::Spherical => "Spherical",
-            Self::Revolute => "Revolute",
-            Self::Prismatic => "Prismatic",
-            Self::Universal => "Universal",
-            Self::Cylindrical => "Cylindrical",
-            Self::Planar => "Planar",
-            Self::Rigid => "Rigid",
-            Self::Distance => "Distance",
-        }
-    }
-
     /// How many independent equations it sets between two free bodies.
     pub fn equations(self) -> usize {
         match self {
