@@ -235,16 +235,6 @@ impl<T> Named<T> {
     }
 }
 
-/// The place of a name among named things.
-pub fn place_of<T>(named: &[Named<T>], name: &str) -> Option<usize> {
-    named.iter().position(|named| named.name.value == name)
-}
-
-/// The names of named things.
-pub fn names_of<T>(named: &[Named<T>]) -> impl Iterator<Item = &str> {
-    named.iter().map(|named| named.name.value.as_str())
-}
-
 impl Entry {
     /// The entry that is a plain number.
     pub fn number(value: f64, span: Range<usize>) -> Self {
