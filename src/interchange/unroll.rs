@@ -18,7 +18,7 @@ use sum::sum;
 use super::names::Names;
 use super::problem::ImportProblemKind;
 use super::remark::Remark;
-use super::tree::{Attachment, Body, Coupling, Joint, Motion, Tree};
+use super::tree::{Attachment, Coupling, Joint, Motion, Tree};
 use crate::description::{
     ChainDescription, ClosureDescription, Convention, Description, Displacement, Entry, GROUND,
     JointDescription, Named, PlatformDescription, Role, Row, Spanned,
@@ -123,16 +123,10 @@ fn is_identity(pose: &Pose<f64>) -> bool {
     Displacement::of_pose(pose).is_empty()
 }
 
-fn floats(body: &Body) -> Option<&Joint> {
-    let mut joints = body.joints.iter();
-    joints.find(|joint| matches!(joint.motion, Motion::Ball | Motion::Free))
-}
-
 impl Unroller<'_> {
     fn variables(&mut self) {
-        for joint in self.tree.bodies.iter().flat_map(|body| &body.joints) {
-            let moves = matches!(joint.motion, Motion::Turn | Motion::Slide);
-            if moves && !self.leaders.contains_key(&joint.name) {
+        for joint in self.tree.joints() {
+            if !joint.motion.floats() && !self.leaders.contains_key(&joint.name) {
                 let variable = self.names.variable(&joint.name);
                 self.variables.insert(joint.name.clone(), variable);
             }
@@ -171,7 +165,7 @@ impl Unroller<'_> {
     fn platforms(&mut self) -> Vec<Floating> {
         let mut platforms = Vec::new();
         for (i, body) in self.tree.bodies.iter().enumerate() {
-            if floats(body).is_some() {
+            if body.floats() {
                 let home = body.home.unwrap_or(self.zero[i]);
                 let platform = PlatformDescription {
                     home: Displacement::of_pose(&home),
@@ -188,18 +182,18 @@ impl Unroller<'_> {
         let tree = self.tree;
         let mut below: Vec<Vec<usize>> = vec![Vec::new(); tree.bodies.len()];
         for (i, body) in tree.bodies.iter().enumerate() {
-            let turns = !body.joints.is_empty() && floats(body).is_none();
+            let turns = !body.joints.is_empty() && !body.floats();
             if let (true, Some(parent)) = (turns, body.parent) {
                 below[self.carriers[parent].0].push(i);
             }
         }
-        let is_chain = |body: usize| body != 0 && floats(&tree.bodies[body]).is_none();
+        let is_chain = |body: usize| body != 0 && !tree.bodies[body].floats();
         for first in 0..tree.bodies.len() {
             let body = &tree.bodies[first];
             let Some(parent) = body.parent else { continue };
             let parent = self.carriers[parent].0;
             let goes_on = is_chain(parent) && below[parent].len() == 1;
-            if body.joints.is_empty() || floats(body).is_some() || goes_on {
+            if body.joints.is_empty() || body.floats() || goes_on {
                 continue;
             }
             let mut links = vec![first];
@@ -330,15 +324,14 @@ impl Unroller<'_> {
     /// The joint variables: those of joints that lead, within the limits of all that follow.
     fn joints(&self) -> Vec<Named<JointDescription>> {
         let mut joints = Vec::new();
-        let all = || self.tree.bodies.iter().flat_map(|body| &body.joints);
-        for joint in all() {
+        for joint in self.tree.joints() {
             let Some(variable) = self.variables.get(&joint.name) else {
                 continue;
             };
             let mut limits = joint.limits;
             let mut actuated = joint.actuated;
             let mut angle = joint.motion == Motion::Turn;
-            for follower in all() {
+            for follower in self.tree.joints() {
                 let coupling = self.leaders.get(&follower.name);
                 let Some(coupling) = coupling.filter(|c| c.leader == joint.name) else {
                     continue;

@@ -1,6 +1,6 @@
 //! Frames with names, and the closures between them.
 
-use super::{Closures, Floating, Placed, Platforms, Unroller, floats, is_identity, sum};
+use super::{Closures, Floating, Placed, Platforms, Unroller, is_identity, sum};
 use crate::description::{
     ChainDescription, ClosureDescription, ClosureKind, Displacement, Entry, GROUND, Named, Spanned,
     place_of,
@@ -106,18 +106,13 @@ impl Unroller<'_> {
     fn balls(&self) -> Vec<Loop> {
         let bodies = self.tree.bodies.iter().enumerate();
         let balls = bodies.filter_map(|(i, body)| {
-            let ball = floats(body).filter(|joint| joint.motion == Motion::Ball)?;
+            let ball = body.joints.iter().find(|joint| joint.motion.floats())?;
             let point = Pose::translation(ball.point);
-            let sides = [(body.parent?, body.pose * point), (i, point)];
-            let sides = [0, 1].map(|side| Attachment {
-                body: sides[side].0,
-                frame: format!("{}_{}", ball.name, side + 1),
-                pose: sides[side].1,
-            });
-            Some(Loop {
+            let ends = [(body.parent?, body.pose * point), (i, point)];
+            (ball.motion == Motion::Ball).then(|| Loop {
                 name: ball.name.clone(),
                 kind: ClosureKind::Spherical,
-                sides,
+                sides: Loop::sides(&ball.name, ends),
                 length: None,
             })
         });
