@@ -7,6 +7,7 @@ use thiserror::Error;
 use super::{
     ClosureKind, Convention, Displacement, Entry, GROUND, Named, Problem, Role, Spanned, reader,
 };
+use crate::algebra::words;
 
 /// A whole file of joint axes. Everything is in the order of the file.
 #[derive(Debug, Clone, PartialEq)]
@@ -48,15 +49,16 @@ pub struct AxisDescription {
     pub span: Range<usize>,
 }
 
-/// How a joint moves of which the axis is known.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
-pub enum AxisKind {
-    /// It turns about its axis.
-    Revolute,
-    /// It slides along its axis, which has a direction only.
-    Prismatic,
-    /// A ball, which has a centre only. It is always cut.
-    Spherical,
+words! {
+    /// How a joint moves of which the axis is known.
+    AxisKind {
+        /// It turns about its axis.
+        Revolute = "Revolute",
+        /// It slides along its axis, which has a direction only.
+        Prismatic = "Prismatic",
+        /// A ball, which has a centre only. It is always cut.
+        Spherical = "Spherical",
+    }
 }
 
 /// How the place of an axis is given: three coordinates in m, or a direction of any length.
@@ -80,8 +82,6 @@ impl AxisKind {
         }
     }
 }
-
-super::parts::words! { AxisKind: Revolute, Prismatic, Spherical; }
 
 /// What is wrong with axes whose form is right. Lengths are in m, angles in rad.
 #[derive(Debug, Clone, Error, PartialEq)]

@@ -5,7 +5,7 @@
 use std::fmt::{self, Display, Formatter};
 use std::ops::Range;
 
-use crate::algebra::Expression;
+use crate::algebra::{Expression, words};
 
 /// A value and the bytes of the file where it stands.
 #[derive(Debug, Clone, Default)]
@@ -57,22 +57,42 @@ pub struct Description {
     pub closed_forms: Vec<Named<ClosedFormDescription>>,
 }
 
-/// Which of the two ways to attach frames a Denavit–Hartenberg table uses.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
-pub enum Convention {
-    /// Craig: T = Rx(alpha) Tx(a) Rz(theta) Tz(d).
-    Modified,
-    /// Denavit and Hartenberg: T = Rz(theta) Tz(d) Tx(a) Rx(alpha).
-    Standard,
-}
+words! {
+    /// Which of the two ways to attach frames a Denavit–Hartenberg table uses.
+    Convention {
+        /// Craig: T = Rx(alpha) Tx(a) Rz(theta) Tz(d).
+        Modified = "Modified",
+        /// Denavit and Hartenberg: T = Rz(theta) Tz(d) Tx(a) Rx(alpha).
+        Standard = "Standard",
+    }
 
-/// Whether a joint is driven.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
-pub enum Role {
-    /// Driven: its value is an input.
-    Actuated,
-    /// Not driven: its value follows.
-    Passive,
+    /// Whether a joint is driven.
+    Role {
+        /// Driven: its value is an input.
+        Actuated = "Actuated",
+        /// Not driven: its value follows.
+        Passive = "Passive",
+    }
+
+    /// What joint is put back where the mechanism was broken. Axes are the z axes of the frames.
+    ClosureKind {
+        /// The origins coincide.
+        Spherical = "Spherical",
+        /// Origins and axes coincide.
+        Revolute = "Revolute",
+        /// Axes and orientations coincide, one frame slides along the axis.
+        Prismatic = "Prismatic",
+        /// Origins coincide and the axes are perpendicular.
+        Universal = "Universal",
+        /// The axes coincide.
+        Cylindrical = "Cylindrical",
+        /// The xy planes coincide.
+        Planar = "Planar",
+        /// The frames coincide.
+        Rigid = "Rigid",
+        /// The origins have a given distance.
+        Distance = "Distance",
+    }
 }
 
 /// A joint variable.
@@ -145,27 +165,6 @@ pub struct PlatformDescription {
     pub home: Vec<Displacement>,
     /// Frames fixed in it.
     pub frames: Vec<Named<Vec<Displacement>>>,
-}
-
-/// What joint is put back where the mechanism was broken. Axes are the z axes of the frames.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
-pub enum ClosureKind {
-    /// The origins coincide.
-    Spherical,
-    /// Origins and axes coincide.
-    Revolute,
-    /// Axes and orientations coincide, one frame slides along the axis.
-    Prismatic,
-    /// Origins coincide and the axes are perpendicular.
-    Universal,
-    /// The axes coincide.
-    Cylindrical,
-    /// The xy planes coincide.
-    Planar,
-    /// The frames coincide.
-    Rigid,
-    /// The origins have a given distance.
-    Distance,
 }
 
 /// A broken joint, put back between two frames.
@@ -289,30 +288,6 @@ impl ChainDescription {
 
 /// The name of the fixed frame.
 pub const GROUND: &str = "ground";
-
-/// An enumeration of words of the file: all of them, how each is written, and the one of a word.
-macro_rules! words {
-    ($($part:ident: $($word:ident),+;)+) => {
-        $(impl $part {
-            /// All of them.
-            pub const ALL: [Self; [$(Self::$word),+].len()] = [$(Self::$word),+];
-
-            /// How it is written in a file.
-            pub fn word(self) -> &'static str {
-                match self {
-                    $(Self::$word => stringify!($word)),+
-                }
-            }
-        })+
-    };
-}
-pub(super) use words;
-
-words! {
-    Convention: Modified, Standard;
-    Role: Passive, Actuated;
-    ClosureKind: Spherical, Revolute, Prismatic, Universal, Cylindrical, Planar, Rigid, Distance;
-}
 
 impl ClosureKind {
     /// How many independent equations it sets between two free bodies.

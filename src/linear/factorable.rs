@@ -54,28 +54,16 @@ impl<T> SparseStep<T> for DenseOnly {
 }
 
 #[cfg(feature = "sparse")]
-mod real_and_complex {
-    use super::{Complex, Factorable};
-    use crate::linear::sparse::SparseNormal;
+type Large<T> = super::SparseNormal<T>;
+#[cfg(not(feature = "sparse"))]
+type Large<T> = <Dual<T> as Factorable>::Sparse;
 
-    impl Factorable for f64 {
-        type Sparse = SparseNormal<f64>;
-    }
-    impl Factorable for Complex<f64> {
-        type Sparse = SparseNormal<Complex<f64>>;
-    }
+impl Factorable for f64 {
+    type Sparse = Large<f64>;
 }
 
-#[cfg(not(feature = "sparse"))]
-mod real_and_complex {
-    use super::{Complex, DenseOnly, Factorable};
-
-    impl Factorable for f64 {
-        type Sparse = DenseOnly;
-    }
-    impl Factorable for Complex<f64> {
-        type Sparse = DenseOnly;
-    }
+impl Factorable for Complex<f64> {
+    type Sparse = Large<Complex<f64>>;
 }
 
 impl<T: Field> Factorable for Dual<T> {
