@@ -6,6 +6,7 @@ mod check;
 mod compare;
 mod convert;
 mod export;
+mod format;
 mod formulas;
 mod frames;
 mod import;

@@ -16,9 +16,9 @@ mod urdf;
 mod xml;
 
 pub use cut::tree_of;
-pub use import::{ImportError, ImportSettings, Imported, WrongFile, import, load};
+pub use import::{ImportError, ImportSettings, Imported, import, load};
 pub use mjcf::write as write_mjcf;
-pub use problem::{ImportProblem, ImportProblemKind};
+pub use problem::{ImportProblem, ImportProblemKind, WrongFile};
 pub use remark::Remark;
 pub use tree::{Attachment, Body, Coupling, Extent, Joint, Loop, Motion, Tree};
 pub use urdf::write as write_urdf;

@@ -122,7 +122,7 @@ pub trait Number:
 
 /// `+=`, `-=` and `*=` by the operators of a number.
 macro_rules! assigning {
-    ($(<$t:ident>)? $number:ty) => {
+    ($number:ty $(, $t:ident)?) => {
         impl$(<$t: crate::number::Number>)? std::ops::AddAssign for $number {
             fn add_assign(&mut self, other: Self) {
                 *self = *self + other;

@@ -3,7 +3,7 @@
 mod singular;
 
 use crate::mechanism::{Configuration, Mechanism};
-use crate::solve::{Equations, Newton, Report, Stop};
+use crate::solve::{Equations, Newton, Report, Stop, Watch};
 use crate::system::{Attempt, Freedoms, Question, QuestionError, Search, approach, check_count};
 pub use crate::system::{Count, Gap};
 
@@ -93,6 +93,8 @@ pub struct AssemblyReport {
     pub idle: usize,
     /// What is held beside what the mechanism allows.
     pub count: Count,
+    /// Whether the search was stopped before all starts were made.
+    pub interrupted: bool,
 }
 
 /// Finds the assembled configuration near the start of a question.
@@ -105,16 +107,18 @@ pub struct AssemblyReport {
 pub fn assemble(
     question: &Question,
     settings: &AssemblySettings,
+    watch: &Watch,
 ) -> Result<AssemblyReport, QuestionError> {
     let count = check_count(question)?;
     let mut search = Search::new(question, &settings.newton);
-    let found = search.run(settings.restarts, settings.seed);
+    let found = search.run(settings.restarts, settings.seed, watch);
     let reporter = Reporter {
         mechanism: question.mechanism(),
         settings,
         search,
         count,
         restarts: found.restarts,
+        interrupted: watch.is_stopped(),
     };
     Ok(if found.assembles() {
         reporter.assembled(found.attempt)
@@ -130,6 +134,7 @@ struct Reporter<'a> {
     search: Search<'a>,
     count: Count,
     restarts: usize,
+    interrupted: bool,
 }
 
 impl Reporter<'_> {
@@ -148,6 +153,7 @@ impl Reporter<'_> {
             gaps: Gap::of(self.mechanism, &attempt.at),
             idle: 0,
             count: self.count,
+            interrupted: self.interrupted,
             configuration: self.by_limits(attempt.at),
         }
     }
@@ -188,7 +194,10 @@ impl Reporter<'_> {
 
     fn unassembled(&self, attempt: Attempt) -> AssemblyReport {
         let settled = attempt.report.stop == Stop::Minimum;
-        let (at, local_minimum) = approach(self.search.system(), &attempt.at);
+        let (at, local_minimum) = match self.interrupted {
+            false => approach(self.search.system(), &attempt.at),
+            true => (attempt.at.clone(), false),
+        };
         let system = self.search.system();
         let size = system.residual(&at, &mut system.work());
         let attempt = Attempt {
@@ -207,7 +216,7 @@ impl Reporter<'_> {
                 worst
             }
         });
-        let outcome = if settled || local_minimum {
+        let outcome = if !self.interrupted && (settled || local_minimum) {
             Outcome::CannotBeAssembled {
                 worst,
                 local_minimum,

@@ -17,8 +17,8 @@ mod starts;
 
 pub use crate::system::LocusEnd;
 pub use along::{AlongReport, Crossing, Ending, along};
-pub use classify::{Distances, Movement, Resisted, Singularity, Zlatanov};
-pub use locus::{Bound, Kind, Locus, LocusReport, loci};
+pub use classify::{Distances, Kind, Movement, Resisted, Singularity, Zlatanov};
+pub use locus::{Bound, Locus, LocusReport, loci};
 pub use outputs::{Coupled, default_outputs, inputs_of};
 pub use projected::Shape;
 
@@ -26,7 +26,7 @@ use serde::Serialize;
 
 use crate::linear::RANK_TOLERANCE;
 use crate::mechanism::{Configuration, Mechanism};
-use crate::solve::{Continuation, Newton};
+use crate::solve::{Continuation, Newton, Watch};
 use crate::system::{
     Analysed, Holdable, Lock, Question, QuestionError, WidestGap, check_angles, check_count, close,
     too_large,
@@ -114,13 +114,19 @@ fn output_names(mechanism: &Mechanism, outputs: &[Lock]) -> Vec<String> {
 pub fn singularities(
     question: &Question,
     settings: &SingularitiesSettings,
+    watch: &Watch,
 ) -> Result<Analysed<SingularitiesReport>, QuestionError> {
     let mechanism = question.mechanism();
-    if let Some(unknowns) = too_large(mechanism) {
-        return Ok(Analysed::TooLarge { unknowns });
+    if let Some(large) = too_large(mechanism) {
+        return Ok(Analysed::TooLarge(large));
     }
     check_count(question)?;
-    let closed = match close(question, &settings.newton, settings.restarts, settings.seed) {
+    let closed = match close(
+        question,
+        &settings.newton,
+        (settings.restarts, settings.seed),
+        watch,
+    ) {
         Ok(closed) => closed,
         Err(open) => return Ok(Analysed::NotClosed(open)),
     };

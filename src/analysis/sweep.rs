@@ -23,7 +23,7 @@ use std::ops::ControlFlow;
 use serde::Serialize;
 
 use crate::mechanism::{Configuration, Mechanism};
-use crate::solve::{Continuation, Stray};
+use crate::solve::{Continuation, Stage, Stray, Watch};
 use crate::system::{Curve, Driven, Event, Held, Walk};
 use met::Record;
 use rows::Rows;
@@ -67,8 +67,11 @@ pub struct Row<'a> {
     pub special: Option<&'a MetKind>,
 }
 
-/// What takes the rows as they come; it may end the motion.
-pub type Sink<'s> = dyn FnMut(&Row) -> ControlFlow<()> + 's;
+/// What takes the rows as they come.
+pub type Sink<'s> = dyn FnMut(&Row) + 's;
+
+/// The same inside: it may end the motion.
+type Flow<'s> = dyn FnMut(&Row) -> ControlFlow<()> + 's;
 
 /// An input of a sweep.
 #[derive(Clone, Debug, PartialEq, Serialize)]
@@ -107,7 +110,7 @@ pub enum Ending {
     OutsideLimits,
     /// The curve ends in a point that no sure step leads to.
     Lost,
-    /// Whoever took the rows had enough.
+    /// It was stopped, or took too many steps.
     Stopped,
 }
 
@@ -140,6 +143,9 @@ pub struct SweepReport {
     pub length: f64,
     /// The characteristic length in m.
     pub characteristic_length: f64,
+    /// Whether the work was stopped before the motion ended.
+    #[serde(default, skip_serializing_if = "std::ops::Not::not")]
+    pub interrupted: bool,
 }
 
 /// Moves the inputs from `start`, assembled where their segment begins, to its end.
@@ -153,7 +159,22 @@ pub fn sweep(
     start: &Configuration<f64>,
     settings: &SweepSettings,
     sink: &mut Sink,
+    watch: &Watch,
 ) -> SweepReport {
+    let steps = Some(settings.steps);
+    let mut reached = 0;
+    let sink: &mut Flow = &mut |row| {
+        sink(row);
+        reached = row.step.unwrap_or(reached);
+        match watch.stops(Stage::Motion, reached, steps) {
+            true => ControlFlow::Break(()),
+            false => ControlFlow::Continue(()),
+        }
+    };
+    let interrupted = |report: SweepReport| SweepReport {
+        interrupted: watch.is_stopped(),
+        ..report
+    };
     let mut curve = Curve::along(mechanism, held, inputs.to_vec());
     let mut record = Record::new(mechanism, inputs);
     let mut start = start.clone();
@@ -178,7 +199,7 @@ pub fn sweep(
     let place = if rate < 0.0 { place.reversed() } else { place };
     let mut rows = Rows::new(mechanism, held, inputs, &place, settings);
     if rows.first(&place, sink).is_break() {
-        return record.report(Ending::Stopped, 1, 0.0);
+        return interrupted(record.report(Ending::Stopped, 1, 0.0));
     }
     if rate.abs() < 1e-9 {
         record.meet(&curve, &place, &Event::Fold);
@@ -186,6 +207,10 @@ pub fn sweep(
     }
     let mut walk = Walk::new(mechanism, &curve, place, method.clone());
     let ending = 'walk: loop {
+        let done = curve.part(&walk.place().at).clamp(0.0, 1.0) * settings.steps as f64;
+        if watch.stops(Stage::Motion, done as usize, steps) {
+            break Ending::Stopped;
+        }
         let leg = match walk.advance(&mut curve) {
             Ok(leg) => leg,
             Err(Stray::TooShort | Stray::NotClosed | Stray::Singular) => break Ending::Lost,
@@ -232,5 +257,5 @@ pub fn sweep(
             break Ending::Lost;
         }
     };
-    record.report(ending, rows.count(), walk.gone())
+    interrupted(record.report(ending, rows.count(), walk.gone()))
 }

@@ -9,7 +9,7 @@ use serde::Serialize;
 
 use crate::linear::RANK_TOLERANCE;
 use crate::mechanism::{Frame, Mechanism};
-use crate::solve::Newton;
+use crate::solve::{Newton, Watch};
 use crate::system::{
     Analysed, Drive, Holdable, Motion, Neighbourhood, Question, QuestionError, Tangent, Unknown,
     WidestGap, check_angles, check_count, close, moving, too_large,
@@ -47,6 +47,8 @@ impl Default for VelocitySettings {
 /// in s.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct VelocityReport {
+    /// The mechanism's name.
+    pub mechanism: String,
     /// What is held, with its rate and acceleration.
     pub inputs: Vec<Rate>,
     /// Every joint; rates are `None` where nothing determines them.
@@ -212,13 +214,19 @@ pub fn velocity(
     question: &Question,
     drive: &Drive,
     settings: &VelocitySettings,
+    watch: &Watch,
 ) -> Result<Analysed<VelocityReport>, QuestionError> {
     let mechanism = question.mechanism();
-    if let Some(unknowns) = too_large(mechanism) {
-        return Ok(Analysed::TooLarge { unknowns });
+    if let Some(large) = too_large(mechanism) {
+        return Ok(Analysed::TooLarge(large));
     }
     check_count(question)?;
-    let closed = match close(question, &settings.newton, settings.restarts, settings.seed) {
+    let closed = match close(
+        question,
+        &settings.newton,
+        (settings.restarts, settings.seed),
+        watch,
+    ) {
         Ok(closed) => closed,
         Err(open) => return Ok(Analysed::NotClosed(open)),
     };
@@ -279,6 +287,7 @@ pub fn velocity(
         acceleration: drive.accelerations[i],
     });
     Ok(Analysed::Closed(VelocityReport {
+        mechanism: mechanism.name().to_owned(),
         inputs: inputs.collect(),
         joints,
         frames,

@@ -5,9 +5,9 @@ use std::path::PathBuf;
 use clap::{Args, ValueEnum};
 use linkwork::analysis::assembly::AssemblySettings;
 use linkwork::interchange::{Remark, tree_of, write_mjcf, write_urdf};
-use linkwork::output::closing;
+use linkwork::output::{Report, closing, text};
 use linkwork::solve::Newton;
-use linkwork::system::{Analysed, close};
+use linkwork::system::close;
 
 use super::asked::Asked;
 use super::source::Source;
@@ -53,11 +53,10 @@ impl Export {
         let closed = match closed {
             Ok(closed) => closed,
             Err(open) => {
-                let open: Analysed<()> = Analysed::NotClosed(open);
-                let (sentence, _) = closing::text(&loaded.mechanism, &open, |_, ()| String::new());
+                let open = text::render(&open.document());
                 return Ok(Answer {
                     data: String::new(),
-                    remarks: loaded.warnings() + &sentence + "Nothing is written.\n",
+                    remarks: loaded.warnings() + &open + "Nothing is written.\n",
                     yes: false,
                 });
             }

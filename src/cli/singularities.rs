@@ -224,9 +224,10 @@ impl Singularities {
         };
         let middles = sides.iter().map(|side| 0.5 * (side.from + side.to));
         let (question, held) = self.holding(mechanism, "--locus", &self.locus, middles)?;
-        if let Some(unknowns) = too_large(mechanism) {
+        if let Some(large) = too_large(mechanism) {
             return Err(Refusal(format!(
-                "error: the mechanism has {unknowns} unknowns, too many for loci: ask about a part of it\n"
+                "error: the mechanism has {} unknowns, too many for loci: ask about a part of it\n",
+                large.unknowns
             )));
         }
         let inputs = self.inputs(&question)?;

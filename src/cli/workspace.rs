@@ -236,9 +236,10 @@ impl Workspace {
             let held = question.hold(&assignment.name, &middle);
             question = held.map_err(|error| refusal(&error, Some(given)))?;
         }
-        if let Some(unknowns) = too_large(mechanism) {
+        if let Some(large) = too_large(mechanism) {
             return Err(Refusal(format!(
-                "error: the mechanism has {unknowns} unknowns, too many for a map: ask about a part of it\n"
+                "error: the mechanism has {} unknowns, too many for a map: ask about a part of it\n",
+                large.unknowns
             )));
         }
         // roll and yaw turn about one axis there, and do not tell a map

@@ -4,7 +4,7 @@ use std::path::Path;
 
 use super::mjcf::{self, Files};
 use super::names::fit;
-use super::problem::{ImportProblem, ImportProblemKind};
+use super::problem::{ImportProblem, ImportProblemKind, WrongFile};
 use super::remark::Remark;
 use super::tree::Tree;
 use super::unroll::{Unrolled, describe};
@@ -50,15 +50,6 @@ pub enum ImportError {
     Unreadable(LoadError),
     /// Something is wrong with what it says.
     Wrong(WrongFile),
-}
-
-/// A file, those it includes, and everything that is wrong with them.
-#[derive(Clone, Debug, PartialEq)]
-pub struct WrongFile {
-    /// Names and texts; the first is the file that was asked for.
-    pub files: Vec<(String, String)>,
-    /// What is wrong, with the file it is wrong in.
-    pub problems: Vec<(usize, ImportProblem)>,
 }
 
 impl ImportError {

@@ -15,6 +15,15 @@ pub struct ImportProblem {
     pub span: Option<Range<usize>>,
 }
 
+/// A file, those it includes, and everything that is wrong with them.
+#[derive(Clone, Debug, PartialEq)]
+pub struct WrongFile {
+    /// Names and texts; the first is the file that was asked for.
+    pub files: Vec<(String, String)>,
+    /// What is wrong, with the file it is wrong in.
+    pub problems: Vec<(usize, ImportProblem)>,
+}
+
 /// What can be wrong, in one line each.
 #[derive(Clone, Debug, Error, PartialEq)]
 #[allow(missing_docs)]

@@ -73,7 +73,7 @@ impl<T: Number> Neg for Dual<T> {
     }
 }
 
-assigning!(<T> Dual<T>);
+assigning!(Dual<T>, T);
 
 impl<T: Number> Number for Dual<T> {
     const REAL: bool = T::REAL;

@@ -10,9 +10,7 @@ use super::closing;
 use super::json::document;
 use super::layout::indented;
 use super::quantity::{number, quantity};
-use crate::analysis::assemblies::{
-    AssembliesReport, ClosestApproach, Continuum, Fit, Fold, Progress,
-};
+use crate::analysis::assemblies::{AssembliesReport, ClosestApproach, Continuum, Fit, Fold};
 use crate::description::count;
 use crate::description::listed;
 use crate::mechanism::{Coordinate, Mechanism};
@@ -200,23 +198,6 @@ fn nearest(mechanism: &Mechanism, closest: &ClosestApproach) -> String {
         );
     }
     text
-}
-
-/// `searching: 37 solutions after 480 seeds and 5 loops`
-pub fn progress(now: &Progress) -> String {
-    if now.followed > 0 {
-        return format!(
-            "following: {} to the inputs, {} begun so far, some again\n",
-            count(now.found, "path"),
-            now.followed
-        );
-    }
-    format!(
-        "searching: {} after {} and {}\n",
-        count(now.found, "solution"),
-        count(now.seeds, "seed"),
-        count(now.loops, "loop")
-    )
 }
 
 /// The report as JSON: lengths in m, angles in rad, every number with all its digits.

@@ -6,7 +6,7 @@ use std::sync::Arc;
 use num_bigint::BigInt;
 use num_integer::Integer;
 use num_rational::{BigRational, Ratio};
-use num_traits::{CheckedAdd, One, Zero};
+use num_traits::{CheckedAdd, Zero};
 
 use super::super::Function;
 use super::{Trigonometric, constants};
@@ -236,7 +236,7 @@ impl Key {
             coefficient = -coefficient;
         }
         let key = Key {
-            powers: merged(&self.powers, &other.powers, |p, q| p.checked_add(*q))?,
+            powers: merged(&self.powers, &other.powers, |p, q| i32::checked_add(*p, *q))?,
             root,
             imaginary: self.imaginary != other.imaginary,
             wave,

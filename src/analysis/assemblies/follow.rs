@@ -3,13 +3,10 @@
 use serde::Serialize;
 
 use super::AssembliesError;
-use super::along::polish;
-use super::coordinates::C;
-use super::family::{Family, Member};
-use super::fold::located;
-use super::real::{named_joints, real_solution};
+use super::answer::{named_joints, real_solution};
+use super::family::{C, Family, Member};
 use super::report::Named;
-use super::way::Way;
+use super::track::{Way, located, polish};
 use crate::mechanism::{Configuration, Mechanism};
 use crate::number::Number;
 use crate::solve::{Arrival, Homotopy, Stages, Tracker};

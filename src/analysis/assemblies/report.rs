@@ -202,6 +202,9 @@ pub struct AssembliesReport {
     pub independent_rows: Option<(usize, usize)>,
     /// Where there is no real assembly: the best that can be done.
     pub closest: Option<ClosestApproach>,
+    /// Whether the work was stopped before it was done: assemblies may be missing.
+    #[serde(default, skip_serializing_if = "std::ops::Not::not")]
+    pub interrupted: bool,
 }
 
 /// A complex solution that is not real.
@@ -221,6 +224,14 @@ pub struct ComplexAssembly {
 impl AssembliesReport {
     /// How complete the list is and why, in a sentence.
     pub(super) fn completeness(&self, length: f64) -> String {
+        if self.interrupted {
+            return format!(
+                "interrupted with {} found after {} and {}: assemblies may be missing",
+                count(self.generic, "generic solution"),
+                count(self.seeds, "seed"),
+                count(self.loops, "loop"),
+            );
+        }
         match self.fit {
             Fit::FreedomLeft(freedom) => {
                 let isolated = match self.generic {

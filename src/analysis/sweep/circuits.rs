@@ -15,7 +15,7 @@ use super::follow::forwards;
 use crate::description::Role;
 use crate::linear::norm;
 use crate::mechanism::{Configuration, Mechanism};
-use crate::solve::{BranchPoint, Continuation, Place};
+use crate::solve::{BranchPoint, Continuation, Place, Stage, Watch};
 use crate::system::{Curve, Event, Held, Walk};
 use described::{branches, class};
 
@@ -119,6 +119,9 @@ pub struct CircuitsReport {
     pub unusable: usize,
     /// The characteristic length in m.
     pub characteristic_length: f64,
+    /// Whether the work was stopped before it was done: circuits may be missing.
+    #[serde(default, skip_serializing_if = "std::ops::Not::not")]
+    pub interrupted: bool,
 }
 
 /// One curve as it was followed.
@@ -142,12 +145,16 @@ pub fn circuits(
     input: usize,
     seeds: &[Configuration<f64>],
     settings: &CircuitsSettings,
+    watch: &Watch,
 ) -> CircuitsReport {
     let mut curve = Curve::new(mechanism, held);
     let method = &settings.continuation;
     let mut traced: Vec<Traced> = Vec::new();
     let mut unusable = 0;
     for seed in seeds {
+        if watch.is_stopped() {
+            break;
+        }
         let mut seed = seed.clone();
         mechanism.turn_to_limits(&mut seed.joints);
         let within = mechanism.joints().iter().zip(&seed.joints);
@@ -171,7 +178,10 @@ pub fn circuits(
             if holding(&mut curve, method, &mut traced, &place).is_some() {
                 continue;
             }
-            let found = trace(mechanism, &mut curve, place, settings, seeds);
+            if watch.is_stopped() {
+                break;
+            }
+            let found = trace(mechanism, &mut curve, place, (settings, watch), seeds);
             for point in &found.crossings {
                 for direction in &point.directions {
                     if let Some((place, _)) = method.leave(&mut curve, &point.at, direction) {
@@ -192,6 +202,7 @@ pub fn circuits(
         seeds: seeds.len(),
         unusable,
         characteristic_length: mechanism.characteristic_length(),
+        interrupted: watch.is_stopped(),
     }
 }
 
@@ -223,7 +234,7 @@ fn trace(
     mechanism: &Mechanism,
     curve: &mut Curve,
     start: At,
-    settings: &CircuitsSettings,
+    (settings, watch): (&CircuitsSettings, &Watch),
     seeds: usize,
 ) -> Traced {
     let mut begin = start.clone();
@@ -247,7 +258,10 @@ fn trace(
         found.crossings.clear();
         let mut walk = Walk::new(mechanism, curve, from, settings.continuation.clone());
         let mut end = None;
-        'steps: for _ in 0..settings.most_steps {
+        'steps: for step in 0..settings.most_steps {
+            if watch.stops(Stage::Steps, step, None) {
+                break;
+            }
             let Ok(leg) = walk.advance(curve) else {
                 break;
             };

@@ -188,6 +188,7 @@ pub fn ending(report: &AlongReport) -> String {
         Ending::SingularStart => format!(
             "{way}: the start is singular, so that the branch is not clear. Begin beside it."
         ),
+        Ending::Stopped => format!("{way}: interrupted at {here}; {found} before."),
         Ending::Lost => {
             format!("{way}: beyond {here} no step is short enough to be sure; {found} before.")
         }
