@@ -3,6 +3,7 @@
 
 pub mod algebra;
 pub mod analysis;
+pub mod ask;
 pub mod description;
 pub mod geometry;
 #[cfg(feature = "interchange")]

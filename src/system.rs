@@ -21,8 +21,8 @@ pub use equations::{
     approach, independent_parts,
 };
 pub use question::{
-    Count, Demand, Drive, DriveError, Load, LoadError, Question, QuestionError, ValueError, Verb,
-    check_angles, check_count, number_of, with_coordinates,
+    Count, Demand, Drive, DriveError, Load, LoadError, Question, QuestionError, Value, ValueError,
+    Verb, check_angles, check_count, number_of, with_coordinates,
 };
 pub use search::{
     Analysed, Attempt, Closed, NotClosed, Search, Searched, TooLarge, WidestGap, close, fit,

@@ -17,7 +17,7 @@ const ORDER: [&str; 12] = [
     "interchange",
     "system",
     "analysis",
-    "scene",
+    "ask",
     "output",
 ];
 
