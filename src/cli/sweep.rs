@@ -4,30 +4,32 @@ mod circuits;
 
 use std::path::PathBuf;
 
-use clap::{Args, ValueEnum};
+use clap::Args;
 use linkwork::analysis::assemblies::Wanted;
 use linkwork::analysis::sweep::{
-    CircuitsReport, Row, SweepReport, SweepSettings, TracedPoint, follow, sweep,
+    CircuitsReport, Columns, KeptRows, MotionReport, MotionsReport, Row, SweepReport,
+    SweepSettings, TracedPoint, follow, sweep,
 };
 use linkwork::mechanism::{Configuration, Mechanism};
+use linkwork::output::csv::Csv;
 use linkwork::output::option::{Given, Part};
 use linkwork::output::sweep as output;
 #[cfg(feature = "plot")]
 use linkwork::output::sweep::Picture;
-use linkwork::output::sweep::{Motion, Sampled, Table};
 use linkwork::solve::{Newton, Watch};
 use linkwork::system::{
     Driven, Held, Holdable, Question, QuestionError, Search as NearbySearch, check_count,
 };
 
 use super::asked::{Split, refusal};
+use super::format::Format;
 use super::range::{RangeWords, ranges};
 use super::search::{Search, mode};
 use super::source::{Assignment, Source};
 use super::watched::watched;
-use super::written::Lines;
 #[cfg(feature = "plot")]
 use super::written::save;
+use super::written::{Lines, unwritten};
 use super::{Answer, Refusal, style};
 
 /// Move the inputs and see what happens: one branch, never another without a word.
@@ -80,16 +82,6 @@ pub struct Sweep {
     svg: Option<PathBuf>,
 }
 
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-enum Format {
-    /// To be read by people: what was met, and some of the rows.
-    Text,
-    /// To be read by programs: metres and radians with all digits.
-    Json,
-    /// Rows as they come, in metres and radians with all digits.
-    Csv,
-}
-
 /// The number of a mode, if one was asked for, and its configuration where the inputs begin.
 type Start = (Option<usize>, Configuration<f64>);
 
@@ -139,7 +131,7 @@ impl Sweep {
             true => self.one_freedom(mechanism)?.held(),
         };
         let points = self.points(mechanism)?;
-        let table = Table::new(mechanism, &points);
+        let columns = Columns::new(mechanism, &points);
         let settings = SweepSettings {
             steps: self.steps,
             follow: self.follow,
@@ -155,28 +147,26 @@ impl Sweep {
                 "error: built without feature `plot`, which draws\n".into(),
             ));
         }
-        let mut lines = Lines::new(self.format == Format::Csv);
-        lines.add(&table.csv_header());
+        let lines = Lines::new(self.format == Format::Csv);
+        let mut csv = Csv::new(lines, output::row_columns(&columns)).map_err(unwritten)?;
         let mut motions = Vec::new();
         for (mode, start) in starts {
-            let mut rows = Sampled::of(match self.format {
-                Format::Text => SHOWN,
+            let mut rows = KeptRows::of(match self.format {
+                Format::Text | Format::Markdown | Format::Html => SHOWN,
                 Format::Json => MOST_KEPT + 2,
                 Format::Csv => 2,
             });
             #[cfg(feature = "plot")]
             picture.begin(mode);
-            let mut line = String::new();
             let mut sink = |row: &Row| {
-                rows.take(&table, row);
+                rows.take(&columns, row);
                 #[cfg(feature = "plot")]
                 if self.svg.is_some() {
                     picture.take(mechanism, row);
                 }
                 if self.format == Format::Csv {
-                    line.clear();
-                    table.csv_line(mode, row, &mut line);
-                    lines.add(&line);
+                    // lines keep what goes wrong
+                    let _ = csv.row(output::row_values(&columns, mode, row));
                 }
             };
             let report: SweepReport = watched(|watch| match inputs.is_empty() {
@@ -185,34 +175,34 @@ impl Sweep {
                     mechanism, &held, &inputs, &start, &settings, &mut sink, watch,
                 ),
             });
-            motions.push(Motion {
+            motions.push(MotionReport {
                 mode,
-                report,
-                rows: rows.finished(),
+                sweep: report,
+                columns: columns.variables().to_vec(),
+                values: rows.finished(),
             });
         }
-        lines.finish()?;
+        csv.finish().map_err(unwritten)?.finish()?;
         #[cfg(feature = "plot")]
         if let Some(path) = &self.svg {
             save(path, &picture.svg())?;
         }
         let mut remarks = String::new();
         if self.format == Format::Csv {
-            for motion in motions.iter().filter(|m| !m.report.ending.is_whole()) {
+            for motion in motions.iter().filter(|m| !m.sweep.ending.is_whole()) {
                 let mode = motion
                     .mode
                     .map_or(String::new(), |mode| format!("mode {mode}: "));
-                remarks += &format!("note: {mode}{}\n", output::sentence(&motion.report));
+                remarks += &format!("note: {mode}{}\n", output::sentence(&motion.sweep));
             }
         }
         Ok(Answer {
-            data: match self.format {
-                Format::Text => output::text(mechanism, &table, &motions),
-                Format::Json => output::json(mechanism, &table, &motions),
-                Format::Csv => String::new(),
-            },
+            yes: motions.iter().all(|motion| motion.sweep.ending.is_whole()),
+            data: self.format.shown(&MotionsReport {
+                mechanism: mechanism.name().to_owned(),
+                motions,
+            }),
             remarks,
-            yes: motions.iter().all(|motion| motion.report.ending.is_whole()),
         })
     }
 

@@ -10,7 +10,7 @@ use super::watched::{interruptions, read_no_more};
 /// Whole lines to stdout, as they come.
 pub struct Lines {
     wanted: bool,
-    waiting: String,
+    waiting: Vec<u8>,
     failed: Option<io::Error>,
 }
 
@@ -21,7 +21,7 @@ impl Lines {
     pub fn new(wanted: bool) -> Self {
         Lines {
             wanted,
-            waiting: String::new(),
+            waiting: Vec::new(),
             failed: None,
         }
     }
@@ -29,16 +29,16 @@ impl Lines {
     pub fn add(&mut self, line: &str) {
         if self.wanted {
             if self.waiting.len() + line.len() > Self::MANY {
-                self.flush();
+                self.send();
             }
-            self.waiting.push_str(line);
+            self.waiting.extend_from_slice(line.as_bytes());
         }
     }
 
-    fn flush(&mut self) {
+    fn send(&mut self) {
         let mut stdout = io::stdout().lock();
         let written = stdout
-            .write_all(self.waiting.as_bytes())
+            .write_all(&self.waiting)
             .and_then(|()| stdout.flush());
         self.waiting.clear();
         if let Err(error) = written {
@@ -54,14 +54,34 @@ impl Lines {
 
     /// A reader who has seen enough, as `head` does, is no error.
     pub fn finish(mut self) -> Result<(), Refusal> {
-        self.flush();
+        self.send();
         match self.failed {
-            Some(error) if error.kind() != io::ErrorKind::BrokenPipe => Err(Refusal(format!(
-                "error: the rows cannot be written: {error}\n"
-            ))),
+            Some(error) if error.kind() != io::ErrorKind::BrokenPipe => Err(unwritten(error)),
             _ => Ok(()),
         }
     }
+}
+
+/// Never fails: what goes wrong is told at the end.
+impl Write for Lines {
+    fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
+        if self.wanted {
+            self.waiting.extend_from_slice(bytes);
+            if self.waiting.len() > Self::MANY {
+                self.send();
+            }
+        }
+        Ok(bytes.len())
+    }
+
+    fn flush(&mut self) -> io::Result<()> {
+        Ok(())
+    }
+}
+
+/// Rows that cannot be written.
+pub fn unwritten(error: io::Error) -> Refusal {
+    Refusal(format!("error: the rows cannot be written: {error}\n"))
 }
 
 /// What is said where an interruption ended the rows before their time.

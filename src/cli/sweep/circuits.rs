@@ -10,9 +10,10 @@ use linkwork::solve::Watch;
 use linkwork::system::{Holdable, Question, check_count, sampling_range};
 
 use super::super::asked::refusal;
+use super::super::format::Format;
 use super::super::watched::watched;
 use super::super::{Answer, Refusal, style};
-use super::{Format, Sweep};
+use super::Sweep;
 
 impl Sweep {
     pub(super) fn list(&self, mechanism: &Mechanism) -> Result<Answer, Refusal> {
@@ -34,15 +35,14 @@ impl Sweep {
         let whole = report.circuits.iter().all(|circuit| circuit.whole);
         Ok(Answer {
             data: match self.format {
-                Format::Json => output::circuits_json(mechanism, &report),
-                Format::Text => output::circuits_text(mechanism, &report),
                 Format::Csv => {
                     return Err(Refusal(
-                        "error: circuits are listed as text or JSON; rows of one are written by \
-                         --follow --format csv\n"
+                        "error: circuits have no rows: choose another --format, or write the rows of \
+                         one with --follow --format csv\n"
                             .into(),
                     ));
                 }
+                format => format.shown(&report),
             },
             remarks: String::new(),
             yes: whole && !report.circuits.is_empty(),
