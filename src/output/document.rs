@@ -21,6 +21,11 @@ pub(crate) use cells;
 pub trait Report: Serialize {
     /// The report in words and tables. It needs nothing but the report.
     fn document(&self) -> Document;
+
+    /// Sentences that JSON has beside the answer, each with the name of its field.
+    fn sentences(&self) -> Vec<(&'static str, Option<String>)> {
+        Vec::new()
+    }
 }
 
 /// Something to read, whatever the format. In all its texts names and commands stand between back
