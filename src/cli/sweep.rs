@@ -2,7 +2,6 @@
 
 mod circuits;
 
-use std::ops::ControlFlow;
 use std::path::PathBuf;
 
 use clap::Args;
@@ -17,17 +16,17 @@ use linkwork::output::option::{Given, Part};
 use linkwork::output::sweep as output;
 #[cfg(feature = "plot")]
 use linkwork::output::sweep::Picture;
-use linkwork::solve::Newton;
+use linkwork::solve::{Newton, Watch};
 use linkwork::system::{
     Driven, Held, Holdable, Question, QuestionError, Search as NearbySearch, check_count,
 };
 
 use super::asked::{Split, refusal};
 use super::format::Format;
-use super::progress::Progress;
 use super::range::{RangeWords, ranges};
 use super::search::{Search, mode};
 use super::source::{Assignment, Source};
+use super::watched::watched;
 #[cfg(feature = "plot")]
 use super::written::save;
 use super::written::{Lines, unwritten};
@@ -150,10 +149,8 @@ impl Sweep {
         }
         let lines = Lines::new(self.format == Format::Csv);
         let mut csv = Csv::new(lines, output::row_columns(&columns)).map_err(unwritten)?;
-        let mut progress = Progress::new();
         let mut motions = Vec::new();
-        let all = starts.len();
-        for (done, (mode, start)) in starts.into_iter().enumerate() {
+        for (mode, start) in starts {
             let mut rows = KeptRows::of(match self.format {
                 Format::Text | Format::Markdown | Format::Html => SHOWN,
                 Format::Json => MOST_KEPT + 2,
@@ -171,19 +168,13 @@ impl Sweep {
                     // lines keep what goes wrong
                     let _ = csv.row(output::row_values(&columns, mode, row));
                 }
-                if let Some(step) = row.step {
-                    let part = step as f64 / self.steps as f64;
-                    progress.show((done as f64 + part) / all as f64);
-                }
-                match csv.target().open() {
-                    true => ControlFlow::Continue(()),
-                    false => ControlFlow::Break(()),
-                }
             };
-            let report: SweepReport = match inputs.is_empty() {
-                true => follow(mechanism, &held, &start, &settings, &mut sink),
-                false => sweep(mechanism, &held, &inputs, &start, &settings, &mut sink),
-            };
+            let report: SweepReport = watched(|watch| match inputs.is_empty() {
+                true => follow(mechanism, &held, &start, &settings, &mut sink, watch),
+                false => sweep(
+                    mechanism, &held, &inputs, &start, &settings, &mut sink, watch,
+                ),
+            });
             motions.push(MotionReport {
                 mode,
                 sweep: report,
@@ -191,7 +182,6 @@ impl Sweep {
                 values: rows.finished(),
             });
         }
-        progress.clear();
         csv.finish().map_err(unwritten)?.finish()?;
         #[cfg(feature = "plot")]
         if let Some(path) = &self.svg {
@@ -298,7 +288,8 @@ impl Sweep {
     fn starts(&self, question: &Question) -> Result<Vec<Start>, Refusal> {
         if self.mode.is_none() && !self.all_modes {
             let newton = Newton::default();
-            let found = NearbySearch::new(question, &newton).run(20, self.search.seed);
+            let found =
+                NearbySearch::new(question, &newton).run(20, self.search.seed, &Watch::none());
             if !found.assembles() {
                 return Err(Refusal(format!(
                     "error: the mechanism does not assemble where the motion is to begin\n  \
@@ -308,13 +299,15 @@ impl Sweep {
             }
             return Ok(vec![(None, found.attempt.at)]);
         }
-        let solver = self.search.solver(question)?;
         let wanted = Wanted {
             certificates: false,
             all_complex: false,
             starts: true,
         };
-        let report = solver.at_targets(&question.start(), &question.held(), wanted);
+        let report = watched(|watch| {
+            let solver = self.search.solver(question, watch)?;
+            Ok(solver.at_targets(&question.start(), &question.held(), wanted, watch))
+        })?;
         let like = question.start();
         let modes = report.assemblies.iter();
         let modes: Vec<_> = modes
