@@ -7,7 +7,7 @@ use super::drops::Drops;
 use super::outputs::{Coupled, coupled, outputs_of};
 use super::{SingularitiesSettings, names, output_names};
 use crate::linear::norm;
-use crate::mechanism::{Configuration, Mechanism};
+use crate::mechanism::{Configuration, Mechanism, Variable};
 use crate::solve::{Continuation, Place, SolutionCurve, Stage, Stray, Watch};
 use crate::system::{Curve, Driven, Event, Held, Holdable, Leg, Walk};
 
@@ -16,6 +16,10 @@ type At = Place<Configuration<f64>>;
 /// What a motion along a segment of inputs met.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct AlongReport {
+    /// The mechanism's name.
+    pub mechanism: String,
+    /// The joints, in the order of the file.
+    pub variables: Vec<Variable>,
     /// The inputs that singularities are told of.
     pub inputs: Vec<String>,
     /// The outputs.
@@ -114,6 +118,8 @@ pub fn along(
 ) -> AlongReport {
     let outputs = outputs_of(mechanism, held, moved, inputs, settings);
     let mut report = AlongReport {
+        mechanism: mechanism.name().to_owned(),
+        variables: Variable::joints(mechanism),
         inputs: names(mechanism, inputs),
         outputs: output_names(mechanism, &outputs),
         coupled: coupled(mechanism, inputs, &outputs, start, settings, false),

@@ -9,7 +9,7 @@ use super::pins::pins;
 use super::projected::{Projection, Shape, groups};
 use super::starts::{Found, Search};
 use super::{SingularitiesSettings, names, output_names};
-use crate::mechanism::{Configuration, Mechanism};
+use crate::mechanism::{Configuration, Mechanism, Variable};
 use crate::solve::{Place, Watch};
 use crate::system::{Driven, Held, Holdable, Lock, LocusCurve, LocusEnd, Region, Singular, Traced};
 
@@ -18,6 +18,12 @@ type At = Place<Singular>;
 /// The singularity loci in a box of two coordinates.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct LocusReport {
+    /// The mechanism's name.
+    pub mechanism: String,
+    /// The joints, in the order of the file.
+    pub variables: Vec<Variable>,
+    /// The poses of platforms, in the order of the file: position and quaternion.
+    pub pose_variables: Vec<Variable>,
     /// The inputs that singularities are told of.
     pub inputs: Vec<String>,
     /// The outputs.
@@ -158,6 +164,9 @@ pub fn loci(
         classifier,
     };
     let mut report = LocusReport {
+        mechanism: mechanism.name().to_owned(),
+        variables: Variable::joints(mechanism),
+        pose_variables: Variable::poses(mechanism),
         inputs: names(mechanism, inputs),
         outputs: output_names(mechanism, &outputs),
         coupled: coupled(mechanism, inputs, &outputs, start, settings, false),

@@ -17,7 +17,7 @@ use super::aspects::{self, Region};
 use super::boundary::{Crossing, named};
 use super::flood::{Filled, Link};
 use super::problem::{Asked, Grid};
-use crate::mechanism::{Coordinate, turn_near};
+use crate::mechanism::{Coordinate, Variable, turn_near};
 use crate::solve::each;
 use crate::system::Holdable;
 
@@ -123,6 +123,8 @@ impl<'a> Map<'a> {
         });
         let (aspects, numbers) = self.aspects(&cuts);
         WorkspaceReport {
+            mechanism: mechanism.name().to_owned(),
+            variables: Variable::joints(mechanism),
             axes: axes
                 .map(|(i, axis)| AxisReport {
                     name: name(&axis.coordinate),

@@ -1,8 +1,15 @@
 //! Every node in every mode that reaches it, as a table.
 
+use serde::ser::SerializeStruct;
+use serde::{Serialize, Serializer};
+
+use crate::mechanism::Variable;
+
 /// A table of nodes in modes, sorted by nodes and modes.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Cells {
+    /// What the columns of its rows are: see [`Cell::values`].
+    pub columns: Vec<Variable>,
     /// Mapped coordinates, joints and coordinates that follow in a row.
     pub(crate) widths: [usize; 3],
     pub(crate) parts: Vec<Part>,
@@ -50,6 +57,35 @@ pub struct Cell<'a> {
     pub joints: &'a [f64],
     /// The coordinates of platforms that follow, rad or m.
     pub following: &'a [f64],
+}
+
+impl Cell<'_> {
+    /// The values in the columns of its table: what is mapped, then mode, aspect, condition, the
+    /// determinants of direct and inverse singularities, joints, coordinates that follow. An aspect
+    /// is missing outside limits and on singularities.
+    pub fn values(&self) -> impl Iterator<Item = Option<f64>> {
+        let told = [
+            Some(self.mode as f64),
+            self.aspect.map(|aspect| aspect as f64),
+            self.condition,
+            self.direct,
+            self.inverse,
+        ];
+        let values = self.joints.iter().chain(self.following);
+        let mapped = self.at.iter().copied().map(Some);
+        mapped.chain(told).chain(values.copied().map(Some))
+    }
+}
+
+/// The columns, then the rows.
+impl Serialize for Cells {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        let rows: Vec<Vec<Option<f64>>> = self.iter().map(|cell| cell.values().collect()).collect();
+        let mut table = serializer.serialize_struct("Cells", 2)?;
+        table.serialize_field("columns", &self.columns)?;
+        table.serialize_field("values", &rows)?;
+        table.end()
+    }
 }
 
 impl Cells {

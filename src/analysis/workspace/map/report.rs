@@ -4,10 +4,15 @@ use serde::Serialize;
 
 use super::cells::Cells;
 use crate::analysis::workspace::boundary::{BoundaryCurve, BoundaryKind};
+use crate::mechanism::Variable;
 
 /// Where a mechanism reaches in a box of coordinates, and how.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct WorkspaceReport {
+    /// The mechanism's name.
+    pub mechanism: String,
+    /// The joints, in the order of the file.
+    pub variables: Vec<Variable>,
     /// The mapped coordinates.
     pub axes: Vec<AxisReport>,
     /// What is held beside them.
@@ -55,7 +60,7 @@ pub struct WorkspaceReport {
     #[serde(default, skip_serializing_if = "std::ops::Not::not")]
     pub interrupted: bool,
     /// Every node in every mode that reaches it, those outside limits too.
-    #[serde(skip)]
+    #[serde(flatten)]
     pub cells: Cells,
 }
 

@@ -3,8 +3,9 @@
 use super::cells::{Cells, Head, Part};
 use super::{Map, bring};
 use crate::analysis::workspace::flood::Band;
-use crate::mechanism::Coordinate;
+use crate::mechanism::{Coordinate, Variable};
 use crate::solve::each;
+use crate::system::Holdable;
 
 impl Map<'_> {
     /// The table, given for the first sheet of each aspect its number.
@@ -58,7 +59,23 @@ impl Map<'_> {
             }
             part
         });
-        Cells { widths, parts }
+        let mechanism = self.asked.mechanism;
+        let variable = |of: &Holdable| {
+            let unit = if of.is_angle(mechanism) { "rad" } else { "m" };
+            Variable::new(of.name(mechanism), unit)
+        };
+        let told = ["mode", "aspect", "condition", "direct", "inverse"];
+        let mut columns: Vec<Variable> = (self.asked.axes.iter())
+            .map(|axis| variable(&axis.coordinate))
+            .collect();
+        columns.extend(told.map(|name| Variable::new(name, "")));
+        columns.extend(Variable::joints(mechanism));
+        columns.extend((following.iter()).map(|&(p, c)| variable(&Holdable::Coordinate(p, c))));
+        Cells {
+            columns,
+            widths,
+            parts,
+        }
     }
 
     /// The sheets of a band that are in modes, in the order of their nodes and then of modes.
