@@ -28,6 +28,7 @@ pub use lines::Lines;
 pub use load::{FileError, LoadError, MAX_BYTES, load, load_text};
 pub use parts::*;
 pub use problem::*;
+pub use reader::is_mechanism;
 pub use replacement::ReplacementError;
 pub use suggestion::nearest;
 pub use words::{count, listed};

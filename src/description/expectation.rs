@@ -1,6 +1,22 @@
 //! What may stand where in a mechanism file.
 
-use super::Noun;
+/// The kinds of things that have names.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+#[allow(missing_docs)]
+pub enum Noun {
+    Field,
+    Parameter,
+    Joint,
+    Axis,
+    Chain,
+    Platform,
+    PlatformFrame,
+    Closure,
+    ClosedForm,
+    LocalName,
+    MatrixEntry,
+    Identity,
+}
 
 /// The groups of named fields in a file.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]

@@ -2,7 +2,7 @@
 
 use std::ops::Range;
 
-use super::{AxesProblem, Expected, Found, Structure};
+use super::{AxesProblem, Expected, Found, Noun, Structure};
 use crate::algebra::{EvaluationErrorKind, MeasureErrorKind, ParseErrorKind};
 
 /// Something wrong with a mechanism file.
@@ -38,24 +38,6 @@ pub enum Note {
     DeclaredHere(Noun),
     /// One more step of a cycle.
     ThenHere,
-}
-
-/// The kinds of things that have names.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
-#[allow(missing_docs)]
-pub enum Noun {
-    Field,
-    Parameter,
-    Joint,
-    Axis,
-    Chain,
-    Platform,
-    PlatformFrame,
-    Closure,
-    ClosedForm,
-    LocalName,
-    MatrixEntry,
-    Identity,
 }
 
 /// Which names an expression may use.
