@@ -25,7 +25,7 @@ pub use question::{
     check_angles, check_count, number_of, with_coordinates,
 };
 pub use search::{
-    Analysed, Attempt, Closed, NotClosed, Search, Searched, WidestGap, close, fit,
+    Analysed, Attempt, Closed, NotClosed, Search, Searched, TooLarge, WidestGap, close, fit,
     random_configuration, sampling_range, too_large,
 };
 pub use tangent::{

@@ -197,8 +197,8 @@ pub fn mobility(
     watch: &Watch,
 ) -> Analysed<MobilityReport> {
     let mechanism = question.mechanism();
-    if let Some(unknowns) = too_large(mechanism) {
-        return Analysed::TooLarge { unknowns };
+    if let Some(large) = too_large(mechanism) {
+        return Analysed::TooLarge(large);
     }
     let closed = match close(
         question,

@@ -117,8 +117,8 @@ pub fn singularities(
     watch: &Watch,
 ) -> Result<Analysed<SingularitiesReport>, QuestionError> {
     let mechanism = question.mechanism();
-    if let Some(unknowns) = too_large(mechanism) {
-        return Ok(Analysed::TooLarge { unknowns });
+    if let Some(large) = too_large(mechanism) {
+        return Ok(Analysed::TooLarge(large));
     }
     check_count(question)?;
     let closed = match close(

@@ -39,6 +39,10 @@ impl Default for StaticsSettings {
 /// forces in N, moments in N·m, points in m.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct StaticsReport {
+    /// The mechanism's name.
+    pub mechanism: String,
+    /// Whether the forces balance the load.
+    pub balanced: bool,
     /// The wrenches applied.
     pub loads: Vec<AppliedWrench>,
     /// The loads on joints.
@@ -110,8 +114,8 @@ pub fn statics(
     watch: &Watch,
 ) -> Result<Analysed<StaticsReport>, QuestionError> {
     let mechanism = question.mechanism();
-    if let Some(unknowns) = too_large(mechanism) {
-        return Ok(Analysed::TooLarge { unknowns });
+    if let Some(large) = too_large(mechanism) {
+        return Ok(Analysed::TooLarge(large));
     }
     check_count(question)?;
     let closed = match close(
@@ -177,7 +181,10 @@ pub fn statics(
     });
     let actuators = actuators.collect();
     let (closures, joints) = found.marked(&changes, length);
+    let unbalanced = unbalanced(mechanism, &unknowns, &left, norm(&generalised));
     Ok(Analysed::Closed(StaticsReport {
+        mechanism: mechanism.name().to_owned(),
+        balanced: unbalanced.is_empty(),
         loads: (load.wrenches.iter())
             .map(|&(frame, force, moment)| AppliedWrench {
                 frame: mechanism.frame_name(frame),
@@ -193,7 +200,7 @@ pub fn statics(
                 unique: true,
             })
             .collect(),
-        unbalanced: unbalanced(mechanism, &unknowns, &left, norm(&generalised)),
+        unbalanced,
         gained: (unknowns.len() - equations.rank()).saturating_sub(tangent.idle.len()),
         actuators,
         closures,

@@ -47,6 +47,8 @@ impl Default for VelocitySettings {
 /// in s.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct VelocityReport {
+    /// The mechanism's name.
+    pub mechanism: String,
     /// What is held, with its rate and acceleration.
     pub inputs: Vec<Rate>,
     /// Every joint; rates are `None` where nothing determines them.
@@ -215,8 +217,8 @@ pub fn velocity(
     watch: &Watch,
 ) -> Result<Analysed<VelocityReport>, QuestionError> {
     let mechanism = question.mechanism();
-    if let Some(unknowns) = too_large(mechanism) {
-        return Ok(Analysed::TooLarge { unknowns });
+    if let Some(large) = too_large(mechanism) {
+        return Ok(Analysed::TooLarge(large));
     }
     check_count(question)?;
     let closed = match close(
@@ -285,6 +287,7 @@ pub fn velocity(
         acceleration: drive.accelerations[i],
     });
     Ok(Analysed::Closed(VelocityReport {
+        mechanism: mechanism.name().to_owned(),
         inputs: inputs.collect(),
         joints,
         frames,

@@ -1,5 +1,7 @@
 //! What may stand where in a mechanism file.
 
+use crate::algebra::words;
+
 /// The kinds of things that have names.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 #[allow(missing_docs)]
@@ -18,21 +20,22 @@ pub enum Noun {
     Identity,
 }
 
-/// The groups of named fields in a file.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
-#[allow(missing_docs)]
-pub enum Structure {
-    Mechanism,
-    Passive,
-    Actuated,
-    Chain,
-    Row,
-    Platform,
-    ClosedForm,
-    Axes,
-    RevoluteAxis,
-    PrismaticAxis,
-    SphericalCentre,
+words! {
+    /// The groups of named fields in a file, with the names that stand before them.
+    #[allow(missing_docs)]
+    Structure {
+        Mechanism = "Mechanism",
+        Passive = "Passive",
+        Actuated = "Actuated",
+        Chain = "Chain",
+        Row = "Row",
+        Platform = "Platform",
+        ClosedForm = "ClosedForm",
+        Axes = "Axes",
+        RevoluteAxis = "Revolute",
+        PrismaticAxis = "Prismatic",
+        SphericalCentre = "Spherical",
+    }
 }
 
 /// What must stand at a place of the file.
@@ -120,23 +123,6 @@ pub enum Found {
 }
 
 impl Structure {
-    /// How it is named in a file.
-    pub fn word(self) -> &'static str {
-        match self {
-            Self::Mechanism => "Mechanism",
-            Self::Passive => "Passive",
-            Self::Actuated => "Actuated",
-            Self::Chain => "Chain",
-            Self::Row => "Row",
-            Self::Platform => "Platform",
-            Self::ClosedForm => "ClosedForm",
-            Self::Axes => "Axes",
-            Self::RevoluteAxis => "Revolute",
-            Self::PrismaticAxis => "Prismatic",
-            Self::SphericalCentre => "Spherical",
-        }
-    }
-
     /// The fields it may have.
     pub fn fields(self) -> &'static [&'static str] {
         match self {

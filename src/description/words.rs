@@ -1,272 +1,27 @@
-//! The words for every problem: a sentence, a label for the offending text, and what to do about it.
+//! Words shared by all messages: counts, plurals and lists; what is wrong with expressions and with syntax.
 
-mod axes;
-mod expression;
-mod parts;
-mod syntax;
-
-use crate::algebra::EvaluationErrorKind;
-use std::fmt::{self, Display, Formatter};
-
-use super::*;
-
-impl ProblemKind {
-    /// What is wrong, in one sentence without a full stop.
-    pub fn title(&self) -> String {
-        use ProblemKind::*;
-        match self {
-            TooLarge { bytes } => {
-                format!("the text has {bytes} bytes, more than the {MAX_BYTES} that are read")
-            }
-            Empty => "the file is empty".into(),
-            TooDeep => "brackets are nested too deeply for a mechanism file".into(),
-            Syntax { error, found } => syntax::title(error, *found),
-            LaterVersion(version) => {
-                format!("the file has version {version}: it is written for a later linkwork")
-            }
-            NotAVersion(version) => format!("{version} is not a version of the file format"),
-            WrongType { expected, found } => format!("expected {expected}, found {found}"),
-            WrongLength {
-                of,
-                expected,
-                found,
-            } => {
-                format!(
-                    "expected {of}, which takes {}, found {found}",
-                    count(*expected, of.unit())
-                )
-            }
-            UnknownWord { expected, word, .. } => format!("expected {expected}, found `{word}`"),
-            UnknownField {
-                structure, field, ..
-            } => format!("{structure} has no field `{field}`"),
-            MissingField { structure, field } => format!("{structure} needs the field `{field}`"),
-            DuplicateField { field } => format!("the field `{field}` is given twice"),
-            DuplicateName { name, .. } => format!("the name `{name}` is given twice"),
-            Expression(error) => expression::title(error),
-            NotFinite => "the number is not finite".into(),
-            NotAName { noun, name } => format!("`{name}` cannot be the name of {noun}"),
-            ReservedName { noun, name } => {
-                format!("`{name}` is reserved and cannot be used for {noun}")
-            }
-            DottedName { noun, name } => format!("the name `{name}` of {noun} contains a dot"),
-            EmptyName { noun } => format!("the name of {noun} is empty"),
-            NoConvention { chain } => {
-                format!("nothing says which convention the rows of chain `{chain}` follow")
-            }
-            EmptyClosedForm => "the closed form gives no formula".into(),
-            MixedClosedForm => "the closed form gives both a pose and an identity".into(),
-            UnknownMatrixEntry { name } => {
-                format!("`{name}` is not an entry of a rotation or a position")
-            }
-            WrongLastRow => "the fourth row of a transform must be (0, 0, 0, 1)".into(),
-            UnknownName { name, scope, .. } => format!("`{name}` is {scope}"),
-            JointNotAllowed { name } => format!("the joint `{name}` cannot be used here"),
-            UnknownFrame { name, .. } => format!("there is no frame `{name}`"),
-            NoSuchLink { chain, link, rows } => {
-                format!(
-                    "chain `{chain}` has {} and no link frame `{link}`",
-                    count(*rows, "row")
-                )
-            }
-            DefinitionCycle { noun, names } => {
-                format!("{noun} is defined through itself: {}", cycle(names))
-            }
-            ChainCycle { names } => format!("a chain stands on itself: {}", cycle(names)),
-            NotAffine => {
-                "the expression is not a constant plus multiples of joint variables".into()
-            }
-            NoValue(error) => expression::no_value(error),
-            Unit(error) => expression::unit(error),
-            SameBody { closure } => {
-                format!("the closure `{closure}` joins two frames of the same body")
-            }
-            NegativeDistance { length } => format!("the distance {length} is negative"),
-            LimitsReversed { joint, low, high } => {
-                format!("the lowest value of joint `{joint}`, {low}, is above the highest, {high}")
-            }
-            HomeOutsideLimits {
-                joint,
-                home,
-                low,
-                high,
-            } => {
-                format!(
-                    "the home value of joint `{joint}`, {home}, is not between its limits {low} and {high}"
-                )
-            }
-            NothingToAnalyse => "the file has neither a chain nor a platform".into(),
-            UnusedJoint { name } => format!("no chain and no closure uses the joint `{name}`"),
-            UnusedParameter { name } => format!("nothing uses the parameter `{name}`"),
-            UnusedPlatform { name } => format!("nothing is attached to the platform `{name}`"),
-            UnfeltJoint { name } => format!("no closure feels the joint `{name}`"),
-            NegativeLinkLength { chain, row, a } => {
-                format!("row {row} of chain `{chain}` has the negative link length {a} m")
-            }
-            Axes(problem) => axes::title(problem),
-            ZeroDistance { closure } => {
-                format!("the closure `{closure}` asks for a distance of zero")
-            }
-        }
-    }
-
-    /// A few words to stand under the offending text; may be empty.
-    pub fn label(&self) -> String {
-        use ProblemKind::*;
-        match self {
-            Syntax { error, found } => syntax::label(error, *found).into(),
-            WrongType { expected, .. } => format!("must be {expected}"),
-            WrongLength { found, .. } => {
-                format!("there {} {found}", if *found == 1 { "is" } else { "are" })
-            }
-            UnknownWord { .. } | UnknownField { .. } | UnknownMatrixEntry { .. } => {
-                "not known here".into()
-            }
-            MissingField { field, .. } => format!("`{field}` is missing"),
-            DuplicateField { .. } | DuplicateName { .. } => "given again here".into(),
-            Expression(error) => expression::label(error).into(),
-            NoConvention { .. } => "Modified or Standard?".into(),
-            UnknownName { .. } | UnknownFrame { .. } => "not known".into(),
-            NoSuchLink { rows, .. } => format!("the last link is {rows}"),
-            JointNotAllowed { .. } => "a joint variable".into(),
-            NotAffine => "not affine".into(),
-            NoValue(EvaluationErrorKind::TooLarge(_)) => "too large".into(),
-            NoValue(_) => "has no value".into(),
-            Unit(error) => expression::unit_label(error).into(),
-            EmptyClosedForm => "no formula".into(),
-            UnfeltJoint { .. } => "moves no closure".into(),
-            UnusedJoint { .. } | UnusedParameter { .. } | UnusedPlatform { .. } => {
-                "not used".into()
-            }
-            DefinitionCycle { .. } | ChainCycle { .. } => "the cycle begins here".into(),
-            _ => String::new(),
-        }
-    }
-
-    /// What to do about it.
-    pub fn help(&self) -> Option<String> {
-        use ProblemKind::*;
-        let help = match self {
-            TooDeep => "lists of rows and transforms need no further brackets".into(),
-            Syntax { error, found } => return syntax::help(error, *found).map(str::to_owned),
-            Empty => format!("begin with `Mechanism(version: {VERSION}, name: \"…\", …)`"),
-            LaterVersion(_) => format!("this program reads version {VERSION}"),
-            NotAVersion(_) => format!("write `version: {VERSION}`"),
-            WrongType { expected, found } => return wrong_type_help(*expected, found).map(str::to_owned),
-            UnknownWord { suggestion: Some(meant), .. }
-            | UnknownField { suggestion: Some(meant), .. }
-            | UnknownName { suggestion: Some(meant), .. }
-            | UnknownFrame { suggestion: Some(meant), .. } => format!("did you mean `{meant}`?"),
-            UnknownWord { known, .. } if known.len() > 2 => format!("possible here: {}", quoted(known)),
-            UnknownField { structure, .. } => format!("its fields are {}", quoted(structure.fields())),
-            UnknownFrame { .. } => {
-                "a frame is `ground`, a chain, `chain.k`, a platform, or `platform.frame`".into()
-            }
-            UnknownName { scope: Scope::ClosedForm, .. } => "name it under `where`, `parameters` or `joints`".into(),
-            UnknownName { scope: Scope::ParametersAndJoints, .. } => {
-                "declare it under `parameters` or `joints`".into()
-            }
-            UnknownName { scope: Scope::Parameters, .. } => "declare it under `parameters`".into(),
-            Expression(error) => return expression::help(error),
-            Unit(error) => expression::unit_help(error).into(),
-            NotAName { .. } => {
-                "a name begins with a letter or `_` and goes on with letters, digits and `_`".into()
-            }
-            DottedName { .. } => "the dot separates it from the names of its frames".into(),
-            NoConvention { .. } => {
-                "write `convention: Modified` or `convention: Standard` in the file, or in each chain".into()
-            }
-            EmptyClosedForm => {
-                "give `position`, `rotation`, `transform` or `entries`, or else `identity` or `identities`".into()
-            }
-            MixedClosedForm => "write two closed forms".into(),
-            UnknownMatrixEntry { .. } => "entries are r11 to r33, px, py and pz".into(),
-            JointNotAllowed { .. } => "only parameters, numbers and constants can be used here".into(),
-            NotAffine => "only theta, d and distances may contain joints, as in `\"pi/2 - 2*phi1\"`".into(),
-            SameBody { .. } => "such a closure either always holds or never".into(),
-            UnfeltJoint { .. } => "it can have any value; remove it, or close the chain it moves".into(),
-            NegativeLinkLength { .. } => "turn theta by 180 deg and change the sign of alpha, or leave it".into(),
-            ZeroDistance { .. } => "two points that coincide are a `Spherical` closure".into(),
-            LimitsReversed { .. } => "write the lowest value first".into(),
-            Axes(problem) => return axes::help(problem),
-            DefinitionCycle { .. } => "give one of them a value of its own".into(),
-            ChainCycle { .. } => "let one of them stand on `ground` and close the loop by a closure".into(),
-            _ => return None,
-        };
-        Some(help)
-    }
-}
-
-impl Display for LoadError {
-    fn fmt(&self, f: &mut Formatter) -> fmt::Result {
-        match self {
-            Self::Unreadable { path, error } => {
-                write!(f, "{}: cannot be read: {error}", path.display())
-            }
-            Self::NotText { path, offset } => {
-                write!(
-                    f,
-                    "{}: not a text file in UTF-8: byte {offset} does not belong to any character",
-                    path.display()
-                )
-            }
-            Self::TooLarge { path, bytes } => {
-                let size =
-                    bytes.map_or_else(|| "more".to_owned(), |bytes| format!("{bytes} bytes"));
-                write!(
-                    f,
-                    "{}: too large: {size}, where at most {MAX_BYTES} bytes are read",
-                    path.display()
-                )
-            }
-            Self::Wrong(error) => error.fmt(f),
-        }
-    }
-}
-
-impl Note {
-    /// What another place has to do with the problem.
-    pub fn label(self) -> String {
-        match self {
-            Self::FirstHere(Noun::Field) => "first given here".into(),
-            Self::FirstHere(noun) => format!("first given here, to {noun}"),
-            Self::AlsoHere => "here too".into(),
-            Self::StillOpen => "this bracket is still open".into(),
-            Self::DeclaredHere(noun) => format!("declared here as {noun}"),
-            Self::ThenHere => "then here".into(),
-        }
-    }
-}
-
-fn wrong_type_help(expected: Expected, found: &Found) -> Option<&'static str> {
-    match (expected, found) {
-        (Expected::Convention | Expected::Role, Found::Text) => Some("write it without quotes"),
-        (
-            Expected::Text | Expected::NameOf(_) | Expected::Frame,
-            Found::Word(_) | Found::Character,
-        ) => Some("write it in double quotes"),
-        (Expected::Entry, Found::Word(_) | Found::Call(_) | Found::Character) => {
-            Some("write an expression in double quotes")
-        }
-        (Expected::Fields(_) | Expected::Joint, Found::Map) => {
-            Some("fields stand in `(…)`, only names in `{…}`")
-        }
-        (Expected::MapOf(_), Found::List | Found::Tuple | Found::Fields) => {
-            Some("write `{ \"name\": …, … }`, with the names in double quotes")
-        }
-        (Expected::Rows | Expected::Transform, _) => Some("a list stands in `[…]`"),
-        (_, Found::Call(word)) if word == "Some" => Some("leave out `Some(…)`"),
-        (_, Found::Word(word)) if word == "None" => Some("leave the field out"),
-        _ => None,
-    }
-}
+pub(super) mod expression;
+pub(super) mod syntax;
 
 /// `1 row`, `2 rows`.
 pub fn count(number: usize, noun: &str) -> String {
-    match (number, noun) {
-        (1, _) => format!("1 {noun}"),
-        (_, "entry") => format!("{number} entries"),
-        _ => format!("{number} {noun}s"),
+    match number {
+        1 => format!("1 {noun}"),
+        _ => format!("{number} {}", plural(noun)),
+    }
+}
+
+/// The plural of a noun: that of its head where something is added to it, as in `state of stress`.
+pub fn plural(noun: &str) -> String {
+    if let Some((head, of)) = noun.split_once(" of ") {
+        return format!("{} of {of}", plural(head));
+    }
+    let ends = |endings: &[&str]| endings.iter().any(|end| noun.ends_with(end));
+    match noun.strip_suffix('y') {
+        Some(stem) if !stem.ends_with(['a', 'e', 'i', 'o', 'u']) => format!("{stem}ies"),
+        _ if noun.ends_with("axis") => format!("{}es", &noun[..noun.len() - 2]),
+        _ if ends(&["s", "x", "ch", "sh"]) => format!("{noun}es"),
+        _ => format!("{noun}s"),
     }
 }
 
@@ -288,22 +43,10 @@ pub(super) fn quoted(words: &[&str]) -> String {
     listed(&words)
 }
 
-fn cycle(names: &[String]) -> String {
-    let around = names.iter().chain(names.first());
-    around
+/// `a` -> `b` -> `a`
+pub(super) fn cycle(names: &[String]) -> String {
+    let around: Vec<String> = (names.iter().chain(names.first()))
         .map(|name| format!("`{name}`"))
-        .collect::<Vec<_>>()
-        .join(" -> ")
-}
-
-impl Display for ReplacementError {
-    fn fmt(&self, f: &mut Formatter) -> fmt::Result {
-        match self {
-            Self::UnknownParameter { name, .. } => write!(f, "the file has no parameter `{name}`"),
-            Self::Value(problems) => {
-                let titles: Vec<String> = problems.iter().map(|p| p.kind.title()).collect();
-                f.write_str(&titles.join("; "))
-            }
-        }
-    }
+        .collect();
+    around.join(" -> ")
 }

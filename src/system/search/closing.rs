@@ -1,6 +1,6 @@
 //! Closing a mechanism before it is analysed: published poses are often not closed.
 
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
 use super::Search;
 use crate::linear::SPECTRUM_LIMIT;
@@ -9,7 +9,7 @@ use crate::solve::{Equations, Newton, Stop, Watch};
 use crate::system::{Gap, Held, Question, System};
 
 /// How far a closure of a given pose is from being whole.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct WidestGap {
     /// Name of the closure.
     pub closure: String,
@@ -39,18 +39,15 @@ pub struct Closed {
 }
 
 /// The answer of an analysis of assembled configurations.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(untagged)]
 pub enum Analysed<R> {
     /// The mechanism closes near the pose given; the report is about the configuration there.
     Closed(R),
-    /// It does not.
+    /// It has more unknowns than singular values are computed for.
+    TooLarge(TooLarge),
+    /// It does not close.
     NotClosed(NotClosed),
-    /// It has more unknowns than singular values are computed for
-    /// ([`SPECTRUM_LIMIT`](crate::linear::SPECTRUM_LIMIT)).
-    TooLarge {
-        /// How many it has.
-        unknowns: usize,
-    },
 }
 
 impl<R> Analysed<R> {
@@ -58,14 +55,26 @@ impl<R> Analysed<R> {
     pub fn closed(self) -> Option<R> {
         match self {
             Analysed::Closed(report) => Some(report),
-            Analysed::NotClosed(_) | Analysed::TooLarge { .. } => None,
+            Analysed::NotClosed(_) | Analysed::TooLarge(_) => None,
+        }
+    }
+
+    /// The same without taking it away.
+    pub fn report(&self) -> Option<&R> {
+        match self {
+            Analysed::Closed(report) => Some(report),
+            Analysed::NotClosed(_) | Analysed::TooLarge(_) => None,
         }
     }
 }
 
 /// A mechanism that does not close near the pose given.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct NotClosed {
+    /// The mechanism's name.
+    pub mechanism: String,
+    /// Always false.
+    pub closed: bool,
     /// The widest gap that is left at the closest approach.
     pub left: Option<WidestGap>,
     /// Names of the held coordinates.
@@ -73,6 +82,16 @@ pub struct NotClosed {
     /// Whether the search was stopped before all starts were made.
     #[serde(default, skip_serializing_if = "std::ops::Not::not")]
     pub interrupted: bool,
+}
+
+/// A mechanism with more unknowns than singular values are computed for
+/// ([`SPECTRUM_LIMIT`](crate::linear::SPECTRUM_LIMIT)).
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub struct TooLarge {
+    /// The mechanism's name.
+    pub mechanism: String,
+    /// How many unknowns it has with nothing held.
+    pub unknowns: usize,
 }
 
 /// Closes a mechanism as a question asks, the same way as for the question itself.
@@ -114,6 +133,8 @@ pub fn close(
         }
     }
     Err(NotClosed {
+        mechanism: mechanism.name().to_owned(),
+        closed: false,
         left: widest(mechanism, &found.attempt.at),
         held: question.held_names(),
         interrupted: watch.is_stopped(),
@@ -129,10 +150,13 @@ impl Closed {
     }
 }
 
-/// The number of unknowns with nothing held, if that is too many for the whole spectrum.
-pub fn too_large(mechanism: &Mechanism) -> Option<usize> {
+/// What is to be said if there are more unknowns than the whole spectrum is computed for.
+pub fn too_large(mechanism: &Mechanism) -> Option<TooLarge> {
     let unknowns = mechanism.joints().len() + 6 * mechanism.platforms().len();
-    (unknowns > SPECTRUM_LIMIT).then_some(unknowns)
+    (unknowns > SPECTRUM_LIMIT).then(|| TooLarge {
+        mechanism: mechanism.name().to_owned(),
+        unknowns,
+    })
 }
 
 /// A pose typed with expressions is exact, and no step can make it better.
