@@ -26,14 +26,18 @@ mod write;
 pub use axes::*;
 pub use expectation::*;
 pub use lines::Lines;
-pub use load::{FileError, LoadError, MAX_BYTES, load, load_text};
+pub use load::{FileError, LoadError, load, load_text};
 pub(crate) use naming::{first_free, free_variable};
 pub use naming::{names_of, place_of};
 pub use parts::*;
 pub use problem::*;
+pub use reader::is_mechanism;
 pub use replacement::ReplacementError;
 pub use suggestion::nearest;
 pub use words::{count, listed};
+
+/// The largest file that is read (bytes); a mechanism of a thousand chains needs a tenth of it.
+pub const MAX_BYTES: u64 = 1 << 20;
 
 /// The version of the file format that this program reads and writes.
 pub const VERSION: u32 = 1;

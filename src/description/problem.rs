@@ -1,11 +1,14 @@
-//! What can be wrong with a mechanism file, as data with a title; `words.rs` says what to do about it.
+//! What can be wrong with a mechanism file, as data with a title; `advice.rs` says what to do about it.
+
+mod advice;
+mod parts;
 
 use std::ops::Range;
 
 use thiserror::Error;
 
 use super::words::{count, cycle, expression, syntax};
-use super::{AxesProblem, Expected, Found, MAX_BYTES, Structure};
+use super::{AxesProblem, Expected, Found, MAX_BYTES, Noun, Structure};
 use crate::algebra::{EvaluationErrorKind, MeasureErrorKind, ParseErrorKind};
 
 /// Something wrong with a mechanism file.
@@ -41,24 +44,6 @@ pub enum Note {
     DeclaredHere(Noun),
     /// One more step of a cycle.
     ThenHere,
-}
-
-/// The kinds of things that have names.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
-#[allow(missing_docs)]
-pub enum Noun {
-    Field,
-    Parameter,
-    Joint,
-    Axis,
-    Chain,
-    Platform,
-    PlatformFrame,
-    Closure,
-    ClosedForm,
-    LocalName,
-    MatrixEntry,
-    Identity,
 }
 
 /// Which names an expression may use.

@@ -1,11 +1,12 @@
 //! Words for what is wrong with an expression.
 
 use super::syntax::shown;
-use super::{count, nearest, quoted};
+use super::{count, quoted};
 use crate::algebra::{
     EvaluationErrorKind, Function, LARGEST, MAX_HEIGHT, MAX_NESTING, Measure, MeasureErrorKind,
     ParseErrorKind, Unit,
 };
+use crate::description::nearest;
 
 pub(in crate::description) fn title(error: &ParseErrorKind) -> String {
     use ParseErrorKind::*;
@@ -44,7 +45,7 @@ pub(in crate::description) fn title(error: &ParseErrorKind) -> String {
     }
 }
 
-pub(super) fn label(error: &ParseErrorKind) -> &'static str {
+pub(in crate::description) fn label(error: &ParseErrorKind) -> &'static str {
     use ParseErrorKind::*;
     match error {
         Empty => "nothing in it",
@@ -56,7 +57,7 @@ pub(super) fn label(error: &ParseErrorKind) -> &'static str {
     }
 }
 
-pub(super) fn help(error: &ParseErrorKind) -> Option<String> {
+pub(in crate::description) fn help(error: &ParseErrorKind) -> Option<String> {
     use ParseErrorKind::*;
     let help = match error {
         Empty => "write 0 or leave the field out",
@@ -134,7 +135,7 @@ pub(in crate::description) fn unit(error: &MeasureErrorKind) -> String {
     }
 }
 
-pub(super) fn unit_label(error: &MeasureErrorKind) -> &'static str {
+pub(in crate::description) fn unit_label(error: &MeasureErrorKind) -> &'static str {
     match error {
         MeasureErrorKind::Wrong { found, .. } => measure(*found),
         MeasureErrorKind::Mixed => "an angle and a length",
@@ -142,7 +143,7 @@ pub(super) fn unit_label(error: &MeasureErrorKind) -> &'static str {
     }
 }
 
-pub(super) fn unit_help(error: &MeasureErrorKind) -> &'static str {
+pub(in crate::description) fn unit_help(error: &MeasureErrorKind) -> &'static str {
     match error {
         MeasureErrorKind::Wrong { wanted, .. } => match wanted {
             Measure::Length => "write m, cm, mm or in; a number without unit is in m",
