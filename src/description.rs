@@ -9,6 +9,7 @@ use std::collections::HashSet;
 mod axes;
 mod brackets;
 mod checks;
+mod embedded;
 mod expectation;
 mod lines;
 mod load;
@@ -23,6 +24,7 @@ mod words;
 mod write;
 
 pub use axes::*;
+pub use embedded::{axes_text, mechanism_text};
 pub use expectation::*;
 pub use lines::Lines;
 pub use load::{FileError, LoadError, MAX_BYTES, load, load_text};
@@ -30,7 +32,7 @@ pub use parts::*;
 pub use problem::*;
 pub use replacement::ReplacementError;
 pub use suggestion::nearest;
-pub use words::{count, listed};
+pub use words::{count, listed, quoted};
 
 /// The version of the file format that this program reads and writes.
 pub const VERSION: u32 = 1;

@@ -10,6 +10,7 @@ mod demand;
 mod displacement;
 mod drive;
 mod equations;
+mod error_words;
 mod freedom;
 mod gap;
 mod layout;
@@ -22,6 +23,7 @@ mod neighbourhood;
 mod parts;
 mod question;
 mod question_error;
+mod record;
 mod screws;
 mod search;
 mod starts;
@@ -51,6 +53,9 @@ pub use neighbourhood::{Followed, Neighbourhood, Tangent};
 pub use parts::independent_parts;
 pub use question::{Question, with_coordinates};
 pub use question_error::QuestionError;
+pub use record::{
+    Column, FormulaNames, FrameRecord, Named, PlatformRecord, Variable, infinite_if_null,
+};
 pub use screws::{Screw, TwistSpace, spin_lines, without, wrench_screws};
 pub use search::{Attempt, Search, Searched};
 pub use starts::{random_configuration, sampling_range};

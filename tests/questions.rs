@@ -28,7 +28,7 @@ fn answer(question: &Question) -> AssemblyReport {
 }
 
 fn joint(mechanism: &Mechanism, report: &AssemblyReport, name: &str) -> f64 {
-    report.configuration.joints[mechanism.joint(name).unwrap()]
+    report.configuration().joints[mechanism.joint(name).unwrap()]
 }
 
 #[test]
@@ -58,7 +58,7 @@ fn without_a_guess_the_assembly_mode_of_home_is_kept() {
             let question = question.hold("theta1", &format!("{degrees} deg")).unwrap();
             let report = answer(&question);
             assert_eq!(report.outcome, Outcome::Converged);
-            let found = report.configuration;
+            let found = report.configuration();
             let left = mechanism.frames().into_iter().map(|f| {
                 mechanism
                     .transform(linkwork::mechanism::Frame::Ground, f, &found)
@@ -163,7 +163,7 @@ fn the_closest_approach_keeps_what_is_held() {
             "{:?}",
             report.gaps
         );
-        let hand = report.configuration.platforms[0].pose();
+        let hand = report.configuration().platforms[0].pose();
         assert!((Coordinate::X.of(&hand) - x).abs() < 1e-8);
         assert!(Coordinate::Y.of(&hand).abs() < 1e-8);
     }

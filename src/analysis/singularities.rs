@@ -22,13 +22,13 @@ pub use locus::{Bound, Kind, Locus, LocusReport, loci};
 pub use outputs::{Coupled, default_outputs, inputs_of};
 pub use projected::Shape;
 
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
 use crate::linear::RANK_TOLERANCE;
 use crate::mechanism::{Configuration, Mechanism};
 use crate::solve::{Continuation, Newton};
 use crate::system::{
-    Analysed, Holdable, Lock, Question, QuestionError, WidestGap, check_angles, check_count, close,
+    Analysed, Holdable, Lock, Question, QuestionError, Variable, WidestGap, check_angles, check_count, close,
     too_large,
 };
 use classify::Classifier;
@@ -70,8 +70,12 @@ impl Default for SingularitiesSettings {
 }
 
 /// What is special about an assembled configuration.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct SingularitiesReport {
+    /// Name of the mechanism.
+    pub mechanism: String,
+    /// The joint variables with their units, in the order of the file.
+    pub variables: Vec<Variable>,
     /// The inputs.
     pub inputs: Vec<String>,
     /// The outputs.
@@ -137,6 +141,8 @@ pub fn singularities(
     check_outputs(mechanism, &outputs, at)?;
     let mut classifier = Classifier::new(mechanism, &inputs, &outputs, at);
     Ok(Analysed::Closed(SingularitiesReport {
+        mechanism: mechanism.name().into(),
+        variables: mechanism.variables(),
         inputs: names(mechanism, &inputs),
         outputs: output_names(mechanism, &outputs),
         coupled: coupled(mechanism, &inputs, &outputs, at, settings, true),

@@ -2,8 +2,9 @@
 
 mod reactions;
 
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
+use crate::algebra::SiUnit;
 use crate::linear::{Decomposition, RANK_TOLERANCE, norm};
 use crate::mechanism::{Configuration, Frame, Mechanism};
 use crate::solve::Newton;
@@ -37,12 +38,16 @@ impl Default for StaticsSettings {
 
 /// The forces in an assembled mechanism at rest without weight or friction. Vectors are in ground,
 /// forces in N, moments in N·m, points in m.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct StaticsReport {
+    /// Name of the mechanism.
+    pub mechanism: String,
     /// The wrenches applied.
     pub loads: Vec<AppliedWrench>,
     /// The loads on joints.
     pub joint_loads: Vec<Force>,
+    /// Whether the load is balanced.
+    pub balanced: bool,
     /// What would move because nothing balances the load; empty in equilibrium. The forces below
     /// are then those that come nearest.
     pub unbalanced: Vec<String>,
@@ -71,7 +76,7 @@ pub struct StaticsReport {
 }
 
 /// A wrench on a frame.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct AppliedWrench {
     /// The frame.
     pub frame: String,
@@ -82,12 +87,12 @@ pub struct AppliedWrench {
 }
 
 /// A force or moment along a coordinate.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Force {
     /// The coordinate.
     pub name: String,
     /// `N` or `N·m`.
-    pub unit: &'static str,
+    pub unit: SiUnit,
     /// How large, along the coordinate.
     pub force: f64,
     /// Whether equilibrium determines it.
@@ -170,8 +175,11 @@ pub fn statics(
         unique: (stresses.iter()).all(|stress| stress[rows + i].abs() <= RANK_TOLERANCE),
     });
     let actuators = actuators.collect();
+    let unbalanced = unbalanced(mechanism, &unknowns, &left, norm(&generalised));
     let (closures, joints) = found.marked(&changes, length);
     Ok(Analysed::Closed(StaticsReport {
+        mechanism: mechanism.name().into(),
+        balanced: unbalanced.is_empty(),
         loads: (load.wrenches.iter())
             .map(|&(frame, force, moment)| AppliedWrench {
                 frame: mechanism.frame_name(frame),
@@ -187,7 +195,7 @@ pub fn statics(
                 unique: true,
             })
             .collect(),
-        unbalanced: unbalanced(mechanism, &unknowns, &left, norm(&generalised)),
+        unbalanced,
         gained: (unknowns.len() - equations.rank()).saturating_sub(tangent.idle.len()),
         actuators,
         closures,

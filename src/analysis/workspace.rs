@@ -112,6 +112,19 @@ pub enum WorkspaceError {
     },
 }
 
+impl std::fmt::Display for WorkspaceError {
+    fn fmt(&self, f: &mut std::fmt::Formatter) -> std::fmt::Result {
+        match self {
+            WorkspaceError::TooMany { most } => write!(
+                f,
+                "the map would have more than the {most} nodes that may be kept: use a coarser grid or a smaller box"
+            ),
+        }
+    }
+}
+
+impl std::error::Error for WorkspaceError {}
+
 /// Bytes that a node in one mode takes at most at a time, roughly.
 pub fn cell_bytes(question: &Question, axes: usize) -> usize {
     let mechanism = question.mechanism();
@@ -175,6 +188,7 @@ pub fn workspace(
     let curves = boundary.curves(&crossings);
     let mut report = map.report(&crossings);
     report.curves = curves;
+    report.columns = report.headings();
     report.searched = [nodes.len(), settings.starts];
     report.probed = [probed.len(), seeds::PROBES];
     report.outside = sown.outside + outside;

@@ -60,8 +60,8 @@ impl Assemblies {
         let report = solver.at_targets_watched(&question.start(), &question.held(), wanted, &tell);
         Ok(Answer {
             data: match self.format {
-                Format::Text => assemblies::text(&question, &report),
-                Format::Json => assemblies::json(&question, &report),
+                Format::Text => assemblies::text(&report),
+                Format::Json => assemblies::json(&report),
             },
             remarks,
             yes: report.real > 0

@@ -218,7 +218,7 @@ impl Sweep {
         Ok(Answer {
             data: match self.format {
                 Format::Text => output::text(mechanism, &table, &motions),
-                Format::Json => output::json(mechanism, &table, &motions),
+                Format::Json => output::json(&output::report(mechanism, &table, &motions)),
                 Format::Csv => String::new(),
             },
             remarks,

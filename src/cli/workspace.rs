@@ -146,11 +146,11 @@ impl Workspace {
         let mut whole = true;
         let data = match self.format {
             Format::Text => output::text(mechanism, &report),
-            Format::Json => output::json(mechanism, &report),
+            Format::Json => output::json(&report),
             Format::Csv => {
                 whole = match self.boundary {
                     true => rows(output::boundary_csv(mechanism, &report))?,
-                    false => rows(output::csv(mechanism, &report))?,
+                    false => rows(output::csv(&report))?,
                 };
                 String::new()
             }

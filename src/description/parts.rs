@@ -5,6 +5,8 @@
 use std::fmt::{self, Display, Formatter};
 use std::ops::Range;
 
+use serde::{Deserialize, Serialize};
+
 use crate::algebra::Expression;
 
 /// A value and the bytes of the file where it stands.
@@ -58,7 +60,7 @@ pub struct Description {
 }
 
 /// Which of the two ways to attach frames a Denavit–Hartenberg table uses.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Deserialize)]
 pub enum Convention {
     /// Craig: T = Rx(alpha) Tx(a) Rz(theta) Tz(d).
     Modified,
@@ -67,7 +69,7 @@ pub enum Convention {
 }
 
 /// Whether a joint is driven.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize, Deserialize)]
 pub enum Role {
     /// Driven: its value is an input.
     Actuated,
@@ -148,7 +150,7 @@ pub struct PlatformDescription {
 }
 
 /// What joint is put back where the mechanism was broken. Axes are the z axes of the frames.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize, Deserialize)]
 pub enum ClosureKind {
     /// The origins coincide.
     Spherical,
@@ -371,3 +373,16 @@ impl<T: PartialEq> PartialEq for Spanned<T> {
         self.value == other.value
     }
 }
+
+/// Written as in a file.
+macro_rules! as_word {
+    ($($kind:ty)+) => {$(
+        impl Display for $kind {
+            fn fmt(&self, f: &mut Formatter) -> fmt::Result {
+                f.pad(self.word())
+            }
+        }
+    )+};
+}
+
+as_word!(Convention Role ClosureKind);

@@ -43,7 +43,7 @@ impl ProblemKind {
             MissingField { structure, field } => format!("{structure} needs the field `{field}`"),
             DuplicateField { field } => format!("the field `{field}` is given twice"),
             DuplicateName { name, .. } => format!("the name `{name}` is given twice"),
-            Expression(error) => expression::title(error),
+            Expression(error) => error.to_string(),
             NotFinite => "the number is not finite".into(),
             NotAName { noun, name } => format!("`{name}` cannot be the name of {noun}"),
             ReservedName { noun, name } => {
@@ -76,8 +76,8 @@ impl ProblemKind {
             NotAffine => {
                 "the expression is not a constant plus multiples of joint variables".into()
             }
-            NoValue(error) => expression::no_value(error),
-            Unit(error) => expression::unit(error),
+            NoValue(error) => error.to_string(),
+            Unit(error) => error.to_string(),
             SameBody { closure } => {
                 format!("the closure `{closure}` joins two frames of the same body")
             }
@@ -283,10 +283,29 @@ pub fn listed<S: AsRef<str>>(words: &[S]) -> String {
 }
 
 /// The same between back quotes.
-pub(super) fn quoted(words: &[&str]) -> String {
-    let words: Vec<String> = words.iter().map(|word| format!("`{word}`")).collect();
-    listed(&words)
+pub fn quoted<S: AsRef<str>>(words: &[S]) -> String {
+    let words = words.iter().map(|word| format!("`{}`", word.as_ref()));
+    listed(&words.collect::<Vec<String>>())
 }
+
+impl Display for ProblemKind {
+    fn fmt(&self, f: &mut Formatter) -> fmt::Result {
+        f.write_str(&self.title())?;
+        match self.help() {
+            Some(help) => write!(f, " ({help})"),
+            None => Ok(()),
+        }
+    }
+}
+
+impl Display for Problem {
+    fn fmt(&self, f: &mut Formatter) -> fmt::Result {
+        self.kind.fmt(f)
+    }
+}
+
+impl std::error::Error for ProblemKind {}
+impl std::error::Error for Problem {}
 
 fn cycle(names: &[String]) -> String {
     let around = names.iter().chain(names.first());

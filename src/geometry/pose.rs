@@ -4,7 +4,7 @@ use super::{Rotation, Vector3};
 use crate::number::Number;
 
 /// A coordinate axis.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, serde::Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, serde::Serialize, serde::Deserialize)]
 pub enum Axis {
     /// The first axis, along the normal vector n.
     X,

@@ -1,6 +1,9 @@
 //! Words for what is wrong with a file of another program.
 
-use super::problem::ImportProblemKind;
+use std::error::Error;
+use std::fmt::{self, Display, Formatter};
+
+use super::problem::{ImportProblem, ImportProblemKind};
 use crate::description::listed;
 
 impl ImportProblemKind {
@@ -119,3 +122,22 @@ fn or(words: &[&str]) -> String {
         words => words.join(""),
     }
 }
+
+impl Display for ImportProblemKind {
+    fn fmt(&self, f: &mut Formatter) -> fmt::Result {
+        f.write_str(&self.title())?;
+        match self.help() {
+            Some(help) => write!(f, " ({help})"),
+            None => Ok(()),
+        }
+    }
+}
+
+impl Display for ImportProblem {
+    fn fmt(&self, f: &mut Formatter) -> fmt::Result {
+        self.kind.fmt(f)
+    }
+}
+
+impl Error for ImportProblemKind {}
+impl Error for ImportProblem {}

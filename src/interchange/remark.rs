@@ -2,7 +2,7 @@
 
 use std::fmt::{self, Display, Formatter};
 
-use crate::description::{ClosureKind, listed};
+use crate::description::{ClosureKind, quoted};
 
 /// What is worth knowing about a file that was read or written.
 #[derive(Clone, Debug, PartialEq)]
@@ -245,11 +245,6 @@ impl Display for Remark {
             Remark::Home(text) => f.write_str(text),
         }
     }
-}
-
-fn quoted(names: &[String]) -> String {
-    let names: Vec<String> = names.iter().map(|name| format!("`{name}`")).collect();
-    listed(&names)
 }
 
 fn follow(followers: &[String]) -> String {

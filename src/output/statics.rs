@@ -21,13 +21,11 @@ pub fn json(mechanism: &Mechanism, report: &StaticsReport) -> String {
     #[derive(Serialize)]
     struct StaticsJson<'a> {
         sentence: String,
-        balanced: bool,
         #[serde(flatten)]
         report: &'a StaticsReport,
     }
     let json = StaticsJson {
         sentence: sentence(report),
-        balanced: report.unbalanced.is_empty(),
         report,
     };
     document(mechanism.name(), &json)

@@ -18,8 +18,9 @@ pub use words::{
 use serde::Serialize;
 
 use super::json::document;
-use crate::analysis::sweep::SweepReport;
+use crate::analysis::sweep::{MotionReport, MotionsReport, SweepReport};
 use crate::mechanism::Mechanism;
+use crate::system::Variable;
 
 /// One motion with its mode and the rows that are to be shown.
 #[derive(Clone, Debug)]
@@ -32,30 +33,43 @@ pub struct Motion {
     pub rows: Sampled,
 }
 
-/// Motions as JSON: the fields of [`SweepReport`] with a sentence, columns and rows.
-pub fn json(mechanism: &Mechanism, table: &Table, motions: &[Motion]) -> String {
+/// The report of motions, with the rows that are shown of them.
+pub fn report(mechanism: &Mechanism, table: &Table, motions: &[Motion]) -> MotionsReport {
+    let motions = motions.iter().map(|motion| MotionReport {
+        mode: motion.mode,
+        report: motion.report.clone(),
+        columns: table.headings(),
+        values: motion.rows.rows().to_vec(),
+    });
+    MotionsReport {
+        mechanism: mechanism.name().into(),
+        variables: mechanism.variables(),
+        motions: motions.collect(),
+    }
+}
+
+/// Motions as JSON: the fields of [`MotionsReport`] with a sentence for each motion.
+pub fn json(report: &MotionsReport) -> String {
     #[derive(Serialize)]
     struct MotionJson<'a> {
-        mode: Option<usize>,
         sentence: String,
         #[serde(flatten)]
-        report: &'a SweepReport,
-        columns: Vec<String>,
-        values: &'a [Vec<Option<f64>>],
+        motion: &'a MotionReport,
     }
     #[derive(Serialize)]
     struct MotionsJson<'a> {
+        variables: &'a [Variable],
         motions: Vec<MotionJson<'a>>,
     }
-    let motions = motions.iter().map(|motion| MotionJson {
-        mode: motion.mode,
+    let motions = report.motions.iter().map(|motion| MotionJson {
         sentence: sentence(&motion.report),
-        report: &motion.report,
-        columns: table.columns(),
-        values: motion.rows.rows(),
+        motion,
     });
-    let motions = motions.collect();
-    document(mechanism.name(), &MotionsJson { motions })
+    let json = MotionsJson {
+        variables: &report.variables,
+        motions: motions.collect(),
+    };
+    document(&report.mechanism, &json)
 }
 
 /// Motions as text: the sentence, what was met, and some of the rows.

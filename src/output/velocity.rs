@@ -183,7 +183,7 @@ fn joints(report: &VelocityReport) -> String {
         table.add_row([
             joint.name.as_str(),
             if joint.held { "held" } else { "solved" },
-            &quantity(joint.value, joint.unit == "rad"),
+            &quantity(joint.value, joint.unit.is_angle()),
             &per(joint.rate, "s"),
             &per(joint.acceleration, "s²"),
         ]);

@@ -18,39 +18,26 @@ use serde::Serialize;
 use super::json::document;
 use super::layout::{align_right, indented, plain};
 use super::quantity::{digits, number, quantity, size};
-use crate::analysis::workspace::{AspectReport, BoundaryKind, Cell, Conditioned, WorkspaceReport};
+use crate::algebra::SiUnit;
+use crate::analysis::workspace::{AspectReport, BoundaryKind, Conditioned, WorkspaceReport};
 use crate::description::count;
 use crate::mechanism::Mechanism;
 
 /// A map as JSON: the fields of [`WorkspaceReport`] after two sentences, then columns and rows.
-pub fn json(mechanism: &Mechanism, report: &WorkspaceReport) -> String {
+pub fn json(report: &WorkspaceReport) -> String {
     #[derive(Serialize)]
     struct Json<'a> {
         sentence: String,
         completeness: String,
         #[serde(flatten)]
         report: &'a WorkspaceReport,
-        columns: Vec<String>,
-        values: Vec<Vec<Option<f64>>>,
     }
     let json = Json {
         sentence: sentence(report),
         completeness: completeness(report),
         report,
-        columns: columns(mechanism, report),
-        values: report.cells.iter().map(|cell| row(&cell)).collect(),
     };
-    document(mechanism.name(), &json)
-}
-
-fn columns(mechanism: &Mechanism, report: &WorkspaceReport) -> Vec<String> {
-    let axes = report.axes.iter();
-    let mut columns: Vec<String> = axes.map(|a| format!("{} ({})", a.name, a.unit)).collect();
-    columns.extend(["mode", "aspect", "condition", "direct", "inverse"].map(str::to_owned));
-    columns.extend(joint_columns(mechanism));
-    let following = report.following.iter();
-    columns.extend(following.map(|c| format!("{} ({})", c.name, c.unit)));
-    columns
+    document(&report.mechanism, &json)
 }
 
 fn joint_columns(mechanism: &Mechanism) -> Vec<String> {
@@ -63,16 +50,6 @@ fn joint_columns(mechanism: &Mechanism) -> Vec<String> {
         .collect()
 }
 
-/// An aspect that is missing stands for a node outside limits or on a singularity.
-fn row(cell: &Cell) -> Vec<Option<f64>> {
-    let mut row: Vec<Option<f64>> = cell.at.iter().copied().map(Some).collect();
-    row.push(Some(cell.mode as f64));
-    row.push(cell.aspect.map(|aspect| aspect as f64));
-    row.extend([cell.condition, cell.direct, cell.inverse]);
-    row.extend(cell.joints.iter().chain(cell.following).copied().map(Some));
-    row
-}
-
 /// A name with a comma stands in quotes (RFC 4180).
 fn header(columns: &[String]) -> String {
     let fields = columns.iter().map(|name| match name.contains([',', '"']) {
@@ -83,13 +60,11 @@ fn header(columns: &[String]) -> String {
 }
 
 /// The nodes as lines of CSV, in m and rad with all digits; the first is the header.
-pub fn csv<'a>(
-    mechanism: &Mechanism,
-    report: &'a WorkspaceReport,
-) -> impl Iterator<Item = String> + 'a {
-    let first = header(&columns(mechanism, report));
+pub fn csv(report: &WorkspaceReport) -> impl Iterator<Item = String> + '_ {
+    let columns: Vec<String> = report.columns.iter().map(ToString::to_string).collect();
+    let first = header(&columns);
     let rows = report.cells.iter().map(|cell| {
-        let fields = row(&cell);
+        let fields = cell.row();
         let fields = fields.iter().map(|x| x.map_or(String::new(), digits));
         fields.collect::<Vec<String>>().join(",") + "\n"
     });
@@ -194,7 +169,7 @@ fn aspects(report: &WorkspaceReport, most: usize) -> String {
     };
     let at = |node: &Conditioned| {
         let values = node.at.iter().zip(&report.axes);
-        let values = values.map(|(x, axis)| quantity(*x, axis.unit == "rad"));
+        let values = values.map(|(x, axis)| quantity(*x, axis.unit.is_angle()));
         values.collect::<Vec<String>>().join(", ")
     };
     let large = |aspect: &&AspectReport| aspect.nodes >= FEW;
@@ -271,8 +246,8 @@ fn boundary(report: &WorkspaceReport) -> String {
     )
 }
 
-fn range(name: &str, from: f64, to: f64, unit: &str, nodes: usize) -> String {
-    let value = |x| quantity(x, unit == "rad");
+fn range(name: &str, from: f64, to: f64, unit: SiUnit, nodes: usize) -> String {
+    let value = |x| quantity(x, unit.is_angle());
     format!(
         "{name} from {} to {} in {nodes} nodes",
         value(from),

@@ -1,6 +1,6 @@
 //! Closing a mechanism before it is analysed: published poses are often not closed.
 
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
 use super::{Gap, Held, HeldPlatform, Question, Search, System};
 use crate::linear::SPECTRUM_LIMIT;
@@ -8,7 +8,7 @@ use crate::mechanism::{Configuration, Mechanism};
 use crate::solve::{Equations, Newton, Stop};
 
 /// How far a closure of a given pose is from being whole.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct WidestGap {
     /// Name of the closure.
     pub closure: String,
@@ -63,7 +63,7 @@ impl<R> Analysed<R> {
 }
 
 /// A mechanism that does not close near the pose given.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct NotClosed {
     /// The widest gap that is left at the closest approach.
     pub left: Option<WidestGap>,

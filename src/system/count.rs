@@ -1,6 +1,6 @@
 //! What is held beside what the mechanism allows.
 
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
 use super::{HeldPlatform, Holdable, Mobility, Question, QuestionError, System};
 use crate::description::Role;
@@ -10,7 +10,7 @@ use crate::mechanism::{Configuration, Coordinate};
 use crate::solve::{Newton, Stop};
 
 /// What is held beside what the mechanism allows.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Count {
     /// Freedoms of the mechanism, if it assembles near the start.
     pub mobility: Option<usize>,

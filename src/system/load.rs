@@ -2,7 +2,7 @@
 
 use super::drive::number;
 use super::{DriveError, Holdable, Question};
-use crate::algebra::Measure;
+use crate::algebra::{Measure, SiUnit};
 use crate::description::nearest;
 use crate::mechanism::{Body, Coordinate, Frame};
 
@@ -151,11 +151,8 @@ impl Load {
 }
 
 impl Holdable {
-    /// Unit of the force that holds it: `N·m` or `N`.
-    pub fn force_unit(self, mechanism: &crate::mechanism::Mechanism) -> &'static str {
-        match self.is_angle(mechanism) {
-            true => "N·m",
-            false => "N",
-        }
+    /// Unit of the force that holds it: N·m or N.
+    pub fn force_unit(self, mechanism: &crate::mechanism::Mechanism) -> SiUnit {
+        SiUnit::of_effort(self.is_angle(mechanism))
     }
 }

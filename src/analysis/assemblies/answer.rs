@@ -9,7 +9,7 @@ use super::coordinates::{C, Coordinates, size};
 use super::local::Local;
 use super::path::End;
 use super::real::{complex_key, key, order, real_solution, tidied, tidied_complex};
-use super::report::{AssembliesReport, ComplexAssembly, Continuum, Fit, Named};
+use super::report::{AssembliesReport, ComplexAssembly, Continuum, Fit, ListedJoint, Named};
 use super::simple::are_one;
 use super::solutions::GenericSolutions;
 use super::way::Way;
@@ -235,7 +235,22 @@ impl Question<'_> {
     }
 
     fn empty(&self, generic: &GenericSolutions) -> AssembliesReport {
+        let platforms = self.mechanism.platforms().iter().zip(&self.held.platforms);
+        let joints = self.mechanism.joints().iter().zip(&self.held.joints);
         AssembliesReport {
+            mechanism: self.mechanism.name().into(),
+            variables: (joints.enumerate().zip(self.mechanism.variables()))
+                .map(|((j, (joint, &held)), variable)| ListedJoint {
+                    variable,
+                    held,
+                    periodic: self.mechanism.repeats(j) && joint.limits.is_none(),
+                })
+                .collect(),
+            held_platforms: platforms
+                .filter(|(_, held)| **held == HeldPlatform::Pose)
+                .map(|(platform, _)| platform.name.clone())
+                .collect(),
+            characteristic_length: self.mechanism.characteristic_length(),
             assemblies: Vec::new(),
             complex_assemblies: Vec::new(),
             complex: 0,

@@ -1,6 +1,6 @@
 //! Singularities in two inputs: loci as curves.
 
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
 use super::classify::{Classifier, Singularity};
 use super::extents::extents;
@@ -9,15 +9,20 @@ use super::pins::pins;
 use super::projected::{Projection, Shape, groups};
 use super::starts::{Found, Search};
 use super::{SingularitiesSettings, names, output_names};
+use crate::algebra::SiUnit;
 use crate::mechanism::{Configuration, Mechanism};
 use crate::solve::Place;
-use crate::system::{Driven, Held, Holdable, Lock, LocusCurve, LocusEnd, Region, Singular, Traced};
+use crate::system::{Driven, Held, Holdable, Lock, LocusCurve, LocusEnd, Region, Singular, Traced, Variable};
 
 type At = Place<Singular>;
 
 /// The singularity loci in a box of two coordinates.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct LocusReport {
+    /// Name of the mechanism.
+    pub mechanism: String,
+    /// The joint variables with their units, in the order of the file.
+    pub variables: Vec<Variable>,
     /// The inputs that singularities are told of.
     pub inputs: Vec<String>,
     /// The outputs.
@@ -48,12 +53,12 @@ pub struct LocusReport {
 }
 
 /// A side of the box.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Bound {
     /// The coordinate.
     pub name: String,
     /// rad or m.
-    pub unit: &'static str,
+    pub unit: SiUnit,
     /// Its least value.
     pub from: f64,
     /// Its greatest value.
@@ -61,7 +66,7 @@ pub struct Bound {
 }
 
 /// Which matrix loses rank.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Kind {
     /// [J; H]: freedoms are gained while the inputs stand still.
@@ -82,7 +87,7 @@ impl Kind {
 }
 
 /// What a curve of singular configurations is in the box, or several that look alike there.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Locus {
     /// Which matrix loses rank on it.
     pub kind: Kind,
@@ -174,6 +179,8 @@ pub fn loci(
         classifier,
     };
     let mut report = LocusReport {
+        mechanism: mechanism.name().into(),
+        variables: mechanism.variables(),
         inputs: names(mechanism, inputs),
         outputs: output_names(mechanism, &outputs),
         coupled: coupled(mechanism, inputs, &outputs, start, settings, false),
@@ -182,10 +189,7 @@ pub fn loci(
             .collect(),
         bounds: sides.map(|side| Bound {
             name: side.coordinate.name(mechanism),
-            unit: match side.coordinate.is_angle(mechanism) {
-                true => "rad",
-                false => "m",
-            },
+            unit: SiUnit::of_coordinate(side.coordinate.is_angle(mechanism)),
             from: side.from,
             to: side.to,
         }),

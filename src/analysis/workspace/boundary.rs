@@ -1,7 +1,7 @@
 //! What bounds modes and separates aspects: points on the edges of the grid, and curves through
 //! them.
 
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
 use super::asked::Asked;
 use super::curves::Tracer;
@@ -16,7 +16,7 @@ use crate::system::{
 };
 
 /// What a boundary is.
-#[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize)]
+#[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum BoundaryKind {
     /// An inverse singularity (type 1 of Gosselin and Angeles): modes of the inverse problem meet.
@@ -64,7 +64,7 @@ impl Kind {
 }
 
 /// A boundary curve.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct BoundaryCurve {
     /// What it is.
     pub kind: BoundaryKind,
@@ -83,7 +83,7 @@ pub struct BoundaryCurve {
 }
 
 /// A piece of a curve on the boundary of a mode.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Piece {
     /// The mode.
     pub mode: usize,

@@ -1,7 +1,10 @@
 //! Every node in every mode that reaches it, as a table.
 
+use serde::{Deserialize, Deserializer, Serialize, Serializer};
+
 use super::filled::Band;
 use super::map::{Map, bring};
+use super::report::AxisReport;
 use crate::mechanism::Coordinate;
 use crate::solve::each;
 
@@ -98,6 +101,79 @@ impl Cells {
                 following,
             }
         })
+    }
+}
+
+impl Cell<'_> {
+    /// The cell as a row of numbers; an aspect that is missing stands for a node outside limits or
+    /// on a singularity.
+    pub fn row(&self) -> Vec<Option<f64>> {
+        let mut row: Vec<Option<f64>> = self.at.iter().copied().map(Some).collect();
+        row.push(Some(self.mode as f64));
+        row.push(self.aspect.map(|aspect| aspect as f64));
+        row.extend([self.condition, self.direct, self.inverse]);
+        row.extend(self.joints.iter().chain(self.following).copied().map(Some));
+        row
+    }
+}
+
+impl Serialize for Cells {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        serializer.collect_seq(self.iter().map(|cell| cell.row()))
+    }
+}
+
+/// What is told of a node stands in so many numbers of a row.
+const TOLD: usize = 5;
+
+impl<'de> Deserialize<'de> for Cells {
+    /// As one value after another: what they are is not known until they are [`arranged`](Cells::arranged).
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        let rows = Vec::<Vec<Option<f64>>>::deserialize(deserializer)?;
+        let width = rows.first().map_or(0, Vec::len);
+        let values = rows.into_iter().flatten();
+        let values = values.map(|value| value.unwrap_or(f64::NAN)).collect();
+        let heads = Vec::new();
+        Ok(Cells {
+            widths: [width, 0, 0],
+            parts: vec![Part { heads, values }],
+        })
+    }
+}
+
+impl Cells {
+    /// Cells that were just deserialised, with what their values are; `None` if they cannot be that.
+    pub(super) fn arranged(self, widths: [usize; 3], axes: &[AxisReport]) -> Option<Self> {
+        let values: Vec<f64> = self.parts.into_iter().flat_map(|part| part.values).collect();
+        let width = widths.iter().sum::<usize>() + TOLD;
+        if values.len() % width != 0 || !values.is_empty() && self.widths[0] != width {
+            return None;
+        }
+        let mut part = Part::default();
+        for row in values.chunks_exact(width) {
+            let (at, rest) = row.split_at(widths[0]);
+            let (told, rest) = rest.split_at(TOLD);
+            let number = |x: f64| (x.is_finite() && x >= 0.0).then_some(x as usize);
+            let known = |x: f64| (!x.is_nan()).then_some(x);
+            // the first coordinate runs fastest
+            let mut node = 0;
+            for (x, axis) in at.iter().zip(axes).rev() {
+                let part = (x - axis.from) / (axis.to - axis.from);
+                let place = (part * axis.nodes.saturating_sub(1) as f64).round();
+                node = node * axis.nodes + number(place)?;
+            }
+            part.heads.push(Head {
+                node,
+                mode: number(told[0])?,
+                aspect: number(told[1]),
+                condition: known(told[2]),
+                direct: known(told[3]),
+                inverse: known(told[4]),
+            });
+            part.values.extend(at.iter().chain(rest));
+        }
+        let parts = vec![part];
+        Some(Cells { widths, parts })
     }
 }
 

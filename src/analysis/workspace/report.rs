@@ -1,13 +1,21 @@
 //! What a map of the workspace tells.
 
-use serde::Serialize;
+use serde::de::Error;
+use serde::{Deserialize, Deserializer, Serialize, Serializer};
 
+use crate::algebra::SiUnit;
+use crate::system::{Column, Variable};
 use super::boundary::{BoundaryCurve, BoundaryKind};
 use super::cells::Cells;
 
 /// Where a mechanism reaches in a box of coordinates, and how.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(remote = "Self")]
 pub struct WorkspaceReport {
+    /// Name of the mechanism.
+    pub mechanism: String,
+    /// The joint variables with their units, in the order of the file.
+    pub variables: Vec<Variable>,
     /// The mapped coordinates.
     pub axes: Vec<AxisReport>,
     /// What is held beside them.
@@ -24,7 +32,7 @@ pub struct WorkspaceReport {
     /// Nodes that are reached within limits in some mode. A node exactly where a mode ends is not.
     pub reached: usize,
     /// The unit of the sizes, e.g. m² or rad·m.
-    pub unit: String,
+    pub unit: SiUnit,
     /// The size of the box.
     pub size: f64,
     /// The size of what is reached within limits in some mode.
@@ -51,18 +59,58 @@ pub struct WorkspaceReport {
     pub seed: u64,
     /// The length in m that makes the Jacobian dimensionless.
     pub normalising_length: f64,
-    /// Every node in every mode that reaches it, those outside limits too.
-    #[serde(skip)]
+    /// The headings of the rows in [`cells`](Self::cells): mapped coordinates, what is told of the
+    /// node, joints and coordinates that follow.
+    pub columns: Vec<Column>,
+    /// Every node in every mode that reaches it, those outside limits too; serialised as rows of
+    /// numbers, with `null` for what is not told.
+    #[serde(rename = "values")]
     pub cells: Cells,
 }
 
+impl WorkspaceReport {
+    /// The headings of the rows.
+    pub(super) fn headings(&self) -> Vec<Column> {
+        let axes = self.axes.iter().map(|axis| Variable {
+            name: axis.name.clone(),
+            unit: axis.unit,
+        });
+        let told = ["mode", "aspect", "condition", "direct", "inverse"].map(Column::plain);
+        let following = self.following.iter().map(|of| Variable {
+            name: of.name.clone(),
+            unit: of.unit,
+        });
+        let joints = self.variables.iter().cloned();
+        (axes.map(Column::from).chain(told))
+            .chain(joints.chain(following).map(Column::from))
+            .collect()
+    }
+}
+
+impl Serialize for WorkspaceReport {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        WorkspaceReport::serialize(self, serializer)
+    }
+}
+
+impl<'de> Deserialize<'de> for WorkspaceReport {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        let mut report = WorkspaceReport::deserialize(deserializer)?;
+        let widths = [report.axes.len(), report.variables.len(), report.following.len()];
+        let cells = std::mem::take(&mut report.cells);
+        let cells = cells.arranged(widths, &report.axes);
+        report.cells = cells.ok_or_else(|| D::Error::custom("a row has too few or wrong values"))?;
+        Ok(report)
+    }
+}
+
 /// A mapped coordinate.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct AxisReport {
     /// Its name.
     pub name: String,
     /// rad or m.
-    pub unit: &'static str,
+    pub unit: SiUnit,
     /// Its least value.
     pub from: f64,
     /// Its greatest value.
@@ -72,27 +120,27 @@ pub struct AxisReport {
 }
 
 /// A coordinate.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct CoordinateReport {
     /// Its name.
     pub name: String,
     /// rad or m.
-    pub unit: &'static str,
+    pub unit: SiUnit,
 }
 
 /// A coordinate that is held.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct HeldReport {
     /// Its name.
     pub name: String,
     /// rad or m.
-    pub unit: &'static str,
+    pub unit: SiUnit,
     /// Its value.
     pub value: f64,
 }
 
 /// A mode: what regular motion within the box connects, whether within limits or not.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct ModeReport {
     /// Its number: modes are sorted by the first node they reach, those with the same first node by
     /// the joints there, angles in (−π, π].
@@ -111,7 +159,7 @@ pub struct ModeReport {
 }
 
 /// A region of one mode within limits that no singularity parts.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct AspectReport {
     /// Its number: by mode, then by nodes, the most first.
     pub aspect: usize,
@@ -134,7 +182,7 @@ pub struct AspectReport {
 }
 
 /// A node with the condition number there.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Conditioned {
     /// The mapped coordinates, rad or m.
     pub at: Vec<f64>,
@@ -143,7 +191,7 @@ pub struct Conditioned {
 }
 
 /// A boundary point.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct BoundaryPoint {
     /// What bounds.
     pub kind: BoundaryKind,

@@ -86,7 +86,7 @@ fn one(mechanism: &Mechanism, report: &CircuitsReport, circuit: &Circuit) -> Str
     );
     let mut table = plain(["joint", "turns", "lowest", "highest"]);
     for joint in &circuit.joints {
-        let is_angle = joint.unit == "rad";
+        let is_angle = joint.unit.is_angle();
         let range = |x: f64| match joint.turns {
             0 => quantity(x, is_angle),
             _ => String::new(),

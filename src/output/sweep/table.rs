@@ -2,8 +2,10 @@
 
 use crate::analysis::sweep::{MetKind, Row, TracedPoint};
 use crate::mechanism::{Frame, Mechanism};
+use crate::algebra::SiUnit;
 use crate::output::layout::{align_right, indented};
 use crate::output::quantity::{number, quantity};
+use crate::system::Column as Heading;
 
 /// What the columns are.
 #[derive(Clone, Debug)]
@@ -14,7 +16,7 @@ pub struct Table {
 #[derive(Clone, Debug)]
 struct Column {
     name: String,
-    unit: &'static str,
+    unit: Option<SiUnit>,
     source: Source,
 }
 
@@ -33,7 +35,7 @@ impl Table {
         for (i, joint) in mechanism.joints().iter().enumerate() {
             columns.push(Column {
                 name: joint.name.clone(),
-                unit: if joint.kind.is_angle() { "rad" } else { "m" },
+                unit: Some(SiUnit::of_coordinate(joint.kind.is_angle())),
                 source: Source::Joint(i),
             });
         }
@@ -42,14 +44,14 @@ impl Table {
             for (k, axis) in ["x", "y", "z"].into_iter().enumerate() {
                 columns.push(Column {
                     name: format!("{name}.{axis}"),
-                    unit: "m",
+                    unit: Some(SiUnit::METRE),
                     source: Source::Position(i, k),
                 });
             }
             for (k, part) in ["qw", "qx", "qy", "qz"].into_iter().enumerate() {
                 columns.push(Column {
                     name: format!("{name}.{part}"),
-                    unit: "",
+                    unit: None,
                     source: Source::Quaternion(i, k),
                 });
             }
@@ -58,7 +60,7 @@ impl Table {
             for (k, axis) in ["x", "y", "z"].into_iter().enumerate() {
                 columns.push(Column {
                     name: format!("{}.{axis}", point.name),
-                    unit: "m",
+                    unit: Some(SiUnit::METRE),
                     source: Source::Point(i, k),
                 });
             }
@@ -76,13 +78,21 @@ impl Table {
         }
     }
 
-    /// Names of the columns, with units; the first is the number of the step.
-    pub fn columns(&self) -> Vec<String> {
-        let named = self.columns.iter().map(|column| match column.unit {
-            "" => column.name.clone(),
-            unit => format!("{} ({unit})", column.name),
+    /// The headings of the rows; the first is the number of the step.
+    pub fn headings(&self) -> Vec<Heading> {
+        let named = self.columns.iter().map(|column| Heading {
+            name: column.name.clone(),
+            unit: column.unit,
         });
-        std::iter::once("step".to_owned()).chain(named).collect()
+        std::iter::once(Heading::plain("step"))
+            .chain(named)
+            .collect()
+    }
+
+    /// Names of the columns, with units; the first is the number of the step.
+    fn columns(&self) -> Vec<String> {
+        let headings = self.headings().into_iter();
+        headings.map(|heading| heading.to_string()).collect()
     }
 
     /// The first line of CSV.
@@ -135,9 +145,8 @@ impl Table {
             let values = self.columns.iter().zip(&row[1..]).filter(|(c, _)| shown(c));
             let values = values.map(|(column, value)| match (value, column.unit) {
                 (None, _) => String::new(),
-                (Some(value), "rad") => quantity(*value, true),
-                (Some(value), "m") => quantity(*value, false),
-                (Some(value), _) => number(*value),
+                (Some(value), Some(unit)) => quantity(*value, unit.is_angle()),
+                (Some(value), None) => number(*value),
             });
             table.add_row(std::iter::once(step).chain(values));
         }

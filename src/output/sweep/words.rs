@@ -10,7 +10,7 @@ use crate::output::question::{unknown_frame, value};
 use crate::system::QuestionError;
 
 fn at(input: &InputReport, value: f64) -> String {
-    format!("{} = {}", input.name, quantity(value, input.unit == "rad"))
+    format!("{} = {}", input.name, quantity(value, input.unit.is_angle()))
 }
 
 /// `theta1 = 60° and l2 = 0.5 m`
@@ -28,7 +28,7 @@ pub fn sentence(report: &SweepReport) -> String {
     let last = report.met.last();
     let way: Vec<String> = (report.inputs.iter())
         .map(|input| {
-            let value = |x| quantity(x, input.unit == "rad");
+            let value = |x| quantity(x, input.unit.is_angle());
             format!(
                 "{} from {} to {}",
                 input.name,
@@ -88,7 +88,7 @@ pub fn sentence(report: &SweepReport) -> String {
                 None => String::new(),
             };
             let place = match (&report.inputs[..], last.map(|met| &met.inputs[..])) {
-                ([input], Some([value])) => quantity(*value, input.unit == "rad"),
+                ([input], Some([value])) => quantity(*value, input.unit.is_angle()),
                 _ => place,
             };
             format!(
@@ -108,7 +108,7 @@ pub fn sentence(report: &SweepReport) -> String {
         ) => format!(
             "{joint} reaches its {} limit of {}{}.",
             if *upper { "upper" } else { "lower" },
-            quantity(*limit, *unit == "rad"),
+            quantity(*limit, unit.is_angle()),
             match report.inputs.iter().any(|input| input.name == *joint) {
                 true => String::new(),
                 false => format!(" at {place}"),
@@ -148,7 +148,7 @@ pub fn sentence(report: &SweepReport) -> String {
             "{joint} is outside its {} limit of {} where the motion is to begin: begin elsewhere, or \
              in another mode with --mode.",
             if *upper { "upper" } else { "lower" },
-            quantity(*limit, *unit == "rad")
+            quantity(*limit, unit.is_angle())
         ),
         (Ending::Stopped, _) => "Stopped before the end.".into(),
         _ => format!(
