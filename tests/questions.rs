@@ -159,7 +159,7 @@ fn the_closest_approach_keeps_what_is_held() {
         assert!(local_minimum);
         // the arm reaches 1.0 + 0.8
         assert!(
-            (report.gaps[0].distance - gap).abs() < 1e-6,
+            (report.gaps.0[0].1.distance - gap).abs() < 1e-6,
             "{:?}",
             report.gaps
         );

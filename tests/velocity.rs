@@ -114,7 +114,9 @@ fn rates_and_accelerations_are_those_of_solved_configurations() {
         }
         for frame in &found.frames {
             let place = |report: &AssemblyReport| {
-                mechanism.pose(&frame.name, &report.configuration()).unwrap()
+                mechanism
+                    .pose(&frame.name, &report.configuration())
+                    .unwrap()
             };
             let [a, b, c] = [&before, &now, &after].map(place);
             let velocity = (c.position - a.position).times(0.5 / STEP);
@@ -371,7 +373,7 @@ fn a_pose_held_whole_has_rates_where_roll_and_yaw_are_one() {
         let start = close(&question, &Newton::default(), 40, 1).unwrap();
         let question = hold(turn).near(&start.configuration);
         let closed = close(&question, &Newton::default(), 0, 1).unwrap();
-        closed.configuration().joints
+        closed.configuration.joints
     };
     let h = 1e-4;
     let [back, middle, ahead] = [-h, 0.0, h].map(solved);

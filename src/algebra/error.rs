@@ -25,7 +25,9 @@ impl Display for ParseErrorKind {
             MissingOperator => f.write_str("an operator is missing between two values"),
             UnknownUnit(unit) => write!(f, "`{unit}` after a number is not a unit"),
             UnclosedParenthesis => f.write_str("a parenthesis is not closed"),
-            UnopenedParenthesis => f.write_str("there is a closing parenthesis without an opening one"),
+            UnopenedParenthesis => {
+                f.write_str("there is a closing parenthesis without an opening one")
+            }
             UnexpectedComma => f.write_str("a comma stands outside the arguments of a function"),
             UnknownFunction(name) => write!(f, "there is no function `{name}`"),
             MissingArguments(function) => {
@@ -43,8 +45,14 @@ impl Display for ParseErrorKind {
             DoubleStar => f.write_str("a power is written `^`, not `**`"),
             MalformedNumber => f.write_str("this is not a number"),
             NumberTooLarge => f.write_str("the number is too large"),
-            TooDeep => write!(f, "the expression is nested more than {MAX_NESTING} levels deep"),
-            TooLong => write!(f, "the expression has more than {MAX_HEIGHT} operations in a row"),
+            TooDeep => write!(
+                f,
+                "the expression is nested more than {MAX_NESTING} levels deep"
+            ),
+            TooLong => write!(
+                f,
+                "the expression has more than {MAX_HEIGHT} operations in a row"
+            ),
         }
     }
 }
@@ -75,7 +83,12 @@ impl Display for MeasureErrorKind {
     fn fmt(&self, f: &mut Formatter) -> fmt::Result {
         match self {
             Self::Wrong { wanted, found } => {
-                write!(f, "{} stands where {} must stand", found.words(), wanted.words())
+                write!(
+                    f,
+                    "{} stands where {} must stand",
+                    found.words(),
+                    wanted.words()
+                )
             }
             Self::Mixed => f.write_str("an angle and a length stand where both must be the same"),
             Self::LengthAsAngle(function) => {

@@ -114,7 +114,10 @@ const POWERS: [char; 10] = ['⁰', '¹', '²', '³', '⁴', '⁵', '⁶', '⁷',
 impl Display for SiUnit {
     fn fmt(&self, f: &mut Formatter) -> fmt::Result {
         let side = |sign: i8| {
-            let parts = self.powers().into_iter().filter(|(_, power)| sign * power > 0);
+            let parts = self
+                .powers()
+                .into_iter()
+                .filter(|(_, power)| sign * power > 0);
             let parts = parts.map(|(name, power)| match power.unsigned_abs() {
                 1 => name.to_owned(),
                 power => format!("{name}{}", POWERS[usize::from(power).min(9)]),
@@ -143,7 +146,10 @@ impl FromStr for SiUnit {
         let mut unit = SiUnit::ONE;
         let above = above.split('·').filter(|part| *part != "1");
         let below = below.into_iter().flat_map(|below| below.split('·'));
-        for (part, sign) in above.map(|part| (part, 1)).chain(below.map(|part| (part, -1))) {
+        for (part, sign) in above
+            .map(|part| (part, 1))
+            .chain(below.map(|part| (part, -1)))
+        {
             let name = part.trim_end_matches(POWERS);
             let power = match part[name.len()..].chars().collect::<Vec<char>>()[..] {
                 [] => 1,
@@ -196,7 +202,10 @@ mod tests {
             (SiUnit::METRE.per_second(), "m/s"),
             (SiUnit::RADIAN.per_second().per_second(), "rad/s²"),
             (SiUnit::NEWTON_METRE, "N·m"),
-            (SiUnit::RADIAN.times(SiUnit::METRE).times(SiUnit::METRE), "rad·m²"),
+            (
+                SiUnit::RADIAN.times(SiUnit::METRE).times(SiUnit::METRE),
+                "rad·m²",
+            ),
         ];
         for (unit, text) in units {
             assert_eq!(unit.to_string(), text);

@@ -38,8 +38,8 @@ mod way;
 pub use follow::{Fold, Followed, LostMode, LostReason};
 pub use generic::Progress;
 pub use report::{
-    AssembliesReport, Assembly, ClosestApproach, ComplexAssembly, Continuum, Fit, ListedJoint, Named,
-    PoseReport,
+    AssembliesReport, Assembly, ClosestApproach, ComplexAssembly, Continuum, Fit, ListedJoint,
+    Named, PoseReport,
 };
 pub use solutions::GenericSolutions;
 pub use store::StoredError;

@@ -14,8 +14,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::algebra::{Expression, Node, Operator};
 use crate::description::{
-    Axis, Convention, Description, Displacement, Entry, Problem, Row, Spanned,
-    mechanism_text,
+    Axis, Convention, Description, Displacement, Entry, Problem, Row, Spanned, mechanism_text,
 };
 use crate::mechanism::Mechanism;
 
@@ -92,7 +91,11 @@ impl Display for ConvertError {
             ConvertError::Cut(error) => error.fmt(f),
             ConvertError::Wrong(problems) => {
                 let titles: Vec<String> = problems.iter().map(|p| p.kind.title()).collect();
-                write!(f, "the converted file is not a mechanism: {}", titles.join("; "))
+                write!(
+                    f,
+                    "the converted file is not a mechanism: {}",
+                    titles.join("; ")
+                )
             }
         }
     }

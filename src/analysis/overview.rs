@@ -13,7 +13,8 @@ pub use loops::{Loop, LoopStep};
 use crate::algebra::{Affine, Node, SiUnit};
 use crate::geometry::{Pose, Quaternion, RollPitchYaw};
 use crate::mechanism::{
-    Chain, ClosureKind, Convention, FixedStep, Formula, Frame, Given, Joint, JointKind, Mechanism, NamedClosure, Platform, Role, Row, Symbol,
+    Chain, ClosureKind, Convention, FixedStep, Formula, Frame, Given, Joint, JointKind, Mechanism,
+    NamedClosure, Platform, Role, Row, Symbol,
 };
 
 /// What a mechanism file means.

@@ -28,8 +28,8 @@ use crate::linear::RANK_TOLERANCE;
 use crate::mechanism::{Configuration, Mechanism};
 use crate::solve::{Continuation, Newton};
 use crate::system::{
-    Analysed, Holdable, Lock, Question, QuestionError, Variable, WidestGap, check_angles, check_count, close,
-    too_large,
+    Analysed, Holdable, Lock, Question, QuestionError, Variable, WidestGap, check_angles,
+    check_count, close, too_large,
 };
 use classify::Classifier;
 use outputs::{coupled, outputs_of};

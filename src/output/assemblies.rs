@@ -262,7 +262,11 @@ pub fn lost_text(lost: &LostMode) -> String {
     }
     text += "\nJoints there\n";
     for ((name, value), joint) in fold.joints.0.iter().zip(&lost.variables) {
-        let _ = writeln!(text, "  {name} = {}", quantity(*value, joint.unit.is_angle()));
+        let _ = writeln!(
+            text,
+            "  {name} = {}",
+            quantity(*value, joint.unit.is_angle())
+        );
     }
     text
 }

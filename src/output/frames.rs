@@ -9,7 +9,9 @@ use super::layout::{align_right, indented, plain};
 use super::option::Complaint;
 use super::overview;
 use super::quantity::{degrees, number, quantity, short, size};
-use crate::analysis::frames::{AxesError, AxesReport, CutReport, FramesReport, PlacedChain, PlacedNormal, Way};
+use crate::analysis::frames::{
+    AxesError, AxesReport, CutReport, FramesReport, PlacedChain, PlacedNormal, Way,
+};
 use crate::analysis::overview::Overview;
 use crate::description::{
     AxesDescription, AxisDescription, AxisKind, AxisPlace, Convention, Entry, count, listed,
@@ -38,7 +40,10 @@ pub fn text(report: &FramesReport, overview: &Overview, steps: bool) -> String {
             .find(|placed| placed.name == chain.name);
         sections.extend(placed.map(normals));
         if let (Some(placed), true) = (placed, steps) {
-            sections.push(steps::steps(placed, report.convention == Convention::Modified));
+            sections.push(steps::steps(
+                placed,
+                report.convention == Convention::Modified,
+            ));
         }
     }
     sections.extend(overview::platforms(overview));

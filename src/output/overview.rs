@@ -70,7 +70,13 @@ fn joints(overview: &Overview) -> String {
             format!("{} to {}", shown(low), shown(high))
         });
         let role = joint.role.word().to_lowercase();
-        table.add_row([&joint.name, joint.kind.word(), &role, &shown(joint.home), &limits]);
+        table.add_row([
+            &joint.name,
+            joint.kind.word(),
+            &role,
+            &shown(joint.home),
+            &limits,
+        ]);
     }
     align_right(&mut table, [3]);
     format!("Joints\n{}", indented(&table.to_string()))

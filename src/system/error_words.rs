@@ -29,7 +29,10 @@ impl Display for DriveError {
                 suggestion,
                 held,
             } => {
-                write!(f, "`{name}` is neither a joint nor a coordinate of a platform")?;
+                write!(
+                    f,
+                    "`{name}` is neither a joint nor a coordinate of a platform"
+                )?;
                 instead(f, suggestion, held, "held:")
             }
             DriveError::NotHeld { name, held } => {
@@ -37,7 +40,10 @@ impl Display for DriveError {
                 instead(f, &None, held, "held:")
             }
             DriveError::Whole { platform, held } => {
-                write!(f, "`{platform}` is a platform: give the rate of one of its coordinates")?;
+                write!(
+                    f,
+                    "`{platform}` is a platform: give the rate of one of its coordinates"
+                )?;
                 instead(f, &None, held, "held:")
             }
             DriveError::NotTurned { platform } => write!(
@@ -89,7 +95,10 @@ impl Display for LoadError {
                 instead(f, suggestion, known, "the joints are")
             }
             LoadError::Platform { name, .. } => {
-                write!(f, "`{name}` is not a joint: a platform is loaded by a wrench")
+                write!(
+                    f,
+                    "`{name}` is not a joint: a platform is loaded by a wrench"
+                )
             }
         }
     }

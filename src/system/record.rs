@@ -129,7 +129,9 @@ impl FromStr for Column {
     type Err = std::convert::Infallible;
 
     fn from_str(text: &str) -> Result<Self, Self::Err> {
-        let parts = text.strip_suffix(')').and_then(|text| text.rsplit_once(" ("));
+        let parts = text
+            .strip_suffix(')')
+            .and_then(|text| text.rsplit_once(" ("));
         let parts = parts.and_then(|(name, unit)| Some((name, unit.parse().ok()?)));
         Ok(match parts {
             None => Column::plain(text),

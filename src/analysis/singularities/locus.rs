@@ -12,7 +12,9 @@ use super::{SingularitiesSettings, names, output_names};
 use crate::algebra::SiUnit;
 use crate::mechanism::{Configuration, Mechanism};
 use crate::solve::Place;
-use crate::system::{Driven, Held, Holdable, Lock, LocusCurve, LocusEnd, Region, Singular, Traced, Variable};
+use crate::system::{
+    Driven, Held, Holdable, Lock, LocusCurve, LocusEnd, Region, Singular, Traced, Variable,
+};
 
 type At = Place<Singular>;
 

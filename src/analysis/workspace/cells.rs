@@ -144,7 +144,11 @@ impl<'de> Deserialize<'de> for Cells {
 impl Cells {
     /// Cells that were just deserialised, with what their values are; `None` if they cannot be that.
     pub(super) fn arranged(self, widths: [usize; 3], axes: &[AxisReport]) -> Option<Self> {
-        let values: Vec<f64> = self.parts.into_iter().flat_map(|part| part.values).collect();
+        let values: Vec<f64> = self
+            .parts
+            .into_iter()
+            .flat_map(|part| part.values)
+            .collect();
         let width = widths.iter().sum::<usize>() + TOLD;
         if values.len() % width != 0 || !values.is_empty() && self.widths[0] != width {
             return None;

@@ -3,10 +3,10 @@
 use serde::de::Error;
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
 
-use crate::algebra::SiUnit;
-use crate::system::{Column, Variable};
 use super::boundary::{BoundaryCurve, BoundaryKind};
 use super::cells::Cells;
+use crate::algebra::SiUnit;
+use crate::system::{Column, Variable};
 
 /// Where a mechanism reaches in a box of coordinates, and how.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -96,10 +96,15 @@ impl Serialize for WorkspaceReport {
 impl<'de> Deserialize<'de> for WorkspaceReport {
     fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
         let mut report = WorkspaceReport::deserialize(deserializer)?;
-        let widths = [report.axes.len(), report.variables.len(), report.following.len()];
+        let widths = [
+            report.axes.len(),
+            report.variables.len(),
+            report.following.len(),
+        ];
         let cells = std::mem::take(&mut report.cells);
         let cells = cells.arranged(widths, &report.axes);
-        report.cells = cells.ok_or_else(|| D::Error::custom("a row has too few or wrong values"))?;
+        report.cells =
+            cells.ok_or_else(|| D::Error::custom("a row has too few or wrong values"))?;
         Ok(report)
     }
 }

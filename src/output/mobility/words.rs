@@ -195,7 +195,11 @@ pub(super) fn idle(freedom: &IdleFreedom) -> String {
 pub(super) fn elsewhere(report: &MobilityReport, other: &Elsewhere) -> String {
     let joints = report.variables.iter().zip(other.joints.values());
     let joints = joints.map(|(joint, &value)| {
-        format!("{} = {}", joint.name, quantity(value, joint.unit.is_angle()))
+        format!(
+            "{} = {}",
+            joint.name,
+            quantity(value, joint.unit.is_angle())
+        )
     });
     format!(
         "The mobility depends on the assembly: near {} the mechanism has {}.",

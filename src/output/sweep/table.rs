@@ -1,8 +1,8 @@
 //! Rows of a motion as columns of numbers.
 
+use crate::algebra::SiUnit;
 use crate::analysis::sweep::{MetKind, Row, TracedPoint};
 use crate::mechanism::{Frame, Mechanism};
-use crate::algebra::SiUnit;
 use crate::output::layout::{align_right, indented};
 use crate::output::quantity::{number, quantity};
 use crate::system::Column as Heading;

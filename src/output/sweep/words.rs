@@ -10,7 +10,11 @@ use crate::output::question::{unknown_frame, value};
 use crate::system::QuestionError;
 
 fn at(input: &InputReport, value: f64) -> String {
-    format!("{} = {}", input.name, quantity(value, input.unit.is_angle()))
+    format!(
+        "{} = {}",
+        input.name,
+        quantity(value, input.unit.is_angle())
+    )
 }
 
 /// `theta1 = 60° and l2 = 0.5 m`

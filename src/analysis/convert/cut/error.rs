@@ -65,7 +65,10 @@ impl Display for CutError {
                 }
             }
             CutError::AlreadyCut { closure } => {
-                write!(f, "`{closure}` is a closure: the mechanism is already cut there")
+                write!(
+                    f,
+                    "`{closure}` is a closure: the mechanism is already cut there"
+                )
             }
             CutError::Helical { joint } => write!(
                 f,
