@@ -5,6 +5,7 @@
 //! appear in that leg's closures only, and the platforms tie the legs together.
 
 mod aligned;
+mod block;
 mod bordered;
 mod decomposition;
 mod factorable;
@@ -15,9 +16,10 @@ mod sparse;
 mod svd;
 
 pub use aligned::axis_aligned;
-pub use bordered::{Block, Bordered};
+pub use block::{Block, DenseOnly, SparseStep};
+pub use bordered::Bordered;
 pub use decomposition::{Decomposition, complement, dot, norm, orthonormal, remove};
-pub use factorable::{DenseOnly, Factorable, SparseStep};
+pub use factorable::Factorable;
 pub use qr::Qr;
 #[cfg(feature = "sparse")]
 pub use sparse::SparseNormal;

@@ -1,4 +1,17 @@
 //! Answers and complaints made visible.
+//!
+//! A report becomes a [`Document`], and a document becomes [`text`], [`markdown`] or [`html`]; the
+//! report itself becomes [`json`], and rows that come one by one become [`csv`]. A new format is one
+//! file beside these, a new analysis one file that implements [`Report`].
+
+pub mod csv;
+pub mod document;
+pub mod html;
+pub mod json;
+pub mod markdown;
+pub mod text;
+
+pub use document::{Document, Report};
 
 #[cfg(feature = "cli")]
 pub mod assemblies;
@@ -16,9 +29,6 @@ pub mod formulas;
 pub mod frames;
 #[cfg(feature = "cli")]
 pub mod import;
-#[cfg(feature = "cli")]
-mod json;
-#[cfg(feature = "cli")]
 mod layout;
 #[cfg(feature = "cli")]
 pub mod mobility;
@@ -28,7 +38,6 @@ pub mod option;
 pub mod overview;
 #[cfg(feature = "plot")]
 pub mod plot;
-#[cfg(feature = "cli")]
 mod quantity;
 #[cfg(feature = "cli")]
 pub mod question;

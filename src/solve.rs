@@ -11,6 +11,7 @@ mod minimum;
 mod newton;
 mod threads;
 mod warm;
+mod watch;
 
 pub use branching::{BranchPoint, Contact};
 pub use continuation::{Continuation, Place, SolutionCurve, Stray};
@@ -20,6 +21,7 @@ pub use minimum::walk_down;
 pub use newton::{Newton, Report, Stop};
 pub use threads::{Pool, each};
 pub use warm::{Trail, Warm, WarmReport};
+pub use watch::{Observer, Progress, Stage, Watch};
 
 use crate::number::{Extent, Field, Number};
 

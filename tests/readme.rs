@@ -10,6 +10,7 @@ use linkwork::analysis::assembly::{AssemblySettings, Outcome, assemble};
 use linkwork::analysis::frames::{FramesSettings, frames};
 use linkwork::description::{AxesDescription, Description, is_mechanism};
 use linkwork::mechanism::Mechanism;
+use linkwork::solve::Watch;
 use linkwork::system::Question;
 
 fn root() -> &'static Path {
@@ -131,9 +132,15 @@ fn files_in_the_readme_are_read_and_assemble() {
             "{:?}",
             mechanism.warnings()
         );
-        let report = assemble(&Question::new(&mechanism), &AssemblySettings::default()).unwrap();
+        let report = assemble(
+            &Question::new(&mechanism),
+            &AssemblySettings::default(),
+            &Watch::none(),
+        )
+        .unwrap();
         assert_eq!(report.outcome, Outcome::Converged);
-        let forms = linkwork::analysis::compare::compare(&mechanism, &Default::default());
+        let forms =
+            linkwork::analysis::compare::compare(&mechanism, &Default::default(), &Watch::none());
         assert!(forms.agree && !forms.closed_forms.is_empty());
     }
 }

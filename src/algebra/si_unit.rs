@@ -26,7 +26,7 @@ pub struct SiUnitError {
 }
 
 impl SiUnit {
-    /// No unit: a ratio or a count; written `1`.
+    /// No unit: a ratio or a count; written as an empty text.
     pub const ONE: Self = Self::new(0, 0, 0, 0);
     /// An angle.
     pub const RADIAN: Self = Self::new(1, 0, 0, 0);
@@ -126,7 +126,7 @@ impl Display for SiUnit {
         };
         let (above, below) = (side(1), side(-1));
         match (above.is_empty(), below.is_empty()) {
-            (true, true) => f.pad("1"),
+            (true, true) => f.pad(""),
             (false, true) => f.pad(&above),
             (true, false) => f.pad(&format!("1/{below}")),
             (false, false) => f.pad(&format!("{above}/{below}")),
@@ -144,6 +144,9 @@ impl FromStr for SiUnit {
             None => (text, None),
         };
         let mut unit = SiUnit::ONE;
+        if text.is_empty() {
+            return Ok(SiUnit::ONE);
+        }
         let above = above.split('·').filter(|part| *part != "1");
         let below = below.into_iter().flat_map(|below| below.split('·'));
         for (part, sign) in above
@@ -197,7 +200,7 @@ mod tests {
     #[test]
     fn units_are_read_as_they_are_written() {
         let units = [
-            (SiUnit::ONE, "1"),
+            (SiUnit::ONE, ""),
             (SiUnit::RADIAN, "rad"),
             (SiUnit::METRE.per_second(), "m/s"),
             (SiUnit::RADIAN.per_second().per_second(), "rad/s²"),
@@ -211,7 +214,7 @@ mod tests {
             assert_eq!(unit.to_string(), text);
             assert_eq!(text.parse(), Ok(unit));
         }
-        for text in ["", "kg", "m²²", "m/", "metre"] {
+        for text in ["kg", "m²²", "m/", "metre"] {
             assert!(text.parse::<SiUnit>().is_err(), "{text}");
         }
     }

@@ -9,50 +9,27 @@
 //! platforms; angles lie in (−π, π]. Nothing random enters. A mode keeps its name when it is
 //! followed from home ([`AssemblySolver::follow`]).
 
-mod along;
 mod answer;
-mod bound;
-mod carry;
-mod certificate;
-mod closest;
-mod coordinates;
-mod describe;
-mod elsewhere;
 mod family;
-mod fold;
 mod follow;
-mod generic;
-mod local;
-mod path;
-mod place;
-mod real;
 mod report;
-mod seed;
-mod simple;
-mod solutions;
-mod stances;
-mod starts;
-mod store;
-mod way;
+mod search;
+mod track;
 
 pub use follow::{Fold, Followed, LostMode, LostReason};
-pub use generic::Progress;
 pub use report::{
     AssembliesReport, Assembly, ClosestApproach, ComplexAssembly, Continuum, Fit, ListedJoint,
     Named, PoseReport,
 };
-pub use solutions::GenericSolutions;
-pub use store::StoredError;
+pub use search::{GenericSolutions, StoredError};
 
 use crate::mechanism::{Configuration, Mechanism, turn_near};
 use crate::number::Number;
+use crate::solve::Watch;
 use crate::system::{Held, HeldPlatform, System};
 use answer::Question;
-use bound::KnownBound;
-use coordinates::C;
-use family::{Family, Member};
-use stances::Stance;
-use store::question;
+use family::{C, Family, KnownBound, Member, Stance};
+use search::question;
 
 /// How hard to search.
 #[derive(Clone, Debug, PartialEq)]
@@ -119,6 +96,8 @@ pub enum AssembliesError {
     /// The mode was followed to the inputs asked for, where double precision does not tell whether
     /// it is assembled.
     Undecided,
+    /// The work was stopped before the mode was found.
+    Interrupted,
 }
 
 impl std::fmt::Display for AssembliesError {
@@ -134,6 +113,7 @@ impl std::fmt::Display for AssembliesError {
                 f,
                 "the stored solutions belong to other dimensions or to another choice of inputs"
             ),
+            AssembliesError::Interrupted => write!(f, "interrupted before the mode was found"),
             AssembliesError::Undecided => write!(
                 f,
                 "the mode was followed to the inputs asked for, but is so near a singular \
@@ -168,6 +148,7 @@ pub struct AssemblySolver {
     bound: Option<KnownBound>,
     generic: GenericSolutions,
     stances: Vec<Stance<C>>,
+    interrupted: bool,
 }
 
 impl AssemblySolver {
@@ -179,23 +160,11 @@ impl AssemblySolver {
         mechanism: &Mechanism,
         held: &Held<f64>,
         settings: &AssembliesSettings,
-    ) -> Result<Self, AssembliesError> {
-        Self::watched(mechanism, held, settings, &|_| {})
-    }
-
-    /// The same, telling how far it is again and again.
-    ///
-    /// # Errors
-    /// If a dimension has no value near the mechanism's own.
-    pub fn watched(
-        mechanism: &Mechanism,
-        held: &Held<f64>,
-        settings: &AssembliesSettings,
-        watch: &dyn Fn(Progress),
+        watch: &Watch,
     ) -> Result<Self, AssembliesError> {
         let family = Family::new(mechanism, held);
-        let bound = bound::known_bound(mechanism, &family).map(|b| b.count);
-        let generic = generic::search(
+        let bound = family::known_bound(mechanism, &family).map(|b| b.count);
+        let generic = search::search(
             &family,
             question(mechanism, &family),
             bound,
@@ -203,7 +172,10 @@ impl AssemblySolver {
             watch,
         );
         let generic = generic.ok_or(AssembliesError::NoValue)?;
-        Ok(Self::with(mechanism, held, family, generic))
+        Ok(AssemblySolver {
+            interrupted: watch.is_stopped(),
+            ..Self::with(mechanism, held, family, generic)
+        })
     }
 
     /// From stored generic solutions, without a search.
@@ -236,11 +208,17 @@ impl AssemblySolver {
         AssemblySolver {
             mechanism: mechanism.clone(),
             held: held.clone(),
-            bound: bound::known_bound(mechanism, &family),
+            bound: family::known_bound(mechanism, &family),
             stances: generic.stances(),
             family,
             generic,
+            interrupted: false,
         }
+    }
+
+    /// Whether the search for generic solutions was stopped before it was done.
+    pub fn is_interrupted(&self) -> bool {
+        self.interrupted
     }
 
     /// The generic solutions, for storing.
@@ -250,8 +228,13 @@ impl AssemblySolver {
 
     /// All assemblies for the values that `asked` has for held joints and poses; held platform
     /// coordinates have the values the solver was made with.
-    pub fn at(&self, asked: &Configuration<f64>, wanted: Wanted) -> AssembliesReport {
-        self.at_targets(asked, &self.held, wanted)
+    pub fn at(
+        &self,
+        asked: &Configuration<f64>,
+        wanted: Wanted,
+        watch: &Watch,
+    ) -> AssembliesReport {
+        self.at_targets(asked, &self.held, wanted, watch)
     }
 
     /// All assemblies, with other values of held platform coordinates.
@@ -260,17 +243,7 @@ impl AssemblySolver {
         asked: &Configuration<f64>,
         held: &Held<f64>,
         wanted: Wanted,
-    ) -> AssembliesReport {
-        self.at_targets_watched(asked, held, wanted, &|_| {})
-    }
-
-    /// The same, telling how far it is again and again.
-    pub fn at_targets_watched(
-        &self,
-        asked: &Configuration<f64>,
-        held: &Held<f64>,
-        wanted: Wanted,
-        watch: &dyn Fn(Progress),
+        watch: &Watch,
     ) -> AssembliesReport {
         // whole turns of an input change nothing but the way to it
         let mut asked = asked.clone();
@@ -287,9 +260,13 @@ impl AssemblySolver {
             asked,
             bound: self.bound.as_ref(),
             system: System::new(self.mechanism.dimensions(), held),
+            watch,
+            interrupted: self.interrupted,
         };
         let fit = match (self.stances.is_empty(), self.generic.freedom) {
             (false, 0) => Fit::Finite,
+            // nothing was found yet, and nothing can be said
+            (true, 0) if self.interrupted => Fit::Finite,
             (true, 0) if self.generic.multiple > 0 => Fit::AlwaysMultiple,
             (true, 0) => Fit::TooManyHeld,
             (_, freedom) => Fit::FreedomLeft(freedom),
@@ -297,7 +274,7 @@ impl AssemblySolver {
         let member = self.member(asked, held);
         let ends = match self.stances.is_empty() {
             true => None,
-            false => carry::carry(
+            false => track::carry(
                 &self.family,
                 &self.generic.member(),
                 &member,
@@ -305,7 +282,7 @@ impl AssemblySolver {
                 watch,
             ),
         };
-        let starts = |which| starts::solved(&self.family, &question.system, asked, which);
+        let starts = |which| search::solved(&self.family, &question.system, asked, which, watch);
         question.answer(
             &self.generic,
             fit,
@@ -333,6 +310,7 @@ impl AssemblySolver {
         mode: usize,
         asked: &Configuration<f64>,
         held: &Held<f64>,
+        watch: &Watch,
     ) -> Result<Followed, AssembliesError> {
         let home = self.mechanism.home();
         let held_home = held_at_home(&self.mechanism, held);
@@ -342,9 +320,13 @@ impl AssemblySolver {
             Wanted {
                 certificates: false,
                 all_complex: false,
-                starts: false,
+                starts: true,
             },
+            watch,
         );
+        if modes.interrupted {
+            return Err(AssembliesError::Interrupted);
+        }
         let found = modes.assemblies.iter().find(|a| a.mode == mode);
         let assembly = found.ok_or(AssembliesError::NoSuchMode(modes.real))?;
         let start = assembly.configuration(&home);

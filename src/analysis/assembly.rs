@@ -4,13 +4,13 @@ mod singular;
 
 use serde::{Deserialize, Serialize};
 
+use crate::algebra::SiUnit;
 use crate::description::Role;
 use crate::geometry::{Quaternion, Vector3};
 use crate::mechanism::{Configuration, Frame, Mechanism, PlatformPose};
-use crate::solve::{Equations, Newton, Report, Stop};
+use crate::solve::{Equations, Newton, Report, Stop, Watch};
 use crate::system::{
-    Attempt, Freedoms, Question, QuestionError, Search, Variable, approach, check_count,
-    infinite_if_null,
+    Attempt, Freedoms, Question, QuestionError, Search, approach, check_count, infinite_if_null,
 };
 pub use crate::system::{Count, FrameRecord, Gap, Named, PlatformRecord};
 
@@ -83,9 +83,10 @@ pub enum Outcome {
 /// A joint variable and what the question makes of it.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct JointVariable {
-    /// Its name and unit.
-    #[serde(flatten)]
-    pub variable: Variable,
+    /// Its name.
+    pub name: String,
+    /// The unit of its values, rad or m.
+    pub unit: SiUnit,
     /// Whether it is driven.
     pub role: Role,
     /// Whether its value was given; otherwise it was solved for.
@@ -138,6 +139,9 @@ pub struct AssemblyReport {
     pub variables: Vec<JointVariable>,
     /// What is odd about the file or the answer, one sentence each.
     pub warnings: Vec<String>,
+    /// Whether the search was stopped before all starts were made.
+    #[serde(default, skip_serializing_if = "std::ops::Not::not")]
+    pub interrupted: bool,
 }
 
 impl AssemblyReport {
@@ -184,10 +188,11 @@ impl AssemblyReport {
 pub fn assemble(
     question: &Question,
     settings: &AssemblySettings,
+    watch: &Watch,
 ) -> Result<AssemblyReport, QuestionError> {
     let count = check_count(question)?;
     let mut search = Search::new(question, &settings.newton);
-    let found = search.run(settings.restarts, settings.seed);
+    let found = search.run(settings.restarts, settings.seed, watch);
     let reporter = Reporter {
         question,
         mechanism: question.mechanism(),
@@ -195,6 +200,7 @@ pub fn assemble(
         search,
         count,
         restarts: found.restarts,
+        interrupted: watch.is_stopped(),
     };
     Ok(if found.assembles() {
         reporter.assembled(found.attempt)
@@ -211,6 +217,7 @@ struct Reporter<'a> {
     search: Search<'a>,
     count: Count,
     restarts: usize,
+    interrupted: bool,
 }
 
 impl Reporter<'_> {
@@ -247,9 +254,11 @@ impl Reporter<'_> {
             gaps: (mechanism.closures().iter().zip(gaps))
                 .map(|(closure, gap)| (closure.name.clone(), gap))
                 .collect(),
-            variables: (joints.zip(held).zip(mechanism.variables()))
-                .map(|(((joint, &value), &held), variable)| JointVariable {
-                    variable,
+            variables: joints
+                .zip(held)
+                .map(|((joint, &value), &held)| JointVariable {
+                    name: joint.name.clone(),
+                    unit: SiUnit::of_coordinate(joint.kind.is_angle()),
                     role: joint.role,
                     held,
                     limits: joint.limits,
@@ -260,6 +269,7 @@ impl Reporter<'_> {
             warnings: (mechanism.warnings().iter())
                 .map(|problem| problem.kind.title())
                 .collect(),
+            interrupted: self.interrupted,
         }
     }
 
@@ -307,7 +317,10 @@ impl Reporter<'_> {
 
     fn unassembled(&self, attempt: Attempt) -> AssemblyReport {
         let settled = attempt.report.stop == Stop::Minimum;
-        let (at, local_minimum) = approach(self.search.system(), &attempt.at);
+        let (at, local_minimum) = match self.interrupted {
+            false => approach(self.search.system(), &attempt.at),
+            true => (attempt.at.clone(), false),
+        };
         let system = self.search.system();
         let size = system.residual(&at, &mut system.work());
         let attempt = Attempt {
@@ -328,7 +341,7 @@ impl Reporter<'_> {
         });
         let closures = self.mechanism.closures();
         let worst = (closures.get(worst)).map_or(String::new(), |closure| closure.name.clone());
-        let outcome = if settled || local_minimum {
+        let outcome = if !self.interrupted && (settled || local_minimum) {
             Outcome::CannotBeAssembled {
                 worst,
                 local_minimum,

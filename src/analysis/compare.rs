@@ -8,10 +8,13 @@ mod proof;
 mod samples;
 mod variables;
 
+use std::ops::ControlFlow;
+
 use serde::{Deserialize, Serialize};
 
 use crate::geometry::Pose;
 use crate::mechanism::{ClosedForm, Configuration, Given, MatrixEntry, Mechanism};
+use crate::solve::{Stage, Watch};
 use crate::system::{FormulaNames, Named};
 use formula::{Evaluated, Values};
 pub use proof::{Difference, Proof, Reason};
@@ -64,6 +67,9 @@ pub struct CompareReport {
     pub seed: u64,
     /// A difference beside the size of what is compared above which a form disagrees.
     pub tolerance: f64,
+    /// Whether the work was stopped before it was done: fewer samples were tried, and perhaps nothing proved.
+    #[serde(default, skip_serializing_if = "std::ops::Not::not")]
+    pub interrupted: bool,
 }
 
 /// What became of one closed form.
@@ -151,47 +157,51 @@ pub enum Quantity {
 /// Entries of poses are checked at random joint values within limits and at the home configuration;
 /// identities, and poses that depend on where a platform is, at the configurations the mechanism
 /// assembles to when the actuated joints are given random values.
-pub fn compare(mechanism: &Mechanism, settings: &CompareSettings) -> CompareReport {
-    compare_watched(mechanism, settings, &mut |_| {})
-}
-
-/// The same, telling `watch` after every sample which part of the work is done, from 0 to 1.
-pub fn compare_watched(
-    mechanism: &Mechanism,
-    settings: &CompareSettings,
-    watch: &mut dyn FnMut(f64),
-) -> CompareReport {
-    let forms = mechanism.closed_forms().iter();
-    let mut forms: Vec<Checked> = forms.map(|form| Checked::new(mechanism, form)).collect();
+pub fn compare(mechanism: &Mechanism, settings: &CompareSettings, watch: &Watch) -> CompareReport {
+    let all = mechanism.closed_forms();
+    let mut forms: Vec<Checked> = (all.iter().enumerate())
+        .map(|(i, form)| {
+            let proves = !watch.stops(Stage::Proofs, i, Some(all.len()));
+            Checked::new(mechanism, form, proves)
+        })
+        .collect();
     let (mut closed, mut open): (Vec<&mut Checked>, Vec<&mut Checked>) =
         (forms.iter_mut()).partition(|checked| must_be_assembled(mechanism, checked.form));
     let mut samples = Samples::new(mechanism, settings.samples, settings.seed);
     let passes = 1 + usize::from(!closed.is_empty());
-    let total = (settings.samples.saturating_add(1) as f64) * passes as f64;
-    let mut done = 0.0;
-    samples.anywhere(&mut |at| {
+    let total = settings.samples.saturating_add(1).saturating_mul(passes);
+    let mut done = 0;
+    let mut sampled = || {
+        let stops = watch.stops(Stage::Samples, done, Some(total));
+        done = total.min(done + 1);
+        match stops {
+            true => ControlFlow::Break(()),
+            false => ControlFlow::Continue(()),
+        }
+    };
+    let mut flow = samples.anywhere(&mut |at| {
+        sampled()?;
         open.iter_mut()
             .for_each(|checked| checked.add(mechanism, at));
-        done += 1.0;
-        watch(f64::min(done / total, 1.0));
+        ControlFlow::Continue(())
     });
     let mut not_assembled = 0;
-    if !closed.is_empty() {
-        samples.assembled(settings.seed, &mut |found| {
+    if flow.is_continue() && !closed.is_empty() {
+        flow = samples.assembled(settings.seed, &mut |found| {
+            sampled()?;
             match found {
                 Some(at) => closed
                     .iter_mut()
                     .for_each(|checked| checked.add(mechanism, at)),
                 None => not_assembled += 1,
             }
-            done += 1.0;
-            watch(f64::min(done / total, 1.0));
+            ControlFlow::Continue(())
         });
     }
     let home_assembles = samples.home_assembles();
     let closed_forms: Vec<FormReport> = forms
         .into_iter()
-        .map(|checked| checked.report(mechanism, settings.tolerance))
+        .map(|checked| checked.report(mechanism, settings.tolerance, watch))
         .collect();
     CompareReport {
         mechanism: mechanism.name().into(),
@@ -202,6 +212,7 @@ pub fn compare_watched(
         not_assembled,
         seed: settings.seed,
         tolerance: settings.tolerance,
+        interrupted: flow.is_break(),
     }
 }
 
@@ -270,8 +281,12 @@ struct Checked<'a> {
 }
 
 impl<'a> Checked<'a> {
-    fn new(mechanism: &Mechanism, form: &'a ClosedForm) -> Self {
-        let proofs = proof::proofs(mechanism, form).into_iter();
+    fn new(mechanism: &Mechanism, form: &'a ClosedForm, proves: bool) -> Self {
+        let proofs = match proves {
+            true => proof::proofs(mechanism, form),
+            false => proof::interrupted(form),
+        };
+        let proofs = proofs.into_iter();
         let checks = match &form.gives {
             Given::Pose { entries, .. } => (entries.iter().zip(proofs))
                 .map(|((entry, _), proof)| Check::new(entry.to_string(), quantity(*entry), proof))
@@ -315,8 +330,8 @@ impl<'a> Checked<'a> {
         }
     }
 
-    fn report(self, mechanism: &Mechanism, tolerance: f64) -> FormReport {
-        report(mechanism, self.form, self.checks, tolerance)
+    fn report(self, mechanism: &Mechanism, tolerance: f64, watch: &Watch) -> FormReport {
+        report(mechanism, self.form, self.checks, (tolerance, watch))
     }
 }
 
@@ -339,7 +354,7 @@ fn report(
     mechanism: &Mechanism,
     form: &ClosedForm,
     mut checks: Vec<Check>,
-    tolerance: f64,
+    (tolerance, watch): (f64, &Watch),
 ) -> FormReport {
     for check in &mut checks {
         let Some(worst) = &mut check.report.worst else {
@@ -358,7 +373,7 @@ fn report(
         check.report.proof == Proof::NotDecided { reason }
     };
     let refuted = |check: &Check| !check.report.agree && check.report.samples > 0 && open(check);
-    if checks.iter().any(refuted) {
+    if checks.iter().any(refuted) && !watch.is_stopped() {
         // what numbers refute is written out
         for (check, difference) in checks.iter_mut().zip(proof::refutations(mechanism, form)) {
             if let (true, Some(difference)) = (refuted(check), difference) {

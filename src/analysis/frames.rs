@@ -6,6 +6,7 @@
 mod build;
 mod chains;
 mod given;
+mod graph;
 mod loops;
 mod values;
 

@@ -15,10 +15,10 @@ use rand_pcg::Pcg64Mcg;
 use serde::{Deserialize, Serialize};
 
 use crate::linear::axis_aligned;
-use crate::mechanism::{ClosureKind, Mechanism};
-use crate::solve::Newton;
+use crate::mechanism::{ClosureKind, Mechanism, Variable};
+use crate::solve::{Newton, Stage, Watch};
 use crate::system::{
-    Analysed, Named, Neighbourhood, Question, Tangent, TwistSpace, Unknown, Variable, WidestGap,
+    Analysed, Named, Neighbourhood, Question, Tangent, TwistSpace, Unknown, WidestGap,
     close, random_configuration, too_large,
 };
 
@@ -131,6 +131,9 @@ pub struct MobilityReport {
     /// What is left of the closure equations after a finite step along the infinitesimal freedoms,
     /// dimensionless; `None` if the step does not settle.
     pub gap_after_step: Option<f64>,
+    /// Whether the work was stopped before it was done: branches and other assemblies may be missing.
+    #[serde(default, skip_serializing_if = "std::ops::Not::not")]
+    pub interrupted: bool,
 }
 
 /// What kind of point of the configuration space a configuration is.
@@ -210,19 +213,28 @@ pub struct Elsewhere {
 /// What the question holds only decides which configuration is looked at: all is free then. The
 /// finite mobility follows from a reduction of Lyapunov and Schmidt; where that finds the
 /// configuration singular, from the branches that small steps in many directions settle on.
-pub fn mobility(question: &Question, settings: &MobilitySettings) -> Analysed<MobilityReport> {
+pub fn mobility(
+    question: &Question,
+    settings: &MobilitySettings,
+    watch: &Watch,
+) -> Analysed<MobilityReport> {
     let mechanism = question.mechanism();
-    if let Some(unknowns) = too_large(mechanism) {
-        return Analysed::TooLarge { unknowns };
+    if let Some(large) = too_large(mechanism) {
+        return Analysed::TooLarge(large);
     }
-    let closed = match close(question, &settings.newton, settings.restarts, settings.seed) {
+    let closed = match close(
+        question,
+        &settings.newton,
+        (settings.restarts, settings.seed),
+        watch,
+    ) {
         Ok(closed) => closed,
         Err(open) => return Analysed::NotClosed(open),
     };
     let mut near = Neighbourhood::new(mechanism);
     let tangent = near.tangent(closed.configuration.clone());
     let mut rng = Pcg64Mcg::seed_from_u64(settings.seed);
-    let found = branches::find(&mut near, &tangent, settings, &mut rng);
+    let found = branches::find(&mut near, &tangent, (settings, watch), &mut rng);
     let (rows, unknowns) = (near.system().rows(), near.system().unknowns().len());
     let moving = |moved: &[bool]| -> Vec<String> {
         let unknowns = near.system().unknowns().iter().zip(moved);
@@ -252,7 +264,7 @@ pub fn mobility(question: &Question, settings: &MobilitySettings) -> Analysed<Mo
     let spins = |name: &&String| idle_freedoms.iter().any(|freedom| freedom.moves(name));
     let mut report = MobilityReport {
         mechanism: mechanism.name().into(),
-        variables: mechanism.variables(),
+        variables: Variable::joints(mechanism),
         mobility: found.freedoms,
         kutzbach: unknowns as i64 - rows as i64,
         rank: tangent.decomposition.rank(),
@@ -288,8 +300,10 @@ pub fn mobility(question: &Question, settings: &MobilitySettings) -> Analysed<Mo
         given: closed.given.filter(|gap| gap.size(mechanism) > 1e-9),
         kept: closed.kept,
         gap_after_step: found.gap,
+        interrupted: false,
     };
-    report.elsewhere = elsewhere(&mut near, settings, &report, &mut rng);
+    report.elsewhere = elsewhere(&mut near, (settings, watch), &report, &mut rng);
+    report.interrupted = watch.is_stopped();
     Analysed::Closed(report)
 }
 
@@ -300,13 +314,16 @@ const ELSEWHERE_LIMIT: usize = 100;
 /// Regular assemblies of another mobility than `here`, one for each.
 fn elsewhere(
     near: &mut Neighbourhood,
-    settings: &MobilitySettings,
+    (settings, watch): (&MobilitySettings, &Watch),
     here: &MobilityReport,
     rng: &mut Pcg64Mcg,
 ) -> Vec<Elsewhere> {
     let mechanism = near.mechanism();
     let mut found: Vec<Elsewhere> = Vec::new();
-    for _ in 0..here.elsewhere_starts {
+    for start in 0..here.elsewhere_starts {
+        if watch.stops(Stage::Starts, start, Some(here.elsewhere_starts)) {
+            break;
+        }
         let start = random_configuration(mechanism, &mechanism.home(), rng);
         let Some(at) = near.solve(&settings.newton, start) else {
             continue;

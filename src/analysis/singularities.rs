@@ -17,19 +17,19 @@ mod starts;
 
 pub use crate::system::LocusEnd;
 pub use along::{AlongReport, Crossing, Ending, along};
-pub use classify::{Distances, Movement, Resisted, Singularity, Zlatanov};
-pub use locus::{Bound, Kind, Locus, LocusReport, loci};
+pub use classify::{Distances, Kind, Movement, Resisted, Singularity, Zlatanov};
+pub use locus::{Bound, Locus, LocusReport, loci};
 pub use outputs::{Coupled, default_outputs, inputs_of};
 pub use projected::Shape;
 
 use serde::{Deserialize, Serialize};
 
 use crate::linear::RANK_TOLERANCE;
-use crate::mechanism::{Configuration, Mechanism};
-use crate::solve::{Continuation, Newton};
+use crate::mechanism::{Configuration, Mechanism, Variable};
+use crate::solve::{Continuation, Newton, Watch};
 use crate::system::{
-    Analysed, Holdable, Lock, Question, QuestionError, Variable, WidestGap, check_angles,
-    check_count, close, too_large,
+    Analysed, Holdable, Lock, Question, QuestionError, WidestGap, check_angles, check_count, close,
+    too_large,
 };
 use classify::Classifier;
 use outputs::{coupled, outputs_of};
@@ -72,9 +72,9 @@ impl Default for SingularitiesSettings {
 /// What is special about an assembled configuration.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct SingularitiesReport {
-    /// Name of the mechanism.
+    /// The mechanism's name.
     pub mechanism: String,
-    /// The joint variables with their units, in the order of the file.
+    /// The joints, in the order of the file.
     pub variables: Vec<Variable>,
     /// The inputs.
     pub inputs: Vec<String>,
@@ -118,13 +118,19 @@ fn output_names(mechanism: &Mechanism, outputs: &[Lock]) -> Vec<String> {
 pub fn singularities(
     question: &Question,
     settings: &SingularitiesSettings,
+    watch: &Watch,
 ) -> Result<Analysed<SingularitiesReport>, QuestionError> {
     let mechanism = question.mechanism();
-    if let Some(unknowns) = too_large(mechanism) {
-        return Ok(Analysed::TooLarge { unknowns });
+    if let Some(large) = too_large(mechanism) {
+        return Ok(Analysed::TooLarge(large));
     }
     check_count(question)?;
-    let closed = match close(question, &settings.newton, settings.restarts, settings.seed) {
+    let closed = match close(
+        question,
+        &settings.newton,
+        (settings.restarts, settings.seed),
+        watch,
+    ) {
         Ok(closed) => closed,
         Err(open) => return Ok(Analysed::NotClosed(open)),
     };
@@ -141,8 +147,8 @@ pub fn singularities(
     check_outputs(mechanism, &outputs, at)?;
     let mut classifier = Classifier::new(mechanism, &inputs, &outputs, at);
     Ok(Analysed::Closed(SingularitiesReport {
-        mechanism: mechanism.name().into(),
-        variables: mechanism.variables(),
+        mechanism: mechanism.name().to_owned(),
+        variables: Variable::joints(mechanism),
         inputs: names(mechanism, &inputs),
         outputs: output_names(mechanism, &outputs),
         coupled: coupled(mechanism, &inputs, &outputs, at, settings, true),

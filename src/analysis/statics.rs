@@ -7,7 +7,7 @@ use serde::{Deserialize, Serialize};
 use crate::algebra::SiUnit;
 use crate::linear::{Decomposition, RANK_TOLERANCE, norm};
 use crate::mechanism::{Configuration, Frame, Mechanism};
-use crate::solve::Newton;
+use crate::solve::{Newton, Watch};
 use crate::system::{
     Analysed, FrameTwists, Holdable, Load, Neighbourhood, Question, QuestionError, Unknown,
     WidestGap, check_angles, check_count, close, too_large,
@@ -40,14 +40,14 @@ impl Default for StaticsSettings {
 /// forces in N, moments in N·m, points in m.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct StaticsReport {
-    /// Name of the mechanism.
+    /// The mechanism's name.
     pub mechanism: String,
+    /// Whether the forces balance the load.
+    pub balanced: bool,
     /// The wrenches applied.
     pub loads: Vec<AppliedWrench>,
     /// The loads on joints.
     pub joint_loads: Vec<Force>,
-    /// Whether the load is balanced.
-    pub balanced: bool,
     /// What would move because nothing balances the load; empty in equilibrium. The forces below
     /// are then those that come nearest.
     pub unbalanced: Vec<String>,
@@ -112,13 +112,19 @@ pub fn statics(
     question: &Question,
     load: &Load,
     settings: &StaticsSettings,
+    watch: &Watch,
 ) -> Result<Analysed<StaticsReport>, QuestionError> {
     let mechanism = question.mechanism();
-    if let Some(unknowns) = too_large(mechanism) {
-        return Ok(Analysed::TooLarge { unknowns });
+    if let Some(large) = too_large(mechanism) {
+        return Ok(Analysed::TooLarge(large));
     }
     check_count(question)?;
-    let closed = match close(question, &settings.newton, settings.restarts, settings.seed) {
+    let closed = match close(
+        question,
+        &settings.newton,
+        (settings.restarts, settings.seed),
+        watch,
+    ) {
         Ok(closed) => closed,
         Err(open) => return Ok(Analysed::NotClosed(open)),
     };
@@ -175,10 +181,10 @@ pub fn statics(
         unique: (stresses.iter()).all(|stress| stress[rows + i].abs() <= RANK_TOLERANCE),
     });
     let actuators = actuators.collect();
-    let unbalanced = unbalanced(mechanism, &unknowns, &left, norm(&generalised));
     let (closures, joints) = found.marked(&changes, length);
+    let unbalanced = unbalanced(mechanism, &unknowns, &left, norm(&generalised));
     Ok(Analysed::Closed(StaticsReport {
-        mechanism: mechanism.name().into(),
+        mechanism: mechanism.name().to_owned(),
         balanced: unbalanced.is_empty(),
         loads: (load.wrenches.iter())
             .map(|&(frame, force, moment)| AppliedWrench {

@@ -8,7 +8,7 @@
 mod circuits;
 mod follow;
 mod met;
-mod motions;
+mod motion;
 mod points;
 mod rows;
 
@@ -17,7 +17,7 @@ pub use circuits::{
 };
 pub use follow::follow;
 pub use met::{Met, MetKind, Passing};
-pub use motions::{MotionReport, MotionsReport};
+pub use motion::{Columns, KeptRows, MotionReport, MotionsReport};
 pub use points::{PointError, TracedPoint};
 
 use std::ops::ControlFlow;
@@ -26,7 +26,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::algebra::SiUnit;
 use crate::mechanism::{Configuration, Mechanism};
-use crate::solve::{Continuation, Stray};
+use crate::solve::{Continuation, Stage, Stray, Watch};
 use crate::system::{Curve, Driven, Event, Held, Walk};
 use met::Record;
 use rows::Rows;
@@ -70,8 +70,11 @@ pub struct Row<'a> {
     pub special: Option<&'a MetKind>,
 }
 
-/// What takes the rows as they come; it may end the motion.
-pub type Sink<'s> = dyn FnMut(&Row) -> ControlFlow<()> + 's;
+/// What takes the rows as they come.
+pub type Sink<'s> = dyn FnMut(&Row) + 's;
+
+/// The same inside: it may end the motion.
+type Flow<'s> = dyn FnMut(&Row) -> ControlFlow<()> + 's;
 
 /// An input of a sweep.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -110,7 +113,7 @@ pub enum Ending {
     OutsideLimits,
     /// The curve ends in a point that no sure step leads to.
     Lost,
-    /// Whoever took the rows had enough.
+    /// It was stopped, or took too many steps.
     Stopped,
 }
 
@@ -143,6 +146,9 @@ pub struct SweepReport {
     pub length: f64,
     /// The characteristic length in m.
     pub characteristic_length: f64,
+    /// Whether the work was stopped before the motion ended.
+    #[serde(default, skip_serializing_if = "std::ops::Not::not")]
+    pub interrupted: bool,
 }
 
 /// Moves the inputs from `start`, assembled where their segment begins, to its end.
@@ -156,7 +162,22 @@ pub fn sweep(
     start: &Configuration<f64>,
     settings: &SweepSettings,
     sink: &mut Sink,
+    watch: &Watch,
 ) -> SweepReport {
+    let steps = Some(settings.steps);
+    let mut reached = 0;
+    let sink: &mut Flow = &mut |row| {
+        sink(row);
+        reached = row.step.unwrap_or(reached);
+        match watch.stops(Stage::Motion, reached, steps) {
+            true => ControlFlow::Break(()),
+            false => ControlFlow::Continue(()),
+        }
+    };
+    let interrupted = |report: SweepReport| SweepReport {
+        interrupted: watch.is_stopped(),
+        ..report
+    };
     let mut curve = Curve::along(mechanism, held, inputs.to_vec());
     let mut record = Record::new(mechanism, inputs);
     let mut start = start.clone();
@@ -181,7 +202,7 @@ pub fn sweep(
     let place = if rate < 0.0 { place.reversed() } else { place };
     let mut rows = Rows::new(mechanism, held, inputs, &place, settings);
     if rows.first(&place, sink).is_break() {
-        return record.report(Ending::Stopped, 1, 0.0);
+        return interrupted(record.report(Ending::Stopped, 1, 0.0));
     }
     if rate.abs() < 1e-9 {
         record.meet(&curve, &place, &Event::Fold);
@@ -189,6 +210,10 @@ pub fn sweep(
     }
     let mut walk = Walk::new(mechanism, &curve, place, method.clone());
     let ending = 'walk: loop {
+        let done = curve.part(&walk.place().at).clamp(0.0, 1.0) * settings.steps as f64;
+        if watch.stops(Stage::Motion, done as usize, steps) {
+            break Ending::Stopped;
+        }
         let leg = match walk.advance(&mut curve) {
             Ok(leg) => leg,
             Err(Stray::TooShort | Stray::NotClosed | Stray::Singular) => break Ending::Lost,
@@ -235,5 +260,5 @@ pub fn sweep(
             break Ending::Lost;
         }
     };
-    record.report(ending, rows.count(), walk.gone())
+    interrupted(record.report(ending, rows.count(), walk.gone()))
 }

@@ -10,7 +10,7 @@ use serde::{Deserialize, Serialize};
 use crate::algebra::SiUnit;
 use crate::linear::RANK_TOLERANCE;
 use crate::mechanism::{Frame, Mechanism};
-use crate::solve::Newton;
+use crate::solve::{Newton, Watch};
 use crate::system::{
     Analysed, Drive, Holdable, Motion, Neighbourhood, Question, QuestionError, Tangent, Unknown,
     WidestGap, check_angles, check_count, close, moving, too_large,
@@ -48,7 +48,7 @@ impl Default for VelocitySettings {
 /// in s.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct VelocityReport {
-    /// Name of the mechanism.
+    /// The mechanism's name.
     pub mechanism: String,
     /// What is held, with its rate and acceleration.
     pub inputs: Vec<Rate>,
@@ -207,13 +207,19 @@ pub fn velocity(
     question: &Question,
     drive: &Drive,
     settings: &VelocitySettings,
+    watch: &Watch,
 ) -> Result<Analysed<VelocityReport>, QuestionError> {
     let mechanism = question.mechanism();
-    if let Some(unknowns) = too_large(mechanism) {
-        return Ok(Analysed::TooLarge { unknowns });
+    if let Some(large) = too_large(mechanism) {
+        return Ok(Analysed::TooLarge(large));
     }
     check_count(question)?;
-    let closed = match close(question, &settings.newton, settings.restarts, settings.seed) {
+    let closed = match close(
+        question,
+        &settings.newton,
+        (settings.restarts, settings.seed),
+        watch,
+    ) {
         Ok(closed) => closed,
         Err(open) => return Ok(Analysed::NotClosed(open)),
     };
@@ -274,7 +280,7 @@ pub fn velocity(
         acceleration: drive.accelerations[i],
     });
     Ok(Analysed::Closed(VelocityReport {
-        mechanism: mechanism.name().into(),
+        mechanism: mechanism.name().to_owned(),
         inputs: inputs.collect(),
         joints,
         frames,

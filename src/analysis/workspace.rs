@@ -16,51 +16,27 @@
 //! manipulators, with working modes); Gosselin and Angeles 1990 (singularities); Bohigas, Manubens
 //! and Ros 2012 (boundaries by continuation).
 
-mod arrivals;
-mod asked;
 mod aspects;
 mod boundary;
-mod cells;
-mod condition;
-mod configurations;
-mod curves;
-mod edge;
-mod fill;
-mod filled;
-mod grid;
-mod join;
+mod flood;
 mod map;
-mod measure;
-mod pace;
-mod rates;
-mod report;
-mod seeds;
-mod spread;
-mod step;
-mod tile;
+mod problem;
 
 pub use boundary::{BoundaryCurve, BoundaryKind, Piece};
-pub use cells::{Cell, Cells};
-pub use report::{
-    AspectReport, AxisReport, BoundaryPoint, Conditioned, CoordinateReport, HeldReport, ModeReport,
-    WorkspaceReport,
+pub use map::{
+    AspectReport, AxisReport, BoundaryPoint, Cell, Cells, Conditioned, CoordinateReport,
+    HeldReport, ModeReport, WorkspaceReport,
 };
 
 use crate::linear::Factorable;
 use crate::mechanism::{Configuration, PlatformPose};
 use crate::number::{Lanes, Packed};
-use crate::solve::{Newton, Pool};
+use crate::solve::{Newton, Pool, Watch};
 use crate::system::{Driven, Question};
-use asked::Asked;
 use boundary::Boundary;
-use fill::Fill;
-use filled::Filled;
-use grid::Grid;
+use flood::{Fill, Filled, Measure, Sown, Spread, Steps};
 use map::Map;
-use measure::Measure;
-use seeds::Sown;
-use spread::Spread;
-use step::Steps;
+use problem::{Asked, Grid};
 
 /// How to map a workspace.
 #[derive(Clone, Debug, PartialEq)]
@@ -133,7 +109,7 @@ pub fn cell_bytes(question: &Question, axes: usize) -> usize {
     let kept = 150 + 8 * joints + size_of::<PlatformPose<f64>>() * platforms;
     // beside it first the motions, later numbers and a row of the table
     let motions = 8 * question.held_coordinates().len() * unknowns;
-    let row = 65 + size_of::<cells::Head>() + 8 * (axes + unknowns);
+    let row = 65 + size_of::<map::Head>() + 8 * (axes + unknowns);
     kept + motions.max(row)
 }
 
@@ -141,7 +117,7 @@ pub fn cell_bytes(question: &Question, axes: usize) -> usize {
 ///
 /// `question` holds the mapped coordinates and all others that must be, at any values of the mapped
 /// ones; it must leave no freedom. `known` are assembled configurations to begin with besides those
-/// that random starts lead to. `told` hears again and again how many nodes in modes were reached.
+/// that random starts lead to.
 ///
 /// # Errors
 /// If more is reached than may be kept.
@@ -150,7 +126,7 @@ pub fn workspace(
     axes: &[Driven],
     known: &[Configuration<f64>],
     settings: &WorkspaceSettings,
-    told: &mut dyn FnMut(usize),
+    watch: &Watch,
 ) -> Result<WorkspaceReport, WorkspaceError> {
     let asked = Asked::new(question, axes, &settings.newton);
     let counts: Vec<usize> = (0..axes.len())
@@ -160,7 +136,7 @@ pub fn workspace(
     let measure = Measure::new(&asked);
     let nodes = grid.spread(settings.searched);
     let sought = (&nodes[..], settings.starts, settings.seed);
-    let sown = seeds::sow(&asked, &grid, &measure, sought, known);
+    let sown = flood::sow(&asked, &grid, &measure, sought, (known, watch));
     let fill = Fill {
         asked: &asked,
         grid: &grid,
@@ -170,8 +146,8 @@ pub fn workspace(
     };
     let probed = grid.spread(settings.probed);
     let (filled, aspects, outside) = match settings.side_by_side {
-        true => filled::<Lanes>(&fill, &sown, (&probed, settings.seed), told),
-        false => filled::<f64>(&fill, &sown, (&probed, settings.seed), told),
+        true => filled::<Lanes>(&fill, &sown, (&probed, settings.seed), watch),
+        false => filled::<f64>(&fill, &sown, (&probed, settings.seed), watch),
     }?;
     let map = Map::new(&asked, &grid, &filled, aspects);
     let boundary = Boundary {
@@ -182,17 +158,17 @@ pub fn workspace(
         mode: &map.mode,
     };
     let crossings = match settings.boundaries {
-        true => boundary.crossings(),
+        true => boundary.crossings(watch),
         false => Vec::new(),
     };
-    let curves = boundary.curves(&crossings);
+    let curves = boundary.curves(&crossings, watch);
     let mut report = map.report(&crossings);
     report.curves = curves;
-    report.columns = report.headings();
     report.searched = [nodes.len(), settings.starts];
-    report.probed = [probed.len(), seeds::PROBES];
+    report.probed = [probed.len(), flood::PROBES];
     report.outside = sown.outside + outside;
     report.seed = settings.seed;
+    report.interrupted = watch.is_stopped();
     Ok(report)
 }
 
@@ -202,15 +178,15 @@ fn filled<T: Factorable + Packed + Send + Sync>(
     fill: &Fill,
     sown: &Sown,
     (probed, seed): (&[usize], u64),
-    told: &mut dyn FnMut(usize),
+    watch: &Watch,
 ) -> Result<(Filled, Vec<Option<usize>>, usize), WorkspaceError> {
     let steps: Pool<Steps<T>> = Pool::new(Steps::new(fill.asked));
     let mut reached = Spread::new(fill.grid);
-    fill.spread(&mut reached, &steps, &sown.seeds, told)?;
-    let more = seeds::probe(fill, &reached, &steps, probed, seed);
-    fill.spread(&mut reached, &steps, &more.seeds, told)?;
+    fill.spread(&mut reached, &steps, &sown.seeds, watch)?;
+    let more = flood::probe(fill, &reached, &steps, (probed, seed), watch);
+    fill.spread(&mut reached, &steps, &more.seeds, watch)?;
     let mut filled = reached.filled(fill.grid);
-    let (aspects, together) = join::joined(fill, &steps, &filled);
+    let (aspects, together) = aspects::joined(fill, &steps, &filled, watch);
     // what hangs together on a finer grid is of one mode
     filled.connect(together.into_iter());
     Ok((filled, aspects, more.outside))

@@ -5,12 +5,13 @@ use std::path::PathBuf;
 use clap::{Args, ValueEnum};
 use linkwork::analysis::assembly::AssemblySettings;
 use linkwork::interchange::{Remark, tree_of, write_mjcf, write_urdf};
-use linkwork::output::closing;
+use linkwork::output::{Report, closing, text};
 use linkwork::solve::Newton;
-use linkwork::system::{Analysed, close};
+use linkwork::system::close;
 
 use super::asked::Asked;
 use super::source::Source;
+use super::watched::watched;
 use super::{Answer, Refusal};
 
 /// Write a mechanism as a file for another program.
@@ -49,15 +50,17 @@ impl Export {
         let loaded = self.source.load()?;
         let question = self.asked.question(&loaded.mechanism)?;
         let (newton, search) = (Newton::default(), AssemblySettings::default());
-        let closed = close(&question, &newton, search.restarts, search.seed);
+        let closed = watched(|watch| {
+            let starts = (search.restarts, search.seed);
+            close(&question, &newton, starts, watch)
+        });
         let closed = match closed {
             Ok(closed) => closed,
             Err(open) => {
-                let open: Analysed<()> = Analysed::NotClosed(open);
-                let (sentence, _) = closing::text(&loaded.mechanism, &open, |_, ()| String::new());
+                let open = text::render(&open.document());
                 return Ok(Answer {
                     data: String::new(),
-                    remarks: loaded.warnings() + &sentence + "Nothing is written.\n",
+                    remarks: loaded.warnings() + &open + "Nothing is written.\n",
                     yes: false,
                 });
             }

@@ -7,8 +7,10 @@ use linkwork::output::{closing as analysed, statics as output};
 use linkwork::system::{Load, LoadError};
 
 use super::asked::{Asked, refusal};
+use super::format::Written;
 use super::source::{Assignment, Source};
-use super::{Answer, Format, Refusal, style};
+use super::watched::watched;
+use super::{Answer, Refusal, style};
 
 /// Find the actuator forces that balance a load, and what every joint has to carry.
 ///
@@ -34,9 +36,8 @@ pub struct Statics {
     /// Force in N or moment in N·m along a joint variable, e.g. --load phi1=2
     #[arg(long, value_name = "JOINT=FORCE")]
     load: Vec<Assignment>,
-    /// How to write the answer
-    #[arg(long, value_enum, default_value_t = Format::Text)]
-    format: Format,
+    #[command(flatten)]
+    format: Written,
 }
 
 impl Statics {
@@ -55,16 +56,13 @@ impl Statics {
             load = (load.joint(&question, name, value))
                 .map_err(|error| wrong(mechanism, &error, assignment, "--load"))?;
         }
-        let report = statics(&question, &load, &StaticsSettings::default())
+        let report = watched(|watch| statics(&question, &load, &StaticsSettings::default(), watch))
             .map_err(|error| refusal(&error, None))?;
-        let (data, yes) = match self.format {
-            Format::Text => analysed::text(mechanism, &report, output::text),
-            Format::Json => analysed::json(mechanism, &report, output::json),
-        };
+        let yes = report.report();
         let warning = yes.map(|report| analysed::limits_warning(&report.outside_limits));
         let yes = yes.is_some_and(|report| report.unbalanced.is_empty());
         Ok(Answer {
-            data,
+            data: self.format.shown(&report),
             remarks: loaded.warnings() + &warning.unwrap_or_default(),
             yes,
         })

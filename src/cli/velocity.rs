@@ -3,13 +3,15 @@
 use clap::Args;
 use linkwork::analysis::velocity::{VelocitySettings, velocity};
 use linkwork::mechanism::Body;
+use linkwork::output::closing as analysed;
 use linkwork::output::question::motionless_frame;
-use linkwork::output::{closing as analysed, velocity as output};
 use linkwork::system::Drive;
 
 use super::asked::{Asked, driven, frame, refusal, refused_frame};
+use super::format::Written;
 use super::source::{Assignment, Source, once};
-use super::{Answer, Format, Refusal};
+use super::watched::watched;
+use super::{Answer, Refusal};
 
 /// Find how everything moves when the inputs move: rates, accelerations, Jacobian.
 ///
@@ -34,9 +36,8 @@ pub struct Velocity {
     /// Follow the origin of a frame too, e.g. --point top.S1
     #[arg(long, value_name = "FRAME")]
     point: Vec<String>,
-    /// How to write the answer
-    #[arg(long, value_enum, default_value_t = Format::Text)]
-    format: Format,
+    #[command(flatten)]
+    format: Written,
 }
 
 impl Velocity {
@@ -68,16 +69,13 @@ impl Velocity {
             points: points.collect::<Result<_, _>>()?,
             ..VelocitySettings::default()
         };
-        let report =
-            velocity(&question, &drive, &settings).map_err(|error| refusal(&error, None))?;
-        let (data, yes) = match self.format {
-            Format::Text => analysed::text(mechanism, &report, output::text),
-            Format::Json => analysed::json(mechanism, &report, output::json),
-        };
+        let report = watched(|watch| velocity(&question, &drive, &settings, watch))
+            .map_err(|error| refusal(&error, None))?;
+        let yes = report.report();
         let warning = yes.map(|report| analysed::limits_warning(&report.outside_limits));
         let yes = yes.is_some_and(|report| report.is_determined());
         Ok(Answer {
-            data,
+            data: self.format.shown(&report),
             remarks: loaded.warnings() + &warning.unwrap_or_default(),
             yes,
         })

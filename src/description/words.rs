@@ -263,10 +263,23 @@ fn wrong_type_help(expected: Expected, found: &Found) -> Option<&'static str> {
 
 /// `1 row`, `2 rows`.
 pub fn count(number: usize, noun: &str) -> String {
-    match (number, noun) {
-        (1, _) => format!("1 {noun}"),
-        (_, "entry") => format!("{number} entries"),
-        _ => format!("{number} {noun}s"),
+    match number {
+        1 => format!("1 {noun}"),
+        _ => format!("{number} {}", plural(noun)),
+    }
+}
+
+/// The plural of a noun: that of its head where something is added to it, as in `state of stress`.
+pub fn plural(noun: &str) -> String {
+    if let Some((head, of)) = noun.split_once(" of ") {
+        return format!("{} of {of}", plural(head));
+    }
+    let ends = |endings: &[&str]| endings.iter().any(|end| noun.ends_with(end));
+    match noun.strip_suffix('y') {
+        Some(stem) if !stem.ends_with(['a', 'e', 'i', 'o', 'u']) => format!("{stem}ies"),
+        _ if noun.ends_with("axis") => format!("{}es", &noun[..noun.len() - 2]),
+        _ if ends(&["s", "x", "ch", "sh"]) => format!("{noun}es"),
+        _ => format!("{noun}s"),
     }
 }
 

@@ -1,35 +1,7 @@
 use std::ops::Mul;
 
-use super::{Rotation, Vector3};
+use super::{Axis, Rotation, Vector3};
 use crate::number::Number;
-
-/// A coordinate axis.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, serde::Serialize, serde::Deserialize)]
-pub enum Axis {
-    /// The first axis, along the normal vector n.
-    X,
-    /// The second axis, along the sliding vector s.
-    Y,
-    /// The third axis, along the approach vector a; joint axes lie on it.
-    Z,
-}
-
-impl Axis {
-    /// `x`, `y` or `z`.
-    pub fn letter(self) -> char {
-        match self {
-            Axis::X => 'x',
-            Axis::Y => 'y',
-            Axis::Z => 'z',
-        }
-    }
-
-    /// The axis and the two that follow it in right-handed order, as indices.
-    pub(super) fn cyclic(self) -> (usize, usize, usize) {
-        let i = self as usize;
-        (i, (i + 1) % 3, (i + 2) % 3)
-    }
-}
 
 /// A rigid displacement: a rotation and a position in metres.
 #[derive(Clone, Copy, Debug, PartialEq)]

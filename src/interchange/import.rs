@@ -1,12 +1,10 @@
 //! URDF or MJCF → description.
 
-use std::error::Error;
-use std::fmt::{self, Display, Formatter};
 use std::path::Path;
 
 use super::mjcf::{self, Files};
 use super::names::fit;
-use super::problem::{ImportProblem, ImportProblemKind};
+use super::problem::{ImportProblem, ImportProblemKind, WrongFile};
 use super::remark::Remark;
 use super::tree::Tree;
 use super::unroll::{Unrolled, describe};
@@ -56,64 +54,37 @@ pub enum ImportError {
     Wrong(WrongFile),
 }
 
-/// A file, those it includes, and everything that is wrong with them.
-#[derive(Clone, Debug, PartialEq)]
-pub struct WrongFile {
-    /// Names and texts; the first is the file that was asked for.
-    pub files: Vec<(String, String)>,
-    /// What is wrong, with the file it is wrong in.
-    pub problems: Vec<(usize, ImportProblem)>,
-}
-
-impl WrongFile {
+impl ImportError {
     /// Everything that is wrong, one line each: `file:line:column: what is wrong (what to do)`.
     pub fn lines(&self) -> Vec<String> {
-        let WrongFile { files, problems } = self;
+        let WrongFile { files, problems } = match self {
+            ImportError::Unreadable(error) => return vec![error.to_string()],
+            ImportError::Wrong(wrong) => wrong,
+        };
         let line = |(file, problem): &(usize, ImportProblem)| {
             let (name, text) = &files[*file];
             let place = problem.span.as_ref().map_or(String::new(), |span| {
                 let (line, column) = crate::description::Lines::new(text).position(span.start);
                 format!("{line}:{column}: ")
             });
+            let help = problem
+                .kind
+                .help()
+                .map_or(String::new(), |help| format!(" ({help})"));
             let separator = if place.is_empty() { ": " } else { ":" };
-            format!("{name}{separator}{place}{problem}")
+            format!("{name}{separator}{place}{}{help}", problem.kind.title())
         };
         problems.iter().map(line).collect()
     }
 }
 
-impl ImportError {
-    /// Everything that is wrong, one line each: `file:line:column: what is wrong (what to do)`.
-    pub fn lines(&self) -> Vec<String> {
-        match self {
-            ImportError::Unreadable(error) => vec![error.to_string()],
-            ImportError::Wrong(wrong) => wrong.lines(),
-        }
-    }
-}
-
-impl Display for WrongFile {
-    fn fmt(&self, f: &mut Formatter) -> fmt::Result {
+impl std::fmt::Display for ImportError {
+    fn fmt(&self, f: &mut std::fmt::Formatter) -> std::fmt::Result {
         f.write_str(&self.lines().join("\n"))
     }
 }
 
-impl Error for WrongFile {}
-
-impl Display for ImportError {
-    fn fmt(&self, f: &mut Formatter) -> fmt::Result {
-        f.write_str(&self.lines().join("\n"))
-    }
-}
-
-impl Error for ImportError {
-    fn source(&self) -> Option<&(dyn Error + 'static)> {
-        match self {
-            ImportError::Unreadable(error) => Some(error),
-            ImportError::Wrong(wrong) => Some(wrong),
-        }
-    }
-}
+impl std::error::Error for ImportError {}
 
 /// Reads a URDF or MJCF file; MJCF with the files it includes.
 ///

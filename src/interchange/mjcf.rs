@@ -5,6 +5,7 @@ mod constraints;
 mod hinges;
 mod include;
 mod joint;
+mod part;
 mod read;
 mod sliders;
 mod write;

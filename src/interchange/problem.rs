@@ -1,6 +1,10 @@
-//! What can be wrong with a file of another program.
+//! What can be wrong with a file of another program, and the words for it.
 
 use std::ops::Range;
+
+use thiserror::Error;
+
+use crate::description::listed;
 
 /// Something wrong with a file of another program, and where.
 #[derive(Clone, Debug, PartialEq)]
@@ -11,157 +15,159 @@ pub struct ImportProblem {
     pub span: Option<Range<usize>>,
 }
 
-/// What can be wrong.
+/// A file, those it includes, and everything that is wrong with them.
 #[derive(Clone, Debug, PartialEq)]
+pub struct WrongFile {
+    /// Names and texts; the first is the file that was asked for.
+    pub files: Vec<(String, String)>,
+    /// What is wrong, with the file it is wrong in.
+    pub problems: Vec<(usize, ImportProblem)>,
+}
+
+/// What can be wrong, in one line each.
+#[derive(Clone, Debug, Error, PartialEq)]
+#[allow(missing_docs)]
 pub enum ImportProblemKind {
-    /// It is not XML.
-    Syntax {
-        /// The reader's words.
-        message: String,
-    },
-    /// Nothing stands in it.
+    #[error("this is not XML: {message}")]
+    Syntax { message: String },
+    #[error("the file is empty")]
     Empty,
-    /// Elements stand in one another too deeply.
-    TooDeep {
-        /// The most levels there may be.
-        most: usize,
-    },
-    /// The outermost element is another one.
+    #[error("elements stand more than {most} levels deep in one another")]
+    TooDeep { most: usize },
+    #[error("the outermost element is `{found}`, not {}", or(expected))]
     NotThisFormat {
-        /// The one that is there.
         found: String,
-        /// Those that could be.
         expected: &'static [&'static str],
     },
     /// A macro that has not been expanded.
-    Macro {
-        /// The element.
-        element: String,
-    },
+    #[error("`{element}` is a macro, not a part of a robot")]
+    Macro { element: String },
     /// An attribute or element that must be there is not.
-    Missing {
-        /// The element.
-        element: String,
-        /// What it needs.
-        needs: String,
-    },
-    /// A text that is not as many numbers as it should be.
-    NotNumbers {
-        /// The text.
-        text: String,
-        /// How many there should be.
-        count: usize,
-    },
-    /// A word that is none of those known.
+    #[error("`{element}` has no {needs}")]
+    Missing { element: String, needs: String },
+    /// A text that is not as many finite numbers as it should be.
+    #[error("`{text}` is not {}", numbers(*count))]
+    NotNumbers { text: String, count: usize },
+    #[error("`{word}` is not known here")]
     UnknownWord {
-        /// The word.
         word: String,
-        /// Those known.
         known: &'static [&'static str],
     },
-    /// Something that linkwork has no word for.
-    Unsupported {
-        /// What it is.
-        what: String,
-        /// What to do.
-        help: &'static str,
-    },
-    /// A name given twice.
-    Duplicate {
-        /// What bears it.
-        noun: &'static str,
-        /// The name.
-        name: String,
-    },
-    /// A name that nothing bears.
+    #[error("linkwork cannot read {what}")]
+    Unsupported { what: String, help: &'static str },
+    #[error("there are two {noun}s `{name}`")]
+    Duplicate { noun: &'static str, name: String },
+    #[error("there is no {noun} `{name}`")]
     Unknown {
-        /// What should bear it.
         noun: &'static str,
-        /// The name.
         name: String,
         /// A similar name.
         suggestion: Option<String>,
     },
-    /// An axis of no direction.
+    #[error("the axis of joint `{joint}` has no direction")]
     NoAxis {
-        /// The joint.
         joint: String,
         /// How the format writes an axis.
         example: &'static str,
     },
     /// A quaternion or a pair of axes that gives no orientation.
-    NoOrientation {
-        /// The text.
-        text: String,
-    },
-    /// Two joints lead to one link.
-    TwoParents {
-        /// The link.
-        link: String,
-        /// The joints.
-        joints: [String; 2],
-    },
-    /// Every link hangs on another one.
-    NoRoot {
-        /// Links that stand on themselves.
-        links: Vec<String>,
-    },
-    /// Links that hang on none and are not joined.
-    SeveralRoots {
-        /// The links.
-        links: Vec<String>,
-    },
-    /// Links that stand on themselves.
-    Cycle {
-        /// The links.
-        links: Vec<String>,
-    },
-    /// Joints that follow one another in a circle, or one that follows two.
-    FollowsTwo {
-        /// The joint.
-        joint: String,
-    },
-    /// Joints that follow one another in a circle.
-    FollowsItself {
-        /// The joint.
-        joint: String,
-    },
-    /// A keyframe with another number of values than the joints have.
+    #[error("`{text}` gives no orientation")]
+    NoOrientation { text: String },
+    #[error("joints `{}` and `{}` both lead to link `{link}`", joints[0], joints[1])]
+    TwoParents { link: String, joints: [String; 2] },
+    #[error(
+        "every link hangs on another one: {} stand on themselves",
+        quoted(links)
+    )]
+    NoRoot { links: Vec<String> },
+    #[error("{} hang on no link and are not joined", quoted(links))]
+    SeveralRoots { links: Vec<String> },
+    #[error("{} stand on themselves", quoted(links))]
+    Cycle { links: Vec<String> },
+    #[error("joint `{joint}` follows two others")]
+    FollowsTwo { joint: String },
+    #[error("joint `{joint}` follows itself by way of others")]
+    FollowsItself { joint: String },
+    #[error("keyframe `{name}` has {found} values, the joints have {expected}")]
     WrongKeyframe {
-        /// The keyframe.
         name: String,
-        /// How many values it has.
         found: usize,
-        /// How many there should be.
         expected: usize,
     },
-    /// A file to be included that cannot be.
-    NotIncluded {
-        /// The file.
-        file: String,
-        /// Why not.
-        reason: String,
-    },
-    /// What the reader of the format says.
-    Reader {
-        /// Its words.
-        message: String,
-    },
+    #[error("`{file}` cannot be included: {reason}")]
+    NotIncluded { file: String, reason: String },
+    /// The words of the reader of the format.
+    #[error("the file cannot be read: {message}")]
+    Reader { message: String },
     /// A number beyond all that a mechanism can have.
-    TooLarge {
-        /// What has it.
-        of: String,
-    },
-    /// Nothing moves.
+    #[error("the numbers of `{of}` are too large")]
+    TooLarge { of: String },
+    #[error("nothing in the file moves")]
     NothingMoves,
 }
 
 impl ImportProblemKind {
+    /// What is wrong, in one line.
+    pub fn title(&self) -> String {
+        self.to_string()
+    }
+
+    /// What to do about it.
+    pub fn help(&self) -> Option<String> {
+        let help = match self {
+            Self::Syntax { .. } | Self::Reader { .. } => return None,
+            Self::NotNumbers { count: 1, .. } => "write one number, such as 0.5",
+            Self::NotNumbers { count, .. } => {
+                let example = ["0.5"].repeat(*count).join(" ");
+                return Some(format!(
+                    "write {count} numbers with spaces between, such as \"{example}\""
+                ));
+            }
+            Self::UnknownWord { known, .. } => return Some(format!("known are {}", or(known))),
+            Self::Unknown { suggestion, .. } => {
+                return Some(format!("did you mean `{}`?", suggestion.as_ref()?));
+            }
+            Self::NoAxis { example, .. } => {
+                return Some(format!("give the axis a direction, such as {example}"));
+            }
+            Self::TooDeep { .. } => "no mechanism is that deep",
+            Self::Empty | Self::NotThisFormat { .. } => {
+                "linkwork reads URDF, which begins with `robot`, and MJCF, which begins with `mujoco`"
+            }
+            Self::Macro { .. } => "expand the file first: xacro FILE > robot.urdf",
+            Self::Missing { .. } => "add it",
+            Self::Unsupported { help, .. } => help,
+            Self::Duplicate { .. } => "give one of them another name",
+            Self::NoOrientation { .. } => {
+                "give numbers that are not all 0, and axes that are not parallel"
+            }
+            Self::TwoParents { .. } => {
+                "a tree has one joint for each link: leave one of them out, and close the loop with \
+                 `loop_joint` or with --loops"
+            }
+            Self::NoRoot { .. } | Self::Cycle { .. } => {
+                "leave out one joint of the circle, and close the loop with `loop_joint` or with --loops"
+            }
+            Self::SeveralRoots { .. } => {
+                "join them to one link, with fixed joints if they do not move"
+            }
+            Self::FollowsTwo { .. } => "leave one of them out",
+            Self::FollowsItself { .. } => "let one of the joints follow none",
+            Self::WrongKeyframe { .. } => {
+                "give one value for each hinge and slide, 4 for a ball, 7 for a free joint"
+            }
+            Self::NotIncluded { .. } => "put the file there, or its content here",
+            Self::TooLarge { .. } => "lengths are in m and angles in rad",
+            Self::NothingMoves => "a mechanism needs a joint that is not fixed",
+        };
+        Some(help.to_owned())
+    }
+
     /// The problem, at a place.
     pub(super) fn at(self, span: Range<usize>) -> ImportProblem {
         ImportProblem {
-            kind: self,
             span: Some(span),
+            ..self.anywhere()
         }
     }
 
@@ -171,5 +177,27 @@ impl ImportProblemKind {
             kind: self,
             span: None,
         }
+    }
+}
+
+fn numbers(count: usize) -> String {
+    match count {
+        1 => "a finite number".into(),
+        _ => format!("{count} finite numbers"),
+    }
+}
+
+fn quoted(names: &[String]) -> String {
+    const MOST: usize = 8;
+    let shown = names.iter().take(MOST).map(|name| format!("`{name}`"));
+    let more = (names.len() > MOST).then(|| format!("{} more", names.len() - MOST));
+    listed(&shown.chain(more).collect::<Vec<_>>())
+}
+
+fn or(words: &[&str]) -> String {
+    let quoted: Vec<String> = words.iter().map(|word| format!("`{word}`")).collect();
+    match quoted.as_slice() {
+        [words @ .., last] if !words.is_empty() => format!("{} or {last}", words.join(", ")),
+        words => words.join(""),
     }
 }

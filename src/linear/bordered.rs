@@ -1,18 +1,7 @@
 use super::Qr;
 use super::lu::Lu;
-use super::{DENSE_LIMIT, Factorable, SparseStep};
+use super::{Block, DENSE_LIMIT, Factorable, SparseStep};
 use crate::number::Field;
-
-/// Where one block of rows stands: its own unknowns, and the shared ones it touches.
-#[derive(Clone, Debug, Default, PartialEq)]
-pub struct Block {
-    /// Number of rows.
-    pub rows: usize,
-    /// Indices of the unknowns that appear in no other block.
-    pub own: Vec<usize>,
-    /// Indices of the shared unknowns the block touches, in the order of its carried columns.
-    pub shared: Vec<usize>,
-}
 
 /// Least squares min ‖J x + r‖ for a J made of blocks with unknowns of their own and shared ones.
 ///

@@ -1,6 +1,4 @@
-use std::fmt::Debug;
-
-use super::Block;
+use super::{DenseOnly, SparseStep};
 use crate::number::{Complex, Dual, Field, Interval, Lanes};
 
 /// A number for which least-squares steps can be computed, with its way to do so when the matrix is
@@ -8,49 +6,6 @@ use crate::number::{Complex, Dual, Field, Interval, Lanes};
 pub trait Factorable: Field {
     /// The sparse factorisation.
     type Sparse: SparseStep<Self>;
-}
-
-/// Least-squares steps for a large matrix made of blocks that touch few unknowns each.
-pub trait SparseStep<T>: Clone + Debug + Send + Sync + Sized {
-    /// Whether there is such a factorisation; otherwise large matrices are treated as dense.
-    const AVAILABLE: bool;
-    /// Analyses the pattern of the blocks and of `extra_rows` rows that touch every unknown.
-    fn new(unknowns: usize, blocks: &[Block], extra_rows: usize) -> Self;
-    /// Factorises the blocks, each column-major, and the extra rows, row after row.
-    fn factorise<'a>(
-        &mut self,
-        blocks: impl Iterator<Item = (&'a Block, &'a [T])>,
-        extra: &[T],
-        damping: f64,
-    ) where
-        T: 'a;
-    /// The step −J⁺r for the blocks last factorised.
-    fn step<'a, I>(&self, blocks: impl Fn() -> I, r: &[T], x: &mut [T])
-    where
-        T: 'a,
-        I: Iterator<Item = (&'a Block, &'a [T])>;
-}
-
-/// No sparse factorisation: matrices of any size are dense.
-#[derive(Clone, Copy, Debug)]
-pub struct DenseOnly;
-
-impl<T> SparseStep<T> for DenseOnly {
-    const AVAILABLE: bool = false;
-    fn new(_: usize, _: &[Block], _: usize) -> Self {
-        DenseOnly
-    }
-    fn factorise<'a>(&mut self, _: impl Iterator<Item = (&'a Block, &'a [T])>, _: &[T], _: f64)
-    where
-        T: 'a,
-    {
-    }
-    fn step<'a, I>(&self, _: impl Fn() -> I, _: &[T], _: &mut [T])
-    where
-        T: 'a,
-        I: Iterator<Item = (&'a Block, &'a [T])>,
-    {
-    }
 }
 
 #[cfg(feature = "sparse")]

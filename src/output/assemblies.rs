@@ -9,12 +9,11 @@ use super::json::document;
 use super::layout::indented;
 use super::quantity::{number, quantity};
 use crate::analysis::assemblies::{
-    AssembliesReport, ClosestApproach, Continuum, Fit, Fold, LostMode, LostReason, Progress,
+    AssembliesReport, ClosestApproach, Continuum, Fit, Fold, LostMode, LostReason,
 };
 use crate::description::count;
 use crate::description::listed;
-use crate::mechanism::Coordinate;
-use crate::system::Variable;
+use crate::mechanism::{Coordinate, Variable};
 use tables::{complex, joints, overview, platforms, reasons, times};
 
 /// The report as text.
@@ -190,27 +189,10 @@ fn nearest(report: &AssembliesReport, closest: &ClosestApproach) -> String {
         let _ = writeln!(text, "  {name}: {}", closing::gap(gap.distance, gap.angle));
     }
     for ((name, value), joint) in closest.joints.0.iter().zip(&report.variables) {
-        let angle = joint.variable.unit.is_angle();
+        let angle = joint.unit.is_angle();
         let _ = writeln!(text, "  {name} = {}", quantity(*value, angle));
     }
     text
-}
-
-/// `searching: 37 solutions after 480 seeds and 5 loops`
-pub fn progress(now: &Progress) -> String {
-    if now.followed > 0 {
-        return format!(
-            "following: {} to the inputs, {} begun so far, some again\n",
-            count(now.found, "path"),
-            now.followed
-        );
-    }
-    format!(
-        "searching: {} after {} and {}\n",
-        count(now.found, "solution"),
-        count(now.seeds, "seed"),
-        count(now.loops, "loop")
-    )
 }
 
 /// The report as JSON: lengths in m, angles in rad, every number with all its digits.

@@ -2,6 +2,7 @@
 
 use serde::Serialize;
 
+use super::document::{Document, Report};
 use super::json::document;
 use super::quantity::{degrees, quantity};
 use crate::description::listed;
@@ -42,6 +43,26 @@ pub fn limits_warning(outside: &[String]) -> String {
     }
 }
 
+impl<R: Report> Report for Analysed<R> {
+    fn document(&self) -> Document {
+        match self {
+            Analysed::Closed(report) => report.document(),
+            Analysed::NotClosed(open) => open.document(),
+            Analysed::TooLarge(large) => Document::new(&large.mechanism, too_large(large.unknowns)),
+        }
+    }
+
+    fn sentences(&self) -> Vec<(&'static str, Option<String>)> {
+        self.report().map_or(Vec::new(), Report::sentences)
+    }
+}
+
+impl Report for NotClosed {
+    fn document(&self) -> Document {
+        Document::new(&self.mechanism, sentence(self))
+    }
+}
+
 /// The report as `show` writes it, or why there is none and what to ask instead.
 pub fn text<'a, R>(
     mechanism: &Mechanism,
@@ -51,7 +72,7 @@ pub fn text<'a, R>(
     let why = match answer {
         Analysed::Closed(report) => return (show(mechanism, report), Some(report)),
         Analysed::NotClosed(open) => sentence(open),
-        Analysed::TooLarge { unknowns } => too_large(*unknowns),
+        Analysed::TooLarge(large) => too_large(large.unknowns),
     };
     (format!("{}\n{why}\n", mechanism.name()), None)
 }
@@ -70,9 +91,9 @@ pub fn json<'a, R>(
             left: open.left.as_ref(),
             held: &open.held,
         },
-        Analysed::TooLarge { unknowns } => UnansweredJson {
+        Analysed::TooLarge(large) => UnansweredJson {
             closed: None,
-            sentence: too_large(*unknowns),
+            sentence: too_large(large.unknowns),
             left: None,
             held: &[],
         },

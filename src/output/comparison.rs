@@ -237,6 +237,7 @@ fn why(reason: Reason) -> &'static str {
         }
         Reason::NeedsPlatform => "it depends on where a platform stands when assembled",
         Reason::TooLong => "it is too long to be multiplied out",
+        Reason::Interrupted => "the work was interrupted",
     }
 }
 

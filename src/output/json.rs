@@ -3,6 +3,24 @@
 use serde::Serialize;
 use serde_json::{Map, Value};
 
+use super::document::Report;
+
+/// The report as JSON: its own fields, after the program's version, the mechanism's name and the
+/// answer in words. Numbers are in SI units and rad.
+pub fn render(report: &impl Report) -> String {
+    let document = report.document();
+    let mut object = Map::new();
+    object.insert("linkwork".into(), env!("CARGO_PKG_VERSION").into());
+    object.insert("mechanism".into(), document.title.into());
+    if !document.answer.is_empty() {
+        object.insert("sentence".into(), document.answer.into());
+    }
+    for (name, sentence) in report.sentences() {
+        object.insert(name.into(), sentence.into());
+    }
+    extended(object, report)
+}
+
 /// A report as a JSON object that begins with the program's version and the mechanism's name.
 ///
 /// Numbers keep all their digits; one that is not finite is written as `null`, a negative zero as zero.
@@ -10,6 +28,10 @@ pub(super) fn document(mechanism: &str, report: &impl Serialize) -> String {
     let mut object = Map::new();
     object.insert("linkwork".into(), env!("CARGO_PKG_VERSION").into());
     object.insert("mechanism".into(), mechanism.into());
+    extended(object, report)
+}
+
+fn extended(mut object: Map<String, Value>, report: &impl Serialize) -> String {
     let report = serde_json::to_value(report)
         .expect("the keys of every map in a report are texts, which alone could fail");
     if let Value::Object(report) = report {

@@ -122,7 +122,7 @@ fn heading(report: &AssemblyReport) -> String {
 fn joints(report: &AssemblyReport) -> String {
     let mut table = plain(["name", "role", "", "value", "", "limits"]);
     for (joint, &value) in report.variables.iter().zip(report.joints.values()) {
-        let is_angle = joint.variable.unit.is_angle();
+        let is_angle = joint.unit.is_angle();
         let radians = match is_angle {
             true => format!("{} rad", number(value)),
             false => String::new(),
@@ -136,7 +136,7 @@ fn joints(report: &AssemblyReport) -> String {
             }
         };
         table.add_row([
-            joint.variable.name.as_str(),
+            joint.name.as_str(),
             &joint.role.word().to_lowercase(),
             if joint.held { "held" } else { "solved" },
             &quantity(value, is_angle),

@@ -1,34 +1,40 @@
-//! The forces in a mechanism, as text and as JSON.
-
-use std::fmt::Write;
-
-use serde::Serialize;
+//! The forces in a mechanism as a document.
 
 use super::closing;
-use super::json::document;
-use super::layout::{align_right, indented, plain};
+use super::document::{Cell, Column, Digits, Document, Report, Section, Table, cells};
 use super::option::{Complaint, Part};
 use super::quantity::{number, size};
 use super::question::{driven_complaint, unknown_frame};
 use crate::analysis::statics::{Force, Reaction, StaticsReport};
-use crate::description::count;
-use crate::description::listed;
+use crate::description::{count, listed};
 use crate::mechanism::Mechanism;
 use crate::system::LoadError;
 
-/// The report as JSON: the fields of [`StaticsReport`] after one sentence.
-pub fn json(mechanism: &Mechanism, report: &StaticsReport) -> String {
-    #[derive(Serialize)]
-    struct StaticsJson<'a> {
-        sentence: String,
-        #[serde(flatten)]
-        report: &'a StaticsReport,
+impl Report for StaticsReport {
+    fn document(&self) -> Document {
+        let gap = (self.given_gap.as_ref()).map(|gap| closing::given(gap, self.kept));
+        let loads = Section::new("Loads, at the frame's origin").table(loads(self));
+        let on_joints = Section::new("Loads on joints").table(forces(&self.joint_loads));
+        let held =
+            Section::new("Held, with the force that holds it").table(forces(&self.actuators));
+        let closures = Section::new(
+            "Closures, axes of ground, moments about the point given, that of the second frame",
+        );
+        let joints = Section::new(
+            "Joints, axes of ground, moments about the point given, the origin of the frame after the joint",
+        );
+        let length = self.normalising_length;
+        Document::new(&self.mechanism, sentence(self))
+            .note(format!(
+                "without weight and friction; condition number {}, forces times {} m beside moments",
+                size(self.condition),
+                number(length)
+            ))
+            .notes(gap)
+            .sections([loads, on_joints, held])
+            .section(closures.table(reactions(&self.closures, length)))
+            .section(joints.table(reactions(&self.joints, length)))
     }
-    let json = StaticsJson {
-        sentence: sentence(report),
-        report,
-    };
-    document(mechanism.name(), &json)
 }
 
 /// The answer in one or two sentences.
@@ -59,119 +65,73 @@ fn balance(report: &StaticsReport) -> String {
         stresses => format!(
             "In equilibrium, but not uniquely: {} without load can be added; what is marked * is \
              the minimum-norm choice.",
-            count(stresses, "state of stress").replace("state of stresss", "states of stress")
+            count(stresses, "state of stress")
         ),
     }
 }
 
-/// The report as text.
-pub fn text(mechanism: &Mechanism, report: &StaticsReport) -> String {
-    let mut heading = format!("{}\n{}\n", mechanism.name(), sentence(report));
-    let _ = writeln!(
-        heading,
-        "  without weight and friction; condition number {}, forces times {} m beside moments",
-        size(report.condition),
-        number(report.normalising_length)
-    );
-    if let Some(gap) = &report.given_gap {
-        let _ = writeln!(heading, "  {}", closing::given(gap, report.kept));
+/// The components of forces and moments.
+const COMPONENTS: [(&str, &str); 6] = [
+    ("Fx", "N"),
+    ("Fy", "N"),
+    ("Fz", "N"),
+    ("Mx", "N·m"),
+    ("My", "N·m"),
+    ("Mz", "N·m"),
+];
+
+fn components() -> impl Iterator<Item = Column> {
+    COMPONENTS
+        .map(|(name, unit)| Column::numbers(name).in_unit(unit))
+        .into_iter()
+}
+
+fn loads(report: &StaticsReport) -> Table {
+    let mut table = Table::new([Column::words("on")].into_iter().chain(components()));
+    for load in &report.loads {
+        let values = load.force.iter().chain(&load.moment);
+        let values = values.map(|&value| Cell::number(value));
+        table.row(
+            [Cell::from(&load.frame)]
+                .into_iter()
+                .chain(values)
+                .collect(),
+        );
     }
-    let mut sections = vec![heading];
-    if !report.loads.is_empty() {
-        let mut table = plain([
-            "on",
-            "Fx (N)",
-            "Fy (N)",
-            "Fz (N)",
-            "Mx (N·m)",
-            "My (N·m)",
-            "Mz (N·m)",
-        ]);
-        for load in &report.loads {
-            let [x, y, z] = load.force.map(number);
-            let [a, b, c] = load.moment.map(number);
-            table.add_row([&load.frame, &x, &y, &z, &a, &b, &c]);
-        }
-        align_right(&mut table, 1..7);
-        sections.push(format!(
-            "Loads, at the frame's origin\n{}",
-            indented(&table.to_string())
-        ));
-    }
-    if !report.joint_loads.is_empty() {
-        sections.push(format!("Loads on joints\n{}", forces(&report.joint_loads)));
-    }
-    if !report.actuators.is_empty() {
-        let title = "Held, with the force that holds it";
-        sections.push(format!("{title}\n{}", forces(&report.actuators)));
-    }
-    if !report.closures.is_empty() {
-        let title =
-            "Closures, axes of ground, moments about the point given, that of the second frame";
-        sections.push(format!(
-            "{title}\n{}",
-            reactions(&report.closures, report.normalising_length)
-        ));
-    }
-    if !report.joints.is_empty() {
-        let title = "Joints, axes of ground, moments about the point given, the origin of the frame after the joint";
-        sections.push(format!(
-            "{title}\n{}",
-            reactions(&report.joints, report.normalising_length)
-        ));
-    }
-    sections.join("\n")
+    table
 }
 
 fn mark(unique: bool) -> &'static str {
     if unique { "" } else { "*" }
 }
 
-fn forces(forces: &[Force]) -> String {
-    let mut table = plain(["name", "force"]);
+fn forces(forces: &[Force]) -> Table {
+    let mut table = Table::new([Column::words("name"), Column::numbers("force")]);
     for force in forces {
-        let value = format!(
-            "{}{} {}",
-            number(force.force),
-            mark(force.unique),
-            force.unit
-        );
-        table.add_row([&force.name, &value]);
+        let value = Cell::quantity(force.force, force.unit).marked(mark(force.unique));
+        table.row(cells![&force.name, value]);
     }
-    align_right(&mut table, [1]);
-    indented(&table.to_string())
+    table
 }
 
-fn reactions(reactions: &[Reaction], length: f64) -> String {
-    let header = [
-        "",
-        "from",
-        "on",
-        "at (m)",
-        "Fx (N)",
-        "Fy (N)",
-        "Fz (N)",
-        "Mx (N·m)",
-        "My (N·m)",
-        "Mz (N·m)",
-    ];
-    let mut table = plain(header);
+fn reactions(reactions: &[Reaction], length: f64) -> Table {
+    let names = ["", "from", "on"].map(Column::words).into_iter();
+    let point = Column::words("at").in_unit("m");
+    let mut table = Table::new(names.chain([point]).chain(components()));
     for reaction in reactions {
         let name = match reaction.variables.is_empty() {
             true => reaction.name.clone(),
             false => reaction.variables.join(" "),
         };
         let clean = |x: f64| if x.abs() < 1e-9 * length { 0.0 } else { x };
-        let point = reaction.point.map(|x| number(clean(x)));
-        let point = format!("({})", point.join(", "));
-        let mut row = vec![name, reaction.from.clone(), reaction.on.clone(), point];
+        let point = Cell::vector(reaction.point.map(clean)).with(Digits::Six);
+        let mut row = cells![name, &reaction.from, &reaction.on, point];
         let values = reaction.force.iter().chain(&reaction.moment);
         let values = values.zip(reaction.unique);
-        row.extend(values.map(|(&value, unique)| number(value) + mark(unique)));
-        table.add_row(row);
+        row.extend(values.map(|(&value, unique)| Cell::number(value).marked(mark(unique))));
+        table.row(row);
     }
-    align_right(&mut table, 4..10);
-    indented(&table.to_string())
+    table
 }
 
 /// What is wrong with a load.

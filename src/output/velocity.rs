@@ -1,52 +1,25 @@
-//! How an assembled mechanism moves, as text and as JSON.
-
-use std::fmt::Write;
-
-use serde::Serialize;
+//! How an assembled mechanism moves, as a document.
 
 use super::closing;
-use super::json::document;
-use super::layout::{align_right, indented, plain};
-use super::quantity::{degrees, number, quantity, short, size};
+use super::document::{Cell, Column, Document, Matrix, Report, Section, Table, cells};
+use super::quantity::{number, short, size};
 use crate::analysis::velocity::{
-    FirstOrderOnly, FrameRate, Gain, InputOutput, InstantCentre, Transmission, VelocityReport,
+    Axis, FirstOrderOnly, FrameRate, Gain, InputOutput, InstantCentre, Transmission, VelocityReport,
 };
-use crate::description::count;
-use crate::description::listed;
-use crate::mechanism::Mechanism;
+use crate::description::{count, listed};
 
-/// The report as JSON: the fields of [`VelocityReport`] after one sentence.
-pub fn json(mechanism: &Mechanism, report: &VelocityReport) -> String {
-    #[derive(Serialize)]
-    struct VelocityJson<'a> {
-        sentence: String,
-        #[serde(flatten)]
-        report: &'a VelocityReport,
+impl Report for VelocityReport {
+    fn document(&self) -> Document {
+        let gap = (self.given_gap.as_ref()).map(|gap| closing::given(gap, self.kept));
+        let jacobian = self.jacobian.as_ref();
+        Document::new(&self.mechanism, sentence(self))
+            .notes(gap)
+            .section(Section::new("Joints").table(joints(self)))
+            .sections(self.frames.iter().map(frame))
+            .sections(jacobian.map(|j| matrix(j, self.normalising_length)))
+            .section(Section::new("Transmission").table(transmission(&self.transmission)))
+            .section(Section::new("Instant centres").table(centres(&self.centres)))
     }
-    let sentence = sentence(report);
-    document(mechanism.name(), &VelocityJson { sentence, report })
-}
-
-/// The report as text.
-pub fn text(mechanism: &Mechanism, report: &VelocityReport) -> String {
-    let mut sections = vec![heading(mechanism, report)];
-    if !report.joints.is_empty() {
-        sections.push(joints(report));
-    }
-    sections.extend(report.frames.iter().map(frame));
-    sections.extend(
-        report
-            .jacobian
-            .as_ref()
-            .map(|j| jacobian(j, report.normalising_length)),
-    );
-    if !report.transmission.is_empty() {
-        sections.push(transmission(&report.transmission));
-    }
-    if !report.centres.is_empty() {
-        sections.push(centres(&report.centres));
-    }
-    sections.join("\n")
 }
 
 /// The answer in one sentence.
@@ -165,87 +138,64 @@ fn doubt(report: &VelocityReport) -> String {
     }
 }
 
-fn heading(mechanism: &Mechanism, report: &VelocityReport) -> String {
-    let mut text = format!("{}\n{}\n", mechanism.name(), sentence(report));
-    if let Some(gap) = &report.given_gap {
-        let _ = writeln!(text, "  {}", closing::given(gap, report.kept));
-    }
-    text
-}
-
-fn joints(report: &VelocityReport) -> String {
-    let mut table = plain(["name", "", "value", "rate", "acceleration"]);
+fn joints(report: &VelocityReport) -> Table {
+    let mut table = Table::new([
+        Column::words("name"),
+        Column::words(""),
+        Column::numbers("value"),
+        Column::numbers("rate"),
+        Column::numbers("acceleration"),
+    ]);
     for joint in &report.joints {
         let per = |value: Option<f64>, time: &str| match value {
-            Some(value) => format!("{} {}/{time}", number(value), joint.unit),
+            Some(value) => Cell::quantity(value, format!("{}/{time}", joint.unit)),
             None => "not determined".into(),
         };
-        table.add_row([
-            joint.name.as_str(),
+        table.row(cells![
+            &joint.name,
             if joint.held { "held" } else { "solved" },
-            &quantity(joint.value, joint.unit.is_angle()),
-            &per(joint.rate, "s"),
-            &per(joint.acceleration, "s²"),
+            Cell::quantity(joint.value, joint.unit),
+            per(joint.rate, "s"),
+            per(joint.acceleration, "s²"),
         ]);
     }
-    align_right(&mut table, 2..5);
-    format!("Joints\n{}", indented(&table.to_string()))
+    table
 }
 
-fn frame(frame: &FrameRate) -> String {
-    let header = [
-        "",
-        "position (m)",
-        "v (m/s)",
-        "a (m/s²)",
-        "ω (rad/s)",
-        "dω/dt (rad/s²)",
+fn frame(frame: &FrameRate) -> Section {
+    let columns = [
+        ("position", "m", Some(frame.position)),
+        ("v", "m/s", Some(frame.velocity)),
+        ("a", "m/s²", frame.acceleration),
+        ("ω", "rad/s", Some(frame.angular_velocity)),
+        ("dω/dt", "rad/s²", frame.angular_acceleration),
     ];
-    let mut table = plain(header);
+    let headers = columns.map(|(name, unit, _)| Column::numbers(name).in_unit(unit));
+    let mut table = Table::new([Column::words("")].into_iter().chain(headers));
     for (i, axis) in ["x", "y", "z"].into_iter().enumerate() {
-        let columns = [
-            Some(frame.position),
-            Some(frame.velocity),
-            frame.acceleration,
-            Some(frame.angular_velocity),
-            frame.angular_acceleration,
-        ];
-        let [a, b, c, d, e] =
-            columns.map(|column| column.map_or("none".into(), |column| number(column[i])));
-        table.add_row([axis, &a, &b, &c, &d, &e]);
+        let values = columns.map(|(_, _, value)| value.map_or("none".into(), |v| v[i].into()));
+        table.row([axis.into()].into_iter().chain(values).collect());
     }
-    align_right(&mut table, 1..6);
     let spins = frame.spins.iter().map(|line| {
         let line = line.map(short).join(", ");
-        format!("it spins about ({line}) at any rate, which ω is without\n")
+        format!("it spins about ({line}) at any rate; ω does not include that spin")
     });
-    let rest: String = spins.collect();
-    format!(
-        "Frame {} in ground\n{}{}",
-        frame.name,
-        indented(&table.to_string()),
-        indented(&rest)
-    )
+    Section::new(format!("Frame {} in ground", frame.name))
+        .table(table)
+        .list(spins)
 }
 
-fn jacobian(jacobian: &InputOutput, length: f64) -> String {
+fn matrix(jacobian: &InputOutput, length: f64) -> Section {
+    let section = Section::new("Input–output Jacobian");
     if jacobian.rows.is_empty() || jacobian.columns.is_empty() {
-        return "Input–output Jacobian\n  nothing held drives an output\n".into();
+        return section.text("nothing held drives an output");
     }
-    let mut table = comfy_table::Table::new();
-    table.load_style(comfy_table::presets::NOTHING);
-    let named = jacobian.columns.iter();
-    let header = named.map(|column| format!("{} ({})", column.name, column.unit));
-    table.add_row(["output".to_owned()].into_iter().chain(header));
-    for (row, entries) in jacobian.rows.iter().zip(&jacobian.entries) {
-        let name = format!("{} ({})", row.name, row.unit);
-        let entries = entries.iter().map(|&entry| number(entry));
-        table.add_row([name].into_iter().chain(entries));
-    }
-    if let Some(first) = table.column_mut(0) {
-        first.set_padding((0, 1));
-    }
-    align_right(&mut table, 1..=jacobian.columns.len());
+    let named = |axes: &[Axis]| {
+        let names = axes
+            .iter()
+            .map(|axis| format!("{} ({})", axis.name, axis.unit));
+        names.collect()
+    };
     let condition = match jacobian.condition {
         Some(condition) => size(condition),
         None => format!("infinite: {} lost", count(jacobian.loss, "freedom")),
@@ -255,48 +205,52 @@ fn jacobian(jacobian: &InputOutput, length: f64) -> String {
         rows if rows == jacobian.rows.len() => "",
         _ => "without the points followed: ",
     };
-    let rest = format!(
-        "{without}rank {}, condition number {condition}, manipulability {}, with lengths over {} m\n",
-        jacobian.rank,
-        number(jacobian.manipulability),
-        number(length)
-    );
-    let table = indented(&table.to_string());
-    format!("Input–output Jacobian\n{table}{}", indented(&rest))
+    section
+        .matrix(Matrix {
+            rows_are: "output".into(),
+            rows: named(&jacobian.rows),
+            columns: named(&jacobian.columns),
+            entries: jacobian.entries.clone(),
+        })
+        .text(format!(
+            "{without}rank {}, condition number {condition}, manipulability {}, with lengths over {} m",
+            jacobian.rank,
+            number(jacobian.manipulability),
+            number(length)
+        ))
 }
 
-fn transmission(angles: &[Transmission]) -> String {
-    let mut table = plain([
-        "driven",
-        "at",
-        "output",
-        "transmission angle",
-        "pressure angle",
+fn transmission(angles: &[Transmission]) -> Table {
+    let mut table = Table::new([
+        Column::words("driven"),
+        Column::words("at"),
+        Column::words("output"),
+        Column::numbers("transmission angle"),
+        Column::numbers("pressure angle"),
     ]);
     for angle in angles {
-        table.add_row([
+        table.row(cells![
             &angle.driven,
             &angle.between,
             &angle.output,
-            &degrees(angle.transmission_angle),
-            &degrees(angle.pressure_angle),
+            Cell::quantity(angle.transmission_angle, "rad"),
+            Cell::quantity(angle.pressure_angle, "rad"),
         ]);
     }
-    align_right(&mut table, [3, 4]);
-    format!("Transmission\n{}", indented(&table.to_string()))
+    table
 }
 
-fn centres(centres: &[InstantCentre]) -> String {
-    let mut table = plain(["bodies", "", "instant centre"]);
+fn centres(centres: &[InstantCentre]) -> Table {
+    let mut table = Table::new(["bodies", "", "instant centre"].map(Column::words));
     let triple = |v: &[f64; 3]| v.map(short).join(", ");
     for centre in centres {
         let [a, b] = &centre.bodies;
         let place = match (&centre.point, &centre.at_infinity) {
-            (Some(point), _) => format!("({}) m", triple(point)),
-            (None, Some(towards)) => format!("at infinity along ({})", triple(towards)),
+            (Some(point), _) => Cell::vector(*point).in_unit("m"),
+            (None, Some(towards)) => format!("at infinity along ({})", triple(towards)).into(),
             (None, None) => "none".into(),
         };
-        table.add_row([a, b, &place]);
+        table.row(cells![a, b, place]);
     }
-    format!("Instant centres\n{}", indented(&table.to_string()))
+    table
 }

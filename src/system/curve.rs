@@ -1,8 +1,19 @@
 //! The assembled configurations of a mechanism with one freedom left, as a curve.
 
-use super::{Held, HeldPlatform, Holdable, System, Unknown, Work};
+mod locus;
+mod trace;
+mod tracker;
+mod walk;
+
+pub use locus::{LocusCurve, Singular};
+pub use trace::{ConfigurationCurve, LocusEnd, Region, Traced, met_at, passes, settled};
+pub use tracker::Tracker;
+pub use walk::{Event, Leg, Monitor, Walk};
+
+use super::equations::{System, Work};
 use crate::mechanism::{Configuration, ConfigurationRef, Coordinate, Mechanism, turn_near};
 use crate::solve::{Equations, Place, SolutionCurve};
+use crate::system::{Held, HeldPlatform, Holdable, Unknown};
 
 /// A coordinate that moves along a segment, in m or rad.
 #[derive(Clone, Copy, Debug, PartialEq)]

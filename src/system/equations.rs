@@ -1,14 +1,24 @@
+mod approach;
 mod axes;
+mod coordinate;
+mod displacement;
+mod gap;
+mod layout;
+mod parts;
 mod plan;
 mod rates;
 mod wrenches;
 
+pub use approach::approach;
 pub use axes::ClosureAxes;
+pub use coordinate::Holdable;
+pub use gap::Gap;
+pub use layout::{Held, HeldPlatform, Unknown};
+pub use parts::independent_parts;
 pub use wrenches::ClosureWrenches;
 
 use plan::ClosurePlan;
 
-use super::layout::{Held, HeldPlatform, HoldRow, Layout, Unknown};
 use crate::geometry::Vector3;
 use crate::linear::{Bordered, Factorable};
 use crate::mechanism::{
@@ -16,6 +26,7 @@ use crate::mechanism::{
 };
 use crate::number::Field;
 use crate::solve::{Equations, Size};
+use layout::{HoldRow, Layout};
 
 /// The closure equations of a mechanism for one choice of held coordinates.
 ///

@@ -1,15 +1,25 @@
+mod count;
+mod demand;
+mod drive;
+mod error;
 mod held;
+mod load;
+mod value;
 
-use super::demand::{Demand, Target, Verb};
+pub use count::{Count, check_angles, check_count};
+pub use demand::{Demand, Verb};
+pub use drive::{Drive, DriveError};
+pub use error::QuestionError;
+pub use load::{Load, LoadError};
+pub use value::{ValueError, number as number_of};
+
 use super::equations::System;
-use super::freedom::Holdable;
-use super::layout::{Held, HeldPlatform};
-use super::question_error::QuestionError;
-use super::value;
 use crate::description::{Role, nearest};
 use crate::geometry::{Pose, RollPitchYaw};
 use crate::linear::Factorable;
 use crate::mechanism::{Configuration, Coordinate, Mechanism, PlatformPose};
+use crate::system::{Held, HeldPlatform, Holdable};
+use demand::Target;
 
 /// What is asked of a mechanism: which coordinates are held at which values, and where to start.
 ///

@@ -1,16 +1,14 @@
 //! Plain data that the reports of several analyses share.
 
-use std::fmt::{self, Display, Formatter};
+use std::fmt::{self, Formatter};
 use std::marker::PhantomData;
-use std::str::FromStr;
 
 use serde::de::{MapAccess, Visitor};
 use serde::ser::SerializeMap;
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
 
-use crate::algebra::SiUnit;
 use crate::geometry::{Pose, Quaternion, RollPitchYaw};
-use crate::mechanism::Mechanism;
+use crate::mechanism::{Mechanism, Variable};
 
 /// Values by name, in the order of the mechanism file; serialised as a map.
 #[derive(Clone, Debug, PartialEq)]
@@ -83,79 +81,6 @@ impl<'de, T: Deserialize<'de>> Deserialize<'de> for Named<T> {
     }
 }
 
-/// A coordinate that takes values: a joint variable or a coordinate of a platform.
-#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
-pub struct Variable {
-    /// Its name.
-    pub name: String,
-    /// The unit of its values, rad or m.
-    pub unit: SiUnit,
-}
-
-/// A column of a table of numbers; serialised as its heading: `theta1 (rad)`, `mode`.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Column {
-    /// What it holds.
-    pub name: String,
-    /// The unit of its numbers, if they have one.
-    pub unit: Option<SiUnit>,
-}
-
-impl Column {
-    /// A column of numbers without unit.
-    pub fn plain(name: &str) -> Self {
-        let name = name.into();
-        Column { name, unit: None }
-    }
-}
-
-impl From<Variable> for Column {
-    fn from(Variable { name, unit }: Variable) -> Self {
-        let unit = Some(unit);
-        Column { name, unit }
-    }
-}
-
-impl Display for Column {
-    fn fmt(&self, f: &mut Formatter) -> fmt::Result {
-        match self.unit {
-            None => f.pad(&self.name),
-            Some(unit) => f.pad(&format!("{} ({unit})", self.name)),
-        }
-    }
-}
-
-impl FromStr for Column {
-    type Err = std::convert::Infallible;
-
-    fn from_str(text: &str) -> Result<Self, Self::Err> {
-        let parts = text
-            .strip_suffix(')')
-            .and_then(|text| text.rsplit_once(" ("));
-        let parts = parts.and_then(|(name, unit)| Some((name, unit.parse().ok()?)));
-        Ok(match parts {
-            None => Column::plain(text),
-            Some((name, unit)) => Column {
-                name: name.into(),
-                unit: Some(unit),
-            },
-        })
-    }
-}
-
-impl Serialize for Column {
-    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
-        serializer.collect_str(self)
-    }
-}
-
-impl<'de> Deserialize<'de> for Column {
-    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
-        let text = String::deserialize(deserializer)?;
-        text.parse().map_err(serde::de::Error::custom)
-    }
-}
-
 /// A frame in ground.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct FrameRecord {
@@ -211,17 +136,6 @@ pub struct FormulaNames {
 }
 
 impl Mechanism {
-    /// The joint variables with their units, in the order of the file.
-    pub fn variables(&self) -> Vec<Variable> {
-        let joints = self.joints().iter();
-        joints
-            .map(|joint| Variable {
-                name: joint.name.clone(),
-                unit: SiUnit::of_coordinate(joint.kind.is_angle()),
-            })
-            .collect()
-    }
-
     /// Values of the joint variables, rad or m, with the names of these.
     pub fn named_joints(&self, values: &[f64]) -> Named<f64> {
         let joints = self.joints().iter().zip(values);
@@ -235,7 +149,7 @@ impl Mechanism {
         let parameters = self.parameters().iter().map(|part| part.name.clone());
         let platforms = self.platforms().iter().map(|part| part.name.clone());
         FormulaNames {
-            joints: self.variables(),
+            joints: Variable::joints(self),
             parameters: parameters.collect(),
             platforms: platforms.collect(),
         }
@@ -245,24 +159,4 @@ impl Mechanism {
 /// A number whose absence in JSON means that it is infinite: JSON has no infinite numbers.
 pub fn infinite_if_null<'de, D: Deserializer<'de>>(deserializer: D) -> Result<f64, D::Error> {
     Ok(Option::deserialize(deserializer)?.unwrap_or(f64::INFINITY))
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn headings_are_read_as_they_are_written() {
-        for (name, unit, text) in [
-            ("mode", None, "mode"),
-            ("theta1", Some(SiUnit::RADIAN), "theta1 (rad)"),
-            ("left+1, 0.x", Some(SiUnit::METRE), "left+1, 0.x (m)"),
-            ("a (b)", None, "a (b)"),
-        ] {
-            let name = name.to_owned();
-            let column = Column { name, unit };
-            assert_eq!(column.to_string(), text);
-            assert_eq!(text.parse(), Ok(column));
-        }
-    }
 }

@@ -1,11 +1,20 @@
 //! The search for an assembled configuration: from the guess, then from random starts.
 
+mod closing;
+mod starts;
+mod way;
+
+pub use closing::{Analysed, Closed, NotClosed, TooLarge, WidestGap, close, too_large};
+pub use starts::{random_configuration, sampling_range};
+
 use rand::SeedableRng;
 use rand_pcg::Pcg64Mcg;
 
-use super::{Held, HeldPlatform, Question, System, Work, fit, random_configuration};
+use super::equations::{System, Work};
+use super::question::Question;
 use crate::mechanism::{Configuration, Mechanism, turn_near};
-use crate::solve::{Newton, Report, Stop};
+use crate::solve::{Newton, Report, Stage, Stop, Watch};
+use crate::system::{Held, HeldPlatform};
 
 /// One start and where it led.
 #[derive(Clone, Debug, PartialEq)]
@@ -71,8 +80,8 @@ impl<'a> Search<'a> {
 
     /// Moves the mechanism from home to what is held, or starts from the guess if there is one; if
     /// that fails, or ends outside the limits, starts from the guess and then from seeded random
-    /// starts within the limits.
-    pub fn run(&mut self, restarts: usize, seed: u64) -> Searched {
+    /// starts within the limits, until it is stopped.
+    pub fn run(&mut self, restarts: usize, seed: u64, watch: &Watch) -> Searched {
         let mut rng = Pcg64Mcg::seed_from_u64(seed);
         let guesses = [
             self.question.guessed_joints(),
@@ -101,7 +110,9 @@ impl<'a> Search<'a> {
         for start in 1..=restarts {
             let assembled = best.report.stop == Stop::Solved;
             // an assembled configuration outside limits is worth a few more starts, not all
-            if assembled && start > restarts / 4 {
+            if assembled && start > restarts / 4
+                || watch.stops(Stage::Starts, start - 1, Some(restarts))
+            {
                 break;
             }
             made = start;
@@ -213,4 +224,38 @@ impl<'a> Search<'a> {
             at.joints[i] = turn_near(at.joints[i], middle);
         }
     }
+}
+
+/// Brings what is not fixed as near to closing as it can come: the formulation decides success more
+/// than the method, and a platform that fits its legs is a far better guess than one that does not.
+pub fn fit(
+    mechanism: &Mechanism,
+    held: &Held<f64>,
+    newton: &Newton,
+    start: Configuration<f64>,
+    joints: Vec<bool>,
+    platforms: &[bool],
+) -> Configuration<f64> {
+    let poses = held.platforms.iter().zip(platforms);
+    let held = Held {
+        joints,
+        platforms: poses
+            .map(|(held, &fixed)| match fixed {
+                true => HeldPlatform::Pose,
+                false => held.clone(),
+            })
+            .collect(),
+    };
+    let system = System::new(mechanism.dimensions(), &held);
+    if system.unknowns().is_empty() {
+        return start;
+    }
+    let mut work = system.work();
+    let newton = Newton {
+        max_steps: 20,
+        ..newton.clone()
+    };
+    let (mut at, mut trial) = (start.clone(), start);
+    newton.solve(&system, &mut at, &mut trial, &mut work);
+    at
 }

@@ -1,22 +1,27 @@
 //! From the ends of the paths to the report.
 
+mod certificate;
+mod closest;
+mod describe;
+mod elsewhere;
+mod real;
+
+pub(super) use real::{named_joints, real_solution};
+
 use std::ops::Range;
 
 use super::Wanted;
-use super::bound::KnownBound;
-use super::carry::Ends;
-use super::coordinates::{C, Coordinates, size};
-use super::local::Local;
-use super::path::End;
-use super::real::{complex_key, key, order, real_solution, tidied, tidied_complex};
+use super::family::{C, Coordinates, KnownBound, size};
 use super::report::{AssembliesReport, ComplexAssembly, Continuum, Fit, ListedJoint, Named};
-use super::simple::are_one;
-use super::solutions::GenericSolutions;
-use super::way::Way;
+use super::search::GenericSolutions;
+use super::track::{End, Ends, Local, Way, are_one};
+use crate::algebra::SiUnit;
 use crate::geometry::Quaternion;
 use crate::mechanism::{Configuration, Coordinate, Mechanism};
 use crate::number::Number;
+use crate::solve::Watch;
 use crate::system::{Held, HeldPlatform, System, Work};
+use real::{complex_key, key, order, tidied, tidied_complex};
 
 /// The end of the way, where the asked inputs are.
 pub(super) const END: C = C::new(1.0, 0.0);
@@ -32,6 +37,9 @@ pub(super) struct Question<'a> {
     pub asked: &'a Configuration<f64>,
     pub bound: Option<&'a KnownBound>,
     pub system: System<f64>,
+    pub watch: &'a Watch<'a>,
+    /// Whether the search for generic solutions was stopped.
+    pub interrupted: bool,
 }
 
 /// A real solution before it gets its number.
@@ -106,6 +114,7 @@ impl Question<'_> {
             gathered.merged = self.merge(&mut gathered.found, way);
         }
         let mut report = self.empty(generic);
+        report.interrupted = self.interrupted || self.watch.is_stopped();
         let sets: Vec<&Group> = groups.iter().filter(|g| g.dimension > 0).collect();
         if let Some(way) = &mut way {
             self.look_elsewhere(&mut gathered, (&fit, generic, wanted), way, starts);
@@ -116,7 +125,7 @@ impl Question<'_> {
                 self.add(&mut gathered, points, way, (&fit, false));
             }
         }
-        let nearest = match gathered.found.is_empty() {
+        let nearest = match gathered.found.is_empty() && !report.interrupted {
             true => {
                 let starts: Vec<&Vec<C>> = groups.iter().map(|g| &g.x).collect();
                 self.nearest(&starts, &mut work)
@@ -169,6 +178,7 @@ impl Question<'_> {
         if let (true, Some((near, _))) = (report.assemblies.is_empty(), &nearest) {
             report.closest = self.closest(near);
         }
+        report.interrupted |= self.watch.is_stopped();
         report.complete = report.completeness(self.coordinates.length);
         report
     }
@@ -239,9 +249,11 @@ impl Question<'_> {
         let joints = self.mechanism.joints().iter().zip(&self.held.joints);
         AssembliesReport {
             mechanism: self.mechanism.name().into(),
-            variables: (joints.enumerate().zip(self.mechanism.variables()))
-                .map(|((j, (joint, &held)), variable)| ListedJoint {
-                    variable,
+            variables: joints
+                .enumerate()
+                .map(|(j, (joint, &held))| ListedJoint {
+                    name: joint.name.clone(),
+                    unit: SiUnit::of_coordinate(joint.kind.is_angle()),
                     held,
                     periodic: self.mechanism.repeats(j) && joint.limits.is_none(),
                 })
@@ -280,6 +292,7 @@ impl Question<'_> {
             complete: String::new(),
             independent_rows: None,
             closest: None,
+            interrupted: false,
         }
     }
 

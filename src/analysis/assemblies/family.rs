@@ -1,10 +1,17 @@
 //! The family a question belongs to: its dimensions and inputs made complex, and ways between
 //! members.
 
+mod bound;
+mod coordinates;
+mod stances;
+
+pub(super) use bound::{KnownBound, known_bound};
+pub(super) use coordinates::{C, Coordinates, size};
+pub(super) use stances::{Stance, count, learn};
+
 use rand::Rng;
 use rand_pcg::Pcg64;
 
-use super::coordinates::{C, Coordinates};
 use crate::geometry::{Quaternion, Vector3};
 use crate::mechanism::{Configuration, Dimensions, Mechanism};
 use crate::number::Number;
@@ -12,14 +19,14 @@ use crate::system::{Held, HeldPlatform, System};
 
 /// A member: values of the independent parameters and of the inputs.
 #[derive(Clone, Debug, PartialEq)]
-pub(super) struct Member {
+pub(crate) struct Member {
     pub parameters: Vec<C>,
     pub inputs: Vec<C>,
 }
 
 /// All members of the family of one question.
 #[derive(Clone, Debug)]
-pub(super) struct Family {
+pub(crate) struct Family {
     mechanism: Mechanism,
     pub coordinates: Coordinates,
     pub held: Held<C>,

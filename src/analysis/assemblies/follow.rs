@@ -3,17 +3,14 @@
 use serde::{Deserialize, Serialize};
 
 use super::AssembliesError;
-use super::along::polish;
-use super::coordinates::C;
-use super::family::{Family, Member};
-use super::fold::located;
-use super::real::{named_joints, real_solution};
+use super::answer::{named_joints, real_solution};
+use super::family::{C, Family, Member};
 use super::report::Named;
-use super::way::Way;
-use crate::mechanism::{Configuration, Mechanism};
+use super::track::{Way, located, polish};
+use crate::mechanism::{Configuration, Mechanism, Variable};
 use crate::number::Number;
 use crate::solve::{Arrival, Homotopy, Stages, Tracker};
-use crate::system::{Held, System, Variable};
+use crate::system::{Held, System};
 
 /// Where a mode went when its inputs changed.
 #[derive(Clone, Debug, PartialEq)]
@@ -94,7 +91,7 @@ impl Followed {
         };
         Err(Box::new(LostMode {
             mechanism: mechanism.name().into(),
-            variables: mechanism.variables(),
+            variables: Variable::joints(mechanism),
             mode,
             reason,
         }))

@@ -2,12 +2,13 @@
 
 use serde::{Deserialize, Serialize};
 
+use crate::algebra::SiUnit;
 use crate::description::count;
 use crate::geometry::{Quaternion, Vector3};
 use crate::linear::RANK_TOLERANCE;
 use crate::mechanism::Configuration;
 pub use crate::system::Named;
-use crate::system::{Gap, Variable};
+use crate::system::Gap;
 
 /// The pose of a platform in ground.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
@@ -115,9 +116,10 @@ pub struct Continuum {
 /// A joint variable of the list.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct ListedJoint {
-    /// Its name and unit.
-    #[serde(flatten)]
-    pub variable: Variable,
+    /// Its name.
+    pub name: String,
+    /// The unit of its values, rad or m.
+    pub unit: SiUnit,
     /// Whether its value was given.
     pub held: bool,
     /// Whether its values repeat with every turn, without limits that tell turns apart.
@@ -200,6 +202,9 @@ pub struct AssembliesReport {
     pub independent_rows: Option<(usize, usize)>,
     /// Where there is no real assembly: the best that can be done.
     pub closest: Option<ClosestApproach>,
+    /// Whether the work was stopped before it was done: assemblies may be missing.
+    #[serde(default, skip_serializing_if = "std::ops::Not::not")]
+    pub interrupted: bool,
 }
 
 /// A complex solution that is not real.
@@ -219,6 +224,14 @@ pub struct ComplexAssembly {
 impl AssembliesReport {
     /// How complete the list is and why, in a sentence.
     pub(super) fn completeness(&self, length: f64) -> String {
+        if self.interrupted {
+            return format!(
+                "interrupted with {} found after {} and {}: assemblies may be missing",
+                count(self.generic, "generic solution"),
+                count(self.seeds, "seed"),
+                count(self.loops, "loop"),
+            );
+        }
         match self.fit {
             Fit::FreedomLeft(freedom) => {
                 let isolated = match self.generic {

@@ -62,6 +62,8 @@ pub enum Reason {
     NeedsPlatform,
     /// It is too long.
     TooLong,
+    /// The work was stopped before.
+    Interrupted,
 }
 
 impl Proof {
@@ -101,6 +103,16 @@ pub(super) fn proofs(mechanism: &Mechanism, form: &ClosedForm) -> Vec<Proof> {
             (general, _) => general,
         })
         .collect()
+}
+
+/// The same where the work was stopped before.
+pub(super) fn interrupted(form: &ClosedForm) -> Vec<Proof> {
+    let components = match &form.gives {
+        Given::Pose { entries, .. } => entries.len(),
+        Given::Identities(identities) => identities.len(),
+    };
+    let reason = Reason::Interrupted;
+    vec![Proof::NotDecided { reason }; components]
 }
 
 /// How identities that numbers refute differ from what the closures give, in order; nothing where that is too long.

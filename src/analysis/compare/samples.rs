@@ -1,6 +1,7 @@
 //! Configurations to compare at.
 
 use std::f64::consts::PI;
+use std::ops::ControlFlow;
 
 use rand::{Rng, SeedableRng};
 use rand_pcg::Pcg64Mcg;
@@ -41,22 +42,29 @@ impl<'a> Samples<'a> {
     }
 
     /// Visits home and random values of all joints, with platforms at home; then the solved home.
-    pub fn anywhere(&mut self, visit: &mut dyn FnMut(&Configuration<f64>)) {
+    pub fn anywhere(
+        &mut self,
+        visit: &mut dyn FnMut(&Configuration<f64>) -> ControlFlow<()>,
+    ) -> ControlFlow<()> {
         let mut at = self.mechanism.home();
-        visit(&at);
+        visit(&at)?;
         for _ in 0..self.count {
             scatter(self.mechanism, &mut at, &mut self.rng);
-            visit(&at);
+            visit(&at)?;
         }
-        self.solved_home.iter().for_each(visit);
+        self.solved_home.iter().try_for_each(visit)
     }
 
     /// Visits the solved home and then assembled configurations at the same random values of the actuated joints, each
     /// found from the nearest one remembered; `None` where none was found.
-    pub fn assembled(&mut self, seed: u64, visit: &mut dyn FnMut(Option<&Configuration<f64>>)) {
+    pub fn assembled(
+        &mut self,
+        seed: u64,
+        visit: &mut dyn FnMut(Option<&Configuration<f64>>) -> ControlFlow<()>,
+    ) -> ControlFlow<()> {
         let home = self.mechanism.home();
         let mut known: Vec<Configuration<f64>> = self.solved_home.iter().cloned().collect();
-        known.iter().for_each(|at| visit(Some(at)));
+        known.iter().try_for_each(|at| visit(Some(at)))?;
         let mut again = Pcg64Mcg::seed_from_u64(seed);
         let mut random = home.clone();
         let solver = &mut self.solver;
@@ -76,9 +84,10 @@ impl<'a> Samples<'a> {
                 }
             }
             let found = solver.approach(nearest, &target);
-            visit(found.as_ref());
+            visit(found.as_ref())?;
             known.extend(found.filter(|_| known.len() < REMEMBERED));
         }
+        ControlFlow::Continue(())
     }
 }
 

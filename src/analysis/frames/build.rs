@@ -4,7 +4,7 @@ use std::collections::BTreeSet;
 
 use super::PlacedChain;
 use super::chains::{self, Built, between, declarations, joint_axis, nowhere, turned_to};
-use super::loops::{Graph, driven};
+use super::graph::{Graph, driven};
 use super::values::Values;
 use crate::description::{
     AxesDescription, AxisKind, ChainDescription, ClosureDescription, Convention, Description,

@@ -4,9 +4,10 @@ mod walk;
 
 use rand::Rng;
 
-use super::cone::Cone;
+use super::cone::{Cone, combination};
 use super::{Character, MobilitySettings};
-use crate::linear::{norm, orthonormal};
+use crate::linear::orthonormal;
+use crate::solve::{Stage, Watch};
 use crate::system::{Neighbourhood, Tangent, independent_parts};
 use walk::{Directions, Seen, contains, explore, fills, same, there};
 
@@ -59,7 +60,7 @@ struct Part {
 pub(super) fn find(
     near: &mut Neighbourhood,
     tangent: &Tangent,
-    settings: &MobilitySettings,
+    (settings, watch): (&MobilitySettings, &Watch),
     rng: &mut impl Rng,
 ) -> Finite {
     let freedoms = tangent.motions.len();
@@ -86,7 +87,8 @@ pub(super) fn find(
     let one = owns.len() == 1;
     let parts = owns.iter().filter_map(|own| {
         let tangent = tangent.clone().within(own);
-        (!tangent.motions.is_empty()).then(|| part(near, own, &tangent, one, settings, rng))
+        (!tangent.motions.is_empty())
+            .then(|| part(near, own, &tangent, one, (settings, watch), rng))
     });
     let parts: Vec<Part> = parts.collect();
     let gains = |branch: &Branch| branch.freedoms;
@@ -103,7 +105,7 @@ pub(super) fn find(
     }
     let character = match () {
         () if parts.iter().all(|part| part.regular) => Character::Regular,
-        () if branches.is_empty() => Character::Shaky,
+        () if branches.is_empty() && !watch.is_stopped() => Character::Shaky,
         () if parts.iter().any(|part| most(part) != least(part)) => Character::Kinematotropic,
         () if count > 1 => Character::Bifurcation,
         () => Character::Singular,
@@ -166,24 +168,6 @@ pub(super) fn is_regular(
     })
 }
 
-/// A random unit vector in the span of orthonormal vectors.
-pub(super) fn combination(basis: &[Vec<f64>], rng: &mut impl Rng) -> Vec<f64> {
-    let mut direction = vec![0.0; basis[0].len()];
-    while norm(&direction) < 0.1 {
-        direction.fill(0.0);
-        for motion in basis {
-            let weight = 2.0 * rng.random::<f64>() - 1.0;
-            direction
-                .iter_mut()
-                .zip(motion)
-                .for_each(|(d, m)| *d += weight * m);
-        }
-    }
-    let length = norm(&direction);
-    direction.iter_mut().for_each(|d| *d /= length);
-    direction
-}
-
 fn see(moved: &mut [bool], step: &[f64], clearly: f64) {
     for (moved, step) in moved.iter_mut().zip(step) {
         *moved |= step.abs() > clearly;
@@ -196,7 +180,7 @@ fn part(
     own: &[bool],
     tangent: &Tangent,
     only: bool,
-    settings: &MobilitySettings,
+    (settings, watch): (&MobilitySettings, &Watch),
     rng: &mut impl Rng,
 ) -> Part {
     if !only && let Ok((moved, _)) = free(near, tangent, settings, rng) {
@@ -213,7 +197,7 @@ fn part(
             complete: true,
         };
     }
-    singular(near, own, tangent, settings, rng)
+    singular(near, own, tangent, (settings, watch), rng)
 }
 
 /// The branches of a singular part that small steps in many directions settle on: in so many that
@@ -222,7 +206,7 @@ fn singular(
     near: &mut Neighbourhood,
     own: &[bool],
     tangent: &Tangent,
-    settings: &MobilitySettings,
+    (settings, watch): (&MobilitySettings, &Watch),
     rng: &mut impl Rng,
 ) -> Part {
     /// Steps per infinitesimal freedom and [`MobilitySettings::branch_trials`] after which no more
@@ -234,13 +218,16 @@ fn singular(
     let mut limits: Vec<Limit> = Vec::new();
     let mut share = 0.0;
     let (mut tried, mut fruitless) = (0, 0);
-    while share < 1.0 {
+    'rounds: while share < 1.0 {
         let mut ahead = match tried == 0 || cone.is_all() {
             true => Directions::new(&cone, tangent, settings.branch_trials),
             false => Directions::on_cone(&cone, tangent, settings.branch_trials),
         };
         let before = tried;
         while let Some(direction) = ahead.next(&cone, tangent, rng) {
+            if watch.stops(Stage::Branches, tried, None) {
+                break 'rounds;
+            }
             tried += 1;
             fruitless += 1;
             // on the cone a step along a branch that is known leads onto that
@@ -281,7 +268,7 @@ fn singular(
     Part {
         regular: false,
         // a function of one variable that does not vanish on the way has no zero there
-        complete: share >= 1.0 || (n == 1 && branches.is_empty()),
+        complete: share >= 1.0 || (n == 1 && branches.is_empty() && !watch.is_stopped()),
         branches,
     }
 }

@@ -2,7 +2,6 @@
 
 use rand::Rng;
 
-use super::branches::combination;
 use crate::linear::{dot, norm, orthonormal};
 use crate::system::{Neighbourhood, Tangent};
 
@@ -149,4 +148,22 @@ fn shortest(rows: usize, columns: &[f64], b: &[f64]) -> Option<Vec<f64>> {
         .cholesky()?
         .solve(&nalgebra::DVector::from_column_slice(b));
     Some(s.tr_mul(&weights).iter().copied().collect())
+}
+
+/// A random unit vector in the span of orthonormal vectors.
+pub(super) fn combination(basis: &[Vec<f64>], rng: &mut impl Rng) -> Vec<f64> {
+    let mut direction = vec![0.0; basis[0].len()];
+    while norm(&direction) < 0.1 {
+        direction.fill(0.0);
+        for motion in basis {
+            let weight = 2.0 * rng.random::<f64>() - 1.0;
+            direction
+                .iter_mut()
+                .zip(motion)
+                .for_each(|(d, m)| *d += weight * m);
+        }
+    }
+    let length = norm(&direction);
+    direction.iter_mut().for_each(|d| *d /= length);
+    direction
 }

@@ -8,18 +8,18 @@ use super::outputs::{Coupled, coupled, outputs_of};
 use super::{SingularitiesSettings, names, output_names};
 use crate::algebra::SiUnit;
 use crate::linear::norm;
-use crate::mechanism::{Configuration, Mechanism};
-use crate::solve::{Continuation, Place, SolutionCurve, Stray};
-use crate::system::{Curve, Driven, Event, Held, Holdable, Leg, Variable, Walk};
+use crate::mechanism::{Configuration, Mechanism, Variable};
+use crate::solve::{Continuation, Place, SolutionCurve, Stage, Stray, Watch};
+use crate::system::{Curve, Driven, Event, Held, Holdable, Leg, Walk};
 
 type At = Place<Configuration<f64>>;
 
 /// What a motion along a segment of inputs met.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct AlongReport {
-    /// Name of the mechanism.
+    /// The mechanism's name.
     pub mechanism: String,
-    /// The joint variables with their units, in the order of the file.
+    /// The joints, in the order of the file.
     pub variables: Vec<Variable>,
     /// The inputs that singularities are told of.
     pub inputs: Vec<String>,
@@ -41,6 +41,9 @@ pub struct AlongReport {
     pub sure_steps: usize,
     /// The length that makes the matrices dimensionless, in m.
     pub normalising_length: f64,
+    /// Whether the work was stopped before the motion ended.
+    #[serde(default, skip_serializing_if = "std::ops::Not::not")]
+    pub interrupted: bool,
 }
 
 /// What is moved.
@@ -95,6 +98,8 @@ pub enum Ending {
     SingularStart,
     /// No step is short enough to be sure.
     Lost,
+    /// It was stopped.
+    Stopped,
 }
 
 /// Moves the inputs from `start`, assembled where their segment begins, to its end, and locates every
@@ -110,11 +115,12 @@ pub fn along(
     inputs: &[Holdable],
     start: &Configuration<f64>,
     settings: &SingularitiesSettings,
+    watch: &Watch,
 ) -> AlongReport {
     let outputs = outputs_of(mechanism, held, moved, inputs, settings);
     let mut report = AlongReport {
-        mechanism: mechanism.name().into(),
-        variables: mechanism.variables(),
+        mechanism: mechanism.name().to_owned(),
+        variables: Variable::joints(mechanism),
         inputs: names(mechanism, inputs),
         outputs: output_names(mechanism, &outputs),
         coupled: coupled(mechanism, inputs, &outputs, start, settings, false),
@@ -132,6 +138,7 @@ pub fn along(
         crossings: Vec::new(),
         sure_steps: 0,
         normalising_length: mechanism.characteristic_length(),
+        interrupted: false,
     };
     let mut start = start.clone();
     mechanism.turn_to_limits(&mut start.joints);
@@ -173,6 +180,11 @@ pub fn along(
     }
     let mut walk = Walk::new(mechanism, &curve, place, method.clone());
     report.ending = 'walk: loop {
+        let done = report.part.clamp(0.0, 1.0) * f64::from(PARTS);
+        if watch.stops(Stage::Motion, done as usize, Some(PARTS as usize)) {
+            report.interrupted = true;
+            break Ending::Stopped;
+        }
         let Ok(leg) = walk.advance(&mut curve) else {
             report.part = curve.part(&walk.place().at);
             break Ending::Lost;
@@ -210,6 +222,9 @@ pub fn along(
     };
     report
 }
+
+/// Into how many parts the segment is divided to tell how far the motion is.
+const PARTS: u16 = 1000;
 
 /// Something on a leg.
 struct Met {

@@ -317,3 +317,24 @@ impl Nullities {
         }
     }
 }
+
+/// Which matrix loses rank.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Kind {
+    /// [J; H]: freedoms are gained while the inputs stand still.
+    Direct,
+    /// [J; O]: inputs move while the outputs stand still.
+    Inverse,
+}
+
+impl Kind {
+    /// Whether a singularity is of this kind, or of both.
+    pub(super) fn is_of(self, singularity: &Singularity) -> bool {
+        let own = match self {
+            Kind::Direct => 2,
+            Kind::Inverse => 1,
+        };
+        matches!(singularity.gosselin_angeles, Some(kind) if kind == own || kind == 3)
+    }
+}

@@ -2,7 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::classify::{Classifier, Singularity};
+use super::classify::{Classifier, Kind, Singularity};
 use super::extents::extents;
 use super::outputs::{Coupled, coupled, outputs_of};
 use super::pins::pins;
@@ -10,21 +10,21 @@ use super::projected::{Projection, Shape, groups};
 use super::starts::{Found, Search};
 use super::{SingularitiesSettings, names, output_names};
 use crate::algebra::SiUnit;
-use crate::mechanism::{Configuration, Mechanism};
-use crate::solve::Place;
-use crate::system::{
-    Driven, Held, Holdable, Lock, LocusCurve, LocusEnd, Region, Singular, Traced, Variable,
-};
+use crate::mechanism::{Configuration, Mechanism, Variable};
+use crate::solve::{Place, Watch};
+use crate::system::{Driven, Held, Holdable, Lock, LocusCurve, LocusEnd, Region, Singular, Traced};
 
 type At = Place<Singular>;
 
 /// The singularity loci in a box of two coordinates.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct LocusReport {
-    /// Name of the mechanism.
+    /// The mechanism's name.
     pub mechanism: String,
-    /// The joint variables with their units, in the order of the file.
+    /// The joints, in the order of the file.
     pub variables: Vec<Variable>,
+    /// The poses of platforms, in the order of the file: position and quaternion.
+    pub pose_variables: Vec<Variable>,
     /// The inputs that singularities are told of.
     pub inputs: Vec<String>,
     /// The outputs.
@@ -52,6 +52,9 @@ pub struct LocusReport {
     pub seed: u64,
     /// The length that makes the matrices dimensionless, in m.
     pub normalising_length: f64,
+    /// Whether the work was stopped before it was done: loci may be missing.
+    #[serde(default, skip_serializing_if = "std::ops::Not::not")]
+    pub interrupted: bool,
 }
 
 /// A side of the box.
@@ -65,27 +68,6 @@ pub struct Bound {
     pub from: f64,
     /// Its greatest value.
     pub to: f64,
-}
-
-/// Which matrix loses rank.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(rename_all = "snake_case")]
-pub enum Kind {
-    /// [J; H]: freedoms are gained while the inputs stand still.
-    Direct,
-    /// [J; O]: inputs move while the outputs stand still.
-    Inverse,
-}
-
-impl Kind {
-    /// Whether a singularity is of this kind, or of both.
-    pub(super) fn is_of(self, singularity: &Singularity) -> bool {
-        let own = match self {
-            Kind::Direct => 2,
-            Kind::Inverse => 1,
-        };
-        matches!(singularity.gosselin_angeles, Some(kind) if kind == own || kind == 3)
-    }
 }
 
 /// What a curve of singular configurations is in the box, or several that look alike there.
@@ -140,6 +122,7 @@ pub fn loci(
     inputs: &[Holdable],
     start: &Configuration<f64>,
     settings: &SingularitiesSettings,
+    watch: &Watch,
 ) -> Result<LocusReport, usize> {
     let outputs = outputs_of(mechanism, held, &sides, inputs, settings);
     let mut classifier = Classifier::new(mechanism, inputs, &outputs, start);
@@ -177,12 +160,14 @@ pub fn loci(
         start: start.clone(),
         inputs: inputs.to_vec(),
         settings,
+        watch,
         spins,
         classifier,
     };
     let mut report = LocusReport {
-        mechanism: mechanism.name().into(),
-        variables: mechanism.variables(),
+        mechanism: mechanism.name().to_owned(),
+        variables: Variable::joints(mechanism),
+        pose_variables: Variable::poses(mechanism),
         inputs: names(mechanism, inputs),
         outputs: output_names(mechanism, &outputs),
         coupled: coupled(mechanism, inputs, &outputs, start, settings, false),
@@ -202,6 +187,7 @@ pub fn loci(
         last_new: [None; 2],
         seed: settings.seed,
         normalising_length: mechanism.characteristic_length(),
+        interrupted: false,
     };
     let pinned = pinned.iter().copied().map(Holdable::Joint);
     let pinned: Vec<Lock> = pinned.map(Lock::Coordinate).collect();
@@ -224,7 +210,9 @@ pub fn loci(
     for (number, (_, found)) in found.iter_mut().enumerate() {
         let others = crossings.iter().enumerate();
         for (_, at) in others.filter(|(other, _)| *other != number) {
-            at.iter().for_each(|at| search.at_crossing(found, at));
+            for at in at.iter().take_while(|_| !watch.is_stopped()) {
+                search.at_crossing(found, at);
+            }
         }
     }
     for (i, found) in found {
@@ -234,6 +222,7 @@ pub fn loci(
         report.last_new[i] = found.last_new;
         report.loci.extend(search.told(found));
     }
+    report.interrupted = watch.is_stopped();
     Ok(report)
 }
 

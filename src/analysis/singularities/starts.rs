@@ -5,9 +5,9 @@ use rand_pcg::Pcg64Mcg;
 
 use super::SingularitiesSettings;
 use super::arrival::Arrival;
-use super::classify::Classifier;
-use super::locus::Kind;
+use super::classify::{Classifier, Kind};
 use crate::mechanism::{Configuration, PlatformPose, turn_near};
+use crate::solve::{Stage, Watch};
 use crate::system::{
     Driven, Holdable, Lock, LocusCurve, LocusEnd, Region, Singular, System, Traced, passes,
     random_configuration, with_coordinates,
@@ -23,6 +23,7 @@ pub(super) struct Search<'m> {
     pub start: Configuration<f64>,
     pub inputs: Vec<Holdable>,
     pub settings: &'m SingularitiesSettings,
+    pub watch: &'m Watch<'m>,
     /// Idle freedoms.
     pub spins: usize,
     pub classifier: Classifier<'m>,
@@ -74,7 +75,14 @@ impl Search<'_> {
         let system = System::new(self.region.mechanism.dimensions(), self.region.held);
         let mut rng = Pcg64Mcg::seed_from_u64(self.settings.seed);
         for number in 1..=MORE * self.settings.starts {
-            if number > self.settings.starts && !more_is_likely(&found) {
+            let least = number <= self.settings.starts;
+            if !least && !more_is_likely(&found)
+                || (self.watch).stops(
+                    Stage::Loci,
+                    number - 1,
+                    least.then_some(self.settings.starts),
+                )
+            {
                 break;
             }
             found.starts = number;

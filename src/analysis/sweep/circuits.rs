@@ -16,8 +16,8 @@ use crate::algebra::SiUnit;
 use crate::description::Role;
 use crate::linear::norm;
 use crate::mechanism::{Configuration, Mechanism};
-use crate::solve::{BranchPoint, Continuation, Place};
-use crate::system::{Curve, Event, Held, Variable, Walk};
+use crate::solve::{BranchPoint, Continuation, Place, Stage, Watch};
+use crate::system::{Curve, Event, Held, Walk};
 use described::{branches, class};
 
 type At = Place<Configuration<f64>>;
@@ -108,10 +108,8 @@ pub enum FourBarClass {
 /// The circuits of a mechanism.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct CircuitsReport {
-    /// Name of the mechanism.
+    /// The mechanism's name.
     pub mechanism: String,
-    /// The joint variables with their units, in the order of the file.
-    pub variables: Vec<Variable>,
     /// The joint that is the input.
     pub input: String,
     /// The circuits in the order of their first seeds.
@@ -124,6 +122,9 @@ pub struct CircuitsReport {
     pub unusable: usize,
     /// The characteristic length in m.
     pub characteristic_length: f64,
+    /// Whether the work was stopped before it was done: circuits may be missing.
+    #[serde(default, skip_serializing_if = "std::ops::Not::not")]
+    pub interrupted: bool,
 }
 
 /// One curve as it was followed.
@@ -147,12 +148,16 @@ pub fn circuits(
     input: usize,
     seeds: &[Configuration<f64>],
     settings: &CircuitsSettings,
+    watch: &Watch,
 ) -> CircuitsReport {
     let mut curve = Curve::new(mechanism, held);
     let method = &settings.continuation;
     let mut traced: Vec<Traced> = Vec::new();
     let mut unusable = 0;
     for seed in seeds {
+        if watch.is_stopped() {
+            break;
+        }
         let mut seed = seed.clone();
         mechanism.turn_to_limits(&mut seed.joints);
         let within = mechanism.joints().iter().zip(&seed.joints);
@@ -176,7 +181,10 @@ pub fn circuits(
             if holding(&mut curve, method, &mut traced, &place).is_some() {
                 continue;
             }
-            let found = trace(mechanism, &mut curve, place, settings, seeds);
+            if watch.is_stopped() {
+                break;
+            }
+            let found = trace(mechanism, &mut curve, place, (settings, watch), seeds);
             for point in &found.crossings {
                 for direction in &point.directions {
                     if let Some((place, _)) = method.leave(&mut curve, &point.at, direction) {
@@ -191,14 +199,14 @@ pub fn circuits(
         .map(|i| described(mechanism, &curve, input, &traced, i))
         .collect();
     CircuitsReport {
-        mechanism: mechanism.name().into(),
-        variables: mechanism.variables(),
+        mechanism: mechanism.name().to_owned(),
         input: mechanism.joints()[input].name.clone(),
         class: class(mechanism, &all),
         circuits: all,
         seeds: seeds.len(),
         unusable,
         characteristic_length: mechanism.characteristic_length(),
+        interrupted: watch.is_stopped(),
     }
 }
 
@@ -230,7 +238,7 @@ fn trace(
     mechanism: &Mechanism,
     curve: &mut Curve,
     start: At,
-    settings: &CircuitsSettings,
+    (settings, watch): (&CircuitsSettings, &Watch),
     seeds: usize,
 ) -> Traced {
     let mut begin = start.clone();
@@ -254,7 +262,10 @@ fn trace(
         found.crossings.clear();
         let mut walk = Walk::new(mechanism, curve, from, settings.continuation.clone());
         let mut end = None;
-        'steps: for _ in 0..settings.most_steps {
+        'steps: for step in 0..settings.most_steps {
+            if watch.stops(Stage::Steps, step, None) {
+                break;
+            }
             let Ok(leg) = walk.advance(curve) else {
                 break;
             };

@@ -6,7 +6,7 @@ use super::met::Record;
 use super::points::Paths;
 use super::{Ending, MetKind, Row, Sink, SweepReport, SweepSettings};
 use crate::mechanism::{Configuration, Mechanism};
-use crate::solve::{Place, Stray};
+use crate::solve::{Place, Stage, Stray, Watch};
 use crate::system::{Curve, Event, Held, Walk};
 
 /// Steps after which a curve without end is given up.
@@ -22,6 +22,7 @@ pub fn follow(
     start: &Configuration<f64>,
     settings: &SweepSettings,
     sink: &mut Sink,
+    watch: &Watch,
 ) -> SweepReport {
     let mut curve = Curve::new(mechanism, held);
     let mut record = Record::new(mechanism, &[]);
@@ -42,7 +43,7 @@ pub fn follow(
     // if it has ends, it is followed from one of them
     let back = place.clone().reversed();
     let mut walk = Walk::new(mechanism, &curve, back, method.clone());
-    if let Some(end) = first_end(&mut walk, &mut curve) {
+    if let Some(end) = first_end(&mut walk, &mut curve, watch) {
         place = end.reversed();
     }
     let mut paths = Paths::new(mechanism, &settings.points);
@@ -56,7 +57,11 @@ pub fn follow(
             configuration: at,
             points: &paths.at,
             special,
-        })
+        });
+        match watch.stops(Stage::Steps, count, None) {
+            true => ControlFlow::Break(()),
+            false => ControlFlow::Continue(()),
+        }
     };
     let mut flow = send(&place.at, None);
     let mut walk = Walk::new(mechanism, &curve, place, method.clone());
@@ -96,7 +101,10 @@ pub fn follow(
             flow = send(&leg.to.at, None);
         }
     };
-    record.report(ending, count, walk.gone())
+    SweepReport {
+        interrupted: watch.is_stopped(),
+        ..record.report(ending, count, walk.gone())
+    }
 }
 
 /// In the sense in which the first joint that is driven, or else the first that moves, grows.
@@ -122,8 +130,15 @@ pub(super) fn forwards(
 }
 
 /// The limit that a walk ends at; `None` if it closes.
-fn first_end(walk: &mut Walk, curve: &mut Curve) -> Option<Place<Configuration<f64>>> {
-    for _ in 0..MOST_STEPS {
+fn first_end(
+    walk: &mut Walk,
+    curve: &mut Curve,
+    watch: &Watch,
+) -> Option<Place<Configuration<f64>>> {
+    for step in 0..MOST_STEPS {
+        if watch.stops(Stage::Steps, step, None) {
+            return None;
+        }
         let leg = walk.advance(curve).ok()?;
         for (place, event) in leg.events {
             match event {

@@ -270,6 +270,7 @@ impl<'m> Record<'m> {
             sure_steps: self.steps,
             length,
             characteristic_length: mechanism.characteristic_length(),
+            interrupted: false,
         }
     }
 }

@@ -3,7 +3,7 @@
 use std::ops::ControlFlow;
 
 use super::points::Paths;
-use super::{MetKind, Row, Sink, SweepSettings};
+use super::{Flow, MetKind, Row, SweepSettings};
 use crate::mechanism::{Configuration, Mechanism};
 use crate::solve::Place;
 use crate::system::{Curve, Driven, Held, HeldPlatform, Holdable, System, Tracker};
@@ -52,7 +52,7 @@ impl Rows {
         self.sent.count
     }
 
-    pub fn first(&mut self, place: &At, sink: &mut Sink) -> ControlFlow<()> {
+    pub fn first(&mut self, place: &At, sink: &mut Flow) -> ControlFlow<()> {
         self.sent.row(&place.at, Some(0), None, sink)
     }
 
@@ -61,7 +61,7 @@ impl Rows {
         &mut self,
         place: &At,
         kind: Option<&MetKind>,
-        sink: &mut Sink,
+        sink: &mut Flow,
     ) -> ControlFlow<()> {
         self.sent.row(&place.at, None, kind, sink)
     }
@@ -72,7 +72,7 @@ impl Rows {
         curve: &mut Curve,
         from: &At,
         to: &At,
-        sink: &mut Sink,
+        sink: &mut Flow,
     ) -> ControlFlow<()> {
         /// Parts of the segment this near are the same.
         const SAME: f64 = 1e-12;
@@ -177,7 +177,7 @@ impl Sent {
         at: &Configuration<f64>,
         step: Option<usize>,
         special: Option<&MetKind>,
-        sink: &mut Sink,
+        sink: &mut Flow,
     ) -> ControlFlow<()> {
         self.paths.place(at);
         let number = self.count;

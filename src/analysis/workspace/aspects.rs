@@ -1,21 +1,14 @@
 //! Aspects: regions of one mode without singularities, within limits; and how large regions are.
 
+mod join;
+
+pub(super) use join::{joined, parts};
+
 use std::ops::Range;
 
-use super::filled::{Filled, Sheet};
-use super::grid::Grid;
+use super::flood::{Filled, signs};
+use super::problem::Grid;
 use crate::solve::each;
-
-/// Whether the determinants of direct and of inverse singularities are negative: what sheets of one
-/// aspect share.
-pub(super) type Signs = [bool; 2];
-
-/// The signs of a sheet; none outside limits and on singularities.
-pub(super) fn signs(sheet: &Sheet) -> Option<Signs> {
-    let told = &sheet.told;
-    let inside = sheet.within && told.direct != 0.0 && told.inverse != 0.0;
-    inside.then_some([told.direct < 0.0, told.inverse < 0.0])
-}
 
 /// For each sheet the first of its aspect; none outside limits and on singularities.
 pub(super) fn aspects(filled: &Filled) -> Vec<Option<usize>> {

@@ -1,95 +1,19 @@
 //! What bounds modes and separates aspects: points on the edges of the grid, and curves through
 //! them.
 
-use serde::{Deserialize, Serialize};
+mod curves;
+mod kinds;
 
-use super::asked::Asked;
-use super::curves::Tracer;
-use super::edge::{Edge, Met, Until, walk};
-use super::filled::{Filled, Link};
-use super::grid::Grid;
-use super::measure::Measure;
+pub use kinds::{BoundaryCurve, BoundaryKind, Piece};
+pub(super) use kinds::{Crossing, named};
+
+use super::flood::{Edge, Filled, Link, Measure, Met, Until, walk};
+use super::problem::{Asked, Grid};
 use crate::mechanism::Configuration;
-use crate::solve::{Continuation, each};
-use crate::system::{
-    Curve, Driven, Holdable, Lock, LocusCurve, LocusEnd, Region, Singular, settled,
-};
-
-/// What a boundary is.
-#[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
-#[serde(rename_all = "snake_case")]
-pub enum BoundaryKind {
-    /// An inverse singularity (type 1 of Gosselin and Angeles): modes of the inverse problem meet.
-    Inverse,
-    /// A direct singularity (type 2): assemblies meet.
-    Direct,
-    /// Solutions meet that are neither, as both joints and coordinates of platforms are held.
-    Fold,
-    /// A joint is at its limit.
-    Limit {
-        /// Its name.
-        joint: String,
-        /// Whether it is the upper one.
-        upper: bool,
-    },
-}
-
-/// A boundary point on an edge of the grid, located to rounding.
-#[derive(Clone, Debug)]
-pub(super) struct Crossing {
-    pub sheet: usize,
-    pub direction: usize,
-    pub kind: Kind,
-    pub at: Configuration<f64>,
-    /// The part of the way from the sheet to its neighbour.
-    pub part: f64,
-    /// Whether the same point was met on another edge, at a node that they share.
-    pub again: bool,
-}
-
-/// A kind by numbers.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub(super) enum Kind {
-    Fold,
-    Direct,
-    Inverse,
-    Limit(usize, bool),
-}
-
-impl Kind {
-    /// Whether modes end there, or only aspects are parted.
-    pub fn ends_reach(self) -> bool {
-        matches!(self, Kind::Fold | Kind::Limit(..))
-    }
-}
-
-/// A boundary curve.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub struct BoundaryCurve {
-    /// What it is.
-    pub kind: BoundaryKind,
-    /// Whether modes end there, or only aspects are parted.
-    pub ends_reach: bool,
-    /// The third mapped coordinate, rad or m, if there is one.
-    pub slice: Option<f64>,
-    /// How its first and its last point end it.
-    pub ends: [LocusEnd; 2],
-    /// Points: the first two mapped coordinates, rad or m.
-    pub points: Vec<[f64; 2]>,
-    /// The joints at its points, rad or m, in the order of the file.
-    pub joints: Vec<Vec<f64>>,
-    /// Which of its pieces bound which mode.
-    pub pieces: Vec<Piece>,
-}
-
-/// A piece of a curve on the boundary of a mode.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub struct Piece {
-    /// The mode.
-    pub mode: usize,
-    /// Its points: the first two mapped coordinates, rad or m.
-    pub points: Vec<[f64; 2]>,
-}
+use crate::solve::{Continuation, Stage, Watch, each};
+use crate::system::{Curve, Driven, Holdable, Lock, LocusCurve, Region, Singular, settled};
+use curves::Tracer;
+use kinds::Kind;
 
 pub(super) struct Boundary<'a> {
     pub asked: &'a Asked<'a>,
@@ -102,7 +26,7 @@ pub(super) struct Boundary<'a> {
 
 impl Boundary<'_> {
     /// Where sheets within limits end on the edges of the grid, and where signs change.
-    pub fn crossings(&self) -> Vec<Crossing> {
+    pub fn crossings(&self, watch: &Watch) -> Vec<Crossing> {
         let inputs = Asked::locks(&self.asked.inputs);
         let outputs = Asked::locks(&self.asked.outputs);
         let joints = self.asked.mechanism.joints();
@@ -152,6 +76,9 @@ impl Boundary<'_> {
             crossing.again = !at_nodes.insert((node, crossing.kind));
         }
         let walked = each(wanted.len(), &(), |(), i| {
+            if watch.stops(Stage::Boundary, i, Some(wanted.len())) {
+                return None;
+            }
             let (s, d, until) = wanted[i];
             let (sheet, at) = (self.filled.sheet(s), self.filled.configuration(s).owned());
             let node = self.grid.neighbour(sheet.node, d)?;
@@ -203,17 +130,20 @@ impl Boundary<'_> {
     }
 
     /// The curves through crossings, of the slices of the first two coordinates one after another.
-    pub fn curves(&self, crossings: &[Crossing]) -> Vec<BoundaryCurve> {
+    pub fn curves(&self, crossings: &[Crossing], watch: &Watch) -> Vec<BoundaryCurve> {
         let slices = match self.grid.dimensions() {
             2 => 1,
             3 => self.grid.count(2),
             _ => return Vec::new(),
         };
-        let traced = each(slices, &(), |(), slice| self.slice(crossings, slice));
+        let traced = each(slices, &(), |(), slice| match watch.is_stopped() {
+            true => Vec::new(),
+            false => self.slice(crossings, slice, watch),
+        });
         traced.into_iter().flatten().collect()
     }
 
-    fn slice(&self, crossings: &[Crossing], slice: usize) -> Vec<BoundaryCurve> {
+    fn slice(&self, crossings: &[Crossing], slice: usize, watch: &Watch) -> Vec<BoundaryCurve> {
         let third = (self.grid.dimensions() == 3).then(|| self.grid.coordinate(2, slice));
         let question = match third {
             Some(value) => {
@@ -235,7 +165,10 @@ impl Boundary<'_> {
             }
         }
         let mut curves = Vec::new();
-        for kind in kinds {
+        for (k, kind) in kinds.iter().copied().enumerate() {
+            if watch.stops(Stage::Curves, k, Some(kinds.len())) {
+                break;
+            }
             let of: Vec<&Crossing> = (here.iter().copied())
                 .filter(|crossing| crossing.kind == kind)
                 .collect();
@@ -256,7 +189,7 @@ impl Boundary<'_> {
         let mapped = asked.axes.iter();
         let still = mapped.fold(asked.question.clone(), |q, axis| q.without(axis.coordinate));
         let tracer = Tracer {
-            boundary: self,
+            mode: self.mode,
             asked,
             kind,
             third,
@@ -312,21 +245,5 @@ impl Boundary<'_> {
                 tracer.all(&mut curve, &region, crossings, place, curves);
             }
         }
-    }
-}
-
-/// A kind by name.
-pub(super) fn named(asked: &Asked, kind: Kind) -> BoundaryKind {
-    let of_platforms = asked.held.iter().all(|h| !matches!(h, Holdable::Joint(_)));
-    match kind {
-        Kind::Direct => BoundaryKind::Direct,
-        Kind::Inverse => BoundaryKind::Inverse,
-        Kind::Fold if of_platforms => BoundaryKind::Inverse,
-        Kind::Fold if asked.holds(&asked.inputs) => BoundaryKind::Direct,
-        Kind::Fold => BoundaryKind::Fold,
-        Kind::Limit(joint, upper) => BoundaryKind::Limit {
-            joint: asked.mechanism.joints()[joint].name.clone(),
-            upper,
-        },
     }
 }

@@ -1,19 +1,24 @@
 //! What was reached, put in order: modes, aspects, cells.
 
-use std::collections::HashMap;
+mod cells;
+mod report;
+mod table;
 
-use super::asked::Asked;
-use super::aspects::{self, Region};
-use super::boundary::{Crossing, named};
-use super::filled::{Filled, Link};
-use super::grid::Grid;
-use super::join;
-use super::report::{
+pub(super) use cells::Head;
+pub use cells::{Cell, Cells};
+pub use report::{
     AspectReport, AxisReport, BoundaryPoint, Conditioned, CoordinateReport, HeldReport, ModeReport,
     WorkspaceReport,
 };
+
+use std::collections::HashMap;
+
+use super::aspects::{self, Region};
+use super::boundary::{Crossing, named};
+use super::flood::{Filled, Link};
+use super::problem::{Asked, Grid};
 use crate::algebra::SiUnit;
-use crate::mechanism::{Coordinate, turn_near};
+use crate::mechanism::{Coordinate, Variable, turn_near};
 use crate::solve::each;
 use crate::system::Holdable;
 
@@ -116,8 +121,8 @@ impl<'a> Map<'a> {
         });
         let (aspects, numbers) = self.aspects(&cuts);
         WorkspaceReport {
-            mechanism: mechanism.name().into(),
-            variables: mechanism.variables(),
+            mechanism: mechanism.name().to_owned(),
+            variables: Variable::joints(mechanism),
             axes: axes
                 .map(|(i, axis)| AxisReport {
                     name: name(&axis.coordinate),
@@ -170,7 +175,6 @@ impl<'a> Map<'a> {
                         .unwrap_or_default(),
                 }
             }),
-            columns: Vec::new(),
             cells: self.cells(&numbers),
             aspects,
             curves: Vec::new(),
@@ -194,11 +198,12 @@ impl<'a> Map<'a> {
                 })
                 .collect(),
             unsure,
-            parts: join::parts(self.grid.dimensions()),
+            parts: aspects::parts(self.grid.dimensions()),
             searched: [0; 2],
             probed: [0; 2],
             outside: 0,
             seed: 0,
+            interrupted: false,
             normalising_length: mechanism.characteristic_length(),
         }
     }
@@ -318,7 +323,7 @@ fn brought(asked: &Asked, joints: &[f64], plain: bool) -> Vec<f64> {
 }
 
 /// The same in place.
-pub(super) fn bring(asked: &Asked, joints: &mut [f64], plain: bool) {
+fn bring(asked: &Asked, joints: &mut [f64], plain: bool) {
     for (joint, value) in joints.iter_mut().enumerate() {
         if asked.turns[joint] {
             *value = turn_near(*value, 1e-9);

@@ -4,10 +4,39 @@ use std::collections::HashSet;
 
 use roxmltree::Node;
 
-use super::read::{AXIS, IRRELEVANT};
 use crate::geometry::Vector3;
 use crate::interchange::page::Problems;
 use crate::interchange::problem::ImportProblemKind;
+
+/// Elements that say nothing of how bodies move.
+pub(super) const IRRELEVANT: &[&str] = &[
+    "asset",
+    "camera",
+    "composite",
+    "contact",
+    "custom",
+    "deformable",
+    "extension",
+    "geom",
+    "inertial",
+    "light",
+    "option",
+    "sensor",
+    "size",
+    "statistic",
+    "visual",
+    "material",
+    "mesh",
+    "pair",
+    "skin",
+    "plugin",
+    "texture",
+    "hfield",
+    "user",
+];
+
+/// How an axis is written.
+pub(super) const AXIS: &str = "axis=\"0 0 1\"";
 
 /// Elements that make bodies in ways that are not followed here.
 const MAKING: &[&str] = &["attach", "replicate", "flexcomp", "model", "composite"];

@@ -4,7 +4,7 @@ use mjcf_rs::Model;
 use roxmltree::Node;
 
 use super::hinges::hinges;
-use super::read::{Parts, pose};
+use super::part::{Parts, pose};
 use crate::description::ClosureKind;
 use crate::geometry::{Pose, Quaternion, Vector3};
 use crate::interchange::page::{Problems, children, parse};

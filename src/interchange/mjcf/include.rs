@@ -2,9 +2,8 @@
 
 use std::ops::Range;
 
-use crate::interchange::import::WrongFile;
 use crate::interchange::page::{document, tag};
-use crate::interchange::problem::{ImportProblem, ImportProblemKind};
+use crate::interchange::problem::{ImportProblem, ImportProblemKind, WrongFile};
 
 /// Files may include files this deep.
 const MOST_LEVELS: usize = 20;

@@ -10,47 +10,15 @@ use mjcf_rs::Model;
 use mjcf_rs::body::JointType;
 use roxmltree::Node;
 
-use super::check::look;
+use super::check::{AXIS, IRRELEVANT, look};
 use super::constraints;
+use super::part::{Parts, pose};
 use crate::geometry::{Pose, Quaternion, Rotation, Vector3};
 use crate::interchange::page::{Problems, document};
 use crate::interchange::problem::{ImportProblem, ImportProblemKind};
 use crate::interchange::remark::Remark;
 use crate::interchange::tree::{Body, Joint, Motion, Tree};
 use crate::interchange::urdf::direction;
-
-/// Elements that say nothing of how bodies move.
-pub(super) const IRRELEVANT: &[&str] = &[
-    "asset",
-    "camera",
-    "composite",
-    "contact",
-    "custom",
-    "deformable",
-    "extension",
-    "geom",
-    "inertial",
-    "light",
-    "option",
-    "sensor",
-    "size",
-    "statistic",
-    "visual",
-    "material",
-    "mesh",
-    "pair",
-    "skin",
-    "plugin",
-    "texture",
-    "hfield",
-    "user",
-];
-
-/// How an axis is written.
-pub(super) const AXIS: &str = "axis=\"0 0 1\"";
-
-/// A body and where it is in the tree: its first and its last part, if it was taken apart.
-pub(super) type Parts = Vec<usize>;
 
 /// Reads the text of an MJCF file without `include`.
 pub(crate) fn read(text: &str) -> Result<(Tree, Vec<Remark>), Vec<ImportProblem>> {
@@ -100,36 +68,6 @@ fn without(text: &str, mut removed: Vec<Range<usize>>) -> String {
         at = at.max(range.end);
     }
     kept + &text[at..]
-}
-
-/// A pose of mjcf-rs.
-pub(super) fn pose(pose: &mjcf_rs::Pose) -> Pose<f64> {
-    let q = pose.rotation;
-    let q = Quaternion([q.w, q.x, q.y, q.z]).normalised();
-    let t = pose.translation;
-    Pose {
-        rotation: exact(q.rotation()),
-        position: Vector3([t.x, t.y, t.z]),
-    }
-}
-
-/// Entries that differ from 0, 1 and −1 by rounding made exact, so that planar linkages stay planar.
-fn exact(rotation: Rotation<f64>) -> Rotation<f64> {
-    let clean = |x: f64| {
-        let whole = x.round();
-        if (x - whole).abs() < 4.0 * f64::EPSILON {
-            whole + 0.0
-        } else {
-            x
-        }
-    };
-    let cleaned = Rotation(rotation.0.map(|column| column.map(clean)));
-    let axes = cleaned
-        .0
-        .iter()
-        .filter(|column| column.0.iter().any(|x| x.abs() == 1.0));
-    // all three axes are along coordinates, or one is and the others are turned about it
-    if axes.count() > 0 { cleaned } else { rotation }
 }
 
 /// All bodies, and for each body of the model the bodies of the tree that it became.

@@ -76,12 +76,12 @@ pub(super) fn joints(report: &AssembliesReport) -> Vec<String> {
     let free: Vec<(usize, &ListedJoint)> = variables.filter(|(_, joint)| !joint.held).collect();
     let blocks = free.chunks(ABREAST).enumerate();
     let blocks = blocks.map(|(block, free)| {
-        let names = free.iter().map(|(_, joint)| joint.variable.name.clone());
+        let names = free.iter().map(|(_, joint)| joint.name.clone());
         let header: Vec<String> = std::iter::once("mode".into()).chain(names).collect();
         let mut table = table(&header);
         for a in &report.assemblies {
             let values = free.iter().map(|&(j, joint)| {
-                let angle = joint.variable.unit.is_angle();
+                let angle = joint.unit.is_angle();
                 let text = quantity(settled(a.joints.0[j].1, report, angle), angle);
                 // −180° may be within limits where 180° is not
                 if joint.periodic { once(text) } else { text }
@@ -168,7 +168,7 @@ pub(super) fn complex(report: &AssembliesReport) -> String {
         let condition = condition.map_or("infinite".into(), size);
         let _ = writeln!(text, "  {}{multiple}, condition {condition}", i + 1);
         for ((name, [re, im]), joint) in joints.0.iter().zip(&report.variables) {
-            let angle = joint.variable.unit.is_angle();
+            let angle = joint.unit.is_angle();
             let [re, im] = [re, im].map(|x| settled(*x, report, angle));
             let (re, im) = match angle {
                 true => (re.to_degrees(), im.to_degrees()),

@@ -2,11 +2,10 @@
 
 use crate::analysis::singularities::{Kind, Locus, LocusReport, Shape};
 use crate::description::listed;
-use crate::mechanism::Mechanism;
 use crate::output::plot::{self, Chart, Marks, Series};
 
 /// The loci as SVG.
-pub fn svg(mechanism: &Mechanism, report: &LocusReport) -> String {
+pub fn svg(report: &LocusReport) -> String {
     let shown = |k: usize, x: f64| match report.bounds[k].unit.is_angle() {
         true => x.to_degrees(),
         false => x,
@@ -65,7 +64,7 @@ pub fn svg(mechanism: &Mechanism, report: &LocusReport) -> String {
         });
     }
     plot::svg(&[Chart {
-        title: format!("{}: singularities", mechanism.name()),
+        title: format!("{}: singularities", report.mechanism),
         x,
         y,
         equal: report.bounds[0].unit == report.bounds[1].unit,

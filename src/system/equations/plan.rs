@@ -1,8 +1,8 @@
 //! Where the derivatives of each closure go in the Jacobian.
 
+use super::layout::{Layout, Unknown};
 use crate::linear::Factorable;
 use crate::mechanism::{Closure, Mover, Side};
-use crate::system::layout::{Layout, Unknown};
 
 /// Where the derivatives of one closure go.
 #[derive(Clone, Debug)]

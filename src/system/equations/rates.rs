@@ -1,12 +1,12 @@
 //! What following a solution along a change of the inputs needs beyond Newton's method.
 
+use super::layout::HoldRow;
 use super::{System, Work};
 use crate::geometry::Rotation;
 use crate::linear::{Factorable, Qr};
 use crate::mechanism::Coordinate;
 use crate::number::Extent;
 use crate::solve::Equations;
-use crate::system::layout::HoldRow;
 
 impl<T: Factorable> System<T> {
     /// The step last computed, in the order of the unknowns, dimensionless.

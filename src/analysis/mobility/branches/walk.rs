@@ -3,8 +3,8 @@
 use rand::Rng;
 
 use super::super::MobilitySettings;
-use super::super::cone::Cone;
-use super::{combination, is_regular, see};
+use super::super::cone::{Cone, combination};
+use super::{is_regular, see};
 use crate::linear::{dot, norm, orthonormal, remove};
 use crate::mechanism::Configuration;
 use crate::system::{Neighbourhood, Tangent};

@@ -1,0 +1,69 @@
+//! How near a mechanism comes to being assembled, where it cannot be.
+
+use super::Question;
+use super::real::{named_joints, named_poses, tidied};
+use crate::analysis::assemblies::family::C;
+use crate::analysis::assemblies::report::{ClosestApproach, Named};
+use crate::mechanism::Configuration;
+use crate::number::Number;
+use crate::solve::{Newton, Stop};
+use crate::system::{Gap, Work, approach};
+
+impl Question<'_> {
+    /// The smallest gaps that Newton's method leaves from the asked configuration and from the real
+    /// parts of complex solutions; whether nothing is left.
+    pub(crate) fn nearest(
+        &self,
+        starts: &[&Vec<C>],
+        work: &mut Work<f64>,
+    ) -> Option<(Configuration<f64>, bool)> {
+        let newton = Newton::default();
+        let mut best: Option<(f64, bool, Configuration<f64>)> = None;
+        let lifted = starts.iter().map(|x| {
+            let mut at = self.asked.map(C::from_f64);
+            self.coordinates.unflatten(x, &mut at);
+            let mut point = at.map(|z| z.re);
+            for pose in &mut point.platforms {
+                let q = pose.orientation.normalised();
+                if q.0.iter().all(|x| x.is_finite()) {
+                    pose.orientation = q;
+                }
+            }
+            point
+        });
+        for mut point in std::iter::once(self.asked.clone()).chain(lifted) {
+            let mut trial = point.clone();
+            let report = newton.solve(&self.system, &mut point, &mut trial, work);
+            // ties are settled by the order of starts; a clearly smaller gap wins
+            if report.size.squares.is_finite()
+                && best
+                    .as_ref()
+                    .is_none_or(|(least, ..)| report.size.squares < least * (1.0 - 1e-6))
+            {
+                best = Some((report.size.squares, report.stop == Stop::Solved, point));
+            }
+        }
+        best.map(|(_, solved, point)| (point, solved))
+    }
+
+    /// How near the mechanism comes to being assembled about a configuration.
+    pub(crate) fn closest(&self, near: &Configuration<f64>) -> Option<ClosestApproach> {
+        let (point, local_minimum) = approach(&self.system, near);
+        let point = tidied(point, self.coordinates, true);
+        let gaps = Gap::of(self.mechanism, &point);
+        let width = |gap: &Gap| gap.size(self.mechanism);
+        let names = self.mechanism.closures().iter().map(|c| c.name.clone());
+        let gaps: Vec<(String, Gap)> = names.zip(gaps).collect();
+        let worst = gaps
+            .iter()
+            .max_by(|a, b| width(&a.1).total_cmp(&width(&b.1)))?;
+        let worst = worst.0.clone();
+        Some(ClosestApproach {
+            gaps: Named(gaps),
+            worst,
+            local_minimum,
+            joints: named_joints(self.mechanism, &point),
+            platforms: named_poses(self.mechanism, &point, true),
+        })
+    }
+}

@@ -1,0 +1,141 @@
+//! What is said of each assembly: its number, condition, side and certificate.
+
+use super::certificate::{Certificate, Certifier, independent_rows};
+use super::real::{named_joints, named_poses};
+use super::{Found, Question};
+use crate::analysis::assemblies::family::{C, Coordinates};
+use crate::analysis::assemblies::report::{AssembliesReport, Assembly};
+use crate::number::Number;
+use crate::solve::{Equations, Stage};
+use crate::system::Work;
+
+/// Assemblies nearer to each other than this, in rad or characteristic lengths, are barely told apart.
+const BARELY: f64 = 1e-4;
+
+impl Question<'_> {
+    /// Numbers, conditions, determinants and certificates.
+    pub(crate) fn describe(
+        &self,
+        report: &mut AssembliesReport,
+        found: Vec<Found>,
+        certify: bool,
+        work: &mut Work<f64>,
+    ) {
+        let (rows, columns) = (self.system.rows(), self.system.unknowns().len());
+        let jacobians: Vec<Vec<f64>> = (found.iter())
+            .map(|f| {
+                self.system.linearise(&f.point, work);
+                self.system.dense_jacobian(work)
+            })
+            .collect();
+        // one choice of rows for all assemblies, or signs could not be compared
+        let chosen = (jacobians.iter())
+            .map(|dense| independent_rows(rows, columns, dense))
+            .max_by(|a, b| a.len().cmp(&b.len()).then(b.cmp(a)))
+            .unwrap_or_default();
+        if rows > columns && chosen.len() == columns {
+            report.independent_rows = Some((columns, rows));
+        }
+        let mut certifier = match certify && chosen.len() == columns {
+            true => Certifier::new(self.mechanism, self.held, &chosen),
+            false => None,
+        };
+        let flat = |f: &Found| self.coordinates.flatten(&f.point.map(C::from_f64));
+        let flat: Vec<Vec<C>> = found.iter().map(flat).collect();
+        for (k, (f, dense)) in found.iter().zip(&jacobians).enumerate() {
+            let stopped = (self.watch).stops(Stage::Certificates, k, Some(found.len()));
+            let (first, last) = extremes(rows, columns, dense);
+            let condition = match (first, last) {
+                (Some(a), Some(b)) if rows >= columns && b > 1e-12 * a && f.multiplicity == 1 => {
+                    Some(a / b)
+                }
+                (None, _) => Some(1.0),
+                _ => None,
+            };
+            let sign = match chosen.len() == columns && f.multiplicity == 1 {
+                true => determinant_sign(rows, columns, dense, &chosen),
+                false => 0,
+            };
+            // half the way to the next assembly keeps the boxes apart
+            let others = flat.iter().enumerate().filter(|(i, _)| *i != k);
+            let gap = others
+                .map(|(_, other)| self.coordinates.difference(&flat[k], other))
+                .fold(f64::INFINITY, f64::min);
+            let certificate = match (&mut certifier, f.multiplicity) {
+                _ if stopped => Certificate::Failed("interrupted"),
+                (_, 0) => {
+                    Certificate::Failed("one of infinitely many: others are arbitrarily near")
+                }
+                (_, 2..) => Certificate::Failed(
+                    "singular: solutions meet here, or are too near for double precision to tell apart",
+                ),
+                (Some(certifier), _) => certifier.certify(&f.point, (0.49 * gap).min(0.01)),
+                (None, _) if certify => {
+                    Certificate::Failed("singular: too few independent closure rows")
+                }
+                (None, _) => Certificate::Failed("not asked for"),
+            };
+            let joints = self.mechanism.joints().iter().zip(&f.point.joints);
+            let outside_limits: Vec<String> = joints
+                .filter(|(joint, value)| !joint.allows(**value))
+                .map(|(joint, _)| joint.name.clone())
+                .collect();
+            report.assemblies.push(Assembly {
+                mode: k + 1,
+                joints: named_joints(self.mechanism, &f.point),
+                platforms: named_poses(self.mechanism, &f.point, f.multiplicity == 1),
+                condition,
+                determinant_sign: sign,
+                multiplicity: f.multiplicity,
+                dimension: f.dimension,
+                certified: matches!(certificate, Certificate::Unique(_)),
+                radius: match certificate {
+                    Certificate::Unique(radius) => Some(radius),
+                    Certificate::Failed(_) => None,
+                },
+                uncertified_because: match certificate {
+                    Certificate::Unique(_) => None,
+                    Certificate::Failed(reason) if gap < BARELY => Some(format!(
+                        "{reason}; another assembly is {gap:.1e} away, which double precision barely separates"
+                    )),
+                    Certificate::Failed(reason) => Some(reason.into()),
+                },
+                within_limits: outside_limits.is_empty(),
+                outside_limits,
+                shares_platform_pose_with: (0..found.len())
+                    .filter(|&i| i != k && shares_pose(self.coordinates, &f.key, &found[i].key))
+                    .map(|i| i + 1)
+                    .collect(),
+            });
+        }
+        report.real = report.assemblies.len();
+    }
+}
+
+fn shares_pose(coordinates: &Coordinates, a: &[f64], b: &[f64]) -> bool {
+    let joints = coordinates.free_joints.len();
+    !coordinates.free_platforms.is_empty()
+        && (a[joints..].iter().zip(&b[joints..])).all(|(a, b)| (a - b).abs() < 1e-6)
+}
+
+/// The largest and the smallest singular value, which need no vectors.
+fn extremes(rows: usize, columns: usize, dense: &[f64]) -> (Option<f64>, Option<f64>) {
+    if rows == 0 || columns == 0 {
+        let nothing = (columns > 0).then_some(0.0);
+        return (nothing, nothing);
+    }
+    let values = nalgebra::DMatrix::from_column_slice(rows, columns, dense).singular_values();
+    (Some(values.max()), Some(values.min()))
+}
+
+fn determinant_sign(rows: usize, columns: usize, dense: &[f64], chosen: &[usize]) -> i8 {
+    let square = nalgebra::DMatrix::from_fn(columns, columns, |i, j| dense[j * rows + chosen[i]]);
+    let determinant = square.determinant();
+    if determinant > 0.0 {
+        1
+    } else if determinant < 0.0 {
+        -1
+    } else {
+        0
+    }
+}

@@ -1,0 +1,123 @@
+//! Assemblies at the asked inputs to which no path leads, and samples of sets of them.
+
+use super::super::Wanted;
+use super::real::key;
+use super::{END, Found, Gathered, Question, Starts};
+use crate::analysis::assemblies::family::{C, size};
+use crate::analysis::assemblies::report::Fit;
+use crate::analysis::assemblies::search::GenericSolutions;
+use crate::analysis::assemblies::track::{Local, Way};
+use crate::mechanism::Configuration;
+use crate::number::Number;
+use crate::solve::{Homotopy, Newton};
+
+/// Starts from which what no path leads to is sought at every question, and where there is a reason
+/// to expect it.
+const STARTS: usize = 40;
+const MANY_STARTS: usize = 400;
+/// Samples of a set of one dimension, and how far they are apart at least.
+const SAMPLES: usize = 6;
+const APART: f64 = 1e-3;
+/// What rounding leaves of the closures at a multiple solution, beside its size.
+const ROUNDING: f64 = 1e-14;
+
+impl Question<'_> {
+    /// Whether Newton's method may have ended at a point on its way to a known assembly: the closures
+    /// see no more between them than it leaves.
+    fn is_at(&self, x: &[C], found: &Found, way: &mut Way<'_>) -> bool {
+        const NEAR: f64 = 0.3;
+        let y = self.coordinates.flatten(&found.point.map(C::from_f64));
+        self.coordinates.within(NEAR, x, &y)
+            && way.seen_apart(END, &y, x) <= 10.0 * Newton::default().tolerance
+    }
+
+    /// Adds what Newton's method finds at the asked inputs itself.
+    pub(crate) fn look_elsewhere(
+        &self,
+        gathered: &mut Gathered,
+        (fit, generic, wanted): (&Fit, &GenericSolutions, Wanted),
+        way: &mut Way<'_>,
+        starts: &Starts<'_>,
+    ) {
+        let many = matches!(fit, Fit::TooManyHeld | Fit::AlwaysMultiple) || generic.multiple > 0;
+        let first = if many { MANY_STARTS } else { STARTS };
+        if !(many || wanted.starts || matches!(fit, Fit::FreedomLeft(_))) {
+            return;
+        }
+        let expected = many || *fit != Fit::Finite;
+        self.add(gathered, starts(0..first), way, (fit, expected));
+    }
+
+    /// A real solution beside a complex point.
+    pub(crate) fn beside(&self, x: &[C], way: &mut Way<'_>) -> Option<Configuration<f64>> {
+        let mut start: Vec<C> = x.iter().map(|z| C::from_f64(z.re)).collect();
+        self.coordinates.settle(&mut start);
+        if start.iter().any(|z| !z.re.is_finite()) {
+            return None;
+        }
+        let x = Local::new(way, true).settled(start)?;
+        let mut at = self.asked.map(C::from_f64);
+        self.coordinates.unflatten(&x, &mut at);
+        Some(at.map(|z| z.re))
+    }
+
+    /// Adds solved points: by themselves, or as samples of a set.
+    pub(crate) fn add(
+        &self,
+        gathered: &mut Gathered,
+        points: Vec<Configuration<f64>>,
+        way: &mut Way<'_>,
+        (fit, expected): (&Fit, bool),
+    ) {
+        let mut work = self.system.work();
+        for point in points {
+            let x = self.coordinates.flatten(&point.map(C::from_f64));
+            let samples: Vec<&Found> = gathered.found.iter().filter(|f| f.dimension > 0).collect();
+            if *fit != Fit::Finite && samples.len() >= SAMPLES {
+                break;
+            }
+            let apart = |f: &Found, x: &[C]| {
+                let y = self.coordinates.flatten(&f.point.map(C::from_f64));
+                self.coordinates.difference(x, &y)
+            };
+            let is_known = |x: &[C], way: &mut Way<'_>| {
+                (gathered.found.iter()).any(|f| f.dimension == 0 && self.is_at(x, f, way))
+            };
+            if is_known(&x, way) {
+                continue;
+            }
+            let mut local = Local::new(way, true);
+            let dimension = local.dimension(&x);
+            let order_of = local.order(&x);
+            let (x, multiplicity) = match (dimension, order_of) {
+                (0, 1) => (x, 1),
+                (0, n) => (local.refined(&x), n),
+                _ => (x, 0),
+            };
+            // where solutions meet, no more than rounding is left. What Newton's method calls solved may
+            // be beside a set of solutions of other inputs, a hair from these
+            let left = way.residual(END, &x);
+            if !expected && multiplicity > 1 && left > ROUNDING * (1.0 + size(&x)) {
+                continue;
+            }
+            let alike = samples.iter().filter(|f| f.dimension == dimension);
+            let enough = dimension > 0
+                && (alike.clone().count() >= SAMPLES
+                    || alike.clone().any(|f| apart(f, &x) < APART));
+            if enough || is_known(&x, way) {
+                continue;
+            }
+            let Some(point) = self.real(&x, multiplicity != 1, &mut work) else {
+                continue;
+            };
+            gathered.multiple += usize::from(multiplicity > 1);
+            gathered.unexpected += usize::from(dimension == 0 && !expected);
+            gathered.found.push(Found {
+                key: key(&point, self.coordinates),
+                point,
+                multiplicity,
+                dimension,
+            });
+        }
+    }
+}

@@ -1,0 +1,174 @@
+//! The real ones among the ends of the paths.
+
+use crate::analysis::assemblies::family::{C, Coordinates, size};
+use crate::geometry::RollPitchYaw;
+use crate::mechanism::{Configuration, Coordinate, Mechanism, principal};
+use crate::number::Number;
+use crate::solve::{Equations, Newton, Stop};
+use crate::system::{System, Work};
+
+use crate::analysis::assemblies::report::{Named, PoseReport};
+
+/// Rounding beside the size of a solution.
+const ROUNDING: f64 = 1e-14;
+
+/// The real configuration at a complex solution, refined; `None` if it is not real.
+///
+/// A configuration is assembled when Newton's method calls it solved. So two conjugate complex
+/// solutions are real, and one, if no more than that is left half way between them.
+///
+/// Newton's method cannot improve `singular` ends; they are refined already.
+pub(crate) fn real_solution(
+    x: &[C],
+    singular: bool,
+    coordinates: &Coordinates,
+    system: &System<f64>,
+    work: &mut Work<f64>,
+    asked: &Configuration<f64>,
+) -> Option<Configuration<f64>> {
+    let scale = 1.0 + size(x);
+    let imaginary = x.iter().map(|z| z.im.abs()).fold(0.0, f64::max);
+    if imaginary > 1e-5 * scale {
+        return None;
+    }
+    let mut lifted = asked.map(C::from_f64);
+    coordinates.unflatten(x, &mut lifted);
+    let mut point = lifted.map(|z| z.re);
+    for &p in &coordinates.free_platforms {
+        point.platforms[p].orientation = point.platforms[p].orientation.normalised();
+    }
+    // far away rounding leaves more
+    let left = ROUNDING * scale / steepness(&point, coordinates);
+    let newton = Newton {
+        tolerance: Newton::default().tolerance.max(left),
+        ..Newton::default()
+    };
+    if singular {
+        let left = system.residual(&point, work).largest;
+        return (left <= newton.tolerance).then(|| tidied(point, coordinates, false));
+    }
+    let mut trial = point.clone();
+    let report = newton.solve(system, &mut point, &mut trial, work);
+    let reached = coordinates.flatten(&point.map(C::from_f64));
+    let near = coordinates.difference(x, &reached) <= 2e-5 * scale;
+    (report.stop == Stop::Solved && near).then(|| tidied(point, coordinates, true))
+}
+
+/// The least cos(pitch) of platforms with a roll or yaw held: by it these angles, and their rows, are
+/// turned more than the platform is.
+fn steepness(point: &Configuration<f64>, coordinates: &Coordinates) -> f64 {
+    let turning = |c: &Coordinate| matches!(c, Coordinate::Roll | Coordinate::Yaw);
+    let targets = coordinates.targets.iter().filter(|(_, c)| turning(c));
+    let steepest = targets.map(|&(p, _)| Coordinate::Pitch.of(&point.platforms[p].pose()).cos());
+    steepest.fold(1.0, |least, cos| least.min(cos.abs()).max(f64::EPSILON))
+}
+
+/// How near to −π an angle is told as π. Where solutions meet, only half the digits are sure.
+fn rounding(sure: bool) -> f64 {
+    if sure { 1e-9 } else { 1e-6 }
+}
+
+/// Angles in (−π, π], quaternions with their first component that is not zero positive. `sure` where
+/// solutions do not meet.
+pub(crate) fn tidied(
+    mut point: Configuration<f64>,
+    coordinates: &Coordinates,
+    sure: bool,
+) -> Configuration<f64> {
+    let rounding = rounding(sure);
+    for &j in &coordinates.free_joints {
+        let value = &mut point.joints[j];
+        if coordinates.periodic[j] {
+            *value = principal(*value, rounding);
+        }
+    }
+    for &p in &coordinates.free_platforms {
+        let q = &mut point.platforms[p].orientation;
+        let first = q.0.iter().copied().find(|x| x.abs() > rounding);
+        if first.is_some_and(|x| x < 0.0) {
+            q.0 = q.0.map(|x| -x);
+        }
+    }
+    point
+}
+
+/// Complex angles with their real part in (−π, π], complex quaternions with the first component that
+/// is not zero on the right half of the complex plane.
+pub(crate) fn tidied_complex(x: &[C], coordinates: &Coordinates) -> Vec<C> {
+    const ROUNDING: f64 = 1e-7;
+    let mut x = x.to_vec();
+    for (z, &j) in x.iter_mut().zip(&coordinates.free_joints) {
+        if coordinates.periodic[j] {
+            z.re = principal(z.re, ROUNDING);
+        }
+    }
+    for pose in x[coordinates.free_joints.len()..].chunks_exact_mut(7) {
+        let first = pose[..4].iter().find(|z| z.norm() > ROUNDING);
+        let left = first.is_some_and(|z| match z.re.abs() > ROUNDING {
+            true => z.re < 0.0,
+            false => z.im < 0.0,
+        });
+        if left {
+            pose[..4].iter_mut().for_each(|z| *z = -*z);
+        }
+    }
+    x
+}
+
+/// What complex solutions are ordered by: real and imaginary part of one unknown after the other, in
+/// the order of [`key`].
+pub(crate) fn complex_key(x: &[C]) -> Vec<f64> {
+    x.iter().flat_map(|z| [z.re, z.im]).collect()
+}
+
+/// What solutions are numbered by: unknown joints in the order of the file, then position and
+/// quaternion of each platform.
+pub(crate) fn key(point: &Configuration<f64>, coordinates: &Coordinates) -> Vec<f64> {
+    let joints = coordinates
+        .free_joints
+        .iter()
+        .map(|&j| point.joints[j] / coordinates.joint_scales[j]);
+    let poses = coordinates.free_platforms.iter().flat_map(|&p| {
+        let pose = &point.platforms[p];
+        (pose.position.0.map(|x| x / coordinates.length).into_iter()).chain(pose.orientation.0)
+    });
+    joints.chain(poses).collect()
+}
+
+/// Ascending from the first coordinate on; values within 1e-7 of each other count as equal, so that
+/// rounding does not decide.
+pub(crate) fn order(a: &[f64], b: &[f64]) -> std::cmp::Ordering {
+    let different = a.iter().zip(b).find(|(a, b)| (*a - *b).abs() > 1e-7);
+    different.map_or(std::cmp::Ordering::Equal, |(a, b)| a.total_cmp(b))
+}
+
+/// Joint values by name, angles by the turn that is within their limits if one is.
+pub(crate) fn named_joints(mechanism: &Mechanism, point: &Configuration<f64>) -> Named<f64> {
+    let names = mechanism.joints().iter().map(|j| j.name.clone());
+    let values = point.joints.iter().enumerate();
+    let values = values.map(|(j, value)| mechanism.by_limits(j, *value));
+    Named(names.zip(values).collect())
+}
+
+pub(crate) fn named_poses(
+    mechanism: &Mechanism,
+    point: &Configuration<f64>,
+    sure: bool,
+) -> Named<PoseReport> {
+    use std::f64::consts::{PI, TAU};
+    let names = mechanism.platforms().iter().map(|p| p.name.clone());
+    let poses = point.platforms.iter().map(|pose| {
+        let RollPitchYaw { roll, pitch, yaw } =
+            RollPitchYaw::from_rotation(&pose.orientation.rotation());
+        let once = |angle: f64| match angle <= -PI + rounding(sure) {
+            true => angle + TAU,
+            false => angle,
+        };
+        PoseReport {
+            position: pose.position.0,
+            quaternion: pose.orientation.0,
+            roll_pitch_yaw: [once(roll), pitch, once(yaw)],
+        }
+    });
+    Named(names.zip(poses).collect())
+}

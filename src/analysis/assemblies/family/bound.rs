@@ -1,0 +1,351 @@
+//! Structures whose number of solutions is known.
+//!
+//! What a structure is, is read off a member that is as generic as the one whose solutions are found:
+//! its inputs are random and complex, and its dimensions the mechanism's own, unless there are no
+//! inputs and the dimensions make the family. Axes that are parallel or meet there do so for all
+//! inputs; so do points that coincide.
+
+use rand::SeedableRng;
+use rand_pcg::Pcg64;
+
+use super::Family;
+use super::coordinates::C;
+use crate::geometry::Vector3;
+use crate::mechanism::{ClosureKind, Dimensions, Frame, JointKind, Mechanism};
+use crate::number::Number;
+use crate::system::{ClosureAxes, HeldPlatform};
+
+/// The largest number of isolated complex solutions that a structure has.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub(crate) struct KnownBound {
+    pub count: usize,
+    pub structure: &'static str,
+    pub source: &'static str,
+}
+
+/// The known bound for a question, if its structure is recognised.
+pub(crate) fn known_bound(mechanism: &Mechanism, family: &Family) -> Option<KnownBound> {
+    let structure = Structure::of(mechanism, family)?;
+    match structure.platforms {
+        [] => (structure.dyads())
+            .or_else(|| structure.triad())
+            .or_else(|| structure.hinged_points())
+            .or_else(|| structure.arm()),
+        [HeldPlatform::Free] => structure.platform(),
+        _ => None,
+    }
+}
+
+fn bound(count: usize, structure: &'static str, source: &'static str) -> Option<KnownBound> {
+    Some(KnownBound {
+        count,
+        structure,
+        source,
+    })
+}
+
+/// One closure as far as its structure goes.
+struct Link {
+    kind: ClosureKind,
+    frames: [Frame; 2],
+    /// Unknown joints that it feels.
+    feels: Vec<usize>,
+    axes: ClosureAxes<C>,
+}
+
+struct Structure<'a> {
+    mechanism: &'a Mechanism,
+    dimensions: Dimensions<C>,
+    links: Vec<Link>,
+    /// Platforms whose whole pose is not held.
+    platforms: &'a [HeldPlatform<C>],
+}
+
+const SMALL: f64 = 1e-9;
+
+fn parallel(a: &Vector3<C>, b: &Vector3<C>) -> bool {
+    let size = |v: &Vector3<C>| v.0.iter().map(|x| x.norm()).fold(0.0, f64::max);
+    size(&a.cross(b)) <= SMALL * size(a) * size(b)
+}
+
+impl<'a> Structure<'a> {
+    /// `None` if a joint moves more than one row, or by more than its own variable.
+    fn of(mechanism: &'a Mechanism, family: &'a Family) -> Option<Self> {
+        let mut rng = Pcg64::seed_from_u64(1);
+        let member = family.generic_member(&mut rng);
+        let dimensions = family.dimensions(&member.parameters)?;
+        let mut way = family.way(&member, &member)?;
+        way.linearise(C::from_f64(0.0), &family.random_point(&mut rng, 1.0));
+        let here = &mut way.here;
+        let axes = here.system.axes(&here.at, &mut here.work);
+        let links = dimensions.closures.iter().zip(here.system.felt_joints());
+        let links = links.zip(axes).map(|((closure, mut feels), axes)| {
+            feels.sort_unstable();
+            feels.dedup();
+            Link {
+                kind: closure.kind,
+                frames: closure.frames,
+                feels,
+                axes,
+            }
+        });
+        let links = links.collect();
+        let platforms = match family.held.platforms.as_slice() {
+            held if held.iter().all(|held| *held == HeldPlatform::Pose) => &[],
+            held => held,
+        };
+        let plain = |joint: &usize| is_plain(&dimensions, *joint);
+        let free = &family.coordinates.free_joints;
+        free.iter().all(plain).then_some(Structure {
+            mechanism,
+            links,
+            platforms,
+            dimensions,
+        })
+    }
+
+    fn turns(&self, joints: &[usize]) -> bool {
+        let kind = |joint: &usize| self.mechanism.joints()[*joint].kind;
+        joints
+            .iter()
+            .all(|joint| kind(joint) == JointKind::Revolute)
+    }
+
+    /// Closures that can be closed one after another, each by two joints or one.
+    ///
+    /// What one joint moves goes round a circle or along a line, and of two such curves not more than
+    /// two points are common (two circles in a plane share the two circular points at infinity as
+    /// well): 4-bar and slider-crank linkages (Freudenstein 1955), spherical 4-bars, RSSR, five-bars
+    /// with two cranks held, Watt six-bars.
+    fn dyads(&self) -> Option<KnownBound> {
+        let mut known: Vec<usize> = Vec::new();
+        let mut left: Vec<&Link> = self.links.iter().collect();
+        let mut count = 1;
+        while !left.is_empty() {
+            let ways = |link: &Link| {
+                let open: Vec<usize> = (link.feels.iter().copied())
+                    .filter(|joint| !known.contains(joint))
+                    .collect();
+                let meets = matches!(
+                    link.kind,
+                    ClosureKind::Revolute | ClosureKind::Spherical | ClosureKind::Rigid
+                );
+                match (open.as_slice(), link.kind) {
+                    ([], _) => Some(1),
+                    ([_], ClosureKind::Distance) => Some(2),
+                    ([_], _) if meets => Some(1),
+                    ([a, b], _) if meets => Some(if self.turns(&[*a]) || self.turns(&[*b]) {
+                        2
+                    } else {
+                        1
+                    }),
+                    _ => None,
+                }
+            };
+            let (place, ways) = (left.iter().enumerate())
+                .filter_map(|(place, link)| Some((place, ways(link)?)))
+                .min_by_key(|(_, ways)| *ways)?;
+            known.extend(&left.swap_remove(place).feels);
+            count *= ways;
+        }
+        bound(
+            count,
+            match self.links.len() {
+                1 => "a circle that meets a circle, a line or a sphere",
+                _ => "circles that meet circles, lines or spheres, one after another",
+            },
+            "Freudenstein 1955",
+        )
+    }
+
+    /// Whether all joints of closures turn about one direction, which their axes have too.
+    fn planar(&self) -> bool {
+        let about = |link: &Link| {
+            let [a, b] = link.axes.frames;
+            let turning = link.axes.joints.iter().map(|(_, omega, _)| *omega);
+            // an unknown platform stands askew at a random point
+            let fixed = [(0, a), (1, b)].into_iter().filter(|(side, _)| {
+                !matches!(
+                    link.frames[*side],
+                    Frame::Platform { .. } | Frame::OnPlatform { .. }
+                )
+            });
+            turning.chain(fixed.map(|(_, z)| z)).collect::<Vec<_>>()
+        };
+        let all: Vec<Vector3<C>> = self.links.iter().flat_map(about).collect();
+        self.links
+            .iter()
+            .all(|link| link.kind == ClosureKind::Revolute)
+            && self.links.iter().all(|link| self.turns(&link.feels))
+            && all.windows(2).all(|pair| parallel(&pair[0], &pair[1]))
+    }
+
+    /// Two planar loops that only close together: the sextic coupler curve of a four-bar meets a
+    /// circle in six finite points (Primrose, Freudenstein and Roth 1967).
+    fn triad(&self) -> Option<KnownBound> {
+        let [a, b] = self.links.as_slice() else {
+            return None;
+        };
+        let mut joints = [a.feels.as_slice(), &b.feels].concat();
+        joints.sort_unstable();
+        joints.dedup();
+        match self.planar() && joints.len() == 4 {
+            true => bound(
+                6,
+                "the coupler curve of a four-bar that meets a circle",
+                "Primrose, Freudenstein and Roth 1967",
+            ),
+            false => None,
+        }
+    }
+
+    /// Three points, each turned by a hinge, two and two at given distances: the points of a rigid
+    /// triangle on three circles.
+    fn hinged_points(&self) -> Option<KnownBound> {
+        let mut pairs: Vec<&[usize]> = self.links.iter().map(|l| l.feels.as_slice()).collect();
+        pairs.sort_unstable();
+        let [[a, b], [c, d], [e, f]] = pairs.as_slice() else {
+            return None;
+        };
+        let ring = a == c && b == e && d == f;
+        let rods = |link: &Link| link.kind == ClosureKind::Distance && self.turns(&link.feels);
+        match ring && self.links.iter().all(rods) {
+            true => bound(
+                16,
+                "three hinged points at given distances",
+                "Nanua, Waldron and Murthy 1990",
+            ),
+            false => None,
+        }
+    }
+
+    /// One loop of six revolute joints, a pin that closes it among them; or three that bring a point
+    /// to a place.
+    fn arm(&self) -> Option<KnownBound> {
+        let [link] = self.links.as_slice() else {
+            return None;
+        };
+        if !self.turns(&link.feels) {
+            return None;
+        }
+        match (link.kind, link.feels.len()) {
+            (ClosureKind::Rigid, 6) | (ClosureKind::Revolute, 5) => bound(
+                16,
+                "six revolute joints in one loop",
+                "Primrose 1986; Lee and Liang 1988",
+            ),
+            (ClosureKind::Spherical, 3) => bound(
+                4,
+                "three revolute joints that bring a point to a place",
+                "Pieper 1968",
+            ),
+            _ => None,
+        }
+    }
+
+    /// Legs between what is fixed and one platform.
+    fn platform(&self) -> Option<KnownBound> {
+        let on_platform =
+            |frame: &Frame| matches!(frame, Frame::Platform { .. } | Frame::OnPlatform { .. });
+        let to_platform =
+            |link: &Link| on_platform(&link.frames[0]) != on_platform(&link.frames[1]);
+        // two legs share no joint
+        let mut joints: Vec<usize> = self
+            .links
+            .iter()
+            .flat_map(|link| link.feels.clone())
+            .collect();
+        joints.sort_unstable();
+        let shared = joints.windows(2).any(|pair| pair[0] == pair[1]);
+        if shared || !self.links.iter().all(to_platform) {
+            return None;
+        }
+        let hinged = |link: &Link| link.feels.len() == 1 && self.turns(&link.feels);
+        let all = |kind: ClosureKind| self.links.iter().all(|link| link.kind == kind);
+        match self.links.len() {
+            3 if self.links.iter().all(hinged) && all(ClosureKind::Spherical) => bound(
+                16,
+                "a rigid triangle on three circles: three hinged legs with balls on a platform",
+                "Nanua, Waldron and Murthy 1990",
+            ),
+            3 if self.links.iter().all(hinged) && self.planar() => bound(
+                6,
+                "a rigid triangle on three circles of a plane",
+                "Hunt 1983; Gosselin, Sefrioui and Richard 1992",
+            ),
+            6 => {
+                // each leg keeps a point of the platform on a sphere; a universal joint stands in
+                // two ways for each of its points
+                let ways = self.links.iter().map(|link| match link.kind {
+                    ClosureKind::Distance if link.feels.is_empty() => Some(1),
+                    ClosureKind::Spherical if self.universal(link) => Some(2),
+                    _ => None,
+                });
+                let ways: usize = ways.product::<Option<usize>>()?;
+                match (self.meets_by_pairs(), ways) {
+                    (true, _) => bound(
+                        16 * ways,
+                        "six legs that meet by pairs on a platform",
+                        "Nanua, Waldron and Murthy 1990; Faugère and Lazard 1995",
+                    ),
+                    (false, 1) => bound(
+                        40,
+                        "six legs between a base and a platform",
+                        "Ronga and Vust 1992; Raghavan 1993",
+                    ),
+                    (false, _) => bound(
+                        40 * ways,
+                        "six legs between a base and a platform, universal joints in two ways each",
+                        "Ronga and Vust 1992; Raghavan 1993",
+                    ),
+                }
+            }
+            _ => None,
+        }
+    }
+
+    /// Whether a leg's two joints turn about axes that meet: ω₁·v₂ + ω₂·v₁ = 0.
+    fn universal(&self, link: &Link) -> bool {
+        let [(_, a, va), (_, b, vb)] = link.axes.joints.as_slice() else {
+            return false;
+        };
+        let size = self.dimensions.characteristic_length;
+        self.turns(&link.feels)
+            && link.feels.len() == 2
+            && !parallel(a, b)
+            && (a.dot(vb) + b.dot(va)).norm() <= SMALL * size
+    }
+
+    /// Whether six legs end at three points of the platform, two at each.
+    fn meets_by_pairs(&self) -> bool {
+        let point = |link: &Link| {
+            link.frames.iter().find_map(|frame| match frame {
+                Frame::OnPlatform { platform, frame } => {
+                    Some(self.dimensions.platforms[*platform][*frame].position)
+                }
+                Frame::Platform { .. } => Some(Vector3::zero()),
+                _ => None,
+            })
+        };
+        let points: Vec<Vector3<C>> = self.links.iter().filter_map(point).collect();
+        let size = SMALL * self.dimensions.characteristic_length;
+        let near = |a: &Vector3<C>, b: &Vector3<C>| {
+            a.0.iter().zip(&b.0).all(|(a, b)| (a - b).norm() <= size)
+        };
+        let at_same = |a: &&Vector3<C>| points.iter().filter(|b| near(a, b)).count() == 2;
+        points.len() == 6 && points.iter().filter(at_same).count() == 6
+    }
+}
+
+/// Whether a joint stands in one row of one chain, or in the length of one closure, as itself.
+fn is_plain(dimensions: &Dimensions<C>, joint: usize) -> bool {
+    let rows = dimensions.chains.iter().flat_map(|chain| &chain.rows);
+    let in_rows = rows.flat_map(|row| [row.turn.coefficient(joint), row.slide.coefficient(joint)]);
+    let in_lengths = dimensions.closures.iter();
+    let in_lengths = in_lengths.map(|closure| closure.extension.coefficient(joint));
+    let factors: Vec<f64> = (in_rows.chain(in_lengths))
+        .map(|factor| factor.norm())
+        .filter(|factor| *factor > 0.0)
+        .collect();
+    matches!(factors.as_slice(), [factor] if (factor - 1.0).abs() <= SMALL)
+}

@@ -1,0 +1,300 @@
+//! Configurations as flat complex coordinates, and when two of them are the same.
+
+use std::f64::consts::{PI, TAU};
+
+use crate::geometry::{Quaternion, Vector3};
+use crate::mechanism::{Configuration, Mechanism, PlatformPose};
+use crate::number::{Complex, Number};
+use crate::system::{Held, HeldPlatform, System};
+
+pub(crate) type C = Complex<f64>;
+
+/// Which coordinates are unknown and which are given, and how they stand in flat vectors.
+///
+/// Flat unknowns are dimensionless: free joints over their scale, then for each platform to be found
+/// a quaternion and a position over the characteristic length. Flat inputs keep their units: held
+/// joints, then quaternion and position of each held pose, single platform coordinates, quaternions
+/// of held orientations.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) struct Coordinates {
+    pub free_joints: Vec<usize>,
+    pub free_platforms: Vec<usize>,
+    pub held_joints: Vec<usize>,
+    pub held_poses: Vec<usize>,
+    pub targets: Vec<(usize, crate::mechanism::Coordinate)>,
+    pub orientations: Vec<usize>,
+    pub joint_scales: Vec<f64>,
+    pub length: f64,
+    /// For each joint whether its variable counts modulo a turn.
+    pub periodic: Vec<bool>,
+    /// Free joints, as places among the flat unknowns, by the closures that feel them: two legs meet
+    /// in the poses of platforms only.
+    pub legs: Vec<Vec<usize>>,
+}
+
+impl Coordinates {
+    pub fn new(mechanism: &Mechanism, held: &Held<f64>) -> Self {
+        let which = |wanted: bool| {
+            let joints = held.joints.iter().enumerate();
+            joints
+                .filter(move |(_, held)| **held == wanted)
+                .map(|(i, _)| i)
+                .collect()
+        };
+        let platforms = || held.platforms.iter().enumerate();
+        let mut targets = Vec::new();
+        let mut orientations = Vec::new();
+        for (p, held) in platforms() {
+            if let HeldPlatform::Partly {
+                coordinates,
+                orientation,
+            } = held
+            {
+                targets.extend(coordinates.iter().map(|(c, _)| (p, *c)));
+                orientations.extend(orientation.map(|_| p));
+            }
+        }
+        let dimensions = mechanism.dimensions();
+        let free_joints: Vec<usize> = which(false);
+        Coordinates {
+            legs: legs(&free_joints, &System::new(dimensions, held)),
+            free_joints,
+            held_joints: which(true),
+            free_platforms: platforms()
+                .filter(|(_, h)| **h != HeldPlatform::Pose)
+                .map(|(i, _)| i)
+                .collect(),
+            held_poses: platforms()
+                .filter(|(_, h)| **h == HeldPlatform::Pose)
+                .map(|(i, _)| i)
+                .collect(),
+            targets,
+            orientations,
+            joint_scales: dimensions.joint_scales.clone(),
+            length: dimensions.characteristic_length,
+            periodic: (0..mechanism.joints().len())
+                .map(|j| periodic(mechanism, j))
+                .collect(),
+        }
+    }
+
+    /// Number of flat unknowns.
+    pub fn count(&self) -> usize {
+        self.free_joints.len() + 7 * self.free_platforms.len()
+    }
+
+    /// Number of flat inputs.
+    pub fn input_count(&self) -> usize {
+        self.held_joints.len()
+            + 7 * self.held_poses.len()
+            + self.targets.len()
+            + 4 * self.orientations.len()
+    }
+
+    pub fn flatten(&self, at: &Configuration<C>) -> Vec<C> {
+        let joints = self
+            .free_joints
+            .iter()
+            .map(|&j| at.joints[j] / self.joint_scales[j]);
+        let poses = self.free_platforms.iter().flat_map(|&p| {
+            let pose = &at.platforms[p];
+            let position = pose.position.0.map(|x| x / self.length);
+            pose.orientation.0.into_iter().chain(position)
+        });
+        joints.chain(poses).collect()
+    }
+
+    /// Writes the unknowns into a configuration; what is held in it stays.
+    #[inline]
+    pub fn unflatten(&self, x: &[C], at: &mut Configuration<C>) {
+        let (joints, poses) = x.split_at(self.free_joints.len());
+        for (&j, x) in self.free_joints.iter().zip(joints) {
+            at.joints[j] = *x * self.joint_scales[j];
+        }
+        for (&p, x) in self.free_platforms.iter().zip(poses.chunks_exact(7)) {
+            at.platforms[p] = PlatformPose {
+                orientation: Quaternion([x[0], x[1], x[2], x[3]]),
+                position: Vector3([x[4], x[5], x[6]].map(|x| x * self.length)),
+            };
+        }
+    }
+
+    #[inline]
+    pub fn settle(&self, x: &mut [C]) {
+        for pose in x[self.free_joints.len()..].chunks_exact_mut(7) {
+            let unit = Quaternion([pose[0], pose[1], pose[2], pose[3]]).normalised();
+            pose[..4].copy_from_slice(&unit.0);
+        }
+    }
+
+    /// The inputs of a question: what a configuration holds, and what is asked of platforms.
+    pub fn inputs<T: Number>(&self, at: &Configuration<T>, held: &Held<T>) -> Vec<T> {
+        let mut inputs: Vec<T> = self.held_joints.iter().map(|&j| at.joints[j]).collect();
+        for &p in &self.held_poses {
+            inputs.extend(at.platforms[p].orientation.0);
+            inputs.extend(at.platforms[p].position.0);
+        }
+        let partly = held.platforms.iter().filter_map(|held| match held {
+            HeldPlatform::Partly {
+                coordinates,
+                orientation,
+            } => Some((coordinates, orientation)),
+            _ => None,
+        });
+        for (coordinates, _) in partly.clone() {
+            inputs.extend(coordinates.iter().map(|(_, value)| *value));
+        }
+        for rotation in partly.filter_map(|(_, orientation)| orientation.as_ref()) {
+            inputs.extend(Quaternion::from_rotation(rotation).0);
+        }
+        inputs
+    }
+
+    /// Where the quaternions stand among the inputs.
+    pub fn input_quaternions(&self) -> impl Iterator<Item = usize> + use<> {
+        let first = self.held_joints.len();
+        let poses = self.held_poses.len();
+        let orientations = first + 7 * poses + self.targets.len();
+        let count = self.orientations.len();
+        (0..poses)
+            .map(move |i| first + 7 * i)
+            .chain((0..count).map(move |i| orientations + 4 * i))
+    }
+
+    /// The coordinates of the platforms.
+    pub fn pose_of<'a>(&self, x: &'a [C]) -> &'a [C] {
+        &x[self.free_joints.len()..]
+    }
+
+    /// Squares of the differences of joints at these places: angles modulo a turn.
+    fn joint_gaps<'a>(
+        &'a self,
+        places: impl Iterator<Item = usize> + 'a,
+        x: &'a [C],
+        y: &'a [C],
+    ) -> impl Iterator<Item = f64> + 'a {
+        places.zip(x.iter().zip(y)).map(|(place, (x, y))| {
+            let mut gap = x - y;
+            if gap.re.abs() > PI && self.periodic[self.free_joints[place]] {
+                gap.re -= TAU * (gap.re / TAU).round();
+            }
+            gap.norm_sqr()
+        })
+    }
+
+    /// Squares of the differences of two solutions: angles modulo a turn, q and −q alike.
+    fn gaps<'a>(&'a self, x: &'a [C], y: &'a [C]) -> impl Iterator<Item = f64> + 'a {
+        let joints = 0..self.free_joints.len();
+        let poses = pose_gaps(self.pose_of(x), self.pose_of(y));
+        self.joint_gaps(joints, x, y).chain(poses)
+    }
+
+    /// The largest difference of two solutions: angles modulo a turn, q and −q alike.
+    pub fn difference(&self, x: &[C], y: &[C]) -> f64 {
+        self.gaps(x, y).fold(0.0, f64::max).sqrt()
+    }
+
+    /// The same solution as `y`, with the turns of its angles and the signs of its quaternions that
+    /// bring it nearest to `x`.
+    pub fn beside(&self, x: &[C], y: &[C]) -> Vec<C> {
+        let mut y = y.to_vec();
+        let joints = self.free_joints.len();
+        for ((x, y), &j) in x.iter().zip(&mut y).zip(&self.free_joints) {
+            if self.periodic[j] {
+                y.re -= TAU * ((y.re - x.re) / TAU).round();
+            }
+        }
+        let poses = x[joints..].chunks_exact(7);
+        for (x, y) in poses.zip(y[joints..].chunks_exact_mut(7)) {
+            let apart = |sign: f64| {
+                let pairs = x[..4].iter().zip(&y[..4]);
+                pairs.map(|(x, y)| (x - y * sign).norm_sqr()).sum::<f64>()
+            };
+            if apart(-1.0) < apart(1.0) {
+                y[..4].iter_mut().for_each(|y| *y = -*y);
+            }
+        }
+        y
+    }
+
+    /// Whether two solutions differ by no more than `limit` in any coordinate.
+    pub fn within(&self, limit: f64, x: &[C], y: &[C]) -> bool {
+        self.gaps(x, y).all(|gap| gap <= limit * limit)
+    }
+
+    /// Whether two solutions of a generic member are the same: their difference is small beside their
+    /// size. [`Coordinates::same_pose`] and [`Coordinates::same_way`] look at a part. At the inputs
+    /// asked solutions may be nearer to each other: there the closures tell
+    /// ([`are_one`](super::simple::are_one)).
+    pub fn same(&self, x: &[C], y: &[C]) -> bool {
+        all_small(self.gaps(x, y), x)
+    }
+
+    /// Whether the platforms of two solutions stand alike.
+    pub fn same_pose(&self, x: &[C], y: &[C]) -> bool {
+        all_small(pose_gaps(x, y), x)
+    }
+
+    /// Whether joints at these places of the unknowns have the same values.
+    pub fn same_way(&self, places: &[usize], x: &[C], y: &[C]) -> bool {
+        all_small(self.joint_gaps(places.iter().copied(), x, y), x)
+    }
+}
+
+fn all_small(mut gaps: impl Iterator<Item = f64>, x: &[C]) -> bool {
+    let limit = 1e-6 * (1.0 + size(x));
+    gaps.all(|gap| gap <= limit * limit)
+}
+
+/// Squares of the differences of poses, q and −q alike.
+fn pose_gaps<'a>(x: &'a [C], y: &'a [C]) -> impl Iterator<Item = f64> + 'a {
+    let poses = x.chunks_exact(7).zip(y.chunks_exact(7));
+    poses.flat_map(|(x, y)| {
+        let turned = |sign: f64| {
+            let gaps = x[..4].iter().zip(&y[..4]);
+            gaps.map(|(x, y)| (*x - *y * sign).norm_sqr())
+                .fold(0.0, f64::max)
+        };
+        let moved = x[4..].iter().zip(&y[4..]).map(|(x, y)| (x - y).norm_sqr());
+        std::iter::once(turned(1.0).min(turned(-1.0))).chain(moved)
+    })
+}
+
+/// Places of free joints that stand in one leg: those felt by one closure, or by closures that such
+/// joints join.
+fn legs(free_joints: &[usize], system: &System<f64>) -> Vec<Vec<usize>> {
+    let mut legs: Vec<Vec<usize>> = (0..free_joints.len()).map(|place| vec![place]).collect();
+    for felt in system.felt_joints() {
+        let touched =
+            |leg: &Vec<usize>| leg.iter().any(|&place| felt.contains(&free_joints[place]));
+        let (joined, apart): (Vec<_>, Vec<_>) = legs.into_iter().partition(touched);
+        legs = apart;
+        if !joined.is_empty() {
+            let mut joined = joined.concat();
+            joined.sort_unstable();
+            legs.push(joined);
+        }
+    }
+    legs.sort();
+    legs
+}
+
+/// The largest coordinate.
+pub(crate) fn size(x: &[C]) -> f64 {
+    x.iter().map(|z| z.norm_sqr()).fold(0.0, f64::max).sqrt()
+}
+
+/// Whether a turn more of a joint changes nothing: it only turns, and in whole multiples.
+fn periodic(mechanism: &Mechanism, joint: usize) -> bool {
+    let dimensions = mechanism.dimensions();
+    let slides = dimensions
+        .closures
+        .iter()
+        .any(|c| c.extension.coefficient(joint) != 0.0);
+    let mut rows = dimensions.chains.iter().flat_map(|chain| &chain.rows);
+    !slides
+        && rows.all(|row| {
+            let turn = row.turn.coefficient(joint);
+            turn == turn.round() && row.slide.coefficient(joint) == 0.0
+        })
+}

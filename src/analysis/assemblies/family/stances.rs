@@ -1,0 +1,131 @@
+//! Solutions kept leg by leg.
+//!
+//! Closures that share no free joint meet only in the poses of the platforms: given those, each such
+//! leg closes by itself. Where a leg can close in several ways, every combination of one way for each
+//! leg is a solution: the six universal joints of a 6-UPS platform make 40·2⁶ of 40 poses and twelve
+//! ways. What is kept, and followed through the family, is a few points for each pose that together
+//! show every way of every leg.
+
+use serde::{Deserialize, Serialize};
+
+use super::coordinates::{C, Coordinates};
+
+/// One placement of the platforms and the ways in which the legs close for it. Without platforms to
+/// be found there is one placement.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub(crate) struct Stance<T> {
+    /// Seven coordinates for each platform.
+    pub pose: Vec<T>,
+    /// For each leg its ways, each a value for every joint of the leg.
+    pub legs: Vec<Vec<Vec<T>>>,
+}
+
+impl<T: Copy> Stance<T> {
+    pub fn map<U>(&self, f: impl Fn(T) -> U + Copy) -> Stance<U> {
+        let all = |x: &Vec<T>| x.iter().map(|x| f(*x)).collect();
+        Stance {
+            pose: all(&self.pose),
+            legs: (self.legs.iter())
+                .map(|ways| ways.iter().map(all).collect())
+                .collect(),
+        }
+    }
+
+    /// How many solutions it stands for.
+    pub fn count(&self) -> usize {
+        self.legs.iter().map(Vec::len).product()
+    }
+
+    /// How few of them show every way of every leg.
+    pub fn spanning(&self) -> usize {
+        self.legs.iter().map(Vec::len).max().unwrap_or(1)
+    }
+
+    /// Whether it belongs to these coordinates.
+    pub fn fits(&self, coordinates: &Coordinates) -> bool {
+        let legs = &coordinates.legs;
+        self.pose.len() == 7 * coordinates.free_platforms.len()
+            && self.legs.len() == legs.len()
+            && (self.legs.iter().zip(legs)).all(|(ways, joints)| {
+                !ways.is_empty() && ways.iter().all(|way| way.len() == joints.len())
+            })
+    }
+}
+
+impl Stance<C> {
+    pub fn of(coordinates: &Coordinates, x: &[C]) -> Self {
+        let legs = coordinates.legs.iter();
+        Stance {
+            pose: coordinates.pose_of(x).to_vec(),
+            legs: legs.map(|joints| vec![at(joints, x)]).collect(),
+        }
+    }
+
+    fn point(&self, coordinates: &Coordinates, way: impl Fn(usize, usize) -> usize) -> Vec<C> {
+        let joints = coordinates.free_joints.len();
+        let mut x = vec![C::new(0.0, 0.0); joints];
+        for (leg, (joints, ways)) in coordinates.legs.iter().zip(&self.legs).enumerate() {
+            for (&joint, value) in joints.iter().zip(&ways[way(leg, ways.len())]) {
+                x[joint] = *value;
+            }
+        }
+        x.extend(&self.pose);
+        x
+    }
+
+    /// The points that show every way of every leg.
+    pub fn spanning_points(&self, coordinates: &Coordinates) -> Vec<Vec<C>> {
+        (0..self.spanning())
+            .map(|k| self.point(coordinates, |_, ways| k % ways))
+            .collect()
+    }
+
+    /// All solutions: the ways of the first leg change slowest.
+    pub fn points(&self, coordinates: &Coordinates) -> Vec<Vec<C>> {
+        let mut weights = vec![1; self.legs.len()];
+        for leg in (1..self.legs.len()).rev() {
+            weights[leg - 1] = weights[leg] * self.legs[leg].len();
+        }
+        (0..self.count())
+            .map(|k| self.point(coordinates, |leg, ways| k / weights[leg] % ways))
+            .collect()
+    }
+
+    /// Adds what a solution with the same pose shows; whether anything was new.
+    fn learn(&mut self, coordinates: &Coordinates, x: &[C]) -> bool {
+        let mut new = false;
+        for (joints, ways) in coordinates.legs.iter().zip(&mut self.legs) {
+            let way = at(joints, x);
+            if !ways
+                .iter()
+                .any(|known| coordinates.same_way(joints, known, &way))
+            {
+                ways.push(way);
+                new = true;
+            }
+        }
+        new
+    }
+}
+
+fn at(joints: &[usize], x: &[C]) -> Vec<C> {
+    joints.iter().map(|&joint| x[joint]).collect()
+}
+
+/// What a set of stances learns from a solution; whether anything was new.
+pub(crate) fn learn(stances: &mut Vec<Stance<C>>, coordinates: &Coordinates, x: &[C]) -> bool {
+    let pose = coordinates.pose_of(x);
+    let known = |stance: &&mut Stance<C>| coordinates.same_pose(&stance.pose, pose);
+    match stances.iter_mut().find(known) {
+        Some(stance) => stance.learn(coordinates, x),
+        None => {
+            stances.push(Stance::of(coordinates, x));
+            true
+        }
+    }
+}
+
+/// How many solutions stances stand for.
+pub(crate) fn count<T: Copy>(stances: &[Stance<T>]) -> usize {
+    stances.iter().map(Stance::count).sum()
+}

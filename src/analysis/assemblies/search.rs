@@ -1,0 +1,13 @@
+//! The search for all solutions of one generic member of the family.
+
+mod generic;
+mod seed;
+mod solutions;
+mod starts;
+mod store;
+
+pub(super) use generic::search;
+pub use solutions::GenericSolutions;
+pub(super) use starts::solved;
+pub use store::StoredError;
+pub(super) use store::question;

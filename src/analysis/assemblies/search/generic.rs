@@ -1,0 +1,353 @@
+//! All solutions of one generic member of the family: random complex Newton seeds, spread by
+//! monodromy.
+//!
+//! A loop through the family permutes the solutions within each irreducible component (Sommese,
+//! Verschelde and Wampler 2001; Duff et al. 2019). Components are reached by seeds only: the two
+//! operation modes of a 3-RPS never exchange solutions. A solution that few starts of one member lead
+//! to may be what many of another lead to, so seeds are sown at every corner of every loop, and what
+//! they find is carried home by the rest of the loop. Both are repeated until neither finds anything.
+//!
+//! What a quiet loop says: if some solutions of a component are known and others not, a random element
+//! of the component's monodromy group keeps the known ones among themselves with probability ½ at most
+//! (those that do are a proper subgroup). It says so only if no path was lost: paths that are lost or
+//! that meet are followed again with greater care, and a loop that still is no exchange of places does
+//! not count.
+
+use rand::SeedableRng;
+use rand_pcg::Pcg64;
+
+use super::super::AssembliesSettings;
+use super::seed::{Seed, newton, solution, sow};
+use super::solutions::{GenericSolutions, pairs};
+use crate::analysis::assemblies::family::{C, Family, Member, Stance, count, learn};
+use crate::analysis::assemblies::track::{Way, carried, stands_alone};
+use crate::number::Number;
+use crate::solve::{Progress, Stage, Watch};
+use crate::system::System;
+
+fn generator(seed: u64, stream: u64) -> Pcg64 {
+    Pcg64::seed_from_u64(
+        seed.wrapping_mul(0x9E37_79B9_7F4A_7C15)
+            .wrapping_add(stream),
+    )
+}
+
+struct Search<'a> {
+    watch: &'a Watch<'a>,
+    bound: Option<usize>,
+    family: &'a Family,
+    settings: &'a AssembliesSettings,
+    base: Member,
+    stances: Vec<Stance<C>>,
+    freedom: Option<usize>,
+    seeds: usize,
+    not_isolated: usize,
+    multiple: usize,
+    loops: usize,
+    quiet_seeds: usize,
+    quiet_loops: usize,
+}
+
+/// Searches a generic member, and where fewer solutions than the bound were found another one: the
+/// loops about one member may miss what those about another find. `None` if a dimension has no value
+/// anywhere near.
+pub(crate) fn search(
+    family: &Family,
+    question: String,
+    bound: Option<usize>,
+    settings: &AssembliesSettings,
+    watch: &Watch,
+) -> Option<GenericSolutions> {
+    let first = search_one(family, &question, bound, settings, watch)?;
+    if first.stances.is_empty()
+        || watch.is_stopped()
+        || first.exhausted
+        || bound.is_none_or(|bound| count(&first.stances) >= bound)
+    {
+        return Some(first);
+    }
+    let other = AssembliesSettings {
+        seed: !settings.seed,
+        ..settings.clone()
+    };
+    let second = search_one(family, &question, bound, &other, watch)?;
+    let (seeds, loops) = (first.seeds + second.seeds, first.loops + second.loops);
+    let better = match count(&second.stances) > count(&first.stances) {
+        true => second,
+        false => first,
+    };
+    Some(GenericSolutions {
+        seeds,
+        loops,
+        seed: settings.seed,
+        ..better
+    })
+}
+
+fn search_one(
+    family: &Family,
+    question: &str,
+    bound: Option<usize>,
+    settings: &AssembliesSettings,
+    watch: &Watch,
+) -> Option<GenericSolutions> {
+    let mut rng = generator(settings.seed, 0);
+    let base = family.generic_member(&mut rng);
+    let mut search = Search {
+        watch,
+        bound,
+        family,
+        settings,
+        base,
+        stances: Vec::new(),
+        freedom: None,
+        seeds: 0,
+        not_isolated: 0,
+        multiple: 0,
+        loops: 0,
+        quiet_seeds: 0,
+        quiet_loops: 0,
+    };
+    let exhausted = search.run()?;
+    Some(GenericSolutions {
+        question: question.to_owned(),
+        parameters: pairs(&search.base.parameters),
+        inputs: pairs(&search.base.inputs),
+        stances: (search.stances.iter())
+            .map(|stance| stance.map(|z| [z.re, z.im]))
+            .collect(),
+        freedom: search.freedom.unwrap_or(0),
+        seeds: search.seeds,
+        not_isolated: search.not_isolated,
+        multiple: search.multiple,
+        loops: search.loops,
+        quiet_seeds: search.quiet_seeds,
+        quiet_loops: search.quiet_loops,
+        exhausted,
+        seed: settings.seed,
+    })
+}
+
+/// Seeds sown at once at the generic member, and at most at a corner of a loop.
+const BATCH: usize = 32;
+
+impl Search<'_> {
+    /// Until nothing more is found; whether it ended at its limits, or was stopped, before.
+    fn run(&mut self) -> Option<bool> {
+        let still = self.family.way(&self.base, &self.base)?;
+        while self.stances.is_empty() {
+            if self.seeds >= self.settings.hopeless_seeds
+                || self.quiet_seeds >= self.settings.quiet_seeds
+            {
+                return Some(false);
+            }
+            if self.is_stopped_sowing() {
+                return Some(true);
+            }
+            self.sow(&still);
+        }
+        loop {
+            while self.quiet_loops < self.enough_loops() {
+                if self.loops >= self.settings.most_loops || self.is_stopped_in_loops() {
+                    return Some(true);
+                }
+                self.spread();
+            }
+            if self.bound == Some(count(&self.stances)) {
+                return Some(false);
+            }
+            while self.quiet_loops > 0 && self.quiet_seeds < self.settings.quiet_seeds {
+                if self.seeds >= self.settings.most_seeds || self.is_stopped_sowing() {
+                    return Some(true);
+                }
+                self.sow(&still);
+            }
+            if self.quiet_loops > 0 && !self.close_legs(&still) {
+                return Some(false);
+            }
+        }
+    }
+
+    /// Newton iterations for the joints of one leg from random values, with all else as in a known
+    /// solution; whether they found another way to close it.
+    fn close_legs(&mut self, still: &Way<'_>) -> bool {
+        const TRIES: u64 = 16;
+        let Some(dimensions) = self.family.dimensions(&self.base.parameters) else {
+            return false;
+        };
+        let (coordinates, seed) = (&self.family.coordinates, self.settings.seed);
+        let known: Vec<Vec<C>> = (self.stances.iter())
+            .map(|stance| stance.spanning_points(coordinates).swap_remove(0))
+            .collect();
+        let mut new = false;
+        for places in &coordinates.legs {
+            let system = System::new(&dimensions, &self.family.held_but(places));
+            let storage = (system.work(), still.clone());
+            let tries = known.len() as u64 * TRIES;
+            let ends = crate::solve::each(tries as usize, &storage, |(work, way), k| {
+                // streams beyond those of seeds and loops
+                let stream = (1 << 48) + ((places[0] as u64) << 32) + k as u64;
+                let mut x = known[k / TRIES as usize].clone();
+                let mut rng = generator(seed, stream);
+                let random = way.family.random_point(&mut rng, 1.0);
+                places.iter().for_each(|&place| x[place] = random[place]);
+                way.linearise(C::from_f64(0.0), &x);
+                let mut point = way.here.at.clone();
+                let mut trial = point.clone();
+                let report = newton().solve(&system, &mut point, &mut trial, work);
+                let x = solution(way, &report, &point)?;
+                stands_alone(way, C::from_f64(0.0), &x).then_some(x)
+            });
+            for x in ends.into_iter().flatten() {
+                new |= learn(&mut self.stances, coordinates, &x);
+            }
+        }
+        if new {
+            self.quiet_loops = 0;
+        }
+        new
+    }
+
+    /// Where the known bound is reached, one loop confirms it; below it the end is doubted.
+    fn enough_loops(&self) -> usize {
+        let quiet = self.settings.quiet_loops.max(1);
+        match self.bound.map(|bound| count(&self.stances).cmp(&bound)) {
+            Some(std::cmp::Ordering::Equal) => 1,
+            Some(_) => quiet + quiet / 2,
+            None => quiet,
+        }
+    }
+
+    fn is_stopped_sowing(&self) -> bool {
+        let found = count(&self.stances);
+        (self.watch).stops(Stage::Seeds { found }, self.seeds, None)
+    }
+
+    fn is_stopped_in_loops(&self) -> bool {
+        self.watch.at(self.in_loops()).is_break()
+    }
+
+    fn in_loops(&self) -> Progress {
+        Progress {
+            stage: Stage::Loops {
+                found: count(&self.stances),
+            },
+            done: self.loops,
+            of: None,
+        }
+    }
+
+    /// Newton iterations from random complex points at the member where a way starts; the isolated
+    /// solutions they ended at. `reach` is that of the member's inputs; only what is multiple with the
+    /// mechanism's `own` dimensions counts.
+    fn seeds(&mut self, still: &Way<'_>, reach: f64, own: bool) -> Vec<Vec<C>> {
+        let (first, seed) = (self.seeds, self.settings.seed);
+        let ends = crate::solve::each(BATCH, still, |way, i| {
+            let mut rng = generator(seed, 1 + (((first + i) as u64) << 1));
+            // most solutions are near, some far out
+            let further = [1.0, 2.0, 1.0, 4.0][(first + i) % 4];
+            sow(way, reach * further, &mut rng)
+        });
+        self.seeds += BATCH;
+        let mut isolated = Vec::new();
+        for end in ends {
+            match end {
+                Seed::Nothing => {}
+                Seed::Multiple => self.multiple += usize::from(own),
+                Seed::Isolated(x) => isolated.push(x),
+                Seed::Free(freedom) => {
+                    self.not_isolated += 1;
+                    self.quiet_seeds += 1;
+                    self.freedom = Some(self.freedom.map_or(freedom, |f| f.min(freedom)));
+                }
+            }
+        }
+        isolated
+    }
+
+    /// Seeds at the generic member.
+    fn sow(&mut self, still: &Way<'_>) {
+        for x in self.seeds(still, 1.0, true) {
+            match learn(&mut self.stances, &self.family.coordinates, &x) {
+                true => (self.quiet_seeds, self.quiet_loops) = (0, 0),
+                false => self.quiet_seeds += 1,
+            }
+        }
+    }
+
+    /// One loop through two other random members, followed by every known solution and by what
+    /// seeds find there.
+    fn spread(&mut self) {
+        self.loops += 1;
+        let mut rng = generator(self.settings.seed, (self.loops as u64) << 1);
+        // some loops change dimensions too, at several times the cost: at special dimensions the inputs
+        // alone may not exchange all solutions
+        let resize = self.loops.is_multiple_of(6) || self.base.inputs.is_empty();
+        // small loops go round few of the places where solutions meet, and solutions far out meet at
+        // inputs far out
+        let reach = [1.0, 2.0, 8.0, 4.0, 16.0][self.loops % 5];
+        let mut member = || Member {
+            inputs: self.family.random_inputs(&mut rng, reach),
+            parameters: match resize {
+                true => self.family.random_parameters(&mut rng),
+                false => self.base.parameters.clone(),
+            },
+        };
+        let corners = [self.base.clone(), member(), member(), self.base.clone()];
+        let coordinates = &self.family.coordinates;
+        let mut points: Vec<Option<Vec<C>>> = (self.stances.iter())
+            .flat_map(|stance| stance.spanning_points(coordinates))
+            .map(Some)
+            .collect();
+        for pair in corners.windows(2) {
+            let Some(way) = self.family.way(&pair[0], &pair[1]) else {
+                return;
+            };
+            if pair[0] != self.base {
+                let own = pair[0].parameters == self.base.parameters;
+                self.sow_beside(&way, (reach, own), &mut points);
+            }
+            carried(&way, &mut points, (self.watch, self.in_loops()));
+        }
+        let Some(mut still) = self.family.way(&self.base, &self.base) else {
+            return;
+        };
+        let mut whole = points.iter().all(Option::is_some);
+        let mut new = false;
+        for x in points.into_iter().flatten() {
+            match stands_alone(&mut still, C::from_f64(0.0), &x) {
+                true => new |= learn(&mut self.stances, coordinates, &x),
+                // other dimensions may have solutions that meet, or go away, at the mechanism's own
+                false => whole &= resize,
+            }
+        }
+        match (new, whole) {
+            (true, _) => self.quiet_loops = 0,
+            (false, true) => self.quiet_loops += 1,
+            (false, false) => {}
+        }
+    }
+
+    /// Seeds at a corner of a loop, where these solutions are known already.
+    fn sow_beside(
+        &mut self,
+        way: &Way<'_>,
+        (reach, own): (f64, bool),
+        points: &mut Vec<Option<Vec<C>>>,
+    ) {
+        let coordinates = &self.family.coordinates;
+        let mut known = Vec::new();
+        for x in points.iter().flatten() {
+            learn(&mut known, coordinates, x);
+        }
+        for x in self.seeds(way, reach, own) {
+            match learn(&mut known, coordinates, &x) {
+                true => {
+                    self.quiet_seeds = 0;
+                    points.push(Some(x));
+                }
+                false => self.quiet_seeds += 1,
+            }
+        }
+    }
+}

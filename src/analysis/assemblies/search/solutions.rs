@@ -1,0 +1,63 @@
+//! All solutions of one generic member.
+
+use serde::{Deserialize, Serialize};
+
+use crate::analysis::assemblies::family::{C, Member, Stance, count};
+
+/// All solutions of a generic member, kept to be carried to any inputs.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct GenericSolutions {
+    /// Names of the mechanism and its joints, values of its parameters and what is held: the
+    /// solutions serve no other question.
+    pub(crate) question: String,
+    pub(crate) parameters: Vec<[f64; 2]>,
+    pub(crate) inputs: Vec<[f64; 2]>,
+    pub(crate) stances: Vec<Stance<[f64; 2]>>,
+    /// Freedom left when the inputs are held: the least dimension of a set of solutions that was
+    /// met, 0 if there was none. There may be isolated solutions beside it.
+    pub freedom: usize,
+    /// Newton seeds tried.
+    pub seeds: usize,
+    /// Seeds that met a set of solutions which is not isolated.
+    pub not_isolated: usize,
+    /// Seeds that met a solution which is multiple at the generic member already. No path follows
+    /// it.
+    pub multiple: usize,
+    /// Monodromy loops, each followed by every solution known.
+    pub loops: usize,
+    /// Seeds since the last discovery.
+    pub quiet_seeds: usize,
+    /// Loops since the last discovery in which no path was lost.
+    pub quiet_loops: usize,
+    /// Whether the search ended at its limits and not because nothing more was found.
+    pub exhausted: bool,
+    /// The random seed.
+    pub seed: u64,
+}
+
+pub(crate) fn pairs(x: &[C]) -> Vec<[f64; 2]> {
+    x.iter().map(|z| [z.re, z.im]).collect()
+}
+
+fn numbers(x: &[[f64; 2]]) -> Vec<C> {
+    x.iter().map(|z| C::new(z[0], z[1])).collect()
+}
+
+impl GenericSolutions {
+    /// How many isolated complex solutions a generic member has.
+    pub fn count(&self) -> usize {
+        count(&self.stances)
+    }
+
+    pub(crate) fn stances(&self) -> Vec<Stance<C>> {
+        let number = |z: [f64; 2]| C::new(z[0], z[1]);
+        self.stances.iter().map(|s| s.map(number)).collect()
+    }
+
+    pub(crate) fn member(&self) -> Member {
+        Member {
+            parameters: numbers(&self.parameters),
+            inputs: numbers(&self.inputs),
+        }
+    }
+}

@@ -1,0 +1,54 @@
+//! Assembled configurations at the asked inputs themselves, without any path.
+
+use std::ops::Range;
+
+use rand::SeedableRng;
+use rand_pcg::Pcg64;
+
+use crate::analysis::assemblies::family::{C, Family};
+use crate::geometry::Quaternion;
+use crate::mechanism::Configuration;
+use crate::number::Number;
+use crate::solve::{Newton, Stage, Stop, Watch};
+use crate::system::System;
+
+/// Assembled configurations reached by Newton's method from the asked configuration, start 0, and
+/// from random ones. Each start is the same in every run.
+pub(crate) fn solved(
+    family: &Family,
+    system: &System<f64>,
+    asked: &Configuration<f64>,
+    which: Range<usize>,
+    watch: &Watch,
+) -> Vec<Configuration<f64>> {
+    let storage = (system.work(), asked.clone());
+    let points = crate::solve::each(which.len(), &storage, |(work, trial), k| {
+        if watch.stops(Stage::Starts, k, Some(which.len())) {
+            return None;
+        }
+        let mut point = started(family, asked, which.start + k);
+        let report = Newton::default().solve(system, &mut point, trial, work);
+        (report.stop == Stop::Solved).then_some(point)
+    });
+    points.into_iter().flatten().collect()
+}
+
+fn started(family: &Family, asked: &Configuration<f64>, number: usize) -> Configuration<f64> {
+    let mut point = asked.clone();
+    if number == 0 {
+        return point;
+    }
+    let mut rng = Pcg64::seed_from_u64(number as u64);
+    let c = &family.coordinates;
+    let mut lifted = asked.map(C::from_f64);
+    c.unflatten(&family.random_point(&mut rng, 1.0), &mut lifted);
+    for &j in &c.free_joints {
+        point.joints[j] = lifted.joints[j].re;
+    }
+    for &p in &c.free_platforms {
+        point.platforms[p].position.0 = lifted.platforms[p].position.0.map(|z| z.re);
+        let q = lifted.platforms[p].orientation.0.map(|z| z.re);
+        point.platforms[p].orientation = Quaternion(q).normalised();
+    }
+    point
+}

@@ -1,0 +1,105 @@
+//! Generic solutions as text, so that a later run starts from them.
+//!
+//! One line says what it is, how many solutions there are and which checksum (CRC-32, ISO 3309) the
+//! rest has; the rest is RON. A lost solution would be a lost assembly, so a text that is not as it
+//! was written is refused.
+
+use super::solutions::GenericSolutions;
+use crate::analysis::assemblies::family::{C, Family, size};
+use crate::mechanism::Mechanism;
+use crate::number::Number;
+
+const TITLE: &str = "linkwork generic solutions, version ";
+/// Counts changes of the text and of the meaning of its numbers.
+const VERSION: u32 = 2;
+
+/// What is wrong with stored solutions.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum StoredError {
+    /// The text is something else.
+    SomethingElse,
+    /// The text was written by a linkwork that stores solutions in another form.
+    OtherVersion,
+    /// The text is not as it was written: cut short, or changed.
+    Damaged,
+}
+
+impl std::fmt::Display for StoredError {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.write_str(match self {
+            StoredError::SomethingElse => "it is something else",
+            StoredError::OtherVersion => "another version of linkwork wrote them in another form",
+            StoredError::Damaged => "they are cut short or changed since they were written",
+        })
+    }
+}
+
+impl std::error::Error for StoredError {}
+
+impl GenericSolutions {
+    /// From what [`GenericSolutions::to_text`] wrote.
+    ///
+    /// # Errors
+    /// If it is something else, or not as it was written.
+    pub fn from_text(text: &str) -> Result<Self, StoredError> {
+        let rest = text.strip_prefix(TITLE).ok_or(StoredError::SomethingElse)?;
+        let (version, _) = rest.split_once(':').ok_or(StoredError::Damaged)?;
+        if version.parse() != Ok(VERSION) {
+            return Err(StoredError::OtherVersion);
+        }
+        let (line, body) = text.split_once('\n').ok_or(StoredError::Damaged)?;
+        let stored: Self = ron::from_str(body).map_err(|_| StoredError::Damaged)?;
+        match line == title(&stored, body) {
+            true => Ok(stored),
+            false => Err(StoredError::Damaged),
+        }
+    }
+
+    /// All digits, as RON under a line that tells changes.
+    pub fn to_text(&self) -> String {
+        let body = ron::to_string(self).expect("lists of numbers have a RON form") + "\n";
+        format!("{}\n{body}", title(self, &body))
+    }
+}
+
+impl GenericSolutions {
+    /// Whether the generic member is assembled at every solution.
+    pub(crate) fn solves(&self, family: &Family) -> bool {
+        let member = self.member();
+        let Some(mut way) = family.way(&member, &member) else {
+            return false;
+        };
+        // the others are combinations of these
+        let shown = self.stances();
+        let mut shown = (shown.iter()).flat_map(|s| s.spanning_points(&family.coordinates));
+        shown.all(|x| way.linearise(C::from_f64(0.0), &x) <= 1e-9 * (1.0 + size(&x).powi(2)))
+    }
+}
+
+/// What stored solutions belong to: names to be read by people, and a mark of all dimensions.
+pub(crate) fn question(mechanism: &Mechanism, family: &Family) -> String {
+    let c = &family.coordinates;
+    let all = format!(
+        "{:?} {:?} {:?} {:?} {:?} {:?} {:?}",
+        mechanism.dimensions(),
+        mechanism.home(),
+        mechanism.parameters(),
+        c.held_joints,
+        c.held_poses,
+        c.targets,
+        c.orientations,
+    );
+    // FNV-1a (Fowler, Noll and Vo 1991)
+    let mark = all.bytes().fold(0xcbf2_9ce4_8422_2325_u64, |mark, byte| {
+        (mark ^ u64::from(byte)).wrapping_mul(0x0000_0100_0000_01b3)
+    });
+    format!("{} {mark:016x}", mechanism.name())
+}
+
+fn title(stored: &GenericSolutions, body: &str) -> String {
+    format!(
+        "{TITLE}{VERSION}: {} solutions, checksum {:08x}",
+        stored.count(),
+        crc32fast::hash(body.as_bytes())
+    )
+}

@@ -1,0 +1,343 @@
+//! What the solutions look like about a point where the Jacobian loses rank: one solution that is
+//! multiple, or a set of some dimension.
+//!
+//! The dimension is that of the solutions reached by Gauss–Newton steps of least length from beside
+//! a point of the set that is not special. (Where branches meet, the span of what is near would be
+//! too large; so a neighbour is looked at, and of several the one with the most freedom counts.)
+//! Nothing infinitesimal is taken for a motion: a multiple solution attracts what starts beside it.
+
+use nalgebra::{DMatrix, DVector};
+
+use super::way::Way;
+use crate::analysis::assemblies::family::{C, size};
+use crate::linear::Svd;
+use crate::number::Number;
+
+/// Directions this small beside the largest singular value may be free.
+const SUSPECT: f64 = 1e-5;
+/// How far beside a point its neighbours are sought, and beside these theirs.
+const BESIDE: [f64; 2] = [0.03, 2e-3];
+/// What comes back to within this part of the distance it was moved has not stayed where it was put.
+const BACK: f64 = 0.1;
+/// Points looked at beside the first one.
+const NEIGHBOURS: u64 = 4;
+/// The end of the way, where the asked inputs are.
+const END: f64 = 1.0;
+
+/// The equations at the asked inputs, looked at as real ones: at real points the complex ones with
+/// their imaginary halves left out, elsewhere real and imaginary parts one after the other.
+pub(crate) struct Local<'a, 'f> {
+    way: &'a mut Way<'f>,
+    real: bool,
+}
+
+/// J and r at a point as real numbers, with the singular values of J.
+struct Linear {
+    residual: DVector<f64>,
+    jacobian: DMatrix<f64>,
+    left: DMatrix<f64>,
+    values: Vec<f64>,
+    right: DMatrix<f64>,
+}
+
+impl Linear {
+    /// How many singular values count beside the largest.
+    fn rank(&self, tolerance: f64) -> usize {
+        let largest = self.values.first().copied().unwrap_or(0.0);
+        let counts = |value: &&f64| **value > tolerance * largest.max(f64::MIN_POSITIVE);
+        self.values.iter().filter(counts).count()
+    }
+
+    /// Of the vectors nearest to a solution of J x = b the shortest, seen by `rank` singular values.
+    fn solve(&self, b: &DVector<f64>, rank: usize) -> DVector<f64> {
+        let mut x = DVector::zeros(self.jacobian.ncols());
+        for i in 0..rank {
+            x += self.right.column(i) * (self.left.column(i).dot(b) / self.values[i]);
+        }
+        x
+    }
+
+    /// A unit basis of what `rank` singular values leave.
+    fn null_space(&self, rank: usize) -> DMatrix<f64> {
+        self.right
+            .columns(rank, self.right.ncols() - rank)
+            .into_owned()
+    }
+
+    /// What of a vector no motion can change.
+    fn unseen(&self, b: DMatrix<f64>, rank: usize) -> DMatrix<f64> {
+        let range = self.left.columns(0, rank);
+        let along = range.transpose() * &b;
+        b - range * along
+    }
+}
+
+/// Numbers in (−1, 1) without symmetry, the same in every run.
+fn shake(stream: u64, i: usize) -> f64 {
+    let phase = (1.0 + stream as f64 * 0.7548).mul_add(12.9898, (i as f64 + 1.0) * 78.233);
+    let x = phase.sin() * 43_758.547;
+    2.0 * (x - x.floor()) - 1.0
+}
+
+impl<'a, 'f> Local<'a, 'f> {
+    /// About points with real coordinates only, or about any.
+    pub fn new(way: &'a mut Way<'f>, real: bool) -> Self {
+        Local { way, real }
+    }
+
+    /// The dimension of the set of solutions through a solution: 0 if it is isolated.
+    pub fn dimension(&mut self, x: &[C]) -> usize {
+        let linear = self.linear(x);
+        if self.freedom(&linear, SUSPECT) == 0 {
+            return 0;
+        }
+        let mut largest = 0;
+        for k in 0..NEIGHBOURS {
+            let Some(beside) = self.beside(x, k, BESIDE[0]) else {
+                continue;
+            };
+            if self.gap(x, &beside) > BACK * BESIDE[0] {
+                largest = largest.max(self.spread(&beside, k));
+            }
+        }
+        largest
+    }
+
+    /// The dimension spanned by the solutions beside a solution.
+    fn spread(&mut self, x: &[C], stream: u64) -> usize {
+        let linear = self.linear(x);
+        let free = linear.values.len() - linear.rank(SUSPECT);
+        if free == 0 {
+            return 0;
+        }
+        let columns = linear.jacobian.ncols();
+        let mut steps = Vec::new();
+        for k in 0..free as u64 + 3 {
+            let Some(beside) = self.beside(x, 16 * (stream + 1) + k, BESIDE[1]) else {
+                continue;
+            };
+            if self.gap(x, &beside) < 10.0 * BESIDE[1] {
+                steps.push(self.step_between(x, &beside) / BESIDE[1]);
+            }
+        }
+        if steps.is_empty() {
+            return 0;
+        }
+        let moves = DMatrix::from_columns(&steps);
+        let values = moves.singular_values();
+        let rank = values.iter().filter(|v| **v > BACK).count();
+        debug_assert!(rank <= columns);
+        match self.real {
+            true => rank,
+            false => rank.div_ceil(2),
+        }
+    }
+
+    /// A multiple solution to the last digits: where the equations that the Jacobian sees hold, and
+    /// the others have no slope. `x` itself where that is not within reach.
+    ///
+    /// For null vectors v and what P of the equations no motion changes to first order, a fold has
+    /// P J v = 0, which one more derivative makes regular (deflation; Leykin, Verschelde and Zhao
+    /// 2006).
+    pub fn refined(&mut self, x: &[C]) -> Vec<C> {
+        const STEPS: usize = 4;
+        const APART: f64 = 1e-4;
+        const REACH: f64 = 1e-3;
+        /// Singular values of a solution known to half its digits are this small.
+        const LOST: f64 = 1e-4;
+        let mut at = x.to_vec();
+        for _ in 0..STEPS {
+            let linear = self.linear(&at);
+            let rank = linear.rank(LOST);
+            let mut step = -linear.solve(&linear.residual, rank);
+            let free = linear.null_space(rank);
+            if free.ncols() > 0 {
+                let slope = linear.unseen(&linear.jacobian * &free, rank);
+                let curvatures: Vec<DVector<f64>> = (0..free.ncols())
+                    .map(|j| {
+                        let side = |distance: f64, this: &mut Self| {
+                            let shift = free.column(j) * distance;
+                            let beside = this.moved(&at, &shift);
+                            this.linear(&beside).jacobian
+                        };
+                        let change = side(APART, self) - side(-APART, self);
+                        let bent = linear.unseen(change * &free / (2.0 * APART), rank);
+                        DVector::from_column_slice(bent.as_slice())
+                    })
+                    .collect();
+                let bent = DMatrix::from_columns(&curvatures);
+                let flat = DVector::from_column_slice(slope.as_slice());
+                let svd = bent.svd(true, true);
+                let sharp = svd.singular_values.min() > 1e-3;
+                if let (true, Ok(along)) = (sharp, svd.solve(&flat, 0.0)) {
+                    step -= free * along;
+                }
+            }
+            let length = step.amax();
+            if !length.is_finite() || length > REACH {
+                return x.to_vec();
+            }
+            at = self.moved(&at, &step);
+            if length < 1e-15 {
+                break;
+            }
+        }
+        at
+    }
+
+    /// How many solutions meet at an isolated solution, at least: 1 where the Jacobian is regular.
+    /// With one direction lost it is the order to which the equations vanish along it; with k lost
+    /// no fewer than 2ᵏ meet.
+    pub fn order(&mut self, x: &[C]) -> usize {
+        const STEP: f64 = 0.02;
+        let linear = self.linear(x);
+        let rank = linear.rank(SUSPECT);
+        let free = linear.null_space(rank);
+        let lost = self.freedom(&linear, SUSPECT);
+        match lost {
+            0 => 1,
+            1 => {
+                let direction = free.column(0).into_owned();
+                let mut gap = |length: f64| {
+                    let mut at = self.moved(x, &(&direction * length));
+                    for _ in 0..30 {
+                        let (residual, _) = self.evaluated(&at);
+                        let step = -linear.solve(&residual, rank);
+                        at = self.moved(&at, &step);
+                    }
+                    self.evaluated(&at).0.norm()
+                };
+                let order = (gap(STEP) / gap(0.5 * STEP)).log2().round();
+                match order.is_finite() && (2.0..=16.0).contains(&order) {
+                    true => order as usize,
+                    false => 2,
+                }
+            }
+            k => 1 << k.min(16),
+        }
+    }
+
+    /// The solution that Gauss–Newton steps reach from beside a point.
+    fn beside(&mut self, x: &[C], stream: u64, distance: f64) -> Option<Vec<C>> {
+        let columns = self.linear_columns(x);
+        let step = DVector::from_fn(columns, |i, _| distance * shake(stream, i));
+        let start = self.moved(x, &step);
+        self.settled(start)
+    }
+
+    /// Gauss–Newton steps of least length to a solution.
+    pub fn settled(&mut self, mut at: Vec<C>) -> Option<Vec<C>> {
+        const STEPS: usize = 80;
+        const LONGEST: f64 = 0.1;
+        const TOLERANCE: f64 = 2e-15;
+        let mut best: Option<(f64, Vec<C>)> = None;
+        let mut stale = 0;
+        for _ in 0..STEPS {
+            let linear = self.linear(&at);
+            // rounding beside the slopes and the size of the point
+            let steepest = linear.values.first().copied().unwrap_or(0.0).max(1.0);
+            let error = linear.residual.amax() / (steepest * (1.0 + size(&at)));
+            if !error.is_finite() {
+                return None;
+            }
+            if best.as_ref().is_none_or(|(least, _)| error < 0.9 * least) {
+                best = Some((error, at.clone()));
+                stale = 0;
+            } else {
+                stale += 1;
+            }
+            if error == 0.0 || stale > 8 || (stale > 2 && error < TOLERANCE) {
+                break;
+            }
+            let rank = linear.rank(crate::linear::RANK_TOLERANCE);
+            let mut step = -linear.solve(&linear.residual, rank);
+            let longest = step.amax();
+            if longest > LONGEST {
+                step *= LONGEST / longest;
+            }
+            at = self.moved(&at, &step);
+        }
+        let (error, at) = best?;
+        (error <= TOLERANCE).then_some(at)
+    }
+
+    /// Directions that are lost at a point; complex ones count once.
+    fn freedom(&self, linear: &Linear, tolerance: f64) -> usize {
+        let lost = linear.values.len() - linear.rank(tolerance);
+        match self.real {
+            true => lost,
+            false => lost.div_ceil(2),
+        }
+    }
+
+    fn gap(&self, x: &[C], y: &[C]) -> f64 {
+        self.way.family.coordinates.difference(x, y)
+    }
+
+    fn linear_columns(&self, _: &[C]) -> usize {
+        let unknowns = self.way.unknowns();
+        if self.real { unknowns } else { 2 * unknowns }
+    }
+
+    fn moved(&mut self, x: &[C], step: &DVector<f64>) -> Vec<C> {
+        let n = self.way.unknowns();
+        let part = |i: usize| match self.real {
+            true => C::from_f64(step[i]),
+            false => C::new(step[i], step[n + i]),
+        };
+        let step: Vec<C> = (0..n).map(part).collect();
+        self.way.moved(C::from_f64(END), x, &step)
+    }
+
+    fn step_between(&mut self, x: &[C], y: &[C]) -> DVector<f64> {
+        let step = self.way.step_between(C::from_f64(END), x, y);
+        let (n, columns) = (step.len(), self.linear_columns(x));
+        DVector::from_fn(
+            columns,
+            |i, _| if i < n { step[i].re } else { step[i - n].im },
+        )
+    }
+
+    /// Residual and Jacobian as real numbers.
+    fn evaluated(&mut self, x: &[C]) -> (DVector<f64>, DMatrix<f64>) {
+        let (r, j) = self.way.evaluated(C::from_f64(END), x);
+        let (m, n) = (r.len(), self.way.unknowns());
+        if self.real {
+            let residual = DVector::from_fn(m, |i, _| r[i].re);
+            return (residual, DMatrix::from_fn(m, n, |i, k| j[k * m + i].re));
+        }
+        let residual = DVector::from_fn(2 * m, |i, _| if i < m { r[i].re } else { r[i - m].im });
+        let jacobian = DMatrix::from_fn(2 * m, 2 * n, |i, k| {
+            let z = j[(k % n) * m + i % m];
+            match (i < m, k < n) {
+                (true, true) | (false, false) => z.re,
+                (true, false) => -z.im,
+                (false, true) => z.im,
+            }
+        });
+        (residual, jacobian)
+    }
+
+    fn linear(&mut self, x: &[C]) -> Linear {
+        let (residual, jacobian) = self.evaluated(x);
+        let (rows, columns) = jacobian.shape();
+        let finite = jacobian.iter().all(|x| x.is_finite());
+        let svd = match finite {
+            true => Svd::of(rows, columns, jacobian.as_slice()),
+            false => Svd::of(0, columns, &[]),
+        };
+        let matrix = |rows: usize, of: &[Vec<f64>]| {
+            DMatrix::from_fn(rows, of.len(), |i, j| of[j].get(i).copied().unwrap_or(0.0))
+        };
+        Linear {
+            left: matrix(rows, &svd.left),
+            values: svd.values,
+            right: matrix(columns, &svd.right),
+            residual: match finite {
+                true => residual,
+                false => DVector::from_element(rows, f64::NAN),
+            },
+            jacobian,
+        }
+    }
+}

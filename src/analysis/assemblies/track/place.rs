@@ -1,0 +1,164 @@
+//! The equations of the member at one place of a way.
+
+use crate::analysis::assemblies::family::{C, Family, Member};
+use crate::geometry::{Quaternion, Vector3};
+use crate::mechanism::{Configuration, PlatformPose};
+use crate::system::{System, Work};
+
+/// From one member straight to another: where it starts, and the difference.
+#[derive(Clone, Debug)]
+pub(crate) struct Course {
+    pub from: Member,
+    pub change: Member,
+    /// Whether dimensions change on the way; otherwise only inputs do.
+    pub resized: bool,
+}
+
+impl Course {
+    pub fn new(from: &Member, to: &Member) -> Self {
+        let difference = |a: &[C], b: &[C]| a.iter().zip(b).map(|(a, b)| b - a).collect::<Vec<C>>();
+        let change = Member {
+            parameters: difference(&from.parameters, &to.parameters),
+            inputs: difference(&from.inputs, &to.inputs),
+        };
+        Course {
+            resized: change.parameters.iter().any(|x| x.norm_sqr() > 0.0),
+            from: from.clone(),
+            change,
+        }
+    }
+
+    fn parameters(&self, s: C) -> Vec<C> {
+        let moved = self.from.parameters.iter().zip(&self.change.parameters);
+        moved.map(|(a, d)| a + d * s).collect()
+    }
+}
+
+/// A member's equations, with storage for evaluating them.
+#[derive(Clone, Debug)]
+pub(crate) struct Place {
+    pub system: System<C>,
+    pub work: Work<C>,
+    /// The configuration last evaluated.
+    pub at: Configuration<C>,
+    /// Whether all expressions have values here.
+    pub sound: bool,
+    inputs: Vec<C>,
+    s: Option<C>,
+}
+
+impl Place {
+    /// Where a course starts. `None` if an expression has no value there.
+    pub fn start(family: &Family, course: &Course) -> Option<Self> {
+        let system = family.system(&course.from.parameters)?;
+        let mut place = Place {
+            work: system.work(),
+            system,
+            at: family.home.map(|x| C::new(x, 0.0)),
+            sound: true,
+            inputs: course.from.inputs.clone(),
+            s: None,
+        };
+        place.go(family, course, C::new(0.0, 0.0));
+        Some(place)
+    }
+
+    /// On to another place of the course.
+    pub fn go(&mut self, family: &Family, course: &Course, s: C) {
+        if self.s == Some(s) {
+            return;
+        }
+        self.s = Some(s);
+        if course.resized {
+            let system = family.system(&course.parameters(s));
+            self.sound = system.is_some();
+            if let Some(system) = system {
+                self.system = system;
+                self.system.refit(&mut self.work);
+            }
+        }
+        let inputs = course.from.inputs.iter().zip(&course.change.inputs);
+        for (x, (a, d)) in self.inputs.iter_mut().zip(inputs) {
+            *x = a + d * s;
+        }
+        let c = &family.coordinates;
+        let (joints, rest) = self.inputs.split_at(c.held_joints.len());
+        for (&j, x) in c.held_joints.iter().zip(joints) {
+            self.at.joints[j] = *x;
+        }
+        let (poses, rest) = rest.split_at(7 * c.held_poses.len());
+        for (&p, x) in c.held_poses.iter().zip(poses.chunks_exact(7)) {
+            self.at.platforms[p] = PlatformPose {
+                orientation: Quaternion([x[0], x[1], x[2], x[3]]).normalised(),
+                position: Vector3([x[4], x[5], x[6]]),
+            };
+        }
+        let (targets, orientations) = rest.split_at(c.targets.len());
+        for (&(p, coordinate), x) in c.targets.iter().zip(targets) {
+            self.system.set_target(p, coordinate, *x);
+        }
+        for (&p, x) in c.orientations.iter().zip(orientations.chunks_exact(4)) {
+            let wanted = Quaternion([x[0], x[1], x[2], x[3]]).normalised();
+            self.system.set_orientation(p, wanted.rotation());
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::description::Description;
+    use crate::mechanism::Mechanism;
+    use crate::solve::Homotopy;
+    use crate::system::Question;
+    use rand::SeedableRng;
+
+    /// A way on which dimensions change gives the same wherever it was before, and factors last made
+    /// serve beside the place ahead that rates are taken from.
+    #[test]
+    fn a_place_that_was_left_and_come_back_to_is_the_same() {
+        let text = include_str!("../../../../mechanisms/three_rps.ron");
+        let mechanism = Mechanism::new(&Description::read(text).unwrap()).unwrap();
+        let family = Family::new(&mechanism, &Question::new(&mechanism).held());
+        let mut rng = rand_pcg::Pcg64::seed_from_u64(5);
+        let from = family.generic_member(&mut rng);
+        let to = Member {
+            parameters: family.random_parameters(&mut rng),
+            inputs: family.random_inputs(&mut rng, 1.0),
+        };
+        let x = family.random_point(&mut rng, 1.0);
+        let s = C::new(0.3, 0.1);
+        let mut fresh = family.way(&from, &to).unwrap();
+        let expected = fresh.evaluated(s, &x);
+        let (mut rate, mut again) = (x.clone(), x.clone());
+        assert!(fresh.velocity(s, &x, &mut rate));
+        let mut way = family.way(&from, &to).unwrap();
+        for elsewhere in [C::new(0.7, 0.0), C::new(1.0, -0.2)] {
+            assert!(way.velocity(elsewhere, &x, &mut again));
+            assert_ne!(again, rate);
+        }
+        assert_eq!(way.evaluated(s, &x), expected);
+        way.linearise(s, &x);
+        for _ in 0..2 {
+            assert!(way.velocity_again(s, &x, &mut again));
+            assert_eq!(again, rate);
+        }
+        // the rate is that of the residual: J dx/ds + ∂h/∂s = 0
+        const APART: f64 = 1e-5;
+        let moved = |length: f64| -> Vec<C> {
+            let pairs = x.iter().zip(&rate);
+            let mut y: Vec<C> = pairs.map(|(x, r)| x + r * length).collect();
+            family.coordinates.settle(&mut y);
+            y
+        };
+        let mut at = |length: f64| {
+            way.residual(s + length, &moved(length));
+            way.here.system.residual_of(&way.here.work).to_vec()
+        };
+        let (after, before) = (at(APART), at(-APART));
+        for (after, before) in after.iter().zip(&before) {
+            let slope = (after - before) / (2.0 * APART);
+            assert!(slope.norm() < 1e-4, "{slope}");
+        }
+    }
+}

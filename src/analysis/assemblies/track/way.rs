@@ -1,0 +1,332 @@
+//! The straight way between two members of a family.
+
+use super::place::{Course, Place};
+use crate::analysis::assemblies::family::{C, Family, Member};
+use crate::geometry::{Quaternion, Vector3};
+use crate::number::Number;
+use crate::solve::{Equations, Homotopy};
+
+impl Family {
+    /// The way from one member to another. `None` if an expression has no value at the start.
+    pub fn way(&self, from: &Member, to: &Member) -> Option<Way<'_>> {
+        let course = Course::new(from, to);
+        let here = Place::start(self, &course)?;
+        let rows = vec![C::from_f64(0.0); here.system.rows()];
+        Some(Way {
+            family: self,
+            rates: rows.clone(),
+            residual: rows,
+            here,
+            ahead: None,
+            course,
+        })
+    }
+}
+
+/// A straight way between two members, s from 0 to 1, with storage for following it.
+#[derive(Clone, Debug)]
+pub(crate) struct Way<'f> {
+    pub family: &'f Family,
+    /// Where the equations were last evaluated.
+    pub here: Place,
+    /// A little ahead of it, for the rate at which the residual changes on the way.
+    ahead: Option<Box<Place>>,
+    rates: Vec<C>,
+    residual: Vec<C>,
+    course: Course,
+}
+
+impl Way<'_> {
+    fn load(&mut self, s: C, x: &[C]) {
+        self.here.go(self.family, &self.course, s);
+        self.family.coordinates.unflatten(x, &mut self.here.at);
+    }
+
+    /// Evaluates and factorises at a point; returns the largest residual.
+    pub fn linearise(&mut self, s: C, x: &[C]) -> f64 {
+        self.load(s, x);
+        let size = self
+            .here
+            .system
+            .linearise(&self.here.at, &mut self.here.work);
+        self.here.system.factorise(0.0, &mut self.here.work);
+        size.largest
+    }
+
+    /// Quotient of the smallest and the largest pivot of the Jacobian at a point.
+    pub fn regularity(&mut self, s: C, x: &[C]) -> f64 {
+        self.load(s, x);
+        self.here
+            .system
+            .linearise(&self.here.at, &mut self.here.work);
+        let (largest, smallest) = self.here.system.pivots(&mut self.here.work);
+        if largest > 0.0 {
+            smallest / largest
+        } else {
+            0.0
+        }
+    }
+
+    /// How far it is: the largest change of an input, in rad or characteristic lengths.
+    pub fn length(&self) -> f64 {
+        self.measured(&self.course.change.inputs, |_| true)
+    }
+
+    /// The largest length held at the end, in characteristic lengths, and no less than 1.
+    pub fn reach(&self) -> f64 {
+        let inputs = self
+            .course
+            .from
+            .inputs
+            .iter()
+            .zip(&self.course.change.inputs);
+        let end: Vec<C> = inputs.map(|(a, d)| a + d).collect();
+        self.measured(&end, |length| length).max(1.0)
+    }
+
+    /// The largest of inputs, lengths or not, of those wanted.
+    fn measured(&self, inputs: &[C], wanted: impl Fn(bool) -> bool) -> f64 {
+        let unit = |length: &bool| {
+            if *length {
+                self.family.coordinates.length
+            } else {
+                1.0
+            }
+        };
+        let lengths = self.family.lengths_among_inputs();
+        let inputs = inputs.iter().zip(&lengths).filter(|(_, l)| wanted(**l));
+        (inputs.map(|(x, l)| (x / unit(l)).norm())).fold(0.0, f64::max)
+    }
+
+    /// Number of dimensionless steps that move a point.
+    pub fn unknowns(&self) -> usize {
+        self.here.system.unknowns().len()
+    }
+
+    /// Residual and dense Jacobian at a point, column-major.
+    pub fn evaluated(&mut self, s: C, x: &[C]) -> (Vec<C>, Vec<C>) {
+        self.load(s, x);
+        self.here
+            .system
+            .linearise(&self.here.at, &mut self.here.work);
+        let jacobian = self.here.system.dense_jacobian(&mut self.here.work);
+        (
+            self.here.system.residual_of(&self.here.work).to_vec(),
+            jacobian,
+        )
+    }
+
+    /// A point moved by dimensionless steps of the unknowns.
+    pub fn moved(&mut self, s: C, x: &[C], step: &[C]) -> Vec<C> {
+        self.load(s, x);
+        let moved = self.here.system.displaced(&self.here.at, step);
+        let mut moved = self.family.coordinates.flatten(&moved);
+        self.settle(&mut moved);
+        moved
+    }
+
+    /// The step that leads from one point to another.
+    pub fn step_between(&mut self, s: C, x: &[C], y: &[C]) -> Vec<C> {
+        self.load(s, x);
+        let from = self.here.at.clone();
+        self.load(s, y);
+        self.here.system.difference(&from, &self.here.at)
+    }
+
+    /// How far two points are apart as the closures see it at the first one: |J (y − x)|, each row
+    /// beside its slopes where these exceed 1. Two approximations of one solution differ by no more
+    /// than rounding there, however badly the solution is determined.
+    pub fn seen_apart(&mut self, s: C, x: &[C], y: &[C]) -> f64 {
+        let y = self.family.coordinates.beside(x, y);
+        let step = self.step_between(s, x, &y);
+        let (residual, jacobian) = self.evaluated(s, x);
+        let rows = residual.len();
+        let columns = || jacobian.chunks_exact(rows.max(1));
+        let seen = (0..rows).map(|r| {
+            let along: C = columns().zip(&step).map(|(column, d)| column[r] * d).sum();
+            let slopes: f64 = columns().map(|column| column[r].norm_sqr()).sum();
+            along.norm() / slopes.sqrt().max(1.0)
+        });
+        seen.fold(0.0, f64::max) / (1.0 + crate::analysis::assemblies::family::size(x))
+    }
+
+    /// A point moved by what an error in every closure of `noise`, beside its slopes and the size of
+    /// the point, does to a solution there. None if the closures leave an unknown undetermined.
+    pub fn jolted(&mut self, s: C, x: &[C], noise: f64, stream: usize) -> Option<Vec<C>> {
+        let (residual, jacobian) = self.evaluated(s, x);
+        let rows = residual.len();
+        let error: Vec<C> = (0..rows)
+            .map(|r| {
+                let slopes = jacobian
+                    .chunks_exact(rows)
+                    .map(|column| column[r].norm_sqr());
+                let size = slopes.sum::<f64>().sqrt().max(1.0)
+                    * (1.0 + crate::analysis::assemblies::family::size(x));
+                // directions without symmetry, the same in every run
+                C::from_polar(
+                    noise * size,
+                    1.0 + 2.3 * r as f64 + 1.7 * (stream * (r + 1)) as f64,
+                )
+            })
+            .collect();
+        self.linearise(s, x);
+        // what Newton's method takes for lost it does not bring back
+        if self.here.system.undetermined(&self.here.work) > 0 {
+            return None;
+        }
+        let longest = self.here.system.step_for(&error, &mut self.here.work);
+        let step = self.here.system.step_of(&self.here.work).to_vec();
+        longest.is_finite().then(|| self.moved(s, x, &step))
+    }
+
+    /// Quotient of the largest and the smallest singular value of the Jacobian at a point, if it is
+    /// not singular.
+    pub fn condition(&mut self, s: C, x: &[C]) -> Option<f64> {
+        let (residual, jacobian) = self.evaluated(s, x);
+        let columns = self.unknowns();
+        if columns == 0 {
+            return Some(1.0);
+        }
+        let matrix = nalgebra::DMatrix::from_vec(residual.len(), columns, jacobian);
+        let values = (residual.len() >= columns).then(|| matrix.singular_values())?;
+        (values.min() > 1e-12 * values.max()).then(|| values.max() / values.min())
+    }
+
+    /// How many directions are free at a point.
+    pub fn freedom(&mut self, s: C, x: &[C], tolerance: f64) -> usize {
+        self.load(s, x);
+        self.here
+            .system
+            .linearise(&self.here.at, &mut self.here.work);
+        self.here.system.nullity(tolerance, &mut self.here.work)
+    }
+
+    /// dx/ds = −J⁺ ∂h/∂s by the factors last made. The residual is analytic in s, so a difference
+    /// over 1e-7 is as good as a derivative for a prediction.
+    fn velocity_by_factors(&mut self, s: C, x: &[C], out: &mut [C]) -> bool {
+        self.load(s, x);
+        self.here
+            .system
+            .residual(&self.here.at, &mut self.here.work);
+        self.velocity_from_residual(s, x, out)
+    }
+
+    /// The same where the residual was evaluated last.
+    fn velocity_from_residual(&mut self, s: C, x: &[C], out: &mut [C]) -> bool {
+        const APART: f64 = 1e-7;
+        let here = &mut self.here;
+        (self.residual).copy_from_slice(here.system.residual_of(&here.work));
+        let ahead = self.ahead.get_or_insert_with(|| Box::new(here.clone()));
+        ahead.go(self.family, &self.course, s + APART);
+        self.family.coordinates.unflatten(x, &mut ahead.at);
+        ahead.system.residual(&ahead.at, &mut ahead.work);
+        let after = ahead.system.residual_of(&ahead.work);
+        for ((rate, after), before) in self.rates.iter_mut().zip(after).zip(&self.residual) {
+            *rate = (after - before) / APART;
+        }
+        let longest = here.system.step_for(&self.rates, &mut here.work);
+        if !longest.is_finite() || !ahead.sound {
+            return false;
+        }
+        let step = self.here.system.step_of(&self.here.work);
+        let joints = self.family.coordinates.free_joints.len();
+        out[..joints].copy_from_slice(&step[..joints]);
+        let poses = x[joints..]
+            .chunks_exact(7)
+            .zip(out[joints..].chunks_exact_mut(7));
+        for ((x, out), twist) in poses.zip(step[joints..].chunks_exact(6)) {
+            // q̇ = ½ ω q
+            let half = [0, 1, 2].map(|i| twist[i] * 0.5);
+            let omega = Quaternion([C::from_f64(0.0), half[0], half[1], half[2]]);
+            let rate = omega.then_left(&Quaternion([x[0], x[1], x[2], x[3]]));
+            out[..4].copy_from_slice(&rate.0);
+            out[4..].copy_from_slice(&twist[3..]);
+        }
+        true
+    }
+}
+
+impl Homotopy for Way<'_> {
+    fn settle(&self, x: &mut [C]) {
+        self.family.coordinates.settle(x);
+    }
+
+    fn velocity(&mut self, s: C, x: &[C], out: &mut [C]) -> bool {
+        self.linearise(s, x).is_finite()
+            && self.here.sound
+            && self.velocity_from_residual(s, x, out)
+    }
+
+    fn velocity_again(&mut self, s: C, x: &[C], out: &mut [C]) -> bool {
+        self.here.sound && self.velocity_by_factors(s, x, out)
+    }
+
+    fn correct(&mut self, s: C, x: &mut [C]) -> f64 {
+        // an angle so far out that its sine has no number gives no pivots, and steps of zero
+        if !self.linearise(s, x).is_finite() {
+            return f64::NAN;
+        }
+        let longest = self.here.system.step(&mut self.here.work);
+        if !longest.is_finite() || !self.here.sound {
+            return f64::NAN;
+        }
+        let step = self.here.system.step_of(&self.here.work);
+        let joints = self.family.coordinates.free_joints.len();
+        // in squares: roots are taken once
+        let mut largest = 0.0f64;
+        for (x, step) in x[..joints].iter_mut().zip(step) {
+            *x += *step;
+            largest = largest.max(step.norm_sqr());
+        }
+        for (x, twist) in x[joints..]
+            .chunks_exact_mut(7)
+            .zip(step[joints..].chunks_exact(6))
+        {
+            let q = Quaternion([x[0], x[1], x[2], x[3]]);
+            let turned = q.turned_by(&Vector3([twist[0], twist[1], twist[2]]));
+            let (mut moved, mut size) = (0.0f64, 1.0f64);
+            for (x, to) in x[..4].iter_mut().zip(turned.0) {
+                moved = moved.max(4.0 * (to - *x).norm_sqr());
+                size = size.max(to.norm_sqr());
+                *x = to;
+            }
+            // complex rotations and positions have no bound: on the way to infinity only what a
+            // step is beside them counts
+            largest = largest.max(moved / size);
+            let (mut moved, mut size) = (0.0f64, 1.0f64);
+            for (x, shift) in x[4..].iter_mut().zip(&twist[3..]) {
+                *x += *shift;
+                moved = moved.max(shift.norm_sqr());
+                size = size.max(x.norm_sqr());
+            }
+            largest = largest.max(moved / size);
+        }
+        largest.sqrt()
+    }
+
+    fn residual(&mut self, s: C, x: &[C]) -> f64 {
+        self.load(s, x);
+        self.here
+            .system
+            .residual(&self.here.at, &mut self.here.work)
+            .largest
+    }
+}
+
+impl crate::solve::Turning for Way<'_> {
+    fn apart(&self, x: &[C], y: &[C]) -> (f64, bool) {
+        let c = &self.family.coordinates;
+        let mut turned = false;
+        let mut largest = 0.0f64;
+        for (k, (x, y)) in x.iter().zip(y).enumerate() {
+            let mut gap = x - y;
+            if c.free_joints.get(k).is_some_and(|&j| c.periodic[j]) {
+                let turns = (gap.re / std::f64::consts::TAU).round();
+                turned |= turns != 0.0;
+                gap.re -= std::f64::consts::TAU * turns;
+            }
+            largest = largest.max(gap.norm());
+        }
+        (largest, turned)
+    }
+}

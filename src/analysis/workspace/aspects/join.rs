@@ -1,0 +1,139 @@
+//! Aspects of few nodes: whether they hang together with others where the grid is too coarse to tell.
+
+use std::collections::BTreeMap;
+
+use super::aspects;
+use crate::analysis::workspace::flood::{Fill, Filled, Spread, Steps, join, root, signs};
+use crate::analysis::workspace::problem::Grid;
+use crate::linear::Factorable;
+use crate::number::Packed;
+use crate::solve::{Pool, Watch, each};
+use crate::system::Driven;
+
+/// Aspects of fewer nodes are looked at again.
+const FEW: usize = 10;
+/// How many are at most.
+const MOST: usize = 500;
+/// Sheets of a finer grid at most.
+const MOST_SHEETS: usize = 50_000;
+
+/// Parts of a cell of the finer grids, by the number of mapped coordinates.
+pub(crate) fn parts(dimensions: usize) -> usize {
+    if dimensions < 3 { 8 } else { 4 }
+}
+
+/// For each sheet the first of its aspect, aspects of few nodes joined with those that a finer grid
+/// around them leads to; and pairs of sheets so joined.
+pub(crate) fn joined<T: Factorable + Packed + Send + Sync>(
+    fill: &Fill,
+    steps: &Pool<Steps<T>>,
+    filled: &Filled,
+    watch: &Watch,
+) -> (Vec<Option<usize>>, Vec<[usize; 2]>) {
+    let found = aspects(filled);
+    let mut roots: Vec<usize> = (0..found.len()).collect();
+    let mut counts = vec![0; found.len()];
+    for first in found.iter().flatten() {
+        counts[*first] += 1;
+    }
+    let few = |first: &usize| (1..FEW).contains(&counts[*first]);
+    let few: Vec<usize> = (0..found.len()).filter(few).take(MOST).collect();
+    if few.is_empty() {
+        return (found, Vec::new());
+    }
+    let mut sheets: BTreeMap<usize, Vec<usize>> = few.iter().map(|f| (*f, Vec::new())).collect();
+    for (s, aspect) in found.iter().enumerate() {
+        if let Some(first) = aspect.filter(|first| counts[*first] < FEW)
+            && let Some(sheets) = sheets.get_mut(&first)
+        {
+            sheets.push(s);
+        }
+    }
+    let few: Vec<Vec<usize>> = sheets.into_values().collect();
+    let others = each(few.len(), &(), |(), i| match watch.is_stopped() {
+        true => Vec::new(),
+        false => reached(fill, steps, filled, &few[i]),
+    });
+    let mut pairs = Vec::new();
+    for (small, others) in few.iter().zip(others) {
+        for aspect in others.into_iter().filter_map(|other| found[other]) {
+            join(&mut roots, small[0], aspect);
+            pairs.push([small[0], aspect]);
+        }
+    }
+    let all = found.into_iter();
+    let all = all.map(|aspect| aspect.map(|first| root(&mut roots, first)));
+    (all.collect(), pairs)
+}
+
+/// The sheets at nodes that a finer grid around an aspect leads to within it.
+fn reached<T: Factorable + Packed + Send + Sync>(
+    fill: &Fill,
+    steps: &Pool<Steps<T>>,
+    filled: &Filled,
+    aspect: &[usize],
+) -> Vec<usize> {
+    let grid = fill.grid;
+    let dimensions = grid.dimensions();
+    let parts = parts(dimensions);
+    let margin = if dimensions < 3 { 2 } else { 1 };
+    let sides: Vec<(usize, usize)> = (0..dimensions)
+        .map(|axis| {
+            let places = aspect
+                .iter()
+                .map(|s| grid.place(filled.sheet(*s).node, axis));
+            let (low, high) = places.fold((usize::MAX, 0), |(a, b), p| (a.min(p), b.max(p)));
+            (
+                low.saturating_sub(margin),
+                (high + margin).min(grid.count(axis) - 1),
+            )
+        })
+        .collect();
+    let axes = fill.asked.axes.iter().zip(&sides).enumerate();
+    let axes = axes.map(|(i, (axis, &(low, high)))| Driven {
+        coordinate: axis.coordinate,
+        from: grid.coordinate(i, low),
+        to: grid.coordinate(i, high),
+    });
+    let counts = sides.iter().map(|(low, high)| (high - low) * parts + 1);
+    let fine = Grid::new(
+        &axes.collect::<Vec<Driven>>(),
+        &counts.collect::<Vec<usize>>(),
+    );
+    let finer = Fill {
+        grid: &fine,
+        most: MOST_SHEETS,
+        // what lies beyond other signs is of other aspects
+        only: signs(filled.sheet(aspect[0])),
+        ..*fill
+    };
+    // a node of the grid among those of the finer one
+    let same = |node: usize| {
+        let (mut there, mut stride) = (0, 1);
+        for (axis, (low, _)) in sides.iter().enumerate() {
+            there += (grid.place(node, axis) - low) * parts * stride;
+            stride *= fine.count(axis);
+        }
+        there
+    };
+    let seeds: Vec<_> = (aspect.iter())
+        .map(|s| (same(filled.node(*s)), filled.configuration(*s).owned()))
+        .collect();
+    let mut found = Spread::new(&fine);
+    if (finer.spread(&mut found, steps, &seeds, &Watch::none())).is_err() {
+        return Vec::new();
+    }
+    let found = found.filled(&fine);
+    let parts_of = aspects(&found);
+    let own: Vec<usize> = (seeds.iter())
+        .filter_map(|(node, at)| parts_of[found.known(fill.measure, *node, at.view())?])
+        .collect();
+    let mut matching = Vec::new();
+    for node in grid.nodes_within(&sides) {
+        let there = found.at(same(node));
+        let inside = there.filter(|t| parts_of[*t].is_some_and(|aspect| own.contains(&aspect)));
+        let at = inside.map(|t| found.configuration(t));
+        matching.extend(at.filter_map(|at| filled.known(fill.measure, node, at)));
+    }
+    matching
+}

@@ -1,0 +1,99 @@
+//! What a boundary is: its kinds, the points found on edges of the grid, and curves.
+
+use serde::{Deserialize, Serialize};
+
+use crate::analysis::workspace::problem::Asked;
+use crate::mechanism::Configuration;
+use crate::system::{Holdable, LocusEnd};
+
+/// What a boundary is.
+#[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum BoundaryKind {
+    /// An inverse singularity (type 1 of Gosselin and Angeles): modes of the inverse problem meet.
+    Inverse,
+    /// A direct singularity (type 2): assemblies meet.
+    Direct,
+    /// Solutions meet that are neither, as both joints and coordinates of platforms are held.
+    Fold,
+    /// A joint is at its limit.
+    Limit {
+        /// Its name.
+        joint: String,
+        /// Whether it is the upper one.
+        upper: bool,
+    },
+}
+
+/// A boundary point on an edge of the grid, located to rounding.
+#[derive(Clone, Debug)]
+pub(crate) struct Crossing {
+    pub sheet: usize,
+    pub direction: usize,
+    pub kind: Kind,
+    pub at: Configuration<f64>,
+    /// The part of the way from the sheet to its neighbour.
+    pub part: f64,
+    /// Whether the same point was met on another edge, at a node that they share.
+    pub again: bool,
+}
+
+/// A kind by numbers.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub(crate) enum Kind {
+    Fold,
+    Direct,
+    Inverse,
+    Limit(usize, bool),
+}
+
+impl Kind {
+    /// Whether modes end there, or only aspects are parted.
+    pub fn ends_reach(self) -> bool {
+        matches!(self, Kind::Fold | Kind::Limit(..))
+    }
+}
+
+/// A boundary curve.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct BoundaryCurve {
+    /// What it is.
+    pub kind: BoundaryKind,
+    /// Whether modes end there, or only aspects are parted.
+    pub ends_reach: bool,
+    /// The third mapped coordinate, rad or m, if there is one.
+    pub slice: Option<f64>,
+    /// How its first and its last point end it.
+    pub ends: [LocusEnd; 2],
+    /// Points: the first two mapped coordinates, rad or m.
+    pub points: Vec<[f64; 2]>,
+    /// The joints at its points, rad or m, in the order of the file.
+    pub joints: Vec<Vec<f64>>,
+    /// Which of its pieces bound which mode.
+    pub pieces: Vec<Piece>,
+}
+
+/// A piece of a curve on the boundary of a mode.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Piece {
+    /// The mode.
+    pub mode: usize,
+    /// Its points: the first two mapped coordinates, rad or m.
+    pub points: Vec<[f64; 2]>,
+}
+
+/// A kind by name.
+pub(crate) fn named(asked: &Asked, kind: Kind) -> BoundaryKind {
+    let of_platforms = asked.held.iter().all(|h| !matches!(h, Holdable::Joint(_)));
+    match kind {
+        Kind::Direct => BoundaryKind::Direct,
+        Kind::Inverse => BoundaryKind::Inverse,
+        Kind::Fold if of_platforms => BoundaryKind::Inverse,
+        Kind::Fold if asked.holds(&asked.inputs) => BoundaryKind::Direct,
+        Kind::Fold => BoundaryKind::Fold,
+        Kind::Limit(joint, upper) => BoundaryKind::Limit {
+            joint: asked.mechanism.joints()[joint].name.clone(),
+            upper,
+        },
+    }
+}

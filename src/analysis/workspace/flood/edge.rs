@@ -1,0 +1,192 @@
+//! The way from a node to its neighbour, in steps that cannot change branch unnoticed.
+
+use super::measure::Measure;
+use crate::analysis::workspace::problem::Asked;
+use crate::linear::Decomposition;
+use crate::mechanism::Configuration;
+use crate::solve::{Continuation, Place};
+use crate::system::{Curve, Driven, Event, Holdable, Lock, Locked, Monitor, Walk};
+
+/// What is met on the way.
+#[derive(Clone, Debug)]
+pub(crate) enum Met {
+    /// The neighbour.
+    Neighbour(Configuration<f64>),
+    /// The mapped coordinate turns back: the mode ends.
+    Fold(Configuration<f64>, f64),
+    /// A joint is at a limit, the upper one or not.
+    Limit(Configuration<f64>, f64, usize, bool),
+    /// A matrix loses rank.
+    Singular(Configuration<f64>, f64),
+    /// Nothing for sure: branches cross, or no step is short enough.
+    Nothing,
+}
+
+/// An edge of the grid.
+#[derive(Clone, Debug)]
+pub(crate) struct Edge {
+    pub axis: usize,
+    /// The mapped coordinates at its beginning.
+    pub values: Vec<f64>,
+    /// The mapped coordinate at its end.
+    pub to: f64,
+}
+
+impl Edge {
+    fn moved(&self, asked: &Asked) -> Driven {
+        Driven {
+            coordinate: asked.axes[self.axis].coordinate,
+            from: self.values[self.axis],
+            to: self.to,
+        }
+    }
+}
+
+/// What ends a way besides its end and folds.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) enum Until<'l> {
+    End,
+    Limit,
+    /// The matrix of these locks loses rank.
+    Singular(&'l [Lock]),
+}
+
+/// A curve along an edge with the place where it begins, towards the end.
+fn begun(
+    asked: &Asked,
+    measure: &Measure,
+    edge: &Edge,
+    from: &Configuration<f64>,
+    method: &Continuation,
+    within: bool,
+) -> Result<(Curve, Place<Configuration<f64>>), Met> {
+    let moved = edge.moved(asked);
+    let held = asked.at(&edge.values).without(moved.coordinate).held();
+    let mut curve = Curve::along(asked.mechanism, &held, vec![moved]);
+    let mut start = asked.put(from, &edge.values);
+    if within {
+        asked.mechanism.turn_to_limits(&mut start.joints);
+    }
+    let Ok(place) = method.settle(&mut curve, start) else {
+        return Err(Met::Nothing);
+    };
+    if place.is_beside_a_crossing() || !measure.same(place.at.view(), from.view()) {
+        return Err(Met::Nothing);
+    }
+    let rate = curve.part_rate(&place.at, &place.tangent);
+    if rate.abs() < 1e-9 {
+        return Err(Met::Fold(place.at, 0.0));
+    }
+    let place = if rate < 0.0 { place.reversed() } else { place };
+    Ok((curve, place))
+}
+
+/// Whether the neighbour is reached or the mode folds back before it, which is not located.
+pub(crate) fn reach(
+    asked: &Asked,
+    measure: &Measure,
+    edge: &Edge,
+    from: &Configuration<f64>,
+) -> Met {
+    const STEPS: usize = 200;
+    /// A fold at less than this part of the way, as its parabola has it, is before the end.
+    const SURELY: f64 = 0.7;
+    /// Shorter steps are only needed where branches cross.
+    const SHORTEST: f64 = 1e-6;
+    let method = Continuation::default();
+    let (mut curve, mut place) = match begun(asked, measure, edge, from, &method, false) {
+        Ok(begun) => begun,
+        Err(met) => return met,
+    };
+    let ahead = |curve: &Curve, place: &Place<Configuration<f64>>| {
+        let rate = curve.part_rate(&place.at, &place.tangent);
+        (curve.part(&place.at), rate)
+    };
+    let (mut part, mut rate) = ahead(&curve, &place);
+    let mut length = (0.4 * (1.0 - part) / rate).min(method.longest);
+    for _ in 0..STEPS {
+        if length < SHORTEST {
+            return Met::Nothing;
+        }
+        let Ok((to, changed)) = method.step(&mut curve, &place, length) else {
+            length *= 0.5;
+            continue;
+        };
+        let (next, next_rate) = ahead(&curve, &to);
+        if next_rate <= 0.0 {
+            let top = part + 0.5 * rate * length * rate / (rate - next_rate);
+            return match top < SURELY {
+                true => Met::Fold(to.at, top),
+                false => walk(asked, measure, edge, from, Until::End),
+            };
+        }
+        if next >= 1.0 {
+            let mut left =
+                |curve: &mut Curve, p: &Place<Configuration<f64>>| curve.part(&p.at) - 1.0;
+            let end = method.root(&mut curve, &place, &to, &mut left);
+            return Met::Neighbour(end.at);
+        }
+        (place, part, rate) = (to, next, next_rate);
+        length = method
+            .next_length(length, changed)
+            .min(1.2 * (1.0 - part) / rate);
+        length = length.max(2.0 * SHORTEST);
+    }
+    Met::Nothing
+}
+
+/// What is met first on an edge, located to rounding.
+pub(crate) fn walk(
+    asked: &Asked,
+    measure: &Measure,
+    edge: &Edge,
+    from: &Configuration<f64>,
+    until: Until,
+) -> Met {
+    const LEGS: usize = 500;
+    let mechanism = asked.mechanism;
+    let moved = edge.moved(asked);
+    let method = Continuation::default();
+    let within = until == Until::Limit;
+    let (mut curve, place) = match begun(asked, measure, edge, from, &method, within) {
+        Ok(begun) => begun,
+        Err(met) => return met,
+    };
+    let monitors: Vec<Monitor> = match until {
+        Until::Singular(locks) => {
+            let mut locked = Locked::new(mechanism, locks);
+            let near: Decomposition = locked.decomposition(&place.at);
+            let sign = move |_: &mut Curve, place: &Place<Configuration<f64>>| {
+                locked.orientation(&near, &place.at)
+            };
+            vec![Box::new(sign)]
+        }
+        _ => Vec::new(),
+    };
+    let mut walk = Walk::new(mechanism, &curve, place, method).watching(monitors);
+    for _ in 0..LEGS {
+        let Ok(leg) = walk.advance(&mut curve) else {
+            return Met::Nothing;
+        };
+        for (place, event) in leg.events {
+            let part = curve.part(&place.at).clamp(0.0, 1.0);
+            match event {
+                Event::End(true) => {
+                    let mut at = place.at;
+                    if let Holdable::Joint(joint) = moved.coordinate {
+                        at.joints[joint] = moved.to;
+                    }
+                    return Met::Neighbour(at);
+                }
+                Event::Fold => return Met::Fold(place.at, part),
+                Event::Limit { joint, upper, .. } if until == Until::Limit => {
+                    return Met::Limit(place.at, part, joint, upper);
+                }
+                Event::Root(_) => return Met::Singular(place.at, part),
+                Event::End(false) | Event::Branches(_) => return Met::Nothing,
+                _ => {}
+            }
+        }
+    }
+    Met::Nothing
+}

@@ -1,0 +1,236 @@
+//! Spreading over the grid from seeds: every node in every mode that regular steps lead to.
+
+use rustc_hash::FxHashSet;
+
+use super::super::WorkspaceError;
+use super::arrivals::{Arrival, Arrivals, Moving};
+use super::edge::{Edge, Met, reach};
+use super::filled::{Link, Name};
+use super::neighbour::{Fill, JOB, Step, in_packs};
+use super::pace::Paced;
+use super::spread::Spread;
+use super::step::{Start, Steps};
+use super::tile::{Task, Tile};
+use crate::linear::Factorable;
+use crate::mechanism::Configuration;
+use crate::number::Packed;
+use crate::solve::{Pool, Stage, Watch, each};
+
+/// Parts of the grid that are spread over before more is told.
+const PARTS: usize = 64;
+
+impl Fill<'_> {
+    /// Spreads from assembled configurations at nodes: in all parts of the grid at once as far as
+    /// single steps lead, then over their seams; last, where single steps are too long. The order of
+    /// work does not depend on the number of threads: parts are what they are, and what comes of
+    /// several at once is taken in their order.
+    ///
+    /// # Errors
+    /// If more is reached than may be kept.
+    pub fn spread<T: Factorable + Packed + Send + Sync>(
+        &self,
+        spread: &mut Spread,
+        steps: &Pool<Steps<T>>,
+        seeds: &[(usize, Configuration<f64>)],
+        watch: &Watch,
+    ) -> Result<(), WorkspaceError> {
+        let starts: Vec<Start> = (seeds.iter())
+            .map(|(node, at)| self.here(*node, at))
+            .collect();
+        let settled = self.settled(steps, &starts);
+        let settled = settled.iter().flat_map(Arrivals::iter);
+        for ((node, _), arrival) in seeds.iter().zip(settled) {
+            if let Some(arrival) = arrival
+                && spread.known(self, *node, arrival.at).is_none()
+            {
+                spread.add(self, *node, arrival);
+            }
+        }
+        loop {
+            self.grow(spread, steps, watch)?;
+            if watch.is_stopped() {
+                return Ok(());
+            }
+            let mut seams = spread.taken(|tile| &mut tile.seams);
+            let mut failed = Vec::new();
+            while !seams.is_empty() && !watch.stops(Stage::Reached, spread.len(), None) {
+                let (now, later) = self.chosen(spread, seams);
+                let arrivals = self.steps(spread, steps, &now);
+                let arrivals = arrivals.iter().flat_map(Arrivals::iter);
+                for (task, arrival) in now.iter().zip(arrivals) {
+                    match arrival {
+                        Some(arrival) => self.arrive(spread, *task, arrival),
+                        None => failed.push(*task),
+                    }
+                }
+                seams = later;
+            }
+            spread.keep(failed);
+            if watch.is_stopped() {
+                return Ok(());
+            }
+            if spread.tiles.iter().any(Tile::grows) {
+                continue;
+            }
+            let unsure = spread.taken(|tile| &mut tile.unsure);
+            let (now, later) = self.chosen(spread, unsure);
+            if now.is_empty() || watch.stops(Stage::Reached, spread.len(), None) {
+                return Ok(());
+            }
+            spread.keep(later);
+            for (task, end) in now.iter().zip(self.ends(spread, steps, &now, watch)) {
+                match end {
+                    End::Arrived(arrival) => self.arrive(spread, *task, arrival.moving()),
+                    End::Fold => *spread.link_mut(task.0, task.1) = Link::Fold,
+                    End::Stuck => *spread.link_mut(task.0, task.1) = Link::Stuck,
+                }
+            }
+        }
+    }
+
+    /// Spreads in each part by itself.
+    fn grow<T: Factorable + Packed + Send + Sync>(
+        &self,
+        spread: &mut Spread,
+        steps: &Pool<Steps<T>>,
+        watch: &Watch,
+    ) -> Result<(), WorkspaceError> {
+        for first in (0..spread.tiles.len()).step_by(PARTS) {
+            if watch.stops(Stage::Reached, spread.len(), None) {
+                break;
+            }
+            let here = spread.tiles[first..].iter_mut().take(PARTS);
+            let growing: Vec<&mut Tile> = here.filter(|tile| tile.grows()).collect();
+            if growing.is_empty() {
+                continue;
+            }
+            steps.each_of(growing, |steps, tile| tile.grow(self, steps));
+            let reached = spread.len();
+            if reached > self.most {
+                return Err(WorkspaceError::TooMany { most: self.most });
+            }
+        }
+        Ok(())
+    }
+
+    /// Of steps over seams, or that were not sure, first those that lead to known sheets are linked;
+    /// then one step is chosen to each node from each mode known so far. The others wait for what it
+    /// finds.
+    fn chosen(&self, spread: &mut Spread, tasks: Vec<Task>) -> (Vec<Task>, Vec<Task>) {
+        let jobs: Vec<&[Task]> = tasks.chunks(8 * JOB).collect();
+        let found = each(jobs.len(), &Vec::new(), |storage, i| {
+            let near = jobs[i].iter().map(|&(from, d)| {
+                let node = self.grid.neighbour(spread.sheet(from).node, d)?;
+                let tile = &spread.tiles[spread.tiling.of(self.grid, node)];
+                let there = tile.moving_at(self.grid, node);
+                self.near(&spread.step(self, (from, d)), there, storage)
+            });
+            near.collect::<Vec<Option<Name>>>()
+        });
+        let mut left = Vec::new();
+        for (&(from, d), found) in tasks.iter().zip(found.into_iter().flatten()) {
+            match found {
+                _ if spread.sheet(from).links[d] != Link::Open => {}
+                Some(to) => spread.link(from, d, to),
+                None => left.push((from, d)),
+            }
+        }
+        let mut taken = FxHashSet::with_capacity_and_hasher(left.len(), Default::default());
+        left.into_iter().partition(|&(from, d)| {
+            let node = self.grid.neighbour(spread.sheet(from).node, d);
+            let root = spread.tiles[from.tile as usize].root(from.sheet as usize);
+            taken.insert((node, root))
+        })
+    }
+
+    /// Single steps, where they are sure.
+    fn steps<T: Factorable + Packed + Send + Sync>(
+        &self,
+        spread: &Spread,
+        steps: &Pool<Steps<T>>,
+        tasks: &[Task],
+    ) -> Vec<Arrivals> {
+        in_packs(steps, tasks, |steps, pack| {
+            let planned = pack.iter().map(|task| spread.step(self, *task));
+            let (mut arrivals, mut storage) = Default::default();
+            self.sure(
+                steps,
+                &planned.collect::<Vec<Step>>(),
+                &mut arrivals,
+                &mut storage,
+            );
+            arrivals
+        })
+    }
+
+    /// Where single steps are too long: by shorter ones, and what is left by steps along the curve,
+    /// each of which takes as long as hundreds of those.
+    fn ends<T: Factorable + Packed + Send + Sync>(
+        &self,
+        spread: &Spread,
+        steps: &Pool<Steps<T>>,
+        tasks: &[Task],
+        watch: &Watch,
+    ) -> Vec<End> {
+        let paced = self.paced(steps, spread, tasks).into_iter();
+        let mut ends: Vec<End> = paced
+            .map(|paced| match paced {
+                Paced::Arrived(arrival) => End::Arrived(arrival),
+                Paced::Fold => End::Fold,
+                Paced::Open => End::Stuck,
+            })
+            .collect();
+        let open = tasks.iter().zip(&ends);
+        let open = open.filter(|(_, end)| matches!(end, End::Stuck));
+        let unsure: Vec<Task> = open.map(|(task, _)| *task).collect();
+        let met = each(unsure.len(), &(), |(), i| {
+            if watch.stops(Stage::Reached, spread.len(), None) {
+                return Met::Nothing;
+            }
+            let step = spread.step(self, unsure[i]);
+            let edge = Edge {
+                axis: step.axis,
+                values: self.grid.values(spread.sheet(unsure[i].0).node),
+                to: step.to[step.axis],
+            };
+            reach(self.asked, self.measure, &edge, &step.from.at.owned())
+        });
+        let again: Vec<Start> = (unsure.iter().zip(&met))
+            .filter_map(|(&(from, d), met)| match met {
+                Met::Neighbour(at) => {
+                    let node = spread.sheet(from).node;
+                    Some(self.here(self.grid.neighbour(node, d).unwrap_or(node), at))
+                }
+                _ => None,
+            })
+            .collect();
+        let again = self.settled(steps, &again);
+        let mut again = again.iter().flat_map(Arrivals::iter);
+        let found = met.iter().map(|met| match met {
+            Met::Neighbour(_) => match again.next().flatten() {
+                Some(arrival) => End::Arrived(arrival.arrival()),
+                None => End::Stuck,
+            },
+            Met::Fold(..) => End::Fold,
+            _ => End::Stuck,
+        });
+        let stuck = ends.iter_mut().filter(|end| matches!(end, End::Stuck));
+        stuck.zip(found).for_each(|(end, found)| *end = found);
+        ends
+    }
+
+    fn arrive(&self, spread: &mut Spread, (from, d): Task, arrival: Moving) {
+        let Some(node) = self.grid.neighbour(spread.sheet(from).node, d) else {
+            return;
+        };
+        let known = spread.known(self, node, arrival.at);
+        let to = known.unwrap_or_else(|| spread.add(self, node, arrival));
+        spread.link(from, d, to);
+    }
+}
+
+enum End {
+    Arrived(Arrival),
+    Fold,
+    Stuck,
+}

@@ -1,0 +1,384 @@
+//! What was reached, in the order of its nodes.
+
+use std::ops::Range;
+
+use super::configurations::Configurations;
+use super::measure::Measure;
+use crate::analysis::workspace::problem::{MOST_DIRECTIONS, Told};
+use crate::mechanism::ConfigurationRef;
+use crate::solve::each;
+
+/// An assembled configuration at a node.
+#[derive(Clone, Debug)]
+pub(crate) struct Sheet {
+    pub node: usize,
+    pub told: Told,
+    /// Whether all joints are within their limits.
+    pub within: bool,
+    /// For each direction of the grid.
+    pub links: [Link; MOST_DIRECTIONS],
+}
+
+/// Sheets of one part of the grid.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Sheets {
+    pub all: Vec<Sheet>,
+    at: Configurations,
+}
+
+/// Which sheet of which part of the grid.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub(crate) struct Name {
+    pub tile: u32,
+    pub sheet: u32,
+}
+
+/// How a node goes on in a direction.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) enum Link {
+    /// Not looked at, or out of the box.
+    Open,
+    /// To this sheet there, by regular motion.
+    To(Name),
+    /// The mode folds back before the neighbour.
+    Fold,
+    /// No sure step leads on.
+    Stuck,
+}
+
+/// All that was reached, numbered in the order of the nodes.
+pub(crate) struct Filled {
+    tiles: Vec<Sheets>,
+    names: Vec<Name>,
+    /// The numbers by name.
+    numbers: Vec<Vec<usize>>,
+    /// For each node its first sheet, and their number at the end.
+    firsts: Vec<usize>,
+    nodes: Vec<usize>,
+    within: Vec<bool>,
+    /// For each sheet one of those connected with it, the same for all of them.
+    pub roots: Vec<usize>,
+    bands: Vec<Band>,
+}
+
+/// Parts of the grid whose nodes follow one another, and so do the numbers of their sheets.
+#[derive(Clone, Debug)]
+pub(crate) struct Band {
+    tiles: Range<usize>,
+    pub numbers: Range<usize>,
+}
+
+/// What is numbered of a band, from zero.
+struct Numbered {
+    /// For each node how many sheets it has.
+    counts: Vec<usize>,
+    names: Vec<Name>,
+    nodes: Vec<usize>,
+    within: Vec<bool>,
+    roots: Vec<usize>,
+    numbers: Vec<Vec<usize>>,
+}
+
+impl Filled {
+    /// The sheets of each part of the grid, and for each of them the first of those connected with it
+    /// in that part; what else is connected; and for each band how many parts and nodes it has.
+    pub fn new(
+        tiles: Vec<(Sheets, Vec<usize>)>,
+        seams: &[[Name; 2]],
+        bands: &[(usize, usize)],
+    ) -> Self {
+        let mut starts = vec![(0, 0)];
+        for (tiles, nodes) in bands {
+            let (tile, node) = starts[starts.len() - 1];
+            starts.push((tile + tiles, node + nodes));
+        }
+        let numbered = each(bands.len(), &(), |(), band| {
+            let ((first, node), (end, beyond)) = (starts[band], starts[band + 1]);
+            Numbered::of(first, &tiles[first..end], node..beyond)
+        });
+        let mut filled = Filled {
+            tiles: tiles.into_iter().map(|(sheets, _)| sheets).collect(),
+            names: Vec::new(),
+            numbers: Vec::new(),
+            firsts: Vec::new(),
+            nodes: Vec::new(),
+            within: Vec::new(),
+            roots: Vec::new(),
+            bands: Vec::new(),
+        };
+        for (band, own) in numbered.into_iter().enumerate() {
+            let before = filled.names.len();
+            let mut first = before;
+            filled.firsts.extend(own.counts.iter().map(|count| {
+                first += count;
+                first - count
+            }));
+            filled.names.extend(own.names);
+            filled.nodes.extend(own.nodes);
+            filled.within.extend(own.within);
+            filled
+                .roots
+                .extend(own.roots.iter().map(|root| before + root));
+            filled.bands.push(Band {
+                tiles: starts[band].0..starts[band + 1].0,
+                numbers: before..filled.names.len(),
+            });
+            let numbers = own.numbers.into_iter().map(|mut numbers| {
+                numbers.iter_mut().for_each(|number| *number += before);
+                numbers
+            });
+            filled.numbers.extend(numbers);
+        }
+        filled.firsts.push(filled.names.len());
+        let seams = seams.iter();
+        let seams: Vec<[usize; 2]> = seams.map(|ends| ends.map(|s| filled.number(s))).collect();
+        filled.connect(seams.into_iter());
+        filled
+    }
+
+    /// All bands in their order.
+    pub fn bands(&self) -> &[Band] {
+        &self.bands
+    }
+
+    /// The sheets of a band with their numbers, in the order in which they are kept.
+    pub fn kept(
+        &self,
+        band: &Band,
+    ) -> impl Iterator<Item = (usize, &Sheet, ConfigurationRef<'_, f64>)> {
+        band.tiles.clone().flat_map(|tile| {
+            let (sheets, numbers) = (&self.tiles[tile], &self.numbers[tile]);
+            let all = numbers.iter().zip(&sheets.all).enumerate();
+            all.map(|(i, (number, sheet))| (*number, sheet, sheets.at(i)))
+        })
+    }
+
+    /// Takes sheets to be connected.
+    pub fn connect(&mut self, pairs: impl Iterator<Item = [usize; 2]>) {
+        pairs.for_each(|[a, b]| join(&mut self.roots, a, b));
+        for s in 0..self.roots.len() {
+            self.roots[s] = root(&mut self.roots, s);
+        }
+    }
+
+    /// For each sheet of some kind the first of those of its kind that links connect with it.
+    pub fn parted<K: PartialEq + Send + Sync>(
+        &self,
+        kind: impl Fn(&Sheet) -> Option<K> + Sync,
+    ) -> Vec<Option<usize>> {
+        let parts = each(self.tiles.len(), &(), |(), tile| {
+            self.parted_in(tile, &kind)
+        });
+        let mut roots: Vec<usize> = (0..self.len()).collect();
+        let mut parted = vec![false; self.len()];
+        for (numbers, (within, _)) in self.numbers.iter().zip(&parts) {
+            for (&number, root) in numbers.iter().zip(within) {
+                if let Some(root) = *root {
+                    (roots[number], parted[number]) = (numbers[root], true);
+                }
+            }
+        }
+        for [a, b] in parts.into_iter().flat_map(|(_, across)| across) {
+            join(&mut roots, self.number(a), self.number(b));
+        }
+        let mut firsts = vec![None; self.len()];
+        let all = parted
+            .into_iter()
+            .enumerate()
+            .map(|(s, parted)| parted.then(|| *firsts[root(&mut roots, s)].get_or_insert(s)));
+        all.collect()
+    }
+
+    /// For each sheet of a part of the grid one of its kind connected with it in there, the same for
+    /// all of them; and what of its kind is linked with it elsewhere.
+    fn parted_in<K: PartialEq>(
+        &self,
+        tile: usize,
+        kind: &impl Fn(&Sheet) -> Option<K>,
+    ) -> (Vec<Option<usize>>, Vec<[Name; 2]>) {
+        let sheets = &self.tiles[tile].all;
+        let kinds: Vec<Option<K>> = sheets.iter().map(kind).collect();
+        let mut roots: Vec<usize> = (0..sheets.len()).collect();
+        let mut across = Vec::new();
+        for (s, sheet) in sheets
+            .iter()
+            .enumerate()
+            .filter(|(s, _)| kinds[*s].is_some())
+        {
+            for link in &sheet.links {
+                let Link::To(other) = *link else {
+                    continue;
+                };
+                match other.tile as usize == tile {
+                    true if kinds[s] == kinds[other.sheet as usize] => {
+                        join(&mut roots, s, other.sheet as usize);
+                    }
+                    false if kinds[s] == kind(self.named(other)) => {
+                        across.push([Name::new(tile, s), other]);
+                    }
+                    _ => {}
+                }
+            }
+        }
+        let all = kinds.iter().enumerate();
+        let all = all.map(|(s, kind)| kind.as_ref().map(|_| root(&mut roots, s)));
+        (all.collect(), across)
+    }
+
+    pub fn len(&self) -> usize {
+        self.names.len()
+    }
+
+    pub fn sheet(&self, number: usize) -> &Sheet {
+        self.named(self.names[number])
+    }
+
+    pub fn configuration(&self, number: usize) -> ConfigurationRef<'_, f64> {
+        let name = self.names[number];
+        self.tiles[name.tile as usize].at(name.sheet as usize)
+    }
+
+    pub fn named(&self, name: Name) -> &Sheet {
+        &self.tiles[name.tile as usize].all[name.sheet as usize]
+    }
+
+    pub fn node(&self, number: usize) -> usize {
+        self.nodes[number]
+    }
+
+    /// Whether all joints of a sheet are within their limits.
+    pub fn within(&self, number: usize) -> bool {
+        self.within[number]
+    }
+
+    /// All sheets by their numbers.
+    pub fn sheets(&self) -> impl Iterator<Item = (usize, &Sheet)> + Clone {
+        (0..self.len()).map(|s| (s, self.sheet(s)))
+    }
+
+    /// How many of something all sheets together have.
+    pub fn count(&self, of: impl Fn(&Sheet) -> usize + Sync) -> usize {
+        let counts = each(self.tiles.len(), &(), |(), tile| {
+            self.tiles[tile].all.iter().map(&of).sum::<usize>()
+        });
+        counts.into_iter().sum()
+    }
+
+    pub fn number(&self, name: Name) -> usize {
+        self.numbers[name.tile as usize][name.sheet as usize]
+    }
+
+    /// The sheets of a node.
+    pub fn at(&self, node: usize) -> Range<usize> {
+        self.firsts[node]..self.firsts[node + 1]
+    }
+
+    /// The sheet of a node with this configuration.
+    pub fn known(
+        &self,
+        measure: &Measure,
+        node: usize,
+        at: ConfigurationRef<f64>,
+    ) -> Option<usize> {
+        let mut sheets = self.at(node);
+        sheets.find(|s| measure.same(self.configuration(*s), at))
+    }
+}
+
+impl Numbered {
+    /// Of the parts from `first` on that have these nodes.
+    fn of(first: usize, tiles: &[(Sheets, Vec<usize>)], nodes: Range<usize>) -> Self {
+        let mut counts = vec![0; nodes.len()];
+        for sheet in tiles.iter().flat_map(|(sheets, _)| &sheets.all) {
+            counts[sheet.node - nodes.start] += 1;
+        }
+        let mut sum = 0;
+        let next = counts.iter().map(|count| {
+            sum += count;
+            sum - count
+        });
+        let mut next: Vec<usize> = next.collect();
+        let mut numbered = Numbered {
+            names: vec![Name { tile: 0, sheet: 0 }; sum],
+            nodes: vec![0; sum],
+            within: vec![false; sum],
+            roots: vec![0; sum],
+            numbers: Vec::with_capacity(tiles.len()),
+            counts,
+        };
+        for (tile, (sheets, roots)) in (first..).zip(tiles) {
+            let numbers = sheets.all.iter().enumerate().map(|(sheet, at)| {
+                let place = &mut next[at.node - nodes.start];
+                let number = *place;
+                *place += 1;
+                numbered.names[number] = Name::new(tile, sheet);
+                (numbered.nodes[number], numbered.within[number]) = (at.node, at.within);
+                number
+            });
+            let numbers: Vec<usize> = numbers.collect();
+            for (&number, &root) in numbers.iter().zip(roots) {
+                numbered.roots[number] = numbers[root];
+            }
+            numbered.numbers.push(numbers);
+        }
+        numbered
+    }
+}
+
+impl Sheets {
+    pub fn len(&self) -> usize {
+        self.all.len()
+    }
+
+    /// The configuration of one.
+    pub fn at(&self, sheet: usize) -> ConfigurationRef<'_, f64> {
+        self.at.get(sheet)
+    }
+
+    /// Room for so many more with configurations like this one.
+    pub fn reserve(&mut self, more: usize, like: ConfigurationRef<f64>) {
+        self.all.reserve(more);
+        self.at.reserve(more, like);
+    }
+
+    pub fn push(&mut self, sheet: Sheet, at: ConfigurationRef<f64>) {
+        self.all.push(sheet);
+        self.at.push(at);
+    }
+}
+
+impl Name {
+    pub fn new(tile: usize, sheet: usize) -> Self {
+        let short = |number: usize| u32::try_from(number).expect("as many do not fit in memory");
+        Name {
+            tile: short(tile),
+            sheet: short(sheet),
+        }
+    }
+}
+
+/// The first of all that are connected with one.
+pub(crate) fn root(roots: &mut [usize], mut of: usize) -> usize {
+    while roots[of] != of {
+        roots[of] = roots[roots[of]];
+        of = roots[of];
+    }
+    of
+}
+
+/// Connects two.
+pub(crate) fn join(roots: &mut [usize], a: usize, b: usize) {
+    let (a, b) = (root(roots, a), root(roots, b));
+    roots[a.max(b)] = a.min(b);
+}
+
+/// Whether the determinants of direct and of inverse singularities are negative: what sheets of one
+/// aspect share.
+pub(crate) type Signs = [bool; 2];
+
+/// The signs of a sheet; none outside limits and on singularities.
+pub(crate) fn signs(sheet: &Sheet) -> Option<Signs> {
+    let told = &sheet.told;
+    let inside = sheet.within && told.direct != 0.0 && told.inverse != 0.0;
+    inside.then_some([told.direct < 0.0, told.inverse < 0.0])
+}

@@ -1,0 +1,204 @@
+//! How far configurations and their motions are apart, and what is surely one mode.
+
+use std::f64::consts::PI;
+
+use super::arrivals::Moving;
+use super::step::SURE;
+use crate::analysis::workspace::problem::Asked;
+use crate::mechanism::{ConfigurationRef, Role, turn_near};
+use crate::solve::SolutionCurve;
+use crate::system::{Curve, Held, Holdable, Unknown};
+
+/// How far configurations are apart.
+#[derive(Clone, Debug)]
+pub(crate) struct Measure {
+    free: Curve,
+    /// Unknowns that tell modes apart: of platforms, actuated joints and joints with limits; without
+    /// platforms of all joints. Legs that are folded the other way about their passive joints, or
+    /// spin, do not make another mode. 1 for those that do, 0 for the others.
+    seen: Vec<f64>,
+    /// Joints among them.
+    joints: Vec<SeenJoint>,
+    /// rad or m in one unit of the mapped coordinates.
+    units: Vec<f64>,
+}
+
+/// A joint that tells modes apart.
+#[derive(Clone, Copy, Debug)]
+struct SeenJoint {
+    joint: usize,
+    /// Its place among the unknowns.
+    place: usize,
+    scale: f64,
+    repeats: bool,
+}
+
+/// What the motion of one configuration says of another after a step.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Ahead<'a> {
+    from: Moving<'a>,
+    axis: usize,
+    change: f64,
+    motion: &'a [f64],
+    /// How far along the motion it is.
+    factor: f64,
+    /// How far from there it may be.
+    miss: f64,
+}
+
+/// Configurations this near are the same.
+const SAME: f64 = 1e-6;
+
+impl Measure {
+    pub fn new(asked: &Asked) -> Self {
+        let mechanism = asked.mechanism;
+        let free = Curve::new(mechanism, &Held::nothing(mechanism));
+        let whole = mechanism.platforms().is_empty();
+        let seen = (free.system().unknowns().iter()).map(|unknown| match *unknown {
+            Unknown::Joint(joint) => {
+                let joint = &mechanism.joints()[joint];
+                whole || joint.role == Role::Actuated || joint.limits.is_some()
+            }
+            Unknown::Twist { .. } => true,
+        });
+        let seen: Vec<bool> = seen.collect();
+        let unknowns = free.system().unknowns().iter().enumerate();
+        let joints = unknowns.filter(|(place, _)| seen[*place]);
+        let joints = joints.filter_map(|(place, unknown)| match *unknown {
+            Unknown::Joint(joint) => Some(SeenJoint {
+                joint,
+                place,
+                scale: free.system().joint_scale(joint),
+                repeats: mechanism.repeats(joint),
+            }),
+            Unknown::Twist { .. } => None,
+        });
+        Measure {
+            joints: joints.collect(),
+            seen: seen
+                .into_iter()
+                .map(|seen| f64::from(u8::from(seen)))
+                .collect(),
+            units: (asked.axes.iter())
+                .map(|axis| match axis.coordinate {
+                    Holdable::Joint(joint) => free.system().joint_scale(joint),
+                    Holdable::Coordinate(_, c) if !c.is_angle() => {
+                        mechanism.characteristic_length()
+                    }
+                    Holdable::Coordinate(..) | Holdable::Turn(..) => 1.0,
+                })
+                .collect(),
+            free,
+        }
+    }
+
+    /// Whether two configurations are the same, so far as modes are concerned.
+    pub fn same(&self, a: ConfigurationRef<f64>, b: ConfigurationRef<f64>) -> bool {
+        // most that are not are told by one joint
+        let mut joints = self.joints.iter();
+        if joints.any(|joint| joint.change(a, b).abs() >= SAME) {
+            return false;
+        }
+        let mut step = vec![0.0; self.free.unknowns()];
+        self.free.difference_but_turns_into(a, b, &mut step);
+        self.seen_length(step.into_iter()) < SAME
+    }
+
+    fn seen_length(&self, step: impl Iterator<Item = f64>) -> f64 {
+        let squares = step.zip(&self.seen).map(|(x, seen)| seen * x * x);
+        squares.sum::<f64>().sqrt()
+    }
+
+    /// The motion for a unit rate of a mapped coordinate, and how far along it a change of the
+    /// coordinate leads.
+    pub fn motion<'a>(&self, from: Moving<'a>, axis: usize, change: f64) -> (&'a [f64], f64) {
+        let unknowns = self.free.unknowns();
+        let motion = &from.motions[axis * unknowns..][..unknowns];
+        (motion, change / self.units[axis])
+    }
+
+    /// What the motion says for a change of a mapped coordinate.
+    pub fn ahead<'a>(&self, from: Moving<'a>, axis: usize, change: f64) -> Ahead<'a> {
+        let (motion, factor) = self.motion(from, axis, change);
+        let length = self.seen_length(motion.iter().map(|x| x * factor));
+        Ahead {
+            from,
+            axis,
+            change,
+            motion,
+            factor,
+            miss: SURE * length + SAME,
+        }
+    }
+
+    /// Whether a configuration lies where the motion of another says, this one where its own says
+    /// of that, and the motions are [alike](Self::alike).
+    pub fn linked(&self, ahead: &Ahead, to: Moving, storage: &mut Vec<f64>) -> bool {
+        let from = ahead.from;
+        // most that lie elsewhere are told by one joint
+        let mut joints = self.joints.iter();
+        let elsewhere = joints.any(|joint| {
+            let wanted = ahead.motion[joint.place] * ahead.factor;
+            (joint.change(from.at, to.at) - wanted).abs() > ahead.miss
+        });
+        if elsewhere {
+            return false;
+        }
+        storage.resize(self.free.unknowns(), 0.0);
+        let step = &mut storage[..];
+        self.free.difference_but_turns_into(from.at, to.at, step);
+        let near = |ahead: &Ahead| {
+            let both = ahead.motion.iter().zip(&*step);
+            self.seen_length(both.map(|(x, d)| d - x * ahead.factor)) <= ahead.miss
+        };
+        near(ahead)
+            && near(&self.ahead(to, ahead.axis, ahead.change))
+            && self.alike(from, to, ahead.change / self.units[ahead.axis], storage)
+    }
+
+    /// Whether the motions at two configurations, a step of the given length of the mapped
+    /// coordinates apart, are near enough for these to be on one sheet.
+    ///
+    /// With M as in [`Rates`](super::rates::Rates), N₁ − N₀ = −M₁⁺(M₁ − M₀) N₀ is short beside N
+    /// wherever Newton's theorem makes a step sure. Across a point where legs fold the configuration
+    /// may go on smoothly, and only motions to the side tell: they turn round. Where one leg folds, as
+    /// one of length ρ = 0, that may be seen in one passive joint only: it turns by dθ = ds/ρ to
+    /// one side before and to the other after, so that over a step s from −ρ₀ to ρ₁ the difference
+    /// of both is s/ρ₀ + s/ρ₁ ≥ 4 rad. No joint is to differ by so much.
+    pub fn alike(&self, a: Moving, b: Moving, length: f64, storage: &mut Vec<f64>) -> bool {
+        const CHANGE: f64 = 0.6;
+        const SWING: f64 = 1.0;
+        let unknowns = self.free.unknowns();
+        storage.clear();
+        storage.resize(unknowns, 0.0);
+        let swings = &mut storage[..];
+        let columns = a.motions.chunks_exact(unknowns);
+        let mut columns = columns.zip(b.motions.chunks_exact(unknowns));
+        let same_way = columns.all(|(a, b)| {
+            let [mut change, mut from, mut to] = [0.0; 3];
+            let pairs = a.iter().zip(b).zip(&self.seen);
+            for (((a, b), seen), swing) in pairs.zip(&mut *swings) {
+                let squared = (b - a) * (b - a);
+                *swing += squared;
+                change += seen * squared;
+                from += seen * a * a;
+                to += seen * b * b;
+            }
+            change <= CHANGE * CHANGE * f64::max(from, to)
+        });
+        let most = SWING / length.abs();
+        same_way && swings.iter().all(|swing| *swing <= most * most)
+    }
+}
+
+impl SeenJoint {
+    /// How far it is from one configuration to another, dimensionless, turns that change nothing left
+    /// out.
+    fn change(&self, from: ConfigurationRef<f64>, to: ConfigurationRef<f64>) -> f64 {
+        let change = (to.joints[self.joint] - from.joints[self.joint]) / self.scale;
+        match self.repeats && change.abs() > PI {
+            true => turn_near(change, 0.0),
+            false => change,
+        }
+    }
+}

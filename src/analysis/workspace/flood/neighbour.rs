@@ -1,0 +1,156 @@
+//! Steps from the nodes of a grid to their neighbours, and which of them are sure.
+
+use super::arrivals::{Arrivals, Moving};
+use super::filled::{Name, Sheet, Signs, signs};
+use super::measure::Measure;
+use super::step::{SURE, Start, Steps};
+use crate::analysis::workspace::problem::{Asked, Grid, MOST_AXES};
+use crate::linear::{Factorable, norm};
+use crate::mechanism::{Configuration, ConfigurationRef};
+use crate::number::Packed;
+use crate::solve::Pool;
+
+#[derive(Clone, Copy)]
+pub(crate) struct Fill<'a> {
+    pub asked: &'a Asked<'a>,
+    pub grid: &'a Grid,
+    pub measure: &'a Measure,
+    /// Sheets kept at most.
+    pub most: usize,
+    /// The signs of the one aspect that is to be spread over, if not all are.
+    pub only: Option<Signs>,
+}
+
+/// Starts given to one thread at once.
+pub(crate) const JOB: usize = 16;
+
+/// An edge of the grid that is to be gone along.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Step<'a> {
+    pub from: Moving<'a>,
+    pub axis: usize,
+    /// The mapped coordinates at its end, and zeros.
+    pub to: [f64; MOST_AXES],
+    /// By how much the mapped coordinate of its axis changes.
+    pub change: f64,
+}
+
+impl Fill<'_> {
+    /// Whether what is reached from a sheet is asked for.
+    pub(crate) fn goes_on_from(&self, sheet: &Sheet) -> bool {
+        self.only.is_none() || signs(sheet) == self.only
+    }
+
+    /// A start beside an assembled configuration at a node.
+    pub(crate) fn here<'s>(&self, node: usize, at: &'s Configuration<f64>) -> Start<'s> {
+        Start {
+            from: at.view(),
+            along: None,
+            reach: 1e-3,
+            values: self.grid.point(node),
+        }
+    }
+
+    pub(crate) fn settled<T: Factorable + Packed + Send + Sync>(
+        &self,
+        steps: &Pool<Steps<T>>,
+        starts: &[Start],
+    ) -> Vec<Arrivals> {
+        in_packs(steps, starts, |steps, pack| {
+            let mut arrivals = Arrivals::default();
+            steps.settle(pack, &mut arrivals);
+            arrivals
+        })
+    }
+
+    /// Which of the sheets of a node has this configuration.
+    pub(crate) fn known<'s>(
+        &self,
+        mut sheets: impl Iterator<Item = (Name, ConfigurationRef<'s, f64>)>,
+        at: ConfigurationRef<f64>,
+    ) -> Option<Name> {
+        let known = sheets.find(|(_, known)| self.measure.same(*known, at));
+        known.map(|(name, _)| name)
+    }
+
+    /// The way from a configuration at a node to its neighbour in a direction, if there is one;
+    /// otherwise one that leads nowhere.
+    pub(crate) fn step<'f>(&self, node: usize, from: Moving<'f>, direction: usize) -> Step<'f> {
+        let axis = direction / 2;
+        let next = self.grid.neighbour(node, direction).unwrap_or(node);
+        let to = self.grid.point(next);
+        let here = self.grid.coordinate(axis, self.grid.place(node, axis));
+        Step {
+            from,
+            axis,
+            to,
+            change: to[axis] - here,
+        }
+    }
+
+    /// Of the sheets at the neighbour the one that lies where both motions say.
+    pub(crate) fn near<'s>(
+        &self,
+        step: &Step,
+        there: impl Iterator<Item = (Name, Moving<'s>)>,
+        storage: &mut Vec<f64>,
+    ) -> Option<Name> {
+        let ahead = (self.measure).ahead(step.from, step.axis, step.change);
+        let mut near = there.filter(|(_, to)| self.measure.linked(&ahead, *to, storage));
+        let (first, _) = near.next()?;
+        // two as near are for surer steps to tell apart
+        near.next().is_none().then_some(first)
+    }
+
+    /// The same for one pack.
+    pub(crate) fn sure<T: Factorable + Packed>(
+        &self,
+        steps: &mut Steps<T>,
+        planned: &[Step],
+        arrivals: &mut Arrivals,
+        storage: &mut Vec<f64>,
+    ) {
+        let starts: Vec<Start> = (planned.iter())
+            .map(|step| self.towards(step.from, step.axis, step.change, step.to))
+            .collect();
+        steps.settle(&starts, arrivals);
+        for (i, step) in planned.iter().enumerate() {
+            let (_, length) = self.measure.motion(step.from, step.axis, step.change);
+            let alike = |to| self.measure.alike(step.from, to, length, storage);
+            if !arrivals.get(i).is_some_and(alike) {
+                arrivals.reject(i);
+            }
+        }
+    }
+
+    /// A start for a change of one mapped coordinate, which leads to these values.
+    pub(crate) fn towards<'f>(
+        &self,
+        from: Moving<'f>,
+        axis: usize,
+        change: f64,
+        values: [f64; MOST_AXES],
+    ) -> Start<'f> {
+        let (motion, factor) = self.measure.motion(from, axis, change);
+        Start {
+            from: from.at,
+            along: Some((motion, factor)),
+            reach: SURE * factor.abs() * norm(motion),
+            values,
+        }
+    }
+}
+
+/// What comes of items given to as many lanes as there are, in their order.
+pub(crate) fn in_packs<T: Factorable + Packed + Send + Sync, I: Sync, R: Send>(
+    steps: &Pool<Steps<T>>,
+    items: &[I],
+    of: impl Fn(&mut Steps<T>, &[I]) -> R + Sync,
+) -> Vec<R> {
+    let jobs: Vec<&[I]> = items.chunks(JOB).collect();
+    let ends = steps.each(jobs.len(), |steps, i| {
+        let packs = jobs[i].chunks(T::WIDTH);
+        packs.map(|pack| of(steps, pack)).collect::<Vec<R>>()
+    });
+    ends.into_iter().flatten().collect()
+}

@@ -1,0 +1,210 @@
+//! The way from a node to its neighbour in shorter steps, many ways side by side.
+
+use super::arrivals::{Arrival, Arrivals, Moving};
+use super::neighbour::Fill;
+use super::spread::Spread;
+use super::step::{Start, Steps};
+use super::tile::Task;
+use crate::analysis::workspace::problem::MOST_AXES;
+use crate::linear::{Factorable, norm};
+use crate::number::Packed;
+use crate::solve::Pool;
+
+/// What shorter steps tell of an edge.
+pub(crate) enum Paced {
+    /// The neighbour.
+    Arrived(Arrival),
+    /// The mode folds back before it.
+    Fold,
+    /// Not enough.
+    Open,
+}
+
+/// How far an edge has been gone.
+struct Way {
+    at: Arrival,
+    axis: usize,
+    /// The mapped coordinates at the neighbour.
+    end: [f64; MOST_AXES],
+    /// The mapped coordinate now.
+    x: f64,
+    /// How far it is to change next.
+    step: f64,
+    /// 1/‖N‖² where the way has been.
+    slowness: f64,
+    /// Where that would vanish, going on straight.
+    fold: f64,
+}
+
+impl Way {
+    fn rest(&self) -> f64 {
+        self.end[self.axis] - self.x
+    }
+
+    /// A step on, with what is met there; whether the mode folds back before the neighbour.
+    ///
+    /// On the way to a fold at x* the configuration goes with √(x* − x), and ‖N‖⁻² falls in proportion
+    /// to x* − x. Towards a place where a leg merely turns fast it falls with the square instead,
+    /// and the straight line through two points leads to another place each time.
+    fn on(&mut self, at: Arrival, slowness: f64) -> bool {
+        /// The part of the way to the fold that two guesses of it may differ by.
+        const AGREED: f64 = 0.05;
+        /// The next step as a part of the way to the fold.
+        const NEXT: f64 = 0.6;
+        let before = std::mem::replace(&mut self.fold, f64::INFINITY);
+        let gone = self.step;
+        self.x += gone;
+        if slowness < self.slowness {
+            self.fold = self.x + gone * slowness / (self.slowness - slowness);
+        }
+        (self.at, self.slowness) = (at, slowness);
+        let (left, rest) = (self.fold - self.x, self.rest());
+        let ahead = left.is_finite() && left.abs() < 1.5 * rest.abs();
+        let next = if ahead { NEXT * left } else { 2.0 * gone };
+        self.step = if next.abs() < rest.abs() { next } else { rest };
+        let agreed = (self.fold - before).abs() < AGREED * left.abs();
+        ahead && agreed && 1.1 * left.abs() < rest.abs()
+    }
+}
+
+impl Fill<'_> {
+    /// Halves steps until they are sure, and goes on so.
+    pub(crate) fn paced<T: Factorable + Packed + Send + Sync>(
+        &self,
+        steps: &Pool<Steps<T>>,
+        spread: &Spread,
+        tasks: &[Task],
+    ) -> Vec<Paced> {
+        const ROUNDS: usize = 30;
+        /// The shortest step as a part of an edge.
+        const SHORTEST: f64 = 1.0 / 256.0;
+        let slowness = |at: Moving, axis: usize| {
+            let (motion, _) = self.measure.motion(at, axis, 1.0);
+            norm(motion).powi(-2)
+        };
+        let mut ends: Vec<Paced> = tasks.iter().map(|_| Paced::Open).collect();
+        let mut ways: Vec<(usize, Way)> = (tasks.iter().enumerate())
+            .map(|(i, task)| {
+                let edge = spread.step(self, *task);
+                let way = Way {
+                    axis: edge.axis,
+                    end: edge.to,
+                    x: edge.to[edge.axis] - edge.change,
+                    step: 0.5 * edge.change,
+                    slowness: slowness(edge.from, edge.axis),
+                    fold: f64::INFINITY,
+                    at: edge.from.arrival(),
+                };
+                (i, way)
+            })
+            .collect();
+        let mut storage = Vec::new();
+        for _ in 0..ROUNDS {
+            if ways.is_empty() {
+                break;
+            }
+            let starts: Vec<Start> = (ways.iter()).map(|(_, way)| self.start_of(way)).collect();
+            let arrivals = self.settled(steps, &starts);
+            let arrivals = arrivals.iter().flat_map(Arrivals::iter);
+            let mut left = Vec::new();
+            for ((i, mut way), arrival) in ways.into_iter().zip(arrivals) {
+                let from = way.at.moving();
+                let (_, length) = self.measure.motion(from, way.axis, way.step);
+                let sure = arrival.filter(|to| self.measure.alike(from, *to, length, &mut storage));
+                match sure {
+                    Some(arrival) if way.step == way.rest() => {
+                        ends[i] = Paced::Arrived(arrival.arrival());
+                    }
+                    Some(arrival) => {
+                        let slowness = slowness(arrival, way.axis);
+                        match way.on(arrival.arrival(), slowness) {
+                            true => ends[i] = Paced::Fold,
+                            false => left.push((i, way)),
+                        }
+                    }
+                    None => {
+                        way.step *= 0.5;
+                        let edge = self.grid.spacing(way.axis).abs();
+                        if way.step.abs() > SHORTEST * edge {
+                            left.push((i, way));
+                        }
+                    }
+                }
+            }
+            ways = left;
+        }
+        ends
+    }
+
+    fn start_of<'w>(&self, way: &'w Way) -> Start<'w> {
+        let mut values = way.end;
+        if way.step != way.rest() {
+            values[way.axis] = way.x + way.step;
+        }
+        self.towards(way.at.moving(), way.axis, way.step, values)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::analysis::workspace::problem::Told;
+    use crate::mechanism::Configuration;
+
+    fn way(slowness: f64) -> Way {
+        Way {
+            at: arrival(),
+            axis: 0,
+            end: [1.0, 0.0, 0.0],
+            x: 0.0,
+            step: 0.125,
+            slowness,
+            fold: f64::INFINITY,
+        }
+    }
+
+    fn arrival() -> Arrival {
+        Arrival {
+            at: Configuration {
+                joints: Vec::new(),
+                platforms: Vec::new(),
+            },
+            motions: Vec::new(),
+            told: Told {
+                regular: true,
+                direct: 1.0,
+                inverse: 1.0,
+                condition: 1.0,
+            },
+        }
+    }
+
+    /// Goes on until a fold is said, or the way is gone.
+    fn folds(slowness: impl Fn(f64) -> f64) -> bool {
+        let mut way = way(slowness(0.0));
+        for _ in 0..30 {
+            if way.step == way.rest() {
+                return false;
+            }
+            let next = slowness(way.x + way.step);
+            if way.on(arrival(), next) {
+                return true;
+            }
+        }
+        false
+    }
+
+    #[test]
+    fn a_fold_before_the_end_is_told_from_one_behind_it_and_from_a_leg_that_turns_fast() {
+        for at in [0.3, 0.6, 0.85] {
+            // with a curved rest, as a motion has it
+            assert!(folds(|x| (at - x) * (1.0 + 0.2 * x)), "{at}");
+        }
+        for behind in [1.01, 1.2, 3.0] {
+            assert!(!folds(|x| behind - x), "{behind}");
+        }
+        for passed in [1e-3, 1e-2, 0.1] {
+            assert!(!folds(|x| (x - 0.4) * (x - 0.4) + passed * passed));
+        }
+    }
+}

@@ -1,0 +1,203 @@
+//! Assembled configurations to begin with.
+
+use rand::SeedableRng;
+use rand_pcg::Pcg64Mcg;
+
+use super::arrivals::Arrivals;
+use super::measure::Measure;
+use super::neighbour::Fill;
+use super::spread::Spread;
+use super::step::{Start, Steps};
+use crate::analysis::workspace::problem::{Asked, Grid, Targets};
+use crate::linear::Factorable;
+use crate::mechanism::{Configuration, PlatformPose};
+use crate::number::Packed;
+use crate::solve::{Pool, Stage, Stop, Watch, each};
+use crate::system::{System, Work, random_configuration, with_coordinates};
+
+/// What was found at the nodes that were searched.
+#[derive(Default)]
+pub(crate) struct Sown {
+    pub seeds: Vec<(usize, Configuration<f64>)>,
+    /// Assembled configurations with a joint outside its limits, which are no seeds.
+    pub outside: usize,
+}
+
+impl Sown {
+    fn add(&mut self, asked: &Asked, node: usize, mut at: Configuration<f64>) {
+        asked.mechanism.turn_to_limits(&mut at.joints);
+        match asked.allows(&at.joints) {
+            true => self.seeds.push((node, at)),
+            false => self.outside += 1,
+        }
+    }
+}
+
+#[derive(Clone)]
+struct Storage {
+    targets: Targets,
+    system: System<f64>,
+    work: Work<f64>,
+    steps: Steps<f64>,
+}
+
+/// Newton's method from random starts at each of some nodes; and from what is given.
+pub(crate) fn sow(
+    asked: &Asked,
+    grid: &Grid,
+    measure: &Measure,
+    (nodes, starts, seed): (&[usize], usize, u64),
+    (given, watch): (&[Configuration<f64>], &Watch),
+) -> Sown {
+    let system = asked.question.system();
+    let storage = Storage {
+        targets: Targets::new(asked),
+        work: system.work(),
+        system,
+        steps: Steps::new(asked),
+    };
+    let found = each(nodes.len(), &storage, |storage, i| {
+        let node = nodes[i];
+        if watch.stops(Stage::Nodes, i, Some(nodes.len())) {
+            return (node, Vec::new());
+        }
+        // each node draws for itself, so that threads do not matter
+        let mut rng = Pcg64Mcg::seed_from_u64(seed.wrapping_add(node as u64));
+        let values = grid.values(node);
+        let around = asked.at(&values).start();
+        let mut found: Vec<Configuration<f64>> = Vec::new();
+        for k in 0..starts {
+            let at = match k {
+                0 => around.clone(),
+                _ => random_configuration(asked.mechanism, &around, &mut rng),
+            };
+            let at = put_in(asked, &values, &at);
+            take(asked, measure, storage, &values, at, &mut found);
+        }
+        (node, found)
+    });
+    let mut sown = Sown::default();
+    let mut last = storage.clone();
+    let here = given.iter().filter_map(|at| {
+        let node = nearest(asked, grid, at)?;
+        let mut found = Vec::new();
+        let values = grid.values(node);
+        let at = put_in(asked, &values, at);
+        take(asked, measure, &mut last, &values, at, &mut found);
+        Some((node, found))
+    });
+    let all: Vec<_> = found.into_iter().chain(here.collect::<Vec<_>>()).collect();
+    for (node, found) in all {
+        found.into_iter().for_each(|at| sown.add(asked, node, at));
+    }
+    sown
+}
+
+/// Adds what Newton's method finds from a start, if it is new.
+fn take(
+    asked: &Asked,
+    measure: &Measure,
+    storage: &mut Storage,
+    values: &[f64],
+    mut at: Configuration<f64>,
+    found: &mut Vec<Configuration<f64>>,
+) {
+    (storage.targets).ask(&mut storage.system, &mut at, |_| values);
+    let mut trial = at.clone();
+    let report = (asked.newton).solve(&storage.system, &mut at, &mut trial, &mut storage.work);
+    if report.stop != Stop::Solved
+        || found
+            .iter()
+            .any(|known| measure.same(known.view(), at.view()))
+    {
+        return;
+    }
+    // where the mapped coordinates do not tell how things move there is nothing to go on from
+    if storage.steps.told(&at, values).regular {
+        found.push(at);
+    }
+}
+
+/// A configuration with the held values of a node put in.
+fn put_in(asked: &Asked, values: &[f64], at: &Configuration<f64>) -> Configuration<f64> {
+    let held = asked.at(values);
+    let mut at = at.clone();
+    for (platform, pose) in at.platforms.iter_mut().enumerate() {
+        let coordinates = held.held_values(platform);
+        if !coordinates.is_empty() {
+            let with = with_coordinates(&pose.pose(), coordinates);
+            *pose = PlatformPose::from_pose(&with);
+        }
+    }
+    asked.put(&at, values)
+}
+
+/// Starts at each node that is probed.
+pub(crate) const PROBES: usize = 8;
+
+/// Plain Newton's method from a few random starts at each of many nodes, side by side: what it finds
+/// that is not reached yet, so that small regions by themselves are not missed.
+pub(crate) fn probe<T: Factorable + Packed + Send + Sync>(
+    fill: &Fill,
+    reached: &Spread,
+    steps: &Pool<Steps<T>>,
+    (nodes, seed): (&[usize], u64),
+    watch: &Watch,
+) -> Sown {
+    let asked = fill.asked;
+    let found = steps.each(nodes.len(), |steps, i| {
+        let node = nodes[i];
+        if watch.stops(Stage::Nodes, i, Some(nodes.len())) {
+            return (node, Vec::new());
+        }
+        // other numbers than those drawn by `sow`
+        let mut rng = Pcg64Mcg::seed_from_u64(!seed.wrapping_add(node as u64));
+        let values = fill.grid.values(node);
+        let around = asked.at(&values).start();
+        let drawn: Vec<Configuration<f64>> = (0..PROBES)
+            .map(|_| {
+                let at = random_configuration(asked.mechanism, &around, &mut rng);
+                put_in(asked, &values, &at)
+            })
+            .collect();
+        let starts: Vec<Start> = (drawn.iter())
+            .map(|at| Start {
+                from: at.view(),
+                along: None,
+                reach: f64::INFINITY,
+                values: fill.grid.point(node),
+            })
+            .collect();
+        let mut new: Vec<Configuration<f64>> = Vec::new();
+        let mut arrivals = Arrivals::default();
+        for pack in starts.chunks(T::WIDTH) {
+            steps.settle(pack, &mut arrivals);
+            for arrival in arrivals.iter().flatten() {
+                let known = |of: &Configuration<f64>| fill.measure.same(of.view(), arrival.at);
+                if reached.known(fill, node, arrival.at).is_none() && !new.iter().any(known) {
+                    new.push(arrival.at.owned());
+                }
+            }
+        }
+        (node, new)
+    });
+    let mut sown = Sown::default();
+    for (node, found) in found {
+        found.into_iter().for_each(|at| sown.add(asked, node, at));
+    }
+    sown
+}
+
+/// The node nearest to a configuration, if it is in the box.
+fn nearest(asked: &Asked, grid: &Grid, at: &Configuration<f64>) -> Option<usize> {
+    let (mut node, mut stride) = (0, 1);
+    for (i, axis) in asked.axes.iter().enumerate() {
+        let place = ((axis.coordinate.of(at) - axis.from) / grid.spacing(i)).round();
+        if !(place >= 0.0 && place < grid.count(i) as f64) {
+            return None;
+        }
+        node += stride * place as usize;
+        stride *= grid.count(i);
+    }
+    Some(node)
+}

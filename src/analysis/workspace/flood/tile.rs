@@ -1,0 +1,305 @@
+//! Parts of the grid, over each of which one thread spreads by itself.
+
+use rustc_hash::FxHashSet;
+
+use super::arrivals::{Arrivals, Moving};
+use super::filled::{Link, Name, Sheet, Sheets, join, root};
+use super::neighbour::{Fill, Step};
+use super::step::Steps;
+use crate::analysis::workspace::problem::{Grid, MOST_AXES, MOST_DIRECTIONS};
+use crate::linear::Factorable;
+use crate::mechanism::ConfigurationRef;
+use crate::number::Packed;
+
+/// How the grid is parted.
+pub(crate) struct Tiling {
+    /// Nodes along each side of a part, at most.
+    sides: [usize; MOST_AXES],
+    /// Parts along each axis.
+    counts: [usize; MOST_AXES],
+}
+
+impl Tiling {
+    pub fn new(grid: &Grid) -> Self {
+        /// Nodes of a part, about: fronts in it are to fill several packs.
+        const NODES: f64 = 2000.0;
+        let wanted = NODES.powf(1.0 / grid.dimensions() as f64).ceil() as usize;
+        let mut tiling = Tiling {
+            sides: [1; MOST_AXES],
+            counts: [1; MOST_AXES],
+        };
+        for axis in 0..grid.dimensions() {
+            let nodes = grid.count(axis);
+            let side = nodes.div_ceil(nodes.div_ceil(wanted));
+            (tiling.sides[axis], tiling.counts[axis]) = (side, nodes.div_ceil(side));
+        }
+        tiling
+    }
+
+    /// Parts with one place along the last axis follow one another, and so do their nodes: how many
+    /// of both there are, for each such place.
+    pub fn bands(&self, grid: &Grid) -> Vec<(usize, usize)> {
+        let last = grid.dimensions() - 1;
+        let tiles = self.counts[..last].iter().product();
+        let nodes: usize = (0..last).map(|axis| grid.count(axis)).product();
+        let sides = (0..self.counts[last]).map(|place| {
+            let side = self.sides[last];
+            side.min(grid.count(last) - place * side)
+        });
+        sides.map(|side| (tiles, side * nodes)).collect()
+    }
+
+    /// The part with a node.
+    pub fn of(&self, grid: &Grid, node: usize) -> usize {
+        let axes = (0..grid.dimensions()).rev();
+        axes.fold(0, |tile, axis| {
+            tile * self.counts[axis] + grid.place(node, axis) / self.sides[axis]
+        })
+    }
+
+    /// All parts, nothing reached in them yet.
+    pub fn tiles(&self, grid: &Grid) -> Vec<Tile> {
+        (0..self.counts.iter().product())
+            .map(|number| {
+                let (mut low, mut sides) = ([0; MOST_AXES], [1; MOST_AXES]);
+                let mut left = number;
+                for axis in 0..grid.dimensions() {
+                    low[axis] = left % self.counts[axis] * self.sides[axis];
+                    sides[axis] = self.sides[axis].min(grid.count(axis) - low[axis]);
+                    left /= self.counts[axis];
+                }
+                Tile {
+                    number,
+                    low,
+                    sides,
+                    sheets: Sheets::default(),
+                    motions: Vec::new(),
+                    last: vec![None; sides.iter().product()],
+                    before: Vec::new(),
+                    roots: Vec::new(),
+                    front: Vec::new(),
+                    seams: Vec::new(),
+                    unsure: Vec::new(),
+                }
+            })
+            .collect()
+    }
+}
+
+/// A step to be taken: from a sheet in a direction.
+pub(crate) type Task = (Name, usize);
+
+/// A part of the grid with what was reached in it, in the order in which it was.
+pub(crate) struct Tile {
+    number: usize,
+    low: [usize; MOST_AXES],
+    sides: [usize; MOST_AXES],
+    pub sheets: Sheets,
+    /// The motions of its sheets, one after another.
+    motions: Vec<f64>,
+    /// For each of its nodes the last sheet there, and for each sheet the one before it there.
+    last: Vec<Option<u32>>,
+    before: Vec<Option<u32>>,
+    /// For each sheet the first, so far as is known, of those connected with it in here.
+    roots: Vec<usize>,
+    /// Sheets that no steps were made from yet.
+    front: Vec<usize>,
+    /// Steps that lead out of it.
+    pub seams: Vec<Task>,
+    /// Steps in it that are too long to be sure.
+    pub unsure: Vec<Task>,
+}
+
+impl Tile {
+    /// Whether there is something to spread from.
+    pub fn grows(&self) -> bool {
+        !self.front.is_empty()
+    }
+
+    fn place(&self, grid: &Grid, node: usize) -> Option<usize> {
+        let (mut place, mut stride) = (0, 1);
+        for axis in 0..grid.dimensions() {
+            let along = grid.place(node, axis).checked_sub(self.low[axis])?;
+            if along >= self.sides[axis] {
+                return None;
+            }
+            place += stride * along;
+            stride *= self.sides[axis];
+        }
+        Some(place)
+    }
+
+    /// The sheets at a node.
+    fn sheets_at(&self, grid: &Grid, node: usize) -> impl Iterator<Item = usize> {
+        let last = self.place(grid, node).and_then(|place| self.last[place]);
+        let sheets = std::iter::successors(last, |sheet| self.before[*sheet as usize]);
+        sheets.map(|sheet| sheet as usize)
+    }
+
+    /// The sheets at a node with their configurations.
+    pub fn at(
+        &self,
+        grid: &Grid,
+        node: usize,
+    ) -> impl Iterator<Item = (Name, ConfigurationRef<'_, f64>)> {
+        let sheets = self.sheets_at(grid, node);
+        sheets.map(|sheet| (self.name(sheet), self.sheets.at(sheet)))
+    }
+
+    /// The same with their motions.
+    pub fn moving_at(&self, grid: &Grid, node: usize) -> impl Iterator<Item = (Name, Moving<'_>)> {
+        let sheets = self.sheets_at(grid, node);
+        sheets.map(|sheet| (self.name(sheet), self.moving(sheet)))
+    }
+
+    /// The way from a sheet to its neighbour.
+    pub fn step(&self, fill: &Fill, sheet: usize, direction: usize) -> Step<'_> {
+        fill.step(self.sheets.all[sheet].node, self.moving(sheet), direction)
+    }
+
+    fn name(&self, sheet: usize) -> Name {
+        Name::new(self.number, sheet)
+    }
+
+    /// A sheet with its motions.
+    pub fn moving(&self, sheet: usize) -> Moving<'_> {
+        let length = self.motions.len() / self.sheets.len();
+        Moving {
+            at: self.sheets.at(sheet),
+            motions: &self.motions[sheet * length..][..length],
+            told: &self.sheets.all[sheet].told,
+        }
+    }
+
+    /// Its sheets, and for each the first of those connected with it in here.
+    pub fn finished(mut self) -> (Sheets, Vec<usize>) {
+        let roots = (0..self.sheets.len()).map(|sheet| root(&mut self.roots, sheet));
+        let roots = roots.collect();
+        (self.sheets, roots)
+    }
+
+    /// A name for what a sheet is connected with, so far as is known.
+    pub fn root(&mut self, sheet: usize) -> Name {
+        let root = root(&mut self.roots, sheet);
+        self.name(root)
+    }
+
+    /// Adds what was not reached before, at one of its nodes.
+    pub fn add(&mut self, fill: &Fill, node: usize, arrival: Moving) -> Name {
+        let new = self.sheets.len();
+        if new == 0 {
+            // where one node is reached most are
+            let nodes = self.last.len();
+            self.sheets.reserve(nodes, arrival.at);
+            self.motions.reserve(nodes * arrival.motions.len());
+        }
+        let sheet = Sheet {
+            node,
+            within: fill.asked.allows(arrival.at.joints),
+            told: arrival.told.clone(),
+            links: [Link::Open; MOST_DIRECTIONS],
+        };
+        if fill.goes_on_from(&sheet) {
+            self.front.push(new);
+        }
+        self.sheets.push(sheet, arrival.at);
+        self.motions.extend(arrival.motions);
+        let place = self.place(fill.grid, node);
+        let place = place.expect("a node of this part");
+        let name = self.name(new);
+        self.before.push(self.last[place].replace(name.sheet));
+        self.roots.push(new);
+        name
+    }
+
+    /// Links two of its sheets.
+    pub fn link(&mut self, from: usize, direction: usize, to: usize) {
+        let (from_name, to_name) = (self.name(from), self.name(to));
+        self.sheets.all[from].links[direction] = Link::To(to_name);
+        let back = &mut self.sheets.all[to].links[direction ^ 1];
+        if *back == Link::Open {
+            *back = Link::To(from_name);
+        }
+        join(&mut self.roots, from, to);
+    }
+
+    /// One step to each node from each mode known so far; the others wait for what it finds.
+    fn chosen(&mut self, grid: &Grid, waiting: Vec<(usize, usize)>) -> [Vec<(usize, usize)>; 2] {
+        let mut taken = FxHashSet::with_capacity_and_hasher(waiting.len(), Default::default());
+        let (now, later) = waiting.into_iter().partition(|&(s, d)| {
+            let node = grid.neighbour(self.sheets.all[s].node, d);
+            taken.insert((node, root(&mut self.roots, s)))
+        });
+        [now, later]
+    }
+
+    /// Spreads as far as single steps surely lead in it.
+    pub fn grow<T: Factorable + Packed>(&mut self, fill: &Fill, steps: &mut Steps<T>) {
+        let mut storage = Vec::new();
+        let mut arrivals = Arrivals::default();
+        while self.grows() && self.sheets.len() <= fill.most {
+            let front = std::mem::take(&mut self.front);
+            let mut waiting = self.ahead(fill.grid, &front);
+            while !waiting.is_empty() {
+                waiting.retain(|&(s, d)| !self.linked(fill, s, d, &mut storage));
+                let [now, later] = self.chosen(fill.grid, waiting);
+                for pack in now.chunks(T::WIDTH) {
+                    let planned = pack.iter().map(|&(s, d)| self.step(fill, s, d));
+                    let planned: Vec<Step> = planned.collect();
+                    fill.sure(steps, &planned, &mut arrivals, &mut storage);
+                    for (&(s, d), arrival) in pack.iter().zip(arrivals.iter()) {
+                        match arrival {
+                            Some(arrival) => self.arrive(fill, s, d, arrival),
+                            None => self.unsure.push((self.name(s), d)),
+                        }
+                    }
+                }
+                waiting = later;
+            }
+        }
+    }
+
+    /// The steps from sheets to neighbours in here; those that lead out are kept.
+    fn ahead(&mut self, grid: &Grid, front: &[usize]) -> Vec<(usize, usize)> {
+        let mut inside = Vec::new();
+        for &s in front {
+            for d in 0..2 * grid.dimensions() {
+                match grid.neighbour(self.sheets.all[s].node, d) {
+                    None => {}
+                    Some(node) if self.place(grid, node).is_some() => inside.push((s, d)),
+                    Some(_) => self.seams.push((self.name(s), d)),
+                }
+            }
+        }
+        inside
+    }
+
+    /// Whether a sheet is linked already or now can be, with one that lies where both motions say.
+    fn linked(&mut self, fill: &Fill, s: usize, d: usize, storage: &mut Vec<f64>) -> bool {
+        let sheet = &self.sheets.all[s];
+        if sheet.links[d] != Link::Open {
+            return true;
+        }
+        let Some(node) = fill.grid.neighbour(sheet.node, d) else {
+            return true;
+        };
+        let near = fill.near(
+            &self.step(fill, s, d),
+            self.moving_at(fill.grid, node),
+            storage,
+        );
+        if let Some(near) = near {
+            self.link(s, d, near.sheet as usize);
+        }
+        near.is_some()
+    }
+
+    fn arrive(&mut self, fill: &Fill, s: usize, d: usize, arrival: Moving) {
+        let Some(node) = fill.grid.neighbour(self.sheets.all[s].node, d) else {
+            return;
+        };
+        let known = fill.known(self.at(fill.grid, node), arrival.at);
+        let to = known.unwrap_or_else(|| self.add(fill, node, arrival));
+        self.link(s, d, to.sheet as usize);
+    }
+}

@@ -1,0 +1,189 @@
+//! What a map of the workspace tells.
+
+use serde::de::Error;
+use serde::{Deserialize, Deserializer, Serialize, Serializer};
+
+use super::cells::Cells;
+use crate::algebra::SiUnit;
+use crate::analysis::workspace::boundary::{BoundaryCurve, BoundaryKind};
+use crate::mechanism::Variable;
+
+/// Where a mechanism reaches in a box of coordinates, and how.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(remote = "Self")]
+pub struct WorkspaceReport {
+    /// The mechanism's name.
+    pub mechanism: String,
+    /// The joints, in the order of the file.
+    pub variables: Vec<Variable>,
+    /// The mapped coordinates.
+    pub axes: Vec<AxisReport>,
+    /// What is held beside them.
+    pub held: Vec<HeldReport>,
+    /// Coordinates of platforms that are neither mapped nor held.
+    pub following: Vec<CoordinateReport>,
+    /// The joints that direct singularities are told of; none if not as many joints are actuated as
+    /// there are freedoms.
+    pub inputs: Vec<String>,
+    /// The coordinates that inverse singularities are told of; none if platforms have too few.
+    pub outputs: Vec<String>,
+    /// Nodes of the grid.
+    pub nodes: usize,
+    /// Nodes that are reached within limits in some mode. A node exactly where a mode ends is not.
+    pub reached: usize,
+    /// The unit of the sizes, e.g. m² or rad·m.
+    pub unit: SiUnit,
+    /// The size of the box.
+    pub size: f64,
+    /// The size of what is reached within limits in some mode.
+    pub reached_size: f64,
+    /// The modes.
+    pub modes: Vec<ModeReport>,
+    /// The aspects, numbered through all modes.
+    pub aspects: Vec<AspectReport>,
+    /// The boundary of modes and aspects: curves through the points found on edges of the grid.
+    pub curves: Vec<BoundaryCurve>,
+    /// Boundary points on edges of the grid.
+    pub points: Vec<BoundaryPoint>,
+    /// Edges of the grid at whose end nothing sure was found.
+    pub unsure: usize,
+    /// Aspects are parts that this fraction of a cell does not join: one over it.
+    pub parts: usize,
+    /// Nodes that were searched for modes, and random starts at each.
+    pub searched: [usize; 2],
+    /// Nodes that were searched afterwards, and random starts at each.
+    pub probed: [usize; 2],
+    /// Assembled configurations met in the search with a joint outside its limits.
+    pub outside: usize,
+    /// The seed of the random starts.
+    pub seed: u64,
+    /// The length in m that makes the Jacobian dimensionless.
+    pub normalising_length: f64,
+    /// Whether the work was stopped before it was done: nodes, modes and boundaries may be missing.
+    #[serde(default, skip_serializing_if = "std::ops::Not::not")]
+    pub interrupted: bool,
+    /// Every node in every mode that reaches it, those outside limits too.
+    #[serde(flatten)]
+    pub cells: Cells,
+}
+
+impl Serialize for WorkspaceReport {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        WorkspaceReport::serialize(self, serializer)
+    }
+}
+
+impl<'de> Deserialize<'de> for WorkspaceReport {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        let mut report = WorkspaceReport::deserialize(deserializer)?;
+        let widths = [
+            report.axes.len(),
+            report.variables.len(),
+            report.following.len(),
+        ];
+        let cells = std::mem::take(&mut report.cells).arranged(widths, &report.axes);
+        report.cells = cells.ok_or_else(|| D::Error::custom("rows do not fit their columns"))?;
+        Ok(report)
+    }
+}
+
+/// A mapped coordinate.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct AxisReport {
+    /// Its name.
+    pub name: String,
+    /// rad or m.
+    pub unit: SiUnit,
+    /// Its least value.
+    pub from: f64,
+    /// Its greatest value.
+    pub to: f64,
+    /// Nodes along it.
+    pub nodes: usize,
+}
+
+/// A coordinate.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct CoordinateReport {
+    /// Its name.
+    pub name: String,
+    /// rad or m.
+    pub unit: SiUnit,
+}
+
+/// A coordinate that is held.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct HeldReport {
+    /// Its name.
+    pub name: String,
+    /// rad or m.
+    pub unit: SiUnit,
+    /// Its value.
+    pub value: f64,
+}
+
+/// A mode: what regular motion within the box connects, whether within limits or not.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct ModeReport {
+    /// Its number: modes are sorted by the first node they reach, those with the same first node by
+    /// the joints there, angles in (−π, π].
+    pub mode: usize,
+    /// Nodes reached.
+    pub nodes: usize,
+    /// Of these within limits.
+    pub within: usize,
+    /// The size of what is reached within limits.
+    pub size: f64,
+    /// Nodes reached in more than one configuration: going round in the box leads from one to the
+    /// other.
+    pub repeated: usize,
+    /// Joint values at its first node, rad or m, in the order of the file.
+    pub joints: Vec<f64>,
+}
+
+/// A region of one mode within limits that no singularity parts.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct AspectReport {
+    /// Its number: by mode, then by nodes, the most first.
+    pub aspect: usize,
+    /// Its mode.
+    pub mode: usize,
+    /// Its nodes.
+    pub nodes: usize,
+    /// Its size.
+    pub size: f64,
+    /// Sign of the determinant of the derivatives of the inputs by what is mapped and held; zero if
+    /// that is not told.
+    pub direct: i8,
+    /// Sign of the determinant of the derivatives of the outputs by what is mapped and held; zero if
+    /// that is not told.
+    pub inverse: i8,
+    /// The node with the least condition number.
+    pub best: Option<Conditioned>,
+    /// The node with the greatest condition number.
+    pub worst: Option<Conditioned>,
+}
+
+/// A node with the condition number there.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Conditioned {
+    /// The mapped coordinates, rad or m.
+    pub at: Vec<f64>,
+    /// The condition number.
+    pub condition: f64,
+}
+
+/// A boundary point.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct BoundaryPoint {
+    /// What bounds.
+    pub kind: BoundaryKind,
+    /// Whether the mode ends there, or only aspects are parted.
+    pub ends_reach: bool,
+    /// The mode that it bounds.
+    pub mode: usize,
+    /// The mapped coordinates, rad or m.
+    pub at: Vec<f64>,
+    /// The joints there, rad or m, in the order of the file.
+    pub joints: Vec<f64>,
+}

@@ -1,0 +1,254 @@
+//! What a map asks at each of its nodes.
+
+use crate::geometry::{Axis, Pose, Rotation, Vector3};
+use crate::linear::Factorable;
+use crate::mechanism::{Configuration, Coordinate, Mechanism, PlatformPose};
+use crate::number::Packed;
+use crate::solve::Newton;
+use crate::system::{
+    Driven, HeldPlatform, Holdable, Lock, Mobility, Question, System, with_coordinates,
+};
+
+/// A question with some of its held coordinates mapped.
+pub(crate) struct Asked<'m> {
+    pub mechanism: &'m Mechanism,
+    pub question: Question<'m>,
+    pub axes: Vec<Driven>,
+    /// All held coordinates, the mapped ones first. A whole orientation that is not mapped turns
+    /// about the axes of ground.
+    pub held: Vec<Holdable>,
+    /// The actuated joints, if there are as many as freedoms.
+    pub inputs: Vec<Holdable>,
+    /// As many coordinates of platforms, if there are so many that are independent.
+    pub outputs: Vec<Holdable>,
+    pub newton: Newton,
+    /// For each joint whether whole turns of it change nothing that is held.
+    pub turns: Vec<bool>,
+}
+
+impl<'m> Asked<'m> {
+    /// `question` holds the mapped coordinates too.
+    pub fn new(question: &Question<'m>, axes: &[Driven], newton: &Newton) -> Self {
+        let mechanism = question.mechanism();
+        let mapped = |holdable: &Holdable| axes.iter().any(|axis| axis.coordinate == *holdable);
+        let mut held: Vec<Holdable> = axes.iter().map(|axis| axis.coordinate).collect();
+        for mut holdable in question.held_coordinates() {
+            let angle = match holdable {
+                Holdable::Coordinate(platform, c) => c.is_angle().then_some((platform, c)),
+                Holdable::Joint(_) | Holdable::Turn(..) => None,
+            };
+            if let Some((platform, c)) = angle {
+                let all = [Coordinate::Roll, Coordinate::Pitch, Coordinate::Yaw]
+                    .map(|c| Holdable::Coordinate(platform, c));
+                let is_held = |c: &Holdable| question.held_coordinates().contains(c);
+                if all.iter().all(is_held) && !all.iter().any(mapped) {
+                    let turns = [Axis::X, Axis::Y, Axis::Z];
+                    let turn = turns[c as usize - Coordinate::Roll as usize];
+                    holdable = Holdable::Turn(platform, turn);
+                }
+            }
+            if !mapped(&holdable) {
+                held.push(holdable);
+            }
+        }
+        let joints = mechanism.joints().iter().enumerate();
+        let actuated = joints.filter(|(_, j)| j.role == crate::mechanism::Role::Actuated);
+        let inputs: Vec<Holdable> = actuated.map(|(i, _)| Holdable::Joint(i)).collect();
+        let platforms = 0..mechanism.platforms().len();
+        let coordinates: Vec<Holdable> = platforms
+            .flat_map(|p| Coordinate::ALL.map(|c| Holdable::Coordinate(p, c)))
+            .collect();
+        let of_platforms = held.iter().all(|h| !matches!(h, Holdable::Joint(_)));
+        let outputs = match of_platforms {
+            true => held.clone(),
+            false => Mobility::near(mechanism, &mechanism.home())
+                .map(|mobility| mobility.independent(mechanism, &coordinates))
+                .unwrap_or_default(),
+        };
+        let whole = |set: Vec<Holdable>| match set.len() == held.len() {
+            true => set,
+            false => Vec::new(),
+        };
+        Asked {
+            mechanism,
+            question: question.clone(),
+            axes: axes.to_vec(),
+            inputs: whole(inputs),
+            outputs: whole(outputs),
+            held,
+            newton: newton.clone(),
+            turns: (question.held().joints.iter().enumerate())
+                .map(|(joint, held)| !held && mechanism.repeats(joint))
+                .collect(),
+        }
+    }
+
+    /// The question at values of the mapped coordinates.
+    pub fn at(&self, values: &[f64]) -> Question<'m> {
+        let axes = self.axes.iter().map(|axis| axis.coordinate);
+        self.question
+            .clone()
+            .at_values(axes.zip(values.iter().copied()))
+    }
+
+    /// Whether direct singularities are other than where modes end.
+    pub fn tells_direct(&self) -> bool {
+        !self.inputs.is_empty() && !self.holds(&self.inputs)
+    }
+
+    /// Whether inverse singularities are.
+    pub fn tells_inverse(&self) -> bool {
+        !self.outputs.is_empty() && !self.holds(&self.outputs)
+    }
+
+    /// Whether all joints are within their limits.
+    pub fn allows(&self, joints: &[f64]) -> bool {
+        let mut joints = self.mechanism.joints().iter().zip(joints);
+        joints.all(|(joint, value)| joint.allows(*value))
+    }
+
+    /// What stands still in a motion within the map.
+    pub fn locks(of: &[Holdable]) -> Vec<Lock> {
+        of.iter().copied().map(Lock::Coordinate).collect()
+    }
+
+    /// Whether exactly these are held.
+    pub fn holds(&self, set: &[Holdable]) -> bool {
+        set.len() == self.held.len() && self.held.iter().all(|held| set.contains(held))
+    }
+
+    /// A configuration with the mapped and held values put in, whatever can be put in.
+    pub fn put(&self, at: &Configuration<f64>, values: &[f64]) -> Configuration<f64> {
+        let (mut to, start) = (at.clone(), self.at(values).start());
+        let held = self.question.held();
+        for (joint, value) in to.joints.iter_mut().enumerate() {
+            if held.joints[joint] {
+                *value = start.joints[joint];
+            }
+        }
+        for (platform, held) in held.platforms.iter().enumerate() {
+            if *held == HeldPlatform::Pose {
+                to.platforms[platform] = start.platforms[platform];
+            }
+        }
+        to
+    }
+}
+
+/// The equations at a node, for one node or for several side by side.
+#[derive(Clone, Debug)]
+pub(crate) struct Targets {
+    /// Mapped joints with the number of their axis.
+    joints: Vec<(usize, usize)>,
+    /// Mapped coordinates of platforms that are not held whole.
+    single: Vec<(usize, Coordinate, usize)>,
+    /// Platforms with a mapped angle or pose, their angles and positions: the number of an axis, or
+    /// a value.
+    whole: Vec<Whole>,
+}
+
+#[derive(Clone, Debug)]
+struct Whole {
+    platform: usize,
+    pose: bool,
+    sources: Vec<(Coordinate, Source)>,
+}
+
+#[derive(Clone, Copy, Debug)]
+enum Source {
+    Axis(usize),
+    Value(f64),
+}
+
+impl Targets {
+    pub fn new(asked: &Asked) -> Self {
+        let held = asked.question.held();
+        let start = asked.question.start();
+        let mut targets = Targets {
+            joints: Vec::new(),
+            single: Vec::new(),
+            whole: Vec::new(),
+        };
+        for (i, axis) in asked.axes.iter().enumerate() {
+            match axis.coordinate {
+                Holdable::Joint(joint) => targets.joints.push((joint, i)),
+                Holdable::Coordinate(platform, c) => {
+                    let (pose, turned) = match &held.platforms[platform] {
+                        HeldPlatform::Pose => (true, true),
+                        HeldPlatform::Partly { orientation, .. } => {
+                            (false, orientation.is_some() && c.is_angle())
+                        }
+                        HeldPlatform::Free => (false, false),
+                    };
+                    if !turned {
+                        targets.single.push((platform, c, i));
+                    } else if targets.whole.iter().all(|w| w.platform != platform) {
+                        let at = start.platforms[platform].pose();
+                        let source = |c: Coordinate| {
+                            let mapped = asked.axes.iter().position(|axis| {
+                                axis.coordinate == Holdable::Coordinate(platform, c)
+                            });
+                            match mapped {
+                                Some(axis) => (c, Source::Axis(axis)),
+                                None => (c, Source::Value(c.of(&at))),
+                            }
+                        };
+                        targets.whole.push(Whole {
+                            platform,
+                            pose,
+                            sources: Coordinate::ALL.map(source).to_vec(),
+                        });
+                    }
+                }
+                Holdable::Turn(..) => {}
+            }
+        }
+        targets
+    }
+
+    /// Asks for the values of each place.
+    pub fn ask<'v, T: Factorable + Packed>(
+        &self,
+        system: &mut System<T>,
+        at: &mut Configuration<T>,
+        values: impl Fn(usize) -> &'v [f64],
+    ) {
+        for &(joint, axis) in &self.joints {
+            at.joints[joint] = T::of_parts(|place| values(place)[axis]);
+        }
+        for &(platform, c, axis) in &self.single {
+            system.set_target(platform, c, T::of_parts(|place| values(place)[axis]));
+        }
+        for whole in &self.whole {
+            let poses: Vec<Pose<f64>> = (0..T::WIDTH)
+                .map(|place| {
+                    let sources = whole.sources.iter().map(|&(c, source)| match source {
+                        Source::Axis(axis) => (c, values(place)[axis]),
+                        Source::Value(value) => (c, value),
+                    });
+                    with_coordinates(&Pose::identity(), sources)
+                })
+                .collect();
+            match whole.pose {
+                true => {
+                    let poses: Vec<PlatformPose<f64>> =
+                        poses.iter().map(PlatformPose::from_pose).collect();
+                    let pose = &mut at.platforms[whole.platform];
+                    for k in 0..4 {
+                        pose.orientation.0[k] = T::of_parts(|place| poses[place].orientation.0[k]);
+                    }
+                    for k in 0..3 {
+                        pose.position.0[k] = T::of_parts(|place| poses[place].position.0[k]);
+                    }
+                }
+                false => {
+                    let part = |column: usize, row: usize| {
+                        T::of_parts(|place| poses[place].rotation.0[column].0[row])
+                    };
+                    let wanted = [0, 1, 2].map(|c| Vector3([0, 1, 2].map(|r| part(c, r))));
+                    system.set_orientation(whole.platform, Rotation(wanted));
+                }
+            }
+        }
+    }
+}

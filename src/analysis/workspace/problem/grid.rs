@@ -1,0 +1,189 @@
+//! The nodes of a map.
+
+use crate::system::Driven;
+
+/// Mapped coordinates there are at most.
+pub(crate) const MOST_AXES: usize = 3;
+/// Directions to neighbours there are at most.
+pub(crate) const MOST_DIRECTIONS: usize = 2 * MOST_AXES;
+
+/// Nodes at equal distances in a box, the first coordinate running fastest.
+#[derive(Clone, Debug)]
+pub(crate) struct Grid {
+    axes: Vec<Axis>,
+}
+
+#[derive(Clone, Copy, Debug)]
+struct Axis {
+    from: f64,
+    to: f64,
+    nodes: usize,
+    /// From a node to the next along it.
+    stride: usize,
+}
+
+impl Grid {
+    pub fn new(axes: &[Driven], counts: &[usize]) -> Self {
+        let mut stride = 1;
+        let axes = axes.iter().zip(counts).map(|(axis, &nodes)| {
+            let before = stride;
+            stride *= nodes;
+            Axis {
+                from: axis.from,
+                to: axis.to,
+                nodes,
+                stride: before,
+            }
+        });
+        Grid {
+            axes: axes.collect(),
+        }
+    }
+
+    pub fn dimensions(&self) -> usize {
+        self.axes.len()
+    }
+
+    /// Nodes along an axis.
+    pub fn count(&self, axis: usize) -> usize {
+        self.axes[axis].nodes
+    }
+
+    /// All nodes.
+    pub fn len(&self) -> usize {
+        self.axes.iter().map(|axis| axis.nodes).product()
+    }
+
+    /// How far neighbours along an axis are apart.
+    pub fn spacing(&self, axis: usize) -> f64 {
+        let Axis {
+            from, to, nodes, ..
+        } = self.axes[axis];
+        (to - from) / (nodes - 1) as f64
+    }
+
+    /// The place of a node along an axis.
+    pub fn place(&self, node: usize, axis: usize) -> usize {
+        let Axis { nodes, stride, .. } = self.axes[axis];
+        node / stride % nodes
+    }
+
+    /// A coordinate; the ends themselves without rounding.
+    pub fn coordinate(&self, axis: usize, place: usize) -> f64 {
+        let Axis {
+            from, to, nodes, ..
+        } = self.axes[axis];
+        match place {
+            0 => from,
+            last if last + 1 == nodes => to,
+            _ => from + (to - from) * place as f64 / (nodes - 1) as f64,
+        }
+    }
+
+    /// The coordinates of a node.
+    pub fn values(&self, node: usize) -> Vec<f64> {
+        self.point(node)[..self.dimensions()].to_vec()
+    }
+
+    /// The coordinates of a node, zeros behind them.
+    pub fn point(&self, node: usize) -> [f64; MOST_AXES] {
+        std::array::from_fn(|axis| match axis < self.dimensions() {
+            true => self.coordinate(axis, self.place(node, axis)),
+            false => 0.0,
+        })
+    }
+
+    /// The neighbour in a direction: axis 0 back and forth, then axis 1 and so on.
+    pub fn neighbour(&self, node: usize, direction: usize) -> Option<usize> {
+        let axis = direction / 2;
+        let Axis { nodes, stride, .. } = self.axes[axis];
+        let place = self.place(node, axis);
+        match direction % 2 {
+            0 => (place > 0).then(|| node - stride),
+            _ => (place + 1 < nodes).then(|| node + stride),
+        }
+    }
+
+    /// The nodes whose places along each axis are in these ranges, ends included.
+    pub fn nodes_within(&self, sides: &[(usize, usize)]) -> Vec<usize> {
+        let mut nodes = vec![0];
+        for (&(low, high), axis) in sides.iter().zip(&self.axes) {
+            let stride = axis.stride;
+            // the first axis runs fastest
+            nodes = (low..=high)
+                .flat_map(|place| nodes.iter().map(move |node| node + stride * place))
+                .collect();
+        }
+        nodes
+    }
+
+    /// Nodes spread over the grid, no more than `most`, none of them at its edge if that can be.
+    pub fn spread(&self, most: usize) -> Vec<usize> {
+        if self.len() <= most {
+            return (0..self.len()).collect();
+        }
+        let root = (most as f64).powf(1.0 / self.dimensions() as f64).floor();
+        let each = (root as usize).max(1);
+        let mut nodes = vec![0];
+        for &Axis {
+            nodes: n, stride, ..
+        } in &self.axes
+        {
+            let each = each.min(n);
+            let places: Vec<usize> = (0..each).map(|k| (2 * k + 1) * n / (2 * each)).collect();
+            let further = nodes.iter();
+            nodes = further
+                .flat_map(|node| places.iter().map(move |place| node + stride * place))
+                .collect();
+        }
+        nodes.sort_unstable();
+        nodes
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::system::Holdable;
+
+    #[test]
+    fn neighbours_are_one_step_along_one_axis() {
+        let axis = |to| Driven {
+            coordinate: Holdable::Joint(0),
+            from: 0.0,
+            to,
+        };
+        let grid = Grid::new(&[axis(1.0), axis(2.0), axis(3.0)], &[3, 4, 5]);
+        for node in 0..grid.len() {
+            let here = grid.values(node);
+            for direction in 0..6usize {
+                let axis = direction / 2;
+                let sign = if direction.is_multiple_of(2) {
+                    -1.0
+                } else {
+                    1.0
+                };
+                let wanted = here[axis] + sign * grid.spacing(axis);
+                match grid.neighbour(node, direction) {
+                    Some(other) => {
+                        let there = grid.values(other);
+                        for k in 0..3 {
+                            let value = if k == axis { wanted } else { here[k] };
+                            assert!((there[k] - value).abs() < 1e-14);
+                        }
+                    }
+                    None => assert!(!(-1e-9..=(axis + 1) as f64 + 1e-9).contains(&wanted)),
+                }
+            }
+        }
+        let sides = [(1, 2), (0, 3), (2, 4)];
+        let inside = |node: &usize| {
+            let mut sides = sides.iter().enumerate();
+            sides.all(|(axis, (low, high))| (low..=high).contains(&&grid.place(*node, axis)))
+        };
+        let wanted: Vec<usize> = (0..grid.len()).filter(inside).collect();
+        assert_eq!(grid.nodes_within(&sides), wanted);
+        assert_eq!(grid.spread(8).len(), 8);
+        assert_eq!(grid.spread(1).len(), 1);
+    }
+}

@@ -1,0 +1,36 @@
+//! What the bodies of an MJCF model become, and poses of mjcf-rs.
+
+use crate::geometry::{Pose, Quaternion, Rotation, Vector3};
+
+/// A body and where it is in the tree: its first and its last part, if it was taken apart.
+pub(super) type Parts = Vec<usize>;
+
+/// A pose of mjcf-rs.
+pub(super) fn pose(pose: &mjcf_rs::Pose) -> Pose<f64> {
+    let q = pose.rotation;
+    let q = Quaternion([q.w, q.x, q.y, q.z]).normalised();
+    let t = pose.translation;
+    Pose {
+        rotation: exact(q.rotation()),
+        position: Vector3([t.x, t.y, t.z]),
+    }
+}
+
+/// Entries that differ from 0, 1 and −1 by rounding made exact, so that planar linkages stay planar.
+fn exact(rotation: Rotation<f64>) -> Rotation<f64> {
+    let clean = |x: f64| {
+        let whole = x.round();
+        if (x - whole).abs() < 4.0 * f64::EPSILON {
+            whole + 0.0
+        } else {
+            x
+        }
+    };
+    let cleaned = Rotation(rotation.0.map(|column| column.map(clean)));
+    let axes = cleaned
+        .0
+        .iter()
+        .filter(|column| column.0.iter().any(|x| x.abs() == 1.0));
+    // all three axes are along coordinates, or one is and the others are turned about it
+    if axes.count() > 0 { cleaned } else { rotation }
+}

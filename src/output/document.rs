@@ -1,0 +1,437 @@
+//! What an analysis has to say, before it is known where it will be read.
+//!
+//! A report becomes a [`Document`]: plain data made of an answer, notes, sections, tables, matrices,
+//! lists and pictures. Each output format is one file that renders a document and knows no report;
+//! each analysis has one file that makes its document and knows no format.
+
+mod cell;
+
+pub use cell::{Cell, Digits};
+
+use serde::{Deserialize, Serialize};
+
+/// Cells of a row, each from what it shows: `cells!["x", 0.5, Cell::quantity(1.0, "m")]`.
+macro_rules! cells {
+    ($($cell:expr),* $(,)?) => { vec![$($crate::output::document::Cell::from($cell)),*] };
+}
+pub(crate) use cells;
+
+/// A report that can be shown. Serialised it is the JSON answer, within an envelope that adds the
+/// program's version, the mechanism's name and the answer in words.
+pub trait Report: Serialize {
+    /// The report in words and tables. It needs nothing but the report.
+    fn document(&self) -> Document;
+
+    /// Sentences that JSON has beside the answer, each with the name of its field.
+    fn sentences(&self) -> Vec<(&'static str, Option<String>)> {
+        Vec::new()
+    }
+}
+
+/// Something to read, whatever the format. In all its texts names and commands stand between back
+/// quotes; anything else is to be shown as it stands.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct Document {
+    /// What it is about: the mechanism's name.
+    pub title: String,
+    /// The answer, in a sentence or two; may be empty.
+    pub answer: String,
+    /// What qualifies the answer, a line each.
+    pub notes: Vec<String>,
+    /// The answer in detail.
+    pub sections: Vec<Section>,
+    /// How the answer was found, a line each: shown last.
+    pub method: Vec<String>,
+}
+
+/// A part of a document under a title.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct Section {
+    /// The title.
+    pub title: String,
+    /// What stands under it, in order.
+    pub blocks: Vec<Block>,
+}
+
+/// What a section is made of.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Block {
+    /// A paragraph.
+    Text(String),
+    /// Lines that belong together.
+    List(Vec<String>),
+    /// A table.
+    Table(Table),
+    /// A matrix with named rows and columns.
+    Matrix(Matrix),
+    /// Text whose spaces and line breaks matter: a formula, a file, a program.
+    Code(Code),
+    /// A picture.
+    Picture(Picture),
+    /// A part under a title of its own.
+    Section(Section),
+}
+
+/// Rows under a header.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Table {
+    /// The columns.
+    pub columns: Vec<Column>,
+    /// The rows, with as many cells as there are columns.
+    pub rows: Vec<Vec<Cell>>,
+    /// Whether it is drawn with lines, as a Denavit–Hartenberg table is.
+    pub ruled: bool,
+}
+
+/// The header of a column.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Column {
+    /// What stands in it; may be empty.
+    pub title: String,
+    /// The unit of its numbers, which are then shown without; may be empty.
+    pub unit: String,
+    /// Where its cells begin or end.
+    pub align: Align,
+}
+
+/// Where the cells of a column are aligned.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Align {
+    /// Words.
+    #[default]
+    Left,
+    /// Numbers, which are easier to compare when they end at the same place.
+    Right,
+}
+
+/// A matrix with named rows and columns.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Matrix {
+    /// What the rows are: the title of the column of their names.
+    pub rows_are: String,
+    /// Names of the rows, with units where they have any.
+    pub rows: Vec<String>,
+    /// Names of the columns, with units where they have any.
+    pub columns: Vec<String>,
+    /// Row by row.
+    pub entries: Vec<Vec<f64>>,
+}
+
+/// Text to be shown letter by letter.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Code {
+    /// The language, as Markdown names it: `ron`, `latex`; may be empty.
+    pub language: String,
+    /// The lines.
+    pub text: String,
+}
+
+/// A drawing.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Picture {
+    /// What it shows, for those who cannot see it too.
+    pub caption: String,
+    /// An SVG document.
+    pub svg: String,
+}
+
+impl Document {
+    /// A document with a title and an answer.
+    pub fn new(title: impl Into<String>, answer: impl Into<String>) -> Self {
+        Document {
+            title: title.into(),
+            answer: answer.into(),
+            ..Document::default()
+        }
+    }
+
+    /// With a line that qualifies the answer; an empty one is left out.
+    #[must_use]
+    pub fn note(mut self, note: impl Into<String>) -> Self {
+        push(&mut self.notes, note.into());
+        self
+    }
+
+    /// With more lines that qualify the answer.
+    #[must_use]
+    pub fn notes(mut self, notes: impl IntoIterator<Item = String>) -> Self {
+        notes
+            .into_iter()
+            .for_each(|note| push(&mut self.notes, note));
+        self
+    }
+
+    /// With a line on how the answer was found; an empty one is left out.
+    #[must_use]
+    pub fn method(mut self, line: impl Into<String>) -> Self {
+        push(&mut self.method, line.into());
+        self
+    }
+
+    /// With a section; one without contents is left out.
+    #[must_use]
+    pub fn section(mut self, section: Section) -> Self {
+        if !section.blocks.is_empty() {
+            self.sections.push(section);
+        }
+        self
+    }
+
+    /// With several sections.
+    #[must_use]
+    pub fn sections(self, sections: impl IntoIterator<Item = Section>) -> Self {
+        sections.into_iter().fold(self, Document::section)
+    }
+
+    /// What to read, in order: the sections, then how the answer was found.
+    pub(super) fn parts(&self) -> impl Iterator<Item = std::borrow::Cow<'_, Section>> {
+        use std::borrow::Cow;
+        let method = Section::new("How it was found").list(self.method.clone());
+        let method = (!self.method.is_empty()).then_some(Cow::Owned(method));
+        self.sections.iter().map(Cow::Borrowed).chain(method)
+    }
+}
+
+fn push(lines: &mut Vec<String>, line: String) {
+    if !line.is_empty() {
+        lines.push(line);
+    }
+}
+
+impl Section {
+    /// A section without contents.
+    pub fn new(title: impl Into<String>) -> Self {
+        Section {
+            title: title.into(),
+            blocks: Vec::new(),
+        }
+    }
+
+    /// With a block.
+    #[must_use]
+    pub fn block(mut self, block: Block) -> Self {
+        self.blocks.push(block);
+        self
+    }
+
+    /// With a paragraph; an empty one is left out.
+    #[must_use]
+    pub fn text(self, text: impl Into<String>) -> Self {
+        match text.into() {
+            text if text.is_empty() => self,
+            text => self.block(Block::Text(text)),
+        }
+    }
+
+    /// With lines that belong together; nothing if there are none.
+    #[must_use]
+    pub fn list(self, lines: impl IntoIterator<Item = String>) -> Self {
+        match lines.into_iter().collect::<Vec<_>>() {
+            lines if lines.is_empty() => self,
+            lines => self.block(Block::List(lines)),
+        }
+    }
+
+    /// With a table; one without rows is left out.
+    #[must_use]
+    pub fn table(self, table: Table) -> Self {
+        match table.rows.is_empty() {
+            true => self,
+            false => self.block(Block::Table(table)),
+        }
+    }
+
+    /// With a matrix.
+    #[must_use]
+    pub fn matrix(self, matrix: Matrix) -> Self {
+        self.block(Block::Matrix(matrix))
+    }
+
+    /// With text whose spaces and line breaks matter.
+    #[must_use]
+    pub fn code(self, language: &str, text: impl Into<String>) -> Self {
+        self.block(Block::Code(Code {
+            language: language.into(),
+            text: text.into(),
+        }))
+    }
+
+    /// With a section inside; one without contents is left out.
+    #[must_use]
+    pub fn section(self, section: Section) -> Self {
+        match section.blocks.is_empty() {
+            true => self,
+            false => self.block(Block::Section(section)),
+        }
+    }
+}
+
+impl Table {
+    /// A table without rows.
+    pub fn new(columns: impl IntoIterator<Item = Column>) -> Self {
+        Table {
+            columns: columns.into_iter().collect(),
+            rows: Vec::new(),
+            ruled: false,
+        }
+    }
+
+    /// The same drawn with lines.
+    #[must_use]
+    pub fn ruled(mut self) -> Self {
+        self.ruled = true;
+        self
+    }
+
+    /// Adds a row.
+    pub fn row(&mut self, cells: Vec<Cell>) {
+        debug_assert_eq!(cells.len(), self.columns.len());
+        self.rows.push(cells);
+    }
+}
+
+impl Column {
+    /// A column of words.
+    pub fn words(title: impl Into<String>) -> Self {
+        Column {
+            title: title.into(),
+            unit: String::new(),
+            align: Align::Left,
+        }
+    }
+
+    /// A column of numbers.
+    pub fn numbers(title: impl Into<String>) -> Self {
+        Column {
+            align: Align::Right,
+            ..Column::words(title)
+        }
+    }
+
+    /// With a unit for all its numbers.
+    #[must_use]
+    pub fn in_unit(mut self, unit: impl ToString) -> Self {
+        self.unit = unit.to_string();
+        self
+    }
+
+    /// Title and unit: `Fx (N)`.
+    pub fn header(&self) -> String {
+        match self.unit.is_empty() {
+            true => self.title.clone(),
+            false => format!("{} ({})", self.title, self.unit),
+        }
+    }
+}
+
+impl Matrix {
+    /// The same as a table.
+    pub fn table(&self) -> Table {
+        let names = self.columns.iter().map(Column::numbers);
+        let mut table = Table::new(std::iter::once(Column::words(&self.rows_are)).chain(names));
+        for (name, entries) in self.rows.iter().zip(&self.entries) {
+            let entries = entries.iter().map(|&entry| Cell::from(entry));
+            table.row(std::iter::once(Cell::from(name)).chain(entries).collect());
+        }
+        table
+    }
+}
+
+/// A piece of text: as it stands, or a name or command that stood between back quotes.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Piece<'a> {
+    Plain(&'a str),
+    Quoted(&'a str),
+}
+
+/// The pieces of a text; a back quote without a partner is plain.
+pub(super) fn pieces(text: &str) -> Vec<Piece<'_>> {
+    let mut pieces = Vec::new();
+    let mut rest = text;
+    while let Some(start) = rest.find('`') {
+        let Some(length) = rest[start + 1..].find('`').filter(|length| *length > 0) else {
+            break;
+        };
+        pieces.push(Piece::Plain(&rest[..start]));
+        pieces.push(Piece::Quoted(&rest[start + 1..start + 1 + length]));
+        rest = &rest[start + length + 2..];
+    }
+    pieces.push(Piece::Plain(rest));
+    pieces.retain(|piece| *piece != Piece::Plain(""));
+    pieces
+}
+
+/// An SVG document as an address that pages can show without running anything in it.
+pub(super) fn address(svg: &str) -> String {
+    let mut address = String::from("data:image/svg+xml,");
+    for byte in svg.bytes() {
+        match byte {
+            b'a'..=b'z' | b'A'..=b'Z' | b'0'..=b'9' | b'-' | b'.' | b'_' | b'/' | b':' | b'=' => {
+                address.push(byte as char);
+            }
+            _ => address += &format!("%{byte:02X}"),
+        }
+    }
+    address
+}
+
+#[cfg(test)]
+pub(super) mod tests {
+    use super::*;
+
+    /// One of everything, with names that mean something in some format.
+    pub fn sample() -> Document {
+        let mut table = Table::new([
+            Column::words("on|<b>"),
+            Column::numbers("Fx").in_unit("N"),
+            Column::numbers("angle"),
+        ]);
+        table.row(cells!["a|b", -0.5, Cell::quantity(0.5, "rad")]);
+        table.row(cells![
+            "<script>",
+            Cell::number(10.0).marked("*"),
+            Cell::Empty
+        ]);
+        let matrix = Matrix {
+            rows_are: "output".into(),
+            rows: vec!["x (m/s)".into()],
+            columns: vec!["l1 (m/s)".into()],
+            entries: vec![vec![2.0]],
+        };
+        let picture = Picture {
+            caption: "path & \"marks\"".into(),
+            svg: "<svg onload='x'/>".into(),
+        };
+        Document::new("4-bar <1>", "It moves: `a<b` drives *it*.")
+            .note("near a limit")
+            .section(Section::new("Forces").text("in ground").table(table))
+            .section(Section::new("Nothing"))
+            .section(
+                Section::new("More")
+                    .matrix(matrix)
+                    .code("ron", "a: \"```\",\n  <b>\n")
+                    .section(Section::new("Inner").list(["- one".into(), "two".into()]))
+                    .block(Block::Picture(picture)),
+            )
+            .method("3 steps")
+    }
+
+    #[test]
+    fn a_document_is_read_back_as_written() {
+        let written = serde_json::to_string(&sample()).unwrap();
+        assert_eq!(
+            serde_json::from_str::<Document>(&written).unwrap(),
+            sample()
+        );
+    }
+
+    #[test]
+    fn quoted_pieces_need_two_back_quotes() {
+        use Piece::{Plain, Quoted};
+        assert_eq!(pieces("a `b` c"), [Plain("a "), Quoted("b"), Plain(" c")]);
+        assert_eq!(pieces("`b` and `c"), [Quoted("b"), Plain(" and `c")]);
+        assert_eq!(pieces("``"), [Plain("``")]);
+    }
+}

@@ -1,0 +1,191 @@
+//! Documents as one HTML page that needs no other file.
+
+use super::document::{Align, Block, Cell, Document, Piece, Section, Table, address, pieces};
+
+/// Light or dark as the reader's system is set; nothing is loaded and no script runs.
+const HEAD: &str = r#"<!doctype html>
+<html lang="en">
+<head>
+<meta charset="utf-8">
+<meta name="viewport" content="width=device-width, initial-scale=1">
+<meta http-equiv="Content-Security-Policy" content="default-src 'none'; img-src data:; style-src 'unsafe-inline'">
+"#;
+
+const STYLE: &str = "\
+:root { color-scheme: light dark; --ink: #1b1b1b; --paper: #fdfdfc; --line: #c9c9c4; --soft: #55554f; }
+@media (prefers-color-scheme: dark) { :root { --ink: #e8e8e4; --paper: #191a1b; --line: #46484b; --soft: #a9a9a2; } }
+body { margin: 2rem auto; max-width: 70rem; padding: 0 1rem; font: 1rem/1.5 system-ui, sans-serif; color: var(--ink); background: var(--paper); }
+h1 { font-size: 1.5rem; } h2 { font-size: 1.15rem; margin-top: 2rem; } h3, h4, h5, h6 { font-size: 1rem; }
+.answer { font-size: 1.1rem; } .notes, .method { color: var(--soft); }
+.wide { overflow-x: auto; }
+table { border-collapse: collapse; font-variant-numeric: tabular-nums; }
+th, td { padding: .2rem .8rem; border-bottom: 1px solid var(--line); text-align: left; font-weight: normal; white-space: nowrap; }
+thead th { font-weight: 600; } .right { text-align: right; } .ruled th, .ruled td { border: 1px solid var(--line); }
+code, pre { font-family: ui-monospace, monospace; font-size: .95em; } pre { overflow-x: auto; }
+img { max-width: 100%; background: #fff; } figure { margin: 1rem 0; }
+";
+
+/// The document as a page.
+pub fn render(document: &Document) -> String {
+    let mut page = String::from(HEAD);
+    page += &format!("<title>{}</title>\n", escaped(&document.title));
+    page += &format!("<style>\n{STYLE}</style>\n</head>\n<body>\n<main>\n");
+    page += &format!("<h1>{}</h1>\n", inline(&document.title));
+    if !document.answer.is_empty() {
+        page += &format!("<p class=\"answer\">{}</p>\n", inline(&document.answer));
+    }
+    if !document.notes.is_empty() {
+        page += &list("notes", &document.notes);
+    }
+    for part in document.parts() {
+        section(&part, 2, &mut page);
+    }
+    page + "</main>\n</body>\n</html>\n"
+}
+
+fn section(section: &Section, level: usize, page: &mut String) {
+    *page += "<section>\n";
+    let level = level.min(6);
+    if !section.title.is_empty() {
+        *page += &format!("<h{level}>{}</h{level}>\n", inline(&section.title));
+    }
+    for block in &section.blocks {
+        match block {
+            Block::Text(text) => *page += &format!("<p>{}</p>\n", lines(text)),
+            Block::List(lines) => *page += &list("lines", lines),
+            Block::Table(rows) => *page += &table(rows, &section.title),
+            Block::Matrix(matrix) => *page += &table(&matrix.table(), &section.title),
+            Block::Code(code) => {
+                *page += &format!(
+                    "<pre tabindex=\"0\"><code>{}</code></pre>\n",
+                    escaped(&code.text)
+                );
+            }
+            Block::Picture(picture) => {
+                let caption = escaped(&picture.caption);
+                *page += &format!(
+                    "<figure><img alt=\"{caption}\" src=\"{}\"><figcaption>{caption}</figcaption></figure>\n",
+                    address(&picture.svg)
+                );
+            }
+            Block::Section(inner) => self::section(inner, level + 1, page),
+        }
+    }
+    *page += "</section>\n";
+}
+
+fn list(class: &str, lines: &[String]) -> String {
+    let items = lines
+        .iter()
+        .map(|line| format!("<li>{}</li>\n", inline(line)));
+    format!(
+        "<ul class=\"{class}\">\n{}</ul>\n",
+        items.collect::<String>()
+    )
+}
+
+/// A table that a wide screen shows whole and a narrow one scrolls; words in the first column name
+/// their row.
+fn table(table: &Table, label: &str) -> String {
+    let class = |align: Align| match align {
+        Align::Left => "",
+        Align::Right => " class=\"right\"",
+    };
+    let mut text = format!(
+        "<div class=\"wide\" role=\"region\" tabindex=\"0\" aria-label=\"{}\">\n<table{}>\n<thead><tr>",
+        escaped(if label.is_empty() { "Table" } else { label }),
+        if table.ruled { " class=\"ruled\"" } else { "" }
+    );
+    for column in &table.columns {
+        let header = inline(&column.header());
+        text += &match header.is_empty() {
+            true => "<td></td>".into(),
+            false => format!("<th scope=\"col\"{}>{header}</th>", class(column.align)),
+        };
+    }
+    text += "</tr></thead>\n<tbody>\n";
+    for row in &table.rows {
+        text += "<tr>";
+        for (i, (cell, column)) in row.iter().zip(&table.columns).enumerate() {
+            let shown = inline(&cell.shown());
+            let class = class(column.align);
+            text += &match (i, cell) {
+                (0, Cell::Text(_) | Cell::Count(_)) => {
+                    format!("<th scope=\"row\"{class}>{shown}</th>")
+                }
+                _ => format!("<td{class}>{shown}</td>"),
+            };
+        }
+        text += "</tr>\n";
+    }
+    text + "</tbody>\n</table>\n</div>\n"
+}
+
+fn lines(text: &str) -> String {
+    let lines: Vec<String> = text.lines().map(inline).collect();
+    lines.join("<br>\n")
+}
+
+/// A text in which nothing but names between back quotes has a meaning.
+fn inline(text: &str) -> String {
+    let pieces = pieces(text).into_iter().map(|piece| match piece {
+        Piece::Plain(text) => escaped(text),
+        Piece::Quoted(text) => format!("<code>{}</code>", escaped(text)),
+    });
+    pieces.collect()
+}
+
+fn escaped(text: &str) -> String {
+    let mut written = String::with_capacity(text.len());
+    for c in text.chars() {
+        match c {
+            '&' => written += "&amp;",
+            '<' => written += "&lt;",
+            '>' => written += "&gt;",
+            '"' => written += "&quot;",
+            '\'' => written += "&#39;",
+            c => written.push(c),
+        }
+    }
+    written
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::output::document::tests::sample;
+
+    #[test]
+    fn names_have_no_meaning_in_html() {
+        let page = render(&sample());
+        let body = page.split("<main>").nth(1).unwrap();
+        for wanted in [
+            "<h1>4-bar &lt;1&gt;</h1>",
+            "<p class=\"answer\">It moves: <code>a&lt;b</code> drives *it*.</p>",
+            "<th scope=\"row\">&lt;script&gt;</th>",
+            "<td class=\"right\">10*</td>",
+            "<h3>Inner</h3>",
+            "alt=\"path &amp; &quot;marks&quot;\" src=\"data:image/svg+xml,%3Csvg%20onload=%27x%27/%3E\"",
+            "<h2>How it was found</h2>",
+        ] {
+            assert!(body.contains(wanted), "{wanted} is not in {body}");
+        }
+        assert!(!page.contains("<script") && !page.contains("<svg"));
+    }
+
+    #[test]
+    fn every_element_that_opens_closes() {
+        let page = render(&sample());
+        for name in [
+            "html", "head", "body", "main", "section", "table", "tr", "th", "td", "ul", "li",
+        ] {
+            let opened = page.matches(&format!("<{name}>")).count()
+                + page.matches(&format!("<{name} ")).count();
+            assert_eq!(
+                opened,
+                page.matches(&format!("</{name}>")).count(),
+                "{name}"
+            );
+        }
+    }
+}

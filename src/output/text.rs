@@ -1,0 +1,111 @@
+//! Documents as text for a terminal.
+
+use comfy_table::presets::{NOTHING, UTF8_FULL_CONDENSED};
+use comfy_table::{CellAlignment, Table as Drawn};
+
+use super::document::{Align, Block, Document, Section, Table};
+
+/// The document as text: title, answer and indented notes, then the sections, each after an empty
+/// line with its contents indented. Pictures are only named.
+pub fn render(document: &Document) -> String {
+    let mut text = String::new();
+    for line in [&document.title, &document.answer] {
+        if !line.is_empty() {
+            text += &format!("{line}\n");
+        }
+    }
+    for note in &document.notes {
+        text += &indented(note);
+    }
+    for part in document.parts() {
+        text += &format!("\n{}", section(&part));
+    }
+    text
+}
+
+fn section(section: &Section) -> String {
+    let blocks: String = section.blocks.iter().map(block).collect();
+    match section.title.is_empty() {
+        true => blocks,
+        false => format!("{}\n{}", section.title, indented(&blocks)),
+    }
+}
+
+fn block(block: &Block) -> String {
+    match block {
+        Block::Text(text) => format!("{text}\n"),
+        Block::List(lines) => lines.iter().map(|line| format!("{line}\n")).collect(),
+        Block::Table(rows) => table(rows),
+        Block::Matrix(matrix) => table(&matrix.table()),
+        Block::Code(code) => format!("{}\n", code.text.trim_end_matches('\n')),
+        Block::Picture(picture) => format!("[picture: {}]\n", picture.caption),
+        Block::Section(inner) => section(inner),
+    }
+}
+
+fn table(table: &Table) -> String {
+    let mut drawn = Drawn::new();
+    let header: Vec<String> = table.columns.iter().map(|column| column.header()).collect();
+    match table.ruled {
+        true => drawn.load_style(UTF8_FULL_CONDENSED).set_header(header),
+        false => drawn.load_style(NOTHING).add_row(header),
+    };
+    for row in &table.rows {
+        drawn.add_row(row.iter().map(|cell| one_line(&cell.shown())));
+    }
+    if let (Some(first), false) = (drawn.column_mut(0), table.ruled) {
+        first.set_padding((0, 1));
+    }
+    for (i, column) in table.columns.iter().enumerate() {
+        if let (Some(drawn), Align::Right) = (drawn.column_mut(i), column.align) {
+            drawn.set_cell_alignment(CellAlignment::Right);
+        }
+    }
+    format!("{drawn}\n")
+}
+
+fn one_line(text: &str) -> String {
+    text.replace(['\n', '\r'], " ")
+}
+
+/// The text indented by two spaces, without spaces at the ends of lines.
+fn indented(text: &str) -> String {
+    let lines = text
+        .lines()
+        .map(|line| format!("  {line}").trim_end().to_owned() + "\n");
+    lines.collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::output::document::tests::sample;
+
+    #[test]
+    fn sections_are_indented_and_numbers_end_at_the_same_place() {
+        let wanted = r#"4-bar <1>
+It moves: `a<b` drives *it*.
+  near a limit
+
+Forces
+  in ground
+  on|<b>    Fx (N)      angle
+  a|b         -0.5  28.64789°
+  <script>     10*
+
+More
+  output   l1 (m/s)
+  x (m/s)         2
+  a: "```",
+    <b>
+  Inner
+    - one
+    two
+  [picture: path & "marks"]
+
+How it was found
+  3 steps
+"#;
+        assert_eq!(render(&sample()), wanted);
+    }
+}

@@ -1,0 +1,142 @@
+//! Watching long work, and stopping it.
+
+use std::ops::ControlFlow;
+use std::sync::atomic::{AtomicBool, Ordering};
+
+/// What long work is doing.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
+pub enum Stage {
+    /// Newton's method from one random start after another.
+    Starts,
+    /// The search for generic solutions: Newton's method from random complex seeds, which are counted.
+    Seeds {
+        /// Generic solutions found so far.
+        found: usize,
+    },
+    /// The search for generic solutions: monodromy loops, which are counted.
+    Loops {
+        /// Generic solutions found so far.
+        found: usize,
+    },
+    /// Paths from the generic solutions to the inputs of the question, each counted as often as it is followed.
+    Paths,
+    /// Certificates of real assemblies.
+    Certificates,
+    /// Closed forms that are proved or refuted in letters.
+    Proofs,
+    /// Configurations at which closed forms are evaluated.
+    Samples,
+    /// Steps of inputs along their segment.
+    Motion,
+    /// Steps along a curve of assembled configurations.
+    Steps,
+    /// Values of an input at which all assemblies are searched for.
+    Inputs,
+    /// Steps from a singular configuration by which branches are searched for.
+    Branches,
+    /// Random starts from which singularity loci are searched for.
+    Loci,
+    /// Nodes of a map that are searched for assembled configurations.
+    Nodes,
+    /// Nodes in modes that a map has reached.
+    Reached,
+    /// Edges of a map's grid on which the boundary is located.
+    Boundary,
+    /// Kinds of boundary whose curves are followed.
+    Curves,
+}
+
+/// How far long work has come.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Progress {
+    /// What is being done.
+    pub stage: Stage,
+    /// How much of it is done.
+    pub done: usize,
+    /// How much there is to do, if that is known.
+    pub of: Option<usize>,
+}
+
+/// What is called with the progress of long work, from any of its threads, and answers whether to go on.
+pub type Observer<'a> = dyn Fn(Progress) -> ControlFlow<()> + Sync + 'a;
+
+/// Shows how far long work is, and stops it.
+///
+/// Work that is stopped ends soon with what it has, and its report is marked as interrupted. A watch that has stopped
+/// one piece of work stops all that it is given to afterwards.
+///
+/// ```
+/// use std::ops::ControlFlow;
+/// use linkwork::solve::{Progress, Stage, Watch};
+///
+/// let stop = |now: Progress| match now.done {
+///     0..10 => ControlFlow::Continue(()),
+///     _ => ControlFlow::Break(()),
+/// };
+/// let watch = Watch::new(&stop);
+/// let at = |done| Progress { stage: Stage::Starts, done, of: Some(40) };
+/// assert!(watch.at(at(3)).is_continue());
+/// assert!(watch.at(at(10)).is_break());
+/// assert!(watch.at(at(3)).is_break() && watch.is_stopped());
+/// ```
+pub struct Watch<'a> {
+    observer: Option<&'a Observer<'a>>,
+    stopped: AtomicBool,
+}
+
+impl<'a> Watch<'a> {
+    /// Calls `observer` again and again.
+    pub fn new(observer: &'a Observer<'a>) -> Self {
+        Watch {
+            observer: Some(observer),
+            stopped: AtomicBool::new(false),
+        }
+    }
+
+    /// Shows nothing and never stops anything.
+    pub fn none() -> Self {
+        Watch {
+            observer: None,
+            stopped: AtomicBool::new(false),
+        }
+    }
+
+    /// Passes on how far the work is; whether it goes on. Once stopped it stays stopped, and the observer is not called
+    /// again.
+    #[inline]
+    pub fn at(&self, now: Progress) -> ControlFlow<()> {
+        let Some(observer) = self.observer else {
+            return ControlFlow::Continue(());
+        };
+        if self.is_stopped() {
+            return ControlFlow::Break(());
+        }
+        let flow = observer(now);
+        if flow.is_break() {
+            self.stopped.store(true, Ordering::Relaxed);
+        }
+        flow
+    }
+
+    /// The same for work whose amount is known, or unknown as `None`.
+    #[inline]
+    pub fn stops(&self, stage: Stage, done: usize, of: Option<usize>) -> bool {
+        self.at(Progress { stage, done, of }).is_break()
+    }
+
+    /// Whether the work was stopped.
+    #[inline]
+    pub fn is_stopped(&self) -> bool {
+        self.stopped.load(Ordering::Relaxed)
+    }
+}
+
+impl std::fmt::Debug for Watch<'_> {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        (f.debug_struct("Watch"))
+            .field("observed", &self.observer.is_some())
+            .field("stopped", &self.is_stopped())
+            .finish()
+    }
+}

@@ -1,0 +1,348 @@
+//! A curve of configurations followed from a place on it, in a box and within limits.
+
+use serde::{Deserialize, Serialize};
+
+use super::locus::{LocusCurve, Singular};
+use super::{Curve, Driven};
+use crate::linear::{Decomposition, dot, norm};
+use crate::mechanism::{Configuration, Mechanism, turn_near};
+use crate::solve::{Continuation, Place, SolutionCurve};
+use crate::system::{Held, Holdable};
+
+/// A curve whose points are, or contain, configurations.
+pub trait ConfigurationCurve: SolutionCurve {
+    /// The configuration of a point.
+    fn configuration(point: &Self::Point) -> &Configuration<f64>;
+    /// The step from one configuration to another, whole turns left out: as the first components of
+    /// a tangent.
+    fn apart(&self, from: &Self::Point, to: &Self::Point) -> Vec<f64>;
+    /// The part of such a step that tells curves apart.
+    fn seen(&self, step: &[f64]) -> Vec<f64>;
+}
+
+impl ConfigurationCurve for LocusCurve {
+    fn configuration(point: &Singular) -> &Configuration<f64> {
+        &point.at
+    }
+
+    fn apart(&self, from: &Singular, to: &Singular) -> Vec<f64> {
+        LocusCurve::apart(self, from, to)
+    }
+
+    fn seen(&self, step: &[f64]) -> Vec<f64> {
+        LocusCurve::seen(self, step)
+    }
+}
+
+impl ConfigurationCurve for Curve {
+    fn configuration(point: &Configuration<f64>) -> &Configuration<f64> {
+        point
+    }
+
+    fn apart(&self, from: &Configuration<f64>, to: &Configuration<f64>) -> Vec<f64> {
+        self.difference_but_turns(from, to)
+    }
+
+    fn seen(&self, step: &[f64]) -> Vec<f64> {
+        step.to_vec()
+    }
+}
+
+/// How a curve ends.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum LocusEnd {
+    /// Where it began.
+    Closed,
+    /// At an edge of the box.
+    Box,
+    /// At a limit of a joint.
+    Limit,
+    /// In a point that no sure step leads beyond.
+    Lost,
+}
+
+/// A curve as it was followed.
+#[derive(Clone, Debug)]
+pub struct Traced<P> {
+    /// Places on it, in order.
+    pub places: Vec<Place<P>>,
+    /// How the first and the last end it; the same if it closes.
+    pub ends: [LocusEnd; 2],
+    /// Where other curves cross it.
+    pub crossings: Vec<Place<P>>,
+}
+
+/// The box and the limits that curves are followed in.
+#[derive(Clone, Copy, Debug)]
+pub struct Region<'m> {
+    /// The mechanism with its limits.
+    pub mechanism: &'m Mechanism,
+    /// What stands still: its limits do not count.
+    pub held: &'m Held<f64>,
+    /// The coordinates of the box.
+    pub sides: &'m [Driven],
+    /// How carefully curves are followed.
+    pub method: &'m Continuation,
+}
+
+/// A curve this little beyond a bound, in rad or m, still runs along it.
+const BESIDE: f64 = 1e-9;
+
+impl Region<'_> {
+    /// A coordinate of the box at a configuration; angles of platforms near the middle of the box.
+    pub fn side(&self, at: &Configuration<f64>, side: &Driven) -> f64 {
+        let x = side.coordinate.of(at);
+        match side.coordinate {
+            Holdable::Coordinate(_, c) if c.is_angle() => {
+                let middle = 0.5 * (side.from + side.to);
+                turn_near(x, middle)
+            }
+            _ => x,
+        }
+    }
+
+    /// How far a configuration is inside each bound, of the box and then of limits.
+    fn margins(&self, at: &Configuration<f64>) -> Vec<f64> {
+        let mut margins = Vec::new();
+        for side in self.sides {
+            let x = self.side(at, side);
+            margins.extend([x - side.from, side.to - x]);
+        }
+        for (i, joint) in self.mechanism.joints().iter().enumerate() {
+            let held = self.held.joints[i];
+            if let Some((low, high)) = joint.limits.filter(|_| !held) {
+                margins.extend([at.joints[i] - low, high - at.joints[i]]);
+            }
+        }
+        margins
+    }
+
+    /// Whether it is inside all of them.
+    pub fn inside(&self, at: &Configuration<f64>) -> bool {
+        self.margins(at).into_iter().all(|margin| margin >= -BESIDE)
+    }
+
+    /// The whole curve through a place.
+    pub fn traced<C: ConfigurationCurve>(
+        &self,
+        curve: &mut C,
+        place: Place<C::Point>,
+    ) -> Traced<C::Point> {
+        let (mut places, end, mut crossings) = self.half(curve, place.clone());
+        if end == LocusEnd::Closed {
+            return Traced {
+                places,
+                ends: [end; 2],
+                crossings,
+            };
+        }
+        let (back, start, more) = self.half(curve, place.reversed());
+        crossings.extend(more);
+        let back = back.into_iter().rev().map(Place::reversed);
+        let mut all: Vec<_> = back.collect();
+        all.pop();
+        all.append(&mut places);
+        Traced {
+            places: all,
+            ends: [start, end],
+            crossings,
+        }
+    }
+
+    /// The curve from a place on in the direction of its tangent.
+    fn half<C: ConfigurationCurve>(&self, curve: &mut C, start: Place<C::Point>) -> Half<C::Point> {
+        const STEPS: usize = 100_000;
+        let method = self.method;
+        let mut places = vec![start.clone()];
+        let mut crossings = Vec::new();
+        let mut place = start.clone();
+        let (mut length, mut gone) = (0.1 * method.longest, 0.0);
+        for _ in 0..STEPS {
+            let to = match method.step(curve, &place, length) {
+                Ok((to, changed)) => {
+                    length = method.next_length(length, changed);
+                    to
+                }
+                Err(_) if length > 1e-3 * method.longest => {
+                    length *= 0.5;
+                    continue;
+                }
+                Err(_) => match self.beyond(curve, &place) {
+                    Some([crossing, to]) => {
+                        crossings.push(crossing);
+                        length = 0.1 * method.longest;
+                        to
+                    }
+                    None if length > method.shortest => {
+                        length *= 0.5;
+                        continue;
+                    }
+                    None => return (places, LocusEnd::Lost, crossings),
+                },
+            };
+            gone += norm(&curve.apart(&place.at, &to.at));
+            let (before, after) = (
+                self.margins(C::configuration(&place.at)),
+                self.margins(C::configuration(&to.at)),
+            );
+            let left = (before.iter().zip(&after))
+                .enumerate()
+                .filter(|(_, (b, a))| **a < -BESIDE && **a < **b)
+                .map(|(i, (b, a))| (i, b.max(0.0) / (b.max(0.0) - a)))
+                .min_by(|a, b| a.1.total_cmp(&b.1));
+            if let Some((i, _)) = left {
+                let end = match i < 2 * self.sides.len() {
+                    true => LocusEnd::Box,
+                    false => LocusEnd::Limit,
+                };
+                if before[i] > 0.0 {
+                    let mut margin =
+                        |_: &mut C, p: &Place<C::Point>| self.margins(C::configuration(&p.at))[i];
+                    places.push(method.root(curve, &place, &to, &mut margin));
+                }
+                return (places, end, crossings);
+            }
+            if let Some(end) = closed(curve, &start, &place, &to, gone, method) {
+                places.push(end);
+                return (places, LocusEnd::Closed, crossings);
+            }
+            places.push(to.clone());
+            place = to;
+        }
+        (places, LocusEnd::Lost, crossings)
+    }
+
+    /// A crossing of loci just ahead, and the place behind it straight on.
+    fn beyond<C: ConfigurationCurve>(
+        &self,
+        curve: &mut C,
+        place: &Place<C::Point>,
+    ) -> Option<[Place<C::Point>; 2]> {
+        let method = self.method;
+        let reach = 0.2 * method.longest;
+        let point = method.branch_point(curve, &place.at, reach)?;
+        let way = curve.difference(&place.at, &point.at);
+        if dot(&way, &place.tangent) < 0.9 * norm(&way) {
+            return None;
+        }
+        let along = |d: &Vec<f64>| dot(d, &place.tangent);
+        let straight = (point.directions.iter())
+            .max_by(|a, b| along(a).abs().total_cmp(&along(b).abs()))
+            .filter(|d| along(d).abs() > 0.9)?;
+        let sign = along(straight).signum();
+        let straight: Vec<f64> = straight.iter().map(|x| sign * x).collect();
+        let (to, _) = method.leave(curve, &point.at, &straight)?;
+        Some([point.place(curve, &straight), to])
+    }
+}
+
+/// Places, the end, crossings.
+type Half<P> = (Vec<Place<P>>, LocusEnd, Vec<Place<P>>);
+
+/// The place of a curve that Gauss–Newton steps of bounded length reach from afar, if they do.
+pub fn settled<C: SolutionCurve>(
+    curve: &mut C,
+    mut point: C::Point,
+    method: &Continuation,
+) -> Option<Place<C::Point>> {
+    const STEPS: usize = 40;
+    const LONGEST: f64 = 0.5;
+    let regular = curve.unknowns().saturating_sub(1);
+    for _ in 0..STEPS {
+        let (residual, jacobian) = curve.linearise(&point);
+        if !jacobian.iter().chain(&residual).all(|x| x.is_finite()) {
+            return None;
+        }
+        let decomposition =
+            Decomposition::of_rank(residual.len(), curve.unknowns(), &jacobian, regular);
+        let mut step = decomposition.solve(&residual);
+        let size = norm(&step);
+        if size < 1e-3 {
+            return method.settle(curve, point).ok();
+        }
+        let factor = (LONGEST / size).min(1.0);
+        step.iter_mut().for_each(|x| *x *= -factor);
+        point = curve.displaced(&point, &step);
+    }
+    None
+}
+
+/// Whether a curve passes through a place.
+pub fn passes<C: ConfigurationCurve>(
+    curve: &mut C,
+    traced: &Traced<C::Point>,
+    place: &Place<C::Point>,
+    method: &Continuation,
+) -> bool {
+    met_at(curve, traced, place, method).is_some()
+}
+
+/// Where a curve passes through a place: the number of the last point before it, with the part of
+/// the way to the next that is gone.
+pub fn met_at<C: ConfigurationCurve>(
+    curve: &mut C,
+    traced: &Traced<C::Point>,
+    place: &Place<C::Point>,
+    method: &Continuation,
+) -> Option<f64> {
+    const SAME: f64 = 1e-6;
+    let distance =
+        |curve: &C, i: usize| norm(&curve.seen(&curve.apart(&traced.places[i].at, &place.at)));
+    let nearest = (0..traced.places.len())
+        .map(|i| (i, distance(curve, i)))
+        .min_by(|a, b| a.1.total_cmp(&b.1));
+    let (i, apart) = nearest.filter(|(_, apart)| *apart < 2.0 * method.longest)?;
+    if apart < SAME {
+        return Some(i as f64);
+    }
+    // the foot of the place on the pieces beside the nearest point
+    let foot = |curve: &mut C, i: usize| {
+        let (from, to) = (&traced.places[i], &traced.places[i + 1]);
+        let way = curve.apart(&from.at, &to.at);
+        let tangent = curve.seen(&from.tangent[..way.len()]);
+        let mut ahead =
+            |curve: &mut C, p: &Place<C::Point>| dot(&curve.apart(&p.at, &place.at), &tangent);
+        let (before, after) = (ahead(curve, from), ahead(curve, to));
+        if (before < 0.0) == (after < 0.0) {
+            return None;
+        }
+        let foot = method.root(curve, from, to, &mut ahead);
+        let met = norm(&curve.seen(&curve.apart(&foot.at, &place.at))) < SAME;
+        met.then(|| i as f64 + before / (before - after))
+    };
+    // a closed curve begins and ends at one place
+    let pieces = traced.places.len() - 1;
+    let round = traced.ends[1] == LocusEnd::Closed && (i == 0 || i == pieces);
+    let beside = match round {
+        true => [pieces.checked_sub(1), (pieces > 0).then_some(0)],
+        false => [i.checked_sub(1), (i < pieces).then_some(i)],
+    };
+    beside.into_iter().flatten().find_map(|i| foot(curve, i))
+}
+
+/// The place between two where the curve comes back to its start.
+fn closed<C: ConfigurationCurve>(
+    curve: &mut C,
+    start: &Place<C::Point>,
+    from: &Place<C::Point>,
+    to: &Place<C::Point>,
+    gone: f64,
+    method: &Continuation,
+) -> Option<Place<C::Point>> {
+    const SAME: f64 = 1e-6;
+    let step = norm(&curve.apart(&from.at, &to.at));
+    if gone <= 1.5 * step || norm(&curve.apart(&from.at, &start.at)) > 2.0 * step {
+        return None;
+    }
+    let freedoms = curve.apart(&start.at, &start.at).len();
+    let tangent = start.tangent[..freedoms].to_vec();
+    let mut ahead =
+        |curve: &mut C, p: &Place<C::Point>| dot(&curve.apart(&start.at, &p.at), &tangent);
+    if !(ahead(curve, from) < 0.0 && ahead(curve, to) >= 0.0) {
+        return None;
+    }
+    let place = method.root(curve, from, to, &mut ahead);
+    let apart = norm(&curve.apart(&start.at, &place.at));
+    (apart < SAME && dot(&place.tangent[..freedoms], &tangent) > 0.0).then_some(place)
+}

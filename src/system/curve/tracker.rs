@@ -1,0 +1,216 @@
+use crate::linear::Factorable;
+use crate::mechanism::{Configuration, Coordinate};
+use crate::solve::{Newton, Report, Trail, Warm, WarmReport};
+use crate::system::{System, Work};
+
+/// Follows a mechanism while its held coordinates move: one short solve for each change of them.
+///
+/// ```text
+/// let mut tracker = Tracker::new(question.system(), assembled.configuration);
+/// for angle in crank_angles {
+///     let report = tracker.solve(|held| held.joints[crank] = angle);
+///     assert!(report.solved || tracker.recover(&Newton::default()).stop == Stop::Solved);
+///     draw(tracker.configuration());
+/// }
+/// ```
+#[derive(Clone, Debug)]
+pub struct Tracker<T: Factorable = f64> {
+    system: System<T>,
+    warm: Warm,
+    configuration: Configuration<T>,
+    work: Work<T>,
+    trail: Trail<Configuration<T>, T>,
+}
+
+impl<T: Factorable> Tracker<T> {
+    /// Follows from `start`, which ought to be assembled or nearly so.
+    pub fn new(system: System<T>, start: Configuration<T>) -> Self {
+        Tracker {
+            work: system.work(),
+            trail: Trail::new(&start, system.unknowns().len()),
+            warm: Warm::default(),
+            configuration: start,
+            system,
+        }
+    }
+
+    /// The same with other settings of the method.
+    pub fn with(self, warm: Warm) -> Self {
+        Tracker { warm, ..self }
+    }
+
+    /// The equations that are solved.
+    pub fn system(&self) -> &System<T> {
+        &self.system
+    }
+
+    /// The latest solution; after a solve that failed, the one before it with the held values that
+    /// were asked for.
+    pub fn configuration(&self) -> &Configuration<T> {
+        &self.configuration
+    }
+
+    /// Asks for another value, in m or rad, of a platform coordinate held alone.
+    pub fn set_target(&mut self, platform: usize, coordinate: Coordinate, value: T) {
+        self.system.set_target(platform, coordinate, value);
+    }
+
+    /// Lets `hold` change the values of held joints and poses, and finds the free ones. Nothing
+    /// allocates. `solved` is said only of a residual evaluated at the configuration returned.
+    #[inline]
+    pub fn solve(&mut self, hold: impl FnOnce(&mut Configuration<T>)) -> WarmReport {
+        hold(&mut self.configuration);
+        (self.warm).solve(
+            &self.system,
+            &mut self.configuration,
+            &mut self.trail,
+            &mut self.work,
+        )
+    }
+
+    /// Goes on from another configuration, which ought to be assembled.
+    pub fn restart(&mut self, at: &Configuration<T>) {
+        self.trail.forget();
+        self.configuration.clone_from(at);
+    }
+
+    /// Solves for the held values last asked for by a method that also works from afar, when
+    /// [`solve`](Tracker::solve) has failed. The branch found need not be the one followed so far.
+    pub fn recover(&mut self, newton: &Newton) -> Report {
+        self.trail.forget();
+        let mut trial = self.configuration.clone();
+        newton.solve(
+            &self.system,
+            &mut self.configuration,
+            &mut trial,
+            &mut self.work,
+        )
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::geometry::{Pose, Vector3};
+    use crate::mechanism::{
+        ChainDimensions, ClosureDimensions, ClosureKind, Dimensions, Frame, LinearForm,
+        RowDimensions,
+    };
+    use crate::solve::Stop;
+    use crate::system::Held;
+    use std::f64::consts::TAU;
+
+    /// The 4-bar with ground 4.5, crank 2, coupler 4 and rocker 3.5, closed by a revolute joint.
+    fn four_bar() -> Tracker {
+        let along_x = |x| Pose::translation(Vector3([x, 0.0, 0.0]));
+        let turn = |joint, before| RowDimensions {
+            before,
+            turn: LinearForm(vec![(joint, 1.0)]),
+            slide: LinearForm(vec![]),
+            after: Pose::identity(),
+        };
+        let chain = |base, rows, tip| ChainDimensions {
+            on: Frame::Ground,
+            base,
+            rows,
+            tip: along_x(tip),
+        };
+        let crank = vec![turn(0, Pose::identity()), turn(1, along_x(2.0))];
+        let rocker = vec![turn(2, Pose::identity())];
+        let dimensions = Dimensions {
+            characteristic_length: 4.5,
+            joint_scales: vec![1.0; 3],
+            chains: vec![
+                chain(Pose::identity(), crank, 4.0),
+                chain(along_x(4.5), rocker, 3.5),
+            ],
+            platforms: vec![],
+            closures: vec![ClosureDimensions {
+                kind: ClosureKind::Revolute,
+                frames: [Frame::Tip { chain: 0 }, Frame::Tip { chain: 1 }],
+                length: 0.0,
+                extension: LinearForm(vec![]),
+            }],
+        };
+        let held = Held {
+            joints: vec![true, false, false],
+            platforms: vec![],
+        };
+        let start = Configuration {
+            joints: vec![0.0, 1.0, 1.5],
+            platforms: vec![],
+        };
+        let mut tracker = Tracker::new(System::new(&dimensions, &held), start);
+        assert_eq!(tracker.recover(&Newton::default()).stop, Stop::Solved);
+        tracker
+    }
+
+    /// The gap at the closure in m, from the angles alone.
+    fn gap(tracker: &Tracker) -> f64 {
+        let [crank, coupler, rocker] = tracker.configuration().joints[..] else {
+            panic!("three joints")
+        };
+        let end = |angle: f64, r: f64| (r * angle.cos(), r * angle.sin());
+        let (a, b, c) = (end(crank, 2.0), end(crank + coupler, 4.0), end(rocker, 3.5));
+        (a.0 + b.0 - 4.5 - c.0).hypot(a.1 + b.1 - c.1)
+    }
+
+    fn steps_of_a_turn(tracker: &mut Tracker, solves: usize) -> usize {
+        let turn = (0..solves).map(|k| TAU * k as f64 / solves as f64);
+        turn.map(|angle| {
+            let report = tracker.solve(|held| held.joints[0] = angle);
+            assert!(report.solved, "{angle}: {report:?}");
+            assert!(gap(tracker) < 1e-11);
+            report.steps
+        })
+        .sum()
+    }
+
+    #[test]
+    fn a_smooth_motion_is_extrapolated_and_takes_fewer_steps() {
+        let plain = Warm {
+            extrapolation: 0,
+            ..Warm::default()
+        };
+        for solves in [100, 10_000] {
+            let without = steps_of_a_turn(&mut four_bar().with(plain.clone()), solves);
+            let with = steps_of_a_turn(&mut four_bar(), solves);
+            assert!(3 * with < 2 * without, "{with} of {without} steps");
+        }
+    }
+
+    #[test]
+    fn a_motion_without_pattern_is_followed_without_extrapolation() {
+        let mut tracker = four_bar();
+        for k in 0..1000 {
+            let angle = 0.1 * f64::from(k * k * 37 % 101) / 101.0;
+            assert!(tracker.solve(|held| held.joints[0] = angle).solved);
+            assert!(gap(&tracker) < 1e-11);
+        }
+    }
+
+    #[test]
+    fn what_cannot_be_reached_is_not_called_solved_and_leaves_the_last_solution() {
+        let mut tracker = four_bar();
+        steps_of_a_turn(&mut tracker, 1000);
+        let before = tracker.configuration().clone();
+        let report = tracker.solve(|held| held.joints[0] = f64::NAN);
+        assert!(!report.solved);
+        assert_eq!(tracker.configuration().joints[1..], before.joints[1..]);
+        let report = tracker.solve(|held| held.joints[0] = before.joints[0]);
+        assert!(report.solved);
+        assert!(gap(&tracker) < 1e-11);
+    }
+
+    #[test]
+    fn a_jump_too_long_to_follow_is_refused_and_recovered_from() {
+        let mut tracker = four_bar();
+        steps_of_a_turn(&mut tracker, 1000);
+        if !tracker.solve(|held| held.joints[0] = 3.0).solved {
+            let report = tracker.recover(&Newton::default());
+            assert_eq!(report.stop, Stop::Solved);
+        }
+        assert!(gap(&tracker) < 1e-11);
+        assert!(tracker.solve(|held| held.joints[0] = 3.001).solved);
+    }
+}

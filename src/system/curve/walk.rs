@@ -1,0 +1,415 @@
+//! A walk along a curve of assembled configurations that names everything it meets.
+
+use super::Curve;
+use crate::linear::{dot, norm};
+use crate::mechanism::{Configuration, Mechanism};
+use crate::solve::{BranchPoint, Continuation, Place, SolutionCurve, Stray};
+use crate::system::Holdable;
+
+type At = Place<Configuration<f64>>;
+
+/// A function of places whose zeros are to be located; they are reported by its number.
+pub type Monitor<'m> = Box<dyn FnMut(&mut Curve, &At) -> f64 + 'm>;
+
+/// What a walk meets.
+#[derive(Clone, Debug)]
+pub enum Event {
+    /// A joint turns back: it is at the end of its range, and driven there it would lock.
+    Turning(usize),
+    /// The inputs turn back: beyond this part of the segment the branch does not exist.
+    Fold,
+    /// A joint reaches a limit, from within.
+    Limit {
+        /// The joint.
+        joint: usize,
+        /// The limit, rad or m.
+        value: f64,
+        /// Whether it is the upper one.
+        upper: bool,
+    },
+    /// The inputs reach the start (`false`) or the end (`true`) of the segment.
+    End(bool),
+    /// A function to be watched vanishes.
+    Root(usize),
+    /// The curve has come back to where it began.
+    Closed,
+    /// Branches meet.
+    Branches(Box<BranchPoint<Configuration<f64>>>),
+}
+
+/// A piece of a curve without branch points inside, and what was met on it, in order.
+#[derive(Clone, Debug)]
+pub struct Leg {
+    /// Where it begins.
+    pub from: At,
+    /// Where it ends; its Jacobian is singular if branches meet there.
+    pub to: At,
+    /// What was met, with the place.
+    pub events: Vec<(At, Event)>,
+}
+
+/// A walk along a curve, in steps that cannot change branch unnoticed ([`Continuation::step`]).
+pub struct Walk<'m> {
+    method: Continuation,
+    monitors: Vec<Monitor<'m>>,
+    limits: Vec<(usize, f64, f64)>,
+    start: At,
+    place: At,
+    length: f64,
+    gone: f64,
+    /// σ of the place before with the length of the step to here, while it falls.
+    falling: Option<(f64, f64)>,
+    tried: f64,
+    /// A branch point that was reached but not yet left.
+    waiting: Option<Box<BranchPoint<Configuration<f64>>>>,
+}
+
+impl<'m> Walk<'m> {
+    /// From a regular place, in the direction of its tangent. Joints with limits must have values
+    /// within them (see [`Mechanism::turn_to_limits`]).
+    pub fn new(mechanism: &Mechanism, curve: &Curve, start: At, method: Continuation) -> Self {
+        let limits = mechanism.joints().iter().enumerate();
+        let limits = limits.filter(|(joint, _)| curve.column(*joint).is_some());
+        Walk {
+            limits: limits
+                .filter_map(|(joint, j)| j.limits.map(|(low, high)| (joint, low, high)))
+                .collect(),
+            length: 0.1 * method.longest,
+            place: start.clone(),
+            start,
+            method,
+            monitors: Vec::new(),
+            gone: 0.0,
+            falling: None,
+            tried: f64::INFINITY,
+            waiting: None,
+        }
+    }
+
+    /// Also watches these functions.
+    pub fn watching(mut self, monitors: Vec<Monitor<'m>>) -> Self {
+        self.monitors = monitors;
+        self
+    }
+
+    /// Where the walk is.
+    pub fn place(&self) -> &At {
+        &self.place
+    }
+
+    /// The length of the curve so far, in rad and characteristic lengths.
+    pub fn gone(&self) -> f64 {
+        self.gone
+    }
+
+    /// The next leg. After one that ended where branches meet, the walk goes on straight.
+    ///
+    /// # Errors
+    /// If no step is short enough to be sure, which happens where the curve ends in a point of
+    /// higher order.
+    pub fn advance(&mut self, curve: &mut Curve) -> Result<Leg, Stray> {
+        if let Some(point) = self.waiting.take() {
+            return self.leave(curve, &point);
+        }
+        if let Some(leg) = self.branches_ahead(curve) {
+            return Ok(leg);
+        }
+        loop {
+            match self.method.step(curve, &self.place, self.length) {
+                Ok((to, changed)) => {
+                    let (least, before) = (to.least(), self.place.least());
+                    self.falling = (least < before).then_some((before, self.length));
+                    let from = std::mem::replace(&mut self.place, to.clone());
+                    self.gone += norm(&curve.difference(&from.at, &to.at));
+                    let length = self.length;
+                    self.length = self.method.next_length(length, changed);
+                    let leg = self.leg(curve, from, to);
+                    return Ok(leg);
+                }
+                Err(_) => {
+                    if let Some(leg) = self.branches_ahead(curve) {
+                        return Ok(leg);
+                    }
+                    self.length *= 0.5;
+                    if self.length < self.method.shortest {
+                        return Err(Stray::TooShort);
+                    }
+                }
+            }
+        }
+    }
+
+    /// The leg to a branch point, if the singular value across the curve falls to zero nearby.
+    fn branches_ahead(&mut self, curve: &mut Curve) -> Option<Leg> {
+        let (before, length) = self.falling?;
+        let least = self.place.least();
+        let ahead = least * length / (before - least);
+        if ahead > 0.2 * self.method.longest || ahead > 0.5 * self.tried {
+            return None;
+        }
+        self.tried = ahead;
+        let step: Vec<f64> = self.place.tangent.iter().map(|x| x * ahead).collect();
+        let guess = curve.displaced(&self.place.at, &step);
+        let point = self.method.branch_point(curve, &guess, 2.0 * ahead)?;
+        let way = curve.difference(&self.place.at, &point.at);
+        let straight = dot(&way, &self.place.tangent) > 0.9 * norm(&way);
+        let along = |d: &Vec<f64>| dot(d, &self.place.tangent);
+        let best = point
+            .directions
+            .iter()
+            .max_by(|a, b| along(a).abs().total_cmp(&along(b).abs()));
+        let direction = best.filter(|d| along(d).abs() > 0.9)?;
+        if !straight {
+            return None;
+        }
+        let sign = along(direction).signum();
+        let direction: Vec<f64> = direction.iter().map(|x| sign * x).collect();
+        let to = point.place(curve, &direction);
+        let from = self.place.clone();
+        let mut leg = self.leg(curve, from, to.clone());
+        // what ends the walk may come first, and is then met by shorter steps
+        let ends =
+            |event: &Event| matches!(event, Event::End(_) | Event::Limit { .. } | Event::Closed);
+        if leg.events.iter().any(|(_, event)| ends(event)) && norm(&way) > 1e-6 {
+            return None;
+        }
+        self.gone += norm(&way);
+        self.place = to.clone();
+        self.waiting = Some(Box::new(point.clone()));
+        leg.events.push((to, Event::Branches(Box::new(point))));
+        Some(leg)
+    }
+
+    /// From a branch point straight on.
+    fn leave(
+        &mut self,
+        curve: &mut Curve,
+        point: &BranchPoint<Configuration<f64>>,
+    ) -> Result<Leg, Stray> {
+        let from = self.place.clone();
+        let (to, length) =
+            (self.method.leave(curve, &point.at, &from.tangent)).ok_or(Stray::Singular)?;
+        self.gone += length;
+        self.falling = None;
+        self.tried = f64::INFINITY;
+        self.length = 0.3 * length;
+        self.place = to.clone();
+        Ok(self.leg(curve, from, to))
+    }
+
+    /// What is met between two places.
+    fn leg(&mut self, curve: &mut Curve, from: At, to: At) -> Leg {
+        /// Rates below this are those of joints that do not move.
+        const STILL: f64 = 1e-10;
+        let method = Regular(self.method.clone());
+        let mut events: Vec<(At, Event)> = Vec::new();
+        let changes = |a: f64, b: f64| (a < 0.0) != (b < 0.0) && a.abs().max(b.abs()) > STILL;
+        for joint in 0..to.at.joints.len() {
+            let Some(column) = curve.column(joint) else {
+                continue;
+            };
+            if changes(from.tangent[column], to.tangent[column]) {
+                let place = method.root(curve, &from, &to, &mut |_, p| p.tangent[column]);
+                events.push((place, Event::Turning(joint)));
+            }
+        }
+        if !curve.inputs().is_empty() {
+            let rate = |curve: &Curve, p: &At| curve.part_rate(&p.at, &p.tangent);
+            if changes(rate(curve, &from), rate(curve, &to)) {
+                let place = method.root(curve, &from, &to, &mut |c, p| rate(c, p));
+                events.push((place, Event::Fold));
+            }
+            for (end, outward) in [(0.0, -1.0), (1.0, 1.0)] {
+                let beyond = move |curve: &Curve, p: &At| outward * (curve.part(&p.at) - end);
+                let (a, b) = (beyond(curve, &from), beyond(curve, &to));
+                if a < -1e-12 && b >= 0.0 {
+                    let place = method.root(curve, &from, &to, &mut |c, p| beyond(c, p));
+                    events.push((place, Event::End(end == 1.0)));
+                }
+            }
+        }
+        for &(joint, low, high) in &self.limits {
+            for (value, upper) in [(low, false), (high, true)] {
+                let sign = if upper { 1.0 } else { -1.0 };
+                let beyond = |p: &At| sign * (p.at.joints[joint] - value);
+                let (a, b) = (beyond(&from), beyond(&to));
+                if b > 0.0 && b > a {
+                    let place = match a < 0.0 {
+                        true => method.root(curve, &from, &to, &mut |_, p| beyond(p)),
+                        false => from.clone(),
+                    };
+                    events.push((
+                        place,
+                        Event::Limit {
+                            joint,
+                            value,
+                            upper,
+                        },
+                    ));
+                }
+            }
+        }
+        for (i, monitor) in self.monitors.iter_mut().enumerate() {
+            let (a, b) = (monitor(curve, &from), monitor(curve, &to));
+            if (a < 0.0) != (b < 0.0) {
+                let place = method.root(curve, &from, &to, monitor);
+                events.push((place, Event::Root(i)));
+            }
+        }
+        if let Some(place) = self.closed(curve, &from, &to) {
+            events.push((place, Event::Closed));
+        }
+        let along = |p: &At| dot(&curve.difference(&from.at, &p.at), &from.tangent);
+        events.sort_by(|(a, _), (b, _)| along(a).total_cmp(&along(b)));
+        Leg { from, to, events }
+    }
+
+    /// The place between two that is the start again.
+    fn closed(&self, curve: &mut Curve, from: &At, to: &At) -> Option<At> {
+        /// Two configurations this near are the same.
+        const SAME: f64 = 1e-7;
+        let step = norm(&curve.difference(&from.at, &to.at));
+        let gap = curve.difference_but_turns(&from.at, &self.start.at);
+        // the first legs leave the start, and it lies behind
+        if norm(&gap) > 2.0 * step || self.gone <= 1.5 * step {
+            return None;
+        }
+        let start = &self.start;
+        let ahead = |curve: &Curve, p: &At| {
+            dot(
+                &curve.difference_but_turns(&start.at, &p.at),
+                &start.tangent,
+            )
+        };
+        let (a, b) = (ahead(curve, from), ahead(curve, to));
+        if !(a < 0.0 && b >= 0.0) {
+            return None;
+        }
+        let place = Regular(self.method.clone()).root(curve, from, to, &mut |c, p| ahead(c, p));
+        let apart = norm(&curve.difference_but_turns(&start.at, &place.at));
+        (apart < SAME && dot(&place.tangent, &start.tangent) > 0.5).then_some(place)
+    }
+}
+
+/// Roots between two places, of which the first may be a branch point.
+struct Regular(Continuation);
+
+impl Regular {
+    fn root(
+        &self,
+        curve: &mut Curve,
+        from: &At,
+        to: &At,
+        f: &mut dyn FnMut(&mut Curve, &At) -> f64,
+    ) -> At {
+        match from.least() > 1e-9 * from.largest() {
+            true => self.0.root(curve, from, to, f),
+            // bracketed from the regular end
+            false => {
+                let (from, to) = (to.clone().reversed(), from.clone().reversed());
+                self.0.root(curve, &from, &to, f).reversed()
+            }
+        }
+    }
+}
+
+impl Event {
+    /// Whether the walk cannot or need not go on behind it.
+    pub fn ends(&self) -> bool {
+        matches!(self, Event::Limit { .. } | Event::End(_) | Event::Closed)
+    }
+
+    /// What turns back, if something does.
+    pub fn turning(&self) -> Option<Holdable> {
+        match self {
+            Event::Turning(joint) => Some(Holdable::Joint(*joint)),
+            _ => None,
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::description::Description;
+    use crate::system::Held;
+
+    fn mechanism(name: &str, parameters: &[(&str, &str)]) -> Mechanism {
+        let path = format!("{}/mechanisms/{name}.ron", env!("CARGO_MANIFEST_DIR"));
+        let text = std::fs::read_to_string(path).unwrap();
+        let mut description = Description::read(&text).unwrap();
+        for (name, value) in parameters {
+            description = description.with_parameter(name, value).unwrap();
+        }
+        Mechanism::new(&description).unwrap()
+    }
+
+    /// Everything met from home until the curve closes or ends.
+    fn met(mechanism: &Mechanism, joints: &[f64]) -> Vec<(At, Event)> {
+        let mut curve = Curve::new(mechanism, &Held::nothing(mechanism));
+        let method = Continuation::default();
+        let mut at = mechanism.home();
+        at.joints.copy_from_slice(joints);
+        let start = method.settle(&mut curve, at).unwrap();
+        let mut walk = Walk::new(mechanism, &curve, start, method);
+        let mut met = Vec::new();
+        for _ in 0..3000 {
+            let leg = walk.advance(&mut curve).unwrap();
+            for (place, event) in leg.events {
+                let ends = event.ends();
+                met.push((place, event));
+                if ends {
+                    return met;
+                }
+            }
+        }
+        panic!("no end after {} events", met.len());
+    }
+
+    #[test]
+    fn the_dead_points_of_a_four_bar_are_exact_and_its_curve_closes() {
+        // its crank swings: cos θ₁ = (l0² + l1² − (l2 ± l3)²)/(2 l0 l1)
+        let (l0, l1, l2, l3) = (3.0, 2.5, 2.0, 1.0);
+        let names = [("l0", "3"), ("l1", "2.5"), ("l2", "2"), ("l3", "1")];
+        let mechanism = mechanism("four_bar", &names);
+        let theta = 0.9_f64;
+        let (x, y) = (l0 - l1 * theta.cos(), -l1 * theta.sin());
+        let d: f64 = x.hypot(y);
+        let rocker = (-y).atan2(-x) - ((l3 * l3 + d * d - l2 * l2) / (2.0 * l3 * d)).acos();
+        let coupler = (l3 * rocker.sin() + y).atan2(x + l3 * rocker.cos());
+        let met = met(&mechanism, &[theta, coupler - theta, rocker]);
+        let turns: Vec<f64> = (met.iter())
+            .filter(|(_, event)| matches!(event, Event::Turning(0)))
+            .map(|(place, _)| place.at.joints[0])
+            .collect();
+        assert!(matches!(met.last(), Some((_, Event::Closed))), "{met:?}");
+        assert!(!turns.is_empty());
+        for turn in &turns {
+            let limit = |s: f64| ((l0 * l0 + l1 * l1 - s * s) / (2.0 * l0 * l1)).acos();
+            let exact = [limit(l2 + l3), limit(l2 - l3)];
+            let near = exact.iter().any(|x| (turn.abs() - x).abs() < 1e-13);
+            assert!(near, "{turns:?} {exact:?}");
+        }
+    }
+
+    #[test]
+    fn the_change_points_of_a_parallelogram_are_crossings() {
+        let mechanism = mechanism("parallelogram", &[]);
+        let met = met(&mechanism, &[1.0, -1.0, 1.0]);
+        let crossings: Vec<&BranchPoint<_>> = (met.iter())
+            .filter_map(|(_, event)| match event {
+                Event::Branches(point) => Some(point.as_ref()),
+                _ => None,
+            })
+            .collect();
+        assert_eq!(crossings.len(), 2, "{met:?}");
+        for crossing in crossings {
+            assert_eq!((crossing.freedoms, crossing.directions.len()), (2, 2));
+            for (joint, turns) in [0.5, 0.5, 0.5].into_iter().enumerate() {
+                let angle = crossing.at.joints[joint] / std::f64::consts::TAU / turns;
+                assert!((angle - angle.round()).abs() < 1e-13, "{:?}", crossing.at);
+            }
+        }
+        assert!(matches!(met.last(), Some((_, Event::Closed))));
+    }
+}

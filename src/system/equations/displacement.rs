@@ -1,0 +1,110 @@
+use super::layout::Unknown;
+use super::{System, Work};
+use crate::geometry::{Quaternion, Vector3};
+use crate::linear::Factorable;
+use crate::mechanism::{Configuration, ConfigurationRef, PlatformPose};
+use crate::solve::Equations;
+
+impl<T: Factorable> System<T> {
+    /// The configuration moved by dimensionless steps of the unknowns: at ⊕ step.
+    pub fn displaced(&self, at: &Configuration<T>, step: &[T]) -> Configuration<T> {
+        let mut to = at.clone();
+        self.displace(&mut to, step);
+        to
+    }
+
+    /// The same in place.
+    pub fn displace(&self, at: &mut Configuration<T>, step: &[T]) {
+        for (&unknown, i) in self.unknowns().iter().zip(0..) {
+            match unknown {
+                Unknown::Joint(joint) => {
+                    at.joints[joint] += step[i].scale(self.joint_scale(joint));
+                }
+                Unknown::Twist {
+                    platform,
+                    component: 0,
+                } => {
+                    let omega = Vector3([step[i], step[i + 1], step[i + 2]]);
+                    let length = self.characteristic_length();
+                    let shift = [3, 4, 5].map(|k| step[i + k].scale(length));
+                    let pose = &mut at.platforms[platform];
+                    *pose = pose.moved_by(&omega, Vector3(shift));
+                }
+                Unknown::Twist { .. } => {}
+            }
+        }
+    }
+
+    /// The dimensionless step that leads from one configuration to another:
+    /// `displaced(from, difference(from, to))` is `to`.
+    pub fn difference(&self, from: &Configuration<T>, to: &Configuration<T>) -> Vec<T> {
+        let mut step = vec![T::zero(); self.unknowns().len()];
+        self.difference_into(from.view(), to.view(), &mut step);
+        step
+    }
+
+    /// The same, into a slice as long as there are unknowns.
+    pub fn difference_into(
+        &self,
+        from: ConfigurationRef<T>,
+        to: ConfigurationRef<T>,
+        step: &mut [T],
+    ) {
+        for (i, &unknown) in self.unknowns().iter().enumerate() {
+            match unknown {
+                Unknown::Joint(joint) => {
+                    let change = to.joints[joint] - from.joints[joint];
+                    step[i] = change.scale(1.0 / self.joint_scale(joint));
+                }
+                Unknown::Twist {
+                    platform,
+                    component: 0,
+                } => {
+                    let (from, to) = (&from.platforms[platform], &to.platforms[platform]);
+                    step[i..i + 6].copy_from_slice(&self.twist_between(from, to));
+                }
+                Unknown::Twist { .. } => {}
+            }
+        }
+    }
+
+    /// The dimensionless twist that leads from one pose to another.
+    pub(crate) fn twist_between(&self, from: &PlatformPose<T>, to: &PlatformPose<T>) -> [T; 6] {
+        // q_to q_from* = (1 + ω/2)/‖·‖, the Cayley map turned round
+        let [w, x, y, z] = from.orientation.0;
+        let back = Quaternion([w, -x, -y, -z]);
+        let [w, x, y, z] = to.orientation.then_left(&back).0;
+        let turn = [x, y, z].map(|part| part.scale(2.0) / w);
+        let shift = (to.position - from.position).0;
+        let shift = shift.map(|part| part.scale(1.0 / self.characteristic_length()));
+        [turn[0], turn[1], turn[2], shift[0], shift[1], shift[2]]
+    }
+}
+
+impl System<f64> {
+    /// Half the sum of squares of the rows, ½(Σ r² + Σ (w h + m)²), with its gradient: closure rows
+    /// r, and rows h of held platform coordinates with the weight w and the multipliers m by which
+    /// they are kept (method of multipliers, Hestenes 1969).
+    pub fn slope(
+        &self,
+        at: &Configuration<f64>,
+        weight: f64,
+        multipliers: &[f64],
+        work: &mut Work<f64>,
+    ) -> (Vec<f64>, f64) {
+        self.linearise(at, work);
+        let jacobian = self.dense_jacobian(work);
+        let mut rows = self.residual_of(work).to_vec();
+        let held = self.hold_rows();
+        // scaled once for the square and once more for the derivative of the row
+        let mut pull = rows.clone();
+        for (i, multiplier) in held.zip(multipliers) {
+            rows[i] = weight * rows[i] + multiplier;
+            pull[i] = weight * rows[i];
+        }
+        let columns = jacobian.chunks_exact(self.rows().max(1));
+        let gradient = columns.map(|column| column.iter().zip(&pull).map(|(a, b)| a * b).sum());
+        let squares: f64 = rows.iter().map(|row| row * row).sum();
+        (gradient.collect(), 0.5 * squares)
+    }
+}

@@ -1,0 +1,222 @@
+use crate::geometry::{Rotation, Vector3};
+use crate::linear::{Block, DENSE_LIMIT, Factorable, SparseStep};
+use crate::mechanism::{Closure, Coordinate, Mechanism};
+use crate::number::Number;
+
+/// What is held of a platform.
+#[derive(Clone, Debug, PartialEq)]
+pub enum HeldPlatform<T> {
+    /// Nothing: its pose is to be found.
+    Free,
+    /// Its whole pose, at the value it has in the configuration the solver starts from.
+    Pose,
+    /// Some coordinates at given values, m and rad, and perhaps the whole orientation.
+    Partly {
+        /// Single coordinates with their values.
+        coordinates: Vec<(Coordinate, T)>,
+        /// A wanted orientation: ground from platform.
+        orientation: Option<Rotation<T>>,
+    },
+}
+
+/// Which coordinates of a mechanism are held.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Held<T> {
+    /// For each joint whether its variable keeps the value it has in the starting configuration.
+    pub joints: Vec<bool>,
+    /// For each platform what is held of it.
+    pub platforms: Vec<HeldPlatform<T>>,
+}
+
+impl<T: Number> Held<T> {
+    /// The same over another number.
+    pub fn map<U: Number>(&self, mut f: impl FnMut(T) -> U) -> Held<U> {
+        let platforms = self.platforms.iter().map(|part| match part {
+            HeldPlatform::Free => HeldPlatform::Free,
+            HeldPlatform::Pose => HeldPlatform::Pose,
+            HeldPlatform::Partly {
+                coordinates,
+                orientation,
+            } => HeldPlatform::Partly {
+                coordinates: coordinates.iter().map(|&(c, x)| (c, f(x))).collect(),
+                orientation: orientation.map(|r| Rotation(r.0.map(|v| Vector3(v.0.map(&mut f))))),
+            },
+        });
+        Held {
+            joints: self.joints.clone(),
+            platforms: platforms.collect(),
+        }
+    }
+}
+
+impl Held<f64> {
+    /// Nothing held: all joints and platforms are to be found.
+    pub fn nothing(mechanism: &Mechanism) -> Self {
+        Held {
+            joints: vec![false; mechanism.joints().len()],
+            platforms: vec![HeldPlatform::Free; mechanism.platforms().len()],
+        }
+    }
+}
+
+/// A scalar unknown. All are dimensionless: lengths are divided by the characteristic length.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Unknown {
+    /// The variable of a joint.
+    Joint(usize),
+    /// A component of a platform's twist: rotation about x, y, z, then displacement along them.
+    Twist {
+        /// Index of the platform.
+        platform: usize,
+        /// 0 to 5.
+        component: usize,
+    },
+}
+
+/// A row below the blocks: a platform coordinate held at a value.
+#[derive(Clone, Debug)]
+pub(crate) enum HoldRow<T> {
+    Coordinate(usize, Coordinate, T),
+    Orientation(usize, Rotation<T>),
+}
+
+impl<T> HoldRow<T> {
+    pub(crate) fn rows(&self) -> usize {
+        match self {
+            HoldRow::Coordinate(..) => 1,
+            HoldRow::Orientation(..) => 3,
+        }
+    }
+}
+
+/// The unknowns, the blocks they make of the closures, and where each closure stands.
+pub(crate) struct Layout {
+    pub unknowns: Vec<Unknown>,
+    pub blocks: Vec<Block>,
+    /// For each closure its block and its first row in it.
+    pub places: Vec<(usize, usize)>,
+    pub shared: Vec<usize>,
+}
+
+impl Layout {
+    /// Closures that share a free joint variable form a block; platforms tie the blocks together.
+    pub fn new<T: Factorable>(closures: &[Closure<T>], held: &Held<T>) -> Self {
+        let mut unknowns: Vec<Unknown> = Vec::new();
+        let mut joint_unknown = vec![None; held.joints.len()];
+        for (joint, _) in held.joints.iter().enumerate().filter(|(_, held)| !**held) {
+            joint_unknown[joint] = Some(unknowns.len());
+            unknowns.push(Unknown::Joint(joint));
+        }
+        let joints = unknowns.len();
+        let mut first_twist = vec![None; held.platforms.len()];
+        for (platform, held) in held.platforms.iter().enumerate() {
+            if *held != HeldPlatform::Pose {
+                first_twist[platform] = Some(unknowns.len());
+                let twist = (0..6).map(|component| Unknown::Twist {
+                    platform,
+                    component,
+                });
+                unknowns.extend(twist);
+            }
+        }
+
+        if T::Sparse::AVAILABLE && unknowns.len() > DENSE_LIMIT {
+            return Layout::of_single_closures(closures, unknowns, &joint_unknown, &first_twist);
+        }
+        let mut owner: Vec<usize> = (0..closures.len()).collect();
+        let mut felt_by: Vec<Option<usize>> = vec![None; joints];
+        for (c, closure) in closures.iter().enumerate() {
+            for joint in closure.joints() {
+                let Some(unknown) = joint_unknown[joint] else {
+                    continue;
+                };
+                match felt_by[unknown] {
+                    None => felt_by[unknown] = Some(c),
+                    Some(other) => {
+                        let (a, b) = (root(&owner, c), root(&owner, other));
+                        owner[a.max(b)] = a.min(b);
+                    }
+                }
+            }
+        }
+
+        let mut blocks: Vec<Block> = Vec::new();
+        let mut block_of_root = vec![None; closures.len()];
+        let mut places = Vec::with_capacity(closures.len());
+        for (c, closure) in closures.iter().enumerate() {
+            let block = *block_of_root[root(&owner, c)].get_or_insert_with(|| {
+                blocks.push(Block::default());
+                blocks.len() - 1
+            });
+            places.push((block, blocks[block].rows));
+            blocks[block].rows += closure.kind.equations();
+            for platform in closure.platforms.iter().flatten() {
+                if let Some(first) = first_twist[*platform]
+                    && !blocks[block].shared.contains(&first)
+                {
+                    blocks[block].shared.extend(first..first + 6);
+                }
+            }
+        }
+        for (unknown, closure) in felt_by.iter().enumerate() {
+            match closure {
+                Some(c) => blocks[places[*c].0].own.push(unknown),
+                None => blocks.push(Block {
+                    own: vec![unknown],
+                    ..Block::default()
+                }),
+            }
+        }
+        Layout {
+            shared: (joints..unknowns.len()).collect(),
+            unknowns,
+            blocks,
+            places,
+        }
+    }
+
+    /// A block for every closure, all unknowns shared: the pattern of a sparse matrix.
+    fn of_single_closures<T: Number>(
+        closures: &[Closure<T>],
+        unknowns: Vec<Unknown>,
+        joint_unknown: &[Option<usize>],
+        first_twist: &[Option<usize>],
+    ) -> Self {
+        let blocks = closures.iter().map(|closure| {
+            let joints = closure.joints().into_iter();
+            let mut shared: Vec<usize> = joints.filter_map(|joint| joint_unknown[joint]).collect();
+            for platform in closure.platforms.iter().flatten() {
+                if let Some(first) = first_twist[*platform]
+                    && !shared.contains(&first)
+                {
+                    shared.extend(first..first + 6);
+                }
+            }
+            Block {
+                rows: closure.kind.equations(),
+                own: Vec::new(),
+                shared,
+            }
+        });
+        Layout {
+            blocks: blocks.collect(),
+            places: (0..closures.len()).map(|block| (block, 0)).collect(),
+            shared: (0..unknowns.len()).collect(),
+            unknowns,
+        }
+    }
+
+    /// The column of a block in which an unknown stands.
+    pub fn column(&self, block: usize, unknown: Unknown) -> Option<usize> {
+        let index = self.unknowns.iter().position(|u| *u == unknown)?;
+        let Block { own, shared, .. } = &self.blocks[block];
+        own.iter().chain(shared).position(|&u| u == index)
+    }
+}
+
+fn root(owner: &[usize], mut closure: usize) -> usize {
+    while owner[closure] != closure {
+        closure = owner[closure];
+    }
+    closure
+}

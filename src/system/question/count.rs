@@ -1,0 +1,178 @@
+//! What is held beside what the mechanism allows.
+
+use serde::{Deserialize, Serialize};
+
+use super::Question;
+use super::error::QuestionError;
+use crate::description::Role;
+use crate::geometry::RollPitchYaw;
+use crate::linear::RANK_TOLERANCE;
+use crate::mechanism::{Configuration, Coordinate};
+use crate::solve::{Newton, Stop};
+use crate::system::{HeldPlatform, Holdable, Mobility, System};
+
+/// What is held beside what the mechanism allows.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub struct Count {
+    /// Freedoms of the mechanism, if it assembles near the start.
+    pub mobility: Option<usize>,
+    /// Coordinates held.
+    pub held: usize,
+}
+
+/// Compares what is held with what the mechanism allows.
+///
+/// A mechanism may have other freedoms elsewhere, so it is looked at near the start, at the
+/// assembly that Newton's method reaches from there with everything held, and at home. What can be
+/// held at one of these is a good question.
+///
+/// # Errors
+/// If everywhere more or less is held than the mechanism has freedoms, or what is held depends on
+/// itself.
+pub fn check_count(question: &Question) -> Result<Count, QuestionError> {
+    let mechanism = question.mechanism();
+    let start = question.start();
+    check_locked(question, &start)?;
+    let near = Mobility::near(mechanism, &start);
+    let first = near.map(|mobility| compared(question, &start, &mobility));
+    if let Some(Ok(count)) = first {
+        return Ok(count);
+    }
+    let home = mechanism.home();
+    let others = [asked(question, &start), Some(home)];
+    let mut refused = first;
+    for at in others.into_iter().flatten() {
+        let Some(mobility) = Mobility::near(mechanism, &at) else {
+            continue;
+        };
+        let verdict = compared(question, &at, &mobility);
+        if verdict.is_ok() {
+            return verdict;
+        }
+        refused = refused.or(Some(verdict));
+    }
+    refused.unwrap_or_else(|| {
+        Ok(Count {
+            mobility: None,
+            held: question.held_coordinates().len(),
+        })
+    })
+}
+
+/// The assembled configuration that is reached from a start with everything held.
+fn asked(question: &Question, start: &Configuration<f64>) -> Option<Configuration<f64>> {
+    let system = System::new(question.mechanism().dimensions(), &question.held());
+    let (mut at, mut trial) = (start.clone(), start.clone());
+    let report = Newton::default().solve(&system, &mut at, &mut trial, &mut system.work());
+    (report.stop == Stop::Solved).then_some(at)
+}
+
+/// Compares what is held with the freedoms at a configuration.
+fn compared(
+    question: &Question,
+    start: &Configuration<f64>,
+    mobility: &Mobility,
+) -> Result<Count, QuestionError> {
+    let mechanism = question.mechanism();
+    let held = question.held_coordinates();
+    let count = Count {
+        mobility: Some(mobility.count()),
+        held: held.len(),
+    };
+    let joints = (0..mechanism.joints().len()).map(Holdable::Joint);
+    let coordinates = (0..mechanism.platforms().len())
+        .flat_map(|platform| Coordinate::ALL.map(|c| Holdable::Coordinate(platform, c)));
+    let (actuated, passive): (Vec<_>, Vec<_>) = joints.partition(|joint| match joint {
+        Holdable::Joint(joint) => mechanism.joints()[*joint].role == Role::Actuated,
+        Holdable::Coordinate(..) | Holdable::Turn(..) => false,
+    });
+    let candidates: Vec<Holdable> = (held.iter().copied())
+        .chain(actuated)
+        .chain(passive)
+        .chain(coordinates)
+        .collect();
+    let chosen = mobility.independent(mechanism, &candidates);
+    let name = |holdable: &Holdable| holdable.name(mechanism);
+    let free: Vec<String> = held
+        .iter()
+        .filter(|h| !chosen.contains(h))
+        .map(name)
+        .collect();
+    let hold: Vec<String> = chosen
+        .iter()
+        .filter(|c| !held.contains(c))
+        .map(name)
+        .collect();
+    // what depends on itself at a singular configuration only is for the analysis to tell
+    if !free.is_empty()
+        && !hold.is_empty()
+        && Mobility::beside(mechanism, start)
+            .is_some_and(|beside| beside.independent(mechanism, &held).len() == held.len())
+    {
+        return Ok(count);
+    }
+    // what is only infinitesimally free cannot be chosen
+    if free.is_empty() && !hold.is_empty() && !mobility.is_finite(mechanism) {
+        return Ok(Count {
+            mobility: None,
+            held: held.len(),
+        });
+    }
+    let (mobility, held) = (mobility.count(), held.len());
+    match (free.is_empty(), hold.is_empty()) {
+        (true, true) => Ok(count),
+        (false, true) => Err(QuestionError::TooMany {
+            mobility,
+            held,
+            free,
+        }),
+        (true, false) => Err(QuestionError::TooFew {
+            mobility,
+            held,
+            hold,
+        }),
+        (false, false) => Err(QuestionError::Dependent { free, hold }),
+    }
+}
+
+/// Single angles of a platform that is pitched by ±90° cannot be held; a whole orientation can.
+fn check_locked(question: &Question, start: &Configuration<f64>) -> Result<(), QuestionError> {
+    let mechanism = question.mechanism();
+    let held = question.held();
+    for (i, held) in held.platforms.iter().enumerate() {
+        let HeldPlatform::Partly { coordinates, .. } = held else {
+            continue;
+        };
+        let pitched = coordinates.iter().any(|(c, _)| *c == Coordinate::Pitch);
+        if pitched && RollPitchYaw::is_locked(&start.platforms[i].pose().rotation) {
+            return Err(QuestionError::AnglesLocked {
+                platform: mechanism.platforms()[i].name.clone(),
+            });
+        }
+    }
+    Ok(())
+}
+
+/// Whether the rates of the held coordinates make sense at a configuration.
+///
+/// # Errors
+/// If an angle is held of a platform whose pitch is ±90°, where roll and yaw turn about one axis.
+pub fn check_angles(question: &Question, at: &Configuration<f64>) -> Result<(), QuestionError> {
+    let mechanism = question.mechanism();
+    for coordinate in question.held_coordinates() {
+        let Holdable::Coordinate(platform, coordinate) = coordinate else {
+            continue;
+        };
+        let pose = at.platforms[platform].pose();
+        let length = mechanism.characteristic_length();
+        let (_, slope) = coordinate.row(&pose, coordinate.of(&pose), length);
+        let steepest = slope.iter().fold(0.0, |most: f64, x| most.max(x.abs()));
+        let finite = slope.iter().all(|x| x.is_finite());
+        if !finite || steepest > 1.0 / RANK_TOLERANCE {
+            return Err(QuestionError::AnglesLocked {
+                platform: mechanism.platforms()[platform].name.clone(),
+            });
+        }
+    }
+    Ok(())
+}

@@ -1,0 +1,272 @@
+//! What a question drives, and how fast.
+
+use super::Question;
+use super::error::QuestionError;
+use super::value::{self, ValueError};
+use crate::algebra::Measure;
+use crate::description::nearest;
+use crate::geometry::Axis;
+use crate::mechanism::Coordinate;
+use crate::system::{Holdable, Mobility};
+
+/// Rates and accelerations of the held coordinates of a question, in m and rad and seconds.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Drive {
+    /// The held coordinates, [as they are driven](Question::driven_coordinates).
+    pub coordinates: Vec<Holdable>,
+    /// Their rates.
+    pub rates: Vec<f64>,
+    /// Their accelerations.
+    pub accelerations: Vec<f64>,
+    /// Whether a rate or acceleration was given.
+    pub given: bool,
+    /// Platforms that are turned by rates of roll, pitch and yaw.
+    angles: Vec<AngleRates>,
+    /// Platforms that are turned about the axes of ground.
+    turned: Vec<usize>,
+}
+
+/// Rates and accelerations of roll, pitch and yaw.
+#[derive(Clone, Copy, Debug, PartialEq)]
+struct AngleRates {
+    platform: usize,
+    rates: [f64; 3],
+    accelerations: [f64; 3],
+}
+
+/// What is given to a coordinate.
+#[derive(Clone, Copy)]
+enum Order {
+    Rate,
+    Acceleration,
+}
+
+/// Why a rate, an acceleration or a force cannot be given.
+#[derive(Clone, Debug, PartialEq)]
+pub enum DriveError {
+    /// The name or the value is wrong.
+    Question(QuestionError),
+    /// There is nothing of that name.
+    UnknownName {
+        /// The name.
+        name: String,
+        /// The name that was probably meant.
+        suggestion: Option<String>,
+        /// What is held.
+        held: Vec<String>,
+    },
+    /// The coordinate is not held, so that its rate follows.
+    NotHeld {
+        /// The coordinate.
+        name: String,
+        /// What is held.
+        held: Vec<String>,
+    },
+    /// A single coordinate has a rate, and a whole platform was named.
+    Whole {
+        /// The platform.
+        platform: String,
+        /// Those of its coordinates that are held.
+        held: Vec<String>,
+    },
+    /// A platform turns as given only where its whole orientation is held.
+    NotTurned {
+        /// The platform.
+        platform: String,
+    },
+    /// How a platform turns was given both by its angles and about the axes of ground.
+    Mixed {
+        /// The platform.
+        platform: String,
+    },
+    /// Nothing is held, for the mechanism is a structure: nothing can be driven.
+    Structure,
+}
+
+impl Drive {
+    /// Everything held stands still.
+    pub fn still(question: &Question) -> Self {
+        let coordinates = question.driven_coordinates();
+        Drive {
+            rates: vec![0.0; coordinates.len()],
+            accelerations: vec![0.0; coordinates.len()],
+            coordinates,
+            given: false,
+            angles: Vec::new(),
+            turned: Vec::new(),
+        }
+    }
+
+    /// Gives a held coordinate a rate, an expression as in the file, in m/s or rad/s.
+    ///
+    /// A platform whose whole orientation is held turns as `top.wx`, `top.wy` and `top.wz` say, about
+    /// axes of ground, or as `top.roll`, `top.pitch` and `top.yaw` do.
+    ///
+    /// # Errors
+    /// If the coordinate is not held or the value has none.
+    pub fn rate(self, question: &Question, name: &str, text: &str) -> Result<Self, DriveError> {
+        self.give(question, name, text, Order::Rate)
+    }
+
+    /// Gives a held coordinate an acceleration, in m/s² or rad/s².
+    ///
+    /// # Errors
+    /// If the coordinate is not held or the value has none.
+    pub fn acceleration(
+        self,
+        question: &Question,
+        name: &str,
+        text: &str,
+    ) -> Result<Self, DriveError> {
+        self.give(question, name, text, Order::Acceleration)
+    }
+
+    fn give(
+        mut self,
+        question: &Question,
+        name: &str,
+        text: &str,
+        order: Order,
+    ) -> Result<Self, DriveError> {
+        let mechanism = question.mechanism();
+        let coordinate = self.find(question, name)?;
+        // a rate has the unit of its coordinate per unit of time, which is not written
+        let value = number(question, name, text, coordinate.measure(mechanism))?;
+        self.given = true;
+        let mixed = |platform: usize| DriveError::Mixed {
+            platform: mechanism.platforms()[platform].name.clone(),
+        };
+        match coordinate {
+            Holdable::Coordinate(platform, c) if !self.coordinates.contains(&coordinate) => {
+                if self.turned.contains(&platform) {
+                    return Err(mixed(platform));
+                }
+                let angle = c as usize - Coordinate::Roll as usize;
+                let given = self.angles_of(platform);
+                match order {
+                    Order::Rate => given.rates[angle] = value,
+                    Order::Acceleration => given.accelerations[angle] = value,
+                }
+                self.turn_by_angles(question, platform);
+                return Ok(self);
+            }
+            Holdable::Turn(platform, _) => {
+                if self.angles.iter().any(|angles| angles.platform == platform) {
+                    return Err(mixed(platform));
+                }
+                self.turned.push(platform);
+            }
+            Holdable::Coordinate(..) | Holdable::Joint(_) => {}
+        }
+        let place = self.coordinates.iter().position(|c| *c == coordinate);
+        let place = place.expect("what is neither driven nor an angle was not found");
+        match order {
+            Order::Rate => self.rates[place] = value,
+            Order::Acceleration => self.accelerations[place] = value,
+        }
+        Ok(self)
+    }
+
+    fn angles_of(&mut self, platform: usize) -> &mut AngleRates {
+        let known = self.angles.iter().position(|a| a.platform == platform);
+        let place = known.unwrap_or_else(|| {
+            self.angles.push(AngleRates {
+                platform,
+                rates: [0.0; 3],
+                accelerations: [0.0; 3],
+            });
+            self.angles.len() - 1
+        });
+        &mut self.angles[place]
+    }
+
+    /// Turns a platform about the axes of ground as its angles change.
+    fn turn_by_angles(&mut self, question: &Question, platform: usize) {
+        let given = *self.angles_of(platform);
+        let angles = question.held_angles(platform);
+        let angles = angles.expect("angles have rates where all three are held");
+        let [omega, change] = angles.turning(given.rates, given.accelerations);
+        for (place, coordinate) in self.coordinates.iter().enumerate() {
+            if let Holdable::Turn(of, axis) = *coordinate
+                && of == platform
+            {
+                self.rates[place] = omega.0[axis as usize];
+                self.accelerations[place] = change.0[axis as usize];
+            }
+        }
+    }
+
+    /// The coordinate of that name, if it is driven or an angle of a platform that turns.
+    fn find(&self, question: &Question, name: &str) -> Result<Holdable, DriveError> {
+        let mechanism = question.mechanism();
+        let named = |c: &Holdable| c.name(mechanism);
+        let held: Vec<String> = self.coordinates.iter().map(named).collect();
+        if let Some(place) = held.iter().position(|held| held == name) {
+            return Ok(self.coordinates[place]);
+        }
+        let joints = (0..mechanism.joints().len()).map(Holdable::Joint);
+        let platforms = 0..mechanism.platforms().len();
+        let coordinates = platforms.clone().flat_map(|platform| {
+            let all = Coordinate::ALL;
+            all.map(|c| Holdable::Coordinate(platform, c))
+        });
+        let turns = platforms.flat_map(|platform| {
+            [Axis::X, Axis::Y, Axis::Z].map(|axis| Holdable::Turn(platform, axis))
+        });
+        let all: Vec<Holdable> = joints.chain(coordinates).chain(turns).collect();
+        let known: Vec<String> = all.iter().map(named).collect();
+        if let Some(platform) = mechanism.platform(name) {
+            let of_it = |c: &&Holdable| match **c {
+                Holdable::Coordinate(of, _) | Holdable::Turn(of, _) => of == platform,
+                Holdable::Joint(_) => false,
+            };
+            return Err(DriveError::Whole {
+                platform: name.into(),
+                held: (self.coordinates.iter().filter(of_it)).map(named).collect(),
+            });
+        }
+        match known.iter().position(|known| known == name).map(|i| all[i]) {
+            Some(Holdable::Coordinate(platform, c))
+                if c.is_angle() && question.held_angles(platform).is_some() =>
+            {
+                Ok(Holdable::Coordinate(platform, c))
+            }
+            Some(Holdable::Turn(platform, _)) => Err(DriveError::NotTurned {
+                platform: mechanism.platforms()[platform].name.clone(),
+            }),
+            Some(_) if held.is_empty() && is_structure(question) => Err(DriveError::Structure),
+            Some(_) => Err(DriveError::NotHeld {
+                name: name.into(),
+                held,
+            }),
+            None => Err(DriveError::UnknownName {
+                name: name.into(),
+                suggestion: nearest(name, known.iter().map(String::as_str)).map(str::to_owned),
+                held,
+            }),
+        }
+    }
+}
+
+/// Whether the mechanism has no freedom near the start of a question.
+fn is_structure(question: &Question) -> bool {
+    let near = Mobility::near(question.mechanism(), &question.start());
+    near.is_some_and(|mobility| mobility.count() == 0)
+}
+
+/// The value of an expression over the parameters.
+pub(crate) fn number(
+    question: &Question,
+    name: &str,
+    text: &str,
+    wanted: Measure,
+) -> Result<f64, DriveError> {
+    let value = value::number(question.mechanism(), text, wanted);
+    value.map_err(|error: ValueError| {
+        DriveError::Question(QuestionError::Value {
+            name: name.into(),
+            text: text.into(),
+            error,
+        })
+    })
+}

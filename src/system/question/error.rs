@@ -1,0 +1,195 @@
+//! Questions that cannot be put, and the words for them.
+
+use std::error::Error;
+use std::fmt::{self, Display, Formatter};
+
+use super::demand::{Demand, Verb};
+use super::value::ValueError;
+use crate::description::{ProblemKind, Scope, count, listed};
+
+/// Why a question cannot be put.
+#[derive(Clone, Debug, PartialEq)]
+pub enum QuestionError {
+    /// No joint, platform or platform coordinate has the name.
+    UnknownName {
+        /// The name.
+        name: String,
+        /// The name that was probably meant.
+        suggestion: Option<String>,
+    },
+    /// The value is no number, expression or pose.
+    Value {
+        /// What the value was for.
+        name: String,
+        /// The value as given.
+        text: String,
+        /// What is wrong with it.
+        error: ValueError,
+    },
+    /// The same joint or coordinate is held or guessed twice, or held and freed.
+    Contradiction {
+        /// What was demanded first.
+        first: Demand,
+        /// What was demanded then.
+        second: Demand,
+    },
+    /// Only joints can be freed.
+    NotAJoint {
+        /// The name.
+        name: String,
+    },
+    /// More is held than the mechanism has freedoms.
+    TooMany {
+        /// Freedoms of the mechanism.
+        mobility: usize,
+        /// Coordinates held.
+        held: usize,
+        /// Coordinates which, freed, leave a question that has an answer.
+        free: Vec<String>,
+    },
+    /// Less is held than the mechanism has freedoms.
+    TooFew {
+        /// Freedoms of the mechanism.
+        mobility: usize,
+        /// Coordinates held.
+        held: usize,
+        /// Coordinates which, held too, leave a question that has an answer.
+        hold: Vec<String>,
+    },
+    /// Roll, pitch and yaw of a platform do not tell its motion where it is pitched by ±90°.
+    AnglesLocked {
+        /// The platform.
+        platform: String,
+    },
+    /// The right number is held, but what is held depends on itself and something else is free.
+    Dependent {
+        /// Held coordinates to free.
+        free: Vec<String>,
+        /// Coordinates to hold instead.
+        hold: Vec<String>,
+    },
+}
+
+impl QuestionError {
+    /// What is wrong, without what to do about it.
+    pub fn title(&self) -> String {
+        match self {
+            QuestionError::UnknownName { name, .. } => {
+                format!("`{name}` is neither a joint nor a coordinate of a platform")
+            }
+            QuestionError::NotAJoint { name } => {
+                format!("`{name}` is not a joint, and only joints are held by themselves")
+            }
+            QuestionError::Contradiction { first, second } => {
+                format!("{first} and {second} contradict one another")
+            }
+            QuestionError::Value { name, text, error } => {
+                format!("`{text}` cannot be the value of `{name}`: {error}")
+            }
+            QuestionError::TooMany { mobility, held, .. } => format!(
+                "{} too many: the mechanism has {} and {} held",
+                held.saturating_sub(*mobility),
+                freedoms(*mobility),
+                are(*held)
+            ),
+            QuestionError::TooFew { mobility, held, .. } => format!(
+                "{} too few: the mechanism has {} and {} held",
+                mobility.saturating_sub(*held),
+                freedoms(*mobility),
+                are(*held)
+            ),
+            QuestionError::AnglesLocked { platform } => format!(
+                "roll and yaw of `{platform}` turn about the same axis here, for its pitch is ±90°"
+            ),
+            QuestionError::Dependent { free, hold } => format!(
+                "the number held is right, but {} cannot be chosen beside the others, and {} {} \
+                 undetermined",
+                listed(free),
+                listed(hold),
+                if hold.len() == 1 { "stays" } else { "stay" }
+            ),
+        }
+    }
+}
+
+impl Display for QuestionError {
+    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
+        f.write_str(&self.title())?;
+        match self {
+            QuestionError::UnknownName {
+                suggestion: Some(meant),
+                ..
+            } => write!(f, "; did you mean `{meant}`?"),
+            QuestionError::TooMany { free, .. } => write!(f, "; free {}", listed(free)),
+            QuestionError::TooFew { hold, .. } => write!(f, "; hold {} too", listed(hold)),
+            QuestionError::Dependent { free, hold } => {
+                write!(f, "; free {} and hold {}", listed(free), listed(hold))
+            }
+            _ => Ok(()),
+        }
+    }
+}
+
+impl Error for QuestionError {
+    fn source(&self) -> Option<&(dyn Error + 'static)> {
+        match self {
+            QuestionError::Value { error, .. } => Some(error),
+            _ => None,
+        }
+    }
+}
+
+impl Verb {
+    /// What it is called.
+    pub fn word(self) -> &'static str {
+        match self {
+            Verb::Hold => "hold",
+            Verb::Free => "free",
+            Verb::Guess => "guess",
+        }
+    }
+}
+
+impl Display for Demand {
+    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
+        let Demand { verb, name, value } = self;
+        match value {
+            Some(value) => write!(f, "`{} {name}={value}`", verb.word()),
+            None => write!(f, "`{} {name}`", verb.word()),
+        }
+    }
+}
+
+impl Display for ValueError {
+    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
+        let kind = match self {
+            ValueError::Parse(kind) => ProblemKind::Expression(kind.clone()),
+            ValueError::NoValue(kind) => ProblemKind::NoValue(*kind),
+            ValueError::Unit(kind) => ProblemKind::Unit(*kind),
+            ValueError::UnknownName { name, suggestion } => ProblemKind::UnknownName {
+                name: name.clone(),
+                suggestion: suggestion.clone(),
+                scope: Scope::Parameters,
+            },
+            ValueError::NotAPose { part } => return write!(f, "`{part}` is not a pose"),
+        };
+        f.write_str(&kind.title())
+    }
+}
+
+impl Error for ValueError {}
+
+fn freedoms(number: usize) -> String {
+    match number {
+        0 => "no freedom".into(),
+        _ => count(number, "freedom"),
+    }
+}
+
+fn are(held: usize) -> String {
+    match held {
+        0 => "nothing is".into(),
+        1 => "1 coordinate is".into(),
+        _ => format!("{held} coordinates are"),
+    }
+}

@@ -1,0 +1,159 @@
+//! Forces and moments that act on a mechanism.
+
+use super::Question;
+use super::drive::{DriveError, number};
+use crate::algebra::{Measure, SiUnit};
+use crate::description::nearest;
+use crate::mechanism::{Body, Coordinate, Frame};
+use crate::system::Holdable;
+
+/// Wrenches on frames and loads on joints, in N and N·m.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Load {
+    /// Frame, force at its origin and moment, in ground.
+    pub wrenches: Vec<(Frame, [f64; 3], [f64; 3])>,
+    /// Joint, and the force (N) or moment (N·m) that acts along its variable.
+    pub joints: Vec<(usize, f64)>,
+}
+
+/// Why a load cannot be given.
+#[derive(Clone, Debug, PartialEq)]
+pub enum LoadError {
+    /// The value is wrong.
+    Value(DriveError),
+    /// There is no frame of that name.
+    UnknownFrame {
+        /// The name.
+        name: String,
+    },
+    /// The frame is fixed to the ground, which nothing moves.
+    OnGround {
+        /// The frame.
+        name: String,
+        /// Platforms, or the tips of chains if there are none.
+        instead: Vec<String>,
+    },
+    /// Neither three nor six components.
+    Components {
+        /// How many were given.
+        given: usize,
+    },
+    /// There is no joint of that name.
+    UnknownJoint {
+        /// The name.
+        name: String,
+        /// The joint that was probably meant.
+        suggestion: Option<String>,
+        /// The joints there are.
+        known: Vec<String>,
+    },
+    /// A platform, or a coordinate of one, is loaded by a wrench.
+    Platform {
+        /// What was named.
+        name: String,
+        /// The platform.
+        platform: String,
+        /// The component of the wrench that was probably meant.
+        component: Option<usize>,
+    },
+}
+
+impl Load {
+    /// Adds a wrench: `Fx, Fy, Fz` in N, or these and `Mx, My, Mz` in N·m, at the origin of a frame
+    /// in directions of ground; components are expressions as in the file.
+    ///
+    /// # Errors
+    /// If the frame does not exist or does not move, or the components are not three or six values.
+    pub fn wrench(
+        mut self,
+        question: &Question,
+        name: &str,
+        text: &str,
+    ) -> Result<Self, LoadError> {
+        let mechanism = question.mechanism();
+        let Some(frame) = mechanism.frame(name) else {
+            return Err(LoadError::UnknownFrame { name: name.into() });
+        };
+        if mechanism.body(frame) == Body::Ground {
+            let platforms = mechanism.platforms().iter().map(|p| p.name.clone());
+            let mut instead: Vec<String> = platforms.collect();
+            if instead.is_empty() {
+                let chains = 0..mechanism.chains().len();
+                let tips = chains.map(|chain| Frame::Tip { chain });
+                let moving = tips.filter(|&tip| mechanism.body(tip) != Body::Ground);
+                instead = moving.map(|tip| mechanism.frame_name(tip)).collect();
+            }
+            return Err(LoadError::OnGround {
+                name: name.into(),
+                instead,
+            });
+        }
+        let inside = text.trim();
+        let inside = inside.strip_prefix(['[', '(']).unwrap_or(inside);
+        let inside = inside.strip_suffix([']', ')']).unwrap_or(inside);
+        let parts: Vec<&str> = inside.split(',').map(str::trim).collect();
+        let measures = [[Measure::Force; 3], [Measure::Moment; 3]].concat();
+        if ![3, 6].contains(&parts.len()) {
+            let given = parts.len();
+            return Err(LoadError::Components { given });
+        }
+        let values = (parts.iter().zip(measures))
+            .map(|(part, wanted)| number(question, name, part, wanted).map_err(LoadError::Value))
+            .collect::<Result<Vec<f64>, _>>()?;
+        match values[..] {
+            [x, y, z] => self.wrenches.push((frame, [x, y, z], [0.0; 3])),
+            [x, y, z, a, b, c] => self.wrenches.push((frame, [x, y, z], [a, b, c])),
+            _ => {
+                let given = values.len();
+                return Err(LoadError::Components { given });
+            }
+        }
+        Ok(self)
+    }
+
+    /// Adds a load on a joint: N along a slide, N·m about a hinge.
+    ///
+    /// # Errors
+    /// If there is no such joint or the value has none.
+    pub fn joint(mut self, question: &Question, name: &str, text: &str) -> Result<Self, LoadError> {
+        let mechanism = question.mechanism();
+        let Some(joint) = mechanism.joint(name) else {
+            let (platform, part) = name.rsplit_once('.').unwrap_or((name, ""));
+            let coordinate = Coordinate::by_name(part);
+            if mechanism.platform(name).is_some()
+                || coordinate.is_some() && mechanism.platform(platform).is_some()
+            {
+                return Err(LoadError::Platform {
+                    name: name.into(),
+                    platform: match coordinate {
+                        Some(_) => platform.into(),
+                        None => name.into(),
+                    },
+                    component: coordinate.map(|c| c as usize),
+                });
+            }
+            let known = mechanism.joints().iter().map(|joint| joint.name.clone());
+            let known: Vec<String> = known.collect();
+            let meant = nearest(name, known.iter().map(String::as_str));
+            return Err(LoadError::UnknownJoint {
+                name: name.into(),
+                suggestion: meant.map(str::to_owned),
+                known,
+            });
+        };
+        let wanted = match mechanism.joints()[joint].kind.is_angle() {
+            true => Measure::Moment,
+            false => Measure::Force,
+        };
+        let value = number(question, name, text, wanted).map_err(LoadError::Value)?;
+        self.joints.push((joint, value));
+        Ok(self)
+    }
+}
+
+impl Holdable {
+    /// Unit of the force that holds it: N·m or N.
+    pub fn force_unit(self, mechanism: &crate::mechanism::Mechanism) -> SiUnit {
+        SiUnit::of_effort(self.is_angle(mechanism))
+    }
+}

@@ -1,0 +1,279 @@
+use super::neighbourhood::Neighbourhood;
+use crate::geometry::{RollPitchYaw, Vector3};
+use crate::linear::{SPECTRUM_LIMIT, Spectrum, rank};
+use crate::mechanism::{Configuration, Coordinate, Dimensions, Mechanism};
+use crate::solve::{Equations, Newton, Stop};
+use crate::system::{Held, Holdable, System, Unknown};
+
+/// The infinitesimal motions of a mechanism at a configuration, with some coordinates held.
+#[derive(Clone, Debug)]
+pub struct Freedoms {
+    /// The unknowns, in the order of the motions' components.
+    pub unknowns: Vec<Unknown>,
+    /// Orthonormal basis of the motions, dimensionless: rad and characteristic lengths.
+    pub motions: Vec<Vec<f64>>,
+    /// Singular values of the Jacobian, largest first.
+    pub singular_values: Vec<f64>,
+}
+
+impl Freedoms {
+    /// The motions that closures and held coordinates leave at a configuration. Beyond
+    /// [`SPECTRUM_LIMIT`] unknowns nothing is computed, and the condition number is NaN.
+    pub fn at(dimensions: &Dimensions<f64>, held: &Held<f64>, at: &Configuration<f64>) -> Self {
+        let system = System::new(dimensions, held);
+        if system.unknowns().len() > SPECTRUM_LIMIT {
+            return Freedoms {
+                unknowns: system.unknowns().to_vec(),
+                motions: Vec::new(),
+                singular_values: Vec::new(),
+            };
+        }
+        let mut work = system.work();
+        system.linearise(at, &mut work);
+        let jacobian = system.dense_jacobian(&mut work);
+        let (rows, columns) = (system.rows(), system.unknowns().len());
+        let spectrum = Spectrum::of(rows, columns, &jacobian);
+        Freedoms {
+            unknowns: system.unknowns().to_vec(),
+            motions: spectrum.null_space,
+            singular_values: spectrum.values,
+        }
+    }
+
+    /// The numerical rank of the Jacobian.
+    pub fn rank(&self) -> usize {
+        rank(&self.singular_values)
+    }
+
+    /// Ratio of the largest to the smallest singular value that counts; infinite where unknowns are
+    /// not determined.
+    pub fn condition(&self) -> f64 {
+        match (
+            self.singular_values.first(),
+            self.singular_values
+                .get(self.unknowns.len().wrapping_sub(1)),
+        ) {
+            (Some(largest), Some(smallest)) if self.motions.is_empty() => largest / smallest,
+            (_, _) if self.unknowns.is_empty() => 1.0,
+            (None, _) => f64::NAN,
+            _ => f64::INFINITY,
+        }
+    }
+
+    /// The same ratio over the unknowns that are determined.
+    pub fn condition_of_determined(&self) -> f64 {
+        match (self.rank(), self.singular_values.first()) {
+            (0, _) | (_, None) => 1.0,
+            (rank, Some(largest)) => largest / self.singular_values[rank - 1],
+        }
+    }
+
+    /// The component of a motion along a joint variable.
+    fn joint_rate(&self, motion: &[f64], joint: usize) -> f64 {
+        let place = self
+            .unknowns
+            .iter()
+            .position(|u| *u == Unknown::Joint(joint));
+        place.map_or(0.0, |place| motion[place])
+    }
+
+    /// The joints and platforms that take part in the free motions, the most mobile first.
+    pub fn moving(&self, mechanism: &Mechanism) -> Vec<String> {
+        moving(mechanism, &self.unknowns, &self.motions)
+    }
+
+    /// Whether every motion only turns links about their own lines, as it does a rod between two
+    /// balls. (A wrist or a platform that turns about one point goes somewhere else.)
+    pub fn are_idle(&self, mechanism: &Mechanism, at: &Configuration<f64>) -> bool {
+        if self.motions.is_empty() {
+            return true;
+        }
+        let near = Neighbourhood::new(mechanism);
+        let own = near.system().unknowns().iter();
+        let places: Vec<Option<usize>> = own
+            .map(|unknown| self.unknowns.iter().position(|u| u == unknown))
+            .collect();
+        let whole = |motion: &Vec<f64>| {
+            let parts = places.iter().map(|place| place.map_or(0.0, |i| motion[i]));
+            parts.collect()
+        };
+        near.are_idle(at, &self.motions.iter().map(whole).collect::<Vec<_>>())
+    }
+}
+
+/// The joints and platforms that take part in motions, the most mobile first.
+pub fn moving(mechanism: &Mechanism, unknowns: &[Unknown], motions: &[Vec<f64>]) -> Vec<String> {
+    let mut shares: Vec<(String, f64)> = Vec::new();
+    for (i, unknown) in unknowns.iter().enumerate() {
+        let share: f64 = motions.iter().map(|motion| motion[i] * motion[i]).sum();
+        let name = match *unknown {
+            Unknown::Joint(joint) => &mechanism.joints()[joint].name,
+            Unknown::Twist { platform, .. } => &mechanism.platforms()[platform].name,
+        };
+        match shares.iter_mut().find(|(known, _)| known == name) {
+            Some((_, sum)) => *sum += share,
+            None => shares.push((name.clone(), share)),
+        }
+    }
+    shares.retain(|(_, share)| *share > 1e-6);
+    shares.sort_by(|a, b| b.1.total_cmp(&a.1).then_with(|| a.0.cmp(&b.0)));
+    shares.into_iter().map(|(name, _)| name).collect()
+}
+
+/// The freedoms of a mechanism with nothing held, at an assembled configuration that is not special.
+#[derive(Clone, Debug)]
+pub struct Mobility {
+    freedoms: Freedoms,
+    at: Configuration<f64>,
+    idle: usize,
+}
+
+impl Mobility {
+    /// Looks near a configuration for assembled ones and takes the one with the fewest freedoms:
+    /// what is lost or gained at a special configuration does not count. `None` if the mechanism
+    /// does not assemble near there, or has too many unknowns to tell.
+    pub fn near(mechanism: &Mechanism, start: &Configuration<f64>) -> Option<Self> {
+        Mobility::among(mechanism, start, 0..4)
+    }
+
+    /// The same, of configurations beside the start only: where that is special they are not.
+    pub fn beside(mechanism: &Mechanism, start: &Configuration<f64>) -> Option<Self> {
+        Mobility::among(mechanism, start, 1..4)
+    }
+
+    fn among(
+        mechanism: &Mechanism,
+        start: &Configuration<f64>,
+        shakes: std::ops::Range<u8>,
+    ) -> Option<Self> {
+        let dimensions = mechanism.dimensions();
+        let all_free = Held::nothing(mechanism);
+        let system = System::new(dimensions, &all_free);
+        if system.unknowns().len() > SPECTRUM_LIMIT {
+            return None;
+        }
+        let mut work = system.work();
+        let mut fewest: Option<(Freedoms, Configuration<f64>)> = None;
+        // the start itself, and three points beside it in directions that have no symmetry
+        for k in shakes {
+            let mut at = start.clone();
+            for (joint, value) in at.joints.iter_mut().enumerate() {
+                let shake = 0.05 * f64::from(k) * (1.7 * (joint as f64 + 1.0) * f64::from(k)).sin();
+                *value += shake * dimensions.joint_scales[joint];
+            }
+            for (platform, pose) in at.platforms.iter_mut().enumerate() {
+                let shake = |i: usize| {
+                    let phase = 2.3 * (6 * platform + i + 1) as f64 * f64::from(k);
+                    0.05 * f64::from(k) * phase.sin()
+                };
+                let shift = [3, 4, 5].map(|i| shake(i) * dimensions.characteristic_length);
+                *pose = pose.moved_by(&Vector3([0, 1, 2].map(shake)), Vector3(shift));
+            }
+            let mut trial = at.clone();
+            let report = Newton::default().solve(&system, &mut at, &mut trial, &mut work);
+            if report.stop != Stop::Solved {
+                continue;
+            }
+            let freedoms = Freedoms::at(dimensions, &all_free, &at);
+            if fewest
+                .as_ref()
+                .is_none_or(|(f, _)| freedoms.motions.len() < f.motions.len())
+            {
+                fewest = Some((freedoms, at));
+            }
+        }
+        let (freedoms, at) = fewest?;
+        let idle = Neighbourhood::new(mechanism).tangent(at.clone()).idle.len();
+        Some(Mobility { freedoms, at, idle })
+    }
+
+    /// The configuration whose freedoms they are.
+    pub fn at(&self) -> &Configuration<f64> {
+        &self.at
+    }
+
+    /// The number of freedoms, without those that only turn a link about its own line.
+    pub fn count(&self) -> usize {
+        self.freedoms.motions.len() - self.idle.min(self.freedoms.motions.len())
+    }
+
+    /// Whether the freedoms are finite, tried along one that mixes them all: a shaky structure has
+    /// some that are not.
+    pub fn is_finite(&self, mechanism: &Mechanism) -> bool {
+        let mut near = Neighbourhood::new(mechanism);
+        let tangent = near.tangent(self.at.clone());
+        near.is_mobile(&tangent)
+    }
+
+    /// The number of freedoms that only turn a link about its own line.
+    pub fn idle(&self) -> usize {
+        self.idle
+    }
+
+    /// The first of the candidates that are independent of one another, as many as there are
+    /// freedoms at most: holding them leaves nothing else to choose.
+    pub fn independent(&self, mechanism: &Mechanism, candidates: &[Holdable]) -> Vec<Holdable> {
+        let mut chosen = Vec::new();
+        let mut basis: Vec<Vec<f64>> = Vec::new();
+        for &candidate in candidates {
+            if chosen.len() == self.count() {
+                break;
+            }
+            let mut row = self.rates(mechanism, candidate);
+            let size = norm(&row);
+            for direction in &basis {
+                let along: f64 = row.iter().zip(direction).map(|(a, b)| a * b).sum();
+                row.iter_mut()
+                    .zip(direction)
+                    .for_each(|(a, b)| *a -= along * b);
+            }
+            let left = norm(&row);
+            if left > 1e-6 && left > 1e-6 * size {
+                row.iter_mut().for_each(|a| *a /= left);
+                basis.push(row);
+                chosen.push(candidate);
+            }
+        }
+        chosen
+    }
+
+    /// How fast a coordinate changes along each freedom.
+    fn rates(&self, mechanism: &Mechanism, candidate: Holdable) -> Vec<f64> {
+        match candidate {
+            Holdable::Joint(joint) => {
+                let motions = self.freedoms.motions.iter();
+                motions
+                    .map(|motion| self.freedoms.joint_rate(motion, joint))
+                    .collect()
+            }
+            Holdable::Coordinate(platform, _) | Holdable::Turn(platform, _) => {
+                let pose = self.at.platforms[platform].pose();
+                let slope = match candidate {
+                    // roll and yaw turn about the same line there: only whole orientations are
+                    // held, by three angles as good as any
+                    Holdable::Coordinate(_, c)
+                        if c.is_angle() && RollPitchYaw::is_locked(&pose.rotation) =>
+                    {
+                        let axis = c as usize - Coordinate::Roll as usize;
+                        std::array::from_fn(|i| f64::from(u8::from(i == axis)))
+                    }
+                    _ => candidate.slope(&pose, mechanism.characteristic_length()),
+                };
+                let first = Unknown::Twist {
+                    platform,
+                    component: 0,
+                };
+                let first = self.freedoms.unknowns.iter().position(|u| *u == first);
+                let first = first.expect("every platform is free here");
+                let motions = self.freedoms.motions.iter();
+                motions
+                    .map(|motion| (0..6).map(|i| slope[i] * motion[first + i]).sum())
+                    .collect()
+            }
+        }
+    }
+}
+
+fn norm(row: &[f64]) -> f64 {
+    row.iter().map(|a| a * a).sum::<f64>().sqrt()
+}

@@ -1,0 +1,149 @@
+//! A mechanism with some of its coordinates and frames kept at rest.
+
+use super::twists::FrameTwists;
+use crate::linear::Decomposition;
+use crate::mechanism::{Configuration, Frame, Mechanism};
+use crate::solve::Equations;
+use crate::system::{Held, Holdable, System, Work};
+
+/// What is kept at rest.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Lock {
+    /// A joint or a platform coordinate.
+    Coordinate(Holdable),
+    /// A frame: it neither turns nor moves.
+    Frame(Frame),
+    /// The origin of a frame: the frame may turn about it.
+    Point(Frame),
+}
+
+/// The closure equations linearised with nothing held, above the rates of what is kept at rest:
+/// M = [J; A]. What M maps to zero are the motions that leave the locked things at rest.
+///
+/// Rows and columns are dimensionless; the columns are the unknowns of [`Locked::system`].
+#[derive(Clone, Debug)]
+pub struct Locked {
+    system: System<f64>,
+    work: Work<f64>,
+    locks: Vec<Lock>,
+    /// Twists of the frames and points among the locks, in their order.
+    twists: FrameTwists<f64>,
+    length: f64,
+}
+
+impl Lock {
+    fn rows(self) -> usize {
+        match self {
+            Lock::Coordinate(_) => 1,
+            Lock::Frame(_) => 6,
+            Lock::Point(_) => 3,
+        }
+    }
+
+    /// What it is called.
+    pub fn name(self, mechanism: &Mechanism) -> String {
+        match self {
+            Lock::Coordinate(coordinate) => coordinate.name(mechanism),
+            Lock::Frame(frame) => mechanism.frame_name(frame),
+            Lock::Point(frame) => format!("point {}", mechanism.frame_name(frame)),
+        }
+    }
+}
+
+impl Locked {
+    /// Keeps these things at rest.
+    pub fn new(mechanism: &Mechanism, locks: &[Lock]) -> Self {
+        let system = System::new(mechanism.dimensions(), &Held::nothing(mechanism));
+        let frames = locks.iter().filter_map(|lock| match lock {
+            Lock::Frame(frame) | Lock::Point(frame) => Some(*frame),
+            Lock::Coordinate(_) => None,
+        });
+        let frames: Vec<Frame> = frames.collect();
+        Locked {
+            twists: FrameTwists::new(mechanism.dimensions(), system.unknowns(), &frames),
+            work: system.work(),
+            system,
+            locks: locks.to_vec(),
+            length: mechanism.characteristic_length(),
+        }
+    }
+
+    /// The closure equations with nothing held.
+    pub fn system(&self) -> &System<f64> {
+        &self.system
+    }
+
+    /// Rows of M.
+    pub fn rows(&self) -> usize {
+        self.system.rows() + self.locks.iter().map(|lock| lock.rows()).sum::<usize>()
+    }
+
+    /// Columns of M.
+    pub fn columns(&self) -> usize {
+        self.system.unknowns().len()
+    }
+
+    /// M at a configuration, column-major.
+    pub fn jacobian(&mut self, at: &Configuration<f64>) -> Vec<f64> {
+        self.system.linearise(at, &mut self.work);
+        let closures = self.system.dense_jacobian(&mut self.work);
+        let (first, rows) = (self.system.rows(), self.rows());
+        let mut entries = vec![0.0; rows * self.columns()];
+        for (to, from) in
+            (entries.chunks_exact_mut(rows.max(1))).zip(closures.chunks_exact(first.max(1)))
+        {
+            to[..first].copy_from_slice(from);
+        }
+        let mut placement = self.twists.placement();
+        self.twists.place(at, &mut placement);
+        let (mut row, mut frame) = (first, 0);
+        let mut rates = vec![0.0; self.columns()];
+        for lock in &self.locks {
+            if let Lock::Coordinate(coordinate) = *lock {
+                for (column, slope) in coordinate.slope_in(&self.system, at) {
+                    entries[column * rows + row] = slope;
+                }
+            } else {
+                for column in 0..rates.len() {
+                    rates[column] = 1.0;
+                    let twist = self.twists.twist(frame, &placement, &rates);
+                    rates[column] = 0.0;
+                    let velocity = twist.velocity.times(1.0 / self.length);
+                    let to = &mut entries[column * rows + row..][..lock.rows()];
+                    match lock {
+                        Lock::Frame(_) => {
+                            to[..3].copy_from_slice(&twist.omega.0);
+                            to[3..].copy_from_slice(&velocity.0);
+                        }
+                        _ => to.copy_from_slice(&velocity.0),
+                    }
+                }
+                frame += 1;
+            }
+            row += lock.rows();
+        }
+        entries
+    }
+
+    /// M decomposed at a configuration, cut at the rank tolerance.
+    pub fn decomposition(&mut self, at: &Configuration<f64>) -> Decomposition {
+        let entries = self.jacobian(at);
+        Decomposition::of(self.rows(), self.columns(), &entries)
+    }
+
+    /// M decomposed at a configuration, cut at a rank that is known.
+    pub fn of_rank(&mut self, at: &Configuration<f64>, rank: usize) -> Decomposition {
+        let entries = self.jacobian(at);
+        Decomposition::of_rank(self.rows(), self.columns(), &entries, rank)
+    }
+
+    /// det(Uᵀ M V Σ⁻¹) with the decomposition U Σ Vᵀ of M at a configuration nearby: 1 there, and it
+    /// changes sign where M loses an odd number of ranks.
+    ///
+    /// Unlike singular values it is a smooth function of the configuration, and redundant rows do no
+    /// harm to it.
+    pub fn orientation(&mut self, near: &Decomposition, at: &Configuration<f64>) -> f64 {
+        let entries = self.jacobian(at);
+        near.determinant_beside(&entries)
+    }
+}

@@ -1,0 +1,234 @@
+//! What a mechanism with nothing held can do near an assembled configuration.
+
+mod follow;
+
+use super::twists::FrameTwists;
+use crate::description::{ClosureKind, Role};
+use crate::linear::{Decomposition, complement, dot, orthonormal, rank_of};
+use crate::mechanism::{Body, Configuration, Frame, Mechanism};
+use crate::solve::{Equations, Newton, Stop};
+use crate::system::{ClosureWrenches, Held, System, Unknown, Work};
+
+pub use follow::Followed;
+
+/// What is rounding among the rates of motions of unit norm.
+const ROUNDING: f64 = 1e-6;
+
+/// A mechanism with nothing held, or what a question holds, to be looked at near assembled
+/// configurations.
+#[derive(Clone, Debug)]
+pub struct Neighbourhood<'a> {
+    mechanism: &'a Mechanism,
+    system: System<f64>,
+    work: Work<f64>,
+    frames: FrameTwists<f64>,
+}
+
+/// The closure equations linearised at an assembled configuration: J ξ = 0.
+#[derive(Clone, Debug)]
+pub struct Tangent {
+    /// The configuration.
+    pub at: Configuration<f64>,
+    /// The Jacobian J, column-major and dimensionless, with nothing held.
+    pub jacobian: Vec<f64>,
+    /// Its decomposition.
+    pub decomposition: Decomposition,
+    /// Orthonormal basis of the infinitesimal motions ξ that are more than idle.
+    pub motions: Vec<Vec<f64>>,
+    /// Orthonormal basis of the idle ones: links turn about their own lines and nothing else moves.
+    pub idle: Vec<Vec<f64>>,
+}
+
+impl<'a> Neighbourhood<'a> {
+    /// Prepares a mechanism of which nothing is held.
+    pub fn new(mechanism: &'a Mechanism) -> Self {
+        Neighbourhood::holding(mechanism, &Held::nothing(mechanism))
+    }
+
+    /// Prepares a mechanism of which something is held.
+    pub fn holding(mechanism: &'a Mechanism, held: &Held<f64>) -> Self {
+        let system = System::new(mechanism.dimensions(), held);
+        let frames = mechanism.frames();
+        Neighbourhood {
+            mechanism,
+            work: system.work(),
+            frames: FrameTwists::new(mechanism.dimensions(), system.unknowns(), &frames),
+            system,
+        }
+    }
+
+    /// The closure equations.
+    pub fn system(&self) -> &System<f64> {
+        &self.system
+    }
+
+    /// The mechanism.
+    pub fn mechanism(&self) -> &'a Mechanism {
+        self.mechanism
+    }
+
+    /// Twists of every frame of the mechanism.
+    pub fn frames(&self) -> &FrameTwists<f64> {
+        &self.frames
+    }
+
+    /// Linearises at an assembled configuration.
+    pub fn tangent(&mut self, at: Configuration<f64>) -> Tangent {
+        self.system.linearise(&at, &mut self.work);
+        let jacobian = self.system.dense_jacobian(&mut self.work);
+        let columns = self.system.unknowns().len();
+        let decomposition = Decomposition::of(self.system.rows(), columns, &jacobian);
+        let all = decomposition.null_space();
+        let felt = self.felt(&at, &all);
+        let split = Decomposition::of(felt.len() / all.len().max(1), all.len(), &felt);
+        let combine = |weights: &Vec<f64>| -> Vec<f64> {
+            let along = |i: usize| all.iter().zip(weights).map(|(m, w)| m[i] * w).sum();
+            (0..columns).map(along).collect()
+        };
+        let idle = match split.singular_values().first() {
+            // all of it is rounding beside motions of unit norm
+            Some(&largest) if largest < ROUNDING => complement(&[], all.len()),
+            _ => split.null_space(),
+        };
+        let motions = complement(&idle, all.len());
+        Tangent {
+            idle: idle.iter().map(combine).collect(),
+            // without idle ones the basis stays as sparse as it came
+            motions: if idle.is_empty() {
+                all
+            } else {
+                motions.iter().map(combine).collect()
+            },
+            at,
+            jacobian,
+            decomposition,
+        }
+    }
+
+    /// The rank of the closure equations at a configuration.
+    pub fn rank(&mut self, at: &Configuration<f64>) -> usize {
+        self.system.linearise(at, &mut self.work);
+        let jacobian = self.system.dense_jacobian(&mut self.work);
+        rank_of(self.system.rows(), self.system.unknowns().len(), &jacobian)
+    }
+
+    /// The wrenches of every closure's rows at a configuration.
+    pub fn closure_wrenches(&mut self, at: &Configuration<f64>) -> Vec<ClosureWrenches<f64>> {
+        self.system.residual(at, &mut self.work);
+        self.system.closure_wrenches(at, &self.work)
+    }
+
+    /// The assembled configuration that Newton's method reaches from a start, if it does.
+    pub fn solve(
+        &mut self,
+        newton: &Newton,
+        mut at: Configuration<f64>,
+    ) -> Option<Configuration<f64>> {
+        let mut trial = at.clone();
+        let report = newton.solve(&self.system, &mut at, &mut trial, &mut self.work);
+        (report.stop == Stop::Solved).then_some(at)
+    }
+
+    /// The largest dimensionless row of the equations at a configuration.
+    pub fn residual(&mut self, at: &Configuration<f64>) -> f64 {
+        self.system.residual(at, &mut self.work).largest
+    }
+
+    /// Whether motions are idle: links turn about their own lines and nothing else moves.
+    pub fn are_idle(&self, at: &Configuration<f64>, motions: &[Vec<f64>]) -> bool {
+        let felt = self.felt(at, motions);
+        felt.iter().all(|rate| rate.abs() < ROUNDING)
+    }
+
+    /// For each motion a column of all that idle freedoms leave at rest: origins of frames,
+    /// platforms, driven joints, links that end in something else than a ball, joints that no
+    /// closure feels.
+    fn felt(&self, at: &Configuration<f64>, motions: &[Vec<f64>]) -> Vec<f64> {
+        let mechanism = self.mechanism;
+        let mut placement = self.frames.placement();
+        self.frames.place(at, &mut placement);
+        let scale = 1.0 / mechanism.characteristic_length();
+        let frames: Vec<Frame> = self.frames.frames().collect();
+        let turning: Vec<usize> = (mechanism.closures().iter())
+            .filter(|closure| {
+                !matches!(closure.kind, ClosureKind::Spherical | ClosureKind::Distance)
+            })
+            .flat_map(|closure| closure.frames)
+            .filter_map(|frame| frames.iter().position(|f| *f == frame))
+            .collect();
+        let unfelt = mechanism.unfelt_joints();
+        // platforms on balls apart: what leaves the balls at rest turns them about the line of these
+        let balls = |platform: usize| {
+            let closures = mechanism.closures().iter();
+            let balls = closures
+                .flat_map(|closure| closure.frames)
+                .filter(move |frame| mechanism.body(*frame) == Body::Platform(platform));
+            balls.filter_map(|frame| frames.iter().position(|f| *f == frame))
+        };
+        let apart = |i: usize, j: usize| {
+            let [a, b] = [i, j].map(|k| self.frames.origin(k, &placement));
+            (a - b).norm() > 1e-6 / scale
+        };
+        let rods: Vec<usize> = (0..mechanism.platforms().len())
+            .filter(|&platform| balls(platform).any(|i| balls(platform).any(|j| apart(i, j))))
+            .collect();
+        let mut felt = Vec::new();
+        for motion in motions {
+            for i in 0..frames.len() {
+                let twist = self.frames.twist(i, &placement, motion);
+                felt.extend(twist.velocity.times(scale).0);
+            }
+            for &i in &turning {
+                felt.extend(self.frames.twist(i, &placement, motion).omega.0);
+            }
+            for (unknown, &rate) in self.system.unknowns().iter().zip(motion) {
+                let idle = match *unknown {
+                    Unknown::Joint(joint) => {
+                        mechanism.joints()[joint].role == Role::Passive && !unfelt.contains(&joint)
+                    }
+                    Unknown::Twist { platform, .. } => rods.contains(&platform),
+                };
+                if !idle {
+                    felt.push(rate);
+                }
+            }
+        }
+        felt
+    }
+}
+
+impl Tangent {
+    /// The motions of an independent part of the mechanism alone.
+    pub fn within(self, own: &[bool]) -> Tangent {
+        if own.iter().all(|own| *own) {
+            return self;
+        }
+        let parts = |motions: &[Vec<f64>]| {
+            let part = |motion: &Vec<f64>| -> Vec<f64> {
+                let all = motion.iter().zip(own);
+                all.map(|(x, own)| if *own { *x } else { 0.0 }).collect()
+            };
+            orthonormal(&motions.iter().map(part).collect::<Vec<_>>(), 1e-6)
+        };
+        Tangent {
+            motions: parts(&self.motions),
+            idle: parts(&self.idle),
+            ..self
+        }
+    }
+
+    /// How many unknowns there are.
+    pub fn columns(&self) -> usize {
+        match (self.motions.first(), self.idle.first()) {
+            (Some(motion), _) | (None, Some(motion)) => motion.len(),
+            (None, None) => self.decomposition.rank(),
+        }
+    }
+
+    /// How far a unit vector is from being a motion: the sine of the angle between them.
+    pub fn misses(&self, direction: &[f64]) -> f64 {
+        let along = self.motions.iter().chain(&self.idle);
+        let squares: f64 = along.map(|motion| dot(motion, direction).powi(2)).sum();
+        (1.0 - squares).max(0.0).sqrt()
+    }
+}

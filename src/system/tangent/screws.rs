@@ -1,0 +1,225 @@
+//! Spaces of twists as screws with pitch.
+
+use serde::{Deserialize, Serialize};
+
+use super::neighbourhood::Neighbourhood;
+use crate::geometry::Vector3;
+use crate::linear::{axis_aligned, norm, remove};
+use crate::mechanism::{Body, Configuration, Frame, Mechanism};
+
+/// The infinitesimal motions of a body.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct TwistSpace {
+    /// The body: a platform, or a link by its frame.
+    pub body: String,
+    /// A basis: principal screws first, translations after them.
+    pub screws: Vec<Screw>,
+    /// The lines about which it spins in idle freedoms: what the screws leave open, and have none of.
+    pub spins: Vec<Screw>,
+}
+
+/// A twist up to its size, in ground.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Screw {
+    /// Unit vector along the axis, or along the translation.
+    pub direction: [f64; 3],
+    /// The point of the axis nearest to the origin of ground, in m; `None` for a translation.
+    pub point: Option<[f64; 3]>,
+    /// Advance for a rotation by 1 rad, in m/rad; zero for a rotation, `None` for a translation,
+    /// whose pitch is infinite.
+    pub pitch: Option<f64>,
+}
+
+/// What counts as zero in a dimensionless twist.
+const ZERO: f64 = 1e-7;
+
+/// The bodies whose motions are of interest: platforms, or else the links that closures join.
+fn carriers(mechanism: &Mechanism) -> Vec<(Body, Frame)> {
+    let platforms = 0..mechanism.platforms().len();
+    let mut carriers: Vec<(Body, Frame)> = platforms
+        .map(|platform| (Body::Platform(platform), Frame::Platform { platform }))
+        .collect();
+    if carriers.is_empty() {
+        let frames = mechanism
+            .closures()
+            .iter()
+            .flat_map(|closure| closure.frames);
+        let tips = (0..mechanism.chains().len()).map(|chain| Frame::Tip { chain });
+        let open = tips.filter(|_| mechanism.closures().is_empty());
+        for frame in frames.chain(open) {
+            let body = mechanism.body(frame);
+            if body != Body::Ground && !carriers.iter().any(|(known, _)| *known == body) {
+                carriers.push((body, frame));
+            }
+        }
+    }
+    carriers
+}
+
+impl Neighbourhood<'_> {
+    /// The twists that bodies have over a space of infinitesimal motions at a configuration: those
+    /// of the platforms, or else of the links that closures join. A body that spins about a line in
+    /// one of the `idle` motions has no part of that spin in its others.
+    pub fn twist_spaces(
+        &self,
+        at: &Configuration<f64>,
+        motions: &[Vec<f64>],
+        idle: &[Vec<f64>],
+    ) -> Vec<TwistSpace> {
+        let mechanism = self.mechanism();
+        let length = mechanism.characteristic_length();
+        let frames = self.frames();
+        let mut placement = frames.placement();
+        frames.place(at, &mut placement);
+        let spaces = carriers(mechanism).into_iter().map(|(body, frame)| {
+            let place = frames
+                .frames()
+                .position(|f| f == frame)
+                .expect("every frame is planned");
+            let origin = frames.origin(place, &placement);
+            let at_ground = |omega: Vector3<f64>, velocity: Vector3<f64>| {
+                let velocity = (velocity - omega.cross(&origin)).times(1.0 / length);
+                [omega.0, velocity.0].concat()
+            };
+            let lines = spin_lines(
+                idle.iter()
+                    .map(|m| frames.twist(place, &placement, m).omega),
+            );
+            let twists: Vec<Vec<f64>> = (motions.iter())
+                .map(|motion| {
+                    let twist = frames.twist(place, &placement, motion);
+                    at_ground(without(&twist.omega, &lines), twist.velocity)
+                })
+                .collect();
+            let spins = lines.iter().map(|line| at_ground(*line, Vector3::zero()));
+            TwistSpace {
+                body: mechanism.body_name(body),
+                screws: principal_screws(&twists, length),
+                spins: principal_screws(&spins.collect::<Vec<_>>(), length),
+            }
+        });
+        spaces.collect()
+    }
+}
+
+/// Orthonormal directions of the lines about which a frame spins at the given angular velocities.
+pub fn spin_lines(omegas: impl Iterator<Item = Vector3<f64>>) -> Vec<Vector3<f64>> {
+    /// Beside idle motions of unit norm this is rounding.
+    const ROUNDING: f64 = 1e-6;
+    let omegas: Vec<Vec<f64>> = omegas.map(|omega| omega.0.to_vec()).collect();
+    let lines = crate::linear::orthonormal(&omegas, ROUNDING).into_iter();
+    lines.map(|w| Vector3([w[0], w[1], w[2]])).collect()
+}
+
+/// What is left of an angular velocity without the spins about orthonormal directions.
+pub fn without(omega: &Vector3<f64>, spins: &[Vector3<f64>]) -> Vector3<f64> {
+    let along = spins.iter().map(|line| line.times(line.dot(omega)));
+    along.fold(*omega, |left, part| left - part)
+}
+
+/// Principal screws of a space of wrenches (f; m/L) about the origin of ground: `direction` is that
+/// of the force, or of the moment where there is no force.
+pub fn wrench_screws(wrenches: &[Vec<f64>], length: f64) -> Vec<Screw> {
+    principal_screws(wrenches, length)
+}
+
+/// Principal screws of a space of twists (ω; v/L) at the origin, then its translations.
+///
+/// Twists are made unique by taking the part of v that is orthogonal to the translations; the
+/// pitch ω·v/ω·ω is then a quadratic form on the space of the ω, and its eigenvectors are the
+/// principal screws (Ball 1900; Hunt 1978).
+fn principal_screws(twists: &[Vec<f64>], length: f64) -> Vec<Screw> {
+    let space = axis_aligned(twists);
+    let omegas: Vec<Vec<f64>> = space.iter().map(|t| t[..3].to_vec()).collect();
+    let rotations = axis_aligned(&omegas);
+    let translations: Vec<Vec<f64>> = {
+        // combinations without rotation
+        let columns: Vec<f64> = omegas.concat();
+        let weights = crate::linear::Decomposition::of(3, omegas.len(), &columns).null_space();
+        let sums: Vec<Vec<f64>> = (weights.iter())
+            .map(|weights| {
+                (3..6)
+                    .map(|k| space.iter().zip(weights).map(|(t, w)| t[k] * w).sum())
+                    .collect()
+            })
+            .collect();
+        axis_aligned(&sums)
+    };
+    let translation_basis = crate::linear::orthonormal(&translations, ZERO);
+    let rotation_basis = crate::linear::orthonormal(&rotations, ZERO);
+    let velocities: Vec<Vec<f64>> = (rotation_basis.iter())
+        .map(|omega| {
+            let columns: Vec<f64> = omegas.concat();
+            let weights = crate::linear::Decomposition::of(3, omegas.len(), &columns).solve(omega);
+            let mut velocity: Vec<f64> = (3..6)
+                .map(|k| space.iter().zip(&weights).map(|(t, w)| t[k] * w).sum())
+                .collect();
+            remove(&mut velocity, &translation_basis);
+            velocity
+        })
+        .collect();
+    let mut screws = rotations_of(&rotation_basis, &velocities, length);
+    screws.extend(translations.iter().map(|t| {
+        let unit = Vector3([t[0], t[1], t[2]]).times(1.0 / norm(t));
+        Screw {
+            direction: clean(pointing(unit).0, 1.0),
+            point: None,
+            pitch: None,
+        }
+    }));
+    screws
+}
+
+/// The principal screws that turn, the one of least pitch first.
+fn rotations_of(rotation_basis: &[Vec<f64>], velocities: &[Vec<f64>], length: f64) -> Vec<Screw> {
+    let size = rotation_basis.len();
+    if size == 0 {
+        return Vec::new();
+    }
+    let pitches = nalgebra::DMatrix::from_fn(size, size, |i, j| {
+        let ahead = crate::linear::dot(&rotation_basis[i], &velocities[j]);
+        let back = crate::linear::dot(&rotation_basis[j], &velocities[i]);
+        let pitch = 0.5 * (ahead + back);
+        // equal pitches must not turn the axes
+        if pitch.abs() < ZERO { 0.0 } else { pitch }
+    });
+    let eigen = pitches.symmetric_eigen();
+    let mut screws: Vec<Screw> = (0..size)
+        .map(|k| {
+            let combine = |parts: &[Vec<f64>]| {
+                let mut sum = Vector3::zero();
+                for (j, part) in parts.iter().enumerate() {
+                    let weight = eigen.eigenvectors[(j, k)];
+                    sum += Vector3([part[0], part[1], part[2]]).times(weight);
+                }
+                sum
+            };
+            let (omega, velocity) = (combine(rotation_basis), combine(velocities));
+            let point = omega.cross(&velocity).times(length);
+            let pitch = omega.dot(&velocity) * length;
+            Screw {
+                direction: clean(pointing(omega).0, 1.0),
+                point: Some(clean(point.0, length)),
+                pitch: Some(clean([pitch; 3], length)[0]),
+            }
+        })
+        .collect();
+    screws.sort_by(|a, b| {
+        let pitch = |screw: &Screw| screw.pitch.unwrap_or(f64::INFINITY);
+        pitch(a).abs().total_cmp(&pitch(b).abs())
+    });
+    screws
+}
+
+/// The direction or its opposite, the largest component positive.
+fn pointing(v: Vector3<f64>) -> Vector3<f64> {
+    let largest = v.0.iter().fold(
+        0.0,
+        |m: f64, &x| if x.abs() > m.abs() + 1e-9 { x } else { m },
+    );
+    if largest < 0.0 { -v } else { v }
+}
+
+fn clean(v: [f64; 3], size: f64) -> [f64; 3] {
+    v.map(|x| if x.abs() < 1e-9 * size { 0.0 } else { x })
+}

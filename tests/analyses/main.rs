@@ -1,0 +1,14 @@
+//! The other analyses, each against closed forms and published values.
+
+mod closed_reports;
+mod comparison;
+mod conversion;
+mod formulas;
+mod frames;
+mod mobility;
+mod singularities;
+mod statics;
+mod sweep;
+mod velocity;
+mod watched;
+mod workspace;

@@ -1,0 +1,195 @@
+//! Chance decides the way to the list of assemblies, not the list: every shipped mechanism with
+//! fifty random seeds.
+
+use std::f64::consts::{PI, TAU};
+use std::path::{Path, PathBuf};
+
+use linkwork::analysis::assemblies::{
+    AssembliesReport, AssembliesSettings, Assembly, AssemblySolver, Wanted,
+};
+use linkwork::description::load;
+use linkwork::mechanism::Mechanism;
+use linkwork::solve::Watch;
+use linkwork::system::Question;
+
+fn files() -> Vec<PathBuf> {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("mechanisms");
+    let files = std::fs::read_dir(folder).unwrap();
+    let files = files.map(|file| file.unwrap().path());
+    let mut files: Vec<PathBuf> = files
+        .filter(|f| f.extension().is_some_and(|e| e == "ron"))
+        .collect();
+    files.sort();
+    files
+}
+
+fn mechanism(path: &Path) -> Mechanism {
+    Mechanism::new(&load(path).unwrap().1).unwrap()
+}
+
+fn answer(mechanism: &Mechanism, seed: u64) -> AssembliesReport {
+    let question = Question::new(mechanism);
+    let settings = AssembliesSettings {
+        seed,
+        ..AssembliesSettings::default()
+    };
+    let solver =
+        AssemblySolver::new(mechanism, &question.held(), &settings, &Watch::none()).unwrap();
+    solver.at_targets(
+        &question.start(),
+        &question.held(),
+        Wanted::default(),
+        &Watch::none(),
+    )
+}
+
+/// How far apart two values are, going round for angles.
+fn apart(mechanism: &Mechanism, joint: usize, a: f64, b: f64) -> f64 {
+    match mechanism.joints()[joint].kind.is_angle() {
+        true => ((a - b + PI).rem_euclid(TAU) - PI).abs(),
+        false => (a - b).abs(),
+    }
+}
+
+/// What the two answers say differently, in the order of the report; nothing if they agree.
+///
+/// Where solutions meet or are samples, only as many digits are determined as the square root of
+/// rounding leaves.
+fn differences(mechanism: &Mechanism, a: &AssembliesReport, b: &AssembliesReport) -> Vec<String> {
+    let mut found = Vec::new();
+    let counts = |r: &AssembliesReport| {
+        format!(
+            "{:?}, {} generic, {} complex, {} real, {} singular, {} at infinity, {} lost, bound {:?}",
+            r.fit, r.generic, r.complex, r.real, r.singular, r.at_infinity, r.lost, r.bound
+        )
+    };
+    if counts(a) != counts(b) {
+        found.push(format!("{} against {}", counts(a), counts(b)));
+    }
+    for (x, y) in a.assemblies.iter().zip(&b.assemblies) {
+        let digits = if x.multiplicity == 1 { 1e-9 } else { 1e-6 };
+        for (j, ((name, u), (_, v))) in x.joints.0.iter().zip(&y.joints.0).enumerate() {
+            if apart(mechanism, j, *u, *v) > digits {
+                found.push(format!("mode {}: {name} {u} against {v}", x.mode));
+            }
+        }
+        for ((name, u), (_, v)) in x.platforms.0.iter().zip(&y.platforms.0) {
+            let far = (0..3).map(|i| (u.position[i] - v.position[i]).abs());
+            let far = far.chain((0..4).map(|i| (u.quaternion[i] - v.quaternion[i]).abs()));
+            if far.fold(0.0, f64::max) > digits {
+                found.push(format!("mode {}: pose of {name} differs", x.mode));
+            }
+        }
+        // where solutions meet the condition is rounding
+        if x.multiplicity == 1
+            && x.condition
+                .zip(y.condition)
+                .is_some_and(|(u, v)| (u - v).abs() > 1e-6 * u)
+        {
+            found.push(format!(
+                "mode {}: condition {:?} against {:?}",
+                x.mode, x.condition, y.condition
+            ));
+        }
+        let verdict = |a: &Assembly| {
+            format!(
+                "sign {}, multiplicity {}, certified {}, within limits {}, shares with {:?}",
+                a.determinant_sign,
+                a.multiplicity,
+                a.certified,
+                a.within_limits,
+                a.shares_platform_pose_with
+            )
+        };
+        if verdict(x) != verdict(y) {
+            found.push(format!(
+                "mode {}: {} against {}",
+                x.mode,
+                verdict(x),
+                verdict(y)
+            ));
+        }
+    }
+    found
+}
+
+/// Mechanisms of which fifty searches take longer than a test may.
+const LONG: [&str; 6] = [
+    "delta",
+    "jansen_leg",
+    "peaucellier",
+    "schatz",
+    "stewart_gough_6sps",
+    "stewart_gough_6ups",
+];
+
+fn name(file: &Path) -> &str {
+    file.file_stem().unwrap().to_str().unwrap()
+}
+
+/// The first seeds after 1, up to `last`, whose answer differs, and in what.
+fn seeds_that_matter(file: &Path, last: u64) -> Vec<String> {
+    let mechanism = mechanism(file);
+    let reference = answer(&mechanism, 1);
+    let others = (2..=last).flat_map(|seed| {
+        let found = differences(&mechanism, &reference, &answer(&mechanism, seed));
+        let said = found.into_iter().map(move |d| format!("seed {seed}: {d}"));
+        said.map(|d| format!("{}, {d}", name(file)))
+    });
+    others.take(5).collect()
+}
+
+fn no_seed_matters(wanted: impl Fn(&str) -> bool, last: u64) {
+    let chosen: Vec<PathBuf> = files().into_iter().filter(|f| wanted(name(f))).collect();
+    assert!(!chosen.is_empty());
+    let found: Vec<String> = chosen
+        .iter()
+        .flat_map(|f| seeds_that_matter(f, last))
+        .collect();
+    assert!(found.is_empty(), "{found:#?}");
+}
+
+#[test]
+fn fifty_seeds_give_one_answer() {
+    no_seed_matters(|name| !LONG.contains(&name), 50);
+}
+
+#[test]
+fn three_seeds_give_one_answer_where_searches_take_long() {
+    no_seed_matters(|name| LONG.contains(&name), 3);
+}
+
+/// Minutes: `cargo test --release --test assembly seeds -- --ignored`
+#[test]
+#[ignore = "takes minutes"]
+fn fifty_seeds_give_one_answer_where_searches_take_long() {
+    no_seed_matters(|name| LONG.contains(&name), 50);
+}
+
+/// A file of every name is there, so that a renamed one is not left out in silence.
+#[test]
+fn every_mechanism_named_here_is_there() {
+    let files = files();
+    let names: Vec<&str> = files.iter().map(|f| name(f)).collect();
+    for name in &LONG {
+        assert!(names.contains(name), "{name}");
+    }
+}
+
+/// The comparison tells a digit, a mode and a count.
+#[test]
+fn answers_that_differ_are_told_apart() {
+    let four_bar = files().into_iter().find(|f| name(f) == "four_bar").unwrap();
+    let mechanism = mechanism(&four_bar);
+    let one = answer(&mechanism, 1);
+    assert!(differences(&mechanism, &one, &answer(&mechanism, 2)).is_empty());
+    let mut other = one.clone();
+    other.assemblies[1].joints.0[1].1 += 1e-8;
+    assert_eq!(differences(&mechanism, &one, &other).len(), 1);
+    other = one.clone();
+    other.assemblies.swap(0, 1);
+    assert!(!differences(&mechanism, &one, &other).is_empty());
+    other = one.clone();
+    other.generic += 1;
+    assert_eq!(differences(&mechanism, &one, &other).len(), 1);
+}
