@@ -1,10 +1,48 @@
-//! Analysis of parallel and closed-chain mechanisms described as serial Denavit–Hartenberg chains,
-//! broken at chosen joints and put back together by closures.
+//! Kinematic analysis of parallel and closed-chain mechanisms.
+//!
+//! A mechanism is described as in a textbook: serial Denavit–Hartenberg chains, left when the closed mechanism is
+//! broken at some of its joints, and closures that restore those joints. linkwork assembles it, finds all its
+//! assemblies, and analyses mobility, velocities, forces, motion, singularities and workspace.
+//!
+//! Load, ask, answer:
+//!
+//! ```
+//! use linkwork::analysis::assembly::{AssemblySettings, assemble};
+//! use linkwork::{mechanism::Mechanism, system::Question};
+//!
+//! # fn main() -> Result<(), Box<dyn std::error::Error>> {
+//! let mechanism = Mechanism::load("mechanisms/three_rps.ron")?;
+//! let question = Question::new(&mechanism).hold("l1", "0.7")?;
+//! let report = assemble(&question, &AssemblySettings::default())?;
+//! println!("{}", linkwork::output::solution::sentence(&mechanism, &report));
+//! let top = mechanism.pose("top", &report.configuration).ok_or("no platform `top`")?;
+//! println!("top at {:?} m", top.position.0);
+//! # Ok(())
+//! # }
+//! ```
+//!
+//! The [guide] explains the file, every question, and the conventions. The modules, each of which uses only those above
+//! it:
+//!
+//! | Module | Contents |
+//! |---|---|
+//! | [`number`] | real, complex, dual and interval numbers, and eight reals side by side |
+//! | [`linear`] | small dense and sparse linear algebra for least-squares steps |
+//! | [`algebra`] | expressions and trigonometric polynomials |
+//! | [`geometry`] | vectors, rotations, poses, lines |
+//! | [`solve`] | Newton's method, continuation, homotopy |
+//! | [`description`] | the mechanism file, read and written |
+//! | [`mechanism`] | the valid, immutable mechanism and its kinematics over any number |
+//! | [`interchange`] | URDF and MJCF |
+//! | [`system`] | equations, Jacobians and curves of one question about a mechanism |
+//! | [`analysis`] | the analyses: a mechanism, a question and settings in, a report out |
+//! | [`output`] | reports as text, JSON, CSV and pictures |
 
 pub mod algebra;
 pub mod analysis;
 pub mod description;
 pub mod geometry;
+pub mod guide;
 #[cfg(feature = "interchange")]
 pub mod interchange;
 pub mod linear;

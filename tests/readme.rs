@@ -1,6 +1,8 @@
-//! The README holds what the program says: every command in it is run, every file in it is read.
+//! The README and the guide show what the program prints: every command on these pages is run, every file is read.
 //!
-//! `UPDATE_README=1 cargo test --test readme` writes what the program says now.
+//! `UPDATE_README=1 cargo test --test readme` writes the output and the pictures of the present program to the pages. Of
+//! a long output a page shows the first lines and the last; a line `…` stands for those between, and an update keeps how
+//! many there are. A command without output on the page is run and must succeed.
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -13,12 +15,30 @@ use linkwork::mechanism::Mechanism;
 use linkwork::solve::Watch;
 use linkwork::system::Question;
 
+/// The line that stands for those left out.
+const LEFT_OUT: &str = "…";
+/// Where the pages' pictures are, and those of the guide.
+const GUIDE: &str = "src/guide/";
+
 fn root() -> &'static Path {
     Path::new(env!("CARGO_MANIFEST_DIR"))
 }
 
-fn readme() -> String {
-    fs::read_to_string(root().join("README.md")).unwrap()
+fn read(page: &str) -> String {
+    fs::read_to_string(root().join(page)).unwrap()
+}
+
+/// The README, then the pages of the guide, by their paths.
+fn pages() -> Vec<String> {
+    let entries = fs::read_dir(root().join(GUIDE)).unwrap();
+    let names = entries.map(|entry| entry.unwrap().file_name().into_string().unwrap());
+    let mut pages: Vec<String> = names
+        .filter(|name| name.ends_with(".md"))
+        .map(|name| format!("{GUIDE}{name}"))
+        .collect();
+    pages.sort();
+    pages.insert(0, "README.md".into());
+    pages
 }
 
 /// A fenced block: its language and its lines.
@@ -27,10 +47,10 @@ struct Block {
     text: String,
 }
 
-fn blocks(readme: &str) -> Vec<Block> {
+fn blocks(page: &str) -> Vec<Block> {
     let mut blocks = Vec::new();
     let mut open: Option<Block> = None;
-    for line in readme.lines() {
+    for line in page.lines() {
         match (&mut open, line.strip_prefix("```")) {
             (None, Some(language)) => {
                 open = Some(Block {
@@ -47,10 +67,21 @@ fn blocks(readme: &str) -> Vec<Block> {
     blocks
 }
 
-fn blocks_in<'a>(blocks: &'a [Block], language: &str) -> Vec<&'a Block> {
-    let found: Vec<&Block> = blocks.iter().filter(|b| b.language == language).collect();
-    assert!(!found.is_empty(), "no block in {language}");
-    found
+fn blocks_in<'a>(blocks: &'a [Block], language: &'a str) -> impl Iterator<Item = &'a Block> {
+    blocks.iter().filter(move |b| b.language == language)
+}
+
+/// The commands of a block with the lines shown below each.
+fn commands(text: &str) -> Vec<(&str, Vec<&str>)> {
+    let mut commands: Vec<(&str, Vec<&str>)> = Vec::new();
+    for line in text.lines() {
+        match (line.strip_prefix("$ "), commands.last_mut()) {
+            (Some(command), _) => commands.push((command, Vec::new())),
+            (None, Some((_, shown))) => shown.push(line),
+            (None, None) => panic!("{line:?} is no output of a command"),
+        }
+    }
+    commands
 }
 
 /// What a command line prints, first to stdout, then to stderr.
@@ -76,37 +107,74 @@ fn run(command: &str) -> String {
         .concat()
 }
 
+/// The lines of `printed` that a page shows which has shown `before`: none, all, or as many first and last ones.
+fn shortened<'a>(printed: &'a str, before: &[&str]) -> Vec<&'a str> {
+    let lines: Vec<&str> = printed.lines().collect();
+    let left_out: Vec<usize> = (0..before.len())
+        .filter(|&line| before[line] == LEFT_OUT)
+        .collect();
+    match left_out[..] {
+        [first] if lines.len() > before.len() => {
+            let last = lines.len() - (before.len() - first - 1);
+            [&lines[..first], &[LEFT_OUT], &lines[last..]].concat()
+        }
+        [] if before.is_empty() && std::env::var_os("FILL").is_none() => Vec::new(),
+        [] | [_] => lines,
+        _ => panic!("more than one `{LEFT_OUT}` in an output"),
+    }
+}
+
+/// The picture on a page that a command draws.
+fn picture(command: &str) -> Option<&str> {
+    let mut words = command.split(' ');
+    words.find(|&word| word == "--svg")?;
+    words.next().filter(|path| path.starts_with(GUIDE))
+}
+
 #[test]
-fn commands_print_what_the_readme_shows() {
-    let mut readme = readme();
-    let mut commands = 0;
-    for block in blocks_in(&blocks(&readme), "console") {
-        let (command, shown) = block.text.split_once('\n').unwrap();
-        let command = command.strip_prefix("$ ").unwrap();
-        if command == "cargo test" {
-            assert_eq!(shown, "");
-            continue;
+fn commands_print_what_the_pages_show() {
+    let update = std::env::var_os("UPDATE_README").is_some();
+    let drawn = tempfile::tempdir().unwrap();
+    let mut count = 0;
+    for name in pages() {
+        let mut page = read(&name);
+        for block in blocks_in(&blocks(&page), "console") {
+            let mut text = String::new();
+            for (command, shown) in commands(&block.text) {
+                text += &format!("$ {command}\n");
+                if command == "cargo test" {
+                    continue;
+                }
+                count += 1;
+                let picture = picture(command);
+                let there = drawn.path().join("picture.svg");
+                let printed = match picture {
+                    Some(path) if !update => run(&command.replace(path, there.to_str().unwrap())),
+                    _ => run(command),
+                };
+                let shortened = shortened(&printed, &shown);
+                text.extend(shortened.iter().map(|line| format!("{line}\n")));
+                if !update {
+                    assert_eq!(shown, shortened, "{name}: {command}");
+                }
+                if let (Some(path), false) = (picture, update) {
+                    let same = read(path) == fs::read_to_string(there).unwrap();
+                    assert!(same, "{command} draws another picture");
+                }
+            }
+            let fenced = |text: &str| format!("```console\n{text}```");
+            page = page.replace(&fenced(&block.text), &fenced(&text));
         }
-        commands += 1;
-        let printed = run(command);
-        if std::env::var_os("UPDATE_README").is_some() {
-            readme = readme.replace(
-                &format!("```console\n{}```", block.text),
-                &format!("```console\n$ {command}\n{printed}```"),
-            );
-        } else {
-            assert_eq!(printed, shown, "of {command}");
+        if update {
+            fs::write(root().join(&name), page).unwrap();
         }
     }
-    assert!(commands > 5);
-    if std::env::var_os("UPDATE_README").is_some() {
-        fs::write(root().join("README.md"), readme).unwrap();
-    }
+    assert!(count > 40);
 }
 
 #[test]
 fn the_test_command_is_the_one_that_changes_must_pass() {
-    let tests = blocks(&readme())
+    let tests = blocks(&read("README.md"))
         .iter()
         .filter(|b| b.text == "$ cargo test\n")
         .count();
@@ -117,44 +185,59 @@ fn the_test_command_is_the_one_that_changes_must_pass() {
 }
 
 #[test]
-fn files_in_the_readme_are_read_and_assemble() {
-    for block in blocks_in(&blocks(&readme()), "ron") {
-        if !is_mechanism(&block.text) {
-            let axes = AxesDescription::read(&block.text).unwrap();
-            let report = frames(&axes, &FramesSettings::default()).unwrap();
-            assert!(report.warnings.is_empty() && report.moved < 1e-12);
-            continue;
+fn files_on_the_pages_are_read_and_assemble() {
+    let mut count = 0;
+    for name in pages() {
+        for block in blocks_in(&blocks(&read(&name)), "ron") {
+            count += 1;
+            if !is_mechanism(&block.text) {
+                let axes = AxesDescription::read(&block.text).unwrap();
+                let report = frames(&axes, &FramesSettings::default()).unwrap();
+                assert!(report.warnings.is_empty() && report.moved < 1e-12);
+                continue;
+            }
+            let description = Description::read(&block.text).unwrap();
+            let mechanism = Mechanism::new(&description).unwrap();
+            let warnings = mechanism.warnings();
+            assert!(warnings.is_empty(), "{name}: {warnings:?}");
+            let question = Question::new(&mechanism);
+            let report = assemble(&question, &AssemblySettings::default(), &Watch::none()).unwrap();
+            assert_eq!(report.outcome, Outcome::Converged);
+            let forms = linkwork::analysis::compare::compare(
+                &mechanism,
+                &Default::default(),
+                &Watch::none(),
+            );
+            assert!(forms.agree && !forms.closed_forms.is_empty());
         }
-        let description = Description::read(&block.text).unwrap();
-        let mechanism = Mechanism::new(&description).unwrap();
-        assert!(
-            mechanism.warnings().is_empty(),
-            "{:?}",
-            mechanism.warnings()
-        );
-        let report = assemble(
-            &Question::new(&mechanism),
-            &AssemblySettings::default(),
-            &Watch::none(),
-        )
-        .unwrap();
-        assert_eq!(report.outcome, Outcome::Converged);
-        let forms =
-            linkwork::analysis::compare::compare(&mechanism, &Default::default(), &Watch::none());
-        assert!(forms.agree && !forms.closed_forms.is_empty());
+    }
+    assert!(count >= 2);
+}
+
+#[test]
+fn files_named_on_the_pages_exist() {
+    let ends = [".ron", ".rs", ".md", ".svg", ".urdf"];
+    for name in pages() {
+        let page = read(&name);
+        let words = page.split(|c: char| c.is_whitespace() || "`()[],".contains(c));
+        let named = words.filter(|word| ends.iter().any(|end| word.ends_with(end)));
+        let paths: Vec<PathBuf> = named.map(|word| root().join(word)).collect();
+        assert!(name != "README.md" || paths.len() > 10);
+        for path in paths {
+            assert!(path.exists(), "{name} names {}", path.display());
+        }
     }
 }
 
 #[test]
-fn files_named_in_the_readme_exist() {
-    let readme = readme();
-    let words = readme.split(|c: char| c.is_whitespace() || "`()".contains(c));
-    let named: Vec<PathBuf> = words
-        .filter(|word| word.ends_with(".ron") || word.ends_with(".rs"))
-        .map(|word| root().join(word))
-        .collect();
-    assert!(named.len() > 3);
-    for path in named {
-        assert!(path.exists(), "{}", path.display());
+fn the_readme_is_short_and_leads_to_every_page_of_the_guide() {
+    let readme = read("README.md");
+    let lines = readme.lines().count();
+    assert!(lines <= 150, "{lines} lines");
+    let modules = read("src/guide.rs");
+    for page in &pages()[1..] {
+        assert!(readme.contains(&format!("({page})")), "{page} has no link");
+        let included = format!("include_str!(\"{}\")", page.strip_prefix("src/").unwrap());
+        assert!(modules.contains(&included), "{page} is no module");
     }
 }

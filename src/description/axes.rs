@@ -2,7 +2,12 @@
 
 use std::ops::Range;
 
-use super::{ClosureKind, Convention, Displacement, Entry, Named, Problem, Role, Spanned, reader};
+use thiserror::Error;
+
+use super::{
+    ClosureKind, Convention, Displacement, Entry, GROUND, Named, Problem, Role, Spanned, reader,
+};
+use crate::algebra::words;
 
 /// A whole file of joint axes. Everything is in the order of the file.
 #[derive(Debug, Clone, PartialEq)]
@@ -44,15 +49,16 @@ pub struct AxisDescription {
     pub span: Range<usize>,
 }
 
-/// How a joint moves of which the axis is known.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
-pub enum AxisKind {
-    /// It turns about its axis.
-    Revolute,
-    /// It slides along its axis, which has a direction only.
-    Prismatic,
-    /// A ball, which has a centre only. It is always cut.
-    Spherical,
+words! {
+    /// How a joint moves of which the axis is known.
+    AxisKind {
+        /// It turns about its axis.
+        Revolute = "Revolute",
+        /// It slides along its axis, which has a direction only.
+        Prismatic = "Prismatic",
+        /// A ball, which has a centre only. It is always cut.
+        Spherical = "Spherical",
+    }
 }
 
 /// How the place of an axis is given: three coordinates in m, or a direction of any length.
@@ -67,9 +73,6 @@ pub enum AxisPlace {
 }
 
 impl AxisKind {
-    /// Every kind.
-    pub const ALL: [Self; 3] = [Self::Revolute, Self::Prismatic, Self::Spherical];
-
     /// The closure that puts such a joint back.
     pub fn closure(self) -> ClosureKind {
         match self {
@@ -78,110 +81,66 @@ impl AxisKind {
             Self::Spherical => ClosureKind::Spherical,
         }
     }
-
-    /// How it is written in a file.
-    pub fn word(self) -> &'static str {
-        match self {
-            Self::Revolute => "Revolute",
-            Self::Prismatic => "Prismatic",
-            Self::Spherical => "Spherical",
-        }
-    }
 }
 
-/// What is wrong with axes whose form is right.
-#[derive(Debug, Clone, PartialEq)]
+/// What is wrong with axes whose form is right. Lengths are in m, angles in rad.
+#[derive(Debug, Clone, Error, PartialEq)]
+#[allow(missing_docs)]
 pub enum AxesProblem {
     /// A direction of zero length, or two points that coincide.
-    NoDirection {
-        /// The joint.
-        joint: String,
-    },
+    #[error("the axis of joint `{joint}` has no direction")]
+    NoDirection { joint: String },
     /// Fewer joints than a chain needs for a table.
-    TooFew {
-        /// How many there are.
-        joints: usize,
-    },
-    /// A point that is given in two ways.
-    TwoPlaces {
-        /// The joint.
-        joint: &'static str,
-    },
-    /// Some joints say which bodies they connect and this one does not.
-    NotBetween {
-        /// The joint.
-        joint: String,
-    },
-    /// A joint that connects a body with itself.
-    OneBody {
-        /// The body.
-        body: String,
-    },
-    /// No joint is attached to the ground.
+    #[error("there {}", if *joints == 0 { "are no joints" } else { "is only one joint" })]
+    TooFew { joints: usize },
+    #[error("the axis is given in two ways")]
+    TwoPlaces { joint: &'static str },
+    #[error("nothing says which bodies the joint `{joint}` connects, as others do")]
+    NotBetween { joint: String },
+    #[error("the joint connects the body `{body}` with itself")]
+    OneBody { body: String },
+    #[error("no joint connects anything with `{GROUND}`")]
     NoGround,
-    /// A body that no joints connect with the ground.
-    NotConnected {
-        /// The body.
-        body: String,
-    },
-    /// A joint to be cut that does not exist.
+    #[error("no joints connect the body `{body}` with `{GROUND}`")]
+    NotConnected { body: String },
+    #[error("there is no joint `{name}` to be cut")]
     UnknownCut {
-        /// Its name.
         name: String,
-        /// The joint that was probably meant.
         suggestion: Option<String>,
     },
-    /// A cut that takes a body off instead of opening a loop.
-    CutsOff {
-        /// The joint.
-        joint: String,
-    },
-    /// A loop that no cut opens.
-    StillClosed {
-        /// A joint of it that could be cut.
-        joint: String,
-    },
-    /// Loops in which every joint is driven.
+    #[error("cutting the joint `{joint}` takes bodies off instead of opening a loop")]
+    CutsOff { joint: String },
+    /// A loop that no cut opens; the joint is one of it that could be cut.
+    #[error("the cuts leave a loop closed that goes through the joint `{joint}`")]
+    StillClosed { joint: String },
+    #[error("a loop has no joint to be cut, because all of them are driven")]
     NothingToCut,
-    /// Something that only serial chains have.
-    SerialOnly {
-        /// The field.
-        field: &'static str,
-    },
-    /// A ball in a serial chain.
-    SphericalInSerial {
-        /// The joint.
-        joint: String,
-    },
-    /// Too many joints for one file of axes.
-    TooMany {
-        /// How many there are.
-        joints: usize,
-    },
-    /// A driven joint that is cut, and so has no variable.
-    DriveCut {
-        /// The joint.
-        joint: String,
-    },
-    /// A joint with limits that is cut, and so has no variable.
-    LimitsCut {
-        /// The joint.
-        joint: String,
-    },
+    #[error("`{field}` is for serial chains, and these joints say what they connect")]
+    SerialOnly { field: &'static str },
+    #[error("the spherical joint `{joint}` stands in a serial chain")]
+    SphericalInSerial { joint: String },
+    #[error("there are {joints} joints, more than are placed")]
+    TooMany { joints: usize },
+    #[error("the driven joint `{joint}` is cut, and so has no variable any more")]
+    DriveCut { joint: String },
+    #[error("the joint `{joint}` is cut, and so has no variable and no limits any more")]
+    LimitsCut { joint: String },
     /// A base from which no row leads to the first axis.
-    BaseUnused {
-        /// The convention of the table.
-        convention: Convention,
-    },
+    #[error("frame 0 cannot stand where `base` says, and is placed freely")]
+    BaseUnused { convention: Convention },
     /// Nearly parallel axes whose common normal is far off.
+    #[error(
+        "the axes of `{}` and `{}` are nearly parallel, {angle:.1e} rad apart: their common normal is \
+         {offset:.1e} m off, {:.0e} times the size of the mechanism",
+        joints[0], joints[1], offset / size
+    )]
     FarNormal {
-        /// The joints.
         joints: [String; 2],
-        /// Angle in rad between the axes.
+        /// Angle between the axes.
         angle: f64,
-        /// Offset in m that leads to the normal.
+        /// Offset that leads to the normal.
         offset: f64,
-        /// Size of the mechanism in m.
+        /// Size of the mechanism.
         size: f64,
     },
 }

@@ -5,12 +5,10 @@
 use std::fmt::{self, Display, Formatter};
 use std::ops::Range;
 
-use serde::{Deserialize, Serialize};
-
-use crate::algebra::Expression;
+use crate::algebra::{Expression, words};
 
 /// A value and the bytes of the file where it stands.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, Default)]
 pub struct Spanned<T> {
     /// The value.
     pub value: T,
@@ -37,7 +35,7 @@ pub struct Entry {
 }
 
 /// A whole mechanism file. Everything is in the order of the file.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, Default, PartialEq)]
 pub struct Description {
     /// What the mechanism is called.
     pub name: Spanned<String>,
@@ -59,22 +57,42 @@ pub struct Description {
     pub closed_forms: Vec<Named<ClosedFormDescription>>,
 }
 
-/// Which of the two ways to attach frames a Denavit–Hartenberg table uses.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Deserialize)]
-pub enum Convention {
-    /// Craig: T = Rx(alpha) Tx(a) Rz(theta) Tz(d).
-    Modified,
-    /// Denavit and Hartenberg: T = Rz(theta) Tz(d) Tx(a) Rx(alpha).
-    Standard,
-}
+words! {
+    /// Which of the two ways to attach frames a Denavit–Hartenberg table uses.
+    Convention {
+        /// Craig: T = Rx(alpha) Tx(a) Rz(theta) Tz(d).
+        Modified = "Modified",
+        /// Denavit and Hartenberg: T = Rz(theta) Tz(d) Tx(a) Rx(alpha).
+        Standard = "Standard",
+    }
 
-/// Whether a joint is driven.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize, Deserialize)]
-pub enum Role {
-    /// Driven: its value is an input.
-    Actuated,
-    /// Not driven: its value follows.
-    Passive,
+    /// Whether a joint is driven.
+    Role {
+        /// Driven: its value is an input.
+        Actuated = "Actuated",
+        /// Not driven: its value follows.
+        Passive = "Passive",
+    }
+
+    /// What joint is put back where the mechanism was broken. Axes are the z axes of the frames.
+    ClosureKind {
+        /// The origins coincide.
+        Spherical = "Spherical",
+        /// Origins and axes coincide.
+        Revolute = "Revolute",
+        /// Axes and orientations coincide, one frame slides along the axis.
+        Prismatic = "Prismatic",
+        /// Origins coincide and the axes are perpendicular.
+        Universal = "Universal",
+        /// The axes coincide.
+        Cylindrical = "Cylindrical",
+        /// The xy planes coincide.
+        Planar = "Planar",
+        /// The frames coincide.
+        Rigid = "Rigid",
+        /// The origins have a given distance.
+        Distance = "Distance",
+    }
 }
 
 /// A joint variable.
@@ -91,7 +109,7 @@ pub struct JointDescription {
 }
 
 /// A serial chain.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, Default, PartialEq)]
 pub struct ChainDescription {
     /// The frame it stands on; ground if not given.
     pub on: Option<Spanned<String>>,
@@ -141,33 +159,12 @@ pub enum Displacement {
 }
 
 /// A rigid body whose pose is unknown.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, Default, PartialEq)]
 pub struct PlatformDescription {
     /// Its pose in the home configuration.
     pub home: Vec<Displacement>,
     /// Frames fixed in it.
     pub frames: Vec<Named<Vec<Displacement>>>,
-}
-
-/// What joint is put back where the mechanism was broken. Axes are the z axes of the frames.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize, Deserialize)]
-pub enum ClosureKind {
-    /// The origins coincide.
-    Spherical,
-    /// Origins and axes coincide.
-    Revolute,
-    /// Axes and orientations coincide, one frame slides along the axis.
-    Prismatic,
-    /// Origins coincide and the axes are perpendicular.
-    Universal,
-    /// The axes coincide.
-    Cylindrical,
-    /// The xy planes coincide.
-    Planar,
-    /// The frames coincide.
-    Rigid,
-    /// The origins have a given distance.
-    Distance,
 }
 
 /// A broken joint, put back between two frames.
@@ -222,6 +219,19 @@ impl<T> Spanned<T> {
     pub fn new(value: T, span: Range<usize>) -> Self {
         Self { value, span }
     }
+
+    /// `value`, which was made and not read from a file.
+    pub fn nowhere(value: T) -> Self {
+        Self::new(value, 0..0)
+    }
+}
+
+impl<T> Named<T> {
+    /// `value` under a name that was not read from a file.
+    pub fn new(name: impl Into<String>, value: T) -> Self {
+        let name = Spanned::nowhere(name.into());
+        Self { name, value }
+    }
 }
 
 impl Entry {
@@ -233,12 +243,43 @@ impl Entry {
     }
 
     /// The 0 of an entry that is not given.
-    pub(super) fn absent() -> Self {
+    pub(crate) fn absent() -> Self {
         Self::number(0.0, 0..0)
     }
 }
 
+impl From<Expression> for Entry {
+    /// An entry that was not read from a file.
+    fn from(expression: Expression) -> Self {
+        let span = 0..0;
+        Self { expression, span }
+    }
+}
+
+impl Row {
+    /// A row that was not read from a file.
+    pub fn new(alpha: Entry, a: Entry, d: Entry, theta: Entry) -> Self {
+        let span = 0..0;
+        Self {
+            alpha,
+            a,
+            d,
+            theta,
+            span,
+        }
+    }
+}
+
 impl ChainDescription {
+    /// A chain without rows: a frame of its own at a displacement from another one.
+    pub fn frame(on: &str, base: Vec<Displacement>) -> Self {
+        Self {
+            on: (on != GROUND).then(|| Spanned::nowhere(on.to_owned())),
+            base,
+            ..Self::default()
+        }
+    }
+
     /// The frame the chain stands on.
     pub fn stands_on(&self) -> &str {
         self.on.as_ref().map_or(GROUND, |frame| &frame.value)
@@ -248,56 +289,7 @@ impl ChainDescription {
 /// The name of the fixed frame.
 pub const GROUND: &str = "ground";
 
-impl Convention {
-    /// Both conventions.
-    pub const ALL: [Self; 2] = [Self::Modified, Self::Standard];
-
-    /// How it is written in a file.
-    pub fn word(self) -> &'static str {
-        match self {
-            Self::Modified => "Modified",
-            Self::Standard => "Standard",
-        }
-    }
-}
-
-impl Role {
-    /// How it is written in a file.
-    pub fn word(self) -> &'static str {
-        match self {
-            Self::Actuated => "Actuated",
-            Self::Passive => "Passive",
-        }
-    }
-}
-
 impl ClosureKind {
-    /// Every kind.
-    pub const ALL: [Self; 8] = [
-        Self::Spherical,
-        Self::Revolute,
-        Self::Prismatic,
-        Self::Universal,
-        Self::Cylindrical,
-        Self::Planar,
-        Self::Rigid,
-        Self::Distance,
-    ];
-
-    /// How it is written in a file.
-    pub fn word(self) -> &'static str {
-        match self {
-            Self::Spherical => "Spherical",
-            Self::Revolute => "Revolute",
-            Self::Prismatic => "Prismatic",
-            Self::Universal => "Universal",
-            Self::Cylindrical => "Cylindrical",
-            Self::Planar => "Planar",
-            Self::Rigid => "Rigid",
-            Self::Distance => "Distance",
-        }
-    }
-
     /// How many independent equations it sets between two free bodies.
     pub fn equations(self) -> usize {
         match self {
@@ -373,16 +365,3 @@ impl<T: PartialEq> PartialEq for Spanned<T> {
         self.value == other.value
     }
 }
-
-/// Written as in a file.
-macro_rules! as_word {
-    ($($kind:ty)+) => {$(
-        impl Display for $kind {
-            fn fmt(&self, f: &mut Formatter) -> fmt::Result {
-                f.pad(self.word())
-            }
-        }
-    )+};
-}
-
-as_word!(Convention Role ClosureKind);

@@ -2,6 +2,8 @@
 
 use std::path::Path;
 
+use thiserror::Error;
+
 use super::mjcf::{self, Files};
 use super::names::fit;
 use super::problem::{ImportProblem, ImportProblemKind, WrongFile};
@@ -9,9 +11,7 @@ use super::remark::Remark;
 use super::tree::Tree;
 use super::unroll::{Unrolled, describe};
 use super::urdf;
-use crate::description::{
-    ChainDescription, Convention, Description, LoadError, load_text, nearest,
-};
+use crate::description::{Convention, Description, LoadError, load_text, nearest};
 
 /// How a file is read.
 #[derive(Clone, Debug, PartialEq)]
@@ -46,45 +46,25 @@ pub struct Imported {
 }
 
 /// Why a file of another program could not be read.
-#[derive(Debug)]
+#[derive(Debug, Error)]
 pub enum ImportError {
     /// The file could not be opened, or is no text.
+    #[error(transparent)]
     Unreadable(LoadError),
     /// Something is wrong with what it says.
+    #[error(transparent)]
     Wrong(WrongFile),
 }
 
 impl ImportError {
     /// Everything that is wrong, one line each: `file:line:column: what is wrong (what to do)`.
     pub fn lines(&self) -> Vec<String> {
-        let WrongFile { files, problems } = match self {
-            ImportError::Unreadable(error) => return vec![error.to_string()],
-            ImportError::Wrong(wrong) => wrong,
-        };
-        let line = |(file, problem): &(usize, ImportProblem)| {
-            let (name, text) = &files[*file];
-            let place = problem.span.as_ref().map_or(String::new(), |span| {
-                let (line, column) = crate::description::Lines::new(text).position(span.start);
-                format!("{line}:{column}: ")
-            });
-            let help = problem
-                .kind
-                .help()
-                .map_or(String::new(), |help| format!(" ({help})"));
-            let separator = if place.is_empty() { ": " } else { ":" };
-            format!("{name}{separator}{place}{}{help}", problem.kind.title())
-        };
-        problems.iter().map(line).collect()
+        match self {
+            ImportError::Unreadable(error) => vec![error.to_string()],
+            ImportError::Wrong(wrong) => wrong.lines(),
+        }
     }
 }
-
-impl std::fmt::Display for ImportError {
-    fn fmt(&self, f: &mut std::fmt::Formatter) -> std::fmt::Result {
-        f.write_str(&self.lines().join("\n"))
-    }
-}
-
-impl std::error::Error for ImportError {}
 
 /// Reads a URDF or MJCF file; MJCF with the files it includes.
 ///
@@ -124,23 +104,15 @@ pub fn import(
         files: vec![(name.to_owned(), text.to_owned())],
         problems: vec![(0, problem)],
     };
-    let element = super::page::document(text)
-        .map_err(whole)?
-        .root_element()
-        .tag_name()
-        .name()
-        .to_owned();
-    let ((tree, mut remarks), own) = match element.as_str() {
-        "robot" => {
-            let read = urdf::read(text).map_err(|problems| WrongFile {
-                files: vec![(name.to_owned(), text.to_owned())],
-                problems: problems.into_iter().map(|problem| (0, problem)).collect(),
-            })?;
-            (read, None)
-        }
+    let page = super::page::document(text).map_err(whole)?;
+    let (tree, mut remarks) = match page.root_element().tag_name().name() {
+        "robot" => urdf::read(text).map_err(|problems| WrongFile {
+            files: vec![(name.to_owned(), text.to_owned())],
+            problems: problems.into_iter().map(|problem| (0, problem)).collect(),
+        })?,
         "mujoco" => {
             let spliced = mjcf::splice(name, text, files)?;
-            let read = mjcf::read(&spliced.text).map_err(|problems| {
+            mjcf::read(&spliced.text).map_err(|problems| {
                 let located = problems.into_iter().map(|problem| match &problem.span {
                     None => (0, problem),
                     Some(span) => {
@@ -152,8 +124,7 @@ pub fn import(
                     problems: located.collect(),
                     files: spliced.files.clone(),
                 }
-            })?;
-            (read, Some(spliced))
+            })?
         }
         found => {
             let problem = ImportProblemKind::NotThisFormat {
@@ -163,17 +134,12 @@ pub fn import(
             return Err(whole(problem.anywhere()));
         }
     };
-    drop(own);
     let asked = asked(&tree, loops, settings).map_err(|kind| whole(kind.anywhere()))?;
     let source = Path::new(name)
         .file_name()
         .map_or(name.to_owned(), |name| name.to_string_lossy().into_owned());
-    let unrolled = describe(
-        &tree,
-        settings.convention,
-        &asked,
-        format!("imported from {source}"),
-    );
+    let source = format!("imported from {source}");
+    let unrolled = describe(&tree, settings.convention, &asked, source);
     let Unrolled {
         mut description,
         remarks: more,
@@ -200,12 +166,8 @@ fn asked(
     loops: Option<&Description>,
     settings: &ImportSettings,
 ) -> Result<Vec<String>, ImportProblemKind> {
-    let known: Vec<&String> = tree
-        .bodies
-        .iter()
-        .flat_map(|body| &body.frames)
-        .map(|(name, _)| name)
-        .collect();
+    let frames = tree.bodies.iter().flat_map(|body| &body.frames);
+    let known: Vec<&String> = frames.map(|(name, _)| name).collect();
     if settings.all_frames {
         return Ok(known.into_iter().cloned().collect());
     }
@@ -222,14 +184,8 @@ fn asked(
         asked.push(name.clone());
     }
     if let Some(loops) = loops {
-        let stands = loops
-            .chains
-            .iter()
-            .filter_map(|chain| chain.value.on.as_ref());
-        let joined = loops
-            .closures
-            .iter()
-            .flat_map(|closure| &closure.value.frames);
+        let stands = loops.chains.iter().filter_map(|c| c.value.on.as_ref());
+        let joined = loops.closures.iter().flat_map(|c| &c.value.frames);
         for name in stands.chain(joined) {
             let meant = known.iter().filter(|known| fit(known) == name.value);
             asked.extend(meant.map(|name| (*name).clone()));
@@ -246,11 +202,8 @@ fn add(description: &mut Description, loops: &Description, references: &[(String
         }
     };
     for joint in &loops.joints {
-        let own = description
-            .joints
-            .iter_mut()
-            .find(|own| own.name == joint.name);
-        match own {
+        let mut own = description.joints.iter_mut();
+        match own.find(|own| own.name == joint.name) {
             Some(own) => {
                 let limits = own.value.limits.take();
                 *own = joint.clone();
@@ -262,29 +215,25 @@ fn add(description: &mut Description, loops: &Description, references: &[(String
     let convention = loops.convention.clone();
     for chain in &loops.chains {
         let mut chain = chain.clone();
-        let ChainDescription { on, .. } = &mut chain.value;
-        if let Some(on) = on {
+        if let Some(on) = &mut chain.value.on {
             frame(&mut on.value);
         }
         chain.value.convention = chain.value.convention.or(convention.clone());
         description.chains.push(chain);
     }
-    description
-        .platforms
-        .extend(loops.platforms.iter().cloned());
     for closure in &loops.closures {
         let mut closure = closure.clone();
-        closure
-            .value
-            .frames
-            .iter_mut()
-            .for_each(|name| frame(&mut name.value));
+        let frames = closure.value.frames.iter_mut();
+        frames.for_each(|name| frame(&mut name.value));
         description.closures.push(closure);
     }
-    description
-        .parameters
-        .extend(loops.parameters.iter().cloned());
-    description
-        .closed_forms
-        .extend(loops.closed_forms.iter().cloned());
+    let Description {
+        parameters,
+        platforms,
+        closed_forms,
+        ..
+    } = loops.clone();
+    description.parameters.extend(parameters);
+    description.platforms.extend(platforms);
+    description.closed_forms.extend(closed_forms);
 }

@@ -1,6 +1,6 @@
 //! The parts of a mechanism, every name resolved.
 
-use crate::algebra::{Affine, Expression, Measure};
+use crate::algebra::{Affine, Expression, Measure, words};
 use crate::description::{ClosureKind, Convention, MatrixEntry, Role};
 use crate::geometry::{Axis, Pose};
 
@@ -31,15 +31,16 @@ pub struct Parameter {
     pub measure: Measure,
 }
 
-/// How a joint moves.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub enum JointKind {
-    /// Its variable is an angle in rad: it stands in `theta` only.
-    Revolute,
-    /// Its variable is a length in m: it stands in `d` or in the length of a `Distance`.
-    Prismatic,
-    /// Its variable is an angle in rad that also slides: it stands in both.
-    Helical,
+words! {
+    /// How a joint moves.
+    JointKind {
+        /// Its variable is an angle in rad: it stands in `theta` only.
+        Revolute = "revolute",
+        /// Its variable is a length in m: it stands in `d` or in the length of a `Distance`.
+        Prismatic = "prismatic",
+        /// Its variable is an angle in rad that also slides: it stands in both.
+        Helical = "helical",
+    }
 }
 
 /// A joint variable.
@@ -58,15 +59,6 @@ pub struct Joint {
 }
 
 impl JointKind {
-    /// What it is called.
-    pub fn word(self) -> &'static str {
-        match self {
-            JointKind::Revolute => "revolute",
-            JointKind::Prismatic => "prismatic",
-            JointKind::Helical => "helical",
-        }
-    }
-
     /// Whether the variable is an angle (rad); otherwise a length (m).
     pub fn is_angle(self) -> bool {
         self != JointKind::Prismatic

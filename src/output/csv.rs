@@ -131,6 +131,16 @@ impl<W: Write> Csv<W> {
     }
 }
 
+/// All rows as one text.
+pub fn render<'a>((columns, rows): (Vec<String>, impl Iterator<Item = Record<'a>>)) -> String {
+    let written = Csv::new(Vec::new(), columns).and_then(|mut csv| {
+        rows.into_iter().try_for_each(|row| csv.row(row))?;
+        csv.finish()
+    });
+    // writing to memory cannot fail, and all that is written is text
+    String::from_utf8(written.unwrap_or_default()).unwrap_or_default()
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

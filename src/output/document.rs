@@ -163,6 +163,15 @@ impl Document {
         self
     }
 
+    /// With a note if the work was stopped before it was done, and what may be missing then.
+    #[must_use]
+    pub fn interrupted(self, interrupted: bool, missing: &str) -> Self {
+        match interrupted {
+            true => self.note(format!("interrupted: {missing} may be missing")),
+            false => self,
+        }
+    }
+
     /// With a line on how the answer was found; an empty one is left out.
     #[must_use]
     pub fn method(mut self, line: impl Into<String>) -> Self {

@@ -28,6 +28,7 @@ impl Report for WorkspaceReport {
     fn document(&self) -> Document {
         Document::new(&self.mechanism, sentence(self))
             .note(words::question(self))
+            .interrupted(self.interrupted, "nodes, modes and boundaries")
             .section(modes(self))
             .section(aspects(self))
             .section(boundary(self))

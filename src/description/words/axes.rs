@@ -2,54 +2,6 @@
 
 use crate::description::{AxesProblem, Convention, GROUND};
 
-pub(super) fn title(problem: &AxesProblem) -> String {
-    use AxesProblem::*;
-    match problem {
-        NoDirection { joint } => format!("the axis of joint `{joint}` has no direction"),
-        TooFew { joints: 0 } => "there are no joints".into(),
-        TooFew { .. } => "there is only one joint".into(),
-        TwoPlaces { .. } => "the axis is given in two ways".into(),
-        NotBetween { joint } => {
-            format!("nothing says which bodies the joint `{joint}` connects, as others do")
-        }
-        OneBody { body } => format!("the joint connects the body `{body}` with itself"),
-        NoGround => format!("no joint connects anything with `{GROUND}`"),
-        NotConnected { body } => format!("no joints connect the body `{body}` with `{GROUND}`"),
-        UnknownCut { name, .. } => format!("there is no joint `{name}` to be cut"),
-        CutsOff { joint } => {
-            format!("cutting the joint `{joint}` takes bodies off instead of opening a loop")
-        }
-        StillClosed { joint } => {
-            format!("the cuts leave a loop closed that goes through the joint `{joint}`")
-        }
-        NothingToCut => "a loop has no joint to be cut, because all of them are driven".into(),
-        SerialOnly { field } => {
-            format!("`{field}` is for serial chains, and these joints say what they connect")
-        }
-        SphericalInSerial { joint } => {
-            format!("the spherical joint `{joint}` stands in a serial chain")
-        }
-        TooMany { joints } => format!("there are {joints} joints, more than are placed"),
-        DriveCut { joint } => {
-            format!("the driven joint `{joint}` is cut, and so has no variable any more")
-        }
-        LimitsCut { joint } => {
-            format!("the joint `{joint}` is cut, and so has no variable and no limits any more")
-        }
-        BaseUnused { .. } => "frame 0 cannot stand where `base` says, and is placed freely".into(),
-        FarNormal {
-            joints: [first, second],
-            angle,
-            offset,
-            size,
-        } => format!(
-            "the axes of `{first}` and `{second}` are nearly parallel, {angle:.1e} rad apart: their common normal is \
-             {offset:.1e} m off, {:.0e} times the size of the mechanism",
-            offset / size
-        ),
-    }
-}
-
 pub(super) fn help(problem: &AxesProblem) -> Option<String> {
     use AxesProblem::*;
     Some(match problem {

@@ -112,7 +112,7 @@ fn closure(notation: &Notation, closure: &ClosureFormula) -> String {
         same_axes,
         admits_flipped,
     } = closure;
-    let mut text = format!("  {name}: {kind} between {a} and {b}\n");
+    let mut text = format!("  {name}: {} between {a} and {b}\n", kind.word());
     for equation in equations {
         text += &format!("    {} = 0\n", notation.print(equation));
     }

@@ -17,6 +17,7 @@ impl Report for AlongReport {
         Document::new(&self.mechanism, words::ending(self))
             .note(words::split(&self.inputs, &self.outputs))
             .notes(note(&self.coupled))
+            .interrupted(self.interrupted, "singularities")
             .sections(crossings)
     }
 

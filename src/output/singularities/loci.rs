@@ -14,6 +14,7 @@ impl Report for LocusReport {
             .note(words::split(&self.inputs, &self.outputs))
             .notes(words::pinned(self))
             .notes(note(&self.coupled))
+            .interrupted(self.interrupted, "loci")
             .section(curves(self))
             .method(words::completeness(self))
     }

@@ -17,6 +17,7 @@ impl Report for CircuitsReport {
             }
         );
         Document::new(&self.mechanism, sentence(self))
+            .interrupted(self.interrupted, "circuits")
             .sections(self.circuits.iter().map(|circuit| one(self, circuit)))
             .method(seeds)
     }

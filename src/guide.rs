@@ -1,0 +1,74 @@
+//! The guide: what linkwork answers, how to ask, and how to read the answers.
+//!
+//! Every command on these pages is run, and every file on them is read, by a test; the Rust runs as doctests.
+//!
+//! | Page | Subject |
+//! |---|---|
+//! | [`file`] | the mechanism file |
+//! | [`solve`] | the assembled configuration near a guess: direct, inverse and mixed kinematics |
+//! | [`assemblies`] | all assemblies, with certificates |
+//! | [`mobility`] | mobility, velocities and forces |
+//! | [`motion`] | sweeps, circuits and branches |
+//! | [`singularities`] | singular configurations and loci |
+//! | [`workspace`] | workspace maps, modes and aspects |
+//! | [`formulas`] | closed forms derived and checked |
+//! | [`frames`] | tables from joint axes and back, conventions and cuts |
+//! | [`exchange`] | URDF and MJCF |
+//! | [`conventions`] | units, frames, angles, names, exit status |
+//! | [`library`] | use from Rust |
+//! | [`performance`] | builds, features, speed |
+
+// The pages are read by rustdoc only: editing them does not recompile the library.
+
+/// All assemblies (assembly modes, working modes) for held inputs, each with a certificate.
+#[cfg_attr(doc, doc = "", doc = include_str!("guide/assemblies.md"))]
+pub mod assemblies {}
+
+/// Units, frames, tables, angles, names, exit status.
+#[cfg_attr(doc, doc = "", doc = include_str!("guide/conventions.md"))]
+pub mod conventions {}
+
+/// Exchange with other programs: URDF and MJCF.
+#[cfg_attr(doc, doc = "", doc = include_str!("guide/exchange.md"))]
+pub mod exchange {}
+
+/// The mechanism file: tables, platforms, closures, closed forms.
+#[cfg_attr(doc, doc = "", doc = include_str!("guide/file.md"))]
+pub mod file {}
+
+/// Formulas derived from the tables, and printed formulas checked against them.
+#[cfg_attr(doc, doc = "", doc = include_str!("guide/formulas.md"))]
+pub mod formulas {}
+
+/// From joint axes to tables and back; other conventions, other cuts.
+#[cfg_attr(doc, doc = "", doc = include_str!("guide/frames.md"))]
+pub mod frames {}
+
+/// The Rust library: load, ask, answer.
+#[cfg_attr(doc, doc = "", doc = include_str!("guide/library.md"))]
+pub mod library {}
+
+/// Mobility, velocities and forces of an assembled mechanism.
+#[cfg_attr(doc, doc = "", doc = include_str!("guide/mobility.md"))]
+pub mod mobility {}
+
+/// Motion: inputs swept through a range, whole curves, circuits and branches.
+#[cfg_attr(doc, doc = "", doc = include_str!("guide/motion.md"))]
+pub mod motion {}
+
+/// Features, builds, and what is fast.
+#[cfg_attr(doc, doc = "", doc = include_str!("guide/performance.md"))]
+pub mod performance {}
+
+/// Singularities: at a configuration, along inputs, and as loci.
+#[cfg_attr(doc, doc = "", doc = include_str!("guide/singularities.md"))]
+pub mod singularities {}
+
+/// The assembled configuration near a guess: direct, inverse and mixed kinematics.
+#[cfg_attr(doc, doc = "", doc = include_str!("guide/solve.md"))]
+pub mod solve {}
+
+/// Workspace maps: reached values, modes, aspects and boundaries.
+#[cfg_attr(doc, doc = "", doc = include_str!("guide/workspace.md"))]
+#[cfg_attr(doc, doc = "<div>", doc = include_str!("guide/workspace.svg"), doc = "</div>")]
+pub mod workspace {}
