@@ -22,7 +22,7 @@ pub use locus::{Bound, Locus, LocusReport, loci};
 pub use outputs::{Coupled, default_outputs, inputs_of};
 pub use projected::Shape;
 
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
 use crate::linear::RANK_TOLERANCE;
 use crate::mechanism::{Configuration, Mechanism, Variable};
@@ -70,7 +70,7 @@ impl Default for SingularitiesSettings {
 }
 
 /// What is special about an assembled configuration.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct SingularitiesReport {
     /// The mechanism's name.
     pub mechanism: String,

@@ -7,12 +7,13 @@ use std::ops::Range;
 
 use thiserror::Error;
 
-use super::words::{count, cycle, expression, syntax};
+use super::words::{count, cycle, syntax};
 use super::{AxesProblem, Expected, Found, MAX_BYTES, Noun, Structure};
 use crate::algebra::{EvaluationErrorKind, MeasureErrorKind, ParseErrorKind};
 
 /// Something wrong with a mechanism file.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, Error, PartialEq)]
+#[error("{kind}")]
 pub struct Problem {
     /// What is wrong.
     pub kind: ProblemKind,
@@ -112,7 +113,7 @@ pub enum ProblemKind {
     DuplicateField { field: String },
     #[error("the name `{name}` is given twice")]
     DuplicateName { noun: Noun, name: String },
-    #[error("{}", expression::title(_0))]
+    #[error("{_0}")]
     Expression(ParseErrorKind),
     #[error("the number is not finite")]
     NotFinite,
@@ -170,10 +171,10 @@ pub enum ProblemKind {
     #[error("the expression is not a constant plus multiples of joint variables")]
     NotAffine,
     /// An expression that has no value.
-    #[error("{}", expression::no_value(_0))]
+    #[error("{_0}")]
     NoValue(EvaluationErrorKind),
     /// A unit that does not fit.
-    #[error("{}", expression::unit(_0))]
+    #[error("{_0}")]
     Unit(MeasureErrorKind),
     #[error("the closure `{closure}` joins two frames of the same body")]
     SameBody { closure: String },

@@ -38,9 +38,9 @@ pub fn listed<S: AsRef<str>>(words: &[S]) -> String {
 }
 
 /// The same between back quotes.
-pub(super) fn quoted(words: &[&str]) -> String {
-    let words: Vec<String> = words.iter().map(|word| format!("`{word}`")).collect();
-    listed(&words)
+pub fn quoted<S: AsRef<str>>(words: &[S]) -> String {
+    let words = words.iter().map(|word| format!("`{}`", word.as_ref()));
+    listed(&words.collect::<Vec<String>>())
 }
 
 /// `a` -> `b` -> `a`

@@ -34,7 +34,7 @@ impl Report for SingularitiesReport {
         let answer = words::sentence(singularity, &self.inputs, &self.outputs);
         let gap = self.given_gap.as_ref();
         let at = self.variables.iter().zip(&self.joints);
-        let at = at.map(|(of, x)| format!("{} = {}", of.name, quantity(*x, of.unit == "rad")));
+        let at = at.map(|(of, x)| format!("{} = {}", of.name, quantity(*x, of.unit.is_angle())));
         let at: Vec<String> = at.collect();
         let at = (!at.is_empty()).then(|| format!("at {}", at.join(", ")));
         Document::new(&self.mechanism, answer)

@@ -16,6 +16,7 @@ pub use words::{completeness, sentence};
 use super::csv::{Record, Value};
 use super::document::{Cell, Column, Document, Report, Section, Table, cells};
 use super::quantity::{number, quantity};
+use crate::algebra::SiUnit;
 use crate::analysis::workspace::{AspectReport, BoundaryKind, Conditioned, WorkspaceReport};
 use crate::description::count;
 use crate::mechanism::Variable;
@@ -137,7 +138,7 @@ fn aspects(report: &WorkspaceReport) -> Section {
     };
     let at = |node: &Conditioned| {
         let values = node.at.iter().zip(&report.axes);
-        let values = values.map(|(x, axis)| quantity(*x, axis.unit == "rad"));
+        let values = values.map(|(x, axis)| quantity(*x, axis.unit.is_angle()));
         values.collect::<Vec<String>>().join(", ")
     };
     let (large, small): (Vec<&AspectReport>, Vec<_>) = report
@@ -205,8 +206,8 @@ fn boundary(report: &WorkspaceReport) -> Section {
     Section::new("Boundary, located to rounding on the edges of the grid").table(table)
 }
 
-fn range(name: &str, from: f64, to: f64, unit: &str, nodes: usize) -> String {
-    let value = |x| quantity(x, unit == "rad");
+fn range(name: &str, from: f64, to: f64, unit: SiUnit, nodes: usize) -> String {
+    let value = |x| quantity(x, unit.is_angle());
     format!(
         "{name} from {} to {} in {nodes} nodes",
         value(from),

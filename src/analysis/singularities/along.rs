@@ -1,11 +1,12 @@
 //! Every singularity on the way of the inputs along a segment.
 
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
 use super::classify::{Classifier, Singularity};
 use super::drops::Drops;
 use super::outputs::{Coupled, coupled, outputs_of};
 use super::{SingularitiesSettings, names, output_names};
+use crate::algebra::SiUnit;
 use crate::linear::norm;
 use crate::mechanism::{Configuration, Mechanism, Variable};
 use crate::solve::{Continuation, Place, SolutionCurve, Stage, Stray, Watch};
@@ -14,7 +15,7 @@ use crate::system::{Curve, Driven, Event, Held, Holdable, Leg, Walk};
 type At = Place<Configuration<f64>>;
 
 /// What a motion along a segment of inputs met.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct AlongReport {
     /// The mechanism's name.
     pub mechanism: String,
@@ -46,12 +47,12 @@ pub struct AlongReport {
 }
 
 /// What is moved.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Moved {
     /// Its name.
     pub name: String,
     /// rad or m.
-    pub unit: &'static str,
+    pub unit: SiUnit,
     /// Its value at the start.
     pub from: f64,
     /// Its value at the end.
@@ -59,7 +60,7 @@ pub struct Moved {
 }
 
 /// A singularity that was met.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Crossing {
     /// The part of the segment that was gone.
     pub part: f64,
@@ -76,7 +77,7 @@ pub struct Crossing {
 }
 
 /// How a motion ended.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Ending {
     /// The whole segment was gone through.
@@ -126,7 +127,7 @@ pub fn along(
         moved: (moved.iter())
             .map(|input| Moved {
                 name: input.coordinate.name(mechanism),
-                unit: unit(input.coordinate.is_angle(mechanism)),
+                unit: SiUnit::of_coordinate(input.coordinate.is_angle(mechanism)),
                 from: input.from,
                 to: input.to,
             })
@@ -224,13 +225,6 @@ pub fn along(
 
 /// Into how many parts the segment is divided to tell how far the motion is.
 const PARTS: u16 = 1000;
-
-fn unit(is_angle: bool) -> &'static str {
-    match is_angle {
-        true => "rad",
-        false => "m",
-    }
-}
 
 /// Something on a leg.
 struct Met {

@@ -5,6 +5,7 @@ mod axes;
 use super::*;
 use crate::algebra::EvaluationErrorKind;
 use crate::description::VERSION;
+use crate::description::words::expression;
 use crate::description::words::quoted;
 
 impl ProblemKind {

@@ -43,7 +43,7 @@ fn curves(report: &LocusReport) -> Section {
     for (i, locus) in report.loci.iter().enumerate() {
         let extent = |k: usize| {
             let [low, high] = locus.extents[k];
-            let angle = report.bounds[k].unit == "rad";
+            let angle = report.bounds[k].unit.is_angle();
             match high - low < 1e-9 {
                 true => quantity(low, angle),
                 false => format!("{} to {}", quantity(low, angle), quantity(high, angle)),

@@ -6,13 +6,13 @@ use crate::output::plot::{self, Chart, Marks, Series};
 
 /// The loci as SVG.
 pub fn svg(report: &LocusReport) -> String {
-    let shown = |k: usize, x: f64| match report.bounds[k].unit {
-        "rad" => x.to_degrees(),
-        _ => x,
+    let shown = |k: usize, x: f64| match report.bounds[k].unit.is_angle() {
+        true => x.to_degrees(),
+        false => x,
     };
     let point = |p: &[f64; 2]| (shown(0, p[0]), shown(1, p[1]));
     let [x, y] = report.bounds.each_ref().map(|bound| {
-        let unit = if bound.unit == "rad" { "°" } else { "m" };
+        let unit = if bound.unit.is_angle() { "°" } else { "m" };
         format!("{} ({unit})", bound.name)
     });
     let kind = |locus: &Locus| match locus.kind {

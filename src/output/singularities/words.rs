@@ -126,7 +126,7 @@ pub(super) fn zlatanov(kind: Zlatanov) -> String {
 /// `theta1 = 60° and l2 = 0.5 m`
 pub(super) fn place(report: &AlongReport, moved: &[f64]) -> String {
     let values = report.moved.iter().zip(moved);
-    let values = values.map(|(m, x)| format!("{} = {}", m.name, quantity(*x, m.unit == "rad")));
+    let values = values.map(|(m, x)| format!("{} = {}", m.name, quantity(*x, m.unit.is_angle())));
     listed(&values.collect::<Vec<_>>())
 }
 
@@ -151,7 +151,7 @@ pub(super) fn crossing(crossing: &Crossing, report: &AlongReport) -> String {
 /// How a motion ended, in a sentence.
 pub fn ending(report: &AlongReport) -> String {
     let way = report.moved.iter().map(|m| {
-        let value = |x| quantity(x, m.unit == "rad");
+        let value = |x| quantity(x, m.unit.is_angle());
         format!("{} from {} to {}", m.name, value(m.from), value(m.to))
     });
     let way = listed(&way.collect::<Vec<_>>());
@@ -202,7 +202,7 @@ pub(super) fn loci(report: &LocusReport) -> String {
             .count()
     };
     let in_box = report.bounds.each_ref().map(|bound| {
-        let value = |x| quantity(x, bound.unit == "rad");
+        let value = |x| quantity(x, bound.unit.is_angle());
         format!(
             "{} from {} to {}",
             bound.name,

@@ -85,7 +85,7 @@ fn one(report: &CircuitsReport, circuit: &Circuit) -> Section {
         ]);
     }
     let input = circuit.joints.iter().position(|j| j.name == report.input);
-    let is_angle = input.is_some_and(|input| circuit.joints[input].unit == "rad");
+    let is_angle = input.is_some_and(|input| circuit.joints[input].unit.is_angle());
     let branches = circuit.branches.iter().enumerate();
     let branches = branches.map(|(i, branch)| match branch.turns {
         true => format!("branch {}: {} turns fully", i + 1, report.input),

@@ -69,14 +69,14 @@ pub fn svg(report: &WorkspaceReport) -> String {
 }
 
 fn shown(axis: &AxisReport, x: f64) -> f64 {
-    match axis.unit {
-        "rad" => x.to_degrees(),
-        _ => x,
+    match axis.unit.is_angle() {
+        true => x.to_degrees(),
+        false => x,
     }
 }
 
 fn label(axis: &AxisReport) -> String {
-    let unit = if axis.unit == "rad" { "°" } else { "m" };
+    let unit = if axis.unit.is_angle() { "°" } else { "m" };
     format!("{} ({unit})", axis.name)
 }
 
@@ -140,7 +140,7 @@ fn picture(
     }
     let at = slice.map_or(String::new(), |(z, _)| {
         let value = third.unwrap_or(0.0);
-        format!(", {} = {}", z.name, quantity(value, z.unit == "rad"))
+        format!(", {} = {}", z.name, quantity(value, z.unit.is_angle()))
     });
     Chart {
         title: format!("{}: mode {mode}{at}", report.mechanism),

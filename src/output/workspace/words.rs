@@ -13,7 +13,7 @@ pub(super) fn question(report: &WorkspaceReport) -> String {
         .collect();
     let held = report.held.iter();
     let held: Vec<String> = held
-        .map(|h| format!("{} = {}", h.name, quantity(h.value, h.unit == "rad")))
+        .map(|h| format!("{} = {}", h.name, quantity(h.value, h.unit.is_angle())))
         .collect();
     match held.is_empty() {
         true => format!("Map of {}.", listed(&axes)),

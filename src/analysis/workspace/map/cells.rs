@@ -1,7 +1,10 @@
 //! Every node in every mode that reaches it, as a table.
 
+use serde::de::Error;
 use serde::ser::SerializeStruct;
-use serde::{Serialize, Serializer};
+use serde::{Deserialize, Deserializer, Serialize, Serializer};
+
+use super::report::AxisReport;
 
 use crate::mechanism::Variable;
 
@@ -88,7 +91,72 @@ impl Serialize for Cells {
     }
 }
 
+/// What is told of a node stands in so many numbers of a row.
+const TOLD: usize = 5;
+
+/// The values one after another: what they are is not known before they are
+/// [`arranged`](Cells::arranged).
+impl<'de> Deserialize<'de> for Cells {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        #[derive(Deserialize)]
+        struct Table {
+            columns: Vec<Variable>,
+            values: Vec<Vec<Option<f64>>>,
+        }
+        let Table { columns, values } = Table::deserialize(deserializer)?;
+        if values.iter().any(|row| row.len() != columns.len()) {
+            return Err(D::Error::custom("a row has too few or too many values"));
+        }
+        let values = values.into_iter().flatten();
+        let values = values.map(|value| value.unwrap_or(f64::NAN)).collect();
+        let heads = Vec::new();
+        Ok(Cells {
+            columns,
+            widths: [0; 3],
+            parts: vec![Part { heads, values }],
+        })
+    }
+}
+
 impl Cells {
+    /// Cells that were just deserialised, with what their values are; `None` if they cannot be that.
+    pub(crate) fn arranged(self, widths: [usize; 3], axes: &[AxisReport]) -> Option<Self> {
+        let Cells { columns, parts, .. } = self;
+        if widths.iter().sum::<usize>() + TOLD != columns.len() {
+            return None;
+        }
+        let mut part = Part::default();
+        let rows = parts.iter();
+        for row in rows.flat_map(|part| part.values.chunks_exact(columns.len())) {
+            let (at, rest) = row.split_at(widths[0]);
+            let (told, rest) = rest.split_at(TOLD);
+            let count = |x: f64| (x.is_finite() && x >= 0.0).then_some(x as usize);
+            let known = |x: f64| (!x.is_nan()).then_some(x);
+            // the first coordinate runs fastest
+            let mut node = 0;
+            for (x, axis) in at.iter().zip(axes).rev() {
+                let part = (x - axis.from) / (axis.to - axis.from);
+                let place = (part * axis.nodes.saturating_sub(1) as f64).round();
+                node = node * axis.nodes + count(place)?;
+            }
+            part.heads.push(Head {
+                node,
+                mode: count(told[0])?,
+                aspect: count(told[1]),
+                condition: known(told[2]),
+                direct: known(told[3]),
+                inverse: known(told[4]),
+            });
+            part.values.extend(at.iter().chain(rest));
+        }
+        let parts = vec![part];
+        Some(Cells {
+            columns,
+            widths,
+            parts,
+        })
+    }
+
     /// How many there are.
     pub fn len(&self) -> usize {
         self.parts.iter().map(|part| part.heads.len()).sum()

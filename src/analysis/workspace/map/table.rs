@@ -2,6 +2,7 @@
 
 use super::cells::{Cells, Head, Part};
 use super::{Map, bring};
+use crate::algebra::SiUnit;
 use crate::analysis::workspace::flood::Band;
 use crate::mechanism::{Coordinate, Variable};
 use crate::solve::each;
@@ -61,14 +62,14 @@ impl Map<'_> {
         });
         let mechanism = self.asked.mechanism;
         let variable = |of: &Holdable| {
-            let unit = if of.is_angle(mechanism) { "rad" } else { "m" };
+            let unit = SiUnit::of_coordinate(of.is_angle(mechanism));
             Variable::new(of.name(mechanism), unit)
         };
         let told = ["mode", "aspect", "condition", "direct", "inverse"];
         let mut columns: Vec<Variable> = (self.asked.axes.iter())
             .map(|axis| variable(&axis.coordinate))
             .collect();
-        columns.extend(told.map(|name| Variable::new(name, "")));
+        columns.extend(told.map(Variable::plain));
         columns.extend(Variable::joints(mechanism));
         columns.extend((following.iter()).map(|&(p, c)| variable(&Holdable::Coordinate(p, c))));
         Cells {
