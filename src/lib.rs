@@ -40,6 +40,7 @@
 
 pub mod algebra;
 pub mod analysis;
+pub mod ask;
 pub mod description;
 pub mod geometry;
 pub mod guide;

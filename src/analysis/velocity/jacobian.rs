@@ -1,16 +1,16 @@
 //! The input–output Jacobian.
 
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
 use super::frames::Spins;
-use super::unit;
+use crate::algebra::SiUnit;
 use crate::geometry;
 use crate::linear::{Decomposition, rank};
 use crate::mechanism::{Configuration, Coordinate, Frame, Mechanism, Role};
 use crate::system::{FrameTwists, Holdable, Motion, without};
 
 /// Rates of outputs for unit rates of the inputs, one at a time.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct InputOutput {
     /// The outputs.
     pub rows: Vec<Axis>,
@@ -33,12 +33,12 @@ pub struct InputOutput {
 }
 
 /// A row or column.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Axis {
     /// What it is.
     pub name: String,
     /// `rad/s` or `m/s`.
-    pub unit: String,
+    pub unit: SiUnit,
 }
 
 /// What the inputs drive.
@@ -141,7 +141,7 @@ pub(super) fn input_output(
     // what a row is divided by to have no length in it
     let mut row_scales = Vec::new();
     let mut row = |name: String, is_angle: bool| {
-        let unit = format!("{}/s", unit(is_angle));
+        let unit = SiUnit::of_coordinate(is_angle).per_second();
         rows.push(Axis { name, unit });
         row_scales.push(if is_angle { 1.0 } else { length });
     };
@@ -184,7 +184,7 @@ pub(super) fn input_output(
         let angle = input.is_angle(mechanism);
         columns.push(Axis {
             name: input.name(mechanism),
-            unit: format!("{}/s", unit(angle)),
+            unit: SiUnit::of_coordinate(angle).per_second(),
         });
         let mut given = vec![0.0; inputs.len()];
         given[i] = 1.0;
