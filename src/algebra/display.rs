@@ -6,7 +6,7 @@ use serde::{Serialize, Serializer};
 
 use super::{Expression, Node, Operator};
 
-/// How tightly the outermost operation of an expression binds.
+/// The precedence of the outermost operation of an expression.
 #[derive(Clone, Copy, PartialEq, PartialOrd)]
 enum Tightness {
     Sum,
@@ -53,7 +53,7 @@ impl<N> Expression<N> {
     }
 }
 
-/// A part of an expression, in parentheses unless it binds at least as tightly as asked.
+/// A part of an expression, in parentheses unless its precedence is at least the given one.
 struct Part<'a, N>(&'a Expression<N>, Tightness);
 
 impl<N: Display> Display for Part<'_, N> {

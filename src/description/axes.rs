@@ -1,4 +1,4 @@
-//! What a file of joint axes says: the same kind of file as a mechanism's, before frames are placed.
+//! The contents of a file of joint axes: like a mechanism file, before frames are placed.
 
 use std::ops::Range;
 
@@ -7,25 +7,25 @@ use super::{ClosureKind, Convention, Displacement, Entry, Named, Problem, Role, 
 /// A whole file of joint axes. Everything is in the order of the file.
 #[derive(Debug, Clone, PartialEq)]
 pub struct AxesDescription {
-    /// What the mechanism is called.
+    /// The name of the mechanism.
     pub name: Spanned<String>,
-    /// Where it comes from.
+    /// Its source in the literature.
     pub source: Option<Spanned<String>>,
-    /// The convention of the tables that are asked for.
+    /// The convention of the tables to be made.
     pub convention: Option<Spanned<Convention>>,
     /// Dimensions and other constants.
     pub parameters: Vec<Named<Entry>>,
     /// The joints; in a serial chain from the base to the tool.
     pub joints: Vec<Named<AxisDescription>>,
-    /// The frame from which the tables shall start.
+    /// The frame from which the tables should start.
     pub base: Option<Vec<Displacement>>,
     /// The frame at which a serial chain ends.
     pub tool: Option<Vec<Displacement>>,
-    /// The joints at which closed loops shall be broken.
+    /// The joints at which closed loops are to be cut.
     pub cut: Vec<Spanned<String>>,
 }
 
-/// A joint of which the axis is known.
+/// A joint given by its axis.
 #[derive(Debug, Clone)]
 pub struct AxisDescription {
     /// How it moves.
@@ -44,18 +44,18 @@ pub struct AxisDescription {
     pub span: Range<usize>,
 }
 
-/// How a joint moves of which the axis is known.
+/// The kind of a joint given by its axis.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub enum AxisKind {
-    /// It turns about its axis.
+    /// Revolute about its axis.
     Revolute,
-    /// It slides along its axis, which has a direction only.
+    /// Prismatic along its axis, which has a direction only.
     Prismatic,
-    /// A ball, which has a centre only. It is always cut.
+    /// Spherical, with a centre only. It is always cut.
     Spherical,
 }
 
-/// How the place of an axis is given: three coordinates in m, or a direction of any length.
+/// The position of an axis: three coordinates in m, or a direction of any length.
 #[derive(Debug, Clone, PartialEq)]
 pub enum AxisPlace {
     /// A point, which a prismatic joint need not have, and a direction.
@@ -70,7 +70,7 @@ impl AxisKind {
     /// Every kind.
     pub const ALL: [Self; 3] = [Self::Revolute, Self::Prismatic, Self::Spherical];
 
-    /// The closure that puts such a joint back.
+    /// The closure that restores such a joint.
     pub fn closure(self) -> ClosureKind {
         match self {
             Self::Revolute => ClosureKind::Revolute,
@@ -89,7 +89,7 @@ impl AxisKind {
     }
 }
 
-/// What is wrong with axes whose form is right.
+/// Problems of meaning in a well-formed file of axes.
 #[derive(Debug, Clone, PartialEq)]
 pub enum AxesProblem {
     /// A direction of zero length, or two points that coincide.
@@ -107,7 +107,7 @@ pub enum AxesProblem {
         /// The joint.
         joint: &'static str,
     },
-    /// Some joints say which bodies they connect and this one does not.
+    /// Some joints name the bodies they connect and this one does not.
     NotBetween {
         /// The joint.
         joint: String,
@@ -131,7 +131,7 @@ pub enum AxesProblem {
         /// The joint that was probably meant.
         suggestion: Option<String>,
     },
-    /// A cut that takes a body off instead of opening a loop.
+    /// A cut that disconnects a body instead of opening a loop.
     CutsOff {
         /// The joint.
         joint: String,
@@ -143,7 +143,7 @@ pub enum AxesProblem {
     },
     /// Loops in which every joint is driven.
     NothingToCut,
-    /// Something that only serial chains have.
+    /// A field that only serial chains have.
     SerialOnly {
         /// The field.
         field: &'static str,
@@ -158,12 +158,12 @@ pub enum AxesProblem {
         /// How many there are.
         joints: usize,
     },
-    /// A driven joint that is cut, and so has no variable.
+    /// A driven joint that is cut and loses its variable.
     DriveCut {
         /// The joint.
         joint: String,
     },
-    /// A joint with limits that is cut, and so has no variable.
+    /// A joint with limits that is cut and loses its variable.
     LimitsCut {
         /// The joint.
         joint: String,
@@ -173,7 +173,7 @@ pub enum AxesProblem {
         /// The convention of the table.
         convention: Convention,
     },
-    /// Nearly parallel axes whose common normal is far off.
+    /// Nearly parallel axes whose common normal is far away.
     FarNormal {
         /// The joints.
         joints: [String; 2],
@@ -187,7 +187,7 @@ pub enum AxesProblem {
 }
 
 impl AxesProblem {
-    /// Whether tables are made all the same.
+    /// Whether tables are made nevertheless.
     pub fn is_warning(&self) -> bool {
         matches!(
             self,
@@ -199,13 +199,13 @@ impl AxesProblem {
     }
 }
 
-/// Whether a text seems to be a file of a mechanism and not of joint axes.
+/// Whether a text seems to be a mechanism file, not a file of joint axes.
 pub fn is_mechanism(text: &str) -> bool {
     reader::first_word(text).is_some_and(|word| word == "Mechanism")
 }
 
 impl AxesDescription {
-    /// Reads the text of a file of joint axes, or says all that is wrong with its form, in the order of the text.
+    /// Reads the text of a file of joint axes, or returns all its problems of form, in the order of the text.
     pub fn read(text: &str) -> Result<Self, Vec<Problem>> {
         let (description, mut problems) = reader::read_axes(text);
         if let Some(description) = &description {

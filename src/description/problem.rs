@@ -1,18 +1,18 @@
-//! What can be wrong with a mechanism file, as data. `words.rs` says it in English.
+//! Problems of a mechanism file, as data. `words.rs` has the English words.
 
 use std::ops::Range;
 
 use super::{AxesProblem, Expected, Found, Structure};
 use crate::algebra::{EvaluationErrorKind, MeasureErrorKind, ParseErrorKind};
 
-/// Something wrong with a mechanism file.
+/// A problem of a mechanism file.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Problem {
     /// What is wrong.
     pub kind: ProblemKind,
     /// The offending bytes of the file.
     pub span: Range<usize>,
-    /// Other places that have to do with it.
+    /// Other places involved.
     pub related: Vec<(Range<usize>, Note)>,
 }
 
@@ -25,7 +25,7 @@ pub enum Severity {
     Error,
 }
 
-/// What another place has to do with a problem.
+/// How another place is involved in a problem.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Note {
     /// The name or field was first given here.
@@ -40,7 +40,7 @@ pub enum Note {
     ThenHere,
 }
 
-/// The kinds of things that have names.
+/// The kinds of named items.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 #[allow(missing_docs)]
 pub enum Noun {
@@ -79,13 +79,13 @@ pub enum ProblemKind {
     },
     /// There is nothing in the file.
     Empty,
-    /// Brackets within brackets without end.
+    /// Brackets nested too deeply.
     TooDeep,
     /// The text is not RON.
     Syntax {
-        /// What `ron` says.
+        /// The error of `ron`.
         error: Box<ron::Error>,
-        /// The character it stopped at, if the text goes on.
+        /// The character at which it stopped; `None` at the end of the text.
         found: Option<char>,
     },
     /// The file is for a later version of the program.
@@ -94,23 +94,23 @@ pub enum ProblemKind {
     NotAVersion(f64),
     /// Something of the wrong type.
     WrongType {
-        /// What must stand here.
+        /// What is expected.
         expected: Expected,
-        /// What stands here.
+        /// What was found.
         found: Found,
     },
     /// Too few or too many things in parentheses.
     WrongLength {
-        /// What must stand here.
+        /// What is expected.
         of: Expected,
-        /// How many things it is made of.
+        /// How many parts it has.
         expected: usize,
         /// How many there are.
         found: usize,
     },
     /// A word that is none of those possible here.
     UnknownWord {
-        /// What must stand here.
+        /// What is expected.
         expected: Expected,
         /// The word.
         word: String,
@@ -142,7 +142,7 @@ pub enum ProblemKind {
     },
     /// A name given twice.
     DuplicateName {
-        /// What bears it here.
+        /// The kind of item.
         noun: Noun,
         /// The name.
         name: String,
@@ -153,31 +153,31 @@ pub enum ProblemKind {
     NotFinite,
     /// A name that no expression could use.
     NotAName {
-        /// What bears it.
+        /// The kind of item.
         noun: Noun,
         /// The name.
         name: String,
     },
-    /// A name that already means something else.
+    /// A reserved name.
     ReservedName {
-        /// What bears it.
+        /// The kind of item.
         noun: Noun,
         /// The name.
         name: String,
     },
     /// The name of a chain or platform has a dot, which separates it from the names of its frames.
     DottedName {
-        /// What bears it.
+        /// The kind of item.
         noun: Noun,
         /// The name.
         name: String,
     },
     /// A name without a letter.
     EmptyName {
-        /// What bears it.
+        /// The kind of item.
         noun: Noun,
     },
-    /// Neither the file nor the chain says which convention the rows follow.
+    /// Neither the file nor the chain gives the convention of the rows.
     NoConvention {
         /// The chain.
         chain: String,
@@ -193,7 +193,7 @@ pub enum ProblemKind {
     },
     /// The fourth row of a transform is not (0, 0, 0, 1).
     WrongLastRow,
-    /// An expression uses a name that means nothing.
+    /// An expression uses an unknown name.
     UnknownName {
         /// The name.
         name: String,
@@ -202,7 +202,7 @@ pub enum ProblemKind {
         /// The names possible here.
         scope: Scope,
     },
-    /// A joint variable where only parameters may stand.
+    /// A joint variable where only parameters are allowed.
     JointNotAllowed {
         /// The joint.
         name: String,
@@ -230,7 +230,7 @@ pub enum ProblemKind {
         /// The names; the first follows the last.
         names: Vec<String>,
     },
-    /// Chains that stand on one another.
+    /// Chains attached to one another in a cycle.
     ChainCycle {
         /// The names; the first follows the last.
         names: Vec<String>,
@@ -278,7 +278,7 @@ pub enum ProblemKind {
         /// The joint.
         name: String,
     },
-    /// A parameter that nothing uses.
+    /// An unused parameter.
     UnusedParameter {
         /// The parameter.
         name: String,
@@ -302,7 +302,7 @@ pub enum ProblemKind {
         /// The closure.
         closure: String,
     },
-    /// Something wrong with a file of joint axes.
+    /// A problem of a file of joint axes.
     Axes(Box<AxesProblem>),
     /// A platform that no closure and no chain touches.
     UnusedPlatform {
@@ -342,7 +342,7 @@ impl Problem {
         self.kind.severity()
     }
 
-    /// The same problem, with one more place that has to do with it.
+    /// The same problem, with one more place involved.
     pub fn with(mut self, span: Range<usize>, note: Note) -> Self {
         self.related.push((span, note));
         self

@@ -1,6 +1,6 @@
 //! Text → description, noting every problem on the way.
 //!
-//! Where something is wrong the reader notes it, puts something harmless in its place and goes on.
+//! The reader notes each problem, substitutes a harmless value and continues.
 
 mod axes;
 mod closed_form;
@@ -14,13 +14,13 @@ use super::piece::{Piece, Shape};
 use super::*;
 use shapes::Fields;
 
-/// The description as far as it could be read, what is wrong with the text, and the names it is wrong with.
+/// The description as far as it could be read, the problems, and the names affected by them.
 pub(super) fn read(text: &str) -> (Option<Description>, Vec<Problem>, HashSet<String>) {
     let (description, reader) = read_with(text, Reader::mechanism);
     (description, reader.problems, reader.broken)
 }
 
-/// The same of a file of joint axes.
+/// The same for a file of joint axes.
 pub(super) fn read_axes(text: &str) -> (Option<AxesDescription>, Vec<Problem>) {
     let (description, reader) = read_with(text, Reader::axes);
     (description, reader.problems)
@@ -107,7 +107,7 @@ impl Reader {
         };
         let count = self.problems.len();
         self.version(version);
-        // A later format may differ in anything; all else would be noise.
+        // A later format may differ in anything; all other problems would be noise.
         let later = matches!(
             self.problems.get(count),
             Some(Problem {
@@ -185,7 +185,7 @@ impl Reader {
 
     fn row(&mut self, piece: Piece) -> Option<Row> {
         let Some(mut fields) = self.fields(piece, Structure::Row) else {
-            // it still counts, so that the links behind it keep their numbers
+            // it still counts, so that the links after it keep their numbers
             let [alpha, a, d, theta] = std::array::from_fn(|_| Entry::absent());
             let span = piece.span();
             return Some(Row {

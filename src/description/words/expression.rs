@@ -15,12 +15,12 @@ pub(super) fn title(error: &ParseErrorKind) -> String {
             "the character `{}` has no meaning in an expression",
             shown(*c)
         ),
-        ExpectedOperand => "a number, a name or `(` must stand here".into(),
+        ExpectedOperand => "expected a number, a name or `(`".into(),
         MissingOperator => "an operator is missing between two values".into(),
         UnknownUnit(unit) => format!("`{unit}` after a number is not a unit"),
         UnclosedParenthesis => "a parenthesis is not closed".into(),
-        UnopenedParenthesis => "a parenthesis closes nothing".into(),
-        UnexpectedComma => "a comma stands outside the arguments of a function".into(),
+        UnopenedParenthesis => "a closing parenthesis has no opening one".into(),
+        UnexpectedComma => "there is a comma outside the arguments of a function".into(),
         UnknownFunction(name) => format!("there is no function `{name}`"),
         MissingArguments(function) => format!(
             "the function `{}` needs its argument in parentheses",
@@ -47,7 +47,7 @@ pub(super) fn title(error: &ParseErrorKind) -> String {
 pub(super) fn label(error: &ParseErrorKind) -> &'static str {
     use ParseErrorKind::*;
     match error {
-        Empty => "nothing in it",
+        Empty => "empty",
         ExpectedOperand => "a value is missing here",
         MissingOperator => "an operator is missing before this",
         UnclosedParenthesis => "opened here",
@@ -113,9 +113,9 @@ pub(super) fn no_value(error: &EvaluationErrorKind) -> String {
         RootOfNegative(x) => format!("the square root of {x} is not a real number"),
         LogarithmOfNonPositive(x) => format!("the logarithm of {x} is not a real number"),
         OutOfRange(function, x) => format!("`{}` of {x} is not a real number", function.word()),
-        PowerOfNegative(x) => format!("a power of {x} that is not whole is not a real number"),
+        PowerOfNegative(x) => format!("a non-integer power of {x} is not a real number"),
         TooLarge(x) => {
-            format!("the value {x:e} is too large: nothing beyond {LARGEST:e} is analysed")
+            format!("the value {x:e} is too large; the limit is {LARGEST:e}")
         }
         NotFinite => "the value is not finite".into(),
     }
@@ -125,9 +125,9 @@ pub(super) fn unit(error: &MeasureErrorKind) -> String {
     match error {
         MeasureErrorKind::Wrong { wanted, found } => {
             let (wanted, found) = (measure(*wanted), measure(*found));
-            format!("{found} stands where {wanted} must stand")
+            format!("expected {wanted}, found {found}")
         }
-        MeasureErrorKind::Mixed => "an angle and a length stand where both must be the same".into(),
+        MeasureErrorKind::Mixed => "an angle and a length are mixed".into(),
         MeasureErrorKind::LengthAsAngle(function) => {
             format!("`{}` takes an angle, not a length", function.word())
         }

@@ -12,7 +12,7 @@ use crate::interchange::problem::ImportProblemKind;
 use crate::interchange::remark::Remark;
 use crate::interchange::tree::{Attachment, Coupling, Extent, Loop, Motion, Tree};
 
-/// Adds what the constraints of a file say to its tree.
+/// Adds the constraints of a file to its tree.
 pub(super) fn read(
     root: Node,
     model: &Model,
@@ -53,7 +53,7 @@ pub(super) fn read(
             _ => {
                 let problem = ImportProblemKind::Unsupported {
                     what: format!("the constraint `{element}`"),
-                    help: "linkwork knows rigid bodies: leave it out",
+                    help: "only rigid bodies are supported: remove it",
                 };
                 reader.problems.say(problem, node);
             }
@@ -215,7 +215,7 @@ impl<'r, 'i> Constraints<'_, 'r, 'i> {
         if numbers.iter().skip(2).any(|c| *c != 0.0) {
             let problem = ImportProblemKind::Unsupported {
                 what: "a polynomial of a higher degree than 1".into(),
-                help: "in linkwork a joint follows another by a factor and an offset",
+                help: "a joint can follow another by a factor and an offset only",
             };
             self.problems.say(problem, node);
             return None;
@@ -233,8 +233,8 @@ impl<'r, 'i> Constraints<'_, 'r, 'i> {
             }
             Some(_) => {
                 let problem = ImportProblemKind::Unsupported {
-                    what: format!("a constraint on `{name}`, which is no hinge and no slide"),
-                    help: "leave it out",
+                    what: format!("a constraint on `{name}`, which is neither a hinge nor a slide"),
+                    help: "remove it",
                 };
                 self.problems.say(problem, node);
                 None
@@ -301,7 +301,7 @@ impl<'r, 'i> Constraints<'_, 'r, 'i> {
         let ([a, b], true) = (&names[..], two) else {
             let problem = ImportProblemKind::Unsupported {
                 what: format!("the constraint on tendon `{first}`"),
-                help: "a tendon that holds a length leads straight from one site to another",
+                help: "a tendon of constant length must lead straight from one site to another",
             };
             return self.problems.say(problem, node);
         };
@@ -325,7 +325,7 @@ impl<'r, 'i> Constraints<'_, 'r, 'i> {
                     what: format!(
                         "two spatial tendons `{first}` and `{second}` of related lengths"
                     ),
-                    help: "a length may depend on joints, by a fixed tendon",
+                    help: "a length may depend on joints, through a fixed tendon",
                 };
                 return self.problems.say(problem, node);
             }
