@@ -15,6 +15,7 @@ use linkwork::analysis::statics::{StaticsSettings, statics};
 use linkwork::analysis::velocity::{VelocitySettings, velocity};
 use linkwork::mechanism::Mechanism;
 use linkwork::solve::Newton;
+use linkwork::solve::Watch;
 use linkwork::system::{Drive, FrameMotions, Load, Motion, Question, close};
 
 fn mechanisms() -> Vec<(String, Mechanism)> {
@@ -45,14 +46,15 @@ fn main() {
         let question = Question::new(mechanism);
         let settings = MobilitySettings::default();
         group.bench_function(name, |b| {
-            b.iter(|| mobility(black_box(&question), &settings))
+            b.iter(|| mobility(black_box(&question), &settings, &Watch::none()))
         });
     }
     group.finish();
     let mut group = criterion.benchmark_group("velocity");
     for (name, mechanism) in &all {
         let question = Question::new(mechanism);
-        let closed = close(&question, &Newton::default(), 40, 1).expect("it closes");
+        let closed =
+            close(&question, &Newton::default(), (40, 1), &Watch::none()).expect("it closes");
         let at = closed.configuration;
         let drive = Drive::still(&question);
         let mut motion = Motion::new(mechanism, &drive.coordinates);
@@ -78,12 +80,12 @@ fn main() {
         let drive = Drive::still(&question);
         let settings = VelocitySettings::default();
         group.bench_function(format!("velocity {name}"), |b| {
-            b.iter(|| velocity(black_box(&question), &drive, &settings))
+            b.iter(|| velocity(black_box(&question), &drive, &settings, &Watch::none()))
         });
         let load = Load::default();
         let settings = StaticsSettings::default();
         group.bench_function(format!("statics {name}"), |b| {
-            b.iter(|| statics(black_box(&question), &load, &settings))
+            b.iter(|| statics(black_box(&question), &load, &settings, &Watch::none()))
         });
     }
     group.finish();

@@ -12,6 +12,7 @@ use criterion::{Criterion, criterion_group, criterion_main};
 use linkwork::analysis::assemblies::{AssembliesSettings, AssemblySolver, Wanted};
 use linkwork::description::load;
 use linkwork::mechanism::{Configuration, Mechanism};
+use linkwork::solve::Watch;
 use linkwork::system::Question;
 
 criterion_group! {
@@ -46,7 +47,8 @@ fn solver(mechanism: &Mechanism, seed: u64) -> AssemblySolver {
         ..AssembliesSettings::default()
     };
     let held = Question::new(mechanism).held();
-    AssemblySolver::new(mechanism, &held, &settings).expect("dimensions have values")
+    AssemblySolver::new(mechanism, &held, &settings, &Watch::none())
+        .expect("dimensions have values")
 }
 
 /// The first run: seeds, loops, and the answer at home.
@@ -60,7 +62,7 @@ fn searches(criterion: &mut Criterion) {
         group.bench_function(name, |bencher| {
             bencher.iter(|| {
                 seed += 1;
-                black_box(solver(&mechanism, seed).at(&home, Wanted::default()))
+                black_box(solver(&mechanism, seed).at(&home, Wanted::default(), &Watch::none()))
             });
         });
     }
@@ -93,7 +95,9 @@ fn stored(criterion: &mut Criterion) {
         let mechanism = mechanism(name);
         let solver = solver(&mechanism, 1);
         let inputs = inputs(&mechanism);
-        let reports = inputs.iter().map(|at| solver.at(at, Wanted::default()));
+        let reports = inputs
+            .iter()
+            .map(|at| solver.at(at, Wanted::default(), &Watch::none()));
         let (mut complete, mut paths, mut steps, mut evaluations, mut retried) = (0, 0, 0, 0, 0);
         for report in reports {
             complete += usize::from(report.lost == 0);
@@ -120,7 +124,7 @@ fn stored(criterion: &mut Criterion) {
             group.bench_function(format!("{name}, {what}"), |bencher| {
                 bencher.iter(|| {
                     let at = next.next().expect("a cycle never ends");
-                    black_box(solver.at(at, wanted))
+                    black_box(solver.at(at, wanted, &Watch::none()))
                 });
             });
         }

@@ -2,12 +2,12 @@
 //! nothing of branches, and once by a sweep, which keeps to one. The limit is 1.3.
 
 use std::hint::black_box;
-use std::ops::ControlFlow;
 use std::path::Path;
 use std::time::Instant;
 
 use linkwork::analysis::sweep::{Ending, SweepSettings, sweep};
 use linkwork::mechanism::{Configuration, Mechanism};
+use linkwork::solve::Watch;
 use linkwork::solve::{Newton, Stop};
 use linkwork::system::{Driven, Held, Holdable, Question, System, Tracker};
 
@@ -110,10 +110,17 @@ fn whole(
         ..SweepSettings::default()
     };
     let begun = Instant::now();
-    let report = sweep(mechanism, held, inputs, at, &settings, &mut |row| {
-        black_box(row.configuration);
-        ControlFlow::Continue(())
-    });
+    let report = sweep(
+        mechanism,
+        held,
+        inputs,
+        at,
+        &settings,
+        &mut |row| {
+            black_box(row.configuration);
+        },
+        &Watch::none(),
+    );
     assert_eq!(report.ending, Ending::Complete, "{report:?}");
     (
         begun.elapsed().as_secs_f64() * 1e9 / STEPS as f64,

@@ -8,6 +8,7 @@ use std::time::Instant;
 use criterion::{Criterion, criterion_group, criterion_main};
 use linkwork::analysis::workspace::{WorkspaceSettings, workspace};
 use linkwork::mechanism::Mechanism;
+use linkwork::solve::Watch;
 use linkwork::system::{Driven, Question};
 
 criterion_group!(benches, all);
@@ -93,7 +94,7 @@ fn compare(criterion: &mut Criterion, work: &Work) {
             boundaries: false,
             ..WorkspaceSettings::default()
         };
-        let run = || workspace(&question, &axes, &[], &settings, &mut |_| {});
+        let run = || workspace(&question, &axes, &[], &settings, &Watch::none());
         let report = match side_by_side {
             true => run(),
             false => one.install(run),

@@ -21,6 +21,7 @@ pub use measure::{Measure, MeasureError, MeasureErrorKind};
 pub use parser::{MAX_HEIGHT, MAX_NESTING, ParseError, ParseErrorKind};
 pub use symbolic::{Symbolic, with_letters};
 pub use trigonometric::{Atom, Budget, Key, Powers, Trigonometric, Wave};
+pub(crate) use vocabulary::words;
 pub use vocabulary::{Constant, Function, Unit, is_name, is_reserved};
 
 use std::ops::Range;
@@ -194,6 +195,16 @@ impl<N> Expression<N> {
 }
 
 impl<N> Node<N> {
+    /// `x operator y`
+    pub fn binary(operator: Operator, x: Expression<N>, y: Expression<N>) -> Self {
+        Node::Binary(operator, Box::new(x), Box::new(y))
+    }
+
+    /// `-x`
+    pub fn negated(x: Expression<N>) -> Self {
+        Node::Negate(Box::new(x))
+    }
+
     /// This node standing at `span`.
     pub fn at(self, span: Range<usize>) -> Expression<N> {
         Expression { node: self, span }

@@ -11,7 +11,6 @@ mod formulas;
 mod frames;
 mod import;
 mod mobility;
-mod progress;
 mod range;
 mod search;
 mod singularities;
@@ -21,6 +20,7 @@ mod statics;
 mod store;
 mod sweep;
 mod velocity;
+mod watched;
 mod workspace;
 mod written;
 
@@ -106,6 +106,10 @@ pub fn run() -> ExitCode {
         Ok(answer) => {
             say(&answer.remarks);
             match write(&answer.data) {
+                Ok(()) if watched::interruptions() > 0 => {
+                    say("note: interrupted: the answer has what was found until then\n");
+                    ExitCode::from(1)
+                }
                 Ok(()) if answer.yes => ExitCode::SUCCESS,
                 Ok(()) => ExitCode::from(1),
                 Err(error) => {

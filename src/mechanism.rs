@@ -15,12 +15,15 @@ mod names;
 mod parameters;
 mod serial_axes;
 mod turns;
+mod variable;
 
 pub use configuration::{Configuration, ConfigurationRef, PlatformPose};
 pub use coordinate::Coordinate;
 pub use dimensions::{ChainDimensions, ClosureDimensions, Dimensions, LinearForm, RowDimensions};
 pub use frames::Body;
 pub use kinematics::{Kinematics, Placement};
+
+pub use variable::Variable;
 
 pub use serial_axes::{Assignment, JointAxis, Normal, SerialAxes, Table, TableRow};
 

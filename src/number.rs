@@ -80,19 +80,13 @@ pub trait Number:
     }
     /// The one of two with the lesser real part; the first if they are equal.
     fn lesser(self, other: Self) -> Self {
-        if other.real() < self.real() {
-            other
-        } else {
-            self
-        }
+        let less = other.real() < self.real();
+        if less { other } else { self }
     }
     /// The one of two with the greater real part; the first if they are equal.
     fn greater(self, other: Self) -> Self {
-        if other.real() > self.real() {
-            other
-        } else {
-            self
-        }
+        let greater = other.real() > self.real();
+        if greater { other } else { self }
     }
     /// Whole power.
     fn powi(self, n: i32) -> Self {
@@ -125,6 +119,30 @@ pub trait Number:
         self * Self::from_f64(factor)
     }
 }
+
+/// `+=`, `-=` and `*=` by the operators of a number.
+macro_rules! assigning {
+    ($number:ty $(, $t:ident)?) => {
+        impl$(<$t: crate::number::Number>)? std::ops::AddAssign for $number {
+            fn add_assign(&mut self, other: Self) {
+                *self = *self + other;
+            }
+        }
+
+        impl$(<$t: crate::number::Number>)? std::ops::SubAssign for $number {
+            fn sub_assign(&mut self, other: Self) {
+                *self = *self - other;
+            }
+        }
+
+        impl$(<$t: crate::number::Number>)? std::ops::MulAssign for $number {
+            fn mul_assign(&mut self, other: Self) {
+                *self = *self * other;
+            }
+        }
+    };
+}
+pub(crate) use assigning;
 
 /// A number with a conjugate and a size: what orthogonal factorisations need beyond [`Number`].
 ///

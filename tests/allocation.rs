@@ -9,6 +9,7 @@ use linkwork::mechanism::{
     ChainDimensions, ClosureDimensions, ClosureKind, Configuration, Dimensions, Frame, LinearForm,
     PlatformPose, RowDimensions,
 };
+use linkwork::solve::Watch;
 use linkwork::solve::{Newton, Stop, Warm};
 use linkwork::system::{
     FrameMotions, Held, HeldPlatform, Holdable, Motion, Question, System, Tracker, close,
@@ -124,7 +125,7 @@ fn rates_and_accelerations_of_everything_allocate_nothing() {
         let folder = concat!(env!("CARGO_MANIFEST_DIR"), "/mechanisms");
         let mechanism = Mechanism::load(format!("{folder}/{name}.ron")).unwrap();
         let question = Question::new(&mechanism);
-        let at = close(&question, &Newton::default(), 0, 1)
+        let at = close(&question, &Newton::default(), (0, 1), &Watch::none())
             .unwrap()
             .configuration;
         let held: Vec<Holdable> = question.held_coordinates();

@@ -12,6 +12,7 @@ use linkwork::analysis::assembly::{AssemblySettings, Outcome, assemble};
 use linkwork::analysis::frames::{FramesSettings, frames};
 use linkwork::description::{AxesDescription, Description, is_mechanism};
 use linkwork::mechanism::Mechanism;
+use linkwork::solve::Watch;
 use linkwork::system::Question;
 
 /// The line that stands for those left out.
@@ -200,9 +201,13 @@ fn files_on_the_pages_are_read_and_assemble() {
             let warnings = mechanism.warnings();
             assert!(warnings.is_empty(), "{name}: {warnings:?}");
             let question = Question::new(&mechanism);
-            let report = assemble(&question, &AssemblySettings::default()).unwrap();
+            let report = assemble(&question, &AssemblySettings::default(), &Watch::none()).unwrap();
             assert_eq!(report.outcome, Outcome::Converged);
-            let forms = linkwork::analysis::compare::compare(&mechanism, &Default::default());
+            let forms = linkwork::analysis::compare::compare(
+                &mechanism,
+                &Default::default(),
+                &Watch::none(),
+            );
             assert!(forms.agree && !forms.closed_forms.is_empty());
         }
     }

@@ -6,6 +6,7 @@ use linkwork::analysis::assembly::{AssemblySettings, Outcome, assemble};
 use linkwork::description;
 use linkwork::geometry::{Pose, Quaternion, RollPitchYaw, Vector3};
 use linkwork::mechanism::Mechanism;
+use linkwork::solve::Watch;
 use linkwork::solve::{Newton, Stop, Warm};
 use linkwork::system::{Question, Tracker};
 
@@ -25,7 +26,8 @@ impl<const N: usize> Follower<N> {
         for (name, value) in names.into_iter().zip(values) {
             question = (question.hold(name, &value.to_string())).expect("a joint of the file");
         }
-        let report = assemble(&question, &AssemblySettings::default()).expect("a right count");
+        let report = assemble(&question, &AssemblySettings::default(), &Watch::none())
+            .expect("a right count");
         assert_eq!(report.outcome, Outcome::Converged);
         let mechanism = question.mechanism();
         Follower {
@@ -202,7 +204,8 @@ pub fn stewart_gough_cold(mechanism: &Mechanism, starts: &[stewart_gough::Cold])
 }
 
 fn answer(question: &Question) -> Report {
-    let report = assemble(question, &AssemblySettings::default()).expect("a right count");
+    let report =
+        assemble(question, &AssemblySettings::default(), &Watch::none()).expect("a right count");
     Report {
         steps: report.steps as u32,
         residual: report.residual,

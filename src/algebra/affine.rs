@@ -26,26 +26,19 @@ impl<N: Clone + PartialEq> Expression<N> {
     /// Constant and coefficients are expressions over the other names.
     pub fn affine(&self, is_variable: impl Fn(&N) -> bool) -> Result<Affine<N>, NonAffine> {
         let mut affine = self.split(&is_variable)?;
-        affine
-            .terms
-            .retain(|(_, coefficient)| !coefficient.is_zero());
+        affine.terms.retain(|(_, factor)| !factor.is_zero());
         Ok(affine)
     }
 
     fn split(&self, is_variable: &impl Fn(&N) -> bool) -> Result<Affine<N>, NonAffine> {
         if !self.names().any(|(name, _)| is_variable(name)) {
-            return Ok(Affine {
-                constant: self.clone(),
-                terms: Vec::new(),
-            });
+            return Ok(self.clone().into());
         }
-        let refusal = || NonAffine {
-            span: self.span.clone(),
-        };
+        let span = self.span.clone();
         match &self.node {
             Node::Name(name) => Ok(Affine {
-                constant: Node::Number(0.0).at(self.span.clone()),
-                terms: vec![(name.clone(), Node::Number(1.0).at(self.span.clone()))],
+                constant: Node::Number(0.0).at(span.clone()),
+                terms: vec![(name.clone(), Node::Number(1.0).at(span))],
             }),
             Node::Negate(x) => Ok(x.split(is_variable)?.map(negate)),
             Node::Binary(operator, x, y) => {
@@ -64,38 +57,36 @@ impl<N: Clone + PartialEq> Expression<N> {
                     }
                     // A power whose variables have cancelled is a constant after all.
                     Operator::Divide | Operator::Power if x.is_constant() && y.is_constant() => {
-                        let node =
-                            Node::Binary(*operator, Box::new(x.constant), Box::new(y.constant));
-                        Ok(Affine {
-                            constant: node.at(self.span.clone()),
-                            terms: Vec::new(),
-                        })
+                        Ok(Node::binary(*operator, x.constant, y.constant)
+                            .at(span)
+                            .into())
                     }
-                    _ => Err(refusal()),
+                    _ => Err(NonAffine { span }),
                 }
             }
-            _ => Err(refusal()),
+            _ => Err(NonAffine { span }),
         }
+    }
+}
+
+impl<N> From<Expression<N>> for Affine<N> {
+    fn from(constant: Expression<N>) -> Self {
+        let terms = Vec::new();
+        Affine { constant, terms }
     }
 }
 
 impl<N: Clone + PartialEq> Affine<N> {
     /// Whether no variable is left.
     pub fn is_constant(&self) -> bool {
-        self.terms
-            .iter()
-            .all(|(_, coefficient)| coefficient.is_zero())
+        self.terms.iter().all(|(_, factor)| factor.is_zero())
     }
 
     fn map(self, change: impl Fn(Expression<N>) -> Expression<N>) -> Self {
-        let terms = self
-            .terms
-            .into_iter()
-            .map(|(name, coefficient)| (name, change(coefficient)))
-            .collect();
+        let terms = self.terms.into_iter();
         Self {
+            terms: terms.map(|(name, factor)| (name, change(factor))).collect(),
             constant: change(self.constant),
-            terms,
         }
     }
 
@@ -116,7 +107,7 @@ fn negate<N>(x: Expression<N>) -> Expression<N> {
     match x.node {
         Node::Number(value) => Node::Number(0.0 - value).at(span),
         Node::Negate(inner) => *inner,
-        _ => Node::Negate(Box::new(x)).at(span),
+        _ => Node::negated(x).at(span),
     }
 }
 
@@ -128,11 +119,8 @@ fn add<N: PartialEq>(x: Expression<N>, y: Expression<N>) -> Expression<N> {
         (_, Node::Number(0.0)) => x,
         (Node::Negate(a), _) if **a == y => Node::Number(0.0).at(span),
         (_, Node::Negate(b)) if **b == x => Node::Number(0.0).at(span),
-        (_, Node::Negate(_)) => {
-            let y = negate(y);
-            Node::Binary(Operator::Subtract, Box::new(x), Box::new(y)).at(span)
-        }
-        _ => Node::Binary(Operator::Add, Box::new(x), Box::new(y)).at(span),
+        (_, Node::Negate(_)) => Node::binary(Operator::Subtract, x, negate(y)).at(span),
+        _ => Node::binary(Operator::Add, x, y).at(span),
     }
 }
 
@@ -145,7 +133,7 @@ fn multiply<N: PartialEq>(x: Expression<N>, y: Expression<N>) -> Expression<N> {
         (_, Node::Number(1.0)) => x,
         (Node::Number(-1.0), _) => negate(y),
         (_, Node::Number(-1.0)) => negate(x),
-        _ => Node::Binary(Operator::Multiply, Box::new(x), Box::new(y)).at(span),
+        _ => Node::binary(Operator::Multiply, x, y).at(span),
     }
 }
 
@@ -155,7 +143,7 @@ fn divide<N: PartialEq>(x: Expression<N>, y: Expression<N>) -> Expression<N> {
         (_, Node::Number(1.0)) => x,
         (Node::Number(a), Node::Number(b)) if *b != 0.0 => Node::Number(a / b).at(span),
         // A zero divided by something that may itself be zero is not simplified: evaluation will tell.
-        _ => Node::Binary(Operator::Divide, Box::new(x), Box::new(y)).at(span),
+        _ => Node::binary(Operator::Divide, x, y).at(span),
     }
 }
 

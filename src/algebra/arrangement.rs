@@ -57,15 +57,11 @@ pub fn arrange(formulas: &[&Trigonometric], name: &dyn Fn(u32) -> String) -> Arr
 
 /// Angles of the same number are merged: some wave has both, and no two waves have them with different relative signs.
 fn blocks(formulas: &[&Trigonometric]) -> BTreeMap<Powers, usize> {
-    let waves = || {
-        formulas
-            .iter()
-            .flat_map(|f| f.terms())
-            .map(|(key, _)| &key.wave)
-    };
+    let waves = formulas.iter().flat_map(|f| f.terms());
+    let waves = waves.map(|(key, _)| &key.wave);
     let mut signs: BTreeMap<(&Powers, &Powers), (bool, bool)> = BTreeMap::new();
     let mut angles: BTreeMap<&Powers, usize> = BTreeMap::new();
-    for wave in waves() {
+    for wave in waves {
         for (i, (a, k)) in wave.0.iter().enumerate() {
             angles.insert(a, 0);
             for (b, l) in &wave.0[i + 1..] {
@@ -87,9 +83,8 @@ fn blocks(formulas: &[&Trigonometric]) -> BTreeMap<Powers, usize> {
     for &angle in angles.keys() {
         let fits = |block: &Vec<&Powers>| {
             let mut pairs = block.iter().map(|other| seen(angle, other));
-            let together = block
-                .iter()
-                .any(|other| seen(angle, other) != (false, false));
+            let mut others = block.iter();
+            let together = others.any(|other| seen(angle, other) != (false, false));
             together && pairs.all(|pair| pair != (true, true))
         };
         let place = merged.iter().position(fits).unwrap_or_else(|| {
@@ -130,12 +125,9 @@ fn factors(wave: &Wave, block: &dyn Fn(&Powers) -> usize) -> Vec<(Wave, i32)> {
     let signed = parts.into_iter().map(|part| {
         // the sign of the first letter; of π only if there is no other
         let lead = part.0.iter().find(|(angle, _)| *angle != [(Atom::Pi, 1)]);
-        let negative = lead
-            .or(part.0.first())
-            .is_some_and(|(_, k)| k.is_negative());
-        match negative {
-            true => (part.times(-1), -1),
-            false => (part, 1),
+        match lead.or(part.0.first()) {
+            Some((_, k)) if k.is_negative() => (part.times(-1), -1),
+            _ => (part, 1),
         }
     });
     signed.collect()
@@ -176,9 +168,8 @@ fn products(formula: &Trigonometric, block: &dyn Fn(&Powers) -> usize) -> Vec<Pr
         }
     }
     // a formula is real: its imaginary parts cancel
-    let real = sums
-        .into_iter()
-        .filter(|((.., imaginary), sum)| !imaginary && !sum.is_zero());
+    let sums = sums.into_iter();
+    let real = sums.filter(|((.., imaginary), sum)| !imaginary && !sum.is_zero());
     let products = real.map(|((powers, root, circular, _), coefficient)| Product {
         coefficient,
         root,
@@ -249,19 +240,10 @@ fn sum(summands: Vec<Summand>) -> Expression {
     if first.negative {
         sum = negated(sum);
     }
-    for Summand {
-        negative,
-        expression,
-    } in summands
-    {
-        let operator = if negative {
-            Operator::Subtract
-        } else {
-            Operator::Add
-        };
-        sum = binary(operator, sum, expression);
-    }
-    sum
+    summands.fold(sum, |sum, next| {
+        let operator = [Operator::Add, Operator::Subtract][usize::from(next.negative)];
+        binary(operator, sum, next.expression)
+    })
 }
 
 /// −(a·b) reads (−a)·b, as it is written.
@@ -270,41 +252,30 @@ fn negated(expression: Expression) -> Expression {
         Node::Binary(operator @ (Operator::Multiply | Operator::Divide), x, y) => {
             binary(operator, negated(*x), *y)
         }
-        node => Node::Negate(Box::new(node.at(0..0))).at(0..0),
+        node => Node::negated(node.at(0..0)).at(0..0),
     }
 }
 
 fn binary(operator: Operator, x: Expression, y: Expression) -> Expression {
-    Node::Binary(operator, Box::new(x), Box::new(y)).at(0..0)
+    Node::binary(operator, x, y).at(0..0)
 }
 
 fn summands(mut products: Vec<Product>, name: Name) -> Vec<Summand> {
     products.sort_by_key(Product::rank);
     let mut counts: BTreeMap<Factor, usize> = BTreeMap::new();
-    for product in &products {
-        product
-            .factors()
-            .for_each(|factor| *counts.entry(factor).or_default() += 1);
+    for factor in products.iter().flat_map(Product::factors) {
+        *counts.entry(factor).or_default() += 1;
     }
     // the first of those that occur most
-    let best =
-        counts.iter().fold(
-            None,
-            |best: Option<(&Factor, usize)>, (factor, &count)| match best {
-                Some((_, most)) if most >= count => best,
-                _ => Some((factor, count)),
-            },
-        );
-    let common = best.filter(|(_, count)| *count > 1 && products.len() > 1);
+    let best = counts.iter().rev().max_by_key(|(_, count)| **count);
+    let common = best.filter(|(_, count)| **count > 1 && products.len() > 1);
     let Some((factor, _)) = common else {
         let single = |product: Product| written(&product, None, name);
         return products.into_iter().map(single).collect();
     };
     let first = products[0].has(factor);
-    let (with, without): (Vec<Product>, Vec<Product>) = products
-        .iter()
-        .cloned()
-        .partition(|product| product.has(factor));
+    let all = products.iter().cloned();
+    let (with, without): (Vec<_>, Vec<_>) = all.partition(|product| product.has(factor));
     let inside: Vec<Product> = with.iter().map(|product| product.without(factor)).collect();
     let mut taken = vec![taken_out(factor, inside, name)];
     let rest = match without.is_empty() {
@@ -325,10 +296,8 @@ fn taken_out(factor: &Factor, mut inside: Vec<Product>, name: Name) -> Summand {
     inside.sort_by_key(Product::rank);
     // −s₁(c₂ − c₃) rather than s₁(−c₂ + c₃)
     let negative = inside[0].coefficient.is_negative();
-    if negative {
-        inside
-            .iter_mut()
-            .for_each(|p| p.coefficient = -p.coefficient.clone());
+    for product in inside.iter_mut().filter(|_| negative) {
+        product.coefficient = -product.coefficient.clone();
     }
     let mut outside = Product {
         coefficient: BigRational::one(),
@@ -338,17 +307,12 @@ fn taken_out(factor: &Factor, mut inside: Vec<Product>, name: Name) -> Summand {
     };
     // common factors are extracted with it
     let mut common = vec![factor.clone()];
-    loop {
-        let shared = inside[0]
-            .factors()
-            .find(|f| inside.iter().all(|p| p.has(f)));
-        let Some(shared) = shared else {
-            break;
-        };
-        inside = inside
-            .iter()
-            .map(|product| product.without(&shared))
-            .collect();
+    let shared = |inside: &[Product]| {
+        let mut factors = inside[0].factors();
+        factors.find(|f| inside.iter().all(|p| p.has(f)))
+    };
+    while let Some(shared) = shared(&inside) {
+        inside = inside.iter().map(|p| p.without(&shared)).collect();
         common.push(shared);
     }
     for factor in common {

@@ -173,10 +173,7 @@ impl Parser<'_> {
             if height > MAX_HEIGHT {
                 return Err(ParseErrorKind::TooLong.at(sign));
             }
-            left = (
-                Node::Binary(operator, Box::new(left.0), Box::new(right.0)).at(span),
-                height,
-            );
+            left = (Node::binary(operator, left.0, right.0).at(span), height);
         }
     }
 
@@ -193,7 +190,7 @@ impl Parser<'_> {
                 let sign = self.advance(1);
                 let (x, height) = self.deeper(SIGN)?;
                 let span = sign.start..x.span.end;
-                Ok((Node::Negate(Box::new(x)).at(span), height + 1))
+                Ok((Node::negated(x).at(span), height + 1))
             }
             Some('+') => {
                 self.advance(1);
@@ -248,16 +245,14 @@ impl Parser<'_> {
 
     fn number(&mut self) -> Result<Tall, ParseError> {
         let rest = self.rest();
-        let mut length = rest
-            .find(|c: char| !c.is_ascii_digit() && c != '.')
-            .unwrap_or(rest.len());
+        let end = rest.find(|c: char| !c.is_ascii_digit() && c != '.');
+        let mut length = end.unwrap_or(rest.len());
         let after = &rest[length..];
         if let Some(exponent) = after.strip_prefix(['e', 'E']) {
             let digits = exponent.trim_start_matches(['+', '-']);
             let sign = exponent.len() - digits.len();
-            let count = digits
-                .find(|c: char| !c.is_ascii_digit())
-                .unwrap_or(digits.len());
+            let end = digits.find(|c: char| !c.is_ascii_digit());
+            let count = end.unwrap_or(digits.len());
             if sign <= 1 && count > 0 {
                 length += 1 + sign + count;
             }
@@ -319,11 +314,8 @@ impl Parser<'_> {
         let close = self.closing(&open)?;
         let span = name.start..close.end;
         if arguments.len() != function.arity() {
-            return Err(ParseErrorKind::WrongArgumentCount {
-                function,
-                found: arguments.len(),
-            }
-            .at(span));
+            let found = arguments.len();
+            return Err(ParseErrorKind::WrongArgumentCount { function, found }.at(span));
         }
         Ok((Node::Call(function, arguments).at(span), height + 1))
     }

@@ -11,12 +11,12 @@
 
 use std::cell::RefCell;
 use std::collections::HashMap;
-use std::ops::{Add, AddAssign, Div, Mul, MulAssign, Neg, Sub, SubAssign};
+use std::ops::{Add, Div, Mul, Neg, Sub};
 use std::sync::Arc;
 
 use super::Function;
 use super::trigonometric::{Budget, Trigonometric};
-use crate::number::Number;
+use crate::number::{Number, assigning};
 
 /// A formula, as long as the arena it was made in is open.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -208,23 +208,7 @@ impl Neg for Symbolic {
     }
 }
 
-impl AddAssign for Symbolic {
-    fn add_assign(&mut self, other: Self) {
-        *self = *self + other;
-    }
-}
-
-impl SubAssign for Symbolic {
-    fn sub_assign(&mut self, other: Self) {
-        *self = *self - other;
-    }
-}
-
-impl MulAssign for Symbolic {
-    fn mul_assign(&mut self, other: Self) {
-        *self = *self * other;
-    }
-}
+assigning!(Symbolic);
 
 impl Number for Symbolic {
     fn from_f64(x: f64) -> Self {
@@ -263,41 +247,44 @@ impl Number for Symbolic {
         self.of(|x, budget| x.root(budget))
     }
     fn asin(self) -> Self {
-        match self.is_zero() {
-            true => self,
-            false => self.called(Function::Asin),
+        if self.is_zero() {
+            self
+        } else {
+            self.called(Function::Asin)
         }
     }
     fn acos(self) -> Self {
-        match self.is_one() {
-            true => Self::zero(),
-            false => self.called(Function::Acos),
+        if self.is_one() {
+            Self::zero()
+        } else {
+            self.called(Function::Acos)
         }
     }
     fn atan(self) -> Self {
-        match self.is_zero() {
-            true => self,
-            false => self.called(Function::Atan),
+        if self.is_zero() {
+            self
+        } else {
+            self.called(Function::Atan)
         }
     }
     fn atan2(self, x: Self) -> Self {
+        let arc = |y: &Trigonometric, x: &Trigonometric| [y.clone(), x.clone()];
         self.with(x, |y, x, _| {
-            Some(Trigonometric::call(
-                Function::Atan2,
-                &[y.clone(), x.clone()],
-            ))
+            Some(Trigonometric::call(Function::Atan2, &arc(y, x)))
         })
     }
     fn exp(self) -> Self {
-        match self.is_zero() {
-            true => Self::one(),
-            false => self.called(Function::Exp),
+        if self.is_zero() {
+            Self::one()
+        } else {
+            self.called(Function::Exp)
         }
     }
     fn ln(self) -> Self {
-        match self.is_one() {
-            true => Self::zero(),
-            false => self.called(Function::Ln),
+        if self.is_one() {
+            Self::zero()
+        } else {
+            self.called(Function::Ln)
         }
     }
     /// The sign of a letter is not known, whatever its value at home.

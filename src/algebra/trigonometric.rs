@@ -71,16 +71,17 @@ impl Trigonometric {
 
     /// A letter.
     pub fn atom(atom: Atom) -> Self {
-        let key = Key {
-            powers: vec![(atom, 1)],
-            ..Key::default()
-        };
-        Trigonometric::term(key, BigRational::one())
+        Trigonometric::one_of(Key::of(vec![(atom, 1)]))
     }
 
     /// The letter of that number.
     pub fn symbol(symbol: u32) -> Self {
         Trigonometric::atom(Atom::Symbol(symbol))
+    }
+
+    /// A term with the coefficient 1.
+    pub(crate) fn one_of(key: Key) -> Self {
+        Trigonometric::term(key, BigRational::one())
     }
 
     pub(crate) fn term(key: Key, coefficient: BigRational) -> Self {
@@ -166,11 +167,7 @@ impl Trigonometric {
 
     /// self − other
     pub fn minus(&self, other: &Self) -> Self {
-        let mut sum = self.clone();
-        for (key, coefficient) in &other.terms {
-            sum.add_term(key.clone(), -coefficient.clone());
-        }
-        sum
+        self.plus(&other.negated())
     }
 
     /// −self
@@ -263,19 +260,21 @@ impl Trigonometric {
             return None;
         }
         let (mut top, mut bottom) = (Trigonometric::one(), self.clone());
-        while let Some(prime) = bottom
-            .terms
-            .keys()
-            .find_map(|key| constants::prime_of(key.root))
-        {
+        let prime = |sum: &Self| {
+            sum.terms
+                .keys()
+                .find_map(|key| constants::prime_of(key.root))
+        };
+        while let Some(prime) = prime(&bottom) {
             let mut conjugate = Trigonometric::zero();
             for (key, coefficient) in &bottom.terms {
-                let sign = if key.root % prime == 0 {
+                let divides = key.root % prime == 0;
+                let signed = if divides {
                     -coefficient
                 } else {
                     coefficient.clone()
                 };
-                conjugate.add_term(key.clone(), sign);
+                conjugate.add_term(key.clone(), signed);
             }
             top = top.times(&conjugate, budget)?;
             bottom = bottom.times(&conjugate, budget)?;
@@ -300,10 +299,7 @@ impl Trigonometric {
         let (mut sin, mut cos) = (Trigonometric::zero(), Trigonometric::zero());
         for sign in [1, -1] {
             // cos x = (e^ix + e^−ix)/2, sin x = (−i e^ix + i e^−ix)/2
-            let key = Key {
-                wave: wave.times(sign),
-                ..Key::default()
-            };
+            let key = Key::turning(wave.times(sign));
             for (key, coefficient) in Key::default().times(&key, half.clone())? {
                 cos.add_term(key.clone(), coefficient.clone());
                 let (key, turned) = key.times_i();
@@ -385,11 +381,7 @@ impl Trigonometric {
         if let Some(value) = self.as_rational()
             && let Some((factor, root)) = constants::square_root(&value)
         {
-            let key = Key {
-                root,
-                ..Key::default()
-            };
-            return Some(Trigonometric::term(key, factor));
+            return Some(Trigonometric::term(Key::root(root), factor));
         }
         Some(Trigonometric::atom(Atom::Root(Arc::new(self.clone()))))
     }

@@ -2,37 +2,86 @@
 
 use crate::number::Number;
 
-/// A constant that has a name.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
-pub enum Constant {
-    /// π
-    Pi,
-    /// One degree in radians, π/180.
-    Degree,
-    /// One radian, 1.
-    Radian,
+/// Enumerations of words of the file: all of them, how each is written, and the one of a word.
+macro_rules! words {
+    ($($(#[$about:meta])* $part:ident { $($(#[$doc:meta])* $name:ident = $word:literal,)+ })+) => {
+        $(
+            $(#[$about])*
+            #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
+            pub enum $part {
+                $($(#[$doc])* $name,)+
+            }
+
+            impl $part {
+                /// All of them.
+                pub const ALL: [Self; [$($word),+].len()] = [$(Self::$name),+];
+
+                /// How it is written.
+                pub fn word(self) -> &'static str {
+                    match self {
+                        $(Self::$name => $word,)+
+                    }
+                }
+
+                /// The one written `word`.
+                pub fn from_word(word: &str) -> Option<Self> {
+                    Self::ALL.into_iter().find(|known| known.word() == word)
+                }
+            }
+        )+
+    };
+}
+pub(crate) use words;
+
+words! {
+    /// A constant that has a name.
+    Constant {
+        /// π
+        Pi = "pi",
+        /// One degree in radians, π/180.
+        Degree = "deg",
+        /// One radian, 1.
+        Radian = "rad",
+    }
+
+    /// A unit that may follow a number.
+    Unit {
+        /// Degree.
+        Degree = "deg",
+        /// Radian.
+        Radian = "rad",
+        /// Millimetre.
+        Millimetre = "mm",
+        /// Centimetre.
+        Centimetre = "cm",
+        /// Metre.
+        Metre = "m",
+        /// Inch, 25.4 mm.
+        Inch = "in",
+    }
+
+    /// A function that an expression may call. Angles are in radians.
+    #[allow(missing_docs)]
+    Function {
+        Sin = "sin",
+        Cos = "cos",
+        Tan = "tan",
+        Asin = "asin",
+        Acos = "acos",
+        Atan = "atan",
+        /// `atan2(y, x)`
+        Atan2 = "atan2",
+        Sqrt = "sqrt",
+        Exp = "exp",
+        Ln = "ln",
+        Abs = "abs",
+        Hypot = "hypot",
+        Min = "min",
+        Max = "max",
+    }
 }
 
 impl Constant {
-    /// Every constant.
-    pub const ALL: [Self; 3] = [Self::Pi, Self::Degree, Self::Radian];
-
-    /// How it is written.
-    pub fn word(self) -> &'static str {
-        match self {
-            Self::Pi => "pi",
-            Self::Degree => "deg",
-            Self::Radian => "rad",
-        }
-    }
-
-    /// The constant written `word`.
-    pub fn from_word(word: &str) -> Option<Self> {
-        Self::ALL
-            .into_iter()
-            .find(|constant| constant.word() == word)
-    }
-
     /// Its value over any number.
     pub fn over<T: Number>(self) -> T {
         match self {
@@ -43,51 +92,7 @@ impl Constant {
     }
 }
 
-/// A unit that may follow a number.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
-pub enum Unit {
-    /// Degree.
-    Degree,
-    /// Radian.
-    Radian,
-    /// Millimetre.
-    Millimetre,
-    /// Centimetre.
-    Centimetre,
-    /// Metre.
-    Metre,
-    /// Inch, 25.4 mm.
-    Inch,
-}
-
 impl Unit {
-    /// Every unit.
-    pub const ALL: [Self; 6] = [
-        Self::Degree,
-        Self::Radian,
-        Self::Millimetre,
-        Self::Centimetre,
-        Self::Metre,
-        Self::Inch,
-    ];
-
-    /// How it is written.
-    pub fn word(self) -> &'static str {
-        match self {
-            Self::Degree => "deg",
-            Self::Radian => "rad",
-            Self::Millimetre => "mm",
-            Self::Centimetre => "cm",
-            Self::Metre => "m",
-            Self::Inch => "in",
-        }
-    }
-
-    /// The unit written `word`.
-    pub fn from_word(word: &str) -> Option<Self> {
-        Self::ALL.into_iter().find(|unit| unit.word() == word)
-    }
-
     /// `value` of this unit in radians or metres, over any number.
     pub fn over<T: Number>(self, value: f64) -> T {
         match self {
@@ -109,73 +114,7 @@ impl Unit {
     }
 }
 
-/// A function that an expression may call. Angles are in radians.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
-#[allow(missing_docs)]
-pub enum Function {
-    Sin,
-    Cos,
-    Tan,
-    Asin,
-    Acos,
-    Atan,
-    /// `atan2(y, x)`
-    Atan2,
-    Sqrt,
-    Exp,
-    Ln,
-    Abs,
-    Hypot,
-    Min,
-    Max,
-}
-
 impl Function {
-    /// Every function.
-    pub const ALL: [Self; 14] = [
-        Self::Sin,
-        Self::Cos,
-        Self::Tan,
-        Self::Asin,
-        Self::Acos,
-        Self::Atan,
-        Self::Atan2,
-        Self::Sqrt,
-        Self::Exp,
-        Self::Ln,
-        Self::Abs,
-        Self::Hypot,
-        Self::Min,
-        Self::Max,
-    ];
-
-    /// How it is written.
-    pub fn word(self) -> &'static str {
-        match self {
-            Self::Sin => "sin",
-            Self::Cos => "cos",
-            Self::Tan => "tan",
-            Self::Asin => "asin",
-            Self::Acos => "acos",
-            Self::Atan => "atan",
-            Self::Atan2 => "atan2",
-            Self::Sqrt => "sqrt",
-            Self::Exp => "exp",
-            Self::Ln => "ln",
-            Self::Abs => "abs",
-            Self::Hypot => "hypot",
-            Self::Min => "min",
-            Self::Max => "max",
-        }
-    }
-
-    /// The function written `word`.
-    pub fn from_word(word: &str) -> Option<Self> {
-        Self::ALL
-            .into_iter()
-            .find(|function| function.word() == word)
-    }
-
     /// How many arguments it takes.
     pub fn arity(self) -> usize {
         match self {
@@ -213,36 +152,11 @@ mod tests {
     use super::*;
 
     #[test]
-    fn words_lead_back_to_what_they_name() {
-        assert!(
-            Function::ALL
-                .into_iter()
-                .all(|f| Function::from_word(f.word()) == Some(f))
-        );
-        assert!(
-            Unit::ALL
-                .into_iter()
-                .all(|u| Unit::from_word(u.word()) == Some(u))
-        );
-        assert!(
-            Constant::ALL
-                .into_iter()
-                .all(|c| Constant::from_word(c.word()) == Some(c))
-        );
-    }
-
-    #[test]
     fn names_may_be_greek_and_subscripted_but_not_superscripted() {
-        assert!(
-            ["phi1", "_", "θ", "θ₁", "l_12", "Ä"]
-                .into_iter()
-                .all(is_name)
-        );
-        assert!(
-            !["", "1a", "x²", "a-b", "a.b", "a b", "x'"]
-                .into_iter()
-                .any(is_name)
-        );
+        let names = ["phi1", "_", "θ", "θ₁", "l_12", "Ä"];
+        assert!(names.into_iter().all(is_name));
+        let others = ["", "1a", "x²", "a-b", "a.b", "a b", "x'"];
+        assert!(!others.into_iter().any(is_name));
     }
 
     #[test]

@@ -10,9 +10,7 @@ mod references;
 use serde::Serialize;
 
 use crate::algebra::{Expression, Node, Operator};
-use crate::description::{
-    Axis, Convention, Description, Displacement, Entry, Problem, Row, Spanned,
-};
+use crate::description::{Axis, Convention, Description, Displacement, Entry, Problem};
 use crate::mechanism::Mechanism;
 
 pub use cut::CutError;
@@ -115,24 +113,13 @@ pub fn possible_cuts(mechanism: &Mechanism, description: &Description) -> Vec<St
     cut::possible(mechanism, description)
 }
 
-fn nowhere<T>(value: T) -> Spanned<T> {
-    Spanned::new(value, 0..0)
-}
-
-fn entry(expression: Expression) -> Entry {
-    Entry {
-        expression,
-        span: 0..0,
-    }
-}
-
 fn zero() -> Entry {
-    entry(Expression::number(0.0))
+    Expression::number(0.0).into()
 }
 
 /// −e, as it would be written.
 fn negated(e: &Entry) -> Entry {
-    entry(match e.expression.as_number() {
+    Entry::from(match e.expression.as_number() {
         Some(x) => Expression::number(0.0 - x),
         None => negative(&e.expression),
     })
@@ -179,14 +166,4 @@ fn undone(steps: &[Displacement]) -> Vec<Displacement> {
         }
     };
     steps.iter().rev().map(undo).collect()
-}
-
-fn row(alpha: Entry, a: Entry, d: Entry, theta: Entry) -> Row {
-    Row {
-        alpha,
-        a,
-        d,
-        theta,
-        span: 0..0,
-    }
 }

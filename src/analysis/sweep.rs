@@ -8,6 +8,7 @@
 mod circuits;
 mod follow;
 mod met;
+mod motion;
 mod points;
 mod rows;
 
@@ -16,6 +17,7 @@ pub use circuits::{
 };
 pub use follow::follow;
 pub use met::{Met, MetKind, Passing};
+pub use motion::{Columns, KeptRows, MotionReport, MotionsReport};
 pub use points::{PointError, TracedPoint};
 
 use std::ops::ControlFlow;

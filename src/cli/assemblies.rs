@@ -7,8 +7,9 @@ use linkwork::output::question::complaint;
 use linkwork::system::{QuestionError, check_count};
 
 use super::asked::{Split, refusal};
-use super::search::{Search, teller};
+use super::search::Search;
 use super::source::Source;
+use super::watched::watched;
 use super::{Answer, Format, Refusal, style};
 
 /// List all assembled configurations for held inputs, numbered, each with a certificate.
@@ -50,14 +51,15 @@ impl Assemblies {
             }
             Err(error) => return Err(refusal(&error, None)),
         }
-        let solver = self.search.solver(&question)?;
         let wanted = Wanted {
             certificates: true,
             all_complex: self.all_complex,
             ..Wanted::default()
         };
-        let tell = teller();
-        let report = solver.at_targets_watched(&question.start(), &question.held(), wanted, &tell);
+        let report = watched(|watch| {
+            let solver = self.search.solver(&question, watch)?;
+            Ok(solver.at_targets(&question.start(), &question.held(), wanted, watch))
+        })?;
         Ok(Answer {
             data: match self.format {
                 Format::Text => assemblies::text(&question, &report),

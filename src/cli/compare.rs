@@ -1,12 +1,12 @@
 //! `linkwork compare`
 
 use clap::Args;
-use linkwork::analysis::compare::{CompareSettings, compare_watched};
+use linkwork::analysis::compare::{CompareSettings, compare};
 use linkwork::output::comparison;
 
-use super::progress::Progress;
 use super::search::seed;
 use super::source::Source;
+use super::watched::watched;
 use super::{Answer, Format, Refusal};
 
 /// Check every closed form of a mechanism file against its chains.
@@ -38,10 +38,7 @@ impl Compare {
             seed: self.seed,
             ..CompareSettings::default()
         };
-        let mut progress = Progress::new();
-        let mut watch = |part: f64| progress.show(part);
-        let report = compare_watched(&loaded.mechanism, &settings, &mut watch);
-        progress.clear();
+        let report = watched(|watch| compare(&loaded.mechanism, &settings, watch));
         Ok(Answer {
             data: match self.format {
                 Format::Text => comparison::text(&loaded.mechanism, &report),

@@ -11,6 +11,7 @@ use linkwork::system::close;
 
 use super::asked::Asked;
 use super::source::Source;
+use super::watched::watched;
 use super::{Answer, Refusal};
 
 /// Write a mechanism as a file for another program.
@@ -49,7 +50,10 @@ impl Export {
         let loaded = self.source.load()?;
         let question = self.asked.question(&loaded.mechanism)?;
         let (newton, search) = (Newton::default(), AssemblySettings::default());
-        let closed = close(&question, &newton, search.restarts, search.seed);
+        let closed = watched(|watch| {
+            let starts = (search.restarts, search.seed);
+            close(&question, &newton, starts, watch)
+        });
         let closed = match closed {
             Ok(closed) => closed,
             Err(open) => {

@@ -13,6 +13,7 @@ use linkwork::output::{diagnostics, frames as output};
 use linkwork::solve::Newton;
 use linkwork::system::{Question, close};
 
+use super::watched::watched;
 use super::{Answer, Refusal, style};
 
 /// Place Denavit–Hartenberg frames on joint axes and read the tables off them.
@@ -141,10 +142,13 @@ impl Frames {
         // without closures every configuration is assembled
         let (at, gap) = match mechanism.closures().is_empty() {
             true => (mechanism.home(), false),
-            false => match close(&question, &Newton::default(), RESTARTS, SEED) {
-                Ok(closed) => (closed.configuration, false),
-                Err(_) => (mechanism.home(), true),
-            },
+            false => {
+                match watched(|watch| close(&question, &Newton::default(), (RESTARTS, SEED), watch))
+                {
+                    Ok(closed) => (closed.configuration, false),
+                    Err(_) => (mechanism.home(), true),
+                }
+            }
         };
         let axes = joint_axes(&mechanism, &at)
             .map_err(|error| Refusal(output::no_axes(&error).render(style())))?;

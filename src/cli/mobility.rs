@@ -7,6 +7,7 @@ use linkwork::output::{closing as analysed, mobility as output};
 use super::asked::Asked;
 use super::search::seed;
 use super::source::Source;
+use super::watched::watched;
 use super::{Answer, Format, Refusal};
 
 /// Count the freedoms of the assembled mechanism, and say which joints move and what is redundant.
@@ -38,7 +39,7 @@ impl Mobility {
             seed: self.seed,
             ..MobilitySettings::default()
         };
-        let answer = mobility(&question, &settings);
+        let answer = watched(|watch| mobility(&question, &settings, watch));
         let (data, yes) = match self.format {
             Format::Text => analysed::text(mechanism, &answer, output::text),
             Format::Json => analysed::json(mechanism, &answer, output::json),

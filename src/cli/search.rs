@@ -1,14 +1,10 @@
 //! The search for all assemblies, as commands make it.
 
-use std::cell::Cell;
 use std::path::PathBuf;
-use std::time::{Duration, Instant};
 
 use clap::Args;
-use linkwork::analysis::assemblies::{
-    AssembliesError, AssembliesSettings, AssemblySolver, Progress,
-};
-use linkwork::output::assemblies::progress;
+use linkwork::analysis::assemblies::{AssembliesError, AssembliesSettings, AssemblySolver};
+use linkwork::solve::Watch;
 use linkwork::system::Question;
 
 use super::store::Store;
@@ -41,7 +37,7 @@ pub fn mode(text: &str) -> Result<usize, String> {
 
 impl Search {
     /// The solver for a question, from the store if it has it.
-    pub fn solver(&self, question: &Question) -> Result<AssemblySolver, Refusal> {
+    pub fn solver(&self, question: &Question, watch: &Watch) -> Result<AssemblySolver, Refusal> {
         let (mechanism, held) = (question.mechanism(), question.held());
         let store = self.store.as_deref().map(Store::at).transpose()?;
         if let Some(store) = &store {
@@ -63,11 +59,11 @@ impl Search {
             seed: self.seed,
             ..AssembliesSettings::default()
         };
-        let tell = teller();
-        let solver = AssemblySolver::watched(mechanism, &held, &settings, &tell)
+        let solver = AssemblySolver::new(mechanism, &held, &settings, watch)
             .map_err(|error| Refusal(format!("error: {error}\n")))?;
         // the answer is not lost with its store
         if let Some(store) = &store
+            && !solver.is_interrupted()
             && let Err(error) = store.write(solver.generic())
         {
             say(&format!(
@@ -76,16 +72,5 @@ impl Search {
             ));
         }
         Ok(solver)
-    }
-}
-
-/// Says every second how far it is.
-pub fn teller() -> impl Fn(Progress) {
-    let told = Cell::new(Instant::now());
-    move |now: Progress| {
-        if told.get().elapsed() > Duration::from_secs(1) {
-            told.set(Instant::now());
-            say(&progress(&now));
-        }
     }
 }

@@ -10,7 +10,7 @@ use linkwork::analysis::singularities::{
 use linkwork::mechanism::{Configuration, Mechanism};
 use linkwork::output::option::Given;
 use linkwork::output::{closing as analysed, singularities as output, sweep as motion};
-use linkwork::solve::Newton;
+use linkwork::solve::{Newton, Watch};
 use linkwork::system::{
     Driven, Held, Holdable, Lock, Question, QuestionError, Search as NearbySearch, check_count,
     too_large,
@@ -20,6 +20,7 @@ use super::asked::{Asked, frame, refusal};
 use super::range::{RangeWords, ranges};
 use super::search::Search;
 use super::source::{Assignment, Source};
+use super::watched::watched;
 #[cfg(feature = "plot")]
 use super::written::save;
 use super::written::{INTERRUPTED_REMARK, rows};
@@ -156,7 +157,8 @@ impl Singularities {
             let start = self.start(&question)?;
             question = question.near(&start);
         }
-        let report = singularities(&question, settings).map_err(|error| refusal(&error, None))?;
+        let report = watched(|watch| singularities(&question, settings, watch))
+            .map_err(|error| refusal(&error, None))?;
         let (data, found) = match self.format {
             Format::Text => analysed::text(mechanism, &report, output::text),
             Format::Json => analysed::json(mechanism, &report, output::json),
@@ -190,7 +192,8 @@ impl Singularities {
         let inputs = self.inputs(&question)?;
         let held = still(held, &moved);
         let start = self.start(&question)?;
-        let report = along(mechanism, &held, &moved, &inputs, &start, settings);
+        let report =
+            watched(|watch| along(mechanism, &held, &moved, &inputs, &start, settings, watch));
         let yes = matches!(
             report.ending,
             Ending::Complete | Ending::Returned | Ending::Closed
@@ -239,8 +242,9 @@ impl Singularities {
             ));
         }
         let start = question.start();
-        let report = loci(mechanism, &held, [a, b], &inputs, &start, settings)
-            .map_err(|spins| Refusal(output::spinning(spins).render(style())))?;
+        let report =
+            watched(|watch| loci(mechanism, &held, [a, b], &inputs, &start, settings, watch))
+                .map_err(|spins| Refusal(output::spinning(spins).render(style())))?;
         #[cfg(feature = "plot")]
         if let Some(path) = &self.svg {
             save(path, &output::svg(mechanism, &report))?;
@@ -313,7 +317,8 @@ impl Singularities {
     fn start(&self, question: &Question) -> Result<Configuration<f64>, Refusal> {
         let Some(mode) = self.mode else {
             let newton = Newton::default();
-            let found = NearbySearch::new(question, &newton).run(20, self.search.seed);
+            let found =
+                NearbySearch::new(question, &newton).run(20, self.search.seed, &Watch::none());
             return match found.assembles() {
                 true => Ok(found.attempt.at),
                 false => Err(Refusal(format!(
@@ -323,14 +328,16 @@ impl Singularities {
                 ))),
             };
         };
-        let solver = self.search.solver(question)?;
         let wanted = Wanted {
             certificates: false,
             all_complex: false,
-            starts: false,
+            starts: true,
         };
         let like = question.start();
-        let report = solver.at_targets(&like, &question.held(), wanted);
+        let report = watched(|watch| {
+            let solver = self.search.solver(question, watch)?;
+            Ok(solver.at_targets(&like, &question.held(), wanted, watch))
+        })?;
         let mut modes = report.assemblies.iter();
         let wanted = modes.find(|assembly| assembly.mode == mode);
         wanted

@@ -9,6 +9,7 @@ use linkwork::system::check_count;
 use super::asked::{Asked, refusal};
 use super::search::{Search, mode};
 use super::source::Source;
+use super::watched::watched;
 use super::{Answer, Format, Refusal};
 
 /// Find the assembled configuration near a guess.
@@ -48,9 +49,12 @@ impl Solve {
         let mut question = question;
         if let Some(mode) = self.mode {
             check_count(&question).map_err(|error| refusal(&error, None))?;
-            let solver = self.search.solver(&question)?;
-            let followed = solver.follow(mode, &question.start(), &question.held());
-            match followed.map_err(|error| Refusal(format!("error: {error}\n")))? {
+            let followed = watched(|watch| {
+                let solver = self.search.solver(&question, watch)?;
+                let followed = solver.follow(mode, &question.start(), &question.held(), watch);
+                followed.map_err(|error| Refusal(format!("error: {error}\n")))
+            })?;
+            match followed {
                 Followed::Arrived(at) => question = question.near(&at),
                 Followed::Meets { multiplicity } => {
                     return Ok(Answer {
@@ -76,7 +80,8 @@ impl Solve {
             // another start could end in another mode
             settings.restarts = 0;
         }
-        let report = assemble(&question, &settings).map_err(|error| refusal(&error, None))?;
+        let report = watched(|watch| assemble(&question, &settings, watch))
+            .map_err(|error| refusal(&error, None))?;
         let warnings = solution::warnings(&report);
         let warnings = warnings
             .iter()

@@ -9,6 +9,7 @@ use linkwork::system::{Load, LoadError};
 use super::asked::{Asked, refusal};
 use super::format::Written;
 use super::source::{Assignment, Source};
+use super::watched::watched;
 use super::{Answer, Refusal, style};
 
 /// Find the actuator forces that balance a load, and what every joint has to carry.
@@ -55,7 +56,7 @@ impl Statics {
             load = (load.joint(&question, name, value))
                 .map_err(|error| wrong(mechanism, &error, assignment, "--load"))?;
         }
-        let report = statics(&question, &load, &StaticsSettings::default())
+        let report = watched(|watch| statics(&question, &load, &StaticsSettings::default(), watch))
             .map_err(|error| refusal(&error, None))?;
         let yes = report.report();
         let warning = yes.map(|report| analysed::limits_warning(&report.outside_limits));

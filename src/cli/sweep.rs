@@ -2,33 +2,34 @@
 
 mod circuits;
 
-use std::ops::ControlFlow;
 use std::path::PathBuf;
 
-use clap::{Args, ValueEnum};
+use clap::Args;
 use linkwork::analysis::assemblies::Wanted;
 use linkwork::analysis::sweep::{
-    CircuitsReport, Row, SweepReport, SweepSettings, TracedPoint, follow, sweep,
+    CircuitsReport, Columns, KeptRows, MotionReport, MotionsReport, Row, SweepReport,
+    SweepSettings, TracedPoint, follow, sweep,
 };
 use linkwork::mechanism::{Configuration, Mechanism};
+use linkwork::output::csv::Csv;
 use linkwork::output::option::{Given, Part};
 use linkwork::output::sweep as output;
 #[cfg(feature = "plot")]
 use linkwork::output::sweep::Picture;
-use linkwork::output::sweep::{Motion, Sampled, Table};
-use linkwork::solve::Newton;
+use linkwork::solve::{Newton, Watch};
 use linkwork::system::{
     Driven, Held, Holdable, Question, QuestionError, Search as NearbySearch, check_count,
 };
 
 use super::asked::{Split, refusal};
-use super::progress::Progress;
+use super::format::Format;
 use super::range::{RangeWords, ranges};
 use super::search::{Search, mode};
 use super::source::{Assignment, Source};
-use super::written::Lines;
+use super::watched::watched;
 #[cfg(feature = "plot")]
 use super::written::save;
+use super::written::{Lines, unwritten};
 use super::{Answer, Refusal, style};
 
 /// Move the inputs and see what happens: one branch, never another without a word.
@@ -81,16 +82,6 @@ pub struct Sweep {
     svg: Option<PathBuf>,
 }
 
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-enum Format {
-    /// To be read by people: what was met, and some of the rows.
-    Text,
-    /// To be read by programs: metres and radians with all digits.
-    Json,
-    /// Rows as they come, in metres and radians with all digits.
-    Csv,
-}
-
 /// The number of a mode, if one was asked for, and its configuration where the inputs begin.
 type Start = (Option<usize>, Configuration<f64>);
 
@@ -140,7 +131,7 @@ impl Sweep {
             true => self.one_freedom(mechanism)?.held(),
         };
         let points = self.points(mechanism)?;
-        let table = Table::new(mechanism, &points);
+        let columns = Columns::new(mechanism, &points);
         let settings = SweepSettings {
             steps: self.steps,
             follow: self.follow,
@@ -156,73 +147,62 @@ impl Sweep {
                 "error: built without feature `plot`, which draws\n".into(),
             ));
         }
-        let mut lines = Lines::new(self.format == Format::Csv);
-        lines.add(&table.csv_header());
-        let mut progress = Progress::new();
+        let lines = Lines::new(self.format == Format::Csv);
+        let mut csv = Csv::new(lines, output::row_columns(&columns)).map_err(unwritten)?;
         let mut motions = Vec::new();
-        let all = starts.len();
-        for (done, (mode, start)) in starts.into_iter().enumerate() {
-            let mut rows = Sampled::of(match self.format {
-                Format::Text => SHOWN,
+        for (mode, start) in starts {
+            let mut rows = KeptRows::of(match self.format {
+                Format::Text | Format::Markdown | Format::Html => SHOWN,
                 Format::Json => MOST_KEPT + 2,
                 Format::Csv => 2,
             });
             #[cfg(feature = "plot")]
             picture.begin(mode);
-            let mut line = String::new();
             let mut sink = |row: &Row| {
-                rows.take(&table, row);
+                rows.take(&columns, row);
                 #[cfg(feature = "plot")]
                 if self.svg.is_some() {
                     picture.take(mechanism, row);
                 }
                 if self.format == Format::Csv {
-                    line.clear();
-                    table.csv_line(mode, row, &mut line);
-                    lines.add(&line);
-                }
-                if let Some(step) = row.step {
-                    let part = step as f64 / self.steps as f64;
-                    progress.show((done as f64 + part) / all as f64);
-                }
-                match lines.open() {
-                    true => ControlFlow::Continue(()),
-                    false => ControlFlow::Break(()),
+                    // lines keep what goes wrong
+                    let _ = csv.row(output::row_values(&columns, mode, row));
                 }
             };
-            let report: SweepReport = match inputs.is_empty() {
-                true => follow(mechanism, &held, &start, &settings, &mut sink),
-                false => sweep(mechanism, &held, &inputs, &start, &settings, &mut sink),
-            };
-            motions.push(Motion {
+            let report: SweepReport = watched(|watch| match inputs.is_empty() {
+                true => follow(mechanism, &held, &start, &settings, &mut sink, watch),
+                false => sweep(
+                    mechanism, &held, &inputs, &start, &settings, &mut sink, watch,
+                ),
+            });
+            motions.push(MotionReport {
                 mode,
-                report,
-                rows: rows.finished(),
+                sweep: report,
+                columns: columns.variables().to_vec(),
+                values: rows.finished(),
             });
         }
-        progress.clear();
-        lines.finish()?;
+        csv.finish().map_err(unwritten)?.finish()?;
         #[cfg(feature = "plot")]
         if let Some(path) = &self.svg {
             save(path, &picture.svg())?;
         }
         let mut remarks = String::new();
         if self.format == Format::Csv {
-            for motion in motions.iter().filter(|m| !m.report.ending.is_whole()) {
+            for motion in motions.iter().filter(|m| !m.sweep.ending.is_whole()) {
                 let mode = motion
                     .mode
                     .map_or(String::new(), |mode| format!("mode {mode}: "));
-                remarks += &format!("note: {mode}{}\n", output::sentence(&motion.report));
+                remarks += &format!("note: {mode}{}\n", output::sentence(&motion.sweep));
             }
         }
         Ok(Answer {
-            data: match self.format {
-                Format::Text => output::text(mechanism, &table, &motions),
-                Format::Json => output::json(mechanism, &table, &motions),
-                Format::Csv => String::new(),
-            },
+            yes: motions.iter().all(|motion| motion.sweep.ending.is_whole()),
+            data: self.format.shown(&MotionsReport {
+                mechanism: mechanism.name().to_owned(),
+                motions,
+            }),
             remarks,
-            yes: motions.iter().all(|motion| motion.report.ending.is_whole()),
         })
     }
 
@@ -308,7 +288,8 @@ impl Sweep {
     fn starts(&self, question: &Question) -> Result<Vec<Start>, Refusal> {
         if self.mode.is_none() && !self.all_modes {
             let newton = Newton::default();
-            let found = NearbySearch::new(question, &newton).run(20, self.search.seed);
+            let found =
+                NearbySearch::new(question, &newton).run(20, self.search.seed, &Watch::none());
             if !found.assembles() {
                 return Err(Refusal(format!(
                     "error: the mechanism does not assemble where the motion is to begin\n  \
@@ -318,13 +299,15 @@ impl Sweep {
             }
             return Ok(vec![(None, found.attempt.at)]);
         }
-        let solver = self.search.solver(question)?;
         let wanted = Wanted {
             certificates: false,
             all_complex: false,
             starts: true,
         };
-        let report = solver.at_targets(&question.start(), &question.held(), wanted);
+        let report = watched(|watch| {
+            let solver = self.search.solver(question, watch)?;
+            Ok(solver.at_targets(&question.start(), &question.held(), wanted, watch))
+        })?;
         let like = question.start();
         let modes = report.assemblies.iter();
         let modes: Vec<_> = modes

@@ -10,6 +10,7 @@ use linkwork::system::Drive;
 use super::asked::{Asked, driven, frame, refusal, refused_frame};
 use super::format::Written;
 use super::source::{Assignment, Source, once};
+use super::watched::watched;
 use super::{Answer, Refusal};
 
 /// Find how everything moves when the inputs move: rates, accelerations, Jacobian.
@@ -68,8 +69,8 @@ impl Velocity {
             points: points.collect::<Result<_, _>>()?,
             ..VelocitySettings::default()
         };
-        let report =
-            velocity(&question, &drive, &settings).map_err(|error| refusal(&error, None))?;
+        let report = watched(|watch| velocity(&question, &drive, &settings, watch))
+            .map_err(|error| refusal(&error, None))?;
         let yes = report.report();
         let warning = yes.map(|report| analysed::limits_warning(&report.outside_limits));
         let yes = yes.is_some_and(|report| report.is_determined());

@@ -13,10 +13,10 @@ use linkwork::system::{
 };
 
 use super::asked::{Split, refusal};
-use super::progress::Progress;
 use super::range::{RangeWords, ranges};
 use super::search::Search;
 use super::source::{Assignment, Source};
+use super::watched::watched;
 #[cfg(feature = "plot")]
 use super::written::save;
 use super::written::{INTERRUPTED_REMARK, rows};
@@ -126,10 +126,7 @@ impl Workspace {
             most: (MOST_BYTES / cell_bytes(&question, axes.len()) as f64) as usize,
             ..WorkspaceSettings::default()
         };
-        let mut progress = Progress::new();
-        let mut told = |cells: usize| progress.count(&format!("{cells} nodes in modes reached"));
-        let report = workspace(&question, &axes, &known, &settings, &mut told);
-        progress.clear();
+        let report = watched(|watch| workspace(&question, &axes, &known, &settings, watch));
         let report = report.map_err(|error| match error {
             WorkspaceError::TooMany { most } => {
                 Refusal(output::too_many_cells(most, MOST_BYTES).render(style()))
@@ -294,14 +291,16 @@ impl Workspace {
         if !self.assemblies {
             return Ok(Vec::new());
         }
-        let solver = self.search.solver(question)?;
         let wanted = Wanted {
             certificates: false,
             all_complex: false,
             starts: false,
         };
         let like = question.start();
-        let report = solver.at_targets(&like, &question.held(), wanted);
+        let report = watched(|watch| {
+            let solver = self.search.solver(question, watch)?;
+            Ok(solver.at_targets(&like, &question.held(), wanted, watch))
+        })?;
         let found = report.assemblies.iter();
         Ok(found
             .map(|assembly| assembly.configuration(&like))

@@ -3,17 +3,14 @@
 use std::io::{self, Write};
 #[cfg(feature = "plot")]
 use std::path::Path;
-use std::sync::atomic::{AtomicBool, Ordering};
 
 use super::Refusal;
-
-/// Set when somebody interrupts the program: rows that are found go out whole before it ends.
-static INTERRUPTED: AtomicBool = AtomicBool::new(false);
+use super::watched::{interruptions, read_no_more};
 
 /// Whole lines to stdout, as they come.
 pub struct Lines {
     wanted: bool,
-    waiting: String,
+    waiting: Vec<u8>,
     failed: Option<io::Error>,
 }
 
@@ -22,11 +19,9 @@ impl Lines {
     const MANY: usize = 1 << 16;
 
     pub fn new(wanted: bool) -> Self {
-        // where there is no such handler, an interruption may part the last line
-        let _ = ctrlc::set_handler(|| INTERRUPTED.store(true, Ordering::Relaxed));
         Lines {
             wanted,
-            waiting: String::new(),
+            waiting: Vec::new(),
             failed: None,
         }
     }
@@ -34,54 +29,76 @@ impl Lines {
     pub fn add(&mut self, line: &str) {
         if self.wanted {
             if self.waiting.len() + line.len() > Self::MANY {
-                self.flush();
+                self.send();
             }
-            self.waiting.push_str(line);
+            self.waiting.extend_from_slice(line.as_bytes());
         }
     }
 
-    fn flush(&mut self) {
+    fn send(&mut self) {
         let mut stdout = io::stdout().lock();
         let written = stdout
-            .write_all(self.waiting.as_bytes())
+            .write_all(&self.waiting)
             .and_then(|()| stdout.flush());
         self.waiting.clear();
         if let Err(error) = written {
+            read_no_more();
             self.failed.get_or_insert(error);
         }
     }
 
-    /// Whether somebody still reads, and nobody interrupts.
+    /// Whether somebody still reads.
     pub fn open(&self) -> bool {
-        self.failed.is_none() && !INTERRUPTED.load(Ordering::Relaxed)
+        self.failed.is_none()
     }
 
     /// A reader who has seen enough, as `head` does, is no error.
     pub fn finish(mut self) -> Result<(), Refusal> {
-        self.flush();
+        self.send();
         match self.failed {
-            Some(error) if error.kind() != io::ErrorKind::BrokenPipe => Err(Refusal(format!(
-                "error: the rows cannot be written: {error}\n"
-            ))),
+            Some(error) if error.kind() != io::ErrorKind::BrokenPipe => Err(unwritten(error)),
             _ => Ok(()),
         }
     }
 }
 
+/// Never fails: what goes wrong is told at the end.
+impl Write for Lines {
+    fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
+        if self.wanted {
+            self.waiting.extend_from_slice(bytes);
+            if self.waiting.len() > Self::MANY {
+                self.send();
+            }
+        }
+        Ok(bytes.len())
+    }
+
+    fn flush(&mut self) -> io::Result<()> {
+        Ok(())
+    }
+}
+
+/// Rows that cannot be written.
+pub fn unwritten(error: io::Error) -> Refusal {
+    Refusal(format!("error: the rows cannot be written: {error}\n"))
+}
+
 /// What is said where an interruption ended the rows before their time.
 pub const INTERRUPTED_REMARK: &str = "note: interrupted: the rows end before the answer does\n";
 
-/// All lines of a text to stdout; whether nobody interrupted.
+/// All lines of a text to stdout; whether nobody interrupted meanwhile.
 pub fn rows<L: AsRef<str>>(all: impl Iterator<Item = L>) -> Result<bool, Refusal> {
+    let before = interruptions();
     let mut lines = Lines::new(true);
     for line in all {
-        if !lines.open() {
+        if !lines.open() || interruptions() > before {
             break;
         }
         lines.add(line.as_ref());
     }
     lines.finish()?;
-    Ok(!INTERRUPTED.load(Ordering::Relaxed))
+    Ok(interruptions() == before)
 }
 
 /// Written beside and then put in its place, so that it is never half written.

@@ -2,7 +2,12 @@
 
 use std::ops::Range;
 
-use super::{ClosureKind, Convention, Displacement, Entry, Named, Problem, Role, Spanned, reader};
+use thiserror::Error;
+
+use super::{
+    ClosureKind, Convention, Displacement, Entry, GROUND, Named, Problem, Role, Spanned, reader,
+};
+use crate::algebra::words;
 
 /// A whole file of joint axes. Everything is in the order of the file.
 #[derive(Debug, Clone, PartialEq)]
@@ -44,15 +49,16 @@ pub struct AxisDescription {
     pub span: Range<usize>,
 }
 
-/// The kind of a joint given by its axis.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
-pub enum AxisKind {
-    /// Revolute about its axis.
-    Revolute,
-    /// Prismatic along its axis, which has a direction only.
-    Prismatic,
-    /// Spherical, with a centre only. It is always cut.
-    Spherical,
+words! {
+    /// The kind of a joint given by its axis.
+    AxisKind {
+        /// Revolute about its axis.
+        Revolute = "Revolute",
+        /// Prismatic along its axis, which has a direction only.
+        Prismatic = "Prismatic",
+        /// Spherical, with a centre only. It is always cut.
+        Spherical = "Spherical",
+    }
 }
 
 /// The position of an axis: three coordinates in m, or a direction of any length.
@@ -67,9 +73,6 @@ pub enum AxisPlace {
 }
 
 impl AxisKind {
-    /// Every kind.
-    pub const ALL: [Self; 3] = [Self::Revolute, Self::Prismatic, Self::Spherical];
-
     /// The closure that restores such a joint.
     pub fn closure(self) -> ClosureKind {
         match self {
@@ -78,110 +81,66 @@ impl AxisKind {
             Self::Spherical => ClosureKind::Spherical,
         }
     }
-
-    /// How it is written in a file.
-    pub fn word(self) -> &'static str {
-        match self {
-            Self::Revolute => "Revolute",
-            Self::Prismatic => "Prismatic",
-            Self::Spherical => "Spherical",
-        }
-    }
 }
 
-/// Problems of meaning in a well-formed file of axes.
-#[derive(Debug, Clone, PartialEq)]
+/// Problems of meaning in a well-formed file of axes. Lengths are in m, angles in rad.
+#[derive(Debug, Clone, Error, PartialEq)]
+#[allow(missing_docs)]
 pub enum AxesProblem {
     /// A direction of zero length, or two points that coincide.
-    NoDirection {
-        /// The joint.
-        joint: String,
-    },
+    #[error("the axis of joint `{joint}` has no direction")]
+    NoDirection { joint: String },
     /// Fewer joints than a chain needs for a table.
-    TooFew {
-        /// How many there are.
-        joints: usize,
-    },
-    /// A point that is given in two ways.
-    TwoPlaces {
-        /// The joint.
-        joint: &'static str,
-    },
-    /// Some joints name the bodies they connect and this one does not.
-    NotBetween {
-        /// The joint.
-        joint: String,
-    },
-    /// A joint that connects a body with itself.
-    OneBody {
-        /// The body.
-        body: String,
-    },
-    /// No joint is attached to the ground.
+    #[error("there {}", if *joints == 0 { "are no joints" } else { "is only one joint" })]
+    TooFew { joints: usize },
+    #[error("the axis is given in two ways")]
+    TwoPlaces { joint: &'static str },
+    #[error("the joint `{joint}` does not name the bodies that it connects, as other joints do")]
+    NotBetween { joint: String },
+    #[error("the joint connects the body `{body}` with itself")]
+    OneBody { body: String },
+    #[error("no joint connects anything with `{GROUND}`")]
     NoGround,
-    /// A body that no joints connect with the ground.
-    NotConnected {
-        /// The body.
-        body: String,
-    },
-    /// A joint to be cut that does not exist.
+    #[error("no joints connect the body `{body}` with `{GROUND}`")]
+    NotConnected { body: String },
+    #[error("there is no joint `{name}` to cut")]
     UnknownCut {
-        /// Its name.
         name: String,
-        /// The joint that was probably meant.
         suggestion: Option<String>,
     },
-    /// A cut that disconnects a body instead of opening a loop.
-    CutsOff {
-        /// The joint.
-        joint: String,
-    },
-    /// A loop that no cut opens.
-    StillClosed {
-        /// A joint of it that could be cut.
-        joint: String,
-    },
-    /// Loops in which every joint is driven.
+    #[error("cutting the joint `{joint}` disconnects bodies instead of opening a loop")]
+    CutsOff { joint: String },
+    /// A loop that no cut opens; the joint is one of it that could be cut.
+    #[error("the cuts leave a closed loop through the joint `{joint}`")]
+    StillClosed { joint: String },
+    #[error("a loop has no joint to cut, because all its joints are driven")]
     NothingToCut,
-    /// A field that only serial chains have.
-    SerialOnly {
-        /// The field.
-        field: &'static str,
-    },
-    /// A ball in a serial chain.
-    SphericalInSerial {
-        /// The joint.
-        joint: String,
-    },
-    /// Too many joints for one file of axes.
-    TooMany {
-        /// How many there are.
-        joints: usize,
-    },
-    /// A driven joint that is cut and loses its variable.
-    DriveCut {
-        /// The joint.
-        joint: String,
-    },
-    /// A joint with limits that is cut and loses its variable.
-    LimitsCut {
-        /// The joint.
-        joint: String,
-    },
+    #[error("`{field}` is for serial chains, but these joints connect named bodies")]
+    SerialOnly { field: &'static str },
+    #[error("a serial chain cannot contain the spherical joint `{joint}`")]
+    SphericalInSerial { joint: String },
+    #[error("there are {joints} joints, more than can be placed")]
+    TooMany { joints: usize },
+    #[error("the driven joint `{joint}` is cut and loses its variable")]
+    DriveCut { joint: String },
+    #[error("the joint `{joint}` is cut and loses its variable and its limits")]
+    LimitsCut { joint: String },
     /// A base from which no row leads to the first axis.
-    BaseUnused {
-        /// The convention of the table.
-        convention: Convention,
-    },
+    #[error("frame 0 cannot be placed as `base` says; it is placed freely")]
+    BaseUnused { convention: Convention },
     /// Nearly parallel axes whose common normal is far away.
+    #[error(
+        "the axes of `{}` and `{}` are nearly parallel, {angle:.1e} rad apart: their common normal is \
+         {offset:.1e} m away, {:.0e} times the size of the mechanism",
+        joints[0], joints[1], offset / size
+    )]
     FarNormal {
-        /// The joints.
         joints: [String; 2],
-        /// Angle in rad between the axes.
+        /// Angle between the axes.
         angle: f64,
-        /// Offset in m that leads to the normal.
+        /// Offset that leads to the normal.
         offset: f64,
-        /// Size of the mechanism in m.
+        /// Size of the mechanism.
         size: f64,
     },
 }

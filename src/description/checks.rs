@@ -13,12 +13,12 @@ pub(super) fn check(description: &Description, problems: &mut Vec<Problem>) {
     let bodies: Vec<_> = names(Noun::Chain, &description.chains)
         .chain(names(Noun::Platform, &description.platforms))
         .collect();
-    quantities
-        .iter()
-        .for_each(|&(noun, name)| check_quantity(noun, name, problems));
-    bodies
-        .iter()
-        .for_each(|&(noun, name)| check_body(noun, name, problems));
+    for &(noun, name) in &quantities {
+        check_quantity(noun, name, problems);
+    }
+    for &(noun, name) in &bodies {
+        check_body(noun, name, problems);
+    }
     check_distinct(&quantities, problems);
     check_distinct(&bodies, problems);
     let labels = names(Noun::Closure, &description.closures)
@@ -70,22 +70,11 @@ fn check_quantity(noun: Noun, name: &Spanned<String>, problems: &mut Vec<Problem
     if !check_not_empty(noun, name, problems) {
         return;
     }
-    if is_reserved(&name.value) {
-        problems.push(
-            ProblemKind::ReservedName {
-                noun,
-                name: name.value.clone(),
-            }
-            .at(name.span.clone()),
-        );
-    } else if !is_name(&name.value) {
-        problems.push(
-            ProblemKind::NotAName {
-                noun,
-                name: name.value.clone(),
-            }
-            .at(name.span.clone()),
-        );
+    let (span, name) = (name.span.clone(), name.value.clone());
+    if is_reserved(&name) {
+        problems.push(ProblemKind::ReservedName { noun, name }.at(span));
+    } else if !is_name(&name) {
+        problems.push(ProblemKind::NotAName { noun, name }.at(span));
     }
 }
 
@@ -94,22 +83,11 @@ fn check_body(noun: Noun, name: &Spanned<String>, problems: &mut Vec<Problem>) {
     if !check_not_empty(noun, name, problems) {
         return;
     }
-    if name.value == GROUND {
-        problems.push(
-            ProblemKind::ReservedName {
-                noun,
-                name: name.value.clone(),
-            }
-            .at(name.span.clone()),
-        );
-    } else if name.value.contains('.') {
-        problems.push(
-            ProblemKind::DottedName {
-                noun,
-                name: name.value.clone(),
-            }
-            .at(name.span.clone()),
-        );
+    let (span, name) = (name.span.clone(), name.value.clone());
+    if name == GROUND {
+        problems.push(ProblemKind::ReservedName { noun, name }.at(span));
+    } else if name.contains('.') {
+        problems.push(ProblemKind::DottedName { noun, name }.at(span));
     }
 }
 
@@ -136,17 +114,11 @@ fn check_distinct(names: &[(Noun, &Spanned<String>)], problems: &mut Vec<Problem
 /// One problem for all chains: one line in the file corrects them all.
 fn check_conventions(description: &Description, problems: &mut Vec<Problem>) {
     // A convention that could not be read is not missing.
-    let unreadable = |problem: &Problem| {
-        matches!(
-            problem.kind,
-            ProblemKind::UnknownWord {
-                expected: Expected::Convention,
-                ..
-            } | ProblemKind::WrongType {
-                expected: Expected::Convention,
-                ..
-            }
-        )
+    let unreadable = |problem: &Problem| match problem.kind {
+        ProblemKind::UnknownWord { expected, .. } | ProblemKind::WrongType { expected, .. } => {
+            expected == Expected::Convention
+        }
+        _ => false,
     };
     if description.convention.is_some() || problems.iter().any(unreadable) {
         return;

@@ -1,22 +1,24 @@
 //! The values expected at each place of a mechanism file.
 
 use super::Noun;
+use crate::algebra::words;
 
-/// The groups of named fields in a file.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
-#[allow(missing_docs)]
-pub enum Structure {
-    Mechanism,
-    Passive,
-    Actuated,
-    Chain,
-    Row,
-    Platform,
-    ClosedForm,
-    Axes,
-    RevoluteAxis,
-    PrismaticAxis,
-    SphericalCentre,
+words! {
+    /// The groups of named fields in a file, with the names that stand before them.
+    #[allow(missing_docs)]
+    Structure {
+        Mechanism = "Mechanism",
+        Passive = "Passive",
+        Actuated = "Actuated",
+        Chain = "Chain",
+        Row = "Row",
+        Platform = "Platform",
+        ClosedForm = "ClosedForm",
+        Axes = "Axes",
+        RevoluteAxis = "Revolute",
+        PrismaticAxis = "Prismatic",
+        SphericalCentre = "Spherical",
+    }
 }
 
 /// The value expected at a place of the file.
@@ -104,23 +106,6 @@ pub enum Found {
 }
 
 impl Structure {
-    /// How it is named in a file.
-    pub fn word(self) -> &'static str {
-        match self {
-            Self::Mechanism => "Mechanism",
-            Self::Passive => "Passive",
-            Self::Actuated => "Actuated",
-            Self::Chain => "Chain",
-            Self::Row => "Row",
-            Self::Platform => "Platform",
-            Self::ClosedForm => "ClosedForm",
-            Self::Axes => "Axes",
-            Self::RevoluteAxis => "Revolute",
-            Self::PrismaticAxis => "Prismatic",
-            Self::SphericalCentre => "Spherical",
-        }
-    }
-
     /// The fields it may have.
     pub fn fields(self) -> &'static [&'static str] {
         match self {

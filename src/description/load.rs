@@ -5,22 +5,30 @@ use std::fs::File;
 use std::io::{self, Read};
 use std::path::{Path, PathBuf};
 
+use thiserror::Error;
+
 use super::{Description, Lines, Problem, Severity, words};
 
 /// The largest file that is read (bytes); a mechanism of a thousand chains needs a tenth of it.
 pub const MAX_BYTES: u64 = 1 << 20;
 
 /// Why a mechanism file could not be loaded.
-#[derive(Debug)]
+#[derive(Debug, Error)]
 pub enum LoadError {
     /// The file could not be opened or read.
+    #[error("{}: cannot be read: {error}", path.display())]
     Unreadable {
         /// The file.
         path: PathBuf,
         /// The error of the operating system.
+        #[source]
         error: io::Error,
     },
     /// The file is not text in UTF-8.
+    #[error(
+        "{}: not a text file in UTF-8: byte {offset} does not belong to any character",
+        path.display()
+    )]
     NotText {
         /// The file.
         path: PathBuf,
@@ -28,6 +36,11 @@ pub enum LoadError {
         offset: usize,
     },
     /// The file is larger than [`MAX_BYTES`].
+    #[error(
+        "{}: too large: {}, where at most {MAX_BYTES} bytes are read",
+        path.display(),
+        bytes.map_or_else(|| "more".to_owned(), |bytes| format!("{bytes} bytes"))
+    )]
     TooLarge {
         /// The file.
         path: PathBuf,
@@ -35,6 +48,7 @@ pub enum LoadError {
         bytes: Option<u64>,
     },
     /// The file is not a description of a mechanism.
+    #[error("{0}")]
     Wrong(FileError),
 }
 
@@ -97,15 +111,6 @@ fn read_text(path: &Path) -> Result<String, LoadError> {
         path: path.to_owned(),
         offset: error.utf8_error().valid_up_to(),
     })
-}
-
-impl std::error::Error for LoadError {
-    fn source(&self) -> Option<&(dyn std::error::Error + 'static)> {
-        match self {
-            Self::Unreadable { error, .. } => Some(error),
-            _ => None,
-        }
-    }
 }
 
 /// A file with more problems than this is probably not a mechanism file at all.

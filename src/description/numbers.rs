@@ -34,9 +34,7 @@ impl Entry {
             None => Entry::number(radians, 0..0),
         }
     }
-}
 
-impl Entry {
     /// An angle written in degrees, as the parser reads it: a sign stands before the quantity.
     pub(crate) fn degrees(degrees: f64) -> Self {
         let size = Node::Quantity(degrees.abs(), Unit::Degree).at(0..0);
@@ -44,10 +42,7 @@ impl Entry {
             true => Node::Negate(Box::new(size)).at(0..0),
             false => size,
         };
-        Entry {
-            expression,
-            span: 0..0,
-        }
+        expression.into()
     }
 }
 

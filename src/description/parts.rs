@@ -5,10 +5,10 @@
 use std::fmt::{self, Display, Formatter};
 use std::ops::Range;
 
-use crate::algebra::Expression;
+use crate::algebra::{Expression, words};
 
 /// A value and the bytes of the file where it stands.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, Default)]
 pub struct Spanned<T> {
     /// The value.
     pub value: T,
@@ -35,7 +35,7 @@ pub struct Entry {
 }
 
 /// A whole mechanism file. Everything is in the order of the file.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, Default, PartialEq)]
 pub struct Description {
     /// The name of the mechanism.
     pub name: Spanned<String>,
@@ -57,22 +57,42 @@ pub struct Description {
     pub closed_forms: Vec<Named<ClosedFormDescription>>,
 }
 
-/// The convention by which frames are attached in a Denavit–Hartenberg table.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
-pub enum Convention {
-    /// Craig: T = Rx(alpha) Tx(a) Rz(theta) Tz(d).
-    Modified,
-    /// Denavit and Hartenberg: T = Rz(theta) Tz(d) Tx(a) Rx(alpha).
-    Standard,
-}
+words! {
+    /// The convention by which frames are attached in a Denavit–Hartenberg table.
+    Convention {
+        /// Craig: T = Rx(alpha) Tx(a) Rz(theta) Tz(d).
+        Modified = "Modified",
+        /// Denavit and Hartenberg: T = Rz(theta) Tz(d) Tx(a) Rx(alpha).
+        Standard = "Standard",
+    }
 
-/// Whether a joint is driven.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
-pub enum Role {
-    /// Driven: its value is an input.
-    Actuated,
-    /// Not driven: its value follows.
-    Passive,
+    /// Whether a joint is driven.
+    Role {
+        /// Driven: its value is an input.
+        Actuated = "Actuated",
+        /// Not driven: its value follows.
+        Passive = "Passive",
+    }
+
+    /// The kind of joint that a closure restores. Its axes are the z axes of the frames.
+    ClosureKind {
+        /// The origins coincide.
+        Spherical = "Spherical",
+        /// Origins and axes coincide.
+        Revolute = "Revolute",
+        /// Axes and orientations coincide, one frame slides along the axis.
+        Prismatic = "Prismatic",
+        /// Origins coincide and the axes are perpendicular.
+        Universal = "Universal",
+        /// The axes coincide.
+        Cylindrical = "Cylindrical",
+        /// The xy planes coincide.
+        Planar = "Planar",
+        /// The frames coincide.
+        Rigid = "Rigid",
+        /// The origins have a given distance.
+        Distance = "Distance",
+    }
 }
 
 /// A joint variable.
@@ -89,7 +109,7 @@ pub struct JointDescription {
 }
 
 /// A serial chain.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, Default, PartialEq)]
 pub struct ChainDescription {
     /// The frame to which it is attached; ground if not given.
     pub on: Option<Spanned<String>>,
@@ -139,33 +159,12 @@ pub enum Displacement {
 }
 
 /// A rigid body whose pose is unknown.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, Default, PartialEq)]
 pub struct PlatformDescription {
     /// Its pose in the home configuration.
     pub home: Vec<Displacement>,
     /// Frames fixed in it.
     pub frames: Vec<Named<Vec<Displacement>>>,
-}
-
-/// The kind of joint that a closure restores. Its axes are the z axes of the frames.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
-pub enum ClosureKind {
-    /// The origins coincide.
-    Spherical,
-    /// Origins and axes coincide.
-    Revolute,
-    /// Axes and orientations coincide, one frame slides along the axis.
-    Prismatic,
-    /// Origins coincide and the axes are perpendicular.
-    Universal,
-    /// The axes coincide.
-    Cylindrical,
-    /// The xy planes coincide.
-    Planar,
-    /// The frames coincide.
-    Rigid,
-    /// The origins have a given distance.
-    Distance,
 }
 
 /// A closure: a broken joint, restored between two frames.
@@ -220,6 +219,19 @@ impl<T> Spanned<T> {
     pub fn new(value: T, span: Range<usize>) -> Self {
         Self { value, span }
     }
+
+    /// `value`, which was made and not read from a file.
+    pub fn nowhere(value: T) -> Self {
+        Self::new(value, 0..0)
+    }
+}
+
+impl<T> Named<T> {
+    /// `value` under a name that was not read from a file.
+    pub fn new(name: impl Into<String>, value: T) -> Self {
+        let name = Spanned::nowhere(name.into());
+        Self { name, value }
+    }
 }
 
 impl Entry {
@@ -231,12 +243,43 @@ impl Entry {
     }
 
     /// The value 0 of an absent entry.
-    pub(super) fn absent() -> Self {
+    pub(crate) fn absent() -> Self {
         Self::number(0.0, 0..0)
     }
 }
 
+impl From<Expression> for Entry {
+    /// An entry that was not read from a file.
+    fn from(expression: Expression) -> Self {
+        let span = 0..0;
+        Self { expression, span }
+    }
+}
+
+impl Row {
+    /// A row that was not read from a file.
+    pub fn new(alpha: Entry, a: Entry, d: Entry, theta: Entry) -> Self {
+        let span = 0..0;
+        Self {
+            alpha,
+            a,
+            d,
+            theta,
+            span,
+        }
+    }
+}
+
 impl ChainDescription {
+    /// A chain without rows: a frame of its own at a displacement from another one.
+    pub fn frame(on: &str, base: Vec<Displacement>) -> Self {
+        Self {
+            on: (on != GROUND).then(|| Spanned::nowhere(on.to_owned())),
+            base,
+            ..Self::default()
+        }
+    }
+
     /// The frame to which the chain is attached.
     pub fn stands_on(&self) -> &str {
         self.on.as_ref().map_or(GROUND, |frame| &frame.value)
@@ -246,56 +289,7 @@ impl ChainDescription {
 /// The name of the fixed frame.
 pub const GROUND: &str = "ground";
 
-impl Convention {
-    /// Both conventions.
-    pub const ALL: [Self; 2] = [Self::Modified, Self::Standard];
-
-    /// How it is written in a file.
-    pub fn word(self) -> &'static str {
-        match self {
-            Self::Modified => "Modified",
-            Self::Standard => "Standard",
-        }
-    }
-}
-
-impl Role {
-    /// How it is written in a file.
-    pub fn word(self) -> &'static str {
-        match self {
-            Self::Actuated => "Actuated",
-            Self::Passive => "Passive",
-        }
-    }
-}
-
 impl ClosureKind {
-    /// Every kind.
-    pub const ALL: [Self; 8] = [
-        Self::Spherical,
-        Self::Revolute,
-        Self::Prismatic,
-        Self::Universal,
-        Self::Cylindrical,
-        Self::Planar,
-        Self::Rigid,
-        Self::Distance,
-    ];
-
-    /// How it is written in a file.
-    pub fn word(self) -> &'static str {
-        match self {
-            Self::Spherical => "Spherical",
-            Self::Revolute => "Revolute",
-            Self::Prismatic => "Prismatic",
-            Self::Universal => "Universal",
-            Self::Cylindrical => "Cylindrical",
-            Self::Planar => "Planar",
-            Self::Rigid => "Rigid",
-            Self::Distance => "Distance",
-        }
-    }
-
     /// The number of independent equations it imposes on two free bodies.
     pub fn equations(self) -> usize {
         match self {

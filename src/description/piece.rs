@@ -5,6 +5,7 @@
 
 use std::borrow::Cow;
 use std::fmt::{self, Formatter};
+use std::marker::PhantomData;
 use std::ops::Range;
 
 use ron::value::RawValue;
@@ -55,8 +56,6 @@ enum Places {
     /// Not known more exactly than the whole literal.
     Whole(Range<usize>),
 }
-
-type Parts<T> = Result<Vec<T>, ron::Error>;
 
 impl<'a> Piece<'a> {
     /// `text` stands at byte `start` of the file.
@@ -149,7 +148,7 @@ impl<'a> Piece<'a> {
     }
 
     pub fn text(&self) -> Result<Literal<'a>, ron::Error> {
-        let text = self.deserializer()?.deserialize_str(TextVisitor)?;
+        let Text(text) = Text::deserialize(&mut self.deserializer()?)?;
         let places = match &text {
             Cow::Borrowed(text) => Places::Straight(self.place(text).start),
             Cow::Owned(text) => escaped_places(self.text, self.start)
@@ -160,33 +159,38 @@ impl<'a> Piece<'a> {
     }
 
     /// The values of a list or a tuple.
-    pub fn elements(&self) -> Parts<Piece<'a>> {
+    pub fn elements(&self) -> Result<Vec<Piece<'a>>, ron::Error> {
         let mut deserializer = self.deserializer()?;
-        let slices = match self.text.starts_with('[') {
-            true => deserializer.deserialize_seq(ElementsVisitor),
-            false => deserializer.deserialize_tuple(0, ElementsVisitor),
+        let parts = Parts(PhantomData::<()>);
+        let parts = match self.text.starts_with('[') {
+            true => deserializer.deserialize_seq(parts),
+            false => deserializer.deserialize_tuple(0, parts),
         }?;
-        Ok(slices.into_iter().map(|slice| self.part(slice)).collect())
+        Ok(parts
+            .into_iter()
+            .map(|(_, value)| self.part(value))
+            .collect())
     }
 
     /// The keys and values of a map.
-    pub fn pairs(&self) -> Parts<(Piece<'a>, Piece<'a>)> {
-        let slices = self.deserializer()?.deserialize_map(PairsVisitor)?;
-        Ok(slices
-            .into_iter()
+    pub fn pairs(&self) -> Result<Vec<(Piece<'a>, Piece<'a>)>, ron::Error> {
+        let parts = Parts(PhantomData::<&RawValue>);
+        let parts = self.deserializer()?.deserialize_map(parts)?.into_iter();
+        let pairs = parts.filter_map(|(key, value)| Some((key?.get_ron(), value)));
+        Ok(pairs
             .map(|(key, value)| (self.part(key), self.part(value)))
             .collect())
     }
 
     /// The names and values of named fields in parentheses.
-    pub fn fields(&self) -> Parts<(Spanned<&'a str>, Piece<'a>)> {
-        let slices = self
-            .deserializer()?
-            .deserialize_struct("", &[], FieldsVisitor)?;
-        let named = |(name, value): (&'a str, &'a str)| {
-            (Spanned::new(name, self.place(name)), self.part(value))
+    pub fn fields(&self) -> Result<Vec<(Spanned<&'a str>, Piece<'a>)>, ron::Error> {
+        let parts = Parts(PhantomData::<Word>);
+        let parts = self.deserializer()?.deserialize_struct("", &[], parts)?;
+        let named = |(name, value): (Option<Word<'a>>, &'a str)| {
+            let Word(name) = name?;
+            Some((Spanned::new(name, self.place(name)), self.part(value)))
         };
-        Ok(slices.into_iter().map(named).collect())
+        Ok(parts.into_iter().filter_map(named).collect())
     }
 
     fn deserializer(&self) -> Result<ron::Deserializer<'a>, ron::Error> {
@@ -262,25 +266,17 @@ fn escaped_places(literal: &str, start: usize) -> Option<Vec<usize>> {
     }
 }
 
-struct TextVisitor;
+/// A string, lent where it needs no unescaping.
+#[derive(Deserialize)]
+#[serde(transparent)]
+struct Text<'a>(#[serde(borrow)] Cow<'a, str>);
 
-impl<'de> Visitor<'de> for TextVisitor {
-    type Value = Cow<'de, str>;
+/// A word, as a field name.
+struct Word<'de>(&'de str);
 
-    fn expecting(&self, f: &mut Formatter) -> fmt::Result {
-        f.write_str("a string")
-    }
-
-    fn visit_borrowed_str<E>(self, text: &'de str) -> Result<Self::Value, E> {
-        Ok(Cow::Borrowed(text))
-    }
-
-    fn visit_str<E>(self, text: &str) -> Result<Self::Value, E> {
-        Ok(Cow::Owned(text.to_owned()))
-    }
-
-    fn visit_string<E>(self, text: String) -> Result<Self::Value, E> {
-        Ok(Cow::Owned(text))
+impl<'de> Deserialize<'de> for Word<'de> {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        deserializer.deserialize_identifier(WordVisitor).map(Word)
     }
 }
 
@@ -298,66 +294,30 @@ impl<'de> Visitor<'de> for WordVisitor {
     }
 }
 
-/// A word, as a field name.
-struct Word<'de>(&'de str);
+/// The values of a list, or the values of a map with keys of one type, each lent out unread.
+struct Parts<K>(PhantomData<K>);
 
-impl<'de> Deserialize<'de> for Word<'de> {
-    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
-        deserializer.deserialize_identifier(WordVisitor).map(Word)
-    }
-}
-
-struct ElementsVisitor;
-
-impl<'de> Visitor<'de> for ElementsVisitor {
-    type Value = Vec<&'de str>;
+impl<'de, K: Deserialize<'de>> Visitor<'de> for Parts<K> {
+    type Value = Vec<(Option<K>, &'de str)>;
 
     fn expecting(&self, f: &mut Formatter) -> fmt::Result {
-        f.write_str("a list")
+        f.write_str("a list or a map")
     }
 
-    fn visit_seq<A: SeqAccess<'de>>(self, mut sequence: A) -> Result<Self::Value, A::Error> {
-        let mut elements = Vec::new();
-        while let Some(element) = sequence.next_element::<&RawValue>()? {
-            elements.push(element.get_ron());
+    fn visit_seq<A: SeqAccess<'de>>(self, mut list: A) -> Result<Self::Value, A::Error> {
+        let mut parts = Vec::new();
+        while let Some(value) = list.next_element::<&RawValue>()? {
+            parts.push((None, value.get_ron()));
         }
-        Ok(elements)
-    }
-}
-
-struct PairsVisitor;
-
-impl<'de> Visitor<'de> for PairsVisitor {
-    type Value = Vec<(&'de str, &'de str)>;
-
-    fn expecting(&self, f: &mut Formatter) -> fmt::Result {
-        f.write_str("a map")
+        Ok(parts)
     }
 
     fn visit_map<A: MapAccess<'de>>(self, mut map: A) -> Result<Self::Value, A::Error> {
-        let mut pairs = Vec::new();
-        while let Some((key, value)) = map.next_entry::<&RawValue, &RawValue>()? {
-            pairs.push((key.get_ron(), value.get_ron()));
+        let mut parts = Vec::new();
+        while let Some((key, value)) = map.next_entry::<K, &RawValue>()? {
+            parts.push((Some(key), value.get_ron()));
         }
-        Ok(pairs)
-    }
-}
-
-struct FieldsVisitor;
-
-impl<'de> Visitor<'de> for FieldsVisitor {
-    type Value = Vec<(&'de str, &'de str)>;
-
-    fn expecting(&self, f: &mut Formatter) -> fmt::Result {
-        f.write_str("named fields")
-    }
-
-    fn visit_map<A: MapAccess<'de>>(self, mut map: A) -> Result<Self::Value, A::Error> {
-        let mut fields = Vec::new();
-        while let Some((name, value)) = map.next_entry::<Word, &RawValue>()? {
-            fields.push((name.0, value.get_ron()));
-        }
-        Ok(fields)
+        Ok(parts)
     }
 }
 

@@ -1,8 +1,11 @@
-//! Problems of a mechanism file, as data. `words.rs` has the English words.
+//! What can be wrong with a mechanism file, as data with a title; `words.rs` says what to do about it.
 
 use std::ops::Range;
 
-use super::{AxesProblem, Expected, Found, Structure};
+use thiserror::Error;
+
+use super::words::{count, cycle, expression, syntax};
+use super::{AxesProblem, Expected, Found, MAX_BYTES, Structure};
 use crate::algebra::{EvaluationErrorKind, MeasureErrorKind, ParseErrorKind};
 
 /// A problem of a mechanism file.
@@ -69,246 +72,159 @@ pub enum Scope {
     ClosedForm,
 }
 
-/// What is wrong.
-#[derive(Debug, Clone, PartialEq)]
+/// What is wrong, said in one sentence without a full stop. Lengths are in m, angles in rad.
+#[derive(Debug, Clone, Error, PartialEq)]
+#[allow(missing_docs)]
 pub enum ProblemKind {
     /// The text is larger than the limit.
-    TooLarge {
-        /// Its size.
-        bytes: usize,
-    },
-    /// There is nothing in the file.
+    #[error("the text has {bytes} bytes; the limit is {MAX_BYTES}")]
+    TooLarge { bytes: usize },
+    #[error("the file is empty")]
     Empty,
-    /// Brackets nested too deeply.
+    #[error("brackets are nested too deeply for a mechanism file")]
     TooDeep,
     /// The text is not RON.
+    #[error("{}", syntax::title(error, *found))]
     Syntax {
         /// The error of `ron`.
         error: Box<ron::Error>,
         /// The character at which it stopped; `None` at the end of the text.
         found: Option<char>,
     },
-    /// The file is for a later version of the program.
+    #[error("the file has version {0}, which needs a newer linkwork")]
     LaterVersion(f64),
-    /// The version is not a positive whole number.
+    #[error("{0} is not a version of the file format")]
     NotAVersion(f64),
-    /// Something of the wrong type.
-    WrongType {
-        /// What is expected.
-        expected: Expected,
-        /// What was found.
-        found: Found,
-    },
+    #[error("expected {expected}, found {found}")]
+    WrongType { expected: Expected, found: Found },
     /// Too few or too many things in parentheses.
+    #[error("expected {of} with {}, found {found}", count(*expected, of.unit()))]
     WrongLength {
-        /// What is expected.
         of: Expected,
-        /// How many parts it has.
         expected: usize,
-        /// How many there are.
         found: usize,
     },
-    /// A word that is none of those possible here.
+    #[error("expected {expected}, found `{word}`")]
     UnknownWord {
-        /// What is expected.
         expected: Expected,
-        /// The word.
         word: String,
-        /// The word that was probably meant.
         suggestion: Option<String>,
         /// The words possible here.
         known: Vec<&'static str>,
     },
-    /// A field that the structure does not have.
+    #[error("{structure} has no field `{field}`")]
     UnknownField {
-        /// The structure.
         structure: Structure,
-        /// The field.
         field: String,
-        /// The field that was probably meant.
         suggestion: Option<String>,
     },
-    /// A field that the structure must have.
+    #[error("{structure} needs the field `{field}`")]
     MissingField {
-        /// The structure.
         structure: Structure,
-        /// The field.
         field: &'static str,
     },
-    /// A field given twice.
-    DuplicateField {
-        /// The field.
-        field: String,
-    },
-    /// A name given twice.
-    DuplicateName {
-        /// The kind of item.
-        noun: Noun,
-        /// The name.
-        name: String,
-    },
-    /// An expression that does not parse.
+    #[error("the field `{field}` is given twice")]
+    DuplicateField { field: String },
+    #[error("the name `{name}` is given twice")]
+    DuplicateName { noun: Noun, name: String },
+    #[error("{}", expression::title(_0))]
     Expression(ParseErrorKind),
-    /// A number that is infinite or not a number.
+    #[error("the number is not finite")]
     NotFinite,
     /// A name that no expression could use.
-    NotAName {
-        /// The kind of item.
-        noun: Noun,
-        /// The name.
-        name: String,
-    },
+    #[error("`{name}` cannot be the name of {noun}")]
+    NotAName { noun: Noun, name: String },
     /// A reserved name.
-    ReservedName {
-        /// The kind of item.
-        noun: Noun,
-        /// The name.
-        name: String,
-    },
-    /// The name of a chain or platform has a dot, which separates it from the names of its frames.
-    DottedName {
-        /// The kind of item.
-        noun: Noun,
-        /// The name.
-        name: String,
-    },
-    /// A name without a letter.
-    EmptyName {
-        /// The kind of item.
-        noun: Noun,
-    },
-    /// Neither the file nor the chain gives the convention of the rows.
-    NoConvention {
-        /// The chain.
-        chain: String,
-    },
-    /// A closed form that gives neither a pose nor an identity.
+    #[error("`{name}` is reserved and cannot be used for {noun}")]
+    ReservedName { noun: Noun, name: String },
+    /// A dot separates the name of a chain or platform from the names of its frames.
+    #[error("the name `{name}` of {noun} contains a dot")]
+    DottedName { noun: Noun, name: String },
+    #[error("the name of {noun} is empty")]
+    EmptyName { noun: Noun },
+    #[error("the convention of the rows of chain `{chain}` is not given")]
+    NoConvention { chain: String },
+    #[error("the closed form gives no formula")]
     EmptyClosedForm,
-    /// A closed form that gives a pose and an identity.
+    #[error("the closed form gives both a pose and an identity")]
     MixedClosedForm,
     /// A key of `entries` that is no entry of `[R | p]`.
-    UnknownMatrixEntry {
-        /// The key.
-        name: String,
-    },
-    /// The fourth row of a transform is not (0, 0, 0, 1).
+    #[error("`{name}` is not an entry of a rotation or a position")]
+    UnknownMatrixEntry { name: String },
+    #[error("the fourth row of a transform must be (0, 0, 0, 1)")]
     WrongLastRow,
     /// An expression uses an unknown name.
+    #[error("`{name}` is {scope}")]
     UnknownName {
-        /// The name.
         name: String,
-        /// The name that was probably meant.
         suggestion: Option<String>,
         /// The names possible here.
         scope: Scope,
     },
     /// A joint variable where only parameters are allowed.
-    JointNotAllowed {
-        /// The joint.
-        name: String,
-    },
-    /// The name of a frame that does not exist.
+    #[error("the joint `{name}` cannot be used here")]
+    JointNotAllowed { name: String },
+    #[error("there is no frame `{name}`")]
     UnknownFrame {
-        /// The name.
         name: String,
-        /// The frame that was probably meant.
         suggestion: Option<String>,
     },
     /// A link frame beyond the last row of a chain.
+    #[error("chain `{chain}` has {} and no link frame `{link}`", count(*rows, "row"))]
     NoSuchLink {
-        /// The chain.
         chain: String,
-        /// The number of the link.
         link: String,
-        /// How many rows the chain has.
         rows: usize,
     },
-    /// Parameters or local names defined through one another.
-    DefinitionCycle {
-        /// What they are.
-        noun: Noun,
-        /// The names; the first follows the last.
-        names: Vec<String>,
-    },
-    /// Chains attached to one another in a cycle.
-    ChainCycle {
-        /// The names; the first follows the last.
-        names: Vec<String>,
-    },
-    /// An expression that is not constant + Σ coefficient·joint.
+    /// Parameters or local names defined through one another; the first follows the last.
+    #[error("{noun} is defined in terms of itself: {}", cycle(names))]
+    DefinitionCycle { noun: Noun, names: Vec<String> },
+    /// Chains that stand on one another; the first follows the last.
+    #[error("a chain is attached to itself: {}", cycle(names))]
+    ChainCycle { names: Vec<String> },
+    #[error("the expression is not a constant plus multiples of joint variables")]
     NotAffine,
     /// An expression that has no value.
+    #[error("{}", expression::no_value(_0))]
     NoValue(EvaluationErrorKind),
     /// A unit that does not fit.
+    #[error("{}", expression::unit(_0))]
     Unit(MeasureErrorKind),
-    /// A closure between two frames of one body.
-    SameBody {
-        /// The closure.
-        closure: String,
-    },
-    /// A distance that is negative.
-    NegativeDistance {
-        /// The length (m).
-        length: f64,
-    },
-    /// The lowest value is above the highest.
-    LimitsReversed {
-        /// The joint.
-        joint: String,
-        /// The lowest value (rad or m).
-        low: f64,
-        /// The highest value (rad or m).
-        high: f64,
-    },
-    /// The home value is not within the limits.
+    #[error("the closure `{closure}` joins two frames of the same body")]
+    SameBody { closure: String },
+    #[error("the distance {length} is negative")]
+    NegativeDistance { length: f64 },
+    #[error("the lowest value of joint `{joint}`, {low}, is above the highest, {high}")]
+    LimitsReversed { joint: String, low: f64, high: f64 },
+    #[error(
+        "the home value of joint `{joint}`, {home}, is not between its limits {low} and {high}"
+    )]
     HomeOutsideLimits {
-        /// The joint.
         joint: String,
-        /// The home value (rad or m).
         home: f64,
-        /// The lowest value (rad or m).
         low: f64,
-        /// The highest value (rad or m).
         high: f64,
     },
-    /// Neither a chain nor a platform.
+    #[error("the file has neither a chain nor a platform")]
     NothingToAnalyse,
-    /// A joint variable that no chain and no closure uses.
-    UnusedJoint {
-        /// The joint.
-        name: String,
-    },
-    /// An unused parameter.
-    UnusedParameter {
-        /// The parameter.
-        name: String,
-    },
+    #[error("no chain or closure uses the joint `{name}`")]
+    UnusedJoint { name: String },
+    #[error("the parameter `{name}` is not used")]
+    UnusedParameter { name: String },
     /// A joint variable that moves no closure.
-    UnfeltJoint {
-        /// The joint.
-        name: String,
-    },
-    /// A link length below zero: the x axis points the other way.
-    NegativeLinkLength {
-        /// The chain.
-        chain: String,
-        /// The number of the row, from 1.
-        row: usize,
-        /// The length (m).
-        a: f64,
-    },
+    #[error("the joint `{name}` moves no closure")]
+    UnfeltJoint { name: String },
+    /// A link length below zero: the x axis points the other way. Rows count from 1.
+    #[error("row {row} of chain `{chain}` has the negative link length {a} m")]
+    NegativeLinkLength { chain: String, row: usize, a: f64 },
     /// A distance of zero, whose equation is singular where it holds.
-    ZeroDistance {
-        /// The closure.
-        closure: String,
-    },
+    #[error("the distance of closure `{closure}` is zero")]
+    ZeroDistance { closure: String },
     /// A problem of a file of joint axes.
+    #[error("{0}")]
     Axes(Box<AxesProblem>),
-    /// A platform that no closure and no chain touches.
-    UnusedPlatform {
-        /// The platform.
-        name: String,
-    },
+    #[error("nothing is attached to the platform `{name}`")]
+    UnusedPlatform { name: String },
 }
 
 impl ProblemKind {

@@ -9,6 +9,7 @@ mod shapes;
 mod syntax;
 
 use std::collections::HashSet;
+use std::ops::Range;
 
 use super::piece::{Piece, Shape};
 use super::*;
@@ -41,21 +42,13 @@ fn read_with<'a, T>(
     text: &'a str,
     read: impl Fn(&mut Reader, Piece<'a>) -> Option<T>,
 ) -> (Option<T>, Reader) {
-    let mut reader = Reader {
-        problems: Vec::new(),
-        broken: HashSet::new(),
-    };
+    let mut reader = Reader::default();
     if text.len() as u64 > MAX_BYTES {
-        let problem = ProblemKind::TooLarge { bytes: text.len() }.at(0..0);
-        reader.problems.push(problem);
+        reader.note(ProblemKind::TooLarge { bytes: text.len() }, 0..0);
         return (None, reader);
     }
     // Some editors begin a file with a byte order mark.
-    let start = if text.starts_with('\u{feff}') {
-        '\u{feff}'.len_utf8()
-    } else {
-        0
-    };
+    let start = text.len() - text.strip_prefix('\u{feff}').unwrap_or(text).len();
     let description = match syntax::check(text, start) {
         Ok(begin) => read(&mut reader, Piece::new(&text[begin..], begin)),
         Err(problem) => {
@@ -66,37 +59,34 @@ fn read_with<'a, T>(
     (description, reader)
 }
 
+#[derive(Default)]
 struct Reader {
     problems: Vec<Problem>,
     broken: HashSet<String>,
 }
 
 impl Reader {
+    /// Records a problem.
+    fn note(&mut self, kind: ProblemKind, span: Range<usize>) {
+        self.problems.push(kind.at(span));
+    }
+
     fn mechanism(&mut self, piece: Piece) -> Option<Description> {
         let mut fields = self.fields(piece, Structure::Mechanism)?;
         if !self.known_version(&mut fields) {
             return None;
         }
-        let name = self
-            .require(&mut fields, "name")
-            .and_then(|piece| self.text(piece, Expected::Text));
+        let f = &mut fields;
         Some(Description {
-            name: name.unwrap_or_else(|| Spanned::new(String::new(), 0..0)),
-            source: self.optional_text(&mut fields, "source", Expected::Text),
-            convention: fields
-                .take("convention")
-                .and_then(|piece| self.convention(piece)),
-            parameters: self.named(&mut fields, "parameters", Noun::Parameter, Self::entry),
-            joints: self.named(&mut fields, "joints", Noun::Joint, Self::joint),
-            chains: self.named(&mut fields, "chains", Noun::Chain, Self::chain),
-            platforms: self.named(&mut fields, "platforms", Noun::Platform, Self::platform),
-            closures: self.named(&mut fields, "closures", Noun::Closure, Self::closure),
-            closed_forms: self.named(
-                &mut fields,
-                "closed_forms",
-                Noun::ClosedForm,
-                Self::closed_form,
-            ),
+            name: self.required_text(f, "name"),
+            source: self.optional_text(f, "source", Expected::Text),
+            convention: self.convention_field(f),
+            parameters: self.named(f, "parameters", Noun::Parameter, Self::entry),
+            joints: self.named(f, "joints", Noun::Joint, Self::joint),
+            chains: self.named(f, "chains", Noun::Chain, Self::chain),
+            platforms: self.named(f, "platforms", Noun::Platform, Self::platform),
+            closures: self.named(f, "closures", Noun::Closure, Self::closure),
+            closed_forms: self.named(f, "closed_forms", Noun::ClosedForm, Self::closed_form),
         })
     }
 
@@ -108,13 +98,8 @@ impl Reader {
         let count = self.problems.len();
         self.version(version);
         // A later format may differ in anything; all other problems would be noise.
-        let later = matches!(
-            self.problems.get(count),
-            Some(Problem {
-                kind: ProblemKind::LaterVersion(_),
-                ..
-            })
-        );
+        let later = self.problems.get(count);
+        let later = later.is_some_and(|p| matches!(p.kind, ProblemKind::LaterVersion(_)));
         if later {
             self.problems.drain(..count);
         }
@@ -129,34 +114,26 @@ impl Reader {
     }
 
     fn version(&mut self, piece: Piece) {
-        let Shape::Number = piece.shape() else {
-            return self.wrong_type(piece, Expected::Version);
+        let number = match piece.shape() {
+            Shape::Number => piece.number().ok(),
+            _ => None,
         };
-        match piece.number() {
-            Ok(number) if number == f64::from(VERSION) => {}
-            Ok(number) if number > f64::from(VERSION) && number.fract() == 0.0 => {
-                self.problems
-                    .push(ProblemKind::LaterVersion(number).at(piece.span()));
+        match number {
+            None => self.wrong_type(piece, Expected::Version),
+            Some(number) if number == f64::from(VERSION) => {}
+            Some(number) if number > f64::from(VERSION) && number.fract() == 0.0 => {
+                self.note(ProblemKind::LaterVersion(number), piece.span());
             }
-            Ok(number) => self
-                .problems
-                .push(ProblemKind::NotAVersion(number).at(piece.span())),
-            Err(_) => self.wrong_type(piece, Expected::Version),
+            Some(number) => self.note(ProblemKind::NotAVersion(number), piece.span()),
         }
     }
 
     fn joint(&mut self, piece: Piece) -> Option<JointDescription> {
-        let Shape::Word { word, .. } = piece.shape() else {
-            self.wrong_type(piece, Expected::Joint);
-            return None;
-        };
-        let (role, structure) = match word {
-            "Passive" => (Role::Passive, Structure::Passive),
-            "Actuated" => (Role::Actuated, Structure::Actuated),
-            _ => {
-                self.unknown_word(piece, Expected::Joint, word, vec!["Passive", "Actuated"]);
-                return None;
-            }
+        let known = [Role::Passive, Role::Actuated];
+        let (role, _) = self.word(piece, Expected::Joint, &known, Role::word)?;
+        let structure = match role {
+            Role::Passive => Structure::Passive,
+            Role::Actuated => Structure::Actuated,
         };
         let mut fields = self.fields(piece, structure)?;
         Some(JointDescription {
@@ -171,9 +148,7 @@ impl Reader {
         let mut fields = self.fields(piece, Structure::Chain)?;
         Some(ChainDescription {
             on: self.optional_text(&mut fields, "on", Expected::Frame),
-            convention: fields
-                .take("convention")
-                .and_then(|piece| self.convention(piece)),
+            convention: self.convention_field(&mut fields),
             base: self.transform_field(&mut fields, "base"),
             rows: match fields.take("rows") {
                 Some(rows) => self.list(rows, Expected::Rows, Self::row),
@@ -187,13 +162,9 @@ impl Reader {
         let Some(mut fields) = self.fields(piece, Structure::Row) else {
             // it still counts, so that the links after it keep their numbers
             let [alpha, a, d, theta] = std::array::from_fn(|_| Entry::absent());
-            let span = piece.span();
             return Some(Row {
-                alpha,
-                a,
-                d,
-                theta,
-                span,
+                span: piece.span(),
+                ..Row::new(alpha, a, d, theta)
             });
         };
         Some(Row {
@@ -219,21 +190,8 @@ impl Reader {
     }
 
     fn closure(&mut self, piece: Piece) -> Option<ClosureDescription> {
-        let Shape::Word { word, content } = piece.shape() else {
-            self.wrong_type(piece, Expected::Closure);
-            return None;
-        };
-        let Some(kind) = ClosureKind::ALL
-            .into_iter()
-            .find(|kind| kind.word() == word)
-        else {
-            let known = ClosureKind::ALL
-                .into_iter()
-                .map(ClosureKind::word)
-                .collect();
-            self.unknown_word(piece, Expected::Closure, word, known);
-            return None;
-        };
+        let (known, word) = (&ClosureKind::ALL, ClosureKind::word);
+        let (kind, content) = self.word(piece, Expected::Closure, known, word)?;
         let expected = Expected::ClosureFrames(kind.word());
         let (frames, length) = match kind {
             ClosureKind::Distance => {

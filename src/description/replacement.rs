@@ -1,12 +1,15 @@
 //! Another value for a parameter of a file.
 
-use super::{Description, Entry, Problem, ProblemKind, Scope, nearest};
+use thiserror::Error;
+
+use super::{Description, Entry, Problem, ProblemKind, Scope, names_of, nearest, place_of};
 use crate::algebra::Expression;
 
 /// Why a parameter cannot be given another value.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, Error, PartialEq)]
 pub enum ReplacementError {
     /// The file has no such parameter.
+    #[error("the file has no parameter `{name}`")]
     UnknownParameter {
         /// The name.
         name: String,
@@ -14,10 +17,14 @@ pub enum ReplacementError {
         suggestion: Option<String>,
     },
     /// The value is wrong. Spans count bytes of the text of the value.
+    #[error("{}", titles(_0))]
     Value(Vec<Problem>),
 }
 
-impl std::error::Error for ReplacementError {}
+fn titles(problems: &[Problem]) -> String {
+    let titles: Vec<String> = problems.iter().map(|p| p.kind.title()).collect();
+    titles.join("; ")
+}
 
 impl Description {
     /// The same file with another definition of one parameter, an expression that may use the other parameters.
@@ -29,12 +36,8 @@ impl Description {
         name: &str,
         value: &str,
     ) -> Result<Description, ReplacementError> {
-        let names = || {
-            self.parameters
-                .iter()
-                .map(|named| named.name.value.as_str())
-        };
-        let Some(index) = names().position(|known| known == name) else {
+        let names = || names_of(&self.parameters);
+        let Some(index) = place_of(&self.parameters, name) else {
             return Err(ReplacementError::UnknownParameter {
                 name: name.into(),
                 suggestion: nearest(name, names()).map(str::to_owned),
@@ -44,8 +47,7 @@ impl Description {
             let problem = ProblemKind::Expression(error.kind).at(error.span);
             ReplacementError::Value(vec![problem])
         })?;
-        let is_joint = |used: &str| self.joints.iter().any(|joint| joint.name.value == used);
-        let unknown = |used: &str| match is_joint(used) {
+        let unknown = |used: &str| match place_of(&self.joints, used).is_some() {
             true => ProblemKind::JointNotAllowed { name: used.into() },
             false => ProblemKind::UnknownName {
                 name: used.into(),

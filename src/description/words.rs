@@ -1,113 +1,17 @@
-//! The words for every problem: a sentence, a label for the offending text, and a hint.
+//! The words beside the title of a problem: a label for the offending text, and what to do about it.
 
 mod axes;
-mod expression;
+pub(super) mod expression;
 mod parts;
-mod syntax;
-
-use crate::algebra::EvaluationErrorKind;
-use std::fmt::{self, Display, Formatter};
+pub(super) mod syntax;
 
 use super::*;
+use crate::algebra::EvaluationErrorKind;
 
 impl ProblemKind {
     /// What is wrong, in one sentence without a full stop.
     pub fn title(&self) -> String {
-        use ProblemKind::*;
-        match self {
-            TooLarge { bytes } => {
-                format!("the text has {bytes} bytes; the limit is {MAX_BYTES}")
-            }
-            Empty => "the file is empty".into(),
-            TooDeep => "brackets are nested too deeply for a mechanism file".into(),
-            Syntax { error, found } => syntax::title(error, *found),
-            LaterVersion(version) => {
-                format!("the file has version {version}, which needs a newer linkwork")
-            }
-            NotAVersion(version) => format!("{version} is not a version of the file format"),
-            WrongType { expected, found } => format!("expected {expected}, found {found}"),
-            WrongLength {
-                of,
-                expected,
-                found,
-            } => {
-                format!(
-                    "expected {of} with {}, found {found}",
-                    count(*expected, of.unit())
-                )
-            }
-            UnknownWord { expected, word, .. } => format!("expected {expected}, found `{word}`"),
-            UnknownField {
-                structure, field, ..
-            } => format!("{structure} has no field `{field}`"),
-            MissingField { structure, field } => format!("{structure} needs the field `{field}`"),
-            DuplicateField { field } => format!("the field `{field}` is given twice"),
-            DuplicateName { name, .. } => format!("the name `{name}` is given twice"),
-            Expression(error) => expression::title(error),
-            NotFinite => "the number is not finite".into(),
-            NotAName { noun, name } => format!("`{name}` cannot be the name of {noun}"),
-            ReservedName { noun, name } => {
-                format!("`{name}` is reserved and cannot be used for {noun}")
-            }
-            DottedName { noun, name } => format!("the name `{name}` of {noun} contains a dot"),
-            EmptyName { noun } => format!("the name of {noun} is empty"),
-            NoConvention { chain } => {
-                format!("the convention of the rows of chain `{chain}` is not given")
-            }
-            EmptyClosedForm => "the closed form gives no formula".into(),
-            MixedClosedForm => "the closed form gives both a pose and an identity".into(),
-            UnknownMatrixEntry { name } => {
-                format!("`{name}` is not an entry of a rotation or a position")
-            }
-            WrongLastRow => "the fourth row of a transform must be (0, 0, 0, 1)".into(),
-            UnknownName { name, scope, .. } => format!("`{name}` is {scope}"),
-            JointNotAllowed { name } => format!("the joint `{name}` cannot be used here"),
-            UnknownFrame { name, .. } => format!("there is no frame `{name}`"),
-            NoSuchLink { chain, link, rows } => {
-                format!(
-                    "chain `{chain}` has {} and no link frame `{link}`",
-                    count(*rows, "row")
-                )
-            }
-            DefinitionCycle { noun, names } => {
-                format!("{noun} is defined in terms of itself: {}", cycle(names))
-            }
-            ChainCycle { names } => format!("a chain is attached to itself: {}", cycle(names)),
-            NotAffine => {
-                "the expression is not a constant plus multiples of joint variables".into()
-            }
-            NoValue(error) => expression::no_value(error),
-            Unit(error) => expression::unit(error),
-            SameBody { closure } => {
-                format!("the closure `{closure}` joins two frames of the same body")
-            }
-            NegativeDistance { length } => format!("the distance {length} is negative"),
-            LimitsReversed { joint, low, high } => {
-                format!("the lowest value of joint `{joint}`, {low}, is above the highest, {high}")
-            }
-            HomeOutsideLimits {
-                joint,
-                home,
-                low,
-                high,
-            } => {
-                format!(
-                    "the home value of joint `{joint}`, {home}, is not between its limits {low} and {high}"
-                )
-            }
-            NothingToAnalyse => "the file has neither a chain nor a platform".into(),
-            UnusedJoint { name } => format!("no chain or closure uses the joint `{name}`"),
-            UnusedParameter { name } => format!("the parameter `{name}` is not used"),
-            UnusedPlatform { name } => format!("nothing is attached to the platform `{name}`"),
-            UnfeltJoint { name } => format!("the joint `{name}` moves no closure"),
-            NegativeLinkLength { chain, row, a } => {
-                format!("row {row} of chain `{chain}` has the negative link length {a} m")
-            }
-            Axes(problem) => axes::title(problem),
-            ZeroDistance { closure } => {
-                format!("the distance of closure `{closure}` is zero")
-            }
-        }
+        self.to_string()
     }
 
     /// A few words below the offending text; may be empty.
@@ -197,33 +101,6 @@ impl ProblemKind {
     }
 }
 
-impl Display for LoadError {
-    fn fmt(&self, f: &mut Formatter) -> fmt::Result {
-        match self {
-            Self::Unreadable { path, error } => {
-                write!(f, "{}: cannot be read: {error}", path.display())
-            }
-            Self::NotText { path, offset } => {
-                write!(
-                    f,
-                    "{}: not a text file in UTF-8: byte {offset} does not belong to any character",
-                    path.display()
-                )
-            }
-            Self::TooLarge { path, bytes } => {
-                let size =
-                    bytes.map_or_else(|| "more".to_owned(), |bytes| format!("{bytes} bytes"));
-                write!(
-                    f,
-                    "{}: too large: {size}, where at most {MAX_BYTES} bytes are read",
-                    path.display()
-                )
-            }
-            Self::Wrong(error) => error.fmt(f),
-        }
-    }
-}
-
 impl Note {
     /// How another place is involved in the problem.
     pub fn label(self) -> String {
@@ -301,22 +178,10 @@ pub(super) fn quoted(words: &[&str]) -> String {
     listed(&words)
 }
 
-fn cycle(names: &[String]) -> String {
-    let around = names.iter().chain(names.first());
-    around
+/// `a` -> `b` -> `a`
+pub(super) fn cycle(names: &[String]) -> String {
+    let around: Vec<String> = (names.iter().chain(names.first()))
         .map(|name| format!("`{name}`"))
-        .collect::<Vec<_>>()
-        .join(" -> ")
-}
-
-impl Display for ReplacementError {
-    fn fmt(&self, f: &mut Formatter) -> fmt::Result {
-        match self {
-            Self::UnknownParameter { name, .. } => write!(f, "the file has no parameter `{name}`"),
-            Self::Value(problems) => {
-                let titles: Vec<String> = problems.iter().map(|p| p.kind.title()).collect();
-                f.write_str(&titles.join("; "))
-            }
-        }
-    }
+        .collect();
+    around.join(" -> ")
 }

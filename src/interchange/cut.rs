@@ -10,7 +10,7 @@ use super::remark::Remark;
 use super::tree::{Attachment, Body, Coupling, Extent, Joint, Loop, Motion, Tree};
 use crate::description::{GROUND, Role};
 use crate::geometry::{Pose, Vector3};
-use crate::mechanism::{Configuration, Frame, JointKind, LinearForm, Mechanism};
+use crate::mechanism::{Configuration, Frame, JointKind, LinearForm, Mechanism, RowDimensions};
 
 /// An occurrence of a variable: in a row of a chain, as an angle or as a length.
 #[derive(Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
@@ -29,17 +29,10 @@ pub fn tree_of(mechanism: &Mechanism, at: &Configuration<f64>) -> (Tree, Vec<Rem
         leading: HashMap::new(),
         placed: BTreeMap::new(),
         couplings: Vec::new(),
-        bodies: vec![Body {
-            name: GROUND.into(),
-            parent: None,
-            pose: Pose::identity(),
-            joints: Vec::new(),
-            home: None,
-            frames: Vec::new(),
-        }],
+        bodies: vec![Body::new(GROUND.into(), None, Pose::identity())],
     };
     cutter.place(Frame::Ground, 0, Pose::identity());
-    let remarks = cutter.lead();
+    let mut remarks = cutter.lead();
     cutter.platforms(at);
     cutter.chains();
     let loops = cutter.loops();
@@ -50,10 +43,7 @@ pub fn tree_of(mechanism: &Mechanism, at: &Configuration<f64>) -> (Tree, Vec<Rem
         loops,
         size: mechanism.characteristic_length(),
     };
-    let remarks = remarks
-        .into_iter()
-        .chain(followers(mechanism, &tree.couplings));
-    let remarks = remarks.collect();
+    remarks.extend(followers(mechanism, &tree.couplings));
     tree.bodies.iter_mut().for_each(|body| {
         body.joints.iter_mut().for_each(|joint| joint.home += 0.0);
     });
@@ -127,26 +117,19 @@ impl Cutter<'_> {
             let closures = mechanism.dimensions().closures.iter();
             let stretches = closures.flat_map(|c| &c.extension.0).any(|(j, _)| *j == i);
             if !moves && !stretches {
-                remarks.push(Remark::Unused {
-                    joint: joint.name.clone(),
-                });
+                let joint = joint.name.clone();
+                remarks.push(Remark::Unused { joint });
                 continue;
             }
             let body = format!("variable {}", joint.name);
             if moves {
-                remarks.push(Remark::Carried {
-                    joint: joint.name.clone(),
-                    body: body.clone(),
-                });
+                let (joint, body) = (joint.name.clone(), body.clone());
+                remarks.push(Remark::Carried { joint, body });
             }
             let joint = self.named(i, 1.0, joint.kind == JointKind::Prismatic);
             self.bodies.push(Body {
-                name: body,
-                parent: Some(0),
-                pose: Pose::identity(),
                 joints: vec![joint],
-                home: None,
-                frames: Vec::new(),
+                ..Body::new(body, Some(0), Pose::identity())
             });
         }
         remarks
@@ -155,15 +138,12 @@ impl Cutter<'_> {
     /// The joint with the name of a variable.
     fn named(&self, joint: usize, sign: f64, slides: bool) -> Joint {
         let part = &self.mechanism.joints()[joint];
+        let motion = if slides { Motion::Slide } else { Motion::Turn };
         Joint {
-            name: part.name.clone(),
-            motion: if slides { Motion::Slide } else { Motion::Turn },
-            axis: Vector3([0.0, 0.0, sign]),
-            point: Vector3::zero(),
-            reference: 0.0,
             home: self.values[joint],
             limits: part.limits,
             actuated: part.role == Role::Actuated,
+            ..Joint::new(part.name.clone(), motion, Vector3([0.0, 0.0, sign]))
         }
     }
 
@@ -171,22 +151,12 @@ impl Cutter<'_> {
         for (platform, part) in self.mechanism.platforms().iter().enumerate() {
             let body = self.bodies.len();
             let pose = at.platforms[platform].pose();
+            let name = printable(&part.name);
+            let joint = Joint::new(format!("{name} floats"), Motion::Free, Vector3::unit(2));
             self.bodies.push(Body {
-                name: printable(&part.name),
-                parent: Some(0),
-                pose,
-                joints: vec![Joint {
-                    name: format!("{} floats", printable(&part.name)),
-                    motion: Motion::Free,
-                    axis: Vector3::unit(2),
-                    point: Vector3::zero(),
-                    reference: 0.0,
-                    home: 0.0,
-                    limits: None,
-                    actuated: false,
-                }],
+                joints: vec![joint],
                 home: Some(pose),
-                frames: Vec::new(),
+                ..Body::new(name, Some(0), pose)
             });
             self.place(Frame::Platform { platform }, body, Pose::identity());
             let frames = &self.mechanism.dimensions().platforms[platform];
@@ -225,28 +195,16 @@ impl Cutter<'_> {
             pose = pose * part.before;
             if part.moves() {
                 let row = printable(&self.mechanism.frame_name(frame));
-                let mut joints = Vec::new();
-                for (form, slides) in [(&part.turn, false), (&part.slide, true)] {
-                    let place = |joint| Place {
-                        chain,
-                        row: index,
-                        slides,
-                        joint,
-                    };
-                    for &(joint, factor) in &form.0 {
-                        joints.push(self.joint(place(joint), factor, &row));
-                    }
-                }
+                let places = places_in(chain, index, part);
+                let joints = places.map(|(place, factor)| self.joint(place, factor, &row));
+                let joints = joints.collect();
+                let name = match part.after == Pose::identity() {
+                    true => row,
+                    false => format!("{row}.axis"),
+                };
                 self.bodies.push(Body {
-                    name: match part.after == Pose::identity() {
-                        true => row,
-                        false => format!("{row}.axis"),
-                    },
-                    parent: Some(body),
-                    pose,
                     joints,
-                    home: None,
-                    frames: Vec::new(),
+                    ..Body::new(name, Some(body), pose)
                 });
                 body = self.bodies.len() - 1;
                 pose = Pose::identity();
@@ -310,19 +268,24 @@ fn places(mechanism: &Mechanism) -> impl Iterator<Item = (Place, f64)> {
         let rows = part.rows.iter().enumerate();
         rows.map(move |(row, part)| (chain, row, part))
     });
-    rows.flat_map(|(chain, row, part)| {
-        let forms = [(&part.turn, false), (&part.slide, true)];
-        forms.into_iter().flat_map(move |(form, slides)| {
-            form.0.iter().map(move |&(joint, factor)| {
-                let place = Place {
-                    chain,
-                    row,
-                    slides,
-                    joint,
-                };
-                (place, factor)
-            })
-        })
+    rows.flat_map(|(chain, row, part)| places_in(chain, row, part))
+}
+
+fn places_in(
+    chain: usize,
+    row: usize,
+    part: &RowDimensions<f64>,
+) -> impl Iterator<Item = (Place, f64)> {
+    let forms = [(&part.turn, false), (&part.slide, true)].into_iter();
+    let terms = forms.flat_map(|(form, slides)| form.0.iter().map(move |term| (slides, term)));
+    terms.map(move |(slides, &(joint, factor))| {
+        let place = Place {
+            chain,
+            row,
+            slides,
+            joint,
+        };
+        (place, factor)
     })
 }
 

@@ -9,9 +9,7 @@ use super::remark::Remark;
 use super::tree::Tree;
 use super::unroll::{Unrolled, describe};
 use super::urdf;
-use crate::description::{
-    ChainDescription, Convention, Description, LoadError, load_text, nearest,
-};
+use crate::description::{Convention, Description, LoadError, load_text, nearest};
 
 /// How a file is read.
 #[derive(Clone, Debug, PartialEq)]
@@ -67,10 +65,8 @@ impl ImportError {
                 let (line, column) = crate::description::Lines::new(text).position(span.start);
                 format!("{line}:{column}: ")
             });
-            let help = problem
-                .kind
-                .help()
-                .map_or(String::new(), |help| format!(" ({help})"));
+            let help = problem.kind.help();
+            let help = help.map_or(String::new(), |help| format!(" ({help})"));
             let separator = if place.is_empty() { ": " } else { ":" };
             format!("{name}{separator}{place}{}{help}", problem.kind.title())
         };
@@ -124,23 +120,15 @@ pub fn import(
         files: vec![(name.to_owned(), text.to_owned())],
         problems: vec![(0, problem)],
     };
-    let element = super::page::document(text)
-        .map_err(whole)?
-        .root_element()
-        .tag_name()
-        .name()
-        .to_owned();
-    let ((tree, mut remarks), own) = match element.as_str() {
-        "robot" => {
-            let read = urdf::read(text).map_err(|problems| WrongFile {
-                files: vec![(name.to_owned(), text.to_owned())],
-                problems: problems.into_iter().map(|problem| (0, problem)).collect(),
-            })?;
-            (read, None)
-        }
+    let page = super::page::document(text).map_err(whole)?;
+    let (tree, mut remarks) = match page.root_element().tag_name().name() {
+        "robot" => urdf::read(text).map_err(|problems| WrongFile {
+            files: vec![(name.to_owned(), text.to_owned())],
+            problems: problems.into_iter().map(|problem| (0, problem)).collect(),
+        })?,
         "mujoco" => {
             let spliced = mjcf::splice(name, text, files)?;
-            let read = mjcf::read(&spliced.text).map_err(|problems| {
+            mjcf::read(&spliced.text).map_err(|problems| {
                 let located = problems.into_iter().map(|problem| match &problem.span {
                     None => (0, problem),
                     Some(span) => {
@@ -152,8 +140,7 @@ pub fn import(
                     problems: located.collect(),
                     files: spliced.files.clone(),
                 }
-            })?;
-            (read, Some(spliced))
+            })?
         }
         found => {
             let problem = ImportProblemKind::NotThisFormat {
@@ -163,17 +150,12 @@ pub fn import(
             return Err(whole(problem.anywhere()));
         }
     };
-    drop(own);
     let asked = asked(&tree, loops, settings).map_err(|kind| whole(kind.anywhere()))?;
     let source = Path::new(name)
         .file_name()
         .map_or(name.to_owned(), |name| name.to_string_lossy().into_owned());
-    let unrolled = describe(
-        &tree,
-        settings.convention,
-        &asked,
-        format!("imported from {source}"),
-    );
+    let source = format!("imported from {source}");
+    let unrolled = describe(&tree, settings.convention, &asked, source);
     let Unrolled {
         mut description,
         remarks: more,
@@ -200,12 +182,8 @@ fn asked(
     loops: Option<&Description>,
     settings: &ImportSettings,
 ) -> Result<Vec<String>, ImportProblemKind> {
-    let known: Vec<&String> = tree
-        .bodies
-        .iter()
-        .flat_map(|body| &body.frames)
-        .map(|(name, _)| name)
-        .collect();
+    let frames = tree.bodies.iter().flat_map(|body| &body.frames);
+    let known: Vec<&String> = frames.map(|(name, _)| name).collect();
     if settings.all_frames {
         return Ok(known.into_iter().cloned().collect());
     }
@@ -222,14 +200,8 @@ fn asked(
         asked.push(name.clone());
     }
     if let Some(loops) = loops {
-        let stands = loops
-            .chains
-            .iter()
-            .filter_map(|chain| chain.value.on.as_ref());
-        let joined = loops
-            .closures
-            .iter()
-            .flat_map(|closure| &closure.value.frames);
+        let stands = loops.chains.iter().filter_map(|c| c.value.on.as_ref());
+        let joined = loops.closures.iter().flat_map(|c| &c.value.frames);
         for name in stands.chain(joined) {
             let meant = known.iter().filter(|known| fit(known) == name.value);
             asked.extend(meant.map(|name| (*name).clone()));
@@ -246,11 +218,8 @@ fn add(description: &mut Description, loops: &Description, references: &[(String
         }
     };
     for joint in &loops.joints {
-        let own = description
-            .joints
-            .iter_mut()
-            .find(|own| own.name == joint.name);
-        match own {
+        let mut own = description.joints.iter_mut();
+        match own.find(|own| own.name == joint.name) {
             Some(own) => {
                 let limits = own.value.limits.take();
                 *own = joint.clone();
@@ -262,29 +231,25 @@ fn add(description: &mut Description, loops: &Description, references: &[(String
     let convention = loops.convention.clone();
     for chain in &loops.chains {
         let mut chain = chain.clone();
-        let ChainDescription { on, .. } = &mut chain.value;
-        if let Some(on) = on {
+        if let Some(on) = &mut chain.value.on {
             frame(&mut on.value);
         }
         chain.value.convention = chain.value.convention.or(convention.clone());
         description.chains.push(chain);
     }
-    description
-        .platforms
-        .extend(loops.platforms.iter().cloned());
     for closure in &loops.closures {
         let mut closure = closure.clone();
-        closure
-            .value
-            .frames
-            .iter_mut()
-            .for_each(|name| frame(&mut name.value));
+        let frames = closure.value.frames.iter_mut();
+        frames.for_each(|name| frame(&mut name.value));
         description.closures.push(closure);
     }
-    description
-        .parameters
-        .extend(loops.parameters.iter().cloned());
-    description
-        .closed_forms
-        .extend(loops.closed_forms.iter().cloned());
+    let Description {
+        parameters,
+        platforms,
+        closed_forms,
+        ..
+    } = loops.clone();
+    description.parameters.extend(parameters);
+    description.platforms.extend(platforms);
+    description.closed_forms.extend(closed_forms);
 }

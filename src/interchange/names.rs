@@ -4,7 +4,7 @@ use std::collections::{HashMap, HashSet};
 
 use super::remark::Remark;
 use crate::algebra::{is_name, is_reserved};
-use crate::description::GROUND;
+use crate::description::{GROUND, first_free};
 
 /// Names given so far.
 #[derive(Default)]
@@ -21,21 +21,12 @@ pub(super) struct Names {
 impl Names {
     /// A name for a joint variable: letters, digits and underscores.
     pub fn variable(&mut self, wanted: &str) -> String {
-        let fit = |c: char| {
-            if c.is_alphanumeric() || c == '_' {
-                c
-            } else {
-                '_'
-            }
-        };
-        let mut name: String = wanted.chars().map(fit).collect();
-        if !is_name(&name) || is_reserved(&name) {
-            name = format!("q_{name}");
-        }
-        if !is_name(&name) || is_reserved(&name) {
-            name = "q".into();
-        }
-        let name = unique(name, &self.variables);
+        let allowed = |c: char| c.is_alphanumeric() || c == '_';
+        let name = wanted.replace(|c| !allowed(c), "_");
+        let possible = |name: &String| is_name(name) && !is_reserved(name);
+        let mut names = [name.clone(), format!("q_{name}")].into_iter();
+        let name = names.find(possible).unwrap_or("q".into());
+        let name = first_free(&name, "_", |name| !self.variables.contains(name));
         self.variables.insert(name.clone());
         self.note("joint", wanted, &name);
         name
@@ -67,7 +58,7 @@ impl Names {
     }
 
     fn body(&mut self, wanted: &str) -> String {
-        let name = unique(fit(wanted), &self.bodies);
+        let name = first_free(&fit(wanted), "_", |name| !self.bodies.contains(name));
         self.bodies.insert(name.clone());
         self.note("link", wanted, &name);
         name
@@ -91,22 +82,10 @@ impl Names {
 
 /// A valid name for a chain, platform or frame in place of `wanted`.
 pub(super) fn fit(wanted: &str) -> String {
-    let name: String = wanted
-        .trim()
-        .chars()
-        .map(|c| if c == '.' { '_' } else { c })
-        .collect();
+    let name = wanted.trim().replace('.', "_");
     match name.as_str() {
         "" => "frame".into(),
         GROUND => format!("{GROUND}_"),
         _ => name,
     }
-}
-
-fn unique(name: String, taken: &HashSet<String>) -> String {
-    let mut numbered = (2..).map(|i| format!("{name}_{i}"));
-    if !taken.contains(&name) {
-        return name;
-    }
-    numbered.find(|name| !taken.contains(name)).unwrap_or(name)
 }

@@ -5,7 +5,7 @@ use std::ops::Range;
 use roxmltree::{Document, Node};
 
 use super::problem::{ImportProblem, ImportProblemKind};
-use crate::description::nearest;
+use crate::description::{Lines, nearest};
 use crate::geometry::{Axis, Pose, Vector3};
 
 /// The largest depth of nested elements: readers of the formats recurse for each level.
@@ -29,7 +29,7 @@ pub(super) fn document(text: &str) -> Result<Document<'_>, ImportProblem> {
             Some(end) if message[end..].contains(':') => message[..end].to_owned(),
             _ => message,
         };
-        let start = offset(text, position.row as usize, position.col as usize);
+        let start = Lines::new(text).offset(position.row as usize, position.col as usize);
         ImportProblemKind::Syntax { message }.at(start..next_char(text, start))
     })?;
     Ok(document)
@@ -91,21 +91,6 @@ fn next_char(text: &str, start: usize) -> usize {
         .map_or(start, |c| start + c.len_utf8())
 }
 
-/// The byte at a row and a column, both from 1; columns count characters.
-fn offset(text: &str, row: usize, column: usize) -> usize {
-    let line = text
-        .split_inclusive('\n')
-        .take(row.saturating_sub(1))
-        .map(str::len)
-        .sum::<usize>();
-    let rest = &text[line.min(text.len())..];
-    let within = rest
-        .char_indices()
-        .nth(column.saturating_sub(1))
-        .map_or(rest.len(), |(i, _)| i);
-    (line + within).min(text.len())
-}
-
 /// Where the start tag of an element stands.
 pub(super) fn tag(node: Node) -> Range<usize> {
     let range = node.range();
@@ -143,15 +128,29 @@ impl Problems {
         self.0.push(kind.at(tag(node)));
     }
 
+    /// Something that linkwork cannot read, and what to do; there is nothing in its place.
+    pub fn unsupported<T>(
+        &mut self,
+        what: impl Into<String>,
+        help: &'static str,
+        node: Node,
+    ) -> Option<T> {
+        let what = what.into();
+        self.say(ImportProblemKind::Unsupported { what, help }, node);
+        None
+    }
+
+    /// Something that an element must have.
+    pub fn missing(&mut self, node: Node, needs: String) {
+        let element = node.tag_name().name().into();
+        self.say(ImportProblemKind::Missing { element, needs }, node);
+    }
+
     /// An attribute that must be there.
     pub fn needed<'a>(&mut self, node: Node<'a, '_>, name: &str) -> Option<&'a str> {
         let found = node.attribute(name);
         if found.is_none() {
-            let problem = ImportProblemKind::Missing {
-                element: node.tag_name().name().into(),
-                needs: format!("`{name}`"),
-            };
-            self.say(problem, node);
+            self.missing(node, format!("`{name}`"));
         }
         found
     }
@@ -160,11 +159,7 @@ impl Problems {
     pub fn needed_child<'a, 'i>(&mut self, node: Node<'a, 'i>, name: &str) -> Option<Node<'a, 'i>> {
         let found = child(node, name);
         if found.is_none() {
-            let problem = ImportProblemKind::Missing {
-                element: node.tag_name().name().into(),
-                needs: format!("element `{name}`"),
-            };
-            self.say(problem, node);
+            self.missing(node, format!("element `{name}`"));
         }
         found
     }
@@ -181,8 +176,8 @@ impl Problems {
 
     pub fn not_numbers(&mut self, text: &str, count: usize, span: Range<usize>) {
         let text = text.chars().take(40).collect();
-        self.0
-            .push(ImportProblemKind::NotNumbers { text, count }.at(span));
+        let kind = ImportProblemKind::NotNumbers { text, count };
+        self.0.push(kind.at(span));
     }
 
     /// One number of an attribute; it may be infinite.
@@ -213,10 +208,8 @@ impl Problems {
         if known.contains(&word) {
             return Some(word);
         }
-        let problem = ImportProblemKind::UnknownWord {
-            word: word.into(),
-            known,
-        };
+        let word = word.into();
+        let problem = ImportProblemKind::UnknownWord { word, known };
         self.0.push(problem.at(value_span(node, name)));
         None
     }

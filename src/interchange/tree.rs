@@ -1,7 +1,7 @@
 //! Bodies in a tree with the loops that close it: the common ground of URDF, MJCF and a mechanism.
 
 use crate::description::ClosureKind;
-use crate::geometry::{Pose, Vector3};
+use crate::geometry::{Pose, Rotation, Vector3};
 
 /// How a joint moves its body.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -115,59 +115,129 @@ pub struct Tree {
     pub size: f64,
 }
 
+impl Body {
+    /// A body without joints and frames, on its parent.
+    pub(super) fn new(name: String, parent: Option<usize>, pose: Pose<f64>) -> Self {
+        Body {
+            name,
+            parent,
+            pose,
+            joints: Vec::new(),
+            home: None,
+            frames: Vec::new(),
+        }
+    }
+
+    /// Whether the body has a ball or free joint.
+    pub(super) fn floats(&self) -> bool {
+        self.joints.iter().any(|joint| joint.motion.floats())
+    }
+}
+
+impl Motion {
+    pub(super) fn floats(self) -> bool {
+        matches!(self, Motion::Ball | Motion::Free)
+    }
+}
+
+impl Loop {
+    /// A loop without a length.
+    pub(super) fn new(name: String, kind: ClosureKind, sides: [Attachment; 2]) -> Self {
+        Loop {
+            name,
+            kind,
+            sides,
+            length: None,
+        }
+    }
+
+    /// The ends of a loop at poses in two bodies; their frames are called after the loop.
+    pub(super) fn sides(name: &str, ends: [(usize, Pose<f64>); 2]) -> [Attachment; 2] {
+        [0, 1].map(|side| Attachment {
+            body: ends[side].0,
+            frame: format!("{name}_{}", side + 1),
+            pose: ends[side].1,
+        })
+    }
+}
+
 impl Joint {
+    /// A passive joint through the origin of its body, at 0 and without limits.
+    pub(super) fn new(name: String, motion: Motion, axis: Vector3<f64>) -> Self {
+        Joint {
+            name,
+            motion,
+            axis,
+            point: Vector3::zero(),
+            reference: 0.0,
+            home: 0.0,
+            limits: None,
+            actuated: false,
+        }
+    }
+
     /// The displacement of the joint at a value, in its body's frame; none for balls and free joints.
     pub fn displacement(&self, value: f64) -> Pose<f64> {
         let by = value - self.reference;
         match self.motion {
             Motion::Slide => Pose::translation(self.axis.times(by)),
-            Motion::Turn => {
-                let turn = Pose {
-                    rotation: about(&self.axis, by),
-                    position: Vector3::zero(),
-                };
-                Pose::translation(self.point) * turn * Pose::translation(-self.point)
-            }
+            Motion::Turn => self.about_point(about(&self.axis, by)),
             Motion::Ball | Motion::Free => Pose::identity(),
         }
     }
 }
 
+impl Joint {
+    /// A rotation about the point of the joint.
+    pub(super) fn about_point(&self, rotation: Rotation<f64>) -> Pose<f64> {
+        let position = Vector3::zero();
+        let turn = Pose { rotation, position };
+        Pose::translation(self.point) * turn * Pose::translation(-self.point)
+    }
+}
+
 /// The rotation about a unit vector (Rodrigues): R = 1 + sin θ [n]× + (1 − cos θ) [n]×².
-fn about(axis: &Vector3<f64>, angle: f64) -> crate::geometry::Rotation<f64> {
+fn about(axis: &Vector3<f64>, angle: f64) -> Rotation<f64> {
     let (sin, cos) = angle.sin_cos();
-    crate::geometry::Rotation([0, 1, 2].map(|i| {
+    Rotation([0, 1, 2].map(|i| {
         let e = Vector3::unit(i);
         e.times(cos) + axis.cross(&e).times(sin) + axis.times(axis.0[i] * (1.0 - cos))
     }))
 }
 
 impl Tree {
+    /// All joints, in the order of the bodies.
+    pub(super) fn joints(&self) -> impl Iterator<Item = &Joint> {
+        self.bodies.iter().flat_map(|body| &body.joints)
+    }
+
+    /// The body of that name.
+    pub(super) fn body(&self, name: &str) -> Option<usize> {
+        self.bodies.iter().position(|body| body.name == name)
+    }
+
     /// Ground from every body, with each joint at the value `of` gives it; floating bodies stay as placed.
     pub fn poses(&self, of: impl Fn(&Joint) -> f64) -> Vec<Pose<f64>> {
-        let mut poses: Vec<Pose<f64>> = Vec::with_capacity(self.bodies.len());
-        for body in &self.bodies {
-            let parent = body.parent.map_or(Pose::identity(), |parent| poses[parent]);
-            let moved = body.joints.iter().fold(body.pose, |pose, joint| {
-                pose * joint.displacement(of(joint))
-            });
-            poses.push(parent * moved);
-        }
-        poses
+        self.placed(|_| None, of)
     }
 
     /// Ground from every body at home.
     pub fn home(&self) -> Vec<Pose<f64>> {
+        self.placed(|body| body.home, |joint| joint.home)
+    }
+
+    fn placed(
+        &self,
+        given: impl Fn(&Body) -> Option<Pose<f64>>,
+        of: impl Fn(&Joint) -> f64,
+    ) -> Vec<Pose<f64>> {
         let mut poses: Vec<Pose<f64>> = Vec::with_capacity(self.bodies.len());
         for body in &self.bodies {
             let parent = body.parent.map_or(Pose::identity(), |parent| poses[parent]);
-            poses.push(body.home.unwrap_or_else(|| {
-                let joints = body.joints.iter();
-                parent
-                    * joints.fold(body.pose, |pose, joint| {
-                        pose * joint.displacement(joint.home)
-                    })
-            }));
+            let moved = |pose, joint: &Joint| pose * joint.displacement(of(joint));
+            poses.push(
+                given(body).unwrap_or_else(|| parent * body.joints.iter().fold(body.pose, moved)),
+            );
         }
         poses
     }

@@ -1,10 +1,10 @@
 //! A tree of bodies and its loops → the description of a mechanism.
 //!
 //! Bodies that move one after the other without a branch become one chain; its table is placed on the joint axes by
-//! [`SerialAxes`], at the reference values of the joints. At a branch a new chain is attached to a link of the previous
-//! chain. Bodies with a ball or free joint become platforms, a ball joint a spherical closure. Bodies that do not move
-//! against their parent are parts of it. A requested frame becomes the tip of its chain, or, if the chain has one
-//! already, a chain without rows.
+//! [`SerialAxes`], at the reference values of the joints. At a branch a new chain is attached to a link of the previous chain.
+//! Bodies with a ball or free joint become platforms, a ball joint a spherical closure. Bodies that do not move
+//! against their parent are parts of it. A requested frame becomes the tip of its chain, or, if the chain has one already,
+//! a chain without rows.
 
 mod closures;
 mod relations;
@@ -18,7 +18,7 @@ use sum::sum;
 use super::names::Names;
 use super::problem::ImportProblemKind;
 use super::remark::Remark;
-use super::tree::{Attachment, Body, Coupling, Joint, Motion, Tree};
+use super::tree::{Attachment, Coupling, Joint, Motion, Tree};
 use crate::description::{
     ChainDescription, ClosureDescription, Convention, Description, Displacement, Entry, GROUND,
     JointDescription, Named, PlatformDescription, Role, Row, Spanned,
@@ -61,34 +61,28 @@ pub(super) fn describe(
     let platforms = unroller.platforms();
     unroller.chains();
     let (platforms, closures) = unroller.closures(platforms);
-    let moves = unroller
-        .chains
-        .iter()
-        .any(|chain| !chain.value.rows.is_empty());
-    if !moves && platforms.is_empty() {
+    let moves = |chain: &Named<ChainDescription>| !chain.value.rows.is_empty();
+    if !unroller.chains.iter().any(moves) && platforms.is_empty() {
         return Err(ImportProblemKind::NothingMoves);
     }
     let description = Description {
-        name: spanned(match tree.name.trim() {
+        name: Spanned::nowhere(match tree.name.trim() {
             "" => "mechanism".to_owned(),
             name => name.to_owned(),
         }),
-        source: Some(spanned(source)),
-        convention: Some(Spanned::new(convention, 0..0)),
-        parameters: Vec::new(),
+        source: Some(Spanned::nowhere(source)),
+        convention: Some(Spanned::nowhere(convention)),
         joints: unroller.joints(),
         chains: unroller.chains,
         platforms,
         closures,
-        closed_forms: Vec::new(),
+        ..Description::default()
     };
+    let mut remarks = unroller.remarks;
+    remarks.extend(unroller.names.renamed());
     Ok(Unrolled {
         description,
-        remarks: unroller
-            .remarks
-            .into_iter()
-            .chain(unroller.names.renamed())
-            .collect(),
+        remarks,
         references: unroller.references,
     })
 }
@@ -124,32 +118,15 @@ type Floating = (usize, Named<PlatformDescription>);
 type Platforms = Vec<Named<PlatformDescription>>;
 type Closures = Vec<Named<ClosureDescription>>;
 
-fn spanned<T>(value: T) -> Spanned<T> {
-    Spanned::new(value, 0..0)
-}
-
-fn named<T>(name: String, value: T) -> Named<T> {
-    Named {
-        name: spanned(name),
-        value,
-    }
-}
-
 /// Whether a pose can be left out because it is the identity.
 fn is_identity(pose: &Pose<f64>) -> bool {
     Displacement::of_pose(pose).is_empty()
 }
 
-fn floats(body: &Body) -> Option<&Joint> {
-    let mut joints = body.joints.iter();
-    joints.find(|joint| matches!(joint.motion, Motion::Ball | Motion::Free))
-}
-
 impl Unroller<'_> {
     fn variables(&mut self) {
-        for joint in self.tree.bodies.iter().flat_map(|body| &body.joints) {
-            let moves = matches!(joint.motion, Motion::Turn | Motion::Slide);
-            if moves && !self.leaders.contains_key(&joint.name) {
+        for joint in self.tree.joints() {
+            if !joint.motion.floats() && !self.leaders.contains_key(&joint.name) {
                 let variable = self.names.variable(&joint.name);
                 self.variables.insert(joint.name.clone(), variable);
             }
@@ -188,13 +165,14 @@ impl Unroller<'_> {
     fn platforms(&mut self) -> Vec<Floating> {
         let mut platforms = Vec::new();
         for (i, body) in self.tree.bodies.iter().enumerate() {
-            if floats(body).is_some() {
+            if body.floats() {
                 let home = body.home.unwrap_or(self.zero[i]);
                 let platform = PlatformDescription {
                     home: Displacement::of_pose(&home),
                     frames: Vec::new(),
                 };
-                platforms.push((i, named(self.names.platform(&body.name), platform)));
+                let name = self.names.platform(&body.name);
+                platforms.push((i, Named::new(name, platform)));
             }
         }
         platforms
@@ -204,18 +182,18 @@ impl Unroller<'_> {
         let tree = self.tree;
         let mut below: Vec<Vec<usize>> = vec![Vec::new(); tree.bodies.len()];
         for (i, body) in tree.bodies.iter().enumerate() {
-            let turns = !body.joints.is_empty() && floats(body).is_none();
+            let turns = !body.joints.is_empty() && !body.floats();
             if let (true, Some(parent)) = (turns, body.parent) {
                 below[self.carriers[parent].0].push(i);
             }
         }
-        let is_chain = |body: usize| body != 0 && floats(&tree.bodies[body]).is_none();
+        let is_chain = |body: usize| body != 0 && !tree.bodies[body].floats();
         for first in 0..tree.bodies.len() {
             let body = &tree.bodies[first];
             let Some(parent) = body.parent else { continue };
             let parent = self.carriers[parent].0;
             let goes_on = is_chain(parent) && below[parent].len() == 1;
-            if body.joints.is_empty() || floats(body).is_some() || goes_on {
+            if body.joints.is_empty() || body.floats() || goes_on {
                 continue;
             }
             let mut links = vec![first];
@@ -234,12 +212,9 @@ impl Unroller<'_> {
         // the last of the parts fixed to the link that has no children, if any
         let fixed = (last + 1..self.tree.bodies.len()).filter(|&i| self.carriers[i].0 == last);
         let fixed: Vec<usize> = fixed.collect();
-        let hung: HashSet<Option<usize>> =
-            self.tree.bodies.iter().map(|body| body.parent).collect();
-        let end = fixed
-            .into_iter()
-            .find(|i| !hung.contains(&Some(*i)))
-            .unwrap_or(last);
+        let hung: HashSet<_> = self.tree.bodies.iter().map(|body| body.parent).collect();
+        let end = fixed.into_iter().find(|i| !hung.contains(&Some(*i)));
+        let end = end.unwrap_or(last);
         (self.tree.bodies[end].name.clone(), self.carriers[end].1)
     }
 
@@ -286,13 +261,11 @@ impl Unroller<'_> {
         let name = self.names.frame(&wanted);
         let rows = self.rows(links, &table);
         let chain = ChainDescription {
-            on: (on != GROUND).then(|| spanned(on)),
-            convention: None,
-            base: Displacement::of_pose(&base),
             rows,
             tip: Displacement::of_pose(&table.tip),
+            ..ChainDescription::frame(&on, Displacement::of_pose(&base))
         };
-        self.chains.push(named(name, chain));
+        self.chains.push(Named::new(name, chain));
     }
 
     /// The frame to which a chain is attached, and the pose of its first frame there.
@@ -314,12 +287,11 @@ impl Unroller<'_> {
         let joints = links
             .iter()
             .flat_map(|&link| &self.tree.bodies[link].joints);
-        let rows = joints.zip(&table.rows).map(|(joint, row)| Row {
-            alpha: Entry::angle(row.alpha),
-            a: Entry::length(row.a),
-            d: self.affine(Entry::length, row.d, row.slide, joint),
-            theta: self.affine(Entry::angle, row.theta, row.turn, joint),
-            span: 0..0,
+        let rows = joints.zip(&table.rows).map(|(joint, row)| {
+            let (alpha, a) = (Entry::angle(row.alpha), Entry::length(row.a));
+            let d = self.affine(Entry::length, row.d, row.slide, joint);
+            let theta = self.affine(Entry::angle, row.theta, row.turn, joint);
+            Row::new(alpha, a, d, theta)
         });
         rows.collect()
     }
@@ -336,10 +308,10 @@ impl Unroller<'_> {
             return entry(constant);
         }
         match self.leaders.get(&joint.name) {
-            None => sum(
-                entry(constant),
-                &[(self.variables[&joint.name].clone(), coefficient)],
-            ),
+            None => {
+                let variable = self.variables[&joint.name].clone();
+                sum(entry(constant), &[(variable, coefficient)])
+            }
             Some(coupling) => {
                 let constant = constant + coefficient * coupling.offset;
                 let terms = self.variables.get(&coupling.leader);
@@ -352,20 +324,16 @@ impl Unroller<'_> {
     /// The joint variables: those of joints that lead, within the limits of all that follow.
     fn joints(&self) -> Vec<Named<JointDescription>> {
         let mut joints = Vec::new();
-        let all = || self.tree.bodies.iter().flat_map(|body| &body.joints);
-        for joint in all() {
+        for joint in self.tree.joints() {
             let Some(variable) = self.variables.get(&joint.name) else {
                 continue;
             };
             let mut limits = joint.limits;
             let mut actuated = joint.actuated;
             let mut angle = joint.motion == Motion::Turn;
-            for follower in all() {
-                let Some(coupling) = self
-                    .leaders
-                    .get(&follower.name)
-                    .filter(|c| c.leader == joint.name)
-                else {
+            for follower in self.tree.joints() {
+                let coupling = self.leaders.get(&follower.name);
+                let Some(coupling) = coupling.filter(|c| c.leader == joint.name) else {
                     continue;
                 };
                 actuated |= follower.actuated;
@@ -381,16 +349,12 @@ impl Unroller<'_> {
             }
             let entry = if angle { Entry::angle } else { Entry::length };
             let description = JointDescription {
-                role: if actuated {
-                    Role::Actuated
-                } else {
-                    Role::Passive
-                },
+                role: [Role::Passive, Role::Actuated][usize::from(actuated)],
                 home: entry(joint.home),
                 limits: limits.map(|(low, high)| (entry(low), entry(high))),
                 span: 0..0,
             };
-            joints.push(named(variable.clone(), description));
+            joints.push(Named::new(variable.clone(), description));
         }
         joints
     }

@@ -43,23 +43,17 @@ fn echelon(mut rows: Vec<Vec<f64>>) -> Vec<Vec<f64>> {
             if i != done {
                 let factor = rows[i][column];
                 let pivot_row = rows[done].clone();
-                rows[i]
-                    .iter_mut()
-                    .zip(&pivot_row)
-                    .for_each(|(x, p)| *x -= factor * p);
+                let row = rows[i].iter_mut().zip(&pivot_row);
+                row.for_each(|(x, p)| *x -= factor * p);
             }
         }
         done += 1;
     }
     for row in &mut rows {
         let length = norm(row);
-        row.iter_mut().for_each(|x| {
-            *x = if x.abs() < ALIGNED * length {
-                0.0
-            } else {
-                *x / length
-            }
-        });
+        let zero = |x: f64| x.abs() < ALIGNED * length;
+        row.iter_mut()
+            .for_each(|x| *x = if zero(*x) { 0.0 } else { *x / length });
     }
     rows
 }

@@ -41,6 +41,12 @@ struct Factor<T: Field> {
     x: Vec<T>,
 }
 
+impl<T: Field> Factor<T> {
+    fn entries(&self) -> (&Block, &[T]) {
+        (&self.layout, &self.matrix)
+    }
+}
+
 impl<T: Factorable> Bordered<T> {
     /// A matrix of the given blocks, and below them `extra_rows` rows over the shared unknowns.
     pub fn new(unknowns: usize, blocks: Vec<Block>, extra_rows: usize, shared: Vec<usize>) -> Self {
@@ -64,36 +70,24 @@ impl<T: Factorable> Bordered<T> {
             })
             .collect();
         let rows: usize = blocks.iter().map(|b| b.layout.rows).sum::<usize>() + extra_rows;
-        let most = rows + unknowns;
-        if sparse.is_some() {
-            return Bordered {
-                unknowns,
-                rows,
-                blocks,
-                extra_rows,
-                border: Qr::new(0, 0, 0),
-                square_border: Lu::new(0),
-                square: false,
-                border_rhs: vec![T::zero(); unknowns],
-                border_x: vec![T::zero(); unknowns],
-                shared,
-                damped: false,
-                sparse,
-            };
-        }
+        // the sparse factors have no border
+        let (most, width) = match sparse {
+            Some(_) => (0, 0),
+            None => (rows + unknowns, shared.len()),
+        };
         Bordered {
             unknowns,
             rows,
             blocks,
             extra_rows,
-            border: Qr::new(most, shared.len(), 0),
-            square_border: Lu::new(shared.len()),
+            border: Qr::new(most, width, 0),
+            square_border: Lu::new(width),
             square: false,
             border_rhs: vec![T::zero(); most],
-            border_x: vec![T::zero(); shared.len()],
+            border_x: vec![T::zero(); width],
             shared,
             damped: false,
-            sparse: None,
+            sparse,
         }
     }
 
@@ -134,14 +128,7 @@ impl<T: Factorable> Bordered<T> {
     /// after another over the shared unknowns.
     pub fn factorise(&mut self, extra: &[T], damping: f64) {
         if let Some(sparse) = &mut self.sparse {
-            sparse.factorise(
-                self.blocks
-                    .iter()
-                    .map(|block| (&block.layout, block.matrix.as_slice())),
-                extra,
-                damping,
-            );
-            return;
+            return sparse.factorise(self.blocks.iter().map(Factor::entries), extra, damping);
         }
         self.damped = damping > 0.0;
         let root = T::from_f64(damping.sqrt());
@@ -201,13 +188,7 @@ impl<T: Factorable> Bordered<T> {
     /// the unknowns. May be called again with other residuals for the same factors.
     pub fn solve(&mut self, r: &[T], x: &mut [T]) {
         if let Some(sparse) = &self.sparse {
-            let blocks = || {
-                self.blocks
-                    .iter()
-                    .map(|block| (&block.layout, block.matrix.as_slice()))
-            };
-            sparse.step(blocks, r, x);
-            return;
+            return sparse.step(|| self.blocks.iter().map(Factor::entries), r, x);
         }
         let mut row = 0;
         let mut border_row = 0;
@@ -262,12 +243,11 @@ impl<T: Factorable> Bordered<T> {
     /// How many unknowns the last factorisation left undetermined.
     pub fn nullity(&self) -> usize {
         let blocks = self.blocks.iter().map(|b| b.layout.own.len() - b.qr.rank());
-        let border = if self.square {
-            self.shared.len()
-        } else {
-            self.border.rank()
+        let free = match self.square {
+            true => 0,
+            false => self.shared.len() - self.border.rank(),
         };
-        blocks.sum::<usize>() + self.shared.len() - border
+        blocks.sum::<usize>() + free
     }
 
     /// The blocks' layout, in order.

@@ -7,7 +7,9 @@ use super::{Svd, rank};
 pub struct Decomposition {
     rows: usize,
     columns: usize,
+    /// All singular values.
     values: Vec<f64>,
+    /// The vectors of those that count.
     left: Vec<Vec<f64>>,
     right: Vec<Vec<f64>>,
 }
@@ -24,15 +26,6 @@ impl Decomposition {
     }
 
     fn cut(rows: usize, columns: usize, entries: &[f64], rank: impl Fn(&[f64]) -> usize) -> Self {
-        if rows == 0 || columns == 0 {
-            return Decomposition {
-                rows,
-                columns,
-                values: vec![],
-                left: vec![],
-                right: vec![],
-            };
-        }
         let Svd {
             mut left,
             mut values,
@@ -165,15 +158,10 @@ pub fn complement(basis: &[Vec<f64>], size: usize) -> Vec<Vec<f64>> {
     let mut missing: Vec<Vec<f64>> = Vec::new();
     for _ in basis.len()..size {
         // the unit vector that the known ones explain worst
-        let unexplained = |i: usize| {
-            1.0 - known
-                .iter()
-                .map(|vector| vector[i] * vector[i])
-                .sum::<f64>()
-        };
-        let best = (0..size)
-            .max_by(|&i, &j| unexplained(i).total_cmp(&unexplained(j)))
-            .expect("size > 0");
+        let explained = |i: usize| known.iter().map(|v| v[i] * v[i]).sum::<f64>();
+        let unexplained = |i: usize| 1.0 - explained(i);
+        let worst = (0..size).max_by(|&i, &j| unexplained(i).total_cmp(&unexplained(j)));
+        let best = worst.expect("size > 0");
         let mut next = vec![0.0; size];
         next[best] = 1.0;
         remove(&mut next, &known);

@@ -8,29 +8,18 @@ pub trait Factorable: Field {
     type Sparse: SparseStep<Self>;
 }
 
-#[cfg(feature = "sparse")]
-mod real_and_complex {
-    use super::{Complex, Factorable};
-    use crate::linear::sparse::SparseNormal;
-
-    impl Factorable for f64 {
-        type Sparse = SparseNormal<f64>;
-    }
-    impl Factorable for Complex<f64> {
-        type Sparse = SparseNormal<Complex<f64>>;
-    }
+impl Factorable for f64 {
+    #[cfg(feature = "sparse")]
+    type Sparse = super::SparseNormal<f64>;
+    #[cfg(not(feature = "sparse"))]
+    type Sparse = DenseOnly;
 }
 
-#[cfg(not(feature = "sparse"))]
-mod real_and_complex {
-    use super::{Complex, DenseOnly, Factorable};
-
-    impl Factorable for f64 {
-        type Sparse = DenseOnly;
-    }
-    impl Factorable for Complex<f64> {
-        type Sparse = DenseOnly;
-    }
+impl Factorable for Complex<f64> {
+    #[cfg(feature = "sparse")]
+    type Sparse = super::SparseNormal<Complex<f64>>;
+    #[cfg(not(feature = "sparse"))]
+    type Sparse = DenseOnly;
 }
 
 impl<T: Field> Factorable for Dual<T> {

@@ -1,51 +1,36 @@
 //! The coordinates of a platform that can be held: position and roll, pitch, yaw.
 
+use crate::algebra::words;
 use crate::geometry::{Axis, Pose, RollPitchYaw, Rotation, Vector3};
 use crate::number::Number;
 
-/// One coordinate of a platform's pose in ground.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
-pub enum Coordinate {
-    /// Position along ground's x, in m.
-    X,
-    /// Position along ground's y, in m.
-    Y,
-    /// Position along ground's z, in m.
-    Z,
-    /// Angle about ground's x, in rad; see [`RollPitchYaw`].
-    Roll,
-    /// Angle about ground's y, in rad.
-    Pitch,
-    /// Angle about ground's z, in rad.
-    Yaw,
+words! {
+    /// One coordinate of a platform's pose in ground, called by its word after the platform's name: `top.z`, `top.yaw`.
+    Coordinate {
+        /// Position along ground's x, in m.
+        X = "x",
+        /// Position along ground's y, in m.
+        Y = "y",
+        /// Position along ground's z, in m.
+        Z = "z",
+        /// Angle about ground's x, in rad; see [`RollPitchYaw`].
+        Roll = "roll",
+        /// Angle about ground's y, in rad.
+        Pitch = "pitch",
+        /// Angle about ground's z, in rad.
+        Yaw = "yaw",
+    }
 }
 
 impl Coordinate {
-    /// All six, position first.
-    pub const ALL: [Coordinate; 6] = [
-        Coordinate::X,
-        Coordinate::Y,
-        Coordinate::Z,
-        Coordinate::Roll,
-        Coordinate::Pitch,
-        Coordinate::Yaw,
-    ];
-
     /// The name used after the platform's: `top.z`, `top.yaw`.
     pub fn name(self) -> &'static str {
-        match self {
-            Coordinate::X => "x",
-            Coordinate::Y => "y",
-            Coordinate::Z => "z",
-            Coordinate::Roll => "roll",
-            Coordinate::Pitch => "pitch",
-            Coordinate::Yaw => "yaw",
-        }
+        self.word()
     }
 
     /// The coordinate of that name.
     pub fn by_name(name: &str) -> Option<Self> {
-        Coordinate::ALL.into_iter().find(|c| c.name() == name)
+        Self::from_word(name)
     }
 
     /// Whether it is an angle, in rad; otherwise a length, in m.

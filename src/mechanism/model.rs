@@ -1,6 +1,6 @@
 //! The parts of a mechanism, every name resolved.
 
-use crate::algebra::{Affine, Expression, Measure};
+use crate::algebra::{Affine, Expression, Measure, words};
 use crate::description::{ClosureKind, Convention, MatrixEntry, Role};
 use crate::geometry::{Axis, Pose};
 
@@ -31,15 +31,16 @@ pub struct Parameter {
     pub measure: Measure,
 }
 
-/// How a joint moves.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub enum JointKind {
-    /// Revolute: the variable is an angle in rad and occurs in `theta` only.
-    Revolute,
-    /// Prismatic: the variable is a length in m and occurs in `d` or in the length of a `Distance`.
-    Prismatic,
-    /// Helical: the variable is an angle in rad and occurs in both.
-    Helical,
+words! {
+    /// How a joint moves.
+    JointKind {
+        /// Revolute: the variable is an angle in rad and occurs in `theta` only.
+        Revolute = "revolute",
+        /// Prismatic: the variable is a length in m and occurs in `d` or in the length of a `Distance`.
+        Prismatic = "prismatic",
+        /// Helical: the variable is an angle in rad and occurs in both.
+        Helical = "helical",
+    }
 }
 
 /// A joint variable.
@@ -58,15 +59,6 @@ pub struct Joint {
 }
 
 impl JointKind {
-    /// Its name in words.
-    pub fn word(self) -> &'static str {
-        match self {
-            JointKind::Revolute => "revolute",
-            JointKind::Prismatic => "prismatic",
-            JointKind::Helical => "helical",
-        }
-    }
-
     /// Whether the variable is an angle (rad); otherwise a length (m).
     pub fn is_angle(self) -> bool {
         self != JointKind::Prismatic

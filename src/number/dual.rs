@@ -1,6 +1,6 @@
-use std::ops::{Add, AddAssign, Div, Mul, MulAssign, Neg, Sub, SubAssign};
+use std::ops::{Add, Div, Mul, Neg, Sub};
 
-use super::{Extent, Field, Number};
+use super::{Extent, Field, Number, assigning};
 
 /// A value with its derivative along one direction: a + a′ε with ε² = 0 (Clifford 1873).
 ///
@@ -13,59 +13,48 @@ pub struct Dual<T> {
     pub slope: T,
 }
 
+fn dual<T>(value: T, slope: T) -> Dual<T> {
+    Dual { value, slope }
+}
+
 impl<T: Number> Dual<T> {
     /// The variable of differentiation, at `value`.
     pub fn variable(value: T) -> Self {
-        Dual {
-            value,
-            slope: T::one(),
-        }
+        dual(value, T::one())
     }
 
     /// A constant: its derivative is zero.
     pub fn constant(value: T) -> Self {
-        Dual {
-            value,
-            slope: T::zero(),
-        }
+        dual(value, T::zero())
     }
 
     /// f(a) + f′(a) a′ε.
     fn chain(self, value: T, derivative: T) -> Self {
-        Dual {
-            value,
-            slope: derivative * self.slope,
-        }
+        dual(value, derivative * self.slope)
     }
 }
 
 impl<T: Number> Add for Dual<T> {
     type Output = Self;
     fn add(self, other: Self) -> Self {
-        Dual {
-            value: self.value + other.value,
-            slope: self.slope + other.slope,
-        }
+        dual(self.value + other.value, self.slope + other.slope)
     }
 }
 
 impl<T: Number> Sub for Dual<T> {
     type Output = Self;
     fn sub(self, other: Self) -> Self {
-        Dual {
-            value: self.value - other.value,
-            slope: self.slope - other.slope,
-        }
+        dual(self.value - other.value, self.slope - other.slope)
     }
 }
 
 impl<T: Number> Mul for Dual<T> {
     type Output = Self;
     fn mul(self, other: Self) -> Self {
-        Dual {
-            value: self.value * other.value,
-            slope: self.value * other.slope + self.slope * other.value,
-        }
+        dual(
+            self.value * other.value,
+            self.value * other.slope + self.slope * other.value,
+        )
     }
 }
 
@@ -73,40 +62,18 @@ impl<T: Number> Div for Dual<T> {
     type Output = Self;
     fn div(self, other: Self) -> Self {
         let value = self.value / other.value;
-        Dual {
-            value,
-            slope: (self.slope - value * other.slope) / other.value,
-        }
+        dual(value, (self.slope - value * other.slope) / other.value)
     }
 }
 
 impl<T: Number> Neg for Dual<T> {
     type Output = Self;
     fn neg(self) -> Self {
-        Dual {
-            value: -self.value,
-            slope: -self.slope,
-        }
+        dual(-self.value, -self.slope)
     }
 }
 
-impl<T: Number> AddAssign for Dual<T> {
-    fn add_assign(&mut self, other: Self) {
-        *self = *self + other;
-    }
-}
-
-impl<T: Number> SubAssign for Dual<T> {
-    fn sub_assign(&mut self, other: Self) {
-        *self = *self - other;
-    }
-}
-
-impl<T: Number> MulAssign for Dual<T> {
-    fn mul_assign(&mut self, other: Self) {
-        *self = *self * other;
-    }
-}
+assigning!(Dual<T>, T);
 
 impl<T: Number> Number for Dual<T> {
     const REAL: bool = T::REAL;
@@ -139,10 +106,10 @@ impl<T: Number> Number for Dual<T> {
     }
     fn atan2(self, x: Self) -> Self {
         let (y, r2) = (self, self.value * self.value + x.value * x.value);
-        Dual {
-            value: y.value.atan2(x.value),
-            slope: (x.value * y.slope - y.value * x.slope) / r2,
-        }
+        dual(
+            y.value.atan2(x.value),
+            (x.value * y.slope - y.value * x.slope) / r2,
+        )
     }
     fn exp(self) -> Self {
         let e = self.value.exp();
@@ -155,20 +122,14 @@ impl<T: Number> Number for Dual<T> {
         self.value.is_finite() && self.slope.is_finite()
     }
     fn scale(self, factor: f64) -> Self {
-        Dual {
-            value: self.value.scale(factor),
-            slope: self.slope.scale(factor),
-        }
+        dual(self.value.scale(factor), self.slope.scale(factor))
     }
 }
 
 impl<T: Field> Field for Dual<T> {
     type Size = T::Size;
     fn conjugate(self) -> Self {
-        Dual {
-            value: self.value.conjugate(),
-            slope: self.slope.conjugate(),
-        }
+        dual(self.value.conjugate(), self.slope.conjugate())
     }
     fn norm_squared(self) -> T::Size {
         self.value.norm_squared()
@@ -180,9 +141,6 @@ impl<T: Field> Field for Dual<T> {
         }
     }
     fn stretched(self, factor: T::Size) -> Self {
-        Dual {
-            value: self.value.stretched(factor),
-            slope: self.slope.stretched(factor),
-        }
+        dual(self.value.stretched(factor), self.slope.stretched(factor))
     }
 }

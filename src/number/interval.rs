@@ -1,7 +1,7 @@
 use std::f64::consts::{FRAC_PI_2, PI};
-use std::ops::{Add, AddAssign, Div, Mul, MulAssign, Neg, Sub, SubAssign};
+use std::ops::{Add, Div, Mul, Neg, Sub};
 
-use super::{Field, Number};
+use super::{Field, Number, assigning};
 
 /// All reals from `low` to `high`; every operation rounds outwards, so that the true result of the
 /// same operation on any reals in the operands is inside (Moore 1966).
@@ -42,10 +42,14 @@ fn rounded(low: f64, high: f64) -> Interval {
     }
 }
 
+fn interval(low: f64, high: f64) -> Interval {
+    Interval { low, high }
+}
+
 impl Interval {
     /// The single real `x`.
     pub fn point(x: f64) -> Self {
-        Interval { low: x, high: x }
+        interval(x, x)
     }
 
     /// All reals within `radius` of `centre`.
@@ -72,12 +76,21 @@ impl Interval {
         self.low == x && self.high == x
     }
 
+    /// The hull of a function of the ends of two intervals.
+    fn of_ends(self, other: Self, f: impl Fn(f64, f64) -> f64) -> Self {
+        let ends = [self.low, self.high];
+        let values = ends.map(|a| [f(a, other.low), f(a, other.high)]);
+        let values = values.as_flattened().iter().copied();
+        if values.clone().any(f64::is_nan) {
+            return WHOLE;
+        }
+        let low = values.clone().fold(f64::INFINITY, f64::min);
+        rounded(low, values.fold(f64::NEG_INFINITY, f64::max))
+    }
+
     /// π enclosed: the f64 nearest to it lies below.
     fn pi() -> Self {
-        Interval {
-            low: PI,
-            high: PI.next_up(),
-        }
+        interval(PI, PI.next_up())
     }
 
     /// Whether some (k + `phase`)·π with whole k of the wanted parity may be inside.
@@ -107,10 +120,7 @@ impl Add for Interval {
 impl Neg for Interval {
     type Output = Self;
     fn neg(self) -> Self {
-        Interval {
-            low: -self.high,
-            high: -self.low,
-        }
+        interval(-self.high, -self.low)
     }
 }
 
@@ -139,18 +149,7 @@ impl Mul for Interval {
         if other.is(-1.0) {
             return -self;
         }
-        let products = [
-            self.low * other.low,
-            self.low * other.high,
-            self.high * other.low,
-            self.high * other.high,
-        ];
-        if products.iter().any(|p| p.is_nan()) {
-            return WHOLE;
-        }
-        let low = products.iter().copied().fold(f64::INFINITY, f64::min);
-        let high = products.iter().copied().fold(f64::NEG_INFINITY, f64::max);
-        rounded(low, high)
+        self.of_ends(other, |a, b| a * b)
     }
 }
 
@@ -166,38 +165,11 @@ impl Div for Interval {
         if self.is(0.0) {
             return self;
         }
-        let quotients = [
-            self.low / other.low,
-            self.low / other.high,
-            self.high / other.low,
-            self.high / other.high,
-        ];
-        if quotients.iter().any(|q| q.is_nan()) {
-            return WHOLE;
-        }
-        let low = quotients.iter().copied().fold(f64::INFINITY, f64::min);
-        let high = quotients.iter().copied().fold(f64::NEG_INFINITY, f64::max);
-        rounded(low, high)
+        self.of_ends(other, |a, b| a / b)
     }
 }
 
-impl AddAssign for Interval {
-    fn add_assign(&mut self, other: Self) {
-        *self = *self + other;
-    }
-}
-
-impl SubAssign for Interval {
-    fn sub_assign(&mut self, other: Self) {
-        *self = *self - other;
-    }
-}
-
-impl MulAssign for Interval {
-    fn mul_assign(&mut self, other: Self) {
-        *self = *self * other;
-    }
-}
+assigning!(Interval);
 
 impl Number for Interval {
     fn from_f64(x: f64) -> Self {
@@ -215,10 +187,7 @@ impl Number for Interval {
         if self.is(0.0) {
             return (Interval::point(0.0), Interval::point(1.0));
         }
-        let unit = Interval {
-            low: -1.0,
-            high: 1.0,
-        };
+        let unit = interval(-1.0, 1.0);
         // beyond this the places of the extremes are no longer known to the margin
         if !(self.width() < 6.0 && self.magnitude() < 1e9) {
             return (unit, unit);
@@ -226,10 +195,8 @@ impl Number for Interval {
         let (low, high) = (pxfm::f_sincos(self.low), pxfm::f_sincos(self.high));
         let enclose = |a: f64, b: f64, peak: bool, trough: bool| {
             let ends = outward(a.min(b), a.max(b));
-            Interval {
-                low: if trough { -1.0 } else { ends.low.max(-1.0) },
-                high: if peak { 1.0 } else { ends.high.min(1.0) },
-            }
+            let low = if trough { -1.0 } else { ends.low.max(-1.0) };
+            interval(low, if peak { 1.0 } else { ends.high.min(1.0) })
         };
         (
             enclose(low.0, high.0, self.meets(0.5, false), self.meets(0.5, true)),
@@ -262,10 +229,7 @@ impl Number for Interval {
         outward(pxfm::f_atan(self.low), pxfm::f_atan(self.high))
     }
     fn atan2(self, x: Self) -> Self {
-        let half_pi = Interval {
-            low: FRAC_PI_2,
-            high: FRAC_PI_2.next_up(),
-        };
+        let half_pi = interval(FRAC_PI_2, FRAC_PI_2.next_up());
         if x.low > 0.0 {
             (self / x).atan()
         } else if self.low > 0.0 {
@@ -274,7 +238,7 @@ impl Number for Interval {
             -half_pi - (x / self).atan()
         } else {
             let pi = Interval::pi().high;
-            Interval { low: -pi, high: pi }
+            interval(-pi, pi)
         }
     }
     fn exp(self) -> Self {
@@ -292,10 +256,7 @@ impl Number for Interval {
         } else if self.high <= 0.0 {
             -self
         } else {
-            Interval {
-                low: 0.0,
-                high: self.magnitude(),
-            }
+            interval(0.0, self.magnitude())
         }
     }
     fn is_finite(self) -> bool {
@@ -375,25 +336,13 @@ mod tests {
 
     #[test]
     fn a_sine_over_its_peak_reaches_one_and_beside_it_does_not() {
-        let over = Interval {
-            low: 1.0,
-            high: 2.0,
-        };
+        let over = interval(1.0, 2.0);
         assert_eq!(over.sin_cos().0.high, 1.0);
-        let beside = Interval {
-            low: 1.0,
-            high: 1.5,
-        };
+        let beside = interval(1.0, 1.5);
         assert!(beside.sin_cos().0.high < 0.9976);
-        let trough = Interval {
-            low: 4.0,
-            high: 5.0,
-        };
+        let trough = interval(4.0, 5.0);
         assert_eq!(trough.sin_cos().0.low, -1.0);
-        let half_turn = Interval {
-            low: 3.0,
-            high: 3.3,
-        };
+        let half_turn = interval(3.0, 3.3);
         assert_eq!(half_turn.sin_cos().1.low, -1.0);
     }
 

@@ -1,77 +1,142 @@
-//! A motion as text, JSON, CSV and as pictures.
+//! Motions as documents, as rows and as pictures.
 
 mod circuits;
 #[cfg(feature = "plot")]
 mod picture;
-mod table;
+mod refusals;
 mod words;
 
-pub use circuits::{circuits_json, circuits_text};
 #[cfg(feature = "plot")]
 pub use picture::Picture;
-pub use table::{Sampled, Table};
-pub use words::{
+pub use refusals::{
     no_range, no_steps, not_one_freedom, nothing_left, nothing_moves, outside, point_complaint,
-    sentence, what_moves,
+    what_moves,
 };
+pub use words::sentence;
 
-use serde::Serialize;
+use serde::{Serialize, Serializer};
 
-use super::json::document;
-use crate::analysis::sweep::SweepReport;
-use crate::mechanism::Mechanism;
+use super::csv::Value;
+use super::document::{Cell, Column, Document, Report, Section, Table};
+use crate::analysis::sweep::{Columns, MetKind, MotionReport, MotionsReport, Row, SweepReport};
+use crate::mechanism::Variable;
 
-/// One motion with its mode and the rows that are to be shown.
-#[derive(Clone, Debug)]
-pub struct Motion {
-    /// The number of the mode, if it was asked for.
-    pub mode: Option<usize>,
-    /// What it came to.
-    pub report: SweepReport,
-    /// The rows.
-    pub rows: Sampled,
+impl Report for MotionsReport {
+    fn document(&self) -> Document {
+        match &self.motions[..] {
+            [one] => {
+                let (mode, sentence) = (mode(one), sentence(&one.sweep));
+                let document = Document::new(&self.mechanism, mode + &sentence);
+                let document = document.sections(words::met(one)).section(rows(one));
+                document.method(words::work(&one.sweep))
+            }
+            several => {
+                let whole = several.iter().filter(|m| m.sweep.ending.is_whole()).count();
+                let answer = format!("{whole} of {} motions go the whole way.", several.len());
+                let sections = several.iter().map(|motion| {
+                    let section = Section::new(mode(motion).trim_end_matches(": "));
+                    let section = section.text(sentence(&motion.sweep));
+                    let met = words::met(motion).into_iter();
+                    let section = met.fold(section, Section::section);
+                    section
+                        .section(rows(motion))
+                        .text(words::work(&motion.sweep))
+                });
+                Document::new(&self.mechanism, answer).sections(sections)
+            }
+        }
+    }
 }
 
-/// Motions as JSON: the fields of [`SweepReport`] with a sentence, columns and rows.
-pub fn json(mechanism: &Mechanism, table: &Table, motions: &[Motion]) -> String {
-    #[derive(Serialize)]
-    struct MotionJson<'a> {
-        mode: Option<usize>,
-        sentence: String,
-        #[serde(flatten)]
-        report: &'a SweepReport,
-        columns: Vec<String>,
-        values: &'a [Vec<Option<f64>>],
+/// A motion is written with its sentence, as several stand in one answer.
+impl Serialize for MotionReport {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        #[derive(Serialize)]
+        struct WithSentence<'a> {
+            mode: Option<usize>,
+            sentence: String,
+            #[serde(flatten)]
+            sweep: &'a SweepReport,
+            columns: &'a [Variable],
+            values: &'a [Vec<Option<f64>>],
+        }
+        let motion = WithSentence {
+            mode: self.mode,
+            sentence: sentence(&self.sweep),
+            sweep: &self.sweep,
+            columns: &self.columns,
+            values: &self.values,
+        };
+        motion.serialize(serializer)
     }
-    #[derive(Serialize)]
-    struct MotionsJson<'a> {
-        motions: Vec<MotionJson<'a>>,
-    }
-    let motions = motions.iter().map(|motion| MotionJson {
-        mode: motion.mode,
-        sentence: sentence(&motion.report),
-        report: &motion.report,
-        columns: table.columns(),
-        values: motion.rows.rows(),
+}
+
+fn mode(motion: &MotionReport) -> String {
+    let mode = motion.mode.map(|mode| format!("Mode {mode}: "));
+    mode.unwrap_or_default()
+}
+
+/// Some of the rows of a motion.
+fn rows(motion: &MotionReport) -> Section {
+    /// Rows shown, but for the last.
+    const SHOWN: usize = 37;
+    let (values, all) = (&motion.values, motion.sweep.rows);
+    let every = values.len().saturating_sub(1).div_ceil(SHOWN).max(1);
+    let last = values.len().saturating_sub(1);
+    let shown = values.iter().enumerate();
+    let shown = shown.filter(|(i, _)| i.is_multiple_of(every) || *i == last);
+    // quaternions are for programs
+    let is_shown = |i: &usize| *i == 0 || !motion.columns[*i].unit.is_empty();
+    let columns: Vec<usize> = (0..motion.columns.len()).filter(is_shown).collect();
+    let headers = columns.iter().map(|&i| match i {
+        0 => Column::words("step"),
+        _ => Column::numbers(&motion.columns[i].name),
     });
-    let motions = motions.collect();
-    document(mechanism.name(), &MotionsJson { motions })
+    let mut table = Table::new(headers);
+    for (_, row) in shown {
+        let cell = |&i: &usize| match row.get(i) {
+            Some(Some(value)) => Cell::quantity(*value, &motion.columns[i].unit),
+            _ => Cell::Empty,
+        };
+        table.row(columns.iter().map(cell).collect());
+    }
+    let title = match all > table.rows.len() {
+        true => format!(
+            "Rows, {} of {all}; --format csv and --format json have all of them",
+            table.rows.len()
+        ),
+        false => "Rows".into(),
+    };
+    Section::new(title).table(table)
 }
 
-/// Motions as text: the sentence, what was met, and some of the rows.
-pub fn text(mechanism: &Mechanism, table: &Table, motions: &[Motion]) -> String {
-    let mut text = format!("{}\n", mechanism.name());
-    for (i, motion) in motions.iter().enumerate() {
-        if i > 0 {
-            text.push('\n');
-        }
-        if let Some(mode) = motion.mode {
-            text += &format!("Mode {mode}: ");
-        }
-        text += &format!("{}\n", sentence(&motion.report));
-        text += &words::work(&motion.report);
-        text += &words::met(mechanism, &motion.report);
-        text += &table.text(&motion.rows, motion.report.rows);
+/// The columns of rows as they are found: those of a motion between its mode and what was met.
+pub fn row_columns(columns: &Columns) -> Vec<String> {
+    let variables = columns.variables().iter().map(Variable::to_string);
+    let columns = std::iter::once("mode".to_owned()).chain(variables);
+    columns.chain(["met".to_owned()]).collect()
+}
+
+/// The values of a row in these columns.
+pub fn row_values<'a>(
+    columns: &Columns,
+    mode: Option<usize>,
+    row: &Row<'a>,
+) -> impl Iterator<Item = Value<'static>> + use<'a> {
+    let met = row.special.map(word);
+    let values = columns.values(row).map(Value::from);
+    let first = [Value::from(mode), Value::from(row.step)];
+    first.into_iter().chain(values).chain([Value::from(met)])
+}
+
+/// What a special row is called in the last column.
+fn word(kind: &MetKind) -> &'static str {
+    match kind {
+        MetKind::Turning { .. } => "turning point",
+        MetKind::Fold { .. } => "fold",
+        MetKind::Limit { .. } => "limit",
+        MetKind::End => "end",
+        MetKind::Closed => "closed",
+        MetKind::Crossing { .. } => "crossing",
     }
-    text
 }

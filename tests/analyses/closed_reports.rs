@@ -6,6 +6,7 @@ use linkwork::analysis::mobility::{MobilitySettings, mobility};
 use linkwork::analysis::statics::{StaticsSettings, statics};
 use linkwork::analysis::velocity::{VelocityReport, VelocitySettings, velocity};
 use linkwork::mechanism::Mechanism;
+use linkwork::solve::Watch;
 use linkwork::system::{Drive, Load, Question};
 
 /// A body on two balls at fixed places: the second repeats the force along the line
@@ -44,7 +45,13 @@ fn moving(mechanism: &Mechanism, points: &[&str]) -> VelocityReport {
             .collect(),
         ..VelocitySettings::default()
     };
-    let report = velocity(&question, &Drive::still(&question), &settings).unwrap();
+    let report = velocity(
+        &question,
+        &Drive::still(&question),
+        &settings,
+        &Watch::none(),
+    )
+    .unwrap();
     report.closed().expect("closes")
 }
 
@@ -52,7 +59,7 @@ fn moving(mechanism: &Mechanism, points: &[&str]) -> VelocityReport {
 fn redundant_forces_of_balls_are_in_the_first_frame_of_the_closure() {
     let mechanism = parsed("two_balls", TWO_BALLS);
     let question = Question::new(&mechanism);
-    let report = mobility(&question, &MobilitySettings::default());
+    let report = mobility(&question, &MobilitySettings::default(), &Watch::none());
     let report = report.closed().expect("closes");
     let [found] = &report.redundancies[..] else {
         panic!("{:?}", report.redundancies);
@@ -80,7 +87,7 @@ fn a_variable_in_several_rows_is_one_freedom_of_a_loop() {
     for name in names {
         let mechanism = load(name);
         let question = Question::new(&mechanism);
-        let report = mobility(&question, &MobilitySettings::default());
+        let report = mobility(&question, &MobilitySettings::default(), &Watch::none());
         let report = report.closed().expect("closes");
         for one in &report.loops {
             let mut joints = one.joints.clone();
@@ -115,7 +122,7 @@ fn a_spinning_rod_has_no_determined_rates_and_limits_are_said() {
     }
     let question = Question::new(&mechanism);
     let settings = StaticsSettings::default();
-    let forces = statics(&question, &Load::default(), &settings).unwrap();
+    let forces = statics(&question, &Load::default(), &settings, &Watch::none()).unwrap();
     assert_eq!(forces.closed().expect("closes").outside_limits, ["t"]);
 }
 
@@ -125,7 +132,7 @@ fn statics_counts_freedoms_gained() {
         let mechanism = load(name);
         let question = Question::new(&mechanism);
         let settings = StaticsSettings::default();
-        let report = statics(&question, &Load::default(), &settings).unwrap();
+        let report = statics(&question, &Load::default(), &settings, &Watch::none()).unwrap();
         let report = report.closed().expect("closes");
         assert_eq!(report.gained > 0, gained, "{name}");
     }

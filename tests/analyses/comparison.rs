@@ -6,10 +6,11 @@ use linkwork::analysis::compare::{CompareReport, CompareSettings, Proof, Reason,
 use linkwork::description::Description;
 use linkwork::mechanism::Mechanism;
 use linkwork::output::comparison;
+use linkwork::solve::Watch;
 
 fn compared(text: &str) -> (Mechanism, CompareReport) {
     let mechanism = Mechanism::new(&Description::read(text).unwrap()).unwrap();
-    let report = compare(&mechanism, &CompareSettings::default());
+    let report = compare(&mechanism, &CompareSettings::default(), &Watch::none());
     (mechanism, report)
 }
 
@@ -194,7 +195,7 @@ fn closed_forms_of_the_shipped_files_are_proved() {
     let mut proved = 0;
     for (name, description) in shipped() {
         let mechanism = Mechanism::new(&description).unwrap();
-        for form in compare(&mechanism, &FEW).closed_forms {
+        for form in compare(&mechanism, &FEW, &Watch::none()).closed_forms {
             let expected = !NOT_PROVED.contains(&(name.as_str(), form.name.as_str()));
             let all = form
                 .components
@@ -240,7 +241,7 @@ fn a_slip_in_any_entry_of_any_shipped_form_is_refuted_with_that_slip() {
             }
             wrong.closed_forms = vec![wrong.closed_forms.swap_remove(k)];
             let mechanism = Mechanism::new(&wrong).unwrap();
-            let report = compare(&mechanism, &FEW);
+            let report = compare(&mechanism, &FEW, &Watch::none());
             let components = &report.closed_forms[0].components;
             assert_eq!(components.len(), count);
             for component in components {
@@ -282,7 +283,7 @@ fn slipped(name: &str, right: &str, wrong: &str) -> (CompareReport, String) {
     let slip = text.replacen(right, wrong, 1);
     assert_ne!(slip, text);
     let mechanism = Mechanism::new(&Description::read(&slip).unwrap()).unwrap();
-    let report = compare(&mechanism, &FEW);
+    let report = compare(&mechanism, &FEW, &Watch::none());
     let text = comparison::text(&mechanism, &report);
     (report, text)
 }
@@ -329,7 +330,7 @@ fn overconstrained_loops_are_eliminated() {
     for (name, special) in [("sarrus", false), ("schatz", true), ("planar_3rpr", true)] {
         let path = format!("{}/mechanisms/{name}.ron", env!("CARGO_MANIFEST_DIR"));
         let mechanism = Mechanism::load(path).unwrap();
-        let report = compare(&mechanism, &FEW);
+        let report = compare(&mechanism, &FEW, &Watch::none());
         let text = comparison::text(&mechanism, &report);
         let only = text.contains("for these dimensions only.");
         assert!(text.contains("roved") && only == special, "{text}");

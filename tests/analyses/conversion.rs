@@ -10,6 +10,7 @@ use linkwork::description::{Description, Displacement, Entry};
 use linkwork::geometry::{Axis, Pose};
 use linkwork::mechanism::{ClosureKind, Configuration, Convention, Frame, Mechanism};
 use linkwork::solve::Newton;
+use linkwork::solve::Watch;
 use linkwork::system::{Question, close};
 
 fn files() -> Vec<PathBuf> {
@@ -168,7 +169,7 @@ fn closed_forms_agree_in_the_other_convention() {
         for to in Convention::ALL {
             let conversion = in_convention(&mechanism, &description, to);
             let new = Mechanism::new(&conversion.description).unwrap();
-            let report = compare(&new, &settings);
+            let report = compare(&new, &settings, &Watch::none());
             assert!(report.agree, "{path:?} {to:?}");
         }
     }
@@ -176,7 +177,13 @@ fn closed_forms_agree_in_the_other_convention() {
 
 /// The description with an assembled configuration as its home.
 fn at_home(description: &Description, mechanism: &Mechanism) -> Option<(Description, Mechanism)> {
-    let closed = close(&Question::new(mechanism), &Newton::default(), 20, 1).ok()?;
+    let closed = close(
+        &Question::new(mechanism),
+        &Newton::default(),
+        (20, 1),
+        &Watch::none(),
+    )
+    .ok()?;
     let at = closed.configuration;
     let mut description = description.clone();
     for (joint, &value) in description.joints.iter_mut().zip(&at.joints) {
@@ -280,8 +287,15 @@ fn the_four_bar_broken_anywhere_has_the_assemblies_of_the_shipped_files() {
             };
             let question = question.hold(hold.0, hold.1).unwrap();
             let settings = AssembliesSettings::default();
-            let solver = AssemblySolver::new(mechanism, &question.held(), &settings).unwrap();
-            let report = solver.at_targets(&question.start(), &question.held(), Wanted::default());
+            let solver =
+                AssemblySolver::new(mechanism, &question.held(), &settings, &Watch::none())
+                    .unwrap();
+            let report = solver.at_targets(
+                &question.start(),
+                &question.held(),
+                Wanted::default(),
+                &Watch::none(),
+            );
             // the joints that both have, modulo a turn
             let both =
                 |name: &&str| converted.joint(name).is_some() && shipped.joint(name).is_some();

@@ -13,6 +13,7 @@ use linkwork::analysis::formulas::{FormulasReport, FormulasSettings, formulas};
 use linkwork::description::Description;
 use linkwork::mechanism::{Configuration, Frame, Mechanism};
 use linkwork::output::formulas as output;
+use linkwork::solve::Watch;
 
 fn shipped() -> Vec<(String, Mechanism)> {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("mechanisms");
@@ -313,7 +314,7 @@ fn ron_pastes_back_and_is_proved() {
             samples: 2,
             ..CompareSettings::default()
         };
-        let report = compare(&pasted, &settings);
+        let report = compare(&pasted, &settings, &Watch::none());
         assert!(
             !report.closed_forms.is_empty() || mechanism.chains().iter().all(|c| c.rows.is_empty())
         );
@@ -532,7 +533,7 @@ fn strange_names_are_escaped() {
         }},
         {pasted})"#
     );
-    let report = compare(&read(&text), &CompareSettings::default());
+    let report = compare(&read(&text), &CompareSettings::default(), &Watch::none());
     assert!(report.agree && report.closed_forms.len() >= 5, "{text}");
     // where l_1 and l1 are two names both stay as they are
     let both = read(

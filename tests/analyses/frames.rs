@@ -4,6 +4,7 @@ use std::f64::consts::{FRAC_PI_2, PI};
 
 use linkwork::geometry::{Axis, Line, Pose, Relation, Vector3};
 use linkwork::mechanism::{Assignment, Convention, JointAxis, SerialAxes, Table};
+use linkwork::solve::Watch;
 use proptest::prelude::*;
 use proptest::test_runner::{Config, RngAlgorithm, TestRng, TestRunner};
 
@@ -413,7 +414,7 @@ mod files {
             true => mechanism.home(),
             false => {
                 let question = Question::new(mechanism);
-                let closed = close(&question, &Newton::default(), 20, 1).unwrap();
+                let closed = close(&question, &Newton::default(), (20, 1), &Watch::none()).unwrap();
                 closed.configuration
             }
         }
@@ -526,7 +527,7 @@ mod files {
                             .unwrap();
                     }
                 }
-                close(&question, &Newton::default(), 0, 1)
+                close(&question, &Newton::default(), (0, 1), &Watch::none())
                     .unwrap()
                     .configuration
             };
@@ -612,7 +613,12 @@ mod files {
             let axes = AxesDescription::read(&std::fs::read_to_string(&path).unwrap()).unwrap();
             for convention in Convention::ALL {
                 let mechanism = placed(&axes, convention);
-                let gap = close(&Question::new(&mechanism), &Newton::default(), 0, 1);
+                let gap = close(
+                    &Question::new(&mechanism),
+                    &Newton::default(),
+                    (0, 1),
+                    &Watch::none(),
+                );
                 assert!(mechanism.closures().is_empty() || gap.is_ok(), "{path:?}");
             }
         }
@@ -875,8 +881,11 @@ mod files {
                 let value = format!("{} + 0.01", value);
                 questions = questions.map(|question| question.hold(&joint.name, &value).unwrap());
             }
-            let found =
-                questions.map(|q| close(&q, &Newton::default(), 0, 1).unwrap().configuration);
+            let found = questions.map(|q| {
+                close(&q, &Newton::default(), (0, 1), &Watch::none())
+                    .unwrap()
+                    .configuration
+            });
             for (i, joint) in mechanism.joints().iter().enumerate() {
                 let Some(k) = again.joint(&joint.name) else {
                     continue;

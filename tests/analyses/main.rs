@@ -10,4 +10,5 @@ mod singularities;
 mod statics;
 mod sweep;
 mod velocity;
+mod watched;
 mod workspace;

@@ -10,6 +10,7 @@ use linkwork::analysis::mobility::{
 use linkwork::description::Description;
 use linkwork::geometry::Vector3;
 use linkwork::mechanism::Mechanism;
+use linkwork::solve::Watch;
 use linkwork::system::{Analysed, Question, TwistSpace};
 
 fn path(name: &str) -> PathBuf {
@@ -27,7 +28,7 @@ fn read(text: &str) -> Mechanism {
 
 fn of(mechanism: &Mechanism) -> MobilityReport {
     let question = Question::new(mechanism);
-    let answer = mobility(&question, &MobilitySettings::default());
+    let answer = mobility(&question, &MobilitySettings::default(), &Watch::none());
     answer
         .closed()
         .unwrap_or_else(|| panic!("{} does not close", mechanism.name()))
@@ -336,7 +337,9 @@ fn a_triangle_slightly_off_flat_is_no_mechanism_and_one_too_long_does_not_close(
     assert_eq!((rigid.character, rigid.mobility), (Character::Structure, 0));
     let longer = read(&text.replace("Tx(\"l1 + l2\")", "Tx(\"l1 + l2 + 0.1\")"));
     let question = Question::new(&longer);
-    let Analysed::NotClosed(open) = mobility(&question, &MobilitySettings::default()) else {
+    let Analysed::NotClosed(open) =
+        mobility(&question, &MobilitySettings::default(), &Watch::none())
+    else {
         panic!("closed")
     };
     assert!((open.left.unwrap().distance - 0.1).abs() < 1e-9);
@@ -362,7 +365,7 @@ fn special_linkages_lose_their_motion_with_their_proportions() {
         assert!(text.contains(from), "{name}");
         let broken = read(&text.replace(from, to));
         let question = Question::new(&broken);
-        match mobility(&question, &MobilitySettings::default()) {
+        match mobility(&question, &MobilitySettings::default(), &Watch::none()) {
             Analysed::NotClosed(_) => {}
             Analysed::Closed(report) => assert_eq!(report.mobility, 0, "{name}"),
             Analysed::TooLarge { .. } => panic!("{name}"),
@@ -403,7 +406,7 @@ fn near_singular_is_not_singular() {
         let question = question
             .hold("theta1", &format!("{degrees:?} deg"))
             .unwrap();
-        mobility(&question, &MobilitySettings::default())
+        mobility(&question, &MobilitySettings::default(), &Watch::none())
             .closed()
             .unwrap()
     };
@@ -474,7 +477,7 @@ fn branches_with_seed(mechanism: &Mechanism, seed: u64) -> Vec<usize> {
         seed,
         ..MobilitySettings::default()
     };
-    let report = mobility(&Question::new(mechanism), &settings)
+    let report = mobility(&Question::new(mechanism), &settings, &Watch::none())
         .closed()
         .unwrap();
     report.branches.iter().map(|b| b.mobility).collect()
@@ -507,7 +510,9 @@ fn branches_of_independent_parts_are_counted_whatever_the_seed() {
             seed,
             ..MobilitySettings::default()
         };
-        let report = mobility(&Question::new(&nine), &settings).closed().unwrap();
+        let report = mobility(&Question::new(&nine), &settings, &Watch::none())
+            .closed()
+            .unwrap();
         assert_eq!((report.mobility, report.branch_count), (9, 512));
         assert!(report.branches_complete && report.branches.len() == 256);
     }
@@ -673,7 +678,7 @@ fn beside_the_meeting_point_each_motion_is_regular() {
             .unwrap()
             .guess("phi1", phi1)
             .unwrap();
-        let report = mobility(&question, &MobilitySettings::default())
+        let report = mobility(&question, &MobilitySettings::default(), &Watch::none())
             .closed()
             .unwrap();
         assert_eq!((report.character, report.mobility), (Character::Regular, 1));
@@ -734,7 +739,7 @@ fn solving_and_counting_agree_on_the_number_of_freedoms() {
             continue;
         }
         let question = Question::new(&mechanism);
-        let solved = assemble(&question, &AssemblySettings::default()).unwrap();
+        let solved = assemble(&question, &AssemblySettings::default(), &Watch::none()).unwrap();
         assert_eq!(
             solved.count.mobility,
             Some(report.mobility),

@@ -10,6 +10,7 @@ use linkwork::analysis::singularities::{
 use linkwork::description::Description;
 use linkwork::mechanism::{Configuration, Mechanism};
 use linkwork::solve::Newton;
+use linkwork::solve::Watch;
 use linkwork::system::{Driven, Lock, Question, Search};
 use nalgebra::{DMatrix, Matrix3, Matrix4, Vector3};
 
@@ -42,7 +43,7 @@ fn holding<'a>(mechanism: &'a Mechanism, held: &[(&str, f64)]) -> Question<'a> {
 }
 
 fn report(question: &Question, settings: &SingularitiesSettings) -> SingularitiesReport {
-    let answer = singularities(question, settings).unwrap();
+    let answer = singularities(question, settings, &Watch::none()).unwrap();
     let report = answer.closed().expect("closes");
     let distances = report.singularity.distances;
     for distance in [distances.constraint, distances.direct, distances.inverse] {
@@ -53,7 +54,7 @@ fn report(question: &Question, settings: &SingularitiesSettings) -> Singularitie
 
 fn assembled(question: &Question) -> Configuration<f64> {
     let newton = Newton::default();
-    let found = Search::new(question, &newton).run(20, 1);
+    let found = Search::new(question, &newton).run(20, 1, &Watch::none());
     assert!(found.assembles());
     found.attempt.at
 }
@@ -84,6 +85,7 @@ fn moved(
         &inputs_of(&question),
         &start,
         settings,
+        &Watch::none(),
     )
 }
 
@@ -126,6 +128,7 @@ fn seeded_locus(
         &inputs,
         &question.start(),
         &settings,
+        &Watch::none(),
     )
     .unwrap()
 }
@@ -268,6 +271,7 @@ fn cranks(from: [f64; 2], to: [f64; 2]) -> AlongReport {
         &inputs_of(&question),
         &assembled(&question),
         &SingularitiesSettings::default(),
+        &Watch::none(),
     )
 }
 
@@ -424,6 +428,7 @@ fn the_locus_of_a_planar_3_rpr_at_one_orientation_is_the_published_circle() {
     let beside = singularities(
         &holding(&mechanism, &beside),
         &SingularitiesSettings::default(),
+        &Watch::none(),
     );
     let beside = beside.unwrap().closed().unwrap();
     assert!(!beside.singularity.is_singular());
@@ -558,7 +563,15 @@ fn what_spins_without_a_joint_of_its_own_is_refused() {
     let settings = SingularitiesSettings::default();
     let inputs = inputs_of(&question);
     let sides = [side("a"), side("b")];
-    let refused = loci(&linkage, &held, sides, &inputs, &start, &settings);
+    let refused = loci(
+        &linkage,
+        &held,
+        sides,
+        &inputs,
+        &start,
+        &settings,
+        &Watch::none(),
+    );
     assert_eq!(refused.unwrap_err(), 1);
 }
 
@@ -640,6 +653,7 @@ fn fichters_quarter_turn_is_singular_and_no_other_yaw_of_the_table() {
         &inputs,
         &start,
         &settings,
+        &Watch::none(),
     );
     assert_eq!(report.ending, Ending::Complete);
     let [crossing] = &report.crossings[..] else {
@@ -1279,7 +1293,9 @@ fn no_report_of_a_shipped_mechanism_holds_nan() {
     for path in paths {
         let mechanism = Mechanism::load(&path).unwrap();
         let question = Question::new(&mechanism);
-        let Ok(answer) = singularities(&question, &SingularitiesSettings::default()) else {
+        let Ok(answer) =
+            singularities(&question, &SingularitiesSettings::default(), &Watch::none())
+        else {
             continue;
         };
         let Some(report) = answer.closed() else {
@@ -1320,7 +1336,16 @@ fn a_closed_locus_is_known_where_it_begins_and_ends() {
             ..SingularitiesSettings::default()
         };
         let start = question.start();
-        let report = loci(&arm, &free.held(), sides, &inputs, &start, &settings).unwrap();
+        let report = loci(
+            &arm,
+            &free.held(),
+            sides,
+            &inputs,
+            &start,
+            &settings,
+            &Watch::none(),
+        )
+        .unwrap();
         assert_eq!(report.loci.len(), 1);
         assert_eq!(report.loci[0].configurations, 1, "{seed}");
         assert!(report.loci[0].closed && report.loci[0].met > 10);

@@ -6,6 +6,7 @@ use linkwork::analysis::statics::{Reaction, StaticsReport, StaticsSettings, stat
 use linkwork::analysis::velocity::{VelocitySettings, velocity};
 use linkwork::geometry::Vector3;
 use linkwork::mechanism::{Body, Configuration, Convention, Frame, Mechanism};
+use linkwork::solve::Watch;
 use linkwork::system::{Drive, Load, LoadError, Question};
 
 fn folder() -> std::path::PathBuf {
@@ -28,7 +29,7 @@ fn every_mechanism() -> Vec<Mechanism> {
 }
 
 fn report(question: &Question, load: &Load) -> StaticsReport {
-    let answer = statics(question, load, &StaticsSettings::default()).unwrap();
+    let answer = statics(question, load, &StaticsSettings::default(), &Watch::none()).unwrap();
     answer.closed().expect("closes")
 }
 
@@ -55,7 +56,7 @@ fn closed(question: &Question) -> Configuration<f64> {
         points: vec![],
         ..VelocitySettings::default()
     };
-    let found = velocity(question, &Drive::still(question), &settings).unwrap();
+    let found = velocity(question, &Drive::still(question), &settings, &Watch::none()).unwrap();
     let found = found.closed().unwrap();
     let mut at = question.mechanism().home();
     at.joints = found.joints.iter().map(|joint| joint.value).collect();
@@ -112,7 +113,7 @@ fn every_body_is_in_equilibrium() {
 
 fn solved_platforms(question: &Question) -> Vec<linkwork::mechanism::PlatformPose<f64>> {
     use linkwork::analysis::assembly::{AssemblySettings, assemble};
-    let found = assemble(question, &AssemblySettings::default()).unwrap();
+    let found = assemble(question, &AssemblySettings::default(), &Watch::none()).unwrap();
     found.configuration.platforms
 }
 
@@ -203,7 +204,7 @@ fn drives_and_loads_do_no_work_together_in_any_motion() {
         for input in 0..drive.rates.len() {
             drive.rates.fill(0.0);
             drive.rates[input] = 1.0;
-            let moving = velocity(&question, &drive, &settings)
+            let moving = velocity(&question, &drive, &settings, &Watch::none())
                 .unwrap()
                 .closed()
                 .unwrap();

@@ -4,6 +4,7 @@
 use std::f64::consts::{PI, TAU};
 use std::ops::ControlFlow;
 use std::path::Path;
+use std::sync::atomic::{AtomicUsize, Ordering};
 
 use linkwork::analysis::sweep::{
     CircuitsReport, CircuitsSettings, Ending, FourBarClass, MetKind, SweepReport, SweepSettings,
@@ -11,6 +12,7 @@ use linkwork::analysis::sweep::{
 };
 use linkwork::description::Description;
 use linkwork::mechanism::{Configuration, Mechanism};
+use linkwork::solve::Watch;
 use linkwork::solve::{Equations, Newton, Stop};
 use linkwork::system::{Curve, Driven, Held, Holdable, Question, Search, System, Walk};
 use serde_json::Value;
@@ -102,10 +104,17 @@ fn run(
     let at = start(mechanism, inputs, guess);
     let mut rows = Vec::new();
     let held = Held::nothing(mechanism);
-    let report = sweep(mechanism, &held, inputs, &at, settings, &mut |row| {
-        rows.push((row.step, row.configuration.clone(), row.points.to_vec()));
-        ControlFlow::Continue(())
-    });
+    let report = sweep(
+        mechanism,
+        &held,
+        inputs,
+        &at,
+        settings,
+        &mut |row| {
+            rows.push((row.step, row.configuration.clone(), row.points.to_vec()));
+        },
+        &Watch::none(),
+    );
     assert_eq!(report.rows, rows.len());
     Swept { report, rows }
 }
@@ -367,7 +376,8 @@ fn a_sweep_stops_where_branches_cross_and_goes_straight_on_when_told_to() {
         &inputs,
         &mechanism.home(),
         &steps(10),
-        &mut |_| ControlFlow::Continue(()),
+        &mut |_| {},
+        &Watch::none(),
     );
     assert_eq!((report.ending, report.rows), (Ending::SingularStart, 0));
     assert!(
@@ -418,10 +428,17 @@ fn a_sweep_ends_at_a_limit_with_its_value() {
     let report = Newton::default().solve(&system, &mut at, &mut trial, &mut system.work());
     assert_eq!(report.stop, Stop::Solved);
     let mut rows = Vec::new();
-    let report = sweep(&mechanism, &held, &inputs, &at, &steps(100), &mut |row| {
-        rows.push(row.configuration.clone());
-        ControlFlow::Continue(())
-    });
+    let report = sweep(
+        &mechanism,
+        &held,
+        &inputs,
+        &at,
+        &steps(100),
+        &mut |row| {
+            rows.push(row.configuration.clone());
+        },
+        &Watch::none(),
+    );
     match report.ending {
         Ending::Limit => {
             let Some(MetKind::Limit { joint, limit, .. }) = report.met.last().map(|m| &m.kind)
@@ -484,7 +501,7 @@ fn a_platform_coordinate_is_an_input_too() {
         },
     );
     let newton = Newton::default();
-    let found = Search::new(&question, &newton).run(20, 1);
+    let found = Search::new(&question, &newton).run(20, 1, &Watch::none());
     assert!(found.assembles());
     let (coordinate, _) = question.value("top.z", "0").unwrap();
     let inputs = [Driven {
@@ -495,17 +512,24 @@ fn a_platform_coordinate_is_an_input_too() {
     let held = question.held().without(coordinate);
     let mut rows = 0;
     let at = found.attempt.at;
-    let report = sweep(&mechanism, &held, &inputs, &at, &steps(10), &mut |row| {
-        if let Some(step) = row.step {
-            let z = 0.5 + 0.03 * step as f64;
-            for leg in ["l1", "l2", "l3"] {
-                let length = row.configuration.joints[mechanism.joint(leg).unwrap()];
-                assert!((length - 0.5f64.hypot(z)).abs() < 1e-12, "{length} at {z}");
+    let report = sweep(
+        &mechanism,
+        &held,
+        &inputs,
+        &at,
+        &steps(10),
+        &mut |row| {
+            if let Some(step) = row.step {
+                let z = 0.5 + 0.03 * step as f64;
+                for leg in ["l1", "l2", "l3"] {
+                    let length = row.configuration.joints[mechanism.joint(leg).unwrap()];
+                    assert!((length - 0.5f64.hypot(z)).abs() < 1e-12, "{length} at {z}");
+                }
+                rows += 1;
             }
-            rows += 1;
-        }
-        ControlFlow::Continue(())
-    });
+        },
+        &Watch::none(),
+    );
     assert_eq!((report.ending, rows), (Ending::Complete, 11));
     // legs of at most 1.2 m: at √(1.44 − 0.25) m it ends
     let inputs = [Driven {
@@ -513,10 +537,17 @@ fn a_platform_coordinate_is_an_input_too() {
         ..inputs[0]
     }];
     let mut last = 0.0;
-    let report = sweep(&mechanism, &held, &inputs, &at, &steps(10), &mut |row| {
-        last = row.configuration.platforms[0].position.0[2];
-        ControlFlow::Continue(())
-    });
+    let report = sweep(
+        &mechanism,
+        &held,
+        &inputs,
+        &at,
+        &steps(10),
+        &mut |row| {
+            last = row.configuration.platforms[0].position.0[2];
+        },
+        &Watch::none(),
+    );
     assert_eq!(report.ending, Ending::Limit);
     assert!((last - (1.44f64 - 0.25).sqrt()).abs() < 1e-12, "{last}");
 }
@@ -526,7 +557,11 @@ fn whoever_takes_the_rows_can_stop_the_motion() {
     let mechanism = mechanism("four_bar");
     let inputs = [joint(&mechanism, "theta1", 0.5, 0.5 + TAU)];
     let at = start(&mechanism, &inputs, &[]);
-    let mut taken = 0;
+    let taken = AtomicUsize::new(0);
+    let enough = |_| match taken.load(Ordering::Relaxed) {
+        5.. => ControlFlow::Break(()),
+        _ => ControlFlow::Continue(()),
+    };
     let report = sweep(
         &mechanism,
         &Held::nothing(&mechanism),
@@ -534,14 +569,13 @@ fn whoever_takes_the_rows_can_stop_the_motion() {
         &at,
         &steps(1000),
         &mut |_| {
-            taken += 1;
-            match taken {
-                5 => ControlFlow::Break(()),
-                _ => ControlFlow::Continue(()),
-            }
+            taken.fetch_add(1, Ordering::Relaxed);
         },
+        &Watch::new(&enough),
     );
-    assert_eq!((report.ending, taken), (Ending::Stopped, 5));
+    assert!(report.interrupted);
+    assert_eq!((report.ending, report.rows), (Ending::Stopped, 5));
+    assert_eq!(taken.into_inner(), 5);
 }
 
 #[test]
@@ -648,8 +682,8 @@ fn watts_point_lies_on_watts_curve() {
         &settings,
         &mut |row| {
             rows.push(row.points[0]);
-            ControlFlow::Continue(())
         },
+        &Watch::none(),
     );
     assert_eq!(report.ending, Ending::Closed);
     let (arm, coupler): (f64, f64) = (2.0, 1.0);
@@ -829,7 +863,14 @@ fn circuits_of(lengths: [f64; 4]) -> CircuitsReport {
         }
     }
     let held = Held::nothing(&mechanism);
-    circuits(&mechanism, &held, 0, &seeds, &CircuitsSettings::default())
+    circuits(
+        &mechanism,
+        &held,
+        0,
+        &seeds,
+        &CircuitsSettings::default(),
+        &Watch::none(),
+    )
 }
 
 /// The class by Grashof's rule, from the lengths alone.
@@ -960,7 +1001,14 @@ fn a_swing_through_a_half_turn_is_told_where_its_values_are() {
     };
     let swing = |mechanism: &Mechanism, seeds: &[Configuration<f64>]| {
         let held = Held::nothing(mechanism);
-        let report = circuits(mechanism, &held, 0, seeds, &CircuitsSettings::default());
+        let report = circuits(
+            mechanism,
+            &held,
+            0,
+            seeds,
+            &CircuitsSettings::default(),
+            &Watch::none(),
+        );
         let [circuit] = &report.circuits[..] else {
             panic!("{report:#?}")
         };
@@ -1011,7 +1059,14 @@ fn seeds_of_one_circuit_find_only_that_one() {
         at.joints[mechanism.joint(name).unwrap()] = value;
     }
     let held = Held::nothing(&mechanism);
-    let report = circuits(&mechanism, &held, 0, &[at], &CircuitsSettings::default());
+    let report = circuits(
+        &mechanism,
+        &held,
+        0,
+        &[at],
+        &CircuitsSettings::default(),
+        &Watch::none(),
+    );
     assert_eq!((report.circuits.len(), report.class), (1, None));
 }
 
@@ -1049,21 +1104,29 @@ fn random_steps(rows: usize, seed: u64) -> usize {
                 at.joints[mechanism.joint(name).unwrap()] = value;
             }
             let held = Held::nothing(&mechanism);
-            let report = sweep(&mechanism, &held, &inputs, &at, &steps(count), &mut |row| {
-                let [crank, _, output] = row.configuration.joints[..] else {
-                    panic!()
-                };
-                let (own, other) = (rocker(lengths, crank, side), rocker(lengths, crank, -side));
-                if !own.is_nan() {
-                    let (own, other) = (apart(output, own).abs(), apart(output, other).abs());
-                    assert!(
-                        own <= other + 1e-6,
-                        "{lengths:?} {crank} {side}: {own} {other}"
-                    );
-                }
-                made += 1;
-                ControlFlow::Continue(())
-            });
+            let report = sweep(
+                &mechanism,
+                &held,
+                &inputs,
+                &at,
+                &steps(count),
+                &mut |row| {
+                    let [crank, _, output] = row.configuration.joints[..] else {
+                        panic!()
+                    };
+                    let (own, other) =
+                        (rocker(lengths, crank, side), rocker(lengths, crank, -side));
+                    if !own.is_nan() {
+                        let (own, other) = (apart(output, own).abs(), apart(output, other).abs());
+                        assert!(
+                            own <= other + 1e-6,
+                            "{lengths:?} {crank} {side}: {own} {other}"
+                        );
+                    }
+                    made += 1;
+                },
+                &Watch::none(),
+            );
             assert!(
                 matches!(
                     report.ending,
@@ -1157,7 +1220,8 @@ fn the_whole_curve_has_the_dead_points_of_every_joint() {
         &Held::nothing(&mechanism),
         &mechanism.home(),
         &SweepSettings::default(),
-        &mut |_| ControlFlow::Continue(()),
+        &mut |_| {},
+        &Watch::none(),
     );
     let table = data("change_points");
     let published = table["answer"]["dead_points_of_crank_rocker_5_1_3_4"]

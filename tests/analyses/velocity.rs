@@ -9,6 +9,7 @@ use linkwork::description::Description;
 use linkwork::geometry::Vector3;
 use linkwork::mechanism::{Frame, Mechanism};
 use linkwork::solve::Newton;
+use linkwork::solve::Watch;
 use linkwork::system::{Analysed, Drive, DriveError, Question, close};
 
 fn folder() -> std::path::PathBuf {
@@ -39,7 +40,7 @@ fn all_frames(mechanism: &Mechanism) -> VelocitySettings {
 
 fn report(question: &Question, drive: &Drive) -> VelocityReport {
     let settings = all_frames(question.mechanism());
-    let answer = velocity(question, drive, &settings).unwrap();
+    let answer = velocity(question, drive, &settings, &Watch::none()).unwrap();
     answer.closed().expect("closes")
 }
 
@@ -56,7 +57,7 @@ fn solved<'a>(
     for (name, value) in held {
         question = question.hold(name, &format!("{value:?}")).unwrap();
     }
-    let report = assemble(&question, &AssemblySettings::default()).ok()?;
+    let report = assemble(&question, &AssemblySettings::default(), &Watch::none()).ok()?;
     (report.outcome == Outcome::Converged).then_some((question, report))
 }
 
@@ -67,7 +68,7 @@ fn rates_and_accelerations_are_those_of_solved_configurations() {
     let mut compared = 0;
     for mechanism in every_mechanism() {
         let home = Question::new(&mechanism);
-        let Ok(start) = assemble(&home, &AssemblySettings::default()) else {
+        let Ok(start) = assemble(&home, &AssemblySettings::default(), &Watch::none()) else {
             continue;
         };
         if start.outcome != Outcome::Converged {
@@ -170,6 +171,7 @@ fn a_platform_can_be_driven_and_the_legs_follow_inversely() {
         &inverse,
         &Drive::still(&inverse),
         &VelocitySettings::default(),
+        &Watch::none(),
     );
     let backward = backward.unwrap().closed().unwrap().jacobian.unwrap();
     let columns: Vec<&str> = backward.columns.iter().map(|c| c.name.as_str()).collect();
@@ -368,9 +370,9 @@ fn a_pose_held_whole_has_rates_where_roll_and_yaw_are_one() {
     let rows = &found.jacobian.as_ref().unwrap().columns;
     assert_eq!(rows[5].name, "hand.wz");
     let solved = |turn: f64| -> Vec<f64> {
-        let start = close(&question, &Newton::default(), 40, 1).unwrap();
+        let start = close(&question, &Newton::default(), (40, 1), &Watch::none()).unwrap();
         let question = hold(turn).near(&start.configuration);
-        let closed = close(&question, &Newton::default(), 0, 1).unwrap();
+        let closed = close(&question, &Newton::default(), (0, 1), &Watch::none()).unwrap();
         closed.configuration.joints
     };
     let h = 1e-4;
@@ -426,7 +428,7 @@ fn angles_of_a_platform_have_rates_and_accelerations_with_all_three_held() {
     // against solved configurations; the whole pose held, and the orientation with three legs
     let mechanism = load("stewart_gough_6sps");
     let home = Question::new(&mechanism);
-    let start = assemble(&home, &AssemblySettings::default()).unwrap();
+    let start = assemble(&home, &AssemblySettings::default(), &Watch::none()).unwrap();
     let angles = [
         ("top.roll", 0.2, 0.4, -0.3),
         ("top.pitch", -0.3, 0.5, 0.2),
@@ -776,7 +778,13 @@ fn a_stretched_arm_loses_a_freedom_and_says_so() {
             points: vec![Frame::Tip { chain: 0 }],
             ..VelocitySettings::default()
         };
-        let found = velocity(&question, &Drive::still(&question), &settings).unwrap();
+        let found = velocity(
+            &question,
+            &Drive::still(&question),
+            &settings,
+            &Watch::none(),
+        )
+        .unwrap();
         let jacobian = found.closed().unwrap().jacobian.unwrap();
         // the velocity of the tip alone
         let rows = jacobian.rows.len();
@@ -836,7 +844,7 @@ fn fichters_platform_gains_a_freedom_when_turned_by_ninety_degrees() {
         let inverse = inverse
             .hold("top", &format!("[Tz(0.9), Rz({yaw} deg)]"))
             .unwrap();
-        let legs = assemble(&inverse, &AssemblySettings::default()).unwrap();
+        let legs = assemble(&inverse, &AssemblySettings::default(), &Watch::none()).unwrap();
         let mut direct = Question::new(&mechanism);
         let pose = format!("[Tz(0.9), Rz({yaw} deg)]");
         direct = direct.guess("top", &pose).unwrap();
@@ -847,6 +855,7 @@ fn fichters_platform_gains_a_freedom_when_turned_by_ninety_degrees() {
             &direct,
             &Drive::still(&direct),
             &VelocitySettings::default(),
+            &Watch::none(),
         )
         .unwrap()
         {

@@ -9,6 +9,7 @@ use linkwork::analysis::workspace::{
 };
 use linkwork::description::Description;
 use linkwork::mechanism::Mechanism;
+use linkwork::solve::Watch;
 use linkwork::system::{Driven, Holdable, Question, check_count};
 use nalgebra::Matrix3;
 
@@ -50,7 +51,7 @@ fn map_with(
             to: *to,
         })
         .collect();
-    let report = workspace(&question, &axes, &[], settings, &mut |_| {}).unwrap();
+    let report = workspace(&question, &axes, &[], settings, &Watch::none()).unwrap();
     assert_eq!(report.unsure, 0, "{:?}", report.modes);
     report
 }
@@ -541,7 +542,7 @@ fn one_coordinate_is_mapped_to_intervals() {
         nodes: vec![90],
         ..WorkspaceSettings::default()
     };
-    let report = workspace(&question, &axes, &[], &settings, &mut |_| {}).unwrap();
+    let report = workspace(&question, &axes, &[], &settings, &Watch::none()).unwrap();
     assert!(matches!(coordinate, Holdable::Joint(_)));
     assert_eq!((report.modes.len(), report.unit.as_str()), (2, "m"));
     let ends = [2.0f64, 4.0].map(|reach| (reach * reach - 0.25).sqrt());
@@ -608,7 +609,7 @@ fn where_two_legs_fold_at_once_modes_are_not_taken_for_one() {
             from,
             to,
         });
-        let report = workspace(&question, &axes, &[], &settings, &mut |_| {}).unwrap();
+        let report = workspace(&question, &axes, &[], &settings, &Watch::none()).unwrap();
         assert_eq!(report.modes.len(), 4, "{nodes:?}");
         assert!(
             report.modes.iter().all(|mode| mode.repeated == 0),
@@ -634,7 +635,7 @@ fn modes_of(
         from,
         to,
     });
-    workspace(&question, &axes, &[], &settings, &mut |_| {}).unwrap()
+    workspace(&question, &axes, &[], &settings, &Watch::none()).unwrap()
 }
 
 #[test]

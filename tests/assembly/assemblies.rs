@@ -11,6 +11,7 @@ use linkwork::analysis::assemblies::{
 use linkwork::description::Description;
 use linkwork::geometry::{Pose, RollPitchYaw, Rotation, Vector3};
 use linkwork::mechanism::Mechanism;
+use linkwork::solve::Watch;
 use linkwork::system::Question;
 use serde_json::Value;
 
@@ -65,12 +66,23 @@ fn solver(question: &Question, seed: u64) -> AssemblySolver {
         seed,
         ..AssembliesSettings::default()
     };
-    AssemblySolver::new(question.mechanism(), &question.held(), &settings).unwrap()
+    AssemblySolver::new(
+        question.mechanism(),
+        &question.held(),
+        &settings,
+        &Watch::none(),
+    )
+    .unwrap()
 }
 
 fn answer(question: &Question, seed: u64) -> AssembliesReport {
     let solver = solver(question, seed);
-    solver.at_targets(&question.start(), &question.held(), Wanted::default())
+    solver.at_targets(
+        &question.start(),
+        &question.held(),
+        Wanted::default(),
+        &Watch::none(),
+    )
 }
 
 /// The answer for the file's own inputs.
@@ -206,13 +218,16 @@ fn known_bounds_are_recognised_by_structure() {
         quiet_seeds: 0,
         ..AssembliesSettings::default()
     };
-    let solver = AssemblySolver::new(&apart, &question.held(), &settings).unwrap();
+    let solver = AssemblySolver::new(&apart, &question.held(), &settings, &Watch::none()).unwrap();
     let one = Wanted {
         certificates: false,
         all_complex: false,
         starts: false,
     };
-    assert_eq!(solver.at(&question.start(), one).bound, None);
+    assert_eq!(
+        solver.at(&question.start(), one, &Watch::none()).bound,
+        None
+    );
 }
 
 /// 40 poses, and every universal joint in two ways for each: 40·2⁶.
@@ -229,6 +244,7 @@ fn legs_that_close_apart_are_combined() {
             all_complex: false,
             starts: false,
         },
+        &Watch::none(),
     );
     sound(&report);
     assert_eq!((report.complex, report.real), (2560, 64 * spheres.real));
@@ -528,7 +544,11 @@ fn a_delta_has_two_assemblies_with_a_translating_hand_among_those_of_six_free_ro
         let theta = numbers(&row["theta_deg"]);
         let held = ["theta1", "theta2", "theta3"].iter().zip(theta);
         let held: Vec<(&str, String)> = held.map(|(n, t)| (*n, format!("{t} deg"))).collect();
-        let report = solver.at(&asked(&delta, &[], &held).start(), Wanted::default());
+        let report = solver.at(
+            &asked(&delta, &[], &held).start(),
+            Wanted::default(),
+            &Watch::none(),
+        );
         sound(&report);
         let hands = report
             .assemblies
@@ -550,7 +570,11 @@ fn a_delta_of_six_free_rods_has_forty_solutions_and_two_that_translate() {
     let at = |angles: [f64; 3]| {
         let held = ["theta1", "theta2", "theta3"].iter().zip(angles);
         let held: Vec<(&str, String)> = held.map(|(n, t)| (*n, format!("{t} deg"))).collect();
-        let report = solver.at(&asked(&delta, &[], &held).start(), Wanted::default());
+        let report = solver.at(
+            &asked(&delta, &[], &held).start(),
+            Wanted::default(),
+            &Watch::none(),
+        );
         sound(&report);
         let level = |a: &&linkwork::analysis::assemblies::Assembly| {
             let [w, ..] = a.platforms.get("hand").unwrap().quaternion;
@@ -623,7 +647,7 @@ fn a_mode_is_followed_to_the_fold_where_it_ends() {
     let solver = solver(&question, 1);
     for mode in [1, 2] {
         match solver
-            .follow(mode, &question.start(), &question.held())
+            .follow(mode, &question.start(), &question.held(), &Watch::none())
             .unwrap()
         {
             Followed::Fold(fold) => {
@@ -634,9 +658,11 @@ fn a_mode_is_followed_to_the_fold_where_it_ends() {
         }
     }
     let near = asked(&mechanism, &[], &[("theta1", "100 deg".into())]);
-    let there = solver.at(&near.start(), Wanted::default());
+    let there = solver.at(&near.start(), Wanted::default(), &Watch::none());
     for mode in [1, 2] {
-        let Followed::Arrived(at) = solver.follow(mode, &near.start(), &near.held()).unwrap()
+        let Followed::Arrived(at) = solver
+            .follow(mode, &near.start(), &near.held(), &Watch::none())
+            .unwrap()
         else {
             panic!("there are assemblies at 100 deg");
         };
@@ -644,7 +670,9 @@ fn a_mode_is_followed_to_the_fold_where_it_ends() {
         assert!((0..2).any(|k| turn(joint(&there, k, "phi1"), rocker) < 1e-9));
     }
     assert_eq!(
-        solver.follow(3, &near.start(), &near.held()).unwrap_err(),
+        solver
+            .follow(3, &near.start(), &near.held(), &Watch::none())
+            .unwrap_err(),
         AssembliesError::NoSuchMode(2)
     );
 }
@@ -780,7 +808,11 @@ fn a_stored_platform_is_answered_in_few_steps() {
     let held: Vec<(&str, String)> = held
         .map(|(i, n)| (*n, format!("{}", 1.0 + 0.02 * i as f64)))
         .collect();
-    let report = solver.at(&asked(&mechanism, &[], &held).start(), Wanted::default());
+    let report = solver.at(
+        &asked(&mechanism, &[], &held).start(),
+        Wanted::default(),
+        &Watch::none(),
+    );
     sound(&report);
     assert_eq!(report.complex, 40);
     assert!(report.steps < 40 * 20, "{} steps", report.steps);
@@ -791,11 +823,16 @@ fn whole_turns_of_an_input_change_nothing() {
     let mechanism = mechanism("four_bar");
     let list = |turns: f64| {
         let held = Question::new(&mechanism).held();
-        let solver =
-            AssemblySolver::new(&mechanism, &held, &AssembliesSettings::default()).unwrap();
+        let solver = AssemblySolver::new(
+            &mechanism,
+            &held,
+            &AssembliesSettings::default(),
+            &Watch::none(),
+        )
+        .unwrap();
         let mut asked = mechanism.home();
         asked.joints[mechanism.joint("theta1").unwrap()] = 1.0 + turns * std::f64::consts::TAU;
-        solver.at(&asked, Wanted::default())
+        solver.at(&asked, Wanted::default(), &Watch::none())
     };
     let (near, far) = (list(0.0), list(200.0));
     assert_eq!((near.real, far.real, far.lost), (2, 2, 0));
@@ -813,9 +850,19 @@ fn assemblies_that_are_not_isolated_are_not_denied() {
         Question::new(&wrist).free("actuated").unwrap(),
         |question, angle| question.hold(angle, "0").unwrap(),
     );
-    let solver =
-        AssemblySolver::new(&wrist, &question.held(), &AssembliesSettings::default()).unwrap();
-    let report = solver.at_targets(&question.start(), &question.held(), Wanted::default());
+    let solver = AssemblySolver::new(
+        &wrist,
+        &question.held(),
+        &AssembliesSettings::default(),
+        &Watch::none(),
+    )
+    .unwrap();
+    let report = solver.at_targets(
+        &question.start(),
+        &question.held(),
+        Wanted::default(),
+        &Watch::none(),
+    );
     // samples of them are listed, none as a solution by itself
     assert_eq!(report.continua.len(), 1);
     assert_eq!(report.continua[0].dimension, 1);
@@ -823,9 +870,14 @@ fn assemblies_that_are_not_isolated_are_not_denied() {
     // and a real gap is one
     let platform = mechanism("three_rps");
     let question = Question::new(&platform).hold("l1", "3").unwrap();
-    let solver =
-        AssemblySolver::new(&platform, &question.held(), &AssembliesSettings::default()).unwrap();
-    let report = solver.at(&question.start(), Wanted::default());
+    let solver = AssemblySolver::new(
+        &platform,
+        &question.held(),
+        &AssembliesSettings::default(),
+        &Watch::none(),
+    )
+    .unwrap();
+    let report = solver.at(&question.start(), Wanted::default(), &Watch::none());
     let gaps = report.closest.unwrap().gaps;
     assert!(gaps.0.iter().any(|(_, gap)| gap.distance > 0.1), "{gaps:?}");
 }
@@ -877,9 +929,11 @@ fn a_mode_that_is_followed_has_the_turns_of_the_list() {
     let question = asked(&mechanism, &["actuated"], &[("hand", "home".into())]);
     let solver = solver(&question, 1);
     let (start, held) = (question.start(), question.held());
-    let report = solver.at_targets(&start, &held, Wanted::default());
+    let report = solver.at_targets(&start, &held, Wanted::default(), &Watch::none());
     for assembly in report.assemblies.iter().filter(|a| a.multiplicity == 1) {
-        let followed = solver.follow(assembly.mode, &start, &held).unwrap();
+        let followed = solver
+            .follow(assembly.mode, &start, &held, &Watch::none())
+            .unwrap();
         let Followed::Arrived(at) = followed else {
             panic!("home is where it starts");
         };

@@ -8,6 +8,7 @@ use std::f64::consts::PI;
 use linkwork::analysis::assembly::{AssemblySettings, Outcome, assemble};
 use linkwork::geometry::{Pose, Quaternion, Vector3};
 use linkwork::mechanism::{Configuration, Mechanism, PlatformPose};
+use linkwork::solve::Watch;
 use linkwork::system::Question;
 use rand::{Rng, SeedableRng};
 use rand_pcg::Pcg64Mcg;
@@ -23,7 +24,8 @@ struct Tally {
 
 impl Tally {
     fn ask(&mut self, question: &Question) {
-        let report = assemble(question, &AssemblySettings::default()).expect("the count is right");
+        let report = assemble(question, &AssemblySettings::default(), &Watch::none())
+            .expect("the count is right");
         if matches!(
             report.outcome,
             Outcome::Converged | Outcome::ConvergedOutsideLimits { .. }
@@ -154,7 +156,8 @@ fn the_stewart_gough_platform_assembles_from_random_poses() {
 fn legs_that_cannot_reach_are_not_said_to_assemble() {
     let mechanism = load("stewart_gough_6sps");
     let question = Question::new(&mechanism).hold("l1", "5").expect("a joint");
-    let report = assemble(&question, &AssemblySettings::default()).expect("the count is right");
+    let report = assemble(&question, &AssemblySettings::default(), &Watch::none())
+        .expect("the count is right");
     assert!(
         matches!(report.outcome, Outcome::CannotBeAssembled { .. }),
         "{:?}",

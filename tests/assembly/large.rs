@@ -3,6 +3,7 @@
 use linkwork::analysis::assembly::{AssemblySettings, Outcome, assemble};
 use linkwork::description::Description;
 use linkwork::mechanism::Mechanism;
+use linkwork::solve::Watch;
 use linkwork::system::Question;
 
 /// `loops` crank-rockers in a row; the rocker angle of one is the crank angle of the next.
@@ -32,8 +33,12 @@ fn row_of_four_bars(loops: usize) -> Mechanism {
 fn a_row_of_loops_assembles_in_as_many_steps_however_long_it_is() {
     for loops in [5, 40, 150] {
         let mechanism = row_of_four_bars(loops);
-        let report = assemble(&Question::new(&mechanism), &AssemblySettings::default())
-            .expect("one input for one freedom");
+        let report = assemble(
+            &Question::new(&mechanism),
+            &AssemblySettings::default(),
+            &Watch::none(),
+        )
+        .expect("one input for one freedom");
         assert_eq!(report.outcome, Outcome::Converged, "{loops} loops");
         assert_eq!(report.restarts, 0);
         assert!(report.residual <= 1e-12);
@@ -55,7 +60,12 @@ fn a_row_with_an_input_out_of_reach_is_not_said_to_assemble() {
         restarts: 1,
         ..AssemblySettings::default()
     };
-    let report = assemble(&question.expect("names of the row"), &settings).expect("one input");
+    let report = assemble(
+        &question.expect("names of the row"),
+        &settings,
+        &Watch::none(),
+    )
+    .expect("one input");
     assert!(
         !matches!(report.outcome, Outcome::Converged),
         "{:?}",

@@ -10,6 +10,7 @@ use linkwork::analysis::assemblies::{
 use linkwork::description::Description;
 use linkwork::geometry::{Pose, RollPitchYaw, Rotation, Vector3};
 use linkwork::mechanism::Mechanism;
+use linkwork::solve::Watch;
 use linkwork::system::Question;
 use serde_json::Value;
 
@@ -49,8 +50,14 @@ fn answer(mechanism: &Mechanism, free: &[&str], held: &[(&str, String)]) -> Asse
         question = question.hold(name, value).unwrap();
     }
     let held = question.held();
-    let solver = AssemblySolver::new(mechanism, &held, &AssembliesSettings::default()).unwrap();
-    let report = solver.at_targets(&question.start(), &held, Wanted::default());
+    let solver = AssemblySolver::new(
+        mechanism,
+        &held,
+        &AssembliesSettings::default(),
+        &Watch::none(),
+    )
+    .unwrap();
+    let report = solver.at_targets(&question.start(), &held, Wanted::default(), &Watch::none());
     assert_eq!(report.lost, 0);
     report
 }
@@ -178,7 +185,13 @@ fn the_delta_of_the_tutorial_has_two_assemblies_with_a_translating_hand() {
     );
     let question = Question::new(&delta);
     let held = question.held();
-    let solver = AssemblySolver::new(&delta, &held, &AssembliesSettings::default()).unwrap();
+    let solver = AssemblySolver::new(
+        &delta,
+        &held,
+        &AssembliesSettings::default(),
+        &Watch::none(),
+    )
+    .unwrap();
     for row in list(&data("delta")["zavatsky"]) {
         let mut asked = delta.home();
         for (name, theta) in ["theta1", "theta2", "theta3"]
@@ -187,7 +200,7 @@ fn the_delta_of_the_tutorial_has_two_assemblies_with_a_translating_hand() {
         {
             asked.joints[delta.joint(name).unwrap()] = theta.to_radians();
         }
-        let report = solver.at(&asked, Wanted::default());
+        let report = solver.at(&asked, Wanted::default(), &Watch::none());
         assert_eq!(report.lost, 0);
         let hands = report
             .assemblies

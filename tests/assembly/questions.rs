@@ -5,6 +5,7 @@ use std::f64::consts::PI;
 use linkwork::analysis::assembly::{AssemblyReport, AssemblySettings, Outcome, assemble};
 use linkwork::description::Description;
 use linkwork::mechanism::{Coordinate, Mechanism};
+use linkwork::solve::Watch;
 use linkwork::system::{Question, QuestionError};
 
 fn load(name: &str) -> Mechanism {
@@ -24,7 +25,7 @@ fn inverse<'a>(mechanism: &'a Mechanism, held: &[(&str, &str)]) -> Question<'a> 
 }
 
 fn answer(question: &Question) -> AssemblyReport {
-    assemble(question, &AssemblySettings::default()).unwrap()
+    assemble(question, &AssemblySettings::default(), &Watch::none()).unwrap()
 }
 
 fn joint(mechanism: &Mechanism, report: &AssemblyReport, name: &str) -> f64 {
@@ -87,7 +88,11 @@ fn a_whole_pose_has_no_locked_angles() {
     }
     let mechanism = load("three_rps");
     let held = [("top.pitch", "90 deg"), ("top.z", "0.4"), ("top.roll", "0")];
-    let refused = assemble(&inverse(&mechanism, &held), &AssemblySettings::default());
+    let refused = assemble(
+        &inverse(&mechanism, &held),
+        &AssemblySettings::default(),
+        &Watch::none(),
+    );
     assert!(
         matches!(&refused, Err(QuestionError::AnglesLocked { platform }) if platform == "top"),
         "{refused:?}"
@@ -203,7 +208,11 @@ fn a_body_that_turns_about_a_point_is_not_idle() {
             platforms: { "p": Platform(home: [Rx("90 deg")]) },
             closures: { "cross": Universal("p", "ground") })"#,
     );
-    let refused = assemble(&Question::new(&universal), &AssemblySettings::default());
+    let refused = assemble(
+        &Question::new(&universal),
+        &AssemblySettings::default(),
+        &Watch::none(),
+    );
     assert!(
         matches!(
             refused,

@@ -9,6 +9,7 @@ use linkwork::analysis::assemblies::{
 };
 use linkwork::description::load;
 use linkwork::mechanism::Mechanism;
+use linkwork::solve::Watch;
 use linkwork::system::Question;
 
 fn files() -> Vec<PathBuf> {
@@ -32,8 +33,14 @@ fn answer(mechanism: &Mechanism, seed: u64) -> AssembliesReport {
         seed,
         ..AssembliesSettings::default()
     };
-    let solver = AssemblySolver::new(mechanism, &question.held(), &settings).unwrap();
-    solver.at_targets(&question.start(), &question.held(), Wanted::default())
+    let solver =
+        AssemblySolver::new(mechanism, &question.held(), &settings, &Watch::none()).unwrap();
+    solver.at_targets(
+        &question.start(),
+        &question.held(),
+        Wanted::default(),
+        &Watch::none(),
+    )
 }
 
 /// How far apart two values are, going round for angles.

@@ -11,6 +11,7 @@ use linkwork::analysis::assemblies::{
 use linkwork::analysis::assembly::{AssemblySettings, Outcome, assemble};
 use linkwork::description::Description;
 use linkwork::mechanism::Mechanism;
+use linkwork::solve::Watch;
 use linkwork::system::{Question, check_count};
 
 fn path_of(name: &str) -> PathBuf {
@@ -42,8 +43,19 @@ fn answer(question: &Question, seed: u64) -> AssembliesReport {
         seed,
         ..AssembliesSettings::default()
     };
-    let solver = AssemblySolver::new(question.mechanism(), &question.held(), &settings).unwrap();
-    let report = solver.at_targets(&question.start(), &question.held(), Wanted::default());
+    let solver = AssemblySolver::new(
+        question.mechanism(),
+        &question.held(),
+        &settings,
+        &Watch::none(),
+    )
+    .unwrap();
+    let report = solver.at_targets(
+        &question.start(),
+        &question.held(),
+        Wanted::default(),
+        &Watch::none(),
+    );
     assert_eq!((report.lost, report.unexpected), (0, 0), "seed {seed}");
     report
 }
@@ -384,8 +396,9 @@ fn what_only_rounding_closes_is_not_listed_as_an_assembly_by_itself() {
     for theta in ["1e-11", "1e-12", "1e-13", "1e-15"] {
         let question = asked(&mechanism, &[], &[("theta", theta)]);
         let settings = AssembliesSettings::default();
-        let solver = AssemblySolver::new(&mechanism, &question.held(), &settings).unwrap();
-        let report = solver.at(&question.start(), Wanted::default());
+        let solver =
+            AssemblySolver::new(&mechanism, &question.held(), &settings, &Watch::none()).unwrap();
+        let report = solver.at(&question.start(), Wanted::default(), &Watch::none());
         let isolated = report.assemblies.iter().filter(|a| a.multiplicity > 0);
         assert!(isolated.count() <= 4, "{theta}: {}", report.real);
         assert_eq!(report.complex + report.not_isolated, 4, "{theta}");
@@ -431,7 +444,7 @@ fn what_is_a_little_out_of_reach_is_assembled_for_both_or_for_neither() {
         let fold = asked(&linkage, &[], &[("theta1", &theta)]);
         for question in [reach, fold] {
             let report = answer(&question, 1);
-            let one = assemble(&question, &AssemblySettings::default()).unwrap();
+            let one = assemble(&question, &AssemblySettings::default(), &Watch::none()).unwrap();
             let assembled = !matches!(
                 one.outcome,
                 Outcome::CannotBeAssembled { .. } | Outcome::GaveUp { .. }
@@ -554,9 +567,15 @@ fn the_bound_is_that_of_the_dimensions_given() {
 
 fn followed(question: &Question, mode: usize) -> Followed {
     let settings = AssembliesSettings::default();
-    let solver = AssemblySolver::new(question.mechanism(), &question.held(), &settings).unwrap();
+    let solver = AssemblySolver::new(
+        question.mechanism(),
+        &question.held(),
+        &settings,
+        &Watch::none(),
+    )
+    .unwrap();
     solver
-        .follow(mode, &question.start(), &question.held())
+        .follow(mode, &question.start(), &question.held(), &Watch::none())
         .unwrap()
 }
 
@@ -664,12 +683,13 @@ fn complex_solutions_have_a_condition() {
     let mechanism = with("three_rps", &[]);
     let question = asked(&mechanism, &[], &[]);
     let settings = AssembliesSettings::default();
-    let solver = AssemblySolver::new(&mechanism, &question.held(), &settings).unwrap();
+    let solver =
+        AssemblySolver::new(&mechanism, &question.held(), &settings, &Watch::none()).unwrap();
     let wanted = Wanted {
         all_complex: true,
         ..Wanted::default()
     };
-    let report = solver.at(&question.start(), wanted);
+    let report = solver.at(&question.start(), wanted, &Watch::none());
     let conditions = report
         .complex_assemblies
         .iter()

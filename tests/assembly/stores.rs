@@ -10,6 +10,7 @@ use linkwork::analysis::assemblies::{
 };
 use linkwork::description::load;
 use linkwork::mechanism::Mechanism;
+use linkwork::solve::Watch;
 use linkwork::system::Question;
 
 const THREE_RPS: &str = "mechanisms/three_rps.ron";
@@ -23,7 +24,13 @@ fn mechanism(path: &str) -> Mechanism {
 fn stored(path: &str) -> String {
     let mechanism = mechanism(path);
     let held = Question::new(&mechanism).held();
-    let solver = AssemblySolver::new(&mechanism, &held, &AssembliesSettings::default()).unwrap();
+    let solver = AssemblySolver::new(
+        &mechanism,
+        &held,
+        &AssembliesSettings::default(),
+        &Watch::none(),
+    )
+    .unwrap();
     solver.generic().to_text()
 }
 

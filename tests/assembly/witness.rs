@@ -11,6 +11,7 @@ use linkwork::analysis::assemblies::{
 };
 use linkwork::description::Description;
 use linkwork::mechanism::Mechanism;
+use linkwork::solve::Watch;
 use linkwork::system::Question;
 use num_complex::Complex64;
 use serde_json::{Map, Value};
@@ -389,12 +390,18 @@ fn cases(name: &str) -> Vec<Value> {
 fn answer(mechanism: &Mechanism) -> AssembliesReport {
     let question = Question::new(mechanism);
     let held = question.held();
-    let solver = AssemblySolver::new(mechanism, &held, &AssembliesSettings::default()).unwrap();
+    let solver = AssemblySolver::new(
+        mechanism,
+        &held,
+        &AssembliesSettings::default(),
+        &Watch::none(),
+    )
+    .unwrap();
     let wanted = Wanted {
         all_complex: true,
         ..Wanted::default()
     };
-    solver.at_targets(&question.start(), &held, wanted)
+    solver.at_targets(&question.start(), &held, wanted, &Watch::none())
 }
 
 /// Real and complex solutions of every geometry of a family, and of one that is slightly wrong.

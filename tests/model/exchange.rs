@@ -17,6 +17,7 @@ use linkwork::geometry::{Pose, Quaternion};
 use linkwork::interchange::{ImportSettings, Imported, import, tree_of, write_mjcf, write_urdf};
 use linkwork::mechanism::{Configuration, Mechanism};
 use linkwork::solve::Newton;
+use linkwork::solve::Watch;
 use linkwork::system::{Freedoms, Gap, Held, Question, close};
 use proptest::prelude::*;
 use serde_json::{Value, json};
@@ -50,14 +51,24 @@ fn every_closure() -> Mechanism {
 }
 
 fn home_assembly(mechanism: &Mechanism) -> Configuration<f64> {
-    let report = assemble(&Question::new(mechanism), &AssemblySettings::default()).unwrap();
+    let report = assemble(
+        &Question::new(mechanism),
+        &AssemblySettings::default(),
+        &Watch::none(),
+    )
+    .unwrap();
     assert!(report.residual < 1e-9, "{}", mechanism.name());
     report.configuration
 }
 
 /// A configuration in which all closures are whole.
 fn any_assembly(mechanism: &Mechanism) -> Configuration<f64> {
-    let closed = close(&Question::new(mechanism), &Newton::default(), 40, 1);
+    let closed = close(
+        &Question::new(mechanism),
+        &Newton::default(),
+        (40, 1),
+        &Watch::none(),
+    );
     closed.expect("it can be assembled").configuration
 }
 
@@ -262,13 +273,14 @@ fn what_is_written_as_mjcf_and_read_again_has_as_many_assemblies() {
     let count = |mechanism: &Mechanism| {
         let question = Question::new(mechanism);
         let settings = AssembliesSettings::default();
-        let solver = AssemblySolver::new(mechanism, &question.held(), &settings).unwrap();
+        let solver =
+            AssemblySolver::new(mechanism, &question.held(), &settings, &Watch::none()).unwrap();
         let wanted = Wanted {
             certificates: false,
             all_complex: false,
             starts: false,
         };
-        let report = solver.at_targets(&question.start(), &question.held(), wanted);
+        let report = solver.at_targets(&question.start(), &question.held(), wanted, &Watch::none());
         (report.real, report.complex, report.lost)
     };
     // the counts are known: a 4-bar and a slider-crank have 2, an R-S-S-R 2, a 5-bar 2, a planar 3-RPR 6
@@ -414,7 +426,7 @@ fn a_four_bar_read_from_urdf_has_the_assemblies_of_the_one_in_the_shipped_file()
     let at = |mechanism: &Mechanism, guess: f64| {
         let question = Question::new(mechanism).hold("theta1", "80 deg").unwrap();
         let question = question.guess("phi1", &guess.to_string()).unwrap();
-        let report = assemble(&question, &AssemblySettings::default()).unwrap();
+        let report = assemble(&question, &AssemblySettings::default(), &Watch::none()).unwrap();
         assert!(report.residual < 1e-9);
         ["phi1", "phi2"].map(|joint| report.configuration.joints[mechanism.joint(joint).unwrap()])
     };

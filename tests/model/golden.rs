@@ -7,6 +7,7 @@ use linkwork::analysis::assembly::{AssemblySettings, assemble};
 use linkwork::description::{Description, Entry};
 use linkwork::geometry::{Pose, Quaternion, RollPitchYaw, Rotation, Vector3};
 use linkwork::mechanism::{Configuration, Mechanism, PlatformPose, Role};
+use linkwork::solve::Watch;
 use linkwork::solve::{Equations, Newton, Stop};
 use linkwork::system::{Freedoms, Held, HeldPlatform, Question, System};
 use serde_json::Value;
@@ -229,7 +230,7 @@ fn the_eight_assemblies_of_the_3_rps() {
         for (name, value) in values {
             question = question.guess(name, &rough(value).to_string()).unwrap();
         }
-        let report = assemble(&question, &AssemblySettings::default()).unwrap();
+        let report = assemble(&question, &AssemblySettings::default(), &Watch::none()).unwrap();
         assert_eq!(report.restarts, 0);
         assert!(report.residual <= 1e-12);
         same(&report.configuration, &printed, DIGITS);

@@ -10,6 +10,7 @@ use linkwork::geometry::{Axis, Pose};
 use linkwork::linear::Factorable;
 use linkwork::mechanism::{Configuration, Frame, Kinematics, Mechanism, Role};
 use linkwork::number::{Complex, Dual};
+use linkwork::solve::Watch;
 use linkwork::solve::{Equations, Newton, Stop};
 use linkwork::system::{Held, HeldPlatform, System};
 
@@ -344,7 +345,7 @@ fn a_transform_along_a_chain_is_the_product_of_its_rows() {
 #[test]
 fn every_closed_form_agrees_with_the_chains() {
     for (name, mechanism) in all() {
-        let report = compare(&mechanism, &CompareSettings::default());
+        let report = compare(&mechanism, &CompareSettings::default(), &Watch::none());
         for form in &report.closed_forms {
             assert_eq!(form.verdict, Verdict::Agrees, "{name}: {form:#?}");
             assert!(
@@ -401,7 +402,7 @@ fn refuted(description: &Description) -> bool {
         samples: 12,
         ..CompareSettings::default()
     };
-    let report = compare(&mechanism, &settings);
+    let report = compare(&mechanism, &settings, &Watch::none());
     assert_eq!(report.closed_forms.len(), 1);
     report.closed_forms[0].verdict == Verdict::Disagrees
 }

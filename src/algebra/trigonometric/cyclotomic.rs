@@ -1,14 +1,13 @@
 //! Whether a sum that contains constant angles such as 20° is zero.
 //!
 //! exp(iπk) for k no multiple of 1/12 is a root of unity, and roots of unity obey relations beyond the addition
-//! theorems, as 1 + ζ + ζ² + ζ³ + ζ⁴ = 0 for ζ = exp(2πi/5). They are written in a basis of the cyclotomic field over
-//! ℚ(i, √2, √3): of the part of k/2 with denominator 2ᵃ3ᵇ the remainder modulo 1/24 is kept, and of every part
-//! with denominator pᵏ, p ≥ 5, the leading digit p − 1 is replaced by minus the sum of the others (after W. Bosma,
-//! Canonical bases for cyclotomic fields, 1990).
+//! theorems, as 1 + ζ + ζ² + ζ³ + ζ⁴ = 0 for ζ = exp(2πi/5). All constants are written as sums of powers of one root
+//! of unity, whose order N has the denominators of all k as divisors.
 
-use num_bigint::BigInt;
+use std::collections::BTreeMap;
+
 use num_integer::Integer;
-use num_rational::Ratio;
+use num_rational::{BigRational, Ratio};
 use num_traits::Zero;
 
 use super::{Atom, Budget, Key, Trigonometric};
@@ -26,18 +25,18 @@ impl Trigonometric {
             return Some(true);
         }
         let cleared = self.without_denominators(budget)?;
-        let reduced = cleared.in_basis()?;
-        match reduced.is_empty() {
+        let has_turns = cleared.terms.keys().any(|key| key.wave.of_pi().is_some());
+        let vanishes = match has_turns {
+            true => cleared.constants_vanish()?,
+            false => cleared.is_empty(),
+        };
+        match vanishes {
             true => Some(true),
-            false if reduced.is_opaque() => None,
+            false if cleared.is_opaque() => None,
             // beyond √2 and √3 a root and a root of unity may depend on one another
-            false if reduced.terms().any(|(key, _)| key.root > 6) && reduced.has_turns() => None,
+            false if has_turns && cleared.terms.keys().any(|key| key.root > 6) => None,
             false => Some(false),
         }
-    }
-
-    fn has_turns(&self) -> bool {
-        self.terms().any(|(key, _)| key.wave.of_pi().is_some())
     }
 
     /// Multiplied by every denominator P that stands in it as 1/P; `None` if that is too long.
@@ -70,87 +69,75 @@ impl Trigonometric {
         }
     }
 
-    /// Every constant angle in the basis.
-    fn in_basis(&self) -> Option<Self> {
-        if !self.has_turns() {
-            return Some(self.clone());
-        }
-        let mut sum = Trigonometric::zero();
+    /// Whether the constants in front of every product of letters and waves are zero.
+    fn constants_vanish(&self) -> Option<bool> {
+        // by what they are the constants of: the exponents n of e^(2πi n/N) and their coefficients
+        let mut constants: BTreeMap<Key, BTreeMap<i64, BigRational>> = BTreeMap::new();
+        let mut halves = self.terms.keys().filter_map(|key| key.wave.of_pi());
+        let order = halves.try_fold(24, |order: i64, k| {
+            let divisor = 2 * k.denom();
+            (order / order.gcd(&divisor)).checked_mul(divisor)
+        })?;
+        let primes = primes_of(order)?;
         for (key, coefficient) in &self.terms {
-            let Some(k) = key.wave.of_pi() else {
-                sum.add_term(key.clone(), coefficient.clone());
-                continue;
-            };
-            let bare = Key {
-                wave: key.wave.without_pi(),
-                ..key.clone()
-            };
-            for (twelfths, rest, sign) in basis(k)? {
-                let turn = Key {
-                    wave: super::Wave::default().with_pi(Ratio::new(twelfths, 12)),
-                    ..Key::default()
-                };
-                let factor = coefficient * BigInt::from(sign);
-                for (part, factor) in bare.times(&turn, factor)? {
-                    // put back as it is: a product would take it out of the basis
-                    let wave = part.wave.with_pi(rest);
-                    sum.add_term(Key { wave, ..part }, factor);
+            let k = key.wave.of_pi().unwrap_or_else(Ratio::zero);
+            let turn = k.numer() * (order / (2 * k.denom()));
+            let turn = turn + if key.imaginary { order / 4 } else { 0 };
+            // √2 = e^(πi/4) + e^(−πi/4), √3 = e^(πi/6) + e^(−πi/6)
+            let mut turns = vec![turn];
+            for (prime, part) in [(2, 8), (3, 12)] {
+                if key.root % prime == 0 {
+                    let both = turns
+                        .iter()
+                        .flat_map(|n| [n + order / part, n - order / part]);
+                    turns = both.collect();
                 }
             }
+            let mut bare = Key {
+                wave: key.wave.without_pi(),
+                imaginary: false,
+                ..key.clone()
+            };
+            bare.root /= key.root.gcd(&6);
+            let constant = constants.entry(bare).or_default();
+            for n in turns {
+                *constant
+                    .entry(n.rem_euclid(order))
+                    .or_insert_with(BigRational::zero) += coefficient;
+            }
         }
-        Some(sum)
+        let zero = |constant| is_zero(constant, order, &primes);
+        Some(constants.into_values().all(zero))
     }
 }
 
-/// exp(iπk) = Σ ± exp(iπ n/12) exp(iπ rest), each rest in the basis.
-fn basis(k: Ratio<i64>) -> Option<Vec<(i64, Ratio<i64>, i64)>> {
-    let turn = k / 2;
-    let turn = turn - turn.floor();
-    let mut left = *turn.denom();
-    // parts with denominators pᵏ, p ≥ 5
-    let mut found = vec![(Ratio::zero(), 1)];
-    let mut small = turn;
-    for prime in 5..=LARGEST_PRIME {
-        let mut power = 1;
+/// Whether Σ cₙ ζⁿ is zero for ζ = e^(2πi/N): the product of Σ cₙ xⁿ with x^(N/p) − 1 for all primes p that divide N
+/// vanishes at all other roots of xᴺ − 1 and is zero at ζ only if the sum is, as it is then at all primitive roots.
+fn is_zero(constant: BTreeMap<i64, BigRational>, order: i64, primes: &[i64]) -> bool {
+    let mut product = constant;
+    for prime in primes {
+        let mut next = BTreeMap::new();
+        for (n, coefficient) in product {
+            let further = (n + order / prime).rem_euclid(order);
+            *next.entry(further).or_insert_with(BigRational::zero) += &coefficient;
+            *next.entry(n).or_insert_with(BigRational::zero) -= coefficient;
+        }
+        next.retain(|_, coefficient| !coefficient.is_zero());
+        product = next;
+    }
+    product.is_empty()
+}
+
+/// The primes that divide a number; `None` if there are larger ones than are looked for.
+fn primes_of(number: i64) -> Option<Vec<i64>> {
+    let (mut left, mut primes) = (number, Vec::new());
+    for prime in 2..=LARGEST_PRIME {
+        if left % prime == 0 {
+            primes.push(prime);
+        }
         while left % prime == 0 {
-            power *= prime;
             left /= prime;
         }
-        if power == 1 {
-            continue;
-        }
-        let others = turn.denom() / power;
-        let inverse = others.extended_gcd(&power).x.rem_euclid(power);
-        let top = (turn.numer().rem_euclid(power) * inverse).rem_euclid(power);
-        small -= Ratio::new(top, power);
-        let digit = power / prime;
-        let tops: Vec<(i64, i64)> = match top / digit == prime - 1 {
-            true => (0..prime - 1)
-                .map(|d| (top % digit + d * digit, -1))
-                .collect(),
-            false => vec![(top, 1)],
-        };
-        let mut longer = Vec::new();
-        for (sum, sign) in &found {
-            longer.extend((tops.iter()).map(|(top, s)| (sum + Ratio::new(*top, power), sign * s)));
-        }
-        found = longer;
     }
-    while left % 2 == 0 {
-        left /= 2;
-    }
-    while left % 3 == 0 {
-        left /= 3;
-    }
-    if left != 1 {
-        return None;
-    }
-    let scaled = (small - small.floor()) * 24;
-    let (whole, rest) = (scaled.floor(), (scaled - scaled.floor()) / 24);
-    let parts = found.into_iter();
-    Some(
-        parts
-            .map(|(sum, sign)| (whole.to_integer(), (rest + sum) * 2, sign))
-            .collect(),
-    )
+    (left == 1).then_some(primes)
 }

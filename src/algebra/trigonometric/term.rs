@@ -6,7 +6,7 @@ use std::sync::Arc;
 use num_bigint::BigInt;
 use num_integer::Integer;
 use num_rational::{BigRational, Ratio};
-use num_traits::{CheckedAdd, One, Zero};
+use num_traits::{CheckedAdd, Zero};
 
 use super::super::Function;
 use super::{Trigonometric, constants};
@@ -59,6 +59,32 @@ impl Default for Key {
     }
 }
 
+impl Key {
+    /// A product of letters.
+    pub fn of(powers: Powers) -> Self {
+        Key {
+            powers,
+            ..Key::default()
+        }
+    }
+
+    /// √s with squarefree s.
+    pub fn root(root: u64) -> Self {
+        Key {
+            root,
+            ..Key::default()
+        }
+    }
+
+    /// exp(i …)
+    pub fn turning(wave: Wave) -> Self {
+        Key {
+            wave,
+            ..Key::default()
+        }
+    }
+}
+
 impl Atom {
     pub(super) fn symbols(&self, found: &mut BTreeSet<u32>) {
         let inside: &[Trigonometric] = match self {
@@ -83,29 +109,31 @@ pub(super) fn pi_angle() -> Powers {
     vec![(Atom::Pi, 1)]
 }
 
-fn merged(a: &Powers, b: &Powers) -> Option<Powers> {
-    if a.is_empty() {
-        return Some(b.clone());
+/// Two sorted lists as one, entries of the same key added; those whose sum is zero are left out.
+fn merged<K: Clone + Ord, V: Clone + Zero>(
+    a: &[(K, V)],
+    b: &[(K, V)],
+    add: impl Fn(&V, &V) -> Option<V>,
+) -> Option<Vec<(K, V)>> {
+    if a.is_empty() || b.is_empty() {
+        return Some([a, b].concat());
     }
-    if b.is_empty() {
-        return Some(a.clone());
-    }
-    let mut product = Powers::with_capacity(a.len() + b.len());
+    let mut merged = Vec::with_capacity(a.len() + b.len());
     let (mut a, mut b) = (a.iter().peekable(), b.iter().peekable());
     loop {
         match (a.peek(), b.peek()) {
             (Some(x), Some(y)) if x.0 == y.0 => {
-                let power = x.1.checked_add(y.1)?;
-                if power != 0 {
-                    product.push((x.0.clone(), power));
+                let sum = add(&x.1, &y.1)?;
+                if !sum.is_zero() {
+                    merged.push((x.0.clone(), sum));
                 }
                 a.next();
                 b.next();
             }
-            (Some(x), Some(y)) if x.0 < y.0 => product.extend(a.next().cloned()),
-            (Some(_), None) => product.extend(a.next().cloned()),
-            (_, Some(_)) => product.extend(b.next().cloned()),
-            (None, None) => return Some(product),
+            (Some(x), Some(y)) if x.0 < y.0 => merged.extend(a.next().cloned()),
+            (Some(_), None) => merged.extend(a.next().cloned()),
+            (_, Some(_)) => merged.extend(b.next().cloned()),
+            (None, None) => return Some(merged),
         }
     }
 }
@@ -118,39 +146,13 @@ pub(super) fn is_small(k: &Ratio<i64>) -> bool {
 impl Wave {
     /// The wave of a multiple of the angle.
     pub fn times(&self, factor: i64) -> Wave {
-        Wave(
-            self.0
-                .iter()
-                .map(|(m, k)| (m.clone(), k * factor))
-                .collect(),
-        )
+        let parts = self.0.iter().map(|(m, k)| (m.clone(), k * factor));
+        Wave(parts.collect())
     }
 
     fn plus(&self, other: &Wave) -> Option<Wave> {
-        if other.0.is_empty() {
-            return Some(self.clone());
-        }
-        if self.0.is_empty() {
-            return Some(other.clone());
-        }
-        let mut sum = Vec::with_capacity(self.0.len() + other.0.len());
-        let (mut a, mut b) = (self.0.iter().peekable(), other.0.iter().peekable());
-        loop {
-            match (a.peek(), b.peek()) {
-                (Some(x), Some(y)) if x.0 == y.0 => {
-                    let k = x.1.checked_add(&y.1).filter(is_small)?;
-                    if !k.is_zero() {
-                        sum.push((x.0.clone(), k));
-                    }
-                    a.next();
-                    b.next();
-                }
-                (Some(x), Some(y)) if x.0 < y.0 => sum.extend(a.next().cloned()),
-                (Some(_), None) => sum.extend(a.next().cloned()),
-                (_, Some(_)) => sum.extend(b.next().cloned()),
-                (None, None) => return Some(Wave(sum)),
-            }
-        }
+        let sum = |k: &Ratio<i64>, l: &Ratio<i64>| k.checked_add(l).filter(is_small);
+        merged(&self.0, &other.0, sum).map(Wave)
     }
 
     /// The factor of π in the exponent.
@@ -177,10 +179,8 @@ impl Wave {
 impl Key {
     pub(super) fn is_opaque(&self) -> bool {
         let angles = self.wave.0.iter().flat_map(|(angle, _)| angle);
-        self.powers
-            .iter()
-            .chain(angles)
-            .any(|(atom, _)| atom.is_opaque())
+        let mut letters = self.powers.iter().chain(angles);
+        letters.any(|(atom, _)| atom.is_opaque())
     }
 
     pub(super) fn symbols(&self, found: &mut BTreeSet<u32>) {
@@ -207,10 +207,7 @@ impl Key {
             powers: powers.collect(),
             ..self.clone()
         };
-        (
-            key,
-            BigRational::new(BigInt::one(), BigInt::from(self.root)),
-        )
+        (key, BigRational::from(BigInt::from(self.root)).recip())
     }
 
     /// Itself times i: i·i = −1.
@@ -239,7 +236,7 @@ impl Key {
             coefficient = -coefficient;
         }
         let key = Key {
-            powers: merged(&self.powers, &other.powers)?,
+            powers: merged(&self.powers, &other.powers, |p, q| i32::checked_add(*p, *q))?,
             root,
             imaginary: self.imaginary != other.imaginary,
             wave,

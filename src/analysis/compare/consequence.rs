@@ -3,7 +3,7 @@
 use std::collections::{BTreeMap, BTreeSet, HashMap};
 
 use num_rational::BigRational;
-use num_traits::{One, Zero};
+use num_traits::Zero;
 
 use crate::algebra::{Atom, Budget, Key, Powers, Trigonometric};
 
@@ -40,11 +40,7 @@ impl Span {
     fn add(&mut self, formula: &Trigonometric, roots: &[u64]) {
         let mut budget = Budget { products: 100_000 };
         for &root in roots {
-            let key = Key {
-                root,
-                ..Key::default()
-            };
-            let root = Trigonometric::term(key, BigRational::one());
+            let root = Trigonometric::one_of(Key::root(root));
             let Some(turned) = formula.times(&root, &mut budget) else {
                 continue;
             };
@@ -122,7 +118,7 @@ fn factors(equations: &[Trigonometric]) -> Vec<Trigonometric> {
     }
     let mut factors = Vec::new();
     for key in keys {
-        let one = |key: Key| Trigonometric::term(key, BigRational::one());
+        let one = Trigonometric::one_of;
         if key.wave.0.is_empty() {
             factors.push(one(key));
             continue;
@@ -131,14 +127,12 @@ fn factors(equations: &[Trigonometric]) -> Vec<Trigonometric> {
             wave: key.wave.times(-1),
             ..key.clone()
         };
-        let turned = |key: &Key| {
-            one(Key {
-                imaginary: true,
-                ..key.clone()
-            })
+        let turned = |key: Key| Key {
+            imaginary: true,
+            ..key
         };
         factors.push(one(key.clone()).plus(&one(opposite.clone())));
-        factors.push(turned(&key).minus(&turned(&opposite)));
+        factors.push(one(turned(key)).minus(&one(turned(opposite))));
     }
     factors
 }
@@ -149,11 +143,9 @@ fn orthogonality(equations: &[Trigonometric], first: u32) -> Vec<Trigonometric> 
     let mut lengths: BTreeSet<Powers> = BTreeSet::new();
     let mut platforms: BTreeSet<u32> = BTreeSet::new();
     for (key, _) in equations.iter().flat_map(Trigonometric::terms) {
-        let (own, others): (Powers, Powers) = key
-            .powers
-            .iter()
-            .cloned()
-            .partition(|(atom, _)| is_platform(atom, first));
+        let powers = key.powers.iter().cloned();
+        let (own, others): (Powers, Powers) =
+            powers.partition(|(atom, _)| is_platform(atom, first));
         for (atom, _) in &own {
             if let Atom::Symbol(symbol) = atom {
                 platforms.insert((symbol - first) / 12);
@@ -162,13 +154,7 @@ fn orthogonality(equations: &[Trigonometric], first: u32) -> Vec<Trigonometric> 
         }
     }
     let mut budget = Budget { products: 100_000 };
-    let product = |powers: &Powers| {
-        let key = Key {
-            powers: powers.clone(),
-            ..Key::default()
-        };
-        Trigonometric::term(key, BigRational::one())
-    };
+    let product = |powers: &Powers| Trigonometric::one_of(Key::of(powers.clone()));
     let mut relations = Vec::new();
     for platform in platforms {
         let letter = |k: u32| Trigonometric::symbol(first + 12 * platform + k);
@@ -239,8 +225,8 @@ pub(super) fn slip(
     first_platform: u32,
     budget: &mut Budget,
 ) -> Option<Trigonometric> {
-    let generators =
-        multiplied(equations, first_platform, budget).unwrap_or_else(|| equations.to_vec());
+    let generators = multiplied(equations, first_platform, budget);
+    let generators = generators.unwrap_or_else(|| equations.to_vec());
     let mut span = Span::new(&generators);
     for factor in candidates(formula, &generators) {
         let left = span.rest(&formula.times(&factor, budget)?);
@@ -281,12 +267,6 @@ fn candidates(formula: &Trigonometric, generators: &[Trigonometric]) -> Vec<Trig
     }
     let mut found: Vec<Powers> = found.into_iter().collect();
     found.sort_by_key(|powers| powers.iter().map(|(_, power)| power.abs()).sum::<i32>());
-    let product = |powers: Powers| {
-        let key = Key {
-            powers,
-            ..Key::default()
-        };
-        Trigonometric::term(key, BigRational::one())
-    };
+    let product = |powers: Powers| Trigonometric::one_of(Key::of(powers));
     found.into_iter().take(MOST_FACTORS).map(product).collect()
 }

@@ -10,7 +10,7 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use num_rational::{BigRational, Ratio};
+use num_rational::Ratio;
 use num_traits::{One, Signed, Zero};
 
 use super::consequence::Span;
@@ -32,11 +32,8 @@ const MOST_PRODUCTS: usize = 500_000;
 pub(super) fn equations(mechanism: &Mechanism, formal: &Formal) -> Vec<Trigonometric> {
     let mut found = Vec::new();
     for closure in mechanism.closures() {
-        if closure
-            .frames
-            .iter()
-            .any(|&f| mechanism.carrier(f).is_some())
-        {
+        let carried = |&frame: &Frame| mechanism.carrier(frame).is_some();
+        if closure.frames.iter().any(carried) {
             continue;
         }
         let (origin, axis) = match closure.kind {
@@ -76,11 +73,8 @@ pub(super) fn equations(mechanism: &Mechanism, formal: &Formal) -> Vec<Trigonome
             let [a, b] = sides;
             let differences = a.into_iter().zip(b).map(|(a, b)| a - b);
             let formulas = differences.filter_map(|difference| difference.formula());
-            found.extend(
-                formulas
-                    .filter(|f| !f.is_empty())
-                    .map(|formula| (*formula).clone()),
-            );
+            let formulas = formulas.filter(|formula| !formula.is_empty());
+            found.extend(formulas.map(|formula| (*formula).clone()));
         }
     }
     found
@@ -112,21 +106,17 @@ pub(super) fn has_plain_angles(formulas: &[Trigonometric], first_joint: u32) -> 
 /// e^iw + e^−iw and (e^iw − e^−iw)/i·(−1) for w = Σ k times a letter; only the first if w is zero.
 fn circular(factors: &[(u32, Ratio<i64>)]) -> Vec<Trigonometric> {
     let parts = factors.iter().filter(|(_, k)| !k.is_zero());
-    let mut wave: Vec<_> = parts
-        .map(|(symbol, k)| (vec![(Atom::Symbol(*symbol), 1)], *k))
-        .collect();
-    wave.sort();
-    let wave = Wave(wave);
+    let parts = parts.map(|(symbol, k)| (vec![(Atom::Symbol(*symbol), 1)], *k));
+    let mut wave = Wave(parts.collect());
+    wave.0.sort();
     if wave.0.is_empty() {
         return vec![Trigonometric::one()];
     }
     let term = |wave: Wave, imaginary: bool| {
-        let key = Key {
-            wave,
+        Trigonometric::one_of(Key {
             imaginary,
-            ..Key::default()
-        };
-        Trigonometric::term(key, BigRational::one())
+            ..Key::turning(wave)
+        })
     };
     let opposite = wave.times(-1);
     let cosine = term(wave.clone(), false).plus(&term(opposite.clone(), false));
@@ -184,9 +174,7 @@ pub(super) fn eliminated(formula: &Trigonometric, equations: &[Trigonometric]) -
         found.is_some_and(|degrees| degrees.values().all(|degree| *degree <= one))
     };
     // it vanishes where its square does, too
-    let square = formula
-        .times(formula, &mut budget)
-        .map(|square| vec![square]);
+    let square = formula.times(formula, &mut budget).map(|f| vec![f]);
     let sets = [square, whole(formula, &mut budget)].into_iter().flatten();
     let sets: Vec<Vec<Trigonometric>> = sets.filter(|set| set.iter().all(low)).collect();
     let known: Option<Vec<_>> = equations.iter().map(degrees).collect();

@@ -1,5 +1,8 @@
+use std::sync::atomic::{AtomicUsize, Ordering};
+
 use super::*;
 use crate::description::Description;
+use crate::solve::Progress;
 
 fn mechanism(forms: &str) -> Mechanism {
     let text = format!(
@@ -19,7 +22,12 @@ fn mechanism(forms: &str) -> Mechanism {
 }
 
 fn reports(forms: &str) -> Vec<FormReport> {
-    compare(&mechanism(forms), &CompareSettings::default()).closed_forms
+    compare(
+        &mechanism(forms),
+        &CompareSettings::default(),
+        &Watch::none(),
+    )
+    .closed_forms
 }
 
 #[test]
@@ -84,7 +92,7 @@ fn an_identity_of_a_mechanism_that_cannot_be_assembled_is_not_tried() {
         closed_forms: { "nothing": (identity: "t - t") },
     )"#;
     let mechanism = Mechanism::new(&Description::read(text).unwrap()).unwrap();
-    let report = compare(&mechanism, &CompareSettings::default());
+    let report = compare(&mechanism, &CompareSettings::default(), &Watch::none());
     assert_eq!(report.closed_forms[0].verdict, Verdict::NotTried);
     assert!(!report.agree && !report.home_assembles);
     assert_eq!(report.not_assembled, 100);
@@ -107,7 +115,7 @@ fn a_frame_on_a_platform_is_seen_where_the_platform_is_when_assembled() {
         },
     )"#;
     let mechanism = Mechanism::new(&Description::read(text).unwrap()).unwrap();
-    let report = compare(&mechanism, &CompareSettings::default());
+    let report = compare(&mechanism, &CompareSettings::default(), &Watch::none());
     assert!(report.agree, "{report:#?}");
 }
 
@@ -116,8 +124,8 @@ fn the_same_seed_gives_the_same_report() {
     let mechanism = mechanism(r#""loop": (identity: "l1*sin(t) + l2*sin(t + p) - l3*sin(q)"),"#);
     let settings = CompareSettings::default();
     assert_eq!(
-        compare(&mechanism, &settings),
-        compare(&mechanism, &settings)
+        compare(&mechanism, &settings, &Watch::none()),
+        compare(&mechanism, &settings, &Watch::none())
     );
 }
 
@@ -128,9 +136,16 @@ fn more_samples_than_are_remembered_go_on_from_those() {
         samples: 1500,
         ..CompareSettings::default()
     };
-    let mut parts = Vec::new();
-    let report = compare_watched(&mechanism, &settings, &mut |part| parts.push(part));
+    let samples = AtomicUsize::new(0);
+    let count = |now: Progress| {
+        if now.stage == Stage::Samples {
+            assert_eq!(now.done, samples.fetch_add(1, Ordering::Relaxed));
+            assert_eq!(now.of, Some(3002));
+        }
+        ControlFlow::Continue(())
+    };
+    let report = compare(&mechanism, &settings, &Watch::new(&count));
     assert!(report.agree);
     assert_eq!(report.closed_forms[0].samples + report.not_assembled, 1501);
-    assert!(parts.is_sorted() && parts.len() > 3000 && *parts.last().unwrap() == 1.0);
+    assert!(samples.into_inner() > 3000 && !report.interrupted);
 }

@@ -5,8 +5,8 @@
 //! row, what is left over at an end into base or tip. Frame k moves by L_k.
 
 use super::references::{Substitute, exchange, link_of};
-use super::{Conversion, ConversionNote, link, nowhere, row, undone, zero};
-use crate::description::{ChainDescription, Convention, Displacement, Entry, Row};
+use super::{Conversion, ConversionNote, link, undone, zero};
+use crate::description::{ChainDescription, Convention, Displacement, Entry, Row, Spanned};
 
 /// (α, a) of L₀ … L_n.
 type Links = Vec<(Entry, Entry)>;
@@ -23,7 +23,7 @@ pub(super) fn convert(conversion: &mut Conversion, to: Convention) {
             moved.push((chain.name.value.clone(), links));
         }
     }
-    description.convention = Some(nowhere(to));
+    description.convention = Some(Spanned::nowhere(to));
     let renamed = exchange(description, |frame| {
         moved.iter().find_map(|(chain, links)| {
             let k = link_of(frame, chain)?;
@@ -35,10 +35,8 @@ pub(super) fn convert(conversion: &mut Conversion, to: Convention) {
                 Convention::Standard => undone(&step),
                 Convention::Modified => Vec::new(),
             };
-            (!steps.is_empty()).then(|| Substitute {
-                frame: frame.to_owned(),
-                steps,
-            })
+            let frame = frame.to_owned();
+            (!steps.is_empty()).then_some(Substitute { frame, steps })
         })
     });
     for (from, to) in renamed {
@@ -65,13 +63,10 @@ fn links(rows: &[Row], from: Convention) -> Links {
 
 fn rewrite(chain: &mut ChainDescription, links: &Links, to: Convention) {
     let n = chain.rows.len();
-    let shifted = |k: usize| match to {
-        Convention::Modified => k,
-        Convention::Standard => k + 1,
-    };
+    let shift = usize::from(to == Convention::Standard);
     let rows = chain.rows.iter().enumerate().map(|(k, old)| {
-        let (alpha, a) = links[shifted(k)].clone();
-        row(alpha, a, old.d.clone(), old.theta.clone())
+        let (alpha, a) = links[k + shift].clone();
+        Row::new(alpha, a, old.d.clone(), old.theta.clone())
     });
     chain.rows = rows.collect();
     let step = |k: usize| -> Vec<Displacement> { link(&links[k].0, &links[k].1) };

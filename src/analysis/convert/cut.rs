@@ -14,13 +14,11 @@ mod error;
 mod motion;
 
 use super::references::{Substitute, exchange, free_name, link_of};
-use super::{
-    Conversion, ConversionNote, doing_something, entry, link, negated, nowhere, row, undone, zero,
-};
+use super::{Conversion, ConversionNote, doing_something, link, negated, undone, zero};
 use crate::algebra::Affine;
 use crate::description::{
     Axis, ChainDescription, ClosureDescription, ClosureKind, Convention, Description, Displacement,
-    Entry, GROUND, Named, Role, Row, nearest,
+    Entry, Named, Role, Row, Spanned, first_free, names_of, nearest, place_of,
 };
 use crate::mechanism::{Frame, JointKind, Mechanism};
 use motion::Motion;
@@ -38,12 +36,11 @@ struct Place {
 
 /// The joints at which a mechanism can be broken instead, in the order of the file.
 pub(super) fn possible(mechanism: &Mechanism, description: &Description) -> Vec<String> {
-    let names = description.joints.iter().map(|joint| &joint.name.value);
-    let possible = names.filter(|name| {
+    let possible = names_of(&description.joints).filter(|name| {
         let place = find(mechanism, description, name);
         place.is_ok_and(|place| closing(mechanism, &place, name).is_ok())
     });
-    possible.cloned().collect()
+    possible.map(str::to_owned).collect()
 }
 
 pub(super) fn cut(
@@ -56,17 +53,11 @@ pub(super) fn cut(
     let motion = Motion::of(mechanism, description, closure, side);
     let (old, new) = rebuild(mechanism, description, &place, closure, side, &motion);
     let mut conversion = new;
-    let mut notes: Vec<ConversionNote> = old
-        .into_iter()
-        .map(|(from, to)| ConversionNote::Renamed { from, to })
-        .collect();
+    let renamed = |(from, to)| ConversionNote::Renamed { from, to };
+    let mut notes: Vec<ConversionNote> = old.into_iter().map(renamed).collect();
     notes.push(ConversionNote::Variables {
         closure: description.closures[closure].name.value.clone(),
-        joints: motion
-            .joints
-            .iter()
-            .map(|joint| joint.name.value.clone())
-            .collect(),
+        joints: names_of(&motion.joints).map(str::to_owned).collect(),
     });
     if description.joints[place.joint].value.role == Role::Actuated {
         let joint = joint.to_owned();
@@ -84,10 +75,10 @@ pub(super) fn cut(
 fn find(mechanism: &Mechanism, description: &Description, name: &str) -> Result<Place, CutError> {
     let joint = || name.to_owned();
     let Some(index) = mechanism.joint(name) else {
-        if description.closures.iter().any(|c| c.name.value == name) {
+        if place_of(&description.closures, name).is_some() {
             return Err(CutError::AlreadyCut { closure: joint() });
         }
-        let names = description.joints.iter().map(|j| j.name.value.as_str());
+        let names = names_of(&description.joints);
         return Err(CutError::UnknownJoint {
             name: joint(),
             suggestion: nearest(name, names).map(str::to_owned),
@@ -147,21 +138,21 @@ fn closing(mechanism: &Mechanism, place: &Place, joint: &str) -> Result<(usize, 
     }
     match found.into_iter().min() {
         Some((_, index, side)) => Ok((index, side)),
-        None if others.is_empty() => Err(CutError::NoLoop {
-            joint: joint.into(),
-        }),
-        None => Err(CutError::NotRows {
-            joint: joint.into(),
-            closures: others,
-        }),
+        None => {
+            let (joint, closures) = (joint.to_owned(), others);
+            Err(match closures.is_empty() {
+                true => CutError::NoLoop { joint },
+                false => CutError::NotRows { joint, closures },
+            })
+        }
     }
 }
 
 /// An entry at the variables' zeros.
 fn constant(e: &Entry, description: &Description) -> Entry {
-    let is_joint = |name: &String| description.joints.iter().any(|j| j.name.value == *name);
+    let is_joint = |name: &String| place_of(&description.joints, name).is_some();
     match e.expression.affine(is_joint) {
-        Ok(Affine { constant, .. }) => entry(constant),
+        Ok(Affine { constant, .. }) => constant.into(),
         // the mechanism was built from this entry, which is affine
         Err(_) => e.clone(),
     }
@@ -209,48 +200,32 @@ fn rebuild(
     if !whole_tip {
         end.extend(chain.tip.iter().cloned());
     }
-    let held = ChainDescription {
-        // renamed below like all frames
-        on: None,
-        convention: chain.convention.clone(),
-        base: vec![],
-        rows: motion.rows(convention),
-        tip: end,
-    };
-    let back = back(chain, convention, r, &links);
+    let back = back(&name.value, chain, convention, r, &links);
     let back_rows = back.rows.len();
     let mut new = description.clone();
     let front_name = free_name(&new, &format!("{}_front", name.value));
     let back_name = free_name(&new, &format!("{}_back", name.value));
-    let on = back_name.clone();
     // frames in front keep their number; those behind are counted from the other end
     let renamed = exchange(&mut new, |frame| {
         let k = link_of(frame, &name.value)?;
         if k <= r {
-            return Some(Substitute {
-                frame: format!("{front_name}.{k}"),
-                steps: vec![],
-            });
+            let (frame, steps) = (format!("{front_name}.{k}"), vec![]);
+            return Some(Substitute { frame, steps });
         }
         // the way back passes L_k the other way round
         let steps = match convention {
             Convention::Modified => undone(&links(k)),
             Convention::Standard => links(k),
         };
-        Some(Substitute {
-            frame: format!("{on}.{}", (n - k).min(back_rows)),
-            steps,
-        })
+        let frame = format!("{back_name}.{}", (n - k).min(back_rows));
+        Some(Substitute { frame, steps })
     });
-    let at = new
-        .chains
-        .iter()
-        .position(|c| c.name.value == name.value)
-        .unwrap_or(0);
+    let at = place_of(&new.chains, &name.value).unwrap_or(0);
     let held = ChainDescription {
-        on: Some(new.closures[closure].value.frames[1 - side].clone())
-            .filter(|on| on.value != GROUND),
-        ..held
+        convention: chain.convention.clone(),
+        rows: motion.rows(convention),
+        tip: end,
+        ..ChainDescription::frame(&new.closures[closure].value.frames[1 - side].value, vec![])
     };
     let on_old = ChainDescription {
         on: new.chains[at].value.on.clone(),
@@ -260,26 +235,20 @@ fn rebuild(
     new.chains.splice(
         at..=at,
         [
-            named(front_name.clone(), on_old),
-            named(name.value.clone(), held),
-            named(
-                back_name.clone(),
-                ChainDescription {
-                    on: Some(nowhere(name.value.clone())),
-                    ..back
-                },
-            ),
+            Named::new(front_name.clone(), on_old),
+            Named::new(name.value.clone(), held),
+            Named::new(back_name.clone(), back),
         ],
     );
     let joint = description.joints[place.joint].name.value.clone();
-    new.closures[closure] = named(
+    new.closures[closure] = Named::new(
         free_closure(&new, closure, &joint),
         ClosureDescription {
             kind: match place.slides {
                 true => ClosureKind::Prismatic,
                 false => ClosureKind::Revolute,
             },
-            frames: [nowhere(front_name), nowhere(back_name)],
+            frames: [Spanned::nowhere(front_name), Spanned::nowhere(back_name)],
             length: None,
             span: 0..0,
         },
@@ -289,11 +258,7 @@ fn rebuild(
     let mut notes = Vec::new();
     new.closed_forms.retain(|form| {
         let lost = names(&form.value).any(|name| *name == joint)
-            && !form
-                .value
-                .locals
-                .iter()
-                .any(|local| local.name.value == joint);
+            && place_of(&form.value.locals, &joint).is_none();
         if lost {
             notes.push(ConversionNote::Dropped {
                 closed_form: form.name.value.clone(),
@@ -302,36 +267,18 @@ fn rebuild(
         }
         !lost
     });
-    let conversion = Conversion {
-        description: new,
-        notes,
-    };
-    (renamed, conversion)
-}
-
-fn named<T>(name: String, value: T) -> Named<T> {
-    Named {
-        name: nowhere(name),
-        value,
-    }
+    let description = new;
+    (renamed, Conversion { description, notes })
 }
 
 fn free_closure(description: &Description, own: usize, wanted: &str) -> String {
-    let others = description
-        .closures
-        .iter()
-        .enumerate()
-        .filter(|(i, _)| *i != own);
-    let taken: Vec<&String> = others.map(|(_, c)| &c.name.value).collect();
-    let numbered = (2..).map(|i| format!("{wanted}_{i}"));
-    let mut names = std::iter::once(wanted.to_owned()).chain(numbered);
-    names
-        .find(|name| !taken.contains(&name))
-        .unwrap_or_default()
+    let free = |name: &str| place_of(&description.closures, name).is_none_or(|i| i == own);
+    first_free(wanted, "_", free)
 }
 
-/// From the old tip back to the axis of row r, without what it stands on.
+/// From the old tip, a frame of that name, back to the axis of row r.
 fn back(
+    name: &str,
     chain: &ChainDescription,
     convention: Convention,
     r: usize,
@@ -339,39 +286,27 @@ fn back(
 ) -> ChainDescription {
     let n = chain.rows.len();
     let mut base = undone(&chain.tip);
-    let motion = |old: &Row| (negated(&old.d), negated(&old.theta));
-    let twist = |old: Option<&Row>| {
-        old.map_or((zero(), zero()), |old| {
-            (negated(&old.alpha), negated(&old.a))
-        })
-    };
-    let mut rows = Vec::new();
     let mut tip = Vec::new();
     match convention {
-        Convention::Modified => {
-            for k in (r + 1..n).rev() {
-                let (alpha, a) = twist(chain.rows.get(k + 1));
-                let (d, theta) = motion(&chain.rows[k]);
-                rows.push(row(alpha, a, d, theta));
-            }
-            if r + 1 < n {
-                tip = undone(&links(r + 1));
-            }
-        }
-        Convention::Standard => {
-            base.extend(undone(&links(n)));
-            for k in (r + 1..n).rev() {
-                let (alpha, a) = twist(chain.rows.get(k - 1));
-                let (d, theta) = motion(&chain.rows[k]);
-                rows.push(row(alpha, a, d, theta));
-            }
-        }
+        Convention::Modified if r + 1 < n => tip = undone(&links(r + 1)),
+        Convention::Modified => {}
+        Convention::Standard => base.extend(undone(&links(n))),
     }
+    let rows = (r + 1..n).rev().map(|k| {
+        let twisted = match convention {
+            Convention::Modified => chain.rows.get(k + 1),
+            Convention::Standard => chain.rows.get(k - 1),
+        };
+        let twist = |of: fn(&Row) -> &Entry| twisted.map_or_else(zero, |row| negated(of(row)));
+        let (alpha, a) = (twist(|row| &row.alpha), twist(|row| &row.a));
+        let Row { d, theta, .. } = &chain.rows[k];
+        Row::new(alpha, a, negated(d), negated(theta))
+    });
     ChainDescription {
-        on: None,
+        on: Some(Spanned::nowhere(name.to_owned())),
         convention: chain.convention.clone(),
         base,
-        rows,
+        rows: rows.collect(),
         tip,
     }
 }

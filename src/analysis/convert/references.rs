@@ -1,7 +1,8 @@
 //! Frames that other parts of a file refer to, when they are called otherwise or stand elsewhere.
 
-use super::nowhere;
-use crate::description::{ChainDescription, Description, Displacement, GROUND, Named};
+use crate::description::{
+    ChainDescription, Description, Displacement, Named, Spanned, first_free, place_of,
+};
 
 /// What stands for a frame in the new file: a frame and a displacement from it.
 pub(super) struct Substitute {
@@ -11,14 +12,9 @@ pub(super) struct Substitute {
 
 /// A name that no chain and no platform of the file has.
 pub(super) fn free_name(description: &Description, wanted: &str) -> String {
-    let chains = description.chains.iter().map(|chain| &chain.name.value);
-    let taken: Vec<&String> = chains
-        .chain(description.platforms.iter().map(|p| &p.name.value))
-        .collect();
-    let numbered = (2..).map(|i| format!("{wanted}_{i}"));
-    let mut names = std::iter::once(wanted.to_owned()).chain(numbered);
-    let free = |name: &String| !taken.contains(&name) && name != GROUND && !name.contains('.');
-    names.find(free).unwrap_or_default()
+    first_free(wanted, "_", |name| {
+        description.is_free_body(name) && !name.contains('.')
+    })
 }
 
 /// Exchanges frames wherever they are referred to. A chain without rows carries a frame that is not
@@ -32,7 +28,7 @@ pub(super) fn exchange(
     for chain in &mut description.chains {
         let on = chain.value.on.as_ref().map(|on| on.value.clone());
         if let Some(found) = on.as_deref().and_then(&substitute) {
-            chain.value.on = Some(nowhere(found.frame));
+            chain.value.on = Some(Spanned::nowhere(found.frame));
             chain.value.base.splice(0..0, found.steps);
         }
     }
@@ -54,21 +50,10 @@ pub(super) fn exchange(
             false => {
                 let name = free_name(description, &frame.replace('.', "_"));
                 let after = found.frame.split('.').next().unwrap_or_default().to_owned();
-                let place = description
-                    .chains
-                    .iter()
-                    .position(|c| c.name.value == after);
-                let chain = Named {
-                    name: nowhere(name.clone()),
-                    value: ChainDescription {
-                        on: Some(nowhere(found.frame)),
-                        convention: None,
-                        base: found.steps,
-                        rows: vec![],
-                        tip: vec![],
-                    },
-                };
+                let place = place_of(&description.chains, &after);
                 let place = place.map_or(description.chains.len(), |place| place + 1);
+                let chain = ChainDescription::frame(&found.frame, found.steps);
+                let chain = Named::new(name.clone(), chain);
                 description.chains.insert(place, chain);
                 name
             }
@@ -83,11 +68,8 @@ pub(super) fn exchange(
         }
     };
     for closure in &mut description.closures {
-        closure
-            .value
-            .frames
-            .iter_mut()
-            .for_each(|frame| new_name(&mut frame.value));
+        let frames = closure.value.frames.iter_mut();
+        frames.for_each(|frame| new_name(&mut frame.value));
     }
     for form in &mut description.closed_forms {
         let frames = form.value.of.iter_mut().chain(&mut form.value.relative_to);

@@ -8,7 +8,7 @@ use super::graph::{Graph, driven};
 use super::values::Values;
 use crate::description::{
     AxesDescription, AxisKind, ChainDescription, ClosureDescription, Convention, Description,
-    Displacement, GROUND, Named, PlatformDescription, Role,
+    Displacement, GROUND, Named, PlatformDescription, Role, place_of,
 };
 use crate::geometry::{Axis, Line, Pose, Rotation, Vector3};
 use crate::mechanism::{Assignment, JointAxis, SerialAxes};
@@ -70,13 +70,9 @@ impl<'a> Build<'a> {
             let sum = points.fold(Vector3::zero(), |sum, point| sum + point);
             let pose = Pose::translation(sum.times(1.0 / joints.len() as f64));
             let name = self.free_name(&self.graph.bodies[root], "platform");
-            self.platforms.push(Named {
-                name: nowhere(name.clone()),
-                value: PlatformDescription {
-                    home: Displacement::of_pose(&pose),
-                    frames: vec![],
-                },
-            });
+            let (home, frames) = (Displacement::of_pose(&pose), vec![]);
+            let platform = PlatformDescription { home, frames };
+            self.platforms.push(Named::new(name.clone(), platform));
             self.carried[root] = Some((name, pose));
             self.grow(root);
         }
@@ -91,12 +87,11 @@ impl<'a> Build<'a> {
                 name: self.axes.name.clone(),
                 source: self.axes.source.clone(),
                 convention: Some(nowhere(self.convention)),
-                parameters: vec![],
                 joints,
                 chains: self.chains,
                 platforms: self.platforms,
                 closures,
-                closed_forms: vec![],
+                ..Description::default()
             },
             chains: self.placed,
             cuts: None,
@@ -121,15 +116,9 @@ impl<'a> Build<'a> {
     }
 
     fn free_name(&self, wanted: &str, otherwise: &str) -> String {
-        let chains = self.chains.iter().map(|chain| &chain.name.value);
-        let taken: Vec<&String> = chains
-            .chain(self.platforms.iter().map(|p| &p.name.value))
-            .collect();
         let possible = |name: &String| {
-            !name.trim().is_empty()
-                && !name.contains('.')
-                && name != GROUND
-                && !taken.contains(&name)
+            let taken = place_of(&self.chains, name).or(place_of(&self.platforms, name));
+            !name.trim().is_empty() && !name.contains('.') && name != GROUND && taken.is_none()
         };
         let numbered = (1..).map(|i| format!("{otherwise}{i}"));
         let mut names = std::iter::once(wanted.to_owned()).chain(numbered);
@@ -228,19 +217,15 @@ impl<'a> Build<'a> {
             self.cut_frames[cut][side] = Some(name.clone());
             self.cut_poses[cut].get_or_insert(frames[way.len()] * tip);
         }
-        self.chains.push(Named {
-            name: nowhere(name.clone()),
-            value: ChainDescription {
-                on: (on != GROUND).then(|| nowhere(on.clone())),
-                convention: None,
-                base: between(&parent, &made.table.base),
-                rows: chains::rows(&made.table, &variables),
-                tip: match cut.map(|cut| self.axes.joints[cut].value.kind) {
-                    Some(AxisKind::Spherical) => Displacement::of_position(tip.position.0),
-                    _ => Displacement::of_pose(&tip),
-                },
+        let chain = ChainDescription {
+            rows: chains::rows(&made.table, &variables),
+            tip: match cut.map(|cut| self.axes.joints[cut].value.kind) {
+                Some(AxisKind::Spherical) => Displacement::of_position(tip.position.0),
+                _ => Displacement::of_pose(&tip),
             },
-        });
+            ..ChainDescription::frame(&on, between(&parent, &made.table.base))
+        };
+        self.chains.push(Named::new(name.clone(), chain));
         let placed = PlacedChain::of(name, on, variables, &made);
         self.placed.push(placed);
     }
@@ -273,13 +258,10 @@ impl<'a> Build<'a> {
                 return at_tool(Pose::translation(line.point));
             }
             // the link then points to the ball
-            (AxisKind::Spherical, Some(last)) => JointAxis::revolute(
-                Line {
-                    direction: last.line.direction,
-                    ..line
-                },
-                0.0,
-            ),
+            (AxisKind::Spherical, Some(last)) => {
+                let direction = last.line.direction;
+                JointAxis::revolute(Line { direction, ..line }, 0.0)
+            }
             (AxisKind::Prismatic, _) => match known {
                 Some(pose) => return at_tool(pose),
                 None => JointAxis::prismatic(line, 0.0),
@@ -344,25 +326,17 @@ impl<'a> Build<'a> {
             return on;
         }
         let joint = &self.axes.joints[joint].name.value;
-        if let Some(platform) = self.platforms.iter_mut().find(|p| p.name.value == on) {
-            platform.value.frames.push(Named {
-                name: nowhere(joint.clone()),
-                value: steps,
-            });
+        if let Some(platform) = place_of(&self.platforms, &on) {
+            self.platforms[platform]
+                .value
+                .frames
+                .push(Named::new(joint.clone(), steps));
             return format!("{on}.{joint}");
         }
         let wanted = format!("{joint} on {}", self.graph.bodies[body]);
         let name = self.free_name(&wanted, "frame");
-        self.chains.push(Named {
-            name: nowhere(name.clone()),
-            value: ChainDescription {
-                on: (on != GROUND).then(|| nowhere(on)),
-                convention: None,
-                base: steps,
-                rows: vec![],
-                tip: vec![],
-            },
-        });
+        let chain = ChainDescription::frame(&on, steps);
+        self.chains.push(Named::new(name.clone(), chain));
         name
     }
 
@@ -385,14 +359,12 @@ impl<'a> Build<'a> {
     fn closure(&self, joint: usize) -> Named<ClosureDescription> {
         let described = &self.axes.joints[joint];
         let frame = |side: usize| nowhere(self.cut_frames[joint][side].clone().unwrap_or_default());
-        Named {
-            name: nowhere(described.name.value.clone()),
-            value: ClosureDescription {
-                kind: described.value.kind.closure(),
-                frames: [frame(0), frame(1)],
-                length: None,
-                span: 0..0,
-            },
-        }
+        let closure = ClosureDescription {
+            kind: described.value.kind.closure(),
+            frames: [frame(0), frame(1)],
+            length: None,
+            span: 0..0,
+        };
+        Named::new(described.name.value.clone(), closure)
     }
 }

@@ -5,7 +5,7 @@ use super::{CutReport, PlacedChain};
 use crate::algebra::{Expression, Node, Operator};
 use crate::description::{
     AxesDescription, AxisKind, ChainDescription, Convention, Description, Displacement, Entry,
-    JointDescription, Named, Role, Row, Spanned,
+    JointDescription, Named, Role, Row, Spanned, names_of,
 };
 use crate::geometry::{Axis, Pose, Rotation, Vector3};
 use crate::mechanism::{JointAxis, SerialAxes, Table, TableRow};
@@ -20,7 +20,7 @@ pub(super) struct Built {
 }
 
 pub(super) fn nowhere<T>(value: T) -> Spanned<T> {
-    Spanned::new(value, 0..0)
+    Spanned::nowhere(value)
 }
 
 /// The axis of the joint of that index, traversed from the first of its bodies or from the second.
@@ -55,7 +55,7 @@ fn moving(constant: Entry, factor: f64, variable: &str) -> Entry {
     };
     let constant = Box::new(positive.at(0..0));
     let node = match (factor > 0.0, zero, negative) {
-        (true, true, _) => return entry(Expression::name(variable.to_owned())),
+        (true, true, _) => return Expression::name(variable.to_owned()).into(),
         (false, true, _) => Node::Negate(name()),
         (true, false, false) => Node::Binary(Operator::Add, name(), constant),
         (true, false, true) => Node::Binary(Operator::Subtract, name(), constant),
@@ -65,31 +65,17 @@ fn moving(constant: Entry, factor: f64, variable: &str) -> Entry {
             Node::Binary(Operator::Subtract, minus, constant)
         }
     };
-    entry(node.at(0..0))
-}
-
-fn entry(expression: Expression) -> Entry {
-    Entry {
-        expression,
-        span: 0..0,
-    }
+    node.at(0..0).into()
 }
 
 fn row(row: &TableRow, variable: &str) -> Row {
     let (d, theta) = (Entry::length(row.d), Entry::angle(row.theta));
-    Row {
-        alpha: Entry::angle(row.alpha),
-        a: Entry::length(row.a),
-        d: match row.slide {
-            0.0 => d,
-            factor => moving(d, factor, variable),
-        },
-        theta: match row.turn {
-            0.0 => theta,
-            factor => moving(theta, factor, variable),
-        },
-        span: 0..0,
-    }
+    let with = |constant: Entry, factor: f64| match factor {
+        0.0 => constant,
+        factor => moving(constant, factor, variable),
+    };
+    let (alpha, a) = (Entry::angle(row.alpha), Entry::length(row.a));
+    Row::new(alpha, a, with(d, row.slide), with(theta, row.turn))
 }
 
 /// The first rows of a table, as many as there are names of variables.
@@ -147,17 +133,12 @@ pub(super) fn serial(axes: &AxesDescription, values: &Values, convention: Conven
         tool: values.tool,
     };
     let made = serial.assign(convention);
-    let names: Vec<String> = axes
-        .joints
-        .iter()
-        .map(|joint| joint.name.value.clone())
-        .collect();
+    let names: Vec<String> = names_of(&axes.joints).map(str::to_owned).collect();
     let chain = ChainDescription {
-        on: None,
-        convention: None,
         base: Displacement::of_pose(&made.table.base),
         rows: rows(&made.table, &names),
         tip: Displacement::of_pose(&made.table.tip),
+        ..ChainDescription::default()
     };
     let driven = axes.joints.iter().any(|joint| joint.value.role.is_some());
     let role = |k: usize| match (axes.joints[k].value.role, driven) {
@@ -172,15 +153,9 @@ pub(super) fn serial(axes: &AxesDescription, values: &Values, convention: Conven
             name: axes.name.clone(),
             source: axes.source.clone(),
             convention: Some(nowhere(convention)),
-            parameters: vec![],
             joints,
-            chains: vec![Named {
-                name: nowhere(name.into()),
-                value: chain,
-            }],
-            platforms: vec![],
-            closures: vec![],
-            closed_forms: vec![],
+            chains: vec![Named::new(name, chain)],
+            ..Description::default()
         },
         chains: vec![PlacedChain::of(name.into(), "ground".into(), names, &made)],
         cuts: None,

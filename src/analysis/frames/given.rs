@@ -3,7 +3,7 @@
 use super::chains::nowhere;
 use crate::description::{
     AxesDescription, AxisDescription, AxisKind, AxisPlace, ClosureKind, Displacement, Entry,
-    GROUND, Named, Role,
+    GROUND, Named, Role, free_variable,
 };
 use crate::geometry::{Axis, Pose, Vector3};
 use crate::mechanism::{Body, Configuration, Frame, Mechanism};
@@ -48,24 +48,22 @@ impl Joint {
             AxisKind::Prismatic => Entry::length(x),
             AxisKind::Revolute | AxisKind::Spherical => Entry::angle(x),
         };
-        Named {
-            name: nowhere(self.name),
-            value: AxisDescription {
-                kind: self.kind,
-                place: match self.kind {
-                    AxisKind::Spherical => AxisPlace::Centre(vector(self.point)),
-                    AxisKind::Prismatic => AxisPlace::Along(None, vector(self.direction)),
-                    AxisKind::Revolute => {
-                        AxisPlace::Along(Some(vector(self.point)), vector(self.direction))
-                    }
-                },
-                role: self.role,
-                home: value(self.home),
-                limits: self.limits.map(|(low, high)| (value(low), value(high))),
-                between: closed.then(|| self.bodies.map(nowhere)),
-                span: 0..0,
+        let axis = AxisDescription {
+            kind: self.kind,
+            place: match self.kind {
+                AxisKind::Spherical => AxisPlace::Centre(vector(self.point)),
+                AxisKind::Prismatic => AxisPlace::Along(None, vector(self.direction)),
+                AxisKind::Revolute => {
+                    AxisPlace::Along(Some(vector(self.point)), vector(self.direction))
+                }
             },
-        }
+            role: self.role,
+            home: value(self.home),
+            limits: self.limits.map(|(low, high)| (value(low), value(high))),
+            between: closed.then(|| self.bodies.map(nowhere)),
+            span: 0..0,
+        };
+        Named::new(self.name, axis)
     }
 }
 
@@ -94,38 +92,29 @@ pub fn joint_axes(
         }
     }
     let follows = |pair: &[Joint]| pair[0].bodies[1] == pair[1].bodies[0];
-    let serial = mechanism
-        .chains()
-        .iter()
-        .filter(|chain| !chain.rows.is_empty())
-        .count()
-        == 1
+    let chains = mechanism.chains().iter().enumerate();
+    let moving: Vec<usize> = chains
+        .filter(|(_, c)| !c.rows.is_empty())
+        .map(|(i, _)| i)
+        .collect();
+    let inside = |joint: &Joint| joint.kind != AxisKind::Spherical && joint.bodies[1] != GROUND;
+    let serial = moving.len() == 1
         && joints[0].bodies[0] == GROUND
         && joints.windows(2).all(follows)
-        && joints
-            .iter()
-            .all(|joint| joint.kind != AxisKind::Spherical && joint.bodies[1] != GROUND);
+        && joints.iter().all(inside);
     let ends = |frame: Frame| {
         let pose = mechanism.transform(Frame::Ground, frame, at);
         Displacement::of_pose(&pose)
     };
-    let chain = mechanism
-        .chains()
-        .iter()
-        .position(|chain| !chain.rows.is_empty());
-    let chain = chain.filter(|_| serial);
+    let chain = moving.first().copied().filter(|_| serial);
+    let convention = mechanism.chains().first().map(|chain| chain.convention);
+    let joints = joints.into_iter().map(|joint| joint.described(!serial));
     Ok(AxesDescription {
         name: nowhere(mechanism.name().into()),
         source: mechanism.source().map(|source| nowhere(source.into())),
-        convention: mechanism
-            .chains()
-            .first()
-            .map(|chain| nowhere(chain.convention)),
+        convention: convention.map(nowhere),
         parameters: vec![],
-        joints: joints
-            .into_iter()
-            .map(|joint| joint.described(!serial))
-            .collect(),
+        joints: joints.collect(),
         base: chain.map(|chain| ends(Frame::Link { chain, row: 0 })),
         tool: chain.map(|chain| ends(Frame::Tip { chain })),
         cut: vec![],
@@ -187,12 +176,14 @@ fn closures(
     let mut rigid = Vec::new();
     for (index, closure) in mechanism.closures().iter().enumerate() {
         let poses = mechanism.poses(closure.frames, at);
-        let [first, second] = closure.frames.map(|frame| mechanism.body(frame));
-        let names = [first, second].map(|body| mechanism.body_name(body));
+        use AxisKind::{Prismatic, Revolute, Spherical};
+        let bodies = closure.frames.map(|frame| mechanism.body(frame));
+        let names = bodies.map(|body| mechanism.body_name(body));
         let joint = |suffix: &str, kind, pose: &Pose<f64>, bodies: [String; 2]| {
             let wanted = format!("{}{suffix}", closure.name);
+            let free = |name: &str| mechanism.joint(name).is_none();
             Joint {
-                name: variable(mechanism, &wanted),
+                name: free_variable(&wanted, free),
                 kind,
                 point: pose.position,
                 direction: pose.rotation.column(Axis::Z),
@@ -205,40 +196,22 @@ fn closures(
         let middle = || format!("{} between", closure.name);
         let [from, to] = names.clone();
         match closure.kind {
-            ClosureKind::Revolute => {
-                joints.push(joint("", AxisKind::Revolute, &poses[0], names));
-            }
-            ClosureKind::Prismatic => {
-                joints.push(joint("", AxisKind::Prismatic, &poses[0], names));
-            }
-            ClosureKind::Spherical => {
-                joints.push(joint("", AxisKind::Spherical, &poses[0], names));
-            }
+            ClosureKind::Revolute => joints.push(joint("", Revolute, &poses[0], names)),
+            ClosureKind::Prismatic => joints.push(joint("", Prismatic, &poses[0], names)),
+            ClosureKind::Spherical => joints.push(joint("", Spherical, &poses[0], names)),
             ClosureKind::Universal => {
-                joints.push(joint("_1", AxisKind::Revolute, &poses[0], [from, middle()]));
-                joints.push(joint("_2", AxisKind::Revolute, &poses[1], [middle(), to]));
+                joints.push(joint("_1", Revolute, &poses[0], [from, middle()]));
+                joints.push(joint("_2", Revolute, &poses[1], [middle(), to]));
             }
             ClosureKind::Cylindrical => {
-                joints.push(joint(
-                    "_turn",
-                    AxisKind::Revolute,
-                    &poses[0],
-                    [from, middle()],
-                ));
-                joints.push(joint(
-                    "_slide",
-                    AxisKind::Prismatic,
-                    &poses[0],
-                    [middle(), to],
-                ));
+                joints.push(joint("_turn", Revolute, &poses[0], [from, middle()]));
+                joints.push(joint("_slide", Prismatic, &poses[0], [middle(), to]));
             }
             ClosureKind::Rigid => {
-                let kept = match (first, second) {
-                    (_, Body::Ground) => [to, from],
-                    _ => [from, to],
-                };
-                let [kept, lost] = kept;
-                rigid.push((kept, lost));
+                rigid.push(match bodies[1] {
+                    Body::Ground => (to, from),
+                    _ => (from, to),
+                });
             }
             ClosureKind::Planar => {
                 let bodies = ["sliding", "between"].map(|word| format!("{} {word}", closure.name));
@@ -246,16 +219,15 @@ fn closures(
                 let [x, y, _] = poses[0].rotation.0;
                 let slide = |suffix, direction, bodies| Joint {
                     direction,
-                    ..joint(suffix, AxisKind::Prismatic, &poses[0], bodies)
+                    ..joint(suffix, Prismatic, &poses[0], bodies)
                 };
                 joints.push(slide("_x", x, [from, slid.clone()]));
                 joints.push(slide("_y", y, [slid, between.clone()]));
-                joints.push(joint("_turn", AxisKind::Revolute, &poses[1], [between, to]));
+                joints.push(joint("_turn", Revolute, &poses[1], [between, to]));
             }
             ClosureKind::Distance => {
-                let ball = |suffix, end: usize, bodies| {
-                    joint(suffix, AxisKind::Spherical, &poses[end], bodies)
-                };
+                let ball =
+                    |suffix, end: usize, bodies| joint(suffix, Spherical, &poses[end], bodies);
                 let Some(slide) = length_of(mechanism, at, index, joints)? else {
                     joints.push(ball("_1", 0, [from, middle()]));
                     joints.push(ball("_2", 1, [middle(), to]));
@@ -279,9 +251,8 @@ fn length_of(
     known: &[Joint],
 ) -> Result<Option<Joint>, AxesError> {
     let closure = &mechanism.closures()[index];
-    let [first, second] = mechanism
-        .poses(closure.frames, at)
-        .map(|pose| pose.position);
+    let poses = mechanism.poses(closure.frames, at);
+    let [first, second] = poses.map(|pose| pose.position);
     let along = second - first;
     let refused = || AxesError::Closure {
         closure: closure.name.clone(),
@@ -306,27 +277,4 @@ fn length_of(
         role: Some(variable.role),
         bodies: ["lower", "upper"].map(|part| format!("{} {part}", closure.name)),
     }))
-}
-
-/// A name for the variable of a closure that no joint has.
-fn variable(mechanism: &Mechanism, wanted: &str) -> String {
-    let clean: String = (wanted.chars())
-        .map(|c| {
-            if c.is_alphanumeric() || c == '_' {
-                c
-            } else {
-                '_'
-            }
-        })
-        .collect();
-    let numbered = (2..).map(|i| format!("q_{clean}_{i}"));
-    let mut names = [clean.clone(), format!("q_{clean}")]
-        .into_iter()
-        .chain(numbered);
-    let free = |name: &String| {
-        crate::algebra::is_name(name)
-            && !crate::algebra::is_reserved(name)
-            && mechanism.joint(name).is_none()
-    };
-    names.find(free).unwrap_or_default()
 }

@@ -7,7 +7,9 @@ use super::chains::Built;
 use super::graph::{Graph, driven};
 use super::values::Values;
 use super::{CutReport, Way, problem};
-use crate::description::{AxesDescription, AxesProblem, AxisKind, Convention, Problem, nearest};
+use crate::description::{
+    AxesDescription, AxesProblem, AxisKind, Convention, Problem, names_of, nearest, place_of,
+};
 
 /// The most ways to cut that are compared.
 const MOST_WAYS: usize = 200;
@@ -70,13 +72,9 @@ fn way(
     let steps = chains.map(|chain| chain.base.len() + chain.tip.len());
     let on_platforms = built.description.platforms.iter();
     let on_platforms = on_platforms.flat_map(|platform| &platform.value.frames);
+    let longest = built.chains.iter().map(|chain| chain.rows.len());
     Way {
-        longest: built
-            .chains
-            .iter()
-            .map(|chain| chain.rows.len())
-            .max()
-            .unwrap_or(0),
+        longest: longest.max().unwrap_or(0),
         entries: constants.filter(|x| *x != 0.0).count()
             + steps.sum::<usize>()
             + on_platforms.map(|frame| frame.value.len()).sum::<usize>(),
@@ -95,12 +93,8 @@ fn given(
     let mut named = BTreeSet::new();
     let mut problems = Vec::new();
     for cut in &axes.cut {
-        let found = axes
-            .joints
-            .iter()
-            .position(|joint| joint.name.value == cut.value);
-        let Some(joint) = found else {
-            let names = axes.joints.iter().map(|joint| joint.name.value.as_str());
+        let Some(joint) = place_of(&axes.joints, &cut.value) else {
+            let names = names_of(&axes.joints);
             let kind = problem(AxesProblem::UnknownCut {
                 name: cut.value.clone(),
                 suggestion: nearest(&cut.value, names).map(str::to_owned),

@@ -3,7 +3,7 @@
 use super::{MOST_JOINTS, problem};
 use crate::description::{
     AxesDescription, AxesProblem, AxisDescription, AxisPlace, Description, Displacement, Entry,
-    JointDescription, Named, PlatformDescription, Problem, ProblemKind, Role, Spanned,
+    JointDescription, Named, PlatformDescription, Problem, ProblemKind, Role,
 };
 use crate::geometry::{Line, Pose, Vector3};
 use crate::mechanism::Mechanism;
@@ -32,8 +32,7 @@ impl Values {
         }
         let mut frames: Vec<Named<Vec<Displacement>>> = Vec::new();
         let mut add = |steps: Vec<Displacement>| {
-            let name = Spanned::new(format!("frame {}", frames.len()), 0..0);
-            frames.push(Named { name, value: steps });
+            frames.push(Named::new(format!("frame {}", frames.len()), steps));
             frames.len() - 1
         };
         let mut vector =
@@ -49,22 +48,14 @@ impl Values {
             .collect();
         let base = axes.base.clone().map(&mut add);
         let tool = axes.tool.clone().map(&mut add);
+        let home = vec![];
+        let platform = PlatformDescription { home, frames };
         let mechanism = Mechanism::new(&Description {
             name: axes.name.clone(),
-            source: None,
-            convention: None,
             parameters: axes.parameters.clone(),
             joints: axes.joints.iter().map(declared).collect(),
-            chains: vec![],
-            platforms: vec![Named {
-                name: Spanned::new("axes".into(), 0..0),
-                value: PlatformDescription {
-                    home: vec![],
-                    frames,
-                },
-            }],
-            closures: vec![],
-            closed_forms: vec![],
+            platforms: vec![Named::new("axes", platform)],
+            ..Description::default()
         })?;
         let poses = &mechanism.dimensions().platforms[0];
         let at = |frame: usize| poses[frame].position;
@@ -95,11 +86,7 @@ impl Values {
         Ok(Values {
             lines,
             homes: mechanism.joints().iter().map(|joint| joint.home).collect(),
-            limits: mechanism
-                .joints()
-                .iter()
-                .map(|joint| joint.limits)
-                .collect(),
+            limits: mechanism.joints().iter().map(|j| j.limits).collect(),
             base: base.map(|frame| poses[frame]),
             tool: tool.map(|frame| poses[frame]),
             warnings: mechanism

@@ -107,6 +107,8 @@ pub enum FourBarClass {
 /// The circuits of a mechanism.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct CircuitsReport {
+    /// The mechanism's name.
+    pub mechanism: String,
     /// The joint that is the input.
     pub input: String,
     /// The circuits in the order of their first seeds.
@@ -196,6 +198,7 @@ pub fn circuits(
         .map(|i| described(mechanism, &curve, input, &traced, i))
         .collect();
     CircuitsReport {
+        mechanism: mechanism.name().to_owned(),
         input: mechanism.joints()[input].name.clone(),
         class: class(mechanism, &all),
         circuits: all,

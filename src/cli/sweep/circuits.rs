@@ -6,11 +6,14 @@ use linkwork::analysis::assemblies::{AssemblySolver, Wanted};
 use linkwork::analysis::sweep::{CircuitsSettings, circuits};
 use linkwork::mechanism::{Configuration, Mechanism};
 use linkwork::output::sweep as output;
+use linkwork::solve::Watch;
 use linkwork::system::{Holdable, Question, check_count, sampling_range};
 
 use super::super::asked::refusal;
+use super::super::format::Format;
+use super::super::watched::watched;
 use super::super::{Answer, Refusal, style};
-use super::{Format, Sweep};
+use super::Sweep;
 
 impl Sweep {
     pub(super) fn list(&self, mechanism: &Mechanism) -> Result<Answer, Refusal> {
@@ -23,27 +26,23 @@ impl Sweep {
         let (Some(Holdable::Joint(input)), None) = (let_go.next(), let_go.next()) else {
             return Err(Refusal(output::what_moves(None).render(style())));
         };
-        let solver = self.search.solver(&question)?;
-        let seeds = seeds(mechanism, &question, &solver, input);
-        let report = circuits(
-            mechanism,
-            &released.held(),
-            input,
-            &seeds,
-            &CircuitsSettings::default(),
-        );
+        let report = watched(|watch| {
+            let solver = self.search.solver(&question, watch)?;
+            let seeds = seeds(mechanism, &question, &solver, input, watch);
+            let (held, settings) = (released.held(), CircuitsSettings::default());
+            Ok(circuits(mechanism, &held, input, &seeds, &settings, watch))
+        })?;
         let whole = report.circuits.iter().all(|circuit| circuit.whole);
         Ok(Answer {
             data: match self.format {
-                Format::Json => output::circuits_json(mechanism, &report),
-                Format::Text => output::circuits_text(mechanism, &report),
                 Format::Csv => {
                     return Err(Refusal(
-                        "error: circuits are listed as text or JSON; rows of one are written by \
-                         --follow --format csv\n"
+                        "error: circuits have no rows: choose another --format, or write the rows of \
+                         one with --follow --format csv\n"
                             .into(),
                     ));
                 }
+                format => format.shown(&report),
             },
             remarks: String::new(),
             yes: whole && !report.circuits.is_empty(),
@@ -57,6 +56,7 @@ fn seeds(
     question: &Question,
     solver: &AssemblySolver,
     input: usize,
+    watch: &Watch,
 ) -> Vec<Configuration<f64>> {
     const VALUES: u32 = 12;
     let joint = &mechanism.joints()[input];
@@ -78,7 +78,7 @@ fn seeds(
             let part = (f64::from(k) - 0.618_034) / f64::from(VALUES);
             at.joints[input] = low + part * (high - low);
         }
-        let report = solver.at_targets(&at, &question.held(), wanted);
+        let report = solver.at_targets(&at, &question.held(), wanted, watch);
         seeds.extend(
             report
                 .assemblies

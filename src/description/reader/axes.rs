@@ -11,30 +11,19 @@ impl Reader {
         if !self.known_version(&mut fields) {
             return None;
         }
-        let name = self
-            .require(&mut fields, "name")
-            .and_then(|piece| self.text(piece, Expected::Text));
-        let source = self.optional_text(&mut fields, "source", Expected::Text);
-        let convention = fields
-            .take("convention")
-            .and_then(|piece| self.convention(piece));
-        let parameters = self.named(&mut fields, "parameters", Noun::Parameter, Self::entry);
-        let joints = match fields.gives(&["joints"]) {
-            true => self.named(&mut fields, "joints", Noun::Axis, Self::axis),
-            false => {
-                self.require(&mut fields, "joints");
-                Vec::new()
-            }
-        };
+        if !fields.gives(&["joints"]) {
+            self.require(&mut fields, "joints");
+        }
+        let f = &mut fields;
         Some(AxesDescription {
-            name: name.unwrap_or_else(|| Spanned::new(String::new(), 0..0)),
-            source,
-            convention,
-            parameters,
-            joints,
-            base: fields.take("base").map(|piece| self.transform(piece)),
-            tool: fields.take("tool").map(|piece| self.transform(piece)),
-            cut: fields.take("cut").map_or_else(Vec::new, |piece| {
+            name: self.required_text(f, "name"),
+            source: self.optional_text(f, "source", Expected::Text),
+            convention: self.convention_field(f),
+            parameters: self.named(f, "parameters", Noun::Parameter, Self::entry),
+            joints: self.named(f, "joints", Noun::Axis, Self::axis),
+            base: f.take("base").map(|piece| self.transform(piece)),
+            tool: f.take("tool").map(|piece| self.transform(piece)),
+            cut: f.take("cut").map_or_else(Vec::new, |piece| {
                 self.list(piece, Expected::Cuts, |reader, name| {
                     reader.text(name, Expected::NameOf(Noun::Axis))
                 })
@@ -43,15 +32,8 @@ impl Reader {
     }
 
     fn axis(&mut self, piece: Piece) -> Option<AxisDescription> {
-        let Shape::Word { word, .. } = piece.shape() else {
-            self.wrong_type(piece, Expected::Axis);
-            return None;
-        };
-        let Some(kind) = AxisKind::ALL.into_iter().find(|kind| kind.word() == word) else {
-            let known = AxisKind::ALL.map(AxisKind::word).to_vec();
-            self.unknown_word(piece, Expected::Axis, word, known);
-            return None;
-        };
+        let (known, word) = (&AxisKind::ALL, AxisKind::word);
+        let (kind, _) = self.word(piece, Expected::Axis, known, word)?;
         let structure = match kind {
             AxisKind::Revolute => Structure::RevoluteAxis,
             AxisKind::Prismatic => Structure::PrismaticAxis,
@@ -59,7 +41,10 @@ impl Reader {
         };
         let mut fields = self.fields(piece, structure)?;
         let place = self.axis_place(kind, &mut fields);
-        let role = fields.take("role").and_then(|piece| self.role(piece));
+        let role = fields.take("role").and_then(|piece| {
+            let known = [Role::Passive, Role::Actuated];
+            self.bare_word(piece, Expected::Role, &known, Role::word)
+        });
         let home = self.entry_or_zero(&mut fields, "home");
         let limits = self.limits(&mut fields);
         let between = fields.take("between").and_then(|piece| {
@@ -81,16 +66,17 @@ impl Reader {
     fn axis_place(&mut self, kind: AxisKind, fields: &mut Fields) -> Option<AxisPlace> {
         if kind == AxisKind::Spherical {
             let centre = self.require(fields, "point")?;
-            return self.vector(centre).map(AxisPlace::Centre);
+            let centre = self.vector(centre, Expected::Vector);
+            return centre.map(AxisPlace::Centre);
         }
         if let Some(through) = fields.take("through") {
             if fields.gives(&["point", "direction"]) {
                 let joint = kind.word();
                 let kind = ProblemKind::Axes(Box::new(AxesProblem::TwoPlaces { joint }));
-                self.problems.push(kind.at(through.span()));
+                self.note(kind, through.span());
             }
             let points = self.tuple(through, Expected::TwoPoints)?;
-            let [first, second] = points.map(|point| self.vector(point));
+            let [first, second] = points.map(|point| self.vector(point, Expected::Vector));
             return Some(AxisPlace::Through(first?, second?));
         }
         let point = match kind {
@@ -99,32 +85,10 @@ impl Reader {
         };
         let direction = self.require(fields, "direction");
         let point = match point {
-            Some(piece) => Some(self.vector(piece?)?),
+            Some(piece) => Some(self.vector(piece?, Expected::Vector)?),
             None => None,
         };
-        let direction = self.vector(direction?)?;
+        let direction = self.vector(direction?, Expected::Vector)?;
         Some(AxisPlace::Along(point, direction))
-    }
-
-    fn vector(&mut self, piece: Piece) -> Option<[Entry; 3]> {
-        let vector = self.tuple(piece, Expected::Vector)?;
-        self.entries(vector)
-    }
-
-    fn role(&mut self, piece: Piece) -> Option<Role> {
-        let known = [Role::Passive, Role::Actuated];
-        let Shape::Word {
-            word,
-            content: None,
-        } = piece.shape()
-        else {
-            self.wrong_type(piece, Expected::Role);
-            return None;
-        };
-        let role = known.into_iter().find(|role| role.word() == word);
-        if role.is_none() {
-            self.unknown_word(piece, Expected::Role, word, known.map(Role::word).to_vec());
-        }
-        role
     }
 }

@@ -12,12 +12,8 @@ impl Reader {
             self.require(&mut fields, "of");
         }
         match (pose, identity) {
-            (true, true) => self
-                .problems
-                .push(ProblemKind::MixedClosedForm.at(fields.head())),
-            (false, false) => self
-                .problems
-                .push(ProblemKind::EmptyClosedForm.at(fields.head())),
+            (true, true) => self.note(ProblemKind::MixedClosedForm, fields.head()),
+            (false, false) => self.note(ProblemKind::EmptyClosedForm, fields.head()),
             _ => {}
         }
         Some(ClosedFormDescription {
@@ -25,10 +21,9 @@ impl Reader {
             relative_to: self.optional_text(&mut fields, "in", Expected::Frame),
             locals: self.named(&mut fields, "where", Noun::LocalName, Self::entry),
             source: self.optional_text(&mut fields, "source", Expected::Text),
-            position: fields.take("position").and_then(|piece| {
-                let vector = self.tuple(piece, Expected::Vector)?;
-                self.entries(vector)
-            }),
+            position: fields
+                .take("position")
+                .and_then(|piece| self.vector(piece, Expected::Vector)),
             rotation: fields.take("rotation").and_then(|piece| {
                 let rows = self.tuple(piece, Expected::RotationRows)?;
                 self.matrix(rows, Expected::RotationRow)
@@ -47,10 +42,7 @@ impl Reader {
         rows: [Piece; 3],
         expected: Expected,
     ) -> Option<[[Entry; N]; 3]> {
-        let rows = rows.map(|row| {
-            let row = self.tuple(row, expected)?;
-            self.entries(row)
-        });
+        let rows = rows.map(|row| self.vector(row, expected));
         let rows: Vec<_> = rows.into_iter().flatten().collect();
         rows.try_into().ok()
     }
@@ -65,29 +57,19 @@ impl Reader {
         if rows.len() == 4
             && let Some(last) = rows.pop()
         {
-            let row = self.tuple::<4>(last, Expected::TransformRow)?;
-            let row = self.entries(row)?;
+            let row = self.vector::<4>(last, Expected::TransformRow)?;
             let is_usual = row
                 .iter()
                 .zip([0.0, 0.0, 0.0, 1.0])
                 .all(|(entry, usual)| entry.expression.as_number() == Some(usual));
             if !is_usual {
-                self.problems
-                    .push(ProblemKind::WrongLastRow.at(last.span()));
+                self.note(ProblemKind::WrongLastRow, last.span());
             }
         }
         let found = rows.len();
         match rows.try_into() {
             Ok(rows) => self.matrix(rows, Expected::TransformRow),
-            Err(_) => {
-                let kind = ProblemKind::WrongLength {
-                    of: Expected::TransformRows,
-                    expected: 3,
-                    found,
-                };
-                self.problems.push(kind.at(piece.span()));
-                None
-            }
+            Err(_) => self.wrong_length(piece, Expected::TransformRows, 3, found),
         }
     }
 
@@ -96,9 +78,10 @@ impl Reader {
         for Named { name, value } in self.named(fields, "entries", Noun::MatrixEntry, Self::entry) {
             match MatrixEntry::all().find(|entry| entry.to_string() == name.value) {
                 Some(entry) => entries.push((Spanned::new(entry, name.span), value)),
-                None => self
-                    .problems
-                    .push(ProblemKind::UnknownMatrixEntry { name: name.value }.at(name.span)),
+                None => self.note(
+                    ProblemKind::UnknownMatrixEntry { name: name.value },
+                    name.span,
+                ),
             }
         }
         entries

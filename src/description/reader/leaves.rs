@@ -19,16 +19,25 @@ impl Reader {
         field: &str,
         expected: Expected,
     ) -> Option<Spanned<String>> {
-        fields
-            .take(field)
-            .and_then(|piece| self.text(piece, expected))
+        let piece = fields.take(field)?;
+        self.text(piece, expected)
+    }
+
+    pub(super) fn required_text(
+        &mut self,
+        fields: &mut Fields,
+        field: &'static str,
+    ) -> Spanned<String> {
+        let piece = self.require(fields, field);
+        let text = piece.and_then(|piece| self.text(piece, Expected::Text));
+        text.unwrap_or_default()
     }
 
     pub(super) fn entry(&mut self, piece: Piece) -> Option<Entry> {
         match piece.shape() {
             Shape::Number => match piece.number() {
                 Ok(value) if value.is_finite() => return Some(Entry::number(value, piece.span())),
-                Ok(_) => self.problems.push(ProblemKind::NotFinite.at(piece.span())),
+                Ok(_) => self.note(ProblemKind::NotFinite, piece.span()),
                 Err(_) => self.wrong_type(piece, Expected::Entry),
             },
             Shape::Text => {
@@ -36,10 +45,8 @@ impl Reader {
                 match Expression::parse(&literal.text) {
                     Ok(expression) => {
                         let expression = expression.relocate(&|span| literal.place(span));
-                        return Some(Entry {
-                            expression,
-                            span: piece.span(),
-                        });
+                        let span = piece.span();
+                        return Some(Entry { expression, span });
                     }
                     Err(error) => {
                         let mut span = literal.place(error.span);
@@ -47,56 +54,82 @@ impl Reader {
                         if literal.text.trim().is_empty() {
                             span = piece.span();
                         }
-                        self.problems
-                            .push(ProblemKind::Expression(error.kind).at(span));
+                        self.note(ProblemKind::Expression(error.kind), span);
                     }
                 }
             }
             Shape::Word {
                 word: "inf" | "inff32" | "inff64" | "NaN" | "NaNf32" | "NaNf64",
                 content: None,
-            } => {
-                self.problems.push(ProblemKind::NotFinite.at(piece.span()));
-            }
+            } => self.note(ProblemKind::NotFinite, piece.span()),
             _ => self.wrong_type(piece, Expected::Entry),
         }
         None
     }
 
     pub(super) fn entry_or_zero(&mut self, fields: &mut Fields, field: &str) -> Entry {
-        fields
-            .take(field)
-            .and_then(|piece| self.entry(piece))
-            .unwrap_or_else(Entry::absent)
+        let entry = fields.take(field).and_then(|piece| self.entry(piece));
+        entry.unwrap_or_else(Entry::absent)
     }
 
     pub(super) fn entries<const N: usize>(&mut self, pieces: [Piece; N]) -> Option<[Entry; N]> {
         // All of them are read before one that is wrong puts an end to it.
-        let entries: Vec<Entry> = pieces
-            .map(|piece| self.entry(piece))
-            .into_iter()
-            .flatten()
-            .collect();
-        entries.try_into().ok()
+        let entries = pieces.map(|piece| self.entry(piece)).into_iter().flatten();
+        entries.collect::<Vec<_>>().try_into().ok()
     }
 
-    pub(super) fn convention(&mut self, piece: Piece) -> Option<Spanned<Convention>> {
-        let Shape::Word {
-            word,
-            content: None,
-        } = piece.shape()
-        else {
-            self.wrong_type(piece, Expected::Convention);
+    pub(super) fn vector<const N: usize>(
+        &mut self,
+        piece: Piece,
+        expected: Expected,
+    ) -> Option<[Entry; N]> {
+        let vector = self.tuple(piece, expected)?;
+        self.entries(vector)
+    }
+
+    /// One of the words known, with what stands in parentheses behind it.
+    pub(super) fn word<'a, T: Copy>(
+        &mut self,
+        piece: Piece<'a>,
+        expected: Expected,
+        known: &[T],
+        written: fn(T) -> &'static str,
+    ) -> Option<(T, Option<Piece<'a>>)> {
+        let Shape::Word { word, content } = piece.shape() else {
+            self.wrong_type(piece, expected);
             return None;
         };
-        let convention = Convention::ALL
-            .into_iter()
-            .find(|convention| convention.word() == word);
-        if convention.is_none() {
-            let known = Convention::ALL.into_iter().map(Convention::word).collect();
-            self.unknown_word(piece, Expected::Convention, word, known);
+        let found = known.iter().find(|known| written(**known) == word);
+        if found.is_none() {
+            let known = known.iter().copied().map(written).collect();
+            self.unknown_word(piece, expected, word, known);
         }
-        convention.map(|convention| Spanned::new(convention, piece.span()))
+        Some((*found?, content))
+    }
+
+    /// The same of a word with nothing behind it.
+    pub(super) fn bare_word<T: Copy>(
+        &mut self,
+        piece: Piece,
+        expected: Expected,
+        known: &[T],
+        written: fn(T) -> &'static str,
+    ) -> Option<T> {
+        if let Shape::Word {
+            content: Some(_), ..
+        } = piece.shape()
+        {
+            self.wrong_type(piece, expected);
+            return None;
+        }
+        Some(self.word(piece, expected, known, written)?.0)
+    }
+
+    pub(super) fn convention_field(&mut self, fields: &mut Fields) -> Option<Spanned<Convention>> {
+        let piece = fields.take("convention")?;
+        let known = &Convention::ALL;
+        let found = self.bare_word(piece, Expected::Convention, known, Convention::word)?;
+        Some(Spanned::new(found, piece.span()))
     }
 
     pub(super) fn transform_field(
@@ -104,9 +137,8 @@ impl Reader {
         fields: &mut Fields,
         field: &str,
     ) -> Vec<Displacement> {
-        fields
-            .take(field)
-            .map_or_else(Vec::new, |piece| self.transform(piece))
+        let piece = fields.take(field);
+        piece.map_or_else(Vec::new, |piece| self.transform(piece))
     }
 
     pub(super) fn transform(&mut self, piece: Piece) -> Vec<Displacement> {
@@ -114,15 +146,8 @@ impl Reader {
     }
 
     fn displacement(&mut self, piece: Piece) -> Option<Displacement> {
-        let Shape::Word { word, content } = piece.shape() else {
-            self.wrong_type(piece, Expected::Displacement);
-            return None;
-        };
         const KNOWN: [&str; 7] = ["Tx", "Ty", "Tz", "Rx", "Ry", "Rz", "T"];
-        let Some(known) = KNOWN.into_iter().find(|known| *known == word) else {
-            self.unknown_word(piece, Expected::Displacement, word, KNOWN.to_vec());
-            return None;
-        };
+        let (known, content) = self.word(piece, Expected::Displacement, &KNOWN, |word| word)?;
         let expected = Expected::DisplacementEntries(known);
         if known == "T" {
             let pieces = self.content(piece, content, expected)?;

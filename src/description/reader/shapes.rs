@@ -42,18 +42,25 @@ impl Reader {
     ) -> Option<[Piece<'a>; N]> {
         match content {
             Some(content) => self.tuple(content, expected),
-            None => {
-                self.problems.push(
-                    ProblemKind::WrongLength {
-                        of: expected,
-                        expected: N,
-                        found: 0,
-                    }
-                    .at(whole.span()),
-                );
-                None
-            }
+            None => self.wrong_length(whole, expected, N, 0),
         }
+    }
+
+    /// Notes that a piece is made of too few or too many parts.
+    pub(super) fn wrong_length<T>(
+        &mut self,
+        piece: Piece,
+        of: Expected,
+        expected: usize,
+        found: usize,
+    ) -> Option<T> {
+        let kind = ProblemKind::WrongLength {
+            of,
+            expected,
+            found,
+        };
+        self.note(kind, piece.span());
+        None
     }
 
     /// Named fields in parentheses, with or without the name of the structure before them.
@@ -109,14 +116,12 @@ impl Reader {
                 let meant = nearest(&field, structure.fields().iter().copied());
                 fields.misspelt.extend(meant);
                 let suggestion = meant.map(str::to_owned);
-                self.problems.push(
-                    ProblemKind::UnknownField {
-                        structure,
-                        field,
-                        suggestion,
-                    }
-                    .at(name.span),
-                );
+                let kind = ProblemKind::UnknownField {
+                    structure,
+                    field,
+                    suggestion,
+                };
+                self.note(kind, name.span);
             }
         }
         Some(fields)
@@ -133,7 +138,7 @@ impl Reader {
                 structure: fields.structure,
                 field,
             };
-            self.problems.push(kind.at(fields.head()));
+            self.note(kind, fields.head());
         }
         piece
     }
@@ -208,28 +213,15 @@ impl Reader {
         };
         let elements = self.split(piece, piece.elements())?;
         let found = elements.len();
-        let tuple = elements.try_into().ok();
-        if tuple.is_none() {
-            self.problems.push(
-                ProblemKind::WrongLength {
-                    of,
-                    expected: N,
-                    found,
-                }
-                .at(piece.span()),
-            );
+        match elements.try_into() {
+            Ok(tuple) => Some(tuple),
+            Err(_) => self.wrong_length(piece, of, N, found),
         }
-        tuple
     }
 
     pub(super) fn wrong_type(&mut self, piece: Piece, expected: Expected) {
-        self.problems.push(
-            ProblemKind::WrongType {
-                expected,
-                found: piece.found(),
-            }
-            .at(piece.span()),
-        );
+        let found = piece.found();
+        self.note(ProblemKind::WrongType { expected, found }, piece.span());
     }
 
     pub(super) fn unknown_word(
@@ -247,21 +239,15 @@ impl Reader {
             suggestion,
             known,
         };
-        self.problems.push(kind.at(start..start + word.len()));
+        self.note(kind, start..start + word.len());
     }
 
     /// Notes what `ron` refuses in a piece that it had let pass before.
     pub(super) fn split<T>(&mut self, piece: Piece, result: Result<T, ron::Error>) -> Option<T> {
-        result
-            .map_err(|error| {
-                self.problems.push(
-                    ProblemKind::Syntax {
-                        error: Box::new(error),
-                        found: None,
-                    }
-                    .at(piece.span()),
-                )
-            })
-            .ok()
+        let refused = |error| {
+            let (error, found) = (Box::new(error), None);
+            self.note(ProblemKind::Syntax { error, found }, piece.span());
+        };
+        result.map_err(refused).ok()
     }
 }

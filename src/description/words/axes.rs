@@ -2,56 +2,6 @@
 
 use crate::description::{AxesProblem, Convention, GROUND};
 
-pub(super) fn title(problem: &AxesProblem) -> String {
-    use AxesProblem::*;
-    match problem {
-        NoDirection { joint } => format!("the axis of joint `{joint}` has no direction"),
-        TooFew { joints: 0 } => "there are no joints".into(),
-        TooFew { .. } => "there is only one joint".into(),
-        TwoPlaces { .. } => "the axis is given in two ways".into(),
-        NotBetween { joint } => {
-            format!(
-                "the joint `{joint}` does not name the bodies that it connects, as other joints do"
-            )
-        }
-        OneBody { body } => format!("the joint connects the body `{body}` with itself"),
-        NoGround => format!("no joint connects anything with `{GROUND}`"),
-        NotConnected { body } => format!("no joints connect the body `{body}` with `{GROUND}`"),
-        UnknownCut { name, .. } => format!("there is no joint `{name}` to cut"),
-        CutsOff { joint } => {
-            format!("cutting the joint `{joint}` disconnects bodies instead of opening a loop")
-        }
-        StillClosed { joint } => {
-            format!("the cuts leave a closed loop through the joint `{joint}`")
-        }
-        NothingToCut => "a loop has no joint to cut, because all its joints are driven".into(),
-        SerialOnly { field } => {
-            format!("`{field}` is for serial chains, but these joints connect named bodies")
-        }
-        SphericalInSerial { joint } => {
-            format!("a serial chain cannot contain the spherical joint `{joint}`")
-        }
-        TooMany { joints } => format!("there are {joints} joints, more than can be placed"),
-        DriveCut { joint } => {
-            format!("the driven joint `{joint}` is cut and loses its variable")
-        }
-        LimitsCut { joint } => {
-            format!("the joint `{joint}` is cut and loses its variable and its limits")
-        }
-        BaseUnused { .. } => "frame 0 cannot be placed as `base` says; it is placed freely".into(),
-        FarNormal {
-            joints: [first, second],
-            angle,
-            offset,
-            size,
-        } => format!(
-            "the axes of `{first}` and `{second}` are nearly parallel, {angle:.1e} rad apart: their common normal is \
-             {offset:.1e} m away, {:.0e} times the size of the mechanism",
-            offset / size
-        ),
-    }
-}
-
 pub(super) fn help(problem: &AxesProblem) -> Option<String> {
     use AxesProblem::*;
     Some(match problem {

@@ -7,7 +7,7 @@ use crate::algebra::{
     ParseErrorKind, Unit,
 };
 
-pub(super) fn title(error: &ParseErrorKind) -> String {
+pub(in crate::description) fn title(error: &ParseErrorKind) -> String {
     use ParseErrorKind::*;
     match error {
         Empty => "the expression is empty".into(),
@@ -106,7 +106,7 @@ fn alias(name: &str) -> Option<&'static str> {
     }
 }
 
-pub(super) fn no_value(error: &EvaluationErrorKind) -> String {
+pub(in crate::description) fn no_value(error: &EvaluationErrorKind) -> String {
     use EvaluationErrorKind::*;
     match error {
         DivisionByZero => "division by zero".into(),
@@ -121,7 +121,7 @@ pub(super) fn no_value(error: &EvaluationErrorKind) -> String {
     }
 }
 
-pub(super) fn unit(error: &MeasureErrorKind) -> String {
+pub(in crate::description) fn unit(error: &MeasureErrorKind) -> String {
     match error {
         MeasureErrorKind::Wrong { wanted, found } => {
             let (wanted, found) = (measure(*wanted), measure(*found));

@@ -51,7 +51,7 @@ impl Display for Scope {
 
 impl Expected {
     /// What a tuple is made of.
-    pub(super) fn unit(self) -> &'static str {
+    pub(in crate::description) fn unit(self) -> &'static str {
         match self {
             Self::ClosureFrames("Distance") => "value",
             Self::ClosureFrames(_) => "frame",

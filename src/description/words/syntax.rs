@@ -3,7 +3,7 @@
 use ron::Error;
 
 /// `found` is the character at which reading stopped.
-pub(super) fn title(error: &Error, found: Option<char>) -> String {
+pub(in crate::description) fn title(error: &Error, found: Option<char>) -> String {
     let title = match (error, found) {
         (Error::Eof, _) => "the file ends unexpectedly",
         (Error::ExpectedComma, Some('=')) | (Error::ExpectedMapColon, _) => "a colon is missing",

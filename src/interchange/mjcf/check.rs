@@ -64,54 +64,42 @@ pub(super) fn look<'a>(
     seen: &mut HashSet<(&'a str, String)>,
 ) {
     let element = node.tag_name().name();
-    if IRRELEVANT.contains(&element)
-        || node
-            .ancestors()
-            .any(|part| IRRELEVANT.contains(&part.tag_name().name()))
-    {
-        if MAKING.contains(&element) {
-            let problem = ImportProblemKind::Unsupported {
-                what: format!("the element `{element}`"),
-                help: "load the file into MuJoCo and save it: mj_saveLastXML writes all bodies out",
-            };
-            problems.say(problem, node);
-        }
+    let mut refuse = |what: String, help| problems.unsupported::<()>(what, help, node);
+    if MAKING.contains(&element) {
+        refuse(
+            format!("the element `{element}`"),
+            "load the file into MuJoCo and save it: mj_saveLastXML writes all bodies out",
+        );
         return;
     }
-    if MAKING.contains(&element) {
-        let problem = ImportProblemKind::Unsupported {
-            what: format!("the element `{element}`"),
-            help: "load the file into MuJoCo and save it: mj_saveLastXML writes all bodies out",
-        };
-        return problems.say(problem, node);
+    let irrelevant = |part: Node| IRRELEVANT.contains(&part.tag_name().name());
+    if node.ancestors().any(irrelevant) {
+        return;
     }
-    let within = node
-        .parent()
-        .map(|parent| parent.tag_name().name().to_owned());
-    let moves = matches!(element, "joint" | "freejoint");
-    if moves && within.as_deref() == Some("frame") {
-        let problem = ImportProblemKind::Unsupported {
-            what: format!("a `{element}` in a `frame`"),
-            help: "move it into the body, with its position and axis transformed by the frame",
-        };
-        problems.say(problem, node);
-    }
-    if moves && within.as_deref() == Some("worldbody") {
-        let problem = ImportProblemKind::Unsupported {
-            what: format!("a `{element}` of the world"),
-            help: "the world is fixed: put the joint into a body",
-        };
-        problems.say(problem, node);
+    let within = node.parent().map(|parent| parent.tag_name().name());
+    match within {
+        Some("frame") if matches!(element, "joint" | "freejoint") => {
+            refuse(
+                format!("a `{element}` in a `frame`"),
+                "move it into the body, with its position and axis transformed by the frame",
+            );
+        }
+        Some("worldbody") if matches!(element, "joint" | "freejoint") => {
+            refuse(
+                format!("a `{element}` of the world"),
+                "the world is fixed: put the joint into a body",
+            );
+        }
+        _ => {}
     }
     if element == "compiler"
         && let Some(word) = node.attribute("eulerseq")
         && (word.len() != 3 || !word.chars().all(|c| "xyzXYZ".contains(c)))
     {
-        let problem = ImportProblemKind::Unsupported {
-            what: format!("the sequence of angles `{word}`"),
-            help: "write three letters out of x, y, z, X, Y and Z",
-        };
-        problems.say(problem, node);
+        refuse(
+            format!("the sequence of angles `{word}`"),
+            "write three letters out of x, y, z, X, Y and Z",
+        );
     }
     for &(name, count) in NUMBERS {
         let fits = match (name, count) {
@@ -135,12 +123,9 @@ pub(super) fn look<'a>(
             .collect();
         let size = |numbers: &[f64]| numbers.iter().fold(0.0, |most: f64, x| most.max(x.abs()));
         let parallel = |v: &[f64]| {
-            let [a, b] =
-                [&v[..3], &v[3..]].map(|v| Vector3([v[0], v[1], v[2]]).times(1.0 / size(v)));
-            {
-                let across = a.cross(&b).norm();
-                across.is_nan() || across <= 1e-9
-            }
+            let unit = |v: &[f64]| Vector3([v[0], v[1], v[2]]).times(1.0 / size(v));
+            let across = unit(&v[..3]).cross(&unit(&v[3..])).norm();
+            across.is_nan() || across <= 1e-9
         };
         let nothing = match name {
             "quat" | "zaxis" => size(&numbers) < 1e-12,
@@ -160,8 +145,8 @@ pub(super) fn look<'a>(
     }
     let noun = match element {
         "body" => "body",
-        "joint" | "freejoint" if matches!(within.as_deref(), Some("body")) => "joint",
-        "site" if matches!(within.as_deref(), Some("body" | "worldbody" | "frame")) => "site",
+        "joint" | "freejoint" if within == Some("body") => "joint",
+        "site" if matches!(within, Some("body" | "worldbody" | "frame")) => "site",
         "spatial" | "fixed" => "tendon",
         _ => return,
     };

@@ -7,10 +7,9 @@ use super::hinges::hinges;
 use super::part::{Parts, pose};
 use crate::description::ClosureKind;
 use crate::geometry::{Pose, Quaternion, Vector3};
-use crate::interchange::page::{Problems, children, parse};
-use crate::interchange::problem::ImportProblemKind;
+use crate::interchange::page::{Problems, children, parse, tag};
 use crate::interchange::remark::Remark;
-use crate::interchange::tree::{Attachment, Coupling, Extent, Loop, Motion, Tree};
+use crate::interchange::tree::{Attachment, Coupling, Extent, Loop, Tree};
 
 /// Adds the constraints of a file to its tree.
 pub(super) fn read(
@@ -29,37 +28,38 @@ pub(super) fn read(
         parts,
         poses,
         problems,
-        loops: Vec::new(),
-        couplings: Vec::new(),
     };
+    let mut loops: Vec<Loop> = Vec::new();
+    let mut couplings = Vec::new();
     let blocks = children(root, "equality");
     let constraints = blocks
         .iter()
         .flat_map(|block| block.children().filter(Node::is_element));
     for (i, node) in constraints.enumerate() {
         let element = node.tag_name().name();
-        let name = node
-            .attribute("name")
-            .map_or_else(|| format!("{element}{}", i + 1), str::to_owned);
+        let own = node.attribute("name").map(str::to_owned);
+        let name = own.unwrap_or_else(|| format!("{element}{}", i + 1));
         if matches!(node.attribute("active"), Some("false")) {
             remarks.push(Remark::Inactive { name });
             continue;
         }
         match element {
-            "connect" => reader.connect(node, name),
-            "weld" => reader.weld(node, name),
-            "joint" => reader.joint(node),
-            "tendon" => reader.tendon(node, name),
+            "connect" => loops.extend(reader.connect(node, name)),
+            "weld" => loops.extend(reader.weld(node, name)),
+            "joint" => couplings.extend(reader.joint(node)),
+            "tendon" => loops.extend(reader.tendon(node, name)),
             _ => {
-                let problem = ImportProblemKind::Unsupported {
-                    what: format!("the constraint `{element}`"),
-                    help: "only rigid bodies are supported: remove it",
-                };
-                reader.problems.say(problem, node);
+                let help = "only rigid bodies are supported: remove it";
+                let what = format!("the constraint `{element}`");
+                let _: Option<()> = reader.problems.unsupported(what, help, node);
             }
         }
     }
-    let (loops, couplings) = (reader.loops, reader.couplings);
+    for i in 1..loops.len() {
+        while loops[..i].iter().any(|other| other.name == loops[i].name) {
+            loops[i].name += "_";
+        }
+    }
     tree.loops = hinges(loops);
     tree.couplings = couplings;
 }
@@ -72,8 +72,6 @@ struct Constraints<'a, 'r, 'i> {
     /// Ground from every body where the joints have their references.
     poses: Vec<Pose<f64>>,
     problems: &'a mut Problems,
-    loops: Vec<Loop>,
-    couplings: Vec<Coupling>,
 }
 
 impl<'r, 'i> Constraints<'_, 'r, 'i> {
@@ -87,12 +85,8 @@ impl<'r, 'i> Constraints<'_, 'r, 'i> {
             name => self.model.body_id_by_name(name),
         };
         if found.is_none() {
-            let known = self
-                .model
-                .bodies
-                .iter()
-                .filter_map(|entry| entry.body.name.clone());
-            let known: Vec<String> = known.collect();
+            let bodies = self.model.bodies.iter();
+            let known: Vec<String> = bodies.filter_map(|b| b.body.name.clone()).collect();
             self.problems.unknown(node, attribute, "body", name, &known);
         }
         found.and_then(|body| self.parts[body].last().copied())
@@ -125,100 +119,62 @@ impl<'r, 'i> Constraints<'_, 'r, 'i> {
         Some(Some([a?, b?]))
     }
 
-    fn push(
-        &mut self,
-        name: String,
-        kind: ClosureKind,
-        sides: [Attachment; 2],
-        length: Option<Extent>,
-    ) {
-        let mut unique = name;
-        while self.loops.iter().any(|other| other.name == unique) {
-            unique += "_";
-        }
-        self.loops.push(Loop {
-            name: unique,
-            kind,
-            sides,
-            length,
-        });
-    }
-
     /// A point of two bodies: two sites, or one point of the first that is given, and the point of the second that
     /// lies there where the joints have their references.
-    fn connect(&mut self, node: Node, name: String) {
-        let Some(sites) = self.sites(node) else {
-            return;
+    fn connect(&mut self, node: Node, name: String) -> Option<Loop> {
+        let sides = match self.sites(node)? {
+            Some(sides) => sides,
+            None => {
+                self.problems.needed(node, "body1")?;
+                self.problems.needed(node, "anchor")?;
+                let anchor = Vector3(self.problems.numbers(node, "anchor")?);
+                let (a, b) = (self.body(node, "body1"), self.body(node, "body2"));
+                let (a, b) = (a?, b?);
+                let point = self.poses[b].inverse() * self.poses[a] * anchor;
+                let ends = [(a, anchor), (b, point)];
+                Loop::sides(&name, ends.map(|(body, p)| (body, Pose::translation(p))))
+            }
         };
-        if let Some(sides) = sites {
-            return self.push(name, ClosureKind::Spherical, sides, None);
-        }
-        let Some(_) = self.problems.needed(node, "body1") else {
-            return;
-        };
-        let Some(_) = self.problems.needed(node, "anchor") else {
-            return;
-        };
-        let Some(anchor) = self.problems.numbers::<3>(node, "anchor") else {
-            return;
-        };
-        let (Some(a), Some(b)) = (self.body(node, "body1"), self.body(node, "body2")) else {
-            return;
-        };
-        let first = Pose::translation(Vector3(anchor));
-        let point = self.poses[b].inverse() * self.poses[a] * Vector3(anchor);
-        let sides = named(&name, [(a, first), (b, Pose::translation(point))]);
-        self.push(name, ClosureKind::Spherical, sides, None);
+        Some(Loop::new(name, ClosureKind::Spherical, sides))
     }
 
     /// Two frames: two sites, or two bodies with the second's pose in the first.
-    fn weld(&mut self, node: Node, name: String) {
-        let Some(sites) = self.sites(node) else {
-            return;
+    fn weld(&mut self, node: Node, name: String) -> Option<Loop> {
+        let sides = match self.sites(node)? {
+            Some(sides) => sides,
+            None => {
+                self.problems.needed(node, "body1")?;
+                let (a, b) = (self.body(node, "body1"), self.body(node, "body2"));
+                let (a, b) = (a?, b?);
+                let given = self.problems.numbers::<7>(node, "relpose");
+                let given = given.filter(|v| v[3..].iter().any(|x| x.abs() > 1e-12));
+                let relative = match given {
+                    Some([x, y, z, q0, q1, q2, q3]) => Pose {
+                        rotation: Quaternion([q0, q1, q2, q3]).normalised().rotation(),
+                        position: Vector3([x, y, z]),
+                    },
+                    None => self.poses[a].inverse() * self.poses[b],
+                };
+                Loop::sides(&name, [(a, relative), (b, Pose::identity())])
+            }
         };
-        if let Some(sides) = sites {
-            return self.push(name, ClosureKind::Rigid, sides, None);
-        }
-        let Some(_) = self.problems.needed(node, "body1") else {
-            return;
-        };
-        let (Some(a), Some(b)) = (self.body(node, "body1"), self.body(node, "body2")) else {
-            return;
-        };
-        let given = self.problems.numbers::<7>(node, "relpose");
-        let given = given.filter(|v| v[3..].iter().any(|x| x.abs() > 1e-12));
-        let relative = match given {
-            Some([x, y, z, q0, q1, q2, q3]) => Pose {
-                rotation: Quaternion([q0, q1, q2, q3]).normalised().rotation(),
-                position: Vector3([x, y, z]),
-            },
-            None => self.poses[a].inverse() * self.poses[b],
-        };
-        let sides = named(&name, [(a, relative), (b, Pose::identity())]);
-        self.push(name, ClosureKind::Rigid, sides, None);
+        Some(Loop::new(name, ClosureKind::Rigid, sides))
     }
 
     /// Coefficients c₀, c₁ of a polynomial without higher powers.
     fn line(&mut self, node: Node) -> Option<[f64; 2]> {
         let text = node.attribute("polycoef").unwrap_or("0 1");
-        let numbers: Option<Vec<f64>> = text
-            .split_whitespace()
-            .map(|word| word.parse().ok())
-            .collect();
-        let numbers =
-            numbers.filter(|numbers| numbers.len() <= 5 && numbers.iter().all(|x| x.is_finite()));
-        let Some(numbers) = numbers else {
-            self.problems
-                .not_numbers(text, 5, super::super::page::tag(node));
+        let numbers = text.split_whitespace().map(|word| word.parse().ok());
+        let numbers = numbers.collect::<Option<Vec<f64>>>();
+        let fits = |n: &Vec<f64>| n.len() <= 5 && n.iter().all(|x| x.is_finite());
+        let Some(numbers) = numbers.filter(fits) else {
+            self.problems.not_numbers(text, 5, tag(node));
             return None;
         };
         if numbers.iter().skip(2).any(|c| *c != 0.0) {
-            let problem = ImportProblemKind::Unsupported {
-                what: "a polynomial of a higher degree than 1".into(),
-                help: "a joint can follow another by a factor and an offset only",
-            };
-            self.problems.say(problem, node);
-            return None;
+            let help = "a joint can follow another by a factor and an offset only";
+            let what = "a polynomial of a higher degree than 1";
+            return self.problems.unsupported(what, help, node);
         }
         let coefficient = |i: usize, default: f64| numbers.get(i).copied().unwrap_or(default);
         Some([coefficient(0, 0.0), coefficient(1, 1.0)])
@@ -226,22 +182,14 @@ impl<'r, 'i> Constraints<'_, 'r, 'i> {
 
     /// The reference of a joint that turns or slides.
     fn reference(&mut self, node: Node, attribute: &str, name: &str) -> Option<f64> {
-        let mut joints = self.tree.bodies.iter().flat_map(|body| &body.joints);
-        match joints.find(|joint| joint.name == name) {
-            Some(joint) if matches!(joint.motion, Motion::Turn | Motion::Slide) => {
-                Some(joint.reference)
-            }
+        match self.tree.joints().find(|joint| joint.name == name) {
+            Some(joint) if !joint.motion.floats() => Some(joint.reference),
             Some(_) => {
-                let problem = ImportProblemKind::Unsupported {
-                    what: format!("a constraint on `{name}`, which is neither a hinge nor a slide"),
-                    help: "remove it",
-                };
-                self.problems.say(problem, node);
-                None
+                let what = format!("a constraint on `{name}`, which is neither a hinge nor a slide");
+                self.problems.unsupported(what, "leave it out", node)
             }
             None => {
-                let joints = self.tree.bodies.iter().flat_map(|body| &body.joints);
-                let known: Vec<String> = joints.map(|joint| joint.name.clone()).collect();
+                let known: Vec<String> = self.tree.joints().map(|j| j.name.clone()).collect();
                 self.problems
                     .unknown(node, attribute, "joint", name, &known);
                 None
@@ -250,128 +198,83 @@ impl<'r, 'i> Constraints<'_, 'r, 'i> {
     }
 
     /// y − y₀ = c₀ + c₁ (x − x₀), with the references x₀ and y₀.
-    fn joint(&mut self, node: Node) {
-        let Some(follower) = self.problems.needed(node, "joint1").map(str::to_owned) else {
-            return;
-        };
-        let (Some([c0, c1]), Some(y0)) =
-            (self.line(node), self.reference(node, "joint1", &follower))
-        else {
-            return;
-        };
-        let coupling = match node.attribute("joint2") {
+    fn joint(&mut self, node: Node) -> Option<Coupling> {
+        let follower = self.problems.needed(node, "joint1")?.to_owned();
+        let (line, y0) = (self.line(node), self.reference(node, "joint1", &follower));
+        let ([c0, c1], y0) = (line?, y0?);
+        Some(match node.attribute("joint2") {
             None => Coupling {
                 leader: follower.clone(),
                 joint: follower,
                 factor: 0.0,
                 offset: y0 + c0,
             },
-            Some(leader) => {
-                let Some(x0) = self.reference(node, "joint2", leader) else {
-                    return;
-                };
-                Coupling {
-                    joint: follower,
-                    leader: leader.to_owned(),
-                    factor: c1,
-                    offset: y0 + c0 - c1 * x0,
-                }
-            }
-        };
-        self.couplings.push(coupling);
+            Some(leader) => Coupling {
+                joint: follower,
+                leader: leader.to_owned(),
+                factor: c1,
+                offset: y0 + c0 - c1 * self.reference(node, "joint2", leader)?,
+            },
+        })
     }
 
     /// A tendon between two sites that has a constant length, or that of a fixed tendon.
-    fn tendon(&mut self, node: Node, name: String) {
-        let Some(first) = self.problems.needed(node, "tendon1") else {
-            return;
-        };
-        let Some([c0, c1]) = self.line(node) else {
-            return;
-        };
-        let Some(spatial) = self.tendon_named(node, "tendon1", first) else {
-            return;
-        };
+    fn tendon(&mut self, node: Node, name: String) -> Option<Loop> {
+        let first = self.problems.needed(node, "tendon1")?;
+        let [c0, c1] = self.line(node)?;
+        let spatial = self.tendon_named(node, "tendon1", first)?;
         let sites: Vec<Node> = spatial.children().filter(Node::is_element).collect();
+        let names: Vec<&str> = sites.iter().filter_map(|s| s.attribute("site")).collect();
         let two = spatial.has_tag_name("spatial") && sites.len() == 2;
-        let names: Vec<&str> = sites
-            .iter()
-            .filter_map(|site| site.attribute("site"))
-            .collect();
         let ([a, b], true) = (&names[..], two) else {
-            let problem = ImportProblemKind::Unsupported {
-                what: format!("the constraint on tendon `{first}`"),
-                help: "a tendon of constant length must lead straight from one site to another",
-            };
-            return self.problems.say(problem, node);
+            let help = "a tendon of constant length must lead straight from one site to another";
+            let what = format!("the constraint on tendon `{first}`");
+            return self.problems.unsupported(what, help, node);
         };
-        let (Some(a), Some(b)) = (
+        let (a, b) = (
             self.site(sites[0], "site", a),
             self.site(sites[1], "site", b),
-        ) else {
-            return;
-        };
-        let [p, q] = [&a, &b].map(|side| (self.poses[side.body] * side.pose).position);
+        );
+        let sides = [a?, b?];
+        let [p, q] = [0, 1].map(|i| (self.poses[sides[i].body] * sides[i].pose).position);
         let mut length = Extent {
             constant: (q - p).norm() + c0,
             terms: Vec::new(),
         };
         if let Some(second) = node.attribute("tendon2") {
-            let Some(fixed) = self.tendon_named(node, "tendon2", second) else {
-                return;
-            };
+            let fixed = self.tendon_named(node, "tendon2", second)?;
             if !fixed.has_tag_name("fixed") {
-                let problem = ImportProblemKind::Unsupported {
-                    what: format!(
-                        "two spatial tendons `{first}` and `{second}` of related lengths"
-                    ),
-                    help: "a length may depend on joints, through a fixed tendon",
-                };
-                return self.problems.say(problem, node);
+                let what =
+                    format!("two spatial tendons `{first}` and `{second}` of related lengths");
+                let help = "a length may depend on joints, through a fixed tendon";
+                return self.problems.unsupported(what, help, node);
             }
             for term in children(fixed, "joint") {
-                let Some(joint) = self.problems.needed(term, "joint") else {
-                    return;
-                };
-                let coefficient = term
-                    .attribute("coef")
-                    .map_or(Some(1.0), |text| Some(parse::<1>(text)?[0]));
-                let (Some(coefficient), Some(x0)) =
-                    (coefficient, self.reference(term, "joint", joint))
-                else {
-                    return;
-                };
+                let joint = self.problems.needed(term, "joint")?;
+                let coefficient = term.attribute("coef").map_or(Some([1.0]), parse);
+                let (x0, [coefficient]) = (self.reference(term, "joint", joint)?, coefficient?);
                 length.constant -= c1 * coefficient * x0;
                 length.terms.push((joint.to_owned(), c1 * coefficient));
             }
         }
-        self.push(name, ClosureKind::Distance, [a, b], Some(length));
+        Some(Loop {
+            length: Some(length),
+            ..Loop::new(name, ClosureKind::Distance, sides)
+        })
     }
 
     fn tendon_named(&mut self, node: Node, attribute: &str, name: &str) -> Option<Node<'r, 'i>> {
-        let blocks = children(self.root, "tendon");
-        let tendons: Vec<Node> = blocks
-            .iter()
-            .flat_map(|block| block.children().filter(Node::is_element))
+        let blocks = children(self.root, "tendon").into_iter();
+        let tendons = blocks.flat_map(|block| block.children().filter(Node::is_element));
+        let tendons: Vec<(Node, &str)> = tendons
+            .filter_map(|tendon| Some((tendon, tendon.attribute("name")?)))
             .collect();
-        let found = tendons
-            .iter()
-            .find(|tendon| tendon.attribute("name") == Some(name))
-            .copied();
+        let found = tendons.iter().find(|(_, known)| *known == name);
         if found.is_none() {
-            let known = tendons.iter().filter_map(|tendon| tendon.attribute("name"));
-            let known: Vec<String> = known.map(str::to_owned).collect();
+            let known: Vec<String> = tendons.iter().map(|(_, name)| (*name).to_owned()).collect();
             self.problems
                 .unknown(node, attribute, "tendon", name, &known);
         }
-        found
+        found.map(|(tendon, _)| *tendon)
     }
-}
-
-fn named(name: &str, sides: [(usize, Pose<f64>); 2]) -> [Attachment; 2] {
-    [0, 1].map(|side| Attachment {
-        body: sides[side].0,
-        frame: format!("{name}_{}", side + 1),
-        pose: sides[side].1,
-    })
 }

@@ -68,23 +68,11 @@ fn expand(
     let page = document(&text).map_err(|problem| (file, problem))?;
     let root = page.root_element();
     // of an included file, only the contents of its outermost element
-    let whole = if file == 0 {
-        0..text.len()
-    } else {
-        tag(root).end..root.range().end
+    let inside = match root.first_child().zip(root.last_child()) {
+        Some((first, last)) => first.range().start..last.range().end,
+        None => 0..0,
     };
-    let whole = if file == 0 {
-        whole
-    } else {
-        let close = text[whole.clone()]
-            .rfind("</")
-            .map_or(whole.end, |i| whole.start + i);
-        whole.start.min(close)..if root.has_children() {
-            close
-        } else {
-            whole.start
-        }
-    };
+    let whole = if file == 0 { 0..text.len() } else { inside };
     let mut at = whole.start;
     for node in root
         .descendants()
@@ -102,11 +90,8 @@ fn expand(
             file: name.to_owned(),
             reason,
         };
-        if open
-            .iter()
-            .any(|&file| file != 0 && spliced.files[file].0 == name)
-            || open.len() > MOST_LEVELS
-        {
+        let is_open = |&file: &usize| file != 0 && spliced.files[file].0 == name;
+        if open.iter().any(is_open) || open.len() > MOST_LEVELS {
             return Err(refuse(failed("it includes itself".into())));
         }
         let content = files(name).map_err(|reason| refuse(failed(reason)))?;
@@ -129,7 +114,6 @@ fn push(spliced: &mut Spliced, file: usize, text: &str, range: Range<usize>) {
     };
     let start = spliced.text.len();
     spliced.text += part;
-    spliced
-        .pieces
-        .push((start..spliced.text.len(), file, range.start));
+    let place = start..spliced.text.len();
+    spliced.pieces.push((place, file, range.start));
 }

@@ -8,6 +8,7 @@ use std::ops::Range;
 
 use mjcf_rs::Model;
 use mjcf_rs::body::JointType;
+use mjcf_rs::equality::Equality;
 use roxmltree::Node;
 
 use super::check::{AXIS, IRRELEVANT, look};
@@ -76,15 +77,10 @@ fn bodies(
     root: Node,
     remarks: &mut Vec<Remark>,
 ) -> Result<(Tree, Vec<Parts>), ImportProblemKind> {
-    let driven: HashSet<&str> = model
-        .actuators
-        .iter()
-        .filter_map(|actuator| actuator.joint.as_deref())
-        .collect();
-    let closed = model
-        .equality
-        .iter()
-        .any(|equality| !matches!(equality, mjcf_rs::equality::Equality::Joint(_)));
+    let driven = model.actuators.iter().filter_map(|a| a.joint.as_deref());
+    let driven: HashSet<&str> = driven.collect();
+    let closes = |equality: &Equality| !matches!(equality, Equality::Joint(_));
+    let closed = model.equality.iter().any(closes);
     if driven.is_empty() {
         remarks.push(Remark::Driven(match closed {
             true => "no joint has an actuator: all are passive",
@@ -100,16 +96,10 @@ fn bodies(
             (None, index) => format!("body{index}"),
         };
         let mut own = Vec::new();
-        let mut part = Body {
-            name: name.clone(),
-            parent: entry
-                .parent
-                .map(|parent| parts[parent][parts[parent].len() - 1]),
-            pose: pose(&entry.body.pose),
-            joints: Vec::new(),
-            home: None,
-            frames: Vec::new(),
-        };
+        let parent = entry
+            .parent
+            .and_then(|parent| parts[parent].last().copied());
+        let mut part = Body::new(name.clone(), parent, pose(&entry.body.pose));
         for (i, joint) in entry.body.joints.iter().enumerate() {
             let motion = match joint.type_ {
                 JointType::Hinge => Motion::Turn,
@@ -117,63 +107,38 @@ fn bodies(
                 JointType::Ball => Motion::Ball,
                 JointType::Free => Motion::Free,
             };
-            let floats = |motion: Motion| matches!(motion, Motion::Ball | Motion::Free);
-            let before = part.joints.last().map(|joint: &Joint| joint.motion);
             // a ball joint stands alone in its body
-            if before.is_some_and(|before| floats(before) || floats(motion)) {
-                let last = part
-                    .joints
-                    .last()
-                    .map_or(String::new(), |joint| joint.name.clone());
-                let next = Body {
-                    name: String::new(),
-                    parent: Some(bodies.len()),
-                    pose: Pose::identity(),
-                    joints: Vec::new(),
-                    home: None,
-                    frames: Vec::new(),
-                };
-                part.name = format!("{name}_{last}");
+            if let Some(before) = part.joints.last()
+                && (before.motion.floats() || motion.floats())
+            {
+                part.name = format!("{name}_{}", before.name);
                 own.push(bodies.len());
+                let next = Body::new(name.clone(), Some(bodies.len()), Pose::identity());
                 bodies.push(std::mem::replace(&mut part, next));
-                part.name = name.clone();
             }
-            let joint_name = joint
-                .name
-                .clone()
-                .unwrap_or_else(|| match entry.body.joints.len() {
-                    1 => format!("{name}_joint"),
-                    _ => format!("{name}_joint{}", i + 1),
-                });
-            let limited = joint
-                .limited
-                .resolve(model.compiler.autolimits, joint.range.is_some());
-            let limits = joint
-                .range
-                .filter(|[low, high]| limited && low < high)
-                .map(|[low, high]| (low, high));
-            let [x, y, z] = joint.axis;
-            let along = direction([x, y, z]);
-            let axis = match along {
+            let joint_name = match (&joint.name, entry.body.joints.len()) {
+                (Some(name), _) => name.clone(),
+                (None, 1) => format!("{name}_joint"),
+                (None, _) => format!("{name}_joint{}", i + 1),
+            };
+            let (automatic, range) = (model.compiler.autolimits, joint.range);
+            let limited = joint.limited.resolve(automatic, range.is_some());
+            let limits = range.filter(|[low, high]| limited && low < high);
+            let axis = match direction(joint.axis) {
                 Some(axis) => axis,
-                None if floats(motion) => Vector3::unit(2),
+                None if motion.floats() => Vector3::unit(2),
                 None => {
                     let (joint, example) = (joint_name, AXIS);
                     return Err(ImportProblemKind::NoAxis { joint, example });
                 }
             };
             part.joints.push(Joint {
-                actuated: match closed || !driven.is_empty() {
-                    true => driven.contains(joint_name.as_str()),
-                    false => true,
-                },
-                name: joint_name,
-                motion,
-                axis,
+                actuated: driven.contains(joint_name.as_str()) || !closed && driven.is_empty(),
                 point: Vector3(joint.pos),
                 reference: joint.ref_,
                 home: joint.ref_,
-                limits,
+                limits: limits.map(|[low, high]| (low, high)),
+                ..Joint::new(joint_name, motion, axis)
             });
         }
         let sites = entry.body.sites.iter();
@@ -205,17 +170,14 @@ fn home(
 ) -> Result<(), ImportProblemKind> {
     let frames = model.keyframes.iter();
     let frames: Vec<_> = frames.filter(|frame| !frame.qpos.is_empty()).collect();
-    let named = frames
-        .iter()
-        .find(|frame| frame.name.as_deref() == Some("home"));
+    let named = frames.iter().find(|f| f.name.as_deref() == Some("home"));
     let keyframe = named.or(frames.first());
     let size = |motion: Motion| match motion {
         Motion::Turn | Motion::Slide => 1,
         Motion::Ball => 4,
         Motion::Free => 7,
     };
-    let all = || tree.bodies.iter().flat_map(|body| &body.joints);
-    let expected: usize = all().map(|joint| size(joint.motion)).sum();
+    let expected: usize = tree.joints().map(|joint| size(joint.motion)).sum();
     let values = match keyframe {
         None => None,
         Some(keyframe) => {
@@ -251,15 +213,7 @@ fn home(
                 (Motion::Turn | Motion::Slide, Some(given)) => joint.home = given[0],
                 (Motion::Turn | Motion::Slide, None) => {}
                 (Motion::Ball, given) => {
-                    let rotation = given.map_or(Rotation::identity(), turned);
-                    let turn = Pose {
-                        rotation,
-                        position: Vector3::zero(),
-                    };
-                    pose = pose
-                        * Pose::translation(joint.point)
-                        * turn
-                        * Pose::translation(-joint.point);
+                    pose = pose * joint.about_point(given.map_or(Rotation::identity(), turned));
                     body.home = Some(pose);
                 }
                 (Motion::Free, given) => {
@@ -272,10 +226,7 @@ fn home(
                     body.home = Some(pose);
                 }
             }
-            pose = match joint.motion {
-                Motion::Turn | Motion::Slide => pose * joint.displacement(joint.home),
-                _ => pose,
-            };
+            pose = pose * joint.displacement(joint.home);
         }
         poses.push(pose);
     }

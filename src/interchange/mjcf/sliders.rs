@@ -30,14 +30,8 @@ pub(super) fn with_sliders(tree: &Tree) -> (Tree, Vec<Remark>) {
         let joints = freedoms
             .into_iter()
             .map(|(word, motion, axis, home)| Joint {
-                name: format!("{name}.{word}"),
-                motion,
-                axis: Vector3::unit(axis),
-                point: Vector3::zero(),
-                reference: 0.0,
                 home,
-                limits: None,
-                actuated: false,
+                ..Joint::new(format!("{name}.{word}"), motion, Vector3::unit(axis))
             });
         let joints: Vec<Joint> = joints.collect();
         remarks.push(Remark::Welded {
@@ -52,12 +46,9 @@ pub(super) fn with_sliders(tree: &Tree) -> (Tree, Vec<Remark>) {
             pose: Pose::identity(),
         };
         tree.bodies.push(Body {
-            name: frame.clone(),
-            parent: Some(a.body),
-            pose: a.pose,
             joints,
-            home: None,
-            frames: vec![(frame, Pose::identity())],
+            frames: vec![(frame.clone(), Pose::identity())],
+            ..Body::new(frame, Some(a.body), a.pose)
         });
         tree.loops[i] = Loop {
             name,

@@ -30,9 +30,7 @@ pub fn write(tree: &Tree, known: &[Remark]) -> (String, Vec<Remark>) {
         equalities: Vec::new(),
         tree: &tree,
     };
-    let remarks_of_loops: Vec<Remark> =
-        tree.loops.iter().filter_map(|l| page.equality(l)).collect();
-    remarks.extend(remarks_of_loops);
+    remarks.extend(tree.loops.iter().filter_map(|l| page.equality(l)));
     remarks.push(Remark::MassesInvented);
     page.couplings();
     let told: Vec<String> = (known.iter().chain(&remarks))
@@ -107,9 +105,8 @@ impl Page<'_> {
                 });
                 if length.constant == 0.0 && length.terms.is_empty() {
                     self.join("connect", &of.name, sites);
-                    return Some(Remark::ZeroDistance {
-                        closure: of.name.clone(),
-                    });
+                    let closure = of.name.clone();
+                    return Some(Remark::ZeroDistance { closure });
                 }
                 self.tendon(&of.name, of, sites.map(str::to_owned), false, &length);
             }
@@ -134,10 +131,8 @@ impl Page<'_> {
         });
         let at_zero = (q - p).norm();
         let value = |joint: &str| {
-            let mut joints = self.tree.bodies.iter().flat_map(|body| &body.joints);
-            joints
-                .find(|part| part.name == joint)
-                .map_or(0.0, |part| part.home)
+            let found = self.tree.joints().find(|part| part.name == joint);
+            found.map_or(0.0, |part| part.home)
         };
         let terms = length.terms.iter();
         let home = terms.fold(length.constant, |sum, (joint, c)| sum + c * value(joint));
@@ -153,8 +148,8 @@ impl Page<'_> {
                 .terms
                 .iter()
                 .map(|(joint, c)| (joint.clone(), sign * c));
-            self.tendons
-                .push(Tendon::Fixed(second.clone(), terms.collect()));
+            let fixed = Tendon::Fixed(second.clone(), terms.collect());
+            self.tendons.push(fixed);
             equality.push(("tendon2", second));
             equality.push(("polycoef", numbers([constant, 1.0, 0.0, 0.0, 0.0])));
         }
@@ -378,8 +373,7 @@ impl Page<'_> {
 }
 
 fn actuated(tree: &Tree) -> Vec<&Joint> {
-    let joints = tree.bodies.iter().flat_map(|body| &body.joints);
-    joints.filter(|joint| joint.actuated).collect()
+    tree.joints().filter(|joint| joint.actuated).collect()
 }
 
 /// Three digits: enough for dimensions that are only displayed.

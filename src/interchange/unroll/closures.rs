@@ -1,10 +1,9 @@
 //! Frames with names, and the closures between them.
 
-use super::{
-    Closures, Floating, Placed, Platforms, Unroller, floats, is_identity, named, spanned, sum,
-};
+use super::{Closures, Floating, Placed, Platforms, Unroller, is_identity, sum};
 use crate::description::{
-    ChainDescription, ClosureDescription, ClosureKind, Displacement, Entry, GROUND,
+    ChainDescription, ClosureDescription, ClosureKind, Displacement, Entry, GROUND, Named, Spanned,
+    place_of,
 };
 use crate::geometry::Pose;
 use crate::interchange::names::fit;
@@ -35,8 +34,8 @@ impl Unroller<'_> {
             // frames of the same name are the same frame
             let own = wanted.strip_prefix(&format!("{owner}.")).unwrap_or(wanted);
             let own = if own.trim().is_empty() { "frame" } else { own }.to_owned();
-            if !frames.iter().any(|frame| frame.name.value == own) {
-                frames.push(named(own.clone(), steps));
+            if place_of(frames, &own).is_none() {
+                frames.push(Named::new(own.clone(), steps));
             }
             return format!("{owner}.{own}");
         }
@@ -60,14 +59,8 @@ impl Unroller<'_> {
             return on;
         }
         let name = self.names.frame(wanted);
-        let chain = ChainDescription {
-            on: (on != GROUND).then(|| spanned(on)),
-            convention: None,
-            base: Displacement::of_pose(&base),
-            rows: Vec::new(),
-            tip: Vec::new(),
-        };
-        self.chains.push(named(name.clone(), chain));
+        let chain = ChainDescription::frame(&on, Displacement::of_pose(&base));
+        self.chains.push(Named::new(name.clone(), chain));
         name
     }
 
@@ -92,7 +85,7 @@ impl Unroller<'_> {
             let frames = [&sides[0], &sides[1]].map(|side| self.frame(side, &mut platforms));
             let closure = ClosureDescription {
                 kind: *kind,
-                frames: frames.map(spanned),
+                frames: frames.map(Spanned::nowhere),
                 length: closing.length.as_ref().map(|length| self.length(length)),
                 span: 0..0,
             };
@@ -100,10 +93,10 @@ impl Unroller<'_> {
                 "" => "closure".to_owned(),
                 name => name.to_owned(),
             };
-            while closures.iter().any(|other| other.name.value == label) {
+            while place_of(&closures, &label).is_some() {
                 label += "_";
             }
-            closures.push(named(label, closure));
+            closures.push(Named::new(label, closure));
         }
         let platforms = platforms.into_iter().map(|(_, platform)| platform);
         (platforms.collect(), closures)
@@ -113,18 +106,13 @@ impl Unroller<'_> {
     fn balls(&self) -> Vec<Loop> {
         let bodies = self.tree.bodies.iter().enumerate();
         let balls = bodies.filter_map(|(i, body)| {
-            let ball = floats(body).filter(|joint| joint.motion == Motion::Ball)?;
+            let ball = body.joints.iter().find(|joint| joint.motion.floats())?;
             let point = Pose::translation(ball.point);
-            let sides = [(body.parent?, body.pose * point), (i, point)];
-            let sides = [0, 1].map(|side| Attachment {
-                body: sides[side].0,
-                frame: format!("{}_{}", ball.name, side + 1),
-                pose: sides[side].1,
-            });
-            Some(Loop {
+            let ends = [(body.parent?, body.pose * point), (i, point)];
+            (ball.motion == Motion::Ball).then(|| Loop {
                 name: ball.name.clone(),
                 kind: ClosureKind::Spherical,
-                sides,
+                sides: Loop::sides(&ball.name, ends),
                 length: None,
             })
         });
@@ -164,11 +152,11 @@ impl Unroller<'_> {
         }
         terms.retain(|(_, factor)| *factor != 0.0);
         // a length has no sign
-        let constant = if terms.is_empty() {
+        let constant = Entry::length(if terms.is_empty() {
             constant.abs()
         } else {
             constant
-        };
-        sum(Entry::length(constant), &terms)
+        });
+        sum(constant, &terms)
     }
 }

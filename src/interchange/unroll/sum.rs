@@ -30,9 +30,6 @@ pub(super) fn sum(constant: Entry, terms: &[(String, f64)]) -> Entry {
             None => format!(" + {constant}"),
         };
     }
-    let expression = Expression::parse(&text).expect("sums of numbers and names are expressions");
-    Entry {
-        expression,
-        span: 0..0,
-    }
+    let expression = Expression::parse(&text);
+    Entry::from(expression.expect("sums of numbers and names are expressions"))
 }

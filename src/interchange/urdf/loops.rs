@@ -10,13 +10,13 @@
 
 use roxmltree::Node;
 
-use super::motion::{direction, no_axis};
+use super::motion::{direction, least_along, no_axis};
 use crate::description::ClosureKind;
 use crate::geometry::{Pose, Rotation, Vector3};
 use crate::interchange::page::{Problems, child, children, parse, pose_of, tag};
 use crate::interchange::problem::ImportProblemKind;
 use crate::interchange::remark::Remark;
-use crate::interchange::tree::{Attachment, Loop, Tree};
+use crate::interchange::tree::{Loop, Tree};
 
 /// The types of joints that can close a loop, in the words of the formats.
 const TYPES: &[&str] = &[
@@ -54,10 +54,8 @@ pub(super) fn read(
         problems,
         loops: Vec::new(),
     };
-    for node in robot
-        .children()
-        .filter(|node| node.is_element() && is_loop(*node))
-    {
+    let elements = robot.children().filter(|node| node.is_element());
+    for node in elements.filter(|node| is_loop(*node)) {
         match node.tag_name().name() {
             "ball_constraint" => reader.ball(node),
             "gazebo" => {
@@ -73,8 +71,7 @@ pub(super) fn read(
         let halves = |link: &str| {
             let name = link.strip_suffix("_1")?;
             let other = format!("{name}_2");
-            let found =
-                name.starts_with("closing_") && tree.bodies.iter().any(|body| body.name == other);
+            let found = name.starts_with("closing_") && tree.body(&other).is_some();
             found.then_some(other)
         };
         for body in &tree.bodies {
@@ -95,36 +92,23 @@ struct LoopReader<'a> {
 impl LoopReader<'_> {
     /// The link of that name.
     fn link(&mut self, node: Node, attribute: &str, name: &str) -> Option<usize> {
-        let found = self.tree.bodies.iter().position(|body| body.name == name);
+        let found = self.tree.body(name);
         if found.is_none() {
-            let known: Vec<String> = self
-                .tree
-                .bodies
-                .iter()
-                .map(|body| body.name.clone())
-                .collect();
+            let bodies = self.tree.bodies.iter();
+            let known: Vec<String> = bodies.map(|body| body.name.clone()).collect();
             self.problems.unknown(node, attribute, "link", name, &known);
         }
         found
     }
 
-    fn close(&mut self, node: Node, kind: ClosureKind, sides: [(usize, Pose<f64>); 2]) {
+    fn close(&mut self, node: Node, kind: ClosureKind, ends: [(usize, Pose<f64>); 2]) {
         let own = node.attribute("name").map(str::to_owned);
         let mut name = own.unwrap_or_else(|| format!("loop{}", self.loops.len() + 1));
         while self.loops.iter().any(|other| other.name == name) {
             name += "_";
         }
-        let sides = [0, 1].map(|side| Attachment {
-            body: sides[side].0,
-            frame: format!("{name}_{}", side + 1),
-            pose: sides[side].1,
-        });
-        self.loops.push(Loop {
-            name,
-            kind,
-            sides,
-            length: None,
-        });
+        let sides = Loop::sides(&name, ends);
+        self.loops.push(Loop::new(name, kind, sides));
     }
 
     /// `loop_joint`, `constraint`, `loop`: two links, a frame on each, a type, and axes in the frames.
@@ -138,11 +122,8 @@ impl LoopReader<'_> {
             ends.extend(pair.iter().filter_map(|name| child(node, name)));
         }
         let [first, second] = ends[..] else {
-            let problem = ImportProblemKind::Missing {
-                element: node.tag_name().name().into(),
-                needs: "two links, such as elements `link1` and `link2`".into(),
-            };
-            return self.problems.say(problem, node);
+            let needs = "two links, such as elements `link1` and `link2`";
+            return self.problems.missing(node, needs.into());
         };
         let mut axes = [Vector3::unit(0); 2];
         let mut sides = Vec::new();
@@ -211,21 +192,11 @@ impl LoopReader<'_> {
             let Some(part) = self.problems.needed_child(node, end) else {
                 return;
             };
-            let link = part
-                .attribute("link")
-                .or(part.text())
-                .unwrap_or_default()
-                .trim();
-            let known: Vec<String> = self
-                .tree
-                .bodies
-                .iter()
-                .map(|body| body.name.clone())
-                .collect();
-            match known.iter().position(|name| name == link) {
-                Some(body) => bodies.push(body),
-                None => return self.problems.unknown(part, "link", "link", link, &known),
-            }
+            let link = part.attribute("link").or(part.text()).unwrap_or_default();
+            let Some(body) = self.link(part, "link", link.trim()) else {
+                return;
+            };
+            bodies.push(body);
         }
         let [parent, child_body] = bodies[..] else {
             return;
@@ -250,11 +221,10 @@ impl LoopReader<'_> {
                 .attribute("relative_to")
                 .is_some_and(|name| !name.is_empty())
             {
-                let problem = ImportProblemKind::Unsupported {
-                    what: "a pose relative to a named frame".into(),
-                    help: "give the pose in the child link",
-                };
-                return self.problems.say(problem, part);
+                let help = "give the pose in the child link";
+                let what = "a pose relative to a named frame";
+                self.problems.unsupported::<()>(what, help, part);
+                return;
             }
         }
         let mut axis = Vector3::unit(2);
@@ -263,20 +233,16 @@ impl LoopReader<'_> {
             let Some(along) = direction([v[0], v[1], v[2]]) else {
                 let joint = node.attribute("name").unwrap_or("joint").to_owned();
                 let example = "<xyz>0 0 1</xyz>";
-                return self
-                    .problems
-                    .say(ImportProblemKind::NoAxis { joint, example }, part);
+                let problem = ImportProblemKind::NoAxis { joint, example };
+                return self.problems.say(problem, part);
             };
             axis = along;
         }
         let poses = self.tree.poses(|joint| joint.reference);
         let frame = pose * along_z(&axis);
         let on_parent = poses[parent].inverse() * poses[child_body] * frame;
-        self.close(
-            node,
-            kind_of(kind),
-            [(parent, on_parent), (child_body, frame)],
-        );
+        let ends = [(parent, on_parent), (child_body, frame)];
+        self.close(node, kind_of(kind), ends);
     }
 }
 
@@ -295,14 +261,7 @@ fn kind_of(word: &str) -> ClosureKind {
 /// A rotation that turns z into a direction; axes of coordinates stay exact.
 pub(crate) fn along_z(axis: &Vector3<f64>) -> Pose<f64> {
     // the coordinate axis most across the direction becomes x as nearly as it can
-    let least = (0..3).fold(0, |i, j| {
-        if axis.0[j].abs() < axis.0[i].abs() {
-            j
-        } else {
-            i
-        }
-    });
-    let e = Vector3::unit(least);
+    let e = Vector3::unit(least_along(axis));
     let across = e - axis.times(axis.dot(&e));
     let x = across.times(1.0 / across.norm());
     Pose {

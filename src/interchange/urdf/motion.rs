@@ -22,6 +22,12 @@ pub(crate) fn direction([x, y, z]: [f64; 3]) -> Option<Vector3<f64>> {
     Some(scaled.times(1.0 / scaled.norm()))
 }
 
+/// The coordinate axis most across a direction.
+pub(super) fn least_along(axis: &Vector3<f64>) -> usize {
+    let size = |i: usize| axis.0[i].abs();
+    (0..3).fold(0, |i, j| if size(j) < size(i) { j } else { i })
+}
+
 /// The same robot without shapes, masses, extensions.
 pub(super) fn reduced(robot: Node, links: &[String], joints: &[(Node, String)]) -> String {
     let mut xml = Xml::new();
@@ -73,16 +79,11 @@ pub(super) fn moving(part: &urdf_rs::Joint, actuated: bool) -> Vec<Joint> {
     let limited = finite && limits.0 <= limits.1 && limits != (0.0, 0.0);
     let joint = |name: String, motion: Motion, axis: Vector3<f64>, limited: bool| {
         let limits = limited.then_some(limits);
-        let home = limits.map_or(0.0, |(low, high)| 0.0_f64.clamp(low, high));
         Joint {
-            name,
-            motion,
-            axis,
-            point: Vector3::zero(),
-            reference: 0.0,
-            home,
+            home: limits.map_or(0.0, |(low, high)| 0.0_f64.clamp(low, high)),
             limits,
             actuated,
+            ..Joint::new(name, motion, axis)
         }
     };
     let name = || part.name.clone();
@@ -95,24 +96,13 @@ pub(super) fn moving(part: &urdf_rs::Joint, actuated: bool) -> Vec<Joint> {
         JointType::Spherical => vec![joint(name(), Motion::Ball, axis, false)],
         JointType::Planar => {
             // in the plane that the axis is normal to
-            let least = (0..3).fold(0, |i, j| {
-                if axis.0[j].abs() < axis.0[i].abs() {
-                    j
-                } else {
-                    i
-                }
-            });
-            let across = axis.cross(&Vector3::unit(least));
+            let across = axis.cross(&Vector3::unit(least_along(&axis)));
             let x = across.times(1.0 / across.norm());
+            let name = |suffix: &str| format!("{}_{suffix}", part.name);
             vec![
-                joint(format!("{}_x", part.name), Motion::Slide, x, false),
-                joint(
-                    format!("{}_y", part.name),
-                    Motion::Slide,
-                    axis.cross(&x),
-                    false,
-                ),
-                joint(format!("{}_turn", part.name), Motion::Turn, axis, false),
+                joint(name("x"), Motion::Slide, x, false),
+                joint(name("y"), Motion::Slide, axis.cross(&x), false),
+                joint(name("turn"), Motion::Turn, axis, false),
             ]
         }
     }
@@ -127,15 +117,14 @@ pub(super) fn driven(
     let transmissions = children(robot, "transmission");
     let named = transmissions
         .iter()
-        .flat_map(|transmission| children(*transmission, "joint"));
+        .flat_map(|part| children(*part, "joint"));
     let named: HashSet<&str> = named.filter_map(|joint| joint.attribute("name")).collect();
     let follows = |node: &Node| child(*node, "mimic").is_some();
     if joints.iter().any(|(_, name)| named.contains(name.as_str())) {
         remarks.push(Remark::Driven("the joints of transmissions are actuated"));
-        return joints
-            .iter()
-            .map(|(node, name)| named.contains(name.as_str()) && !follows(node))
-            .collect();
+        let driven =
+            |(node, name): &(Node, String)| named.contains(name.as_str()) && !follows(node);
+        return joints.iter().map(driven).collect();
     }
     let strong = |node: &Node| {
         let effort =
@@ -145,19 +134,14 @@ pub(super) fn driven(
     let moves = |node: &Node| node.attribute("type") != Some("fixed");
     let efforts: Vec<Option<bool>> = joints.iter().map(|(node, _)| strong(node)).collect();
     if efforts.contains(&Some(true)) && efforts.contains(&Some(false)) {
-        remarks.push(Remark::Driven(
-            "joints with an effort of 0, or without effort, are passive",
-        ));
-        return joints
-            .iter()
-            .zip(efforts)
-            .map(|((node, _), strong)| strong == Some(true) && !follows(node))
-            .collect();
+        let rule = "joints with an effort of 0, or without effort, are passive";
+        remarks.push(Remark::Driven(rule));
+        let driven = joints.iter().zip(efforts);
+        let driven = driven.map(|((node, _), strong)| strong == Some(true) && !follows(node));
+        return driven.collect();
     }
-    joints
-        .iter()
-        .map(|(node, _)| moves(node) && !follows(node))
-        .collect()
+    let driven = joints.iter().map(|(node, _)| moves(node) && !follows(node));
+    driven.collect()
 }
 
 /// The problem of an axis of zero length.

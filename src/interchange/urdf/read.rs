@@ -14,7 +14,7 @@ use crate::geometry::Pose;
 use crate::interchange::page::{Problems, child, children, document, pose_of};
 use crate::interchange::problem::{ImportProblem, ImportProblemKind};
 use crate::interchange::remark::Remark;
-use crate::interchange::tree::{Body, Coupling, Motion, Tree};
+use crate::interchange::tree::{Body, Coupling, Tree};
 
 /// The types of joints.
 pub(super) const TYPES: &[&str] = &[
@@ -59,11 +59,7 @@ impl<'a, 'i> Reader<'a, 'i> {
         for node in robot.children().filter(Node::is_element) {
             let element = node.tag_name().name();
             match element {
-                _ if node
-                    .tag_name()
-                    .namespace()
-                    .is_some_and(|uri| uri.contains("xacro")) =>
-                {
+                _ if is_xacro(node) => {
                     let element = format!("xacro:{element}");
                     self.problems
                         .say(ImportProblemKind::Macro { element }, node);
@@ -124,27 +120,15 @@ impl<'a, 'i> Reader<'a, 'i> {
             }
         };
         let driven = driven(robot, &joints, &mut self.remarks);
-        let joint_of: HashMap<&str, usize> = hangs
-            .iter()
-            .enumerate()
-            .map(|(i, h)| (h.child.as_str(), i))
-            .collect();
+        let children = hangs.iter().enumerate();
+        let joint_of: HashMap<&str, usize> = children.map(|(i, h)| (h.child.as_str(), i)).collect();
         let mut bodies: Vec<Body> = Vec::new();
         let mut couplings = Vec::new();
-        let index: HashMap<&str, usize> = order
-            .iter()
-            .enumerate()
-            .map(|(i, link)| (link.as_str(), i))
-            .collect();
+        let links = order.iter().enumerate();
+        let index: HashMap<&str, usize> = links.map(|(i, link)| (link.as_str(), i)).collect();
         for link in &order {
-            let mut body = Body {
-                name: link.clone(),
-                parent: None,
-                pose: Pose::identity(),
-                joints: Vec::new(),
-                home: None,
-                frames: vec![(link.clone(), Pose::identity())],
-            };
+            let mut body = Body::new(link.clone(), None, Pose::identity());
+            body.frames.push((link.clone(), Pose::identity()));
             if let Some(&i) = joint_of.get(link.as_str()) {
                 let part = &read.joints[i];
                 body.parent = index.get(hangs[i].parent.as_str()).copied();
@@ -170,11 +154,7 @@ impl<'a, 'i> Reader<'a, 'i> {
         };
         let poses = tree.poses(|joint| joint.reference);
         for (body, pose) in tree.bodies.iter_mut().zip(poses) {
-            let floats = body
-                .joints
-                .iter()
-                .any(|joint| matches!(joint.motion, Motion::Ball | Motion::Free));
-            body.home = floats.then_some(pose);
+            body.home = body.floats().then_some(pose);
         }
         tree.loops = loops::read(robot, &tree, &mut self.problems, &mut self.remarks);
         match self.problems.0.is_empty() {
@@ -191,9 +171,10 @@ impl<'a, 'i> Reader<'a, 'i> {
         }
         if let Some(axis) = child(node, "axis")
             && let Some(along) = self.problems.numbers::<3>(axis, "xyz")
-            && kind.is_some_and(|kind| {
-                matches!(kind, "revolute" | "continuous" | "prismatic" | "planar")
-            })
+            && matches!(
+                kind,
+                Some("revolute" | "continuous" | "prismatic" | "planar")
+            )
             && direction(along).is_none()
         {
             let joint = name.to_owned();
@@ -204,11 +185,8 @@ impl<'a, 'i> Reader<'a, 'i> {
             if let (Some(low), Some(high)) = (low, high)
                 && low > high
             {
-                let problem = ImportProblemKind::Unsupported {
-                    what: format!("limits from {low} to {high}, the lower above the upper"),
-                    help: "swap them",
-                };
-                self.problems.say(problem, part);
+                let what = format!("limits from {low} to {high}, the lower above the upper");
+                self.problems.unsupported::<()>(what, "exchange them", part);
             }
         }
         if let Some(mimic) = child(node, "mimic") {
@@ -254,10 +232,8 @@ impl<'a, 'i> Reader<'a, 'i> {
             below.entry(parent).or_default().push(child);
         }
         for (node, name) in joints {
-            let Some(mimic) = child(*node, "mimic") else {
-                continue;
-            };
-            let Some(leader) = mimic.attribute("joint") else {
+            let mimic = child(*node, "mimic");
+            let Some((mimic, leader)) = mimic.and_then(|m| Some((m, m.attribute("joint")?))) else {
                 continue;
             };
             if !joints.iter().any(|(_, other)| other == leader) {
@@ -265,64 +241,53 @@ impl<'a, 'i> Reader<'a, 'i> {
                 self.problems
                     .unknown(mimic, "joint", "joint", leader, &known);
             } else if leader == name {
-                let joint = name.clone();
-                self.problems
-                    .say(ImportProblemKind::FollowsItself { joint }, mimic);
+                let problem = ImportProblemKind::FollowsItself {
+                    joint: name.clone(),
+                };
+                self.problems.say(problem, mimic);
             }
         }
         // the missing joints may be those that could not be read
         if !self.problems.0.is_empty() {
             return Vec::new();
         }
-        let roots: Vec<&str> = self
-            .links
-            .iter()
-            .map(String::as_str)
-            .filter(|link| !parent_of.contains_key(link))
-            .collect();
-        let root = match roots.as_slice() {
-            [root] => *root,
-            [] if self.links.is_empty() => {
-                self.problems
-                    .0
-                    .push(ImportProblemKind::NothingMoves.anywhere());
-                return Vec::new();
-            }
-            [] => {
-                let links = self.links.clone();
-                self.problems
-                    .0
-                    .push(ImportProblemKind::NoRoot { links }.anywhere());
-                return Vec::new();
-            }
-            roots => {
-                let links = roots.iter().map(|link| (*link).to_owned()).collect();
-                self.problems
-                    .0
-                    .push(ImportProblemKind::SeveralRoots { links }.anywhere());
-                return Vec::new();
-            }
-        };
+        let links = self.links.iter().map(String::as_str);
+        let roots: Vec<&str> = links.filter(|link| !parent_of.contains_key(link)).collect();
+        if roots.len() != 1 {
+            let links = |links: &[&str]| links.iter().map(|link| (*link).to_owned()).collect();
+            let problem = match roots.as_slice() {
+                [] if self.links.is_empty() => ImportProblemKind::NothingMoves,
+                [] => ImportProblemKind::NoRoot {
+                    links: self.links.clone(),
+                },
+                roots => ImportProblemKind::SeveralRoots {
+                    links: links(roots),
+                },
+            };
+            self.problems.0.push(problem.anywhere());
+            return Vec::new();
+        }
         let mut order = Vec::new();
-        let mut next = vec![root];
+        let mut next = roots;
         while let Some(link) = next.pop() {
             order.push(link.to_owned());
             next.extend(below.get(link).into_iter().flatten().rev());
         }
         if order.len() < self.links.len() {
             let reached: HashSet<&String> = order.iter().collect();
-            let links = self
-                .links
-                .iter()
-                .filter(|link| !reached.contains(link))
-                .cloned()
-                .collect();
+            let links = self.links.iter().filter(|link| !reached.contains(link));
+            let links = links.cloned().collect();
             self.problems
                 .0
                 .push(ImportProblemKind::Cycle { links }.anywhere());
         }
         order
     }
+}
+
+fn is_xacro(node: Node) -> bool {
+    let namespace = node.tag_name().namespace();
+    namespace.is_some_and(|uri| uri.contains("xacro"))
 }
 
 /// The links that a joint joins.

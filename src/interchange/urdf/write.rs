@@ -83,14 +83,14 @@ impl UrdfWriter<'_> {
                 .any(|coupling| coupling.leader == joint.name)
     }
 
+    fn rigid(&self) -> impl Iterator<Item = &Loop> {
+        let loops = self.tree.loops.iter();
+        loops.filter(|l| l.kind == ClosureKind::Rigid)
+    }
+
     /// The closure that fixes a floating body to a frame of another one.
     fn fixing(&self, body: usize) -> Option<(&Loop, usize)> {
-        let rigid = self
-            .tree
-            .loops
-            .iter()
-            .filter(|l| l.kind == ClosureKind::Rigid);
-        let sides = rigid.flat_map(|l| [(l, 0), (l, 1)]);
+        let sides = self.rigid().flat_map(|l| [(l, 0), (l, 1)]);
         // an earlier body cannot be a child of this one
         let mut fixing = sides.filter(|(l, side)| {
             l.sides[*side].body == body && !self.hangs_on(l.sides[1 - side].body, body)
@@ -108,13 +108,8 @@ impl UrdfWriter<'_> {
             let part = &self.tree.bodies[body];
             // a floating body may itself be fixed to another one
             if part.home.is_some() && body != on {
-                let rigid = self
-                    .tree
-                    .loops
-                    .iter()
-                    .filter(|l| l.kind == ClosureKind::Rigid);
-                let mut touching = rigid.filter(|l| l.sides.iter().any(|side| side.body == body));
-                if touching.next().is_some() {
+                let touches = |l: &Loop| l.sides.iter().any(|side| side.body == body);
+                if self.rigid().any(touches) {
                     return true;
                 }
             }
@@ -142,9 +137,7 @@ impl UrdfWriter<'_> {
                 self.floating(index, body, home, &mut written);
             }
             self.robot.joints.push(written);
-            self.robot
-                .links
-                .push(link(&child, Some((self.tree.size, joint))));
+            self.robot.links.push(link(&child, Some(self.tree.size)));
             (parent, origin) = (child, Pose::identity());
         }
         self.frames(body);
@@ -160,9 +153,8 @@ impl UrdfWriter<'_> {
     ) {
         let Some((of, side)) = self.fixing(index) else {
             written.origin = placed(&home[index]);
-            self.remarks.push(Remark::Floating {
-                platform: body.name.clone(),
-            });
+            let platform = body.name.clone();
+            self.remarks.push(Remark::Floating { platform });
             return;
         };
         let (own, other) = (&of.sides[side], &of.sides[1 - side]);
@@ -293,15 +285,15 @@ fn placed(pose: &Pose<f64>) -> urdf_rs::Pose {
     }
 }
 
-/// A link; a moving one gets a placeholder mass and a ball at its joint.
-fn link(name: &str, moves: Option<(f64, &Joint)>) -> Link {
+/// A link; one that moves, in a mechanism of some size, has a made-up mass and a ball at its joint.
+fn link(name: &str, moves: Option<f64>) -> Link {
     let mut link = Link {
         name: name.into(),
         inertial: Inertial::default(),
         visual: Vec::new(),
         collision: Vec::new(),
     };
-    if let Some((size, _)) = moves {
+    if let Some(size) = moves {
         let inertia = 1e-3 * size * size;
         link.inertial.mass = Mass { value: 0.1 };
         link.inertial.inertia = Inertia {

@@ -4,7 +4,7 @@ use std::collections::HashMap;
 
 use super::super::model::{ClosedForm, Formula, Given, Symbol};
 use super::{Builder, Frame};
-use crate::description::{self, Description, Entry, MatrixEntry, Named, Noun, Scope};
+use crate::description::{self, Description, Entry, MatrixEntry, Named, Noun, Scope, names_of};
 
 impl Builder<'_> {
     pub(super) fn closed_forms(&mut self, description: &Description) -> Vec<ClosedForm> {
@@ -26,7 +26,7 @@ impl Builder<'_> {
         &mut self,
         form: &description::ClosedFormDescription,
     ) -> Option<(Vec<(String, Formula)>, Given)> {
-        let names = form.locals.iter().map(|local| local.name.value.as_str());
+        let names = names_of(&form.locals);
         let indices: HashMap<&str, usize> = names.enumerate().map(|(i, n)| (n, i)).collect();
         let scope = Scope::ClosedForm;
         let formulas: Vec<Option<Formula>> = (form.locals.iter())

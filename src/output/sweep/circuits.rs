@@ -1,24 +1,25 @@
 //! Circuits and branches in words.
 
-use serde::Serialize;
-
 use crate::analysis::sweep::{Circuit, CircuitsReport, FourBarClass};
 use crate::description::{count, listed};
-use crate::mechanism::Mechanism;
-use crate::output::json::document;
-use crate::output::layout::{align_right, indented, plain};
+use crate::output::document::{Cell, Column, Document, Report, Section, Table, cells};
 use crate::output::quantity::{number, quantity};
 
-/// The circuits as JSON: the fields of [`CircuitsReport`] after one sentence.
-pub fn circuits_json(mechanism: &Mechanism, report: &CircuitsReport) -> String {
-    #[derive(Serialize)]
-    struct CircuitsJson<'a> {
-        sentence: String,
-        #[serde(flatten)]
-        report: &'a CircuitsReport,
+impl Report for CircuitsReport {
+    fn document(&self) -> Document {
+        let seeds = format!(
+            "followed from {} of all assemblies at several values of {}{}",
+            count(self.seeds, "seed"),
+            self.input,
+            match self.unusable {
+                0 => String::new(),
+                n => format!("; {n} of them outside limits or singular"),
+            }
+        );
+        Document::new(&self.mechanism, sentence(self))
+            .sections(self.circuits.iter().map(|circuit| one(self, circuit)))
+            .method(seeds)
     }
-    let sentence = sentence(report);
-    document(mechanism.name(), &CircuitsJson { sentence, report })
 }
 
 fn class(class: FourBarClass) -> &'static str {
@@ -39,10 +40,7 @@ fn sentence(report: &CircuitsReport) -> String {
         true => count(circuits, "curve"),
         false => count(circuits, "circuit"),
     };
-    let branches = match branches {
-        1 => "1 branch".into(),
-        n => format!("{n} branches"),
-    };
+    let branches = count(branches, "branch");
     let grashof = match report.class {
         Some(FourBarClass::TripleRocker) => {
             ": a triple rocker, for no link turns fully beside another".into()
@@ -53,89 +51,64 @@ fn sentence(report: &CircuitsReport) -> String {
     format!("{what} with {branches} for {}{grashof}.", report.input)
 }
 
-/// The circuits as text.
-pub fn circuits_text(mechanism: &Mechanism, report: &CircuitsReport) -> String {
-    let mut text = format!(
-        "{}\n{}\n  followed from {} of all assemblies at several values of {}{}\n",
-        mechanism.name(),
-        sentence(report),
-        count(report.seeds, "seed"),
-        report.input,
-        match report.unusable {
-            0 => String::new(),
-            n => format!("; {n} of them outside limits or singular"),
-        }
-    );
-    for circuit in &report.circuits {
-        text += &one(mechanism, report, circuit);
-    }
-    text
-}
-
-fn one(mechanism: &Mechanism, report: &CircuitsReport, circuit: &Circuit) -> String {
+fn one(report: &CircuitsReport, circuit: &Circuit) -> Section {
     let shape = match (circuit.whole, circuit.closed) {
         (false, _) => "was not followed to its end",
         (true, true) => "closes",
         (true, false) => "goes from limit to limit",
     };
-    let mut text = format!(
-        "\nCircuit {} {shape}; length {} in rad and units of {} m\n",
+    let title = format!(
+        "Circuit {} {shape}; length {} in rad and units of {} m",
         circuit.number,
         number((circuit.length * 1e3).round() / 1e3),
         number(report.characteristic_length)
     );
-    let mut table = plain(["joint", "turns", "lowest", "highest"]);
+    let mut table = Table::new([
+        Column::words("joint"),
+        Column::numbers("turns"),
+        Column::numbers("lowest"),
+        Column::numbers("highest"),
+    ]);
     for joint in &circuit.joints {
-        let is_angle = joint.unit == "rad";
-        let range = |x: f64| match joint.turns {
-            0 => quantity(x, is_angle),
-            _ => String::new(),
+        let swings = joint.turns == 0;
+        let range = |x: f64| swings.then(|| Cell::quantity(x, joint.unit));
+        let turns = match swings {
+            true => "swings".into(),
+            false => Cell::Count(joint.turns),
         };
-        let turns = match joint.turns {
-            0 => "swings".to_owned(),
-            n => n.to_string(),
-        };
-        table.add_row([
-            joint.name.clone(),
+        table.row(cells![
+            &joint.name,
             turns,
             range(joint.low),
-            range(joint.high),
+            range(joint.high)
         ]);
     }
-    align_right(&mut table, 1..4);
-    text += &indented(&table.to_string());
-    let is_angle = (mechanism.joint(&report.input))
-        .is_some_and(|joint| mechanism.joints()[joint].kind.is_angle());
-    for (i, branch) in circuit.branches.iter().enumerate() {
-        text += &match branch.turns {
-            true => format!("  branch {}: {} turns fully\n", i + 1, report.input),
-            false => format!(
-                "  branch {}: {} from {} to {}\n",
-                i + 1,
-                report.input,
-                quantity(branch.low, is_angle),
-                quantity(branch.high, is_angle)
-            ),
-        };
-    }
-    if !circuit.crossings.is_empty() {
-        let input = mechanism.joint(&report.input).unwrap_or(0);
-        let places = places(
-            circuit.crossings.iter().map(|joints| joints[input]),
-            is_angle,
-        );
-        let others: Vec<String> = circuit.crosses.iter().map(|n| n.to_string()).collect();
-        let with = match others.is_empty() {
-            true => "other branches".to_owned(),
-            false => format!("circuit {}", listed(&others)),
-        };
-        text += &format!(
-            "  crosses {with} at {} = {}\n",
+    let input = circuit.joints.iter().position(|j| j.name == report.input);
+    let is_angle = input.is_some_and(|input| circuit.joints[input].unit == "rad");
+    let branches = circuit.branches.iter().enumerate();
+    let branches = branches.map(|(i, branch)| match branch.turns {
+        true => format!("branch {}: {} turns fully", i + 1, report.input),
+        false => format!(
+            "branch {}: {} from {} to {}",
+            i + 1,
             report.input,
-            listed(&places)
-        );
-    }
-    text
+            quantity(branch.low, is_angle),
+            quantity(branch.high, is_angle)
+        ),
+    });
+    let crossings = circuit.crossings.iter();
+    let crossings = crossings.filter_map(|joints| joints.get(input?).copied());
+    let places = places(crossings, is_angle);
+    let others: Vec<String> = circuit.crosses.iter().map(|n| n.to_string()).collect();
+    let with = match others.is_empty() {
+        true => "other branches".to_owned(),
+        false => format!("circuit {}", listed(&others)),
+    };
+    let crosses = format!("crosses {with} at {} = {}", report.input, listed(&places));
+    let crosses = (!places.is_empty()).then_some(crosses);
+    Section::new(title)
+        .table(table)
+        .list(branches.chain(crosses))
 }
 
 /// Values in order, each once, with the number of crossings there if there are several: they differ

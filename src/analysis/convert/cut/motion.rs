@@ -10,11 +10,11 @@
 
 use std::f64::consts::FRAC_PI_2;
 
-use crate::algebra::{Expression, Node, Operator, is_name, is_reserved};
-use crate::analysis::convert::{entry, nowhere, row, zero};
+use crate::algebra::{Expression, Node, Operator};
+use crate::analysis::convert::zero;
 use crate::description::{
     Axis, ClosureKind, Convention, Description, Displacement, Entry, JointDescription, Named, Role,
-    Row,
+    Row, free_variable, names_of,
 };
 use crate::geometry::{self, Pose, Rotation};
 use crate::mechanism::Mechanism;
@@ -63,24 +63,19 @@ impl Motion {
         let [x, _, z] = pose.rotation.0;
         let angle = Number::atan2(x.0[1], x.0[0]);
         let mut add = |suffix: &str, home: Entry| {
-            let taken: Vec<&String> = (description.joints.iter().map(|j| &j.name.value))
-                .chain(description.parameters.iter().map(|p| &p.name.value))
-                .chain(motion.joints.iter().map(|j| &j.name.value))
+            let taken: Vec<&str> = (names_of(&description.joints))
+                .chain(names_of(&description.parameters))
+                .chain(names_of(&motion.joints))
                 .collect();
-            let name = free_variable(&format!("{name}{suffix}"), &taken);
-            motion.joints.push(Named {
-                name: nowhere(name.clone()),
-                value: JointDescription {
-                    role: Role::Passive,
-                    home,
-                    limits: None,
-                    span: 0..0,
-                },
-            });
-            Entry {
-                expression: Expression::name(name),
+            let name = free_variable(&format!("{name}{suffix}"), |name| !taken.contains(&name));
+            let joint = JointDescription {
+                role: Role::Passive,
+                home,
+                limits: None,
                 span: 0..0,
-            }
+            };
+            motion.joints.push(Named::new(name.clone(), joint));
+            Entry::from(Expression::name(name))
         };
         match model.kind {
             ClosureKind::Revolute => {
@@ -108,29 +103,19 @@ impl Motion {
                 motion.parts.push((right_angle(1.0), zero(), two));
             }
             ClosureKind::Spherical => {
-                let (angles, beyond) = meeting(&pose.rotation);
-                let [one, two, three] = angles;
+                let ([one, two, three], beyond) = meeting(&pose.rotation);
                 let one = add("_1", Entry::angle(one));
-                let two = add("_2", Entry::angle(two));
+                let mut two = add("_2", Entry::angle(two));
                 let three = add("_3", Entry::angle(three));
-                motion.parts.push((zero(), zero(), one));
-                let two = match beyond {
-                    false => two,
-                    true => entry(
-                        Node::Binary(
-                            Operator::Add,
-                            Box::new(two.expression),
-                            Box::new(right_angle(1.0).expression),
-                        )
-                        .at(0..0),
-                    ),
-                };
-                motion.parts.push((right_angle(-1.0), zero(), two));
-                motion.parts.push((right_angle(1.0), zero(), three));
                 if beyond {
+                    let [x, y] = [two, right_angle(1.0)].map(|e| Box::new(e.expression));
+                    two = Node::Binary(Operator::Add, x, y).at(0..0).into();
                     let back = Displacement::Rotate(Axis::Y, right_angle(-1.0));
                     motion.tip.push(back);
                 }
+                motion.parts.push((zero(), zero(), one));
+                motion.parts.push((right_angle(-1.0), zero(), two));
+                motion.parts.push((right_angle(1.0), zero(), three));
             }
             ClosureKind::Rigid | ClosureKind::Planar | ClosureKind::Distance => {}
         }
@@ -145,7 +130,7 @@ impl Motion {
                 Convention::Modified => twist(k),
                 Convention::Standard => twist(k + 1),
             };
-            row(alpha, zero(), d.clone(), theta.clone())
+            Row::new(alpha, zero(), d.clone(), theta.clone())
         });
         rows.collect()
     }
@@ -171,23 +156,4 @@ fn meeting(rotation: &Rotation<f64>) -> ([f64; 3], bool) {
         true => (near, false),
         false => ([far[0], far[1] - FRAC_PI_2, far[2]], true),
     }
-}
-
-/// A name that expressions may use and nothing else has.
-fn free_variable(wanted: &str, taken: &[&String]) -> String {
-    let clean: String = (wanted.chars())
-        .map(|c| {
-            if c.is_alphanumeric() || c == '_' {
-                c
-            } else {
-                '_'
-            }
-        })
-        .collect();
-    let numbered = (2..).map(|i| format!("q_{clean}_{i}"));
-    let mut names = [clean.clone(), format!("q_{clean}")]
-        .into_iter()
-        .chain(numbered);
-    let free = |name: &String| is_name(name) && !is_reserved(name) && !taken.contains(&name);
-    names.find(free).unwrap_or_default()
 }

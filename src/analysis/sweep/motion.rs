@@ -1,0 +1,127 @@
+//! Motions with the rows that are kept of them.
+
+use serde::{Deserialize, Serialize};
+
+use super::{Row, SweepReport, TracedPoint};
+use crate::mechanism::{Mechanism, Variable};
+
+/// The motions of one question: one, or one in each mode.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct MotionsReport {
+    /// The mechanism's name.
+    pub mechanism: String,
+    /// The motions.
+    pub motions: Vec<MotionReport>,
+}
+
+/// A motion with its mode and the rows that are kept.
+#[derive(Clone, Debug, PartialEq)]
+pub struct MotionReport {
+    /// The number of the mode, if it was asked for.
+    pub mode: Option<usize>,
+    /// What it came to.
+    pub sweep: SweepReport,
+    /// What the columns are: the number of the step, joints, platforms, traced points.
+    pub columns: Vec<Variable>,
+    /// The rows in SI units and rad; what is not known is `None`.
+    pub values: Vec<Vec<Option<f64>>>,
+}
+
+/// What the columns of rows are.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub struct Columns {
+    variables: Vec<Variable>,
+    points: usize,
+}
+
+impl Columns {
+    /// The number of the step, then all joints, platforms and traced points of a mechanism.
+    pub fn new(mechanism: &Mechanism, points: &[TracedPoint]) -> Self {
+        let mut variables = vec![Variable::new("step", "")];
+        variables.extend(Variable::joints(mechanism));
+        variables.extend(Variable::poses(mechanism));
+        for point in points {
+            let axes = ["x", "y", "z"];
+            variables.extend(axes.map(|axis| Variable::new(format!("{}.{axis}", point.name), "m")));
+        }
+        Columns {
+            variables,
+            points: points.len(),
+        }
+    }
+
+    /// Their names and units.
+    pub fn variables(&self) -> &[Variable] {
+        &self.variables
+    }
+
+    /// The values of a row in these columns, but for the number of the step.
+    pub fn values<'a>(&self, row: &Row<'a>) -> impl Iterator<Item = f64> + use<'a> {
+        let at = row.configuration;
+        let poses = at.platforms.iter().flat_map(|platform| {
+            let position = platform.position.0.into_iter();
+            position.chain(platform.orientation.0)
+        });
+        let points = row.points.iter().flatten().copied();
+        at.joints.iter().copied().chain(poses).chain(points)
+    }
+}
+
+/// Rows that are kept: all, or no more than a number, evenly spread.
+#[derive(Clone, Debug)]
+pub struct KeptRows {
+    rows: Vec<Vec<Option<f64>>>,
+    most: usize,
+    every: usize,
+    seen: usize,
+    last: Option<Vec<Option<f64>>>,
+}
+
+impl KeptRows {
+    /// Keeps no more than this many rows, at least two.
+    pub fn of(most: usize) -> Self {
+        KeptRows {
+            rows: Vec::new(),
+            most: most.max(2),
+            every: 1,
+            seen: 0,
+            last: None,
+        }
+    }
+
+    /// Takes in a row.
+    pub fn take(&mut self, columns: &Columns, row: &Row) {
+        let values = || {
+            let values = columns.values(row);
+            let values = values.map(|value| value.is_finite().then_some(value));
+            let step = row.step.map(|step| step as f64);
+            std::iter::once(step).chain(values).collect::<Vec<_>>()
+        };
+        if self.seen.is_multiple_of(self.every) {
+            if self.rows.len() == self.most {
+                // every second goes, and from now on twice as many are left out
+                let mut keep = false;
+                self.rows.retain(|_| {
+                    keep = !keep;
+                    keep
+                });
+                self.every *= 2;
+            }
+            if self.seen.is_multiple_of(self.every) {
+                self.rows.push(values());
+                self.last = None;
+            } else {
+                self.last = Some(values());
+            }
+        } else if self.every > 1 {
+            self.last = Some(values());
+        }
+        self.seen += 1;
+    }
+
+    /// The rows with the last one there was.
+    pub fn finished(mut self) -> Vec<Vec<Option<f64>>> {
+        self.rows.extend(self.last.take());
+        self.rows
+    }
+}

@@ -1,0 +1,40 @@
+//! Names of things: where one stands among others, and new ones.
+
+use super::{Description, GROUND, Named};
+use crate::algebra::{is_name, is_reserved};
+
+/// The place of a name among named things.
+pub fn place_of<T>(named: &[Named<T>], name: &str) -> Option<usize> {
+    named.iter().position(|named| named.name.value == name)
+}
+
+/// The names of named things.
+pub fn names_of<T>(named: &[Named<T>]) -> impl Iterator<Item = &str> {
+    named.iter().map(|named| named.name.value.as_str())
+}
+
+/// `wanted`, or the first of it with 2, 3, … behind a separator that is free.
+pub(crate) fn first_free(wanted: &str, separator: &str, free: impl Fn(&str) -> bool) -> String {
+    let numbered = (2..).map(|i| format!("{wanted}{separator}{i}"));
+    let mut names = std::iter::once(wanted.to_owned()).chain(numbered);
+    names.find(|name| free(name)).unwrap_or_default()
+}
+
+/// A name like `wanted` that expressions may use, with letters, digits and underscores only.
+pub(crate) fn free_variable(wanted: &str, free: impl Fn(&str) -> bool) -> String {
+    let allowed = |c: char| c.is_alphanumeric() || c == '_';
+    let clean = wanted.replace(|c| !allowed(c), "_");
+    let free = |name: &str| is_name(name) && !is_reserved(name) && free(name);
+    match free(&clean) {
+        true => clean,
+        false => first_free(&format!("q_{clean}"), "_", free),
+    }
+}
+
+impl Description {
+    /// Whether a chain or platform that is added may have a name.
+    pub(crate) fn is_free_body(&self, name: &str) -> bool {
+        let taken = place_of(&self.chains, name).or(place_of(&self.platforms, name));
+        name != GROUND && taken.is_none()
+    }
+}

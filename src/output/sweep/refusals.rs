@@ -1,0 +1,169 @@
+//! Questions about motions that cannot be answered: what to ask instead.
+
+use crate::analysis::sweep::PointError;
+use crate::description::{count, listed};
+use crate::mechanism::Mechanism;
+use crate::output::option::{Complaint, Part};
+use crate::output::quantity::{number, quantity};
+use crate::output::question::{unknown_frame, value};
+use crate::system::QuestionError;
+
+fn complaint(title: String, label: &str, help: String) -> Complaint {
+    Complaint {
+        title,
+        label: label.into(),
+        help: Some(help),
+    }
+}
+
+/// Nothing is said to move.
+pub fn what_moves(actuated: Option<&str>) -> Complaint {
+    let name = actuated.unwrap_or("NAME");
+    complaint(
+        "nothing is said to move".into(),
+        "",
+        format!(
+            "give the inputs their ranges, e.g. --input {name}=0deg..360deg; follow the whole curve \
+             with --follow; or list circuits with --circuits"
+        ),
+    )
+}
+
+/// A value that is no range.
+pub fn no_range(name: &str) -> (Complaint, Part) {
+    let said = complaint(
+        format!("the input `{name}` has no range"),
+        "no range",
+        format!("write --input {name}=FROM..TO, e.g. --input {name}=0deg..90deg"),
+    );
+    (said, Part::WholeValue)
+}
+
+/// A range of no length.
+pub fn nothing_moves(name: &str, value: &str) -> (Complaint, Part) {
+    let said = complaint(
+        format!("`{name}` does not move: its range begins where it ends"),
+        "no length",
+        format!(
+            "for one configuration ask `linkwork solve`, with --hold {name}={}",
+            quoted(value)
+        ),
+    );
+    (said, Part::WholeValue)
+}
+
+fn quoted(value: &str) -> String {
+    match value.trim().contains(' ') {
+        true => format!("\"{}\"", value.trim()),
+        false => value.trim().into(),
+    }
+}
+
+/// A number of steps that is none.
+pub fn no_steps(steps: usize, most: usize, rows_kept: bool) -> Complaint {
+    match steps {
+        0 => complaint(
+            "a motion in no steps has no rows".into(),
+            "",
+            "give at least one step, e.g. --steps 100; for one configuration ask `linkwork solve`"
+                .into(),
+        ),
+        _ if rows_kept => complaint(
+            format!("{steps} steps are too many to keep: up to {most} are"),
+            "",
+            "write rows as they come with --format csv".into(),
+        ),
+        _ => complaint(
+            format!("{steps} steps are too many: up to {most} are made"),
+            "",
+            "what happens between them is found without them: dead points and crossings are located \
+             exactly"
+                .into(),
+        ),
+    }
+}
+
+/// An input that begins outside the limits of its joint.
+pub fn outside(name: &str, limits: (f64, f64), is_angle: bool) -> (Complaint, Part) {
+    let shown = |x: f64| quantity(x, is_angle);
+    let written = |x: f64| match is_angle {
+        true => format!("{}deg", number(x.to_degrees())),
+        false => number(x),
+    };
+    let said = complaint(
+        format!(
+            "the range of `{name}` begins outside its limits, {} to {}",
+            shown(limits.0),
+            shown(limits.1)
+        ),
+        "outside",
+        format!(
+            "sweep within them, e.g. --input {name}={}..{}",
+            written(limits.0),
+            written(limits.1)
+        ),
+    );
+    (said, Part::WholeValue)
+}
+
+/// Not one freedom is left to follow.
+pub fn not_one_freedom(error: &QuestionError) -> Complaint {
+    match error {
+        QuestionError::TooFew {
+            mobility,
+            held,
+            hold,
+        } => {
+            let left = mobility.saturating_sub(*held);
+            let most = hold.len().min(left.saturating_sub(1));
+            let options: Vec<String> = hold[..most]
+                .iter()
+                .map(|name| format!("--hold {name}=home"))
+                .collect();
+            complaint(
+                format!("{} are left, and a curve has one", count(left, "freedom")),
+                "",
+                format!(
+                    "hold {}, e.g. {}; or prescribe the inputs with --input",
+                    count(left.saturating_sub(1), "coordinate") + " more",
+                    options.join(" ")
+                ),
+            )
+        }
+        other => complaint(other.title(), "", "hold other coordinates".into()),
+    }
+}
+
+/// Nothing is left to move.
+pub fn nothing_left(held: &[String]) -> Complaint {
+    let (title, help) = match held.is_empty() {
+        true => (
+            "the mechanism has no freedom, so that there is no motion to follow".to_owned(),
+            "ask `linkwork mobility` why it cannot move".to_owned(),
+        ),
+        false => (
+            format!("with {} held no freedom is left to follow", listed(held)),
+            "hold one less".to_owned(),
+        ),
+    };
+    complaint(title, "", help)
+}
+
+/// What is wrong with a traced point.
+pub fn point_complaint(mechanism: &Mechanism, error: &PointError) -> (Complaint, Part) {
+    match error {
+        PointError::NoFrame(name) => unknown_frame(mechanism, name),
+        PointError::Value { text, error } => {
+            let (said, _) = value(text, error);
+            (said, Part::Name)
+        }
+        PointError::TooMany(given) => {
+            let said = complaint(
+                format!("a point has three offsets from its frame, and {given} are given"),
+                "too many",
+                "write FRAME+X,Y,Z, e.g. --of left+0.5,0.2,0".into(),
+            );
+            (said, Part::Name)
+        }
+    }
+}
