@@ -185,7 +185,8 @@ impl<'r, 'i> Constraints<'_, 'r, 'i> {
         match self.tree.joints().find(|joint| joint.name == name) {
             Some(joint) if !joint.motion.floats() => Some(joint.reference),
             Some(_) => {
-                let what = format!("a constraint on `{name}`, which is neither a hinge nor a slide");
+                let what =
+                    format!("a constraint on `{name}`, which is neither a hinge nor a slide");
                 self.problems.unsupported(what, "leave it out", node)
             }
             None => {
