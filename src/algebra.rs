@@ -1,8 +1,8 @@
 //! Expressions such as `"90 deg - phi1"` or `"b - l1*cos(theta1)"`.
 //!
-//! An [`Expression`] is read once, its names are exchanged for whatever they turn out to mean with
-//! [`Expression::try_resolve`], and it is then evaluated in any [`Number`](crate::number::Number). Every part
-//! knows where it stands in the text, so that whoever finds a fault in it can point at it.
+//! An [`Expression`] is parsed once, its names are resolved with [`Expression::try_resolve`], and it is then evaluated
+//! over any [`Number`](crate::number::Number). Every part has its position in the text, so that any problem can refer
+//! to it.
 
 mod affine;
 mod arrangement;
@@ -53,7 +53,7 @@ pub enum Node<N> {
     Name(N),
     /// `-x`
     Negate(Box<Expression<N>>),
-    /// `x + y` and its like.
+    /// An operation such as `x + y`.
     Binary(Operator, Box<Expression<N>>, Box<Expression<N>>),
     /// `f(x)` or `f(x, y)`, with as many arguments as the function takes.
     Call(Function, Vec<Expression<N>>),
@@ -111,7 +111,7 @@ impl<N> Expression<N> {
         self.as_number() == Some(0.0)
     }
 
-    /// The expressions this one is directly made of, in the order they are written.
+    /// The direct subexpressions, in the order in which they are written.
     pub fn operands(&self) -> impl DoubleEndedIterator<Item = &Expression<N>> {
         let (first, second, arguments): (Option<&Self>, Option<&Self>, &[Self]) = match &self.node {
             Node::Number(_) | Node::Quantity(..) | Node::Constant(_) | Node::Name(_) => {
@@ -138,7 +138,7 @@ impl<N> Expression<N> {
         })
     }
 
-    /// Exchanges every name for what `resolve` makes of it; returns all its errors if there are any.
+    /// Replaces every name by its meaning according to `resolve`; returns all errors if there are any.
     pub fn try_resolve<M, E>(
         &self,
         mut resolve: impl FnMut(&N, &Range<usize>) -> Result<M, E>,
@@ -151,7 +151,7 @@ impl<N> Expression<N> {
         resolved.filter(|_| errors.is_empty()).ok_or(errors)
     }
 
-    /// Visits every name even after one has no answer, so that all of them are heard.
+    /// Visits every name even after an error, so that all errors are reported.
     fn exchange<M>(
         &self,
         resolve: &mut impl FnMut(&N, &Range<usize>) -> Option<M>,
@@ -174,7 +174,7 @@ impl<N> Expression<N> {
         Some(node.at(self.span.clone()))
     }
 
-    /// The same expression standing elsewhere: every span is exchanged.
+    /// The same expression with every span replaced.
     pub fn relocate(mut self, place: &impl Fn(Range<usize>) -> Range<usize>) -> Self {
         self.relocate_in_place(place);
         self

@@ -3,7 +3,7 @@
 //! The normal form is a sum over waves. An angle that always occurs together with another one of the same sign, as
 //! θ₂ with θ₃ when their axes are parallel, is merged with it; products of the remaining angles are multiplied out again:
 //! cos(θ₁ + θ₂ + θ₃)/2 + cos(θ₁ − θ₂ − θ₃)/2 is printed c₁ c₂₃. The sum over waves is printed instead where it
-//! is shorter. What several terms have in common is taken out, letters first.
+//! is shorter. Common factors are extracted, letters first.
 
 mod product;
 
@@ -305,7 +305,7 @@ fn taken_out(factor: &Factor, mut inside: Vec<Product>, name: Name) -> Summand {
         powers: vec![],
         circular: vec![],
     };
-    // what all have in common goes out with it
+    // common factors are extracted with it
     let mut common = vec![factor.clone()];
     let shared = |inside: &[Product]| {
         let mut factors = inside[0].factors();

@@ -7,7 +7,7 @@ use serde::{Deserialize, Deserializer, Serialize, Serializer};
 
 use super::{Expression, Node, Operator};
 
-/// How tightly the outermost operation of an expression binds.
+/// The precedence of the outermost operation of an expression.
 #[derive(Clone, Copy, PartialEq, PartialOrd)]
 enum Tightness {
     Sum,
@@ -54,7 +54,7 @@ impl<N> Expression<N> {
     }
 }
 
-/// A part of an expression, in parentheses unless it binds at least as tightly as asked.
+/// A part of an expression, in parentheses unless its precedence is at least the given one.
 struct Part<'a, N>(&'a Expression<N>, Tightness);
 
 impl<N: Display> Display for Part<'_, N> {

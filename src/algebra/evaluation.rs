@@ -5,7 +5,7 @@ use std::ops::Range;
 use super::{Expression, Function, Node, Operator};
 use crate::number::Number;
 
-/// Why an expression has no value, and which part of it is to blame.
+/// Why an expression has no value, and which part of it is the cause.
 #[derive(Debug, Clone, PartialEq)]
 pub struct EvaluationError {
     /// The smallest part that has no value.
@@ -33,7 +33,7 @@ pub enum EvaluationErrorKind {
     NotFinite,
 }
 
-/// The largest value an expression may have: beside it all dimensions of a mechanism drown in
+/// The largest value an expression may have: beside it, all dimensions of a mechanism are lost to
 /// rounding, and its fourth power, a squared closure row, is still far from overflow.
 pub const LARGEST: f64 = 1e30;
 

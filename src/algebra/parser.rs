@@ -5,11 +5,11 @@ use std::ops::Range;
 use super::vocabulary::{continues_name, starts_name};
 use super::{Constant, Expression, Function, Node, Operator, Unit};
 
-/// How deeply parentheses, calls, signs and powers may stand within one another.
+/// How deeply parentheses, calls, signs and powers may be nested.
 pub const MAX_NESTING: usize = 64;
 
-/// How tall the tree may grow; a sum of n terms is n tall. Everything that walks a tree recurses, so this keeps the
-/// stack safe.
+/// The largest height of the tree; a sum of n terms has height n. All functions on trees recurse, so this bounds the
+/// stack.
 pub const MAX_HEIGHT: usize = 500;
 
 /// Why a text is not an expression, and where.

@@ -1,11 +1,11 @@
-//! Numbers as a person would have written them in a file.
+//! Numbers written as briefly as a person would write them.
 
 use super::{Axis, Displacement, Entry};
 use crate::algebra::{Node, Unit};
 use crate::geometry::Pose;
 use crate::number::Number;
 
-/// What may be lost when a number is written shorter, beside 1.
+/// The largest relative error when a number is written shorter.
 const ROUNDING: f64 = 4e-15;
 
 /// The number with at most twelve decimals that differs by no more than rounding, if there is one.
@@ -53,7 +53,7 @@ impl Displacement {
         let mut left = *pose;
         let mut turn = |axis: Axis, (sin, cos): (f64, f64)| {
             let angle = Number::atan2(sin, cos);
-            // what is left after each turn is measured anew, so that rounding does not add up
+            // the remainder is recomputed after each rotation, so that rounding does not accumulate
             left = Pose::rotation(axis, -angle) * left;
             let entry = Entry::angle(angle);
             if !entry.expression.is_zero() && angle.abs() > ROUNDING {
@@ -74,7 +74,7 @@ impl Displacement {
         steps
     }
 
-    /// A translation in m, without what is zero.
+    /// A translation in m, without zero components.
     pub fn of_position(position: [f64; 3]) -> Vec<Displacement> {
         let entries = position.map(Entry::length);
         let given = |i: &usize| !entries[*i].expression.is_zero() && position[*i].abs() > ROUNDING;

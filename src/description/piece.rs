@@ -1,7 +1,7 @@
-//! A piece of a RON text, and how it comes apart.
+//! A piece of a RON text, and its parts.
 //!
-//! `ron` reads values but not where they stand. It does lend out any value as a slice of the text, though, and a slice
-//! knows its place; so the tree is taken apart level by level, each child being lent out unread.
+//! `ron` reads values without their positions. It can return any value as a slice of the text, though, and a slice has
+//! a position; so the tree is parsed level by level, each child first as an unread slice.
 
 use std::borrow::Cow;
 use std::fmt::{self, Formatter};
@@ -35,14 +35,14 @@ pub(super) enum Shape<'a> {
     Tuple,
     /// In parentheses, with names.
     Fields,
-    /// A word and what stands in parentheses behind it.
+    /// A word followed by parentheses, with their contents.
     Word {
         word: &'a str,
         content: Option<Piece<'a>>,
     },
 }
 
-/// A text and the place of each of its bytes in the file.
+/// A text and the position of each of its bytes in the file.
 pub(super) struct Literal<'a> {
     pub text: Cow<'a, str>,
     places: Places,
@@ -118,7 +118,7 @@ impl<'a> Piece<'a> {
         }
     }
 
-    /// What to say stands here instead of something else.
+    /// The kind of value found here, for a problem.
     pub fn found(&self) -> Found {
         match self.shape() {
             Shape::Number => Found::Number,

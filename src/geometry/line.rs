@@ -10,7 +10,7 @@ pub struct Line {
     pub direction: Vector3<f64>,
 }
 
-/// How two directed lines lie to one another.
+/// The relative position of two directed lines.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, serde::Serialize, serde::Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Relation {
@@ -29,7 +29,7 @@ pub enum Relation {
 }
 
 impl Relation {
-    /// Whether the directions are equal or opposite, so that the place of the common normal along
+    /// Whether the directions are equal or opposite, so that the position of the common normal along
     /// the lines is free.
     pub fn is_parallel(self) -> bool {
         !matches!(self, Relation::Skew | Relation::Intersecting)
@@ -47,7 +47,7 @@ impl Relation {
 /// The common normal of two directed lines.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct CommonNormal {
-    /// How the lines lie, decided at the rank tolerance.
+    /// The relative position, decided at the rank tolerance.
     pub relation: Relation,
     /// Angle between the directions in rad, in [0, π].
     pub angle: f64,
@@ -56,7 +56,7 @@ pub struct CommonNormal {
     /// Unit vector from the first line to the second along the normal; z₁ × z₂ where the lines
     /// meet in a point, `None` where they are one line.
     pub direction: Option<Vector3<f64>>,
-    /// Where the normal stands on each line. For parallel lines that at the first line's point.
+    /// The foot of the normal on each line. For parallel lines, the normal at the first line's point.
     pub feet: [Vector3<f64>; 2],
 }
 

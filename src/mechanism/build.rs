@@ -1,4 +1,4 @@
-//! From a well-formed description to a meaningful mechanism, or to all that is wrong with it.
+//! From a well-formed description to a valid mechanism, or to all problems in it.
 
 mod closed_form;
 mod closures;
@@ -21,7 +21,7 @@ struct Draughted {
     name: String,
     doubtful: bool,
     on: Option<Frame>,
-    /// Whether it stands, by way of others, on itself.
+    /// Whether it is attached to itself through other chains.
     in_ring: bool,
     convention: description::Convention,
     base: Vec<FixedStep>,
@@ -47,11 +47,11 @@ impl Draughted {
 pub(super) struct Builder<'a> {
     pub names: Names<'a>,
     pub problems: Vec<Problem>,
-    /// The values of the parameters; NaN where one is not known.
+    /// The values of the parameters; NaN where one is unknown.
     pub values: Vec<f64>,
-    /// What the parameters measure.
+    /// The dimensions of the parameters: length, angle or none.
     pub measures: Vec<Measure>,
-    /// Names that may stand for something else than they seem to; what uses them is not judged.
+    /// Names whose meaning is uncertain after an error; expressions that use them are not checked further.
     doubtful: &'a HashSet<String>,
 }
 
@@ -59,7 +59,7 @@ impl Mechanism {
     /// Reads a mechanism file.
     ///
     /// # Errors
-    /// If the file cannot be read, or with everything that is wrong with it.
+    /// If the file cannot be read, or has problems; then with all of them.
     pub fn load(path: impl AsRef<Path>) -> Result<Self, LoadError> {
         let (text, description) = Mechanism::read(&path)?;
         Mechanism::new(&description).map_err(|problems| {
@@ -74,7 +74,7 @@ impl Mechanism {
     /// Reads a mechanism file as a description, to be changed before it becomes a mechanism. Returns its text too.
     ///
     /// # Errors
-    /// If the file cannot be read or its form is wrong; then with everything that is wrong with it.
+    /// If the file cannot be read or is not well formed; then with all its problems.
     pub fn read(path: impl AsRef<Path>) -> Result<(String, Description), LoadError> {
         description::load(path).map_err(|error| match error {
             LoadError::Wrong(mut error) => {
@@ -85,8 +85,8 @@ impl Mechanism {
         })
     }
 
-    /// Everything that is wrong with the text of a mechanism file, in its form and in its meaning, in the order of
-    /// the text; nothing if it describes a mechanism.
+    /// All problems in the text of a mechanism file, of form and of meaning, in the order of the text; empty if it
+    /// describes a mechanism.
     pub fn problems(text: &str) -> Vec<Problem> {
         let draft = match Draft::read(text) {
             Ok(draft) => draft,
@@ -268,7 +268,7 @@ impl Builder<'_> {
         chains
     }
 
-    /// Chains may stand on one another, but not in a ring.
+    /// Chains may be attached to one another, but not in a cycle.
     fn check_mounting(&mut self, description: &Description, chains: &mut [Draughted]) {
         let uses: Vec<Vec<usize>> = (chains.iter())
             .map(|chain| match chain.on {

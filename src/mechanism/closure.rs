@@ -1,7 +1,7 @@
 //! Residuals of the eight closures and their derivatives along twists: the only copy of either.
 //!
 //! With A and B the two frames, a, b their axes in ground, g = p_B − p_A, and L the characteristic
-//! length, a closure is made of these rows, all dimensionless and zero when the joint is whole:
+//! length, a closure consists of these rows, all dimensionless and zero when the joint is closed:
 //!
 //! | rows | residual | derivative along a relative twist (ω, v) |
 //! |---|---|---|
@@ -30,12 +30,12 @@ pub(crate) const MOST_ROWS: usize = 6;
 /// A closure ready for evaluation.
 #[derive(Clone, Debug)]
 pub struct Closure<T> {
-    /// The joint it restores.
+    /// The joint that it restores.
     pub kind: ClosureKind,
     slots: [Slot; 2],
     /// The joints that move side A and side B.
     pub(crate) movers: [Vec<Mover<T>>; 2],
-    /// The platforms that sides A and B stand on.
+    /// The platforms that carry sides A and B.
     pub(crate) platforms: [Option<usize>; 2],
     length: T,
     extension: LinearForm<T>,
@@ -75,7 +75,7 @@ pub(crate) struct Rows<T> {
     inverse_length: f64,
 }
 
-/// How much of the poses of its two frames the rows of a closure are made from.
+/// How much of the poses of its two frames the rows of a closure use.
 pub(crate) fn needs(kind: ClosureKind) -> [Need; 2] {
     match kind {
         ClosureKind::Spherical | ClosureKind::Distance => [Need::Position; 2],
@@ -111,7 +111,7 @@ impl<T: Number> Closure<T> {
         }
     }
 
-    /// The joints that stand in the length of a `Distance`, with the derivative of its residual for
+    /// The joint variables that occur in the length of a `Distance`, with the derivative of its residual for
     /// a unit of the scaled variable: −s cⱼ/L².
     pub(crate) fn length_column(&self, joint: usize, at: &Configuration<T>) -> T {
         let length = self.length + self.extension.at(&at.joints);
@@ -119,7 +119,7 @@ impl<T: Number> Closure<T> {
         -(length * self.extension.coefficient(joint)).scale(factor)
     }
 
-    /// The joints whose variables the closure feels, without repetition.
+    /// The joints whose variables affect the closure, without repetition.
     pub(crate) fn joints(&self) -> Vec<usize> {
         let moved = self.movers.iter().flatten().map(|mover| mover.joint);
         let extending = self.extension.0.iter().map(|(joint, _)| *joint);
@@ -127,7 +127,7 @@ impl<T: Number> Closure<T> {
         joints.into_iter().collect()
     }
 
-    /// Whether a joint stands in the length of the closure.
+    /// Whether a joint variable occurs in the length of the closure.
     pub(crate) fn extends_with(&self, joint: usize) -> bool {
         self.extension.0.iter().any(|(j, _)| *j == joint)
     }
@@ -159,14 +159,14 @@ impl<T: Number> Closure<T> {
                 out[0] = rows.residual[0];
             }
             _ => {
-                // taken out whole, so that the wrenches nobody reads are not computed
+                // extracted as a whole, so that unused wrenches are not computed
                 let residual = self.rows(placement, at).residual;
                 out.copy_from_slice(&residual[..out.len()]);
             }
         }
     }
 
-    /// What vanishes where the joint is whole, without the denominators and factors that make residuals well scaled:
+    /// Quantities that vanish where the joint is closed, without the denominators and factors that scale residuals:
     /// of a residual n/d the numerator n. The flipped joint, at which d vanishes, is not excluded by it.
     pub(crate) fn conditions(&self, placement: &Placement<T>, joints: &[T]) -> Vec<T> {
         let [a, b] = self.frames(placement);

@@ -55,7 +55,7 @@ impl<T> RowDimensions<T> {
 /// The dimensions of one chain.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ChainDimensions<T> {
-    /// The frame the chain stands on.
+    /// The frame to which the chain is attached.
     pub on: Frame,
     /// From that frame to the chain's frame 0.
     pub base: Pose<T>,

@@ -29,12 +29,12 @@ pub enum Body {
 }
 
 impl Mechanism {
-    /// What the mechanism is called.
+    /// The name of the mechanism.
     pub fn name(&self) -> &str {
         &self.name
     }
 
-    /// Where it comes from.
+    /// Its source in the literature.
     pub fn source(&self) -> Option<&str> {
         self.source.as_deref()
     }
@@ -69,7 +69,7 @@ impl Mechanism {
         &self.closed_forms
     }
 
-    /// What is odd about the mechanism, though it can be analysed.
+    /// Warnings: peculiarities that do not prevent an analysis.
     pub fn warnings(&self) -> &[Problem] {
         &self.warnings
     }
@@ -79,7 +79,7 @@ impl Mechanism {
         &self.dimensions
     }
 
-    /// The length in m by which residuals and Jacobians are made dimensionless.
+    /// The characteristic length in m, by which residuals and Jacobians are made dimensionless.
     pub fn characteristic_length(&self) -> f64 {
         self.dimensions.characteristic_length
     }
@@ -215,7 +215,7 @@ impl Mechanism {
         }
     }
 
-    /// The platform that carries a frame; `None` if it stands on the ground. Joint values alone fix
+    /// The platform that carries a frame; `None` if ground carries it. Joint values alone determine
     /// where a frame is on its carrier.
     pub fn carrier(&self, frame: Frame) -> Option<usize> {
         match self.on_chain(frame) {
@@ -238,7 +238,7 @@ impl Mechanism {
         rows.flat_map(|row| [&row.d, &row.theta]).chain(lengths)
     }
 
-    /// The value of a formula over parameters that is known to have one.
+    /// The value of a formula over the parameters; it is known to exist.
     pub(super) fn constant(&self, formula: &Formula) -> f64 {
         let value = formula.evaluate(&|symbol| match *symbol {
             Symbol::Parameter(i) => self.parameters[i].value,
@@ -247,7 +247,7 @@ impl Mechanism {
         value.unwrap_or(f64::NAN)
     }
 
-    /// A joint turns where it stands in θ and slides where it stands in d or in a length.
+    /// A joint is revolute if its variable occurs in θ, prismatic if it occurs in d or in a length.
     pub(super) fn infer_kinds(&mut self) {
         let mut turns = vec![false; self.joints.len()];
         let mut slides = vec![false; self.joints.len()];
@@ -283,7 +283,7 @@ impl Mechanism {
         felt
     }
 
-    /// The joints that no closure feels: those of open chains.
+    /// The joints that affect no closure: those of open chains.
     pub fn unfelt_joints(&self) -> BTreeSet<usize> {
         let felt = self.felt_joints();
         let all = 0..self.joints.len();

@@ -1,4 +1,4 @@
-//! What is odd about a mechanism that makes sense.
+//! Warnings about a valid mechanism.
 
 use std::collections::HashSet;
 

@@ -1,4 +1,4 @@
-//! The one door from formulas to dimensions over a number type.
+//! From formulas to dimensions over a number type: the only place where this happens.
 
 use super::Mechanism;
 use super::dimensions::{
@@ -97,8 +97,8 @@ impl Row {
 impl Mechanism {
     /// All dimensions for given values of the parameters, over any number.
     ///
-    /// `parameters` holds a value for each parameter of the mechanism, in order; relations between
-    /// them are the caller's affair.
+    /// `parameters` holds a value for each parameter of the mechanism, in order; the caller keeps the
+    /// relations between them.
     ///
     /// # Errors
     /// If an expression has no value at these parameters.
@@ -153,7 +153,7 @@ impl Mechanism {
         Ok(dimensions)
     }
 
-    /// The largest length that stands in the mechanism, in m; 1 m if there is none.
+    /// The largest length in the mechanism, in m; 1 m if there is none.
     fn largest_length<T: Number>(&self, dimensions: &Dimensions<T>) -> f64 {
         let size = |pose: &Pose<T>| {
             let squares = pose.position.0.map(|x| x.real() * x.real());
