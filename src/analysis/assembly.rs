@@ -95,6 +95,8 @@ pub struct AssemblyReport {
     pub count: Count,
     /// Whether the search was stopped before all starts were made.
     pub interrupted: bool,
+    /// Whether no other assembly can exist, because nothing is closed. Others are not searched for.
+    pub only: bool,
 }
 
 /// Finds the assembled configuration near the start of a question.
@@ -154,6 +156,7 @@ impl Reporter<'_> {
             idle: 0,
             count: self.count,
             interrupted: self.interrupted,
+            only: self.mechanism.closures().is_empty(),
             configuration: self.by_limits(attempt.at),
         }
     }

@@ -8,7 +8,7 @@ use crate::analysis::assemblies::{
 use crate::analysis::assembly::{AssemblyReport, AssemblySettings, assemble};
 use crate::mechanism::Configuration;
 use crate::solve::{Newton, Watch};
-use crate::system::{self, Search, check_count};
+use crate::system::{self, Count, QuestionError, Search, check_count};
 
 /// Which assembly work begins in.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
@@ -25,7 +25,10 @@ pub enum Mode {
 /// Keeps generic solutions from one question to the next.
 pub trait Store: Send + Sync {
     /// What it has.
-    fn known(&self) -> Option<GenericSolutions>;
+    ///
+    /// # Errors
+    /// If it cannot be read.
+    fn known(&self) -> Result<Option<GenericSolutions>, String>;
 
     /// Called before solutions are searched for, because there are none or those of another question.
     ///
@@ -73,16 +76,24 @@ const NUMBERED: Wanted = Wanted {
 };
 
 impl Question {
+    /// What is held beside what the mechanism allows.
+    ///
+    /// # Errors
+    /// If the question is wrong, or holds more or less than the mechanism has freedoms.
+    pub fn count(&self) -> Result<Count, AskError> {
+        check_count(&self.resolved()?).map_err(AskError::Question)
+    }
+
     /// All assembled configurations. Where freedoms are left, those listed are samples.
     ///
     /// # Errors
     /// If the question is wrong or holds too much.
     pub fn assemblies(&self, wanted: Wanted, watch: &Watch) -> Result<AssembliesReport, AskError> {
         let question = self.resolved()?;
-        match check_count(&question) {
+        match self.count() {
             // samples answer it
-            Ok(_) | Err(system::QuestionError::TooFew { .. }) => {}
-            Err(error) => return Err(AskError::Question(error)),
+            Ok(_) | Err(AskError::Question(QuestionError::TooFew { .. })) => {}
+            Err(error) => return Err(error),
         }
         let wanted = Wanted {
             starts: true,
@@ -205,7 +216,7 @@ impl Question {
         let (mechanism, held) = (question.mechanism(), question.held());
         if let Some(store) = &self.store {
             let mut others = false;
-            if let Some(known) = store.known() {
+            if let Some(known) = store.known().map_err(AskError::Store)? {
                 match AssemblySolver::from_stored(mechanism, &held, known) {
                     Err(AssembliesError::StoredForAnotherQuestion) => others = true,
                     solver => return solver.map_err(AskError::from),

@@ -1,12 +1,11 @@
 //! `linkwork solve`
 
 use clap::Args;
-use linkwork::analysis::assemblies::Followed;
-use linkwork::analysis::assembly::{AssemblySettings, Outcome, assemble};
+use linkwork::analysis::assembly::{AssemblySettings, Outcome};
+use linkwork::ask::{Mode, Solved};
 use linkwork::output::{assemblies, solution};
-use linkwork::system::check_count;
 
-use super::asked::{Asked, refusal};
+use super::asked::Asked;
 use super::search::{Search, mode};
 use super::source::Source;
 use super::watched::watched;
@@ -27,7 +26,8 @@ pub struct Solve {
     source: Source,
     #[command(flatten)]
     asked: Asked,
-    /// Assemble this mode of the home configuration, numbered as `assemblies` lists it there, followed to what is held
+    /// Assemble this mode: numbered as `assemblies` lists it at the home values of what is held, then followed to the
+    /// values held
     #[arg(long, value_name = "NUMBER", conflicts_with = "guess")]
     #[arg(value_parser = mode, allow_negative_numbers = true)]
     mode: Option<usize>,
@@ -41,58 +41,57 @@ pub struct Solve {
 impl Solve {
     pub fn run(&self) -> Result<Answer, Refusal> {
         let loaded = self.source.load()?;
-        let question = self.asked.question(&loaded.mechanism)?;
-        let mut settings = AssemblySettings {
-            seed: self.search.seed,
-            ..AssemblySettings::default()
-        };
-        let mut question = question;
-        if let Some(mode) = self.mode {
-            check_count(&question).map_err(|error| refusal(&error, None))?;
-            let followed = watched(|watch| {
-                let solver = self.search.solver(&question, watch)?;
-                let followed = solver.follow(mode, &question.start(), &question.held(), watch);
-                followed.map_err(|error| Refusal(format!("error: {error}\n")))
-            })?;
-            match followed {
-                Followed::Arrived(at) => question = question.near(&at),
-                Followed::Meets { multiplicity } => {
-                    return Ok(Answer {
-                        data: match self.format {
-                            Format::Text => assemblies::meets_text(&question, mode, multiplicity),
-                            Format::Json => assemblies::meets_json(&question, mode, multiplicity),
-                        },
-                        remarks: loaded.warnings(),
-                        yes: false,
-                    });
+        let mut posed = self.asked.pose(&loaded);
+        self.search.pose(&mut posed)?;
+        let mode = self.mode.map_or(Mode::Nearest, Mode::Number);
+        let question = posed.question.clone().mode(mode);
+        let refusal = |error| posed.refusal(&error);
+        let settings = AssemblySettings::default();
+        let solved = watched(|watch| question.solve(&settings, watch)).map_err(refusal)?;
+        let resolved = question.resolved().map_err(refusal)?;
+        let json = self.format == Format::Json;
+        let mut others = "";
+        let (data, warnings, yes) = match solved {
+            Solved::Meets { mode, multiplicity } => (
+                match json {
+                    true => assemblies::meets_json(&resolved, mode, multiplicity),
+                    false => assemblies::meets_text(&resolved, mode, multiplicity),
+                },
+                Vec::new(),
+                false,
+            ),
+            Solved::Fold { mode, fold } => (
+                match json {
+                    true => assemblies::fold_json(&resolved, mode, &fold),
+                    false => assemblies::fold_text(&resolved, mode, &fold),
+                },
+                Vec::new(),
+                false,
+            ),
+            Solved::Ended(report) => {
+                let assembled = matches!(
+                    report.outcome,
+                    Outcome::Converged | Outcome::ConvergedOutsideLimits { .. }
+                );
+                if assembled && !report.only && self.mode.is_none() && !json {
+                    others = "note: other assemblies may exist; `linkwork assemblies` lists them\n";
                 }
-                Followed::Fold(fold) => {
-                    return Ok(Answer {
-                        data: match self.format {
-                            Format::Text => assemblies::fold_text(&question, mode, &fold),
-                            Format::Json => assemblies::fold_json(&question, mode, &fold),
-                        },
-                        remarks: loaded.warnings(),
-                        yes: false,
-                    });
-                }
+                (
+                    match json {
+                        true => solution::json(&resolved, &report),
+                        false => solution::text(&resolved, &report),
+                    },
+                    solution::warnings(&report),
+                    report.outcome == Outcome::Converged,
+                )
             }
-            // another start could end in another mode
-            settings.restarts = 0;
-        }
-        let report = watched(|watch| assemble(&question, &settings, watch))
-            .map_err(|error| refusal(&error, None))?;
-        let warnings = solution::warnings(&report);
-        let warnings = warnings
-            .iter()
-            .map(|warning| format!("warning: {warning}\n"));
+        };
+        let warnings = warnings.iter();
+        let warnings: String = warnings.map(|said| format!("warning: {said}\n")).collect();
         Ok(Answer {
-            data: match self.format {
-                Format::Text => solution::text(&question, &report),
-                Format::Json => solution::json(&question, &report),
-            },
-            remarks: loaded.warnings() + &warnings.collect::<String>(),
-            yes: report.outcome == Outcome::Converged,
+            data,
+            remarks: loaded.warnings() + &warnings + others,
+            yes,
         })
     }
 }
