@@ -9,6 +9,7 @@
 mod curve;
 mod equations;
 mod question;
+mod record;
 mod search;
 mod tangent;
 
@@ -24,6 +25,7 @@ pub use question::{
     Count, Demand, Drive, DriveError, Load, LoadError, Question, QuestionError, Value, ValueError,
     Verb, check_angles, check_count, number_of, with_coordinates,
 };
+pub use record::{FormulaNames, FrameRecord, Named, PlatformRecord, infinite_if_null};
 pub use search::{
     Analysed, Attempt, Closed, NotClosed, Search, Searched, TooLarge, WidestGap, close, fit,
     random_configuration, sampling_range, too_large,

@@ -2,8 +2,8 @@
 
 use super::{AskError, Question};
 use crate::analysis::assemblies::{
-    AssembliesError, AssembliesReport, AssembliesSettings, AssemblySolver, Fold, Followed,
-    GenericSolutions, Wanted,
+    AssembliesError, AssembliesReport, AssembliesSettings, AssemblySolver, GenericSolutions,
+    LostMode, Wanted,
 };
 use crate::analysis::assembly::{AssemblyReport, AssemblySettings, assemble};
 use crate::mechanism::Configuration;
@@ -45,20 +45,8 @@ pub trait Store: Send + Sync {
 pub enum Solved {
     /// Where the search ended.
     Ended(AssemblyReport),
-    /// The mode ceased to exist on its way from home to what is held.
-    Fold {
-        /// Its number.
-        mode: usize,
-        /// Where.
-        fold: Fold,
-    },
-    /// Solutions meet at home already where the mode is to be followed from.
-    Meets {
-        /// Its number.
-        mode: usize,
-        /// How many meet: 0 if it is one of infinitely many.
-        multiplicity: usize,
-    },
+    /// The mode could not be followed from home to what is held.
+    Lost(Box<LostMode>),
 }
 
 /// Assembled configurations to begin with: numbers of their modes, if they were asked for, and where they are.
@@ -117,12 +105,9 @@ impl Question {
             check_count(&question).map_err(AskError::Question)?;
             let solver = self.solver(&question, watch)?;
             let followed = solver.follow(mode, &question.start(), &question.held(), watch);
-            match followed.map_err(AskError::from)? {
-                Followed::Arrived(at) => question = question.near(&at),
-                Followed::Meets { multiplicity } => {
-                    return Ok(Solved::Meets { mode, multiplicity });
-                }
-                Followed::Fold(fold) => return Ok(Solved::Fold { mode, fold }),
+            match followed?.arrived(&self.mechanism, mode) {
+                Ok(at) => question = question.near(&at),
+                Err(lost) => return Ok(Solved::Lost(lost)),
             }
             // another start could end in another mode
             settings.restarts = 0;

@@ -54,11 +54,10 @@ impl Assemblies {
             ..Wanted::default()
         };
         let report = watched(|watch| question.assemblies(wanted, watch)).map_err(refusal)?;
-        let resolved = question.resolved().map_err(refusal)?;
         Ok(Answer {
             data: match self.format {
-                Format::Text => assemblies::text(&resolved, &report),
-                Format::Json => assemblies::json(&resolved, &report),
+                Format::Text => assemblies::text(&report),
+                Format::Json => assemblies::json(&report),
             },
             remarks,
             yes: report.real > 0

@@ -34,13 +34,12 @@ pub struct Compare {
 impl Compare {
     pub fn run(&self) -> Result<Answer, Refusal> {
         let loaded = self.source.load()?;
-        let mechanism = &loaded.mechanism;
-        let question = Question::new(mechanism.clone()).seed(self.seed);
+        let question = Question::new(loaded.mechanism.clone()).seed(self.seed);
         let report = watched(|watch| question.compare(self.samples, watch));
         Ok(Answer {
             data: match self.format {
-                Format::Text => comparison::text(mechanism, &report),
-                Format::Json => comparison::json(mechanism, &report),
+                Format::Text => comparison::text(&report),
+                Format::Json => comparison::json(&report),
             },
             remarks: loaded.warnings(),
             yes: report.agree,

@@ -2,13 +2,13 @@
 
 use std::path::PathBuf;
 
-use clap::{Args, ValueEnum};
+use clap::Args;
 use linkwork::analysis::singularities::{Coupled, Ending, SingularitiesSettings};
 use linkwork::ask::{Mode, Role};
-use linkwork::mechanism::Mechanism;
-use linkwork::output::{closing as analysed, singularities as output};
+use linkwork::output::singularities as output;
 
 use super::asked::{Asked, Posed, Ranges};
+use super::format::Format;
 use super::search::{Search, mode};
 use super::source::{Assignment, Source};
 use super::watched::watched;
@@ -66,20 +66,9 @@ pub struct Singularities {
     svg: Option<PathBuf>,
 }
 
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-enum Format {
-    /// To be read by people.
-    Text,
-    /// To be read by programs: metres and radians with all digits.
-    Json,
-    /// Singularities along inputs, or points of loci, as rows.
-    Csv,
-}
-
 impl Singularities {
     pub fn run(&self) -> Result<Answer, Refusal> {
         let loaded = self.source.load()?;
-        let mechanism = &*loaded.mechanism;
         let settings = SingularitiesSettings {
             starts: self.starts,
             follow: self.follow,
@@ -102,9 +91,9 @@ impl Singularities {
         let mode = self.mode.map_or(Mode::Nearest, Mode::Number);
         posed.question = posed.question.mode(mode);
         let answer = match (self.input.is_empty(), self.locus.is_empty()) {
-            (_, false) => self.loci(mechanism, &posed, &settings)?,
-            (false, true) => self.along(mechanism, &posed, &settings)?,
-            (true, true) => self.here(mechanism, &posed, &settings)?,
+            (_, false) => self.loci(&posed, &settings)?,
+            (false, true) => self.along(&posed, &settings)?,
+            (true, true) => self.here(&posed, &settings)?,
         };
         Ok(Answer {
             remarks: loaded.warnings() + &answer.remarks,
@@ -112,64 +101,46 @@ impl Singularities {
         })
     }
 
-    fn here(
-        &self,
-        mechanism: &Mechanism,
-        posed: &Posed,
-        settings: &SingularitiesSettings,
-    ) -> Result<Answer, Refusal> {
+    fn here(&self, posed: &Posed, settings: &SingularitiesSettings) -> Result<Answer, Refusal> {
+        if self.format == Format::Csv {
+            return Err(Refusal(
+                "error: one configuration has no rows: choose another --format, or ask for rows \
+                 along --input or --locus\n"
+                    .into(),
+            ));
+        }
         let report = watched(|watch| posed.question.singularities(settings, watch));
         let report = report.map_err(|error| posed.refusal(&error))?;
-        let (data, found) = match self.format {
-            Format::Text => analysed::text(mechanism, &report, output::text),
-            Format::Json => analysed::json(mechanism, &report, output::json),
-            Format::Csv => {
-                return Err(Refusal(
-                    "error: one configuration is told as text or JSON; rows are written of --input \
-                     and --locus\n"
-                        .into(),
-                ));
-            }
-        };
+        let found = report.report();
         Ok(Answer {
-            data,
             remarks: found.map(output::limits_remark).unwrap_or_default(),
             yes: found.is_some(),
+            data: self.format.shown(&report),
         })
     }
 
-    fn along(
-        &self,
-        mechanism: &Mechanism,
-        posed: &Posed,
-        settings: &SingularitiesSettings,
-    ) -> Result<Answer, Refusal> {
+    fn along(&self, posed: &Posed, settings: &SingularitiesSettings) -> Result<Answer, Refusal> {
         let report = watched(|watch| posed.question.along(settings, watch));
         let report = report.map_err(|error| posed.refusal(&error))?;
         let yes = matches!(
             report.ending,
             Ending::Complete | Ending::Returned | Ending::Closed
         );
+        let whole = match self.format {
+            Format::Csv => rows(output::along_rows(&report))?,
+            _ => true,
+        };
         Ok(Answer {
-            data: match self.format {
-                Format::Text => output::along_text(mechanism, &report),
-                Format::Json => output::along_json(mechanism, &report),
-                Format::Csv => output::along_csv(mechanism, &report),
-            },
+            data: self.format.shown(&report),
             remarks: match self.format {
                 Format::Csv if !yes => format!("note: {}\n", output::ending(&report)),
                 _ => String::new(),
             } + &self.beside_rows(&report.coupled),
-            yes,
+            yes: yes && whole,
         })
     }
 
-    fn loci(
-        &self,
-        mechanism: &Mechanism,
-        posed: &Posed,
-        settings: &SingularitiesSettings,
-    ) -> Result<Answer, Refusal> {
+    fn loci(&self, posed: &Posed, settings: &SingularitiesSettings) -> Result<Answer, Refusal> {
         #[cfg(not(feature = "plot"))]
         if self.svg.is_some() {
             return Err(Refusal(
@@ -180,17 +151,13 @@ impl Singularities {
         let report = report.map_err(|error| posed.refusal(&error))?;
         #[cfg(feature = "plot")]
         if let Some(path) = &self.svg {
-            save(path, &output::svg(mechanism, &report))?;
+            save(path, &output::svg(&report))?;
         }
-        let mut whole = true;
-        let data = match self.format {
-            Format::Text => output::locus_text(mechanism, &report),
-            Format::Json => output::locus_json(mechanism, &report),
-            Format::Csv => {
-                whole = rows(output::locus_csv(mechanism, &report).split_inclusive('\n'))?;
-                String::new()
-            }
+        let whole = match self.format {
+            Format::Csv => rows(output::locus_rows(&report))?,
+            _ => true,
         };
+        let data = self.format.shown(&report);
         Ok(Answer {
             data,
             remarks: match self.format {

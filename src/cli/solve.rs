@@ -45,53 +45,35 @@ impl Solve {
         self.search.pose(&mut posed)?;
         let mode = self.mode.map_or(Mode::Nearest, Mode::Number);
         let question = posed.question.clone().mode(mode);
-        let refusal = |error| posed.refusal(&error);
         let settings = AssemblySettings::default();
-        let solved = watched(|watch| question.solve(&settings, watch)).map_err(refusal)?;
-        let resolved = question.resolved().map_err(refusal)?;
-        let json = self.format == Format::Json;
-        let mut others = "";
-        let (data, warnings, yes) = match solved {
-            Solved::Meets { mode, multiplicity } => (
-                match json {
-                    true => assemblies::meets_json(&resolved, mode, multiplicity),
-                    false => assemblies::meets_text(&resolved, mode, multiplicity),
-                },
-                Vec::new(),
-                false,
-            ),
-            Solved::Fold { mode, fold } => (
-                match json {
-                    true => assemblies::fold_json(&resolved, mode, &fold),
-                    false => assemblies::fold_text(&resolved, mode, &fold),
-                },
-                Vec::new(),
-                false,
-            ),
-            Solved::Ended(report) => {
-                let assembled = matches!(
-                    report.outcome,
-                    Outcome::Converged | Outcome::ConvergedOutsideLimits { .. }
-                );
-                if assembled && !report.only && self.mode.is_none() && !json {
-                    others = "note: other assemblies may exist; `linkwork assemblies` lists them\n";
-                }
-                (
-                    match json {
-                        true => solution::json(&resolved, &report),
-                        false => solution::text(&resolved, &report),
+        let solved = watched(|watch| question.solve(&settings, watch));
+        let report = match solved.map_err(|error| posed.refusal(&error))? {
+            Solved::Ended(report) => report,
+            Solved::Lost(lost) => {
+                return Ok(Answer {
+                    data: match self.format {
+                        Format::Text => assemblies::lost_text(&lost),
+                        Format::Json => assemblies::lost_json(&lost),
                     },
-                    solution::warnings(&report),
-                    report.outcome == Outcome::Converged,
-                )
+                    remarks: loaded.warnings(),
+                    yes: false,
+                });
             }
         };
-        let warnings = warnings.iter();
-        let warnings: String = warnings.map(|said| format!("warning: {said}\n")).collect();
+        let warning = report.warning();
+        let warning = warning.map(|warning| format!("warning: {warning}\n"));
+        let mut remarks = loaded.warnings() + &warning.unwrap_or_default();
+        let chosen = self.mode.is_some() || report.only;
+        if report.is_assembled() && !chosen && self.format == Format::Text {
+            remarks += "note: other assemblies may exist; `linkwork assemblies` lists them\n";
+        }
         Ok(Answer {
-            data,
-            remarks: loaded.warnings() + &warnings + others,
-            yes,
+            data: match self.format {
+                Format::Text => solution::text(&report),
+                Format::Json => solution::json(&report),
+            },
+            remarks,
+            yes: report.outcome == Outcome::Converged,
         })
     }
 }

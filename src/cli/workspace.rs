@@ -2,12 +2,13 @@
 
 use std::path::PathBuf;
 
-use clap::{Args, ValueEnum};
+use clap::Args;
 use linkwork::analysis::workspace::WorkspaceSettings;
 use linkwork::ask::MapSettings;
 use linkwork::output::workspace as output;
 
 use super::asked::{Ranges, Split};
+use super::format::Format;
 use super::search::Search;
 use super::source::{Assignment, Source};
 use super::watched::watched;
@@ -60,23 +61,12 @@ pub struct Workspace {
     svg: Option<PathBuf>,
 }
 
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-enum Format {
-    /// To be read by people: modes, aspects and boundaries.
-    Text,
-    /// To be read by programs: metres and radians with all digits.
-    Json,
-    /// Nodes, or boundary points, as rows in metres and radians with all digits.
-    Csv,
-}
-
 /// Random starts, and nodes that are searched, at most.
 const MOST_STARTS: usize = 1_000_000;
 
 impl Workspace {
     pub fn run(&self) -> Result<Answer, Refusal> {
         let loaded = self.source.load()?;
-        let mechanism = &loaded.mechanism;
         let mut posed = self.split.pose(&loaded);
         self.search.pose(&mut posed)?;
         posed.ranges(Ranges::Map, &self.map)?;
@@ -121,27 +111,21 @@ impl Workspace {
         let mut remarks = loaded.warnings();
         #[cfg(feature = "plot")]
         if let Some(path) = &self.svg {
-            save(path, &output::svg(mechanism, &report))?;
+            save(path, &output::svg(&report))?;
             if let Some(drawn) = output::left_out(&report) {
                 remarks += &format!("note: {drawn} in {}\n", path.display());
             }
         }
-        let mut whole = true;
-        let data = match self.format {
-            Format::Text => output::text(mechanism, &report),
-            Format::Json => output::json(mechanism, &report),
-            Format::Csv => {
-                whole = match self.boundary {
-                    true => rows(output::boundary_csv(mechanism, &report))?,
-                    false => rows(output::csv(mechanism, &report))?,
-                };
-                String::new()
-            }
+        let whole = match (self.format, self.boundary) {
+            (Format::Csv, true) => rows(output::boundary_rows(&report))?,
+            (Format::Csv, false) => rows(output::node_rows(&report))?,
+            _ => true,
         };
+        let data = self.format.shown(&report);
         remarks += &match self.format {
             Format::Csv if !whole => INTERRUPTED_REMARK.to_owned(),
             Format::Csv => format!("note: {}\n", output::completeness(&report)),
-            Format::Text | Format::Json => String::new(),
+            _ => String::new(),
         };
         Ok(Answer {
             data,

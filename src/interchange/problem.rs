@@ -4,10 +4,11 @@ use std::ops::Range;
 
 use thiserror::Error;
 
-use crate::description::listed;
+use crate::description::{Lines, listed};
 
 /// Something wrong with a file of another program, and where.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, Error, PartialEq)]
+#[error("{kind}")]
 pub struct ImportProblem {
     /// What is wrong.
     pub kind: ImportProblemKind,
@@ -16,12 +17,31 @@ pub struct ImportProblem {
 }
 
 /// A file, those it includes, and everything that is wrong with them.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, Error, PartialEq)]
+#[error("{}", self.lines().join("\n"))]
 pub struct WrongFile {
     /// Names and texts; the first is the file that was asked for.
     pub files: Vec<(String, String)>,
     /// What is wrong, with the file it is wrong in.
     pub problems: Vec<(usize, ImportProblem)>,
+}
+
+impl WrongFile {
+    /// Everything that is wrong, one line each: `file:line:column: what is wrong (what to do)`.
+    pub fn lines(&self) -> Vec<String> {
+        let line = |(file, problem): &(usize, ImportProblem)| {
+            let (name, text) = &self.files[*file];
+            let place = problem.span.as_ref().map_or(String::new(), |span| {
+                let (line, column) = Lines::new(text).position(span.start);
+                format!("{line}:{column}: ")
+            });
+            let help = problem.kind.help();
+            let help = help.map_or(String::new(), |help| format!(" ({help})"));
+            let separator = if place.is_empty() { ": " } else { ":" };
+            format!("{name}{separator}{place}{problem}{help}")
+        };
+        self.problems.iter().map(line).collect()
+    }
 }
 
 /// What can be wrong, in one line each.

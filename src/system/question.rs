@@ -2,6 +2,7 @@ mod count;
 mod demand;
 mod drive;
 mod error;
+mod error_words;
 mod held;
 mod load;
 mod value;

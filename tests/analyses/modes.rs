@@ -85,7 +85,7 @@ fn compare(path: &Path, seed: u64) {
         let Ok(Solved::Ended(solved)) = solved else {
             panic!("{name}, mode {}: {solved:?}", assembly.mode);
         };
-        agree("solve", assembly, &solved.configuration.joints);
+        agree("solve", assembly, &solved.configuration().joints);
         let moving = moving.clone().mode(number);
         match moving.motions(&SweepSettings::default(), watch) {
             Ok(motions) => agree("sweep", assembly, &motions.starts[0].1.joints),

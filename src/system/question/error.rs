@@ -138,7 +138,14 @@ impl Display for QuestionError {
     }
 }
 
-impl Error for QuestionError {}
+impl Error for QuestionError {
+    fn source(&self) -> Option<&(dyn Error + 'static)> {
+        match self {
+            QuestionError::Value { error, .. } => Some(error),
+            _ => None,
+        }
+    }
+}
 
 impl Verb {
     /// What it is called.

@@ -3,7 +3,7 @@
 use super::Question;
 use super::drive::{DriveError, number};
 use super::value::Value;
-use crate::algebra::Measure;
+use crate::algebra::{Measure, SiUnit};
 use crate::description::nearest;
 use crate::mechanism::{Body, Coordinate, Frame};
 use crate::system::Holdable;
@@ -176,11 +176,8 @@ fn moving_frame(question: &Question, name: &str) -> Result<Frame, LoadError> {
 }
 
 impl Holdable {
-    /// Unit of the force that holds it: `N·m` or `N`.
-    pub fn force_unit(self, mechanism: &crate::mechanism::Mechanism) -> &'static str {
-        match self.is_angle(mechanism) {
-            true => "N·m",
-            false => "N",
-        }
+    /// Unit of the force that holds it: N·m or N.
+    pub fn force_unit(self, mechanism: &crate::mechanism::Mechanism) -> SiUnit {
+        SiUnit::of_effort(self.is_angle(mechanism))
     }
 }
