@@ -168,20 +168,6 @@ impl Question {
         Ok(starts.swap_remove(0).1)
     }
 
-    /// Every assembly, as they are numbered everywhere.
-    pub(super) fn modes(
-        &self,
-        question: &system::Question,
-        watch: &Watch,
-    ) -> Result<Vec<Configuration<f64>>, AskError> {
-        let report = self.all(question, NUMBERED, watch)?;
-        let like = question.start();
-        let found = report.assemblies.iter();
-        Ok(found
-            .map(|assembly| assembly.configuration(&like))
-            .collect())
-    }
-
     fn all(
         &self,
         question: &system::Question,

@@ -4,7 +4,7 @@ use std::path::PathBuf;
 
 use clap::Args;
 use linkwork::analysis::workspace::WorkspaceSettings;
-use linkwork::ask::MapSettings;
+use linkwork::ask::Mode;
 use linkwork::output::workspace as output;
 
 use super::asked::{Ranges, Split};
@@ -99,12 +99,14 @@ impl Workspace {
                 "error: built without feature `plot`, which draws\n".into(),
             ));
         }
-        let settings = MapSettings {
+        if self.assemblies {
+            posed.question = posed.question.mode(Mode::All);
+        }
+        let settings = WorkspaceSettings {
             nodes: self.grid.clone(),
             searched: self.searched,
             starts: self.starts,
-            assemblies: self.assemblies,
-            ..MapSettings::default()
+            ..WorkspaceSettings::default()
         };
         let report = watched(|watch| posed.question.workspace(&settings, watch));
         let report = report.map_err(|error| posed.refusal(&error))?;
