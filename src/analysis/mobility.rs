@@ -18,8 +18,8 @@ use crate::linear::axis_aligned;
 use crate::mechanism::{ClosureKind, Mechanism, Variable};
 use crate::solve::{Newton, Stage, Watch};
 use crate::system::{
-    Analysed, Named, Neighbourhood, Question, Tangent, TwistSpace, Unknown, WidestGap,
-    close, random_configuration, too_large,
+    Analysed, Named, Neighbourhood, Question, Tangent, TwistSpace, Unknown, WidestGap, close,
+    random_configuration, too_large,
 };
 
 pub use loops::LoopCount;

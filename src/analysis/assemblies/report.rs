@@ -7,8 +7,8 @@ use crate::description::count;
 use crate::geometry::{Quaternion, Vector3};
 use crate::linear::RANK_TOLERANCE;
 use crate::mechanism::Configuration;
-pub use crate::system::Named;
 use crate::system::Gap;
+pub use crate::system::Named;
 
 /// The pose of a platform in ground.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]

@@ -44,7 +44,9 @@ impl Columns {
         variables.extend(Variable::poses(mechanism));
         for point in points {
             let axes = ["x", "y", "z"];
-            variables.extend(axes.map(|axis| Variable::new(format!("{}.{axis}", point.name), SiUnit::METRE)));
+            variables.extend(
+                axes.map(|axis| Variable::new(format!("{}.{axis}", point.name), SiUnit::METRE)),
+            );
         }
         Columns {
             variables,

@@ -20,7 +20,10 @@ pub fn latex(report: &FormulasReport) -> String {
     for closure in &report.closures {
         text += &comment(&format!(
             "closure {}: {} between {} and {}",
-            closure.name, closure.kind.word(), closure.between[0], closure.between[1]
+            closure.name,
+            closure.kind.word(),
+            closure.between[0],
+            closure.between[1]
         ));
         if let Some(equations) = closure_of(&notation, closure) {
             text += &display(equations);

@@ -6,7 +6,11 @@ use crate::output::document::{Cell, Column, Section, Table};
 use crate::output::quantity::{number, quantity};
 
 fn at(input: &InputReport, value: f64) -> String {
-    format!("{} = {}", input.name, quantity(value, input.unit.is_angle()))
+    format!(
+        "{} = {}",
+        input.name,
+        quantity(value, input.unit.is_angle())
+    )
 }
 
 /// `theta1 = 60° and l2 = 0.5 m`
