@@ -22,8 +22,8 @@ pub use equations::{
     approach, independent_parts,
 };
 pub use question::{
-    Count, Demand, Drive, DriveError, Load, LoadError, Question, QuestionError, ValueError, Verb,
-    check_angles, check_count, number_of, with_coordinates,
+    Count, Demand, Drive, DriveError, Load, LoadError, Question, QuestionError, Value, ValueError,
+    Verb, check_angles, check_count, number_of, with_coordinates,
 };
 pub use record::{FormulaNames, FrameRecord, Named, PlatformRecord, infinite_if_null};
 pub use search::{

@@ -1,12 +1,13 @@
 //! Words for what is wrong with an expression.
 
-use super::{nearest, quoted};
+use super::quoted;
 use crate::algebra::{Function, Measure, MeasureErrorKind, ParseErrorKind, Unit};
+use crate::description::nearest;
 
-pub(super) fn label(error: &ParseErrorKind) -> &'static str {
+pub(in crate::description) fn label(error: &ParseErrorKind) -> &'static str {
     use ParseErrorKind::*;
     match error {
-        Empty => "nothing in it",
+        Empty => "empty",
         ExpectedOperand => "a value is missing here",
         MissingOperator => "an operator is missing before this",
         UnclosedParenthesis => "opened here",
@@ -15,7 +16,7 @@ pub(super) fn label(error: &ParseErrorKind) -> &'static str {
     }
 }
 
-pub(super) fn help(error: &ParseErrorKind) -> Option<String> {
+pub(in crate::description) fn help(error: &ParseErrorKind) -> Option<String> {
     use ParseErrorKind::*;
     let help = match error {
         Empty => "write 0 or leave the field out",
@@ -65,7 +66,7 @@ fn alias(name: &str) -> Option<&'static str> {
     }
 }
 
-pub(super) fn unit_label(error: &MeasureErrorKind) -> &'static str {
+pub(in crate::description) fn unit_label(error: &MeasureErrorKind) -> &'static str {
     match error {
         MeasureErrorKind::Wrong { found, .. } => found.words(),
         MeasureErrorKind::Mixed => "an angle and a length",
@@ -73,7 +74,7 @@ pub(super) fn unit_label(error: &MeasureErrorKind) -> &'static str {
     }
 }
 
-pub(super) fn unit_help(error: &MeasureErrorKind) -> &'static str {
+pub(in crate::description) fn unit_help(error: &MeasureErrorKind) -> &'static str {
     match error {
         MeasureErrorKind::Wrong { wanted, .. } => match wanted {
             Measure::Length => "write m, cm, mm or in; a number without unit is in m",
