@@ -2,7 +2,8 @@
 
 use std::fmt::{self, Display, Formatter};
 
-use serde::{Serialize, Serializer};
+use serde::de::{Error, Visitor};
+use serde::{Deserialize, Deserializer, Serialize, Serializer};
 
 use super::{Expression, Node, Operator};
 
@@ -117,6 +118,37 @@ impl<N: Display> Serialize for Expression<N> {
             Some(value) => serializer.serialize_f64(value),
             None => serializer.collect_str(self),
         }
+    }
+}
+
+/// From a number or a text, as it is serialised.
+impl<'de> Deserialize<'de> for Expression {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        struct NumberOrText;
+        impl Visitor<'_> for NumberOrText {
+            type Value = Expression;
+
+            fn expecting(&self, f: &mut Formatter) -> fmt::Result {
+                f.write_str("a number or an expression")
+            }
+
+            fn visit_f64<E: Error>(self, value: f64) -> Result<Expression, E> {
+                Ok(Expression::number(value))
+            }
+
+            fn visit_i64<E: Error>(self, value: i64) -> Result<Expression, E> {
+                Ok(Expression::number(value as f64))
+            }
+
+            fn visit_u64<E: Error>(self, value: u64) -> Result<Expression, E> {
+                Ok(Expression::number(value as f64))
+            }
+
+            fn visit_str<E: Error>(self, text: &str) -> Result<Expression, E> {
+                Expression::parse(text).map_err(E::custom)
+            }
+        }
+        deserializer.deserialize_any(NumberOrText)
     }
 }
 

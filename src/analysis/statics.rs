@@ -2,8 +2,9 @@
 
 mod reactions;
 
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
+use crate::algebra::SiUnit;
 use crate::linear::{Decomposition, RANK_TOLERANCE, norm};
 use crate::mechanism::{Configuration, Frame, Mechanism};
 use crate::solve::{Newton, Watch};
@@ -37,7 +38,7 @@ impl Default for StaticsSettings {
 
 /// The forces in an assembled mechanism at rest without weight or friction. Vectors are in ground,
 /// forces in N, moments in N·m, points in m.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct StaticsReport {
     /// The mechanism's name.
     pub mechanism: String,
@@ -75,7 +76,7 @@ pub struct StaticsReport {
 }
 
 /// A wrench on a frame.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct AppliedWrench {
     /// The frame.
     pub frame: String,
@@ -86,12 +87,12 @@ pub struct AppliedWrench {
 }
 
 /// A force or moment along a coordinate.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Force {
     /// The coordinate.
     pub name: String,
     /// `N` or `N·m`.
-    pub unit: &'static str,
+    pub unit: SiUnit,
     /// How large, along the coordinate.
     pub force: f64,
     /// Whether equilibrium determines it.

@@ -3,7 +3,7 @@
 //! The chains run over letters, the closed form is evaluated over the same letters, and their difference is zero or is
 //! printed. What holds only where the mechanism is assembled is proved if it is a sum of multiples of closure equations.
 
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
 use super::formula::Values;
 use super::variables::own_variables;
@@ -19,7 +19,7 @@ const MOST_PRODUCTS_OF_LOOPS: usize = 2_000_000;
 pub(super) const MOST_TERMS: usize = 400;
 
 /// What was proved of one component of a closed form.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(tag = "outcome", rename_all = "snake_case")]
 pub enum Proof {
     /// It is what the chains give, for all values of joints and parameters at which it has a value.
@@ -40,7 +40,7 @@ pub enum Proof {
 }
 
 /// How a closed form differs from the chains.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Difference {
     /// What the form has in the terms that differ; nothing if it has no such terms.
     pub closed_form: Expression,
@@ -51,7 +51,7 @@ pub struct Difference {
 }
 
 /// Why a closed form is neither proved nor refuted.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Reason {
     /// Roots, inverse functions or the like stand in it, which may depend on one another.
