@@ -25,9 +25,7 @@ impl Display for ParseErrorKind {
             MissingOperator => f.write_str("an operator is missing between two values"),
             UnknownUnit(unit) => write!(f, "`{unit}` after a number is not a unit"),
             UnclosedParenthesis => f.write_str("a parenthesis is not closed"),
-            UnopenedParenthesis => {
-                f.write_str("a closing parenthesis has no opening one")
-            }
+            UnopenedParenthesis => f.write_str("a closing parenthesis has no opening one"),
             UnexpectedComma => f.write_str("there is a comma outside the arguments of a function"),
             UnknownFunction(name) => write!(f, "there is no function `{name}`"),
             MissingArguments(function) => {
@@ -83,12 +81,7 @@ impl Display for MeasureErrorKind {
     fn fmt(&self, f: &mut Formatter) -> fmt::Result {
         match self {
             Self::Wrong { wanted, found } => {
-                write!(
-                    f,
-                    "expected {}, found {}",
-                    wanted.words(),
-                    found.words()
-                )
+                write!(f, "expected {}, found {}", wanted.words(), found.words())
             }
             Self::Mixed => f.write_str("an angle and a length are mixed"),
             Self::LengthAsAngle(function) => {

@@ -95,10 +95,7 @@ pub enum ImportProblemKind {
     NoOrientation { text: String },
     #[error("joints `{}` and `{}` both lead to link `{link}`", joints[0], joints[1])]
     TwoParents { link: String, joints: [String; 2] },
-    #[error(
-        "no link is the root: {} form a cycle",
-        quoted(links)
-    )]
+    #[error("no link is the root: {} form a cycle", quoted(links))]
     NoRoot { links: Vec<String> },
     #[error("{} have no parent and are not connected", quoted(links))]
     SeveralRoots { links: Vec<String> },
@@ -143,7 +140,9 @@ impl ImportProblemKind {
                     "write {count} numbers separated by spaces, such as \"{example}\""
                 ));
             }
-            Self::UnknownWord { known, .. } => return Some(format!("possible words are {}", or(known))),
+            Self::UnknownWord { known, .. } => {
+                return Some(format!("possible words are {}", or(known)));
+            }
             Self::Unknown { suggestion, .. } => {
                 return Some(format!("did you mean `{}`?", suggestion.as_ref()?));
             }
