@@ -68,10 +68,7 @@ impl Display for EvaluationErrorKind {
             PowerOfNegative(x) => {
                 write!(f, "a non-integer power of {x} is not a real number")
             }
-            TooLarge(x) => write!(
-                f,
-                "the value {x:e} is too large: the largest value allowed is {LARGEST:e}"
-            ),
+            TooLarge(x) => write!(f, "the value {x:e} is too large; the limit is {LARGEST:e}"),
             NotFinite => f.write_str("the value is not finite"),
         }
     }
