@@ -7,9 +7,11 @@
 mod affine;
 mod arrangement;
 mod display;
+mod error;
 mod evaluation;
 mod measure;
 mod parser;
+mod si_unit;
 mod symbolic;
 mod trigonometric;
 mod vocabulary;
@@ -19,6 +21,7 @@ pub use arrangement::{Arranged, arrange};
 pub use evaluation::{EvaluationError, EvaluationErrorKind, LARGEST};
 pub use measure::{Measure, MeasureError, MeasureErrorKind};
 pub use parser::{MAX_HEIGHT, MAX_NESTING, ParseError, ParseErrorKind};
+pub use si_unit::{SiUnit, SiUnitError};
 pub use symbolic::{Symbolic, with_letters};
 pub use trigonometric::{Atom, Budget, Key, Powers, Trigonometric, Wave};
 pub(crate) use vocabulary::words;
@@ -141,12 +144,11 @@ impl<N> Expression<N> {
         mut resolve: impl FnMut(&N, &Range<usize>) -> Result<M, E>,
     ) -> Result<Expression<M>, Vec<E>> {
         let mut errors = Vec::new();
-        match self.exchange(&mut |name, span| {
+        let mut resolve = |name: &N, span: &Range<usize>| {
             resolve(name, span).map_err(|error| errors.push(error)).ok()
-        }) {
-            Some(resolved) if errors.is_empty() => Ok(resolved),
-            _ => Err(errors),
-        }
+        };
+        let resolved = self.exchange(&mut resolve);
+        resolved.filter(|_| errors.is_empty()).ok_or(errors)
     }
 
     /// Visits every name even after an error, so that all errors are reported.
@@ -218,44 +220,29 @@ mod tests {
     #[test]
     fn names_come_in_the_order_they_are_written_with_their_places() {
         let expression = Expression::parse("b - l1*cos(θ1) + b").unwrap();
-        let names: Vec<_> = expression
+        let names = expression
             .names()
-            .map(|(name, span)| (name.as_str(), span.clone()))
-            .collect();
-        assert_eq!(
-            names,
-            [("b", 0..1), ("l1", 4..6), ("θ1", 11..14), ("b", 18..19)]
-        );
+            .map(|(name, span)| (name.as_str(), span.clone()));
+        let expected = [("b", 0..1), ("l1", 4..6), ("θ1", 11..14), ("b", 18..19)];
+        assert_eq!(names.collect::<Vec<_>>(), expected);
     }
 
     #[test]
     fn every_name_that_cannot_be_resolved_is_reported() {
         let expression = Expression::parse("atan2(x, a + y) - z").unwrap();
-        let errors = expression
-            .try_resolve(|name, span| {
-                if name == "a" {
-                    Ok(7_usize)
-                } else {
-                    Err((name.clone(), span.clone()))
-                }
-            })
-            .unwrap_err();
-        assert_eq!(
-            errors,
-            [
-                ("x".to_owned(), 6..7),
-                ("y".to_owned(), 13..14),
-                ("z".to_owned(), 18..19)
-            ]
-        );
+        let resolved = expression.try_resolve(|name, span| match name.as_str() {
+            "a" => Ok(7_usize),
+            other => Err((other.to_owned(), span.clone())),
+        });
+        let unknown = [("x", 6..7), ("y", 13..14), ("z", 18..19)];
+        let unknown = unknown.map(|(name, span)| (name.to_owned(), span));
+        assert_eq!(resolved.unwrap_err(), unknown);
     }
 
     #[test]
     fn resolved_names_keep_their_places() {
-        let expression = Expression::parse("2*a")
-            .unwrap()
-            .try_resolve(|_, _| Ok::<_, ()>(3_usize))
-            .unwrap();
+        let expression = Expression::parse("2*a").unwrap();
+        let expression = expression.try_resolve(|_, _| Ok::<_, ()>(3_usize)).unwrap();
         assert_eq!(expression.names().collect::<Vec<_>>(), [(&3, &(2..3))]);
     }
 
@@ -265,24 +252,14 @@ mod tests {
             .unwrap()
             .relocate(&|span| span.start + 10..span.end + 10);
         assert_eq!(expression.span, 10..13);
-        assert_eq!(
-            expression
-                .names()
-                .map(|(_, span)| span.clone())
-                .collect::<Vec<_>>(),
-            [10..11, 12..13]
-        );
+        let places: Vec<_> = expression.names().map(|(_, span)| span.clone()).collect();
+        assert_eq!(places, [10..11, 12..13]);
     }
 
     #[test]
     fn equality_does_not_look_at_places() {
-        assert_eq!(
-            Expression::parse("a+b").unwrap(),
-            Expression::parse(" a + b ").unwrap()
-        );
-        assert_ne!(
-            Expression::parse("a+b").unwrap(),
-            Expression::parse("b+a").unwrap()
-        );
+        let [one, same, other] = ["a+b", " a + b ", "b+a"].map(|t| Expression::parse(t).unwrap());
+        assert_eq!(one, same);
+        assert_ne!(one, other);
     }
 }

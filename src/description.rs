@@ -9,6 +9,7 @@ use std::collections::HashSet;
 mod axes;
 mod brackets;
 mod checks;
+mod embedded;
 mod expectation;
 mod lines;
 mod load;
@@ -24,16 +25,21 @@ mod words;
 mod write;
 
 pub use axes::*;
+pub use embedded::{axes_text, mechanism_text};
 pub use expectation::*;
 pub use lines::Lines;
-pub use load::{FileError, LoadError, MAX_BYTES, load, load_text};
+pub use load::{FileError, LoadError, load, load_text};
 pub(crate) use naming::{first_free, free_variable};
 pub use naming::{names_of, place_of};
 pub use parts::*;
 pub use problem::*;
+pub use reader::is_mechanism;
 pub use replacement::ReplacementError;
 pub use suggestion::nearest;
-pub use words::{count, listed};
+pub use words::{count, listed, quoted};
+
+/// The largest file that is read (bytes); a mechanism of a thousand chains needs a tenth of it.
+pub const MAX_BYTES: u64 = 1 << 20;
 
 /// The version of the file format that this program reads and writes.
 pub const VERSION: u32 = 1;

@@ -9,6 +9,7 @@
 mod curve;
 mod equations;
 mod question;
+mod record;
 mod search;
 mod tangent;
 
@@ -21,9 +22,10 @@ pub use equations::{
     approach, independent_parts,
 };
 pub use question::{
-    Count, Demand, Drive, DriveError, Load, LoadError, Question, QuestionError, ValueError, Verb,
-    check_angles, check_count, number_of, with_coordinates,
+    Count, Demand, Drive, DriveError, Load, LoadError, Question, QuestionError, Value, ValueError,
+    Verb, check_angles, check_count, number_of, with_coordinates,
 };
+pub use record::{FormulaNames, FrameRecord, Named, PlatformRecord, infinite_if_null};
 pub use search::{
     Analysed, Attempt, Closed, NotClosed, Search, Searched, TooLarge, WidestGap, close, fit,
     random_configuration, sampling_range, too_large,

@@ -1,5 +1,6 @@
-//! The order of the modules: each uses only those left of it.
+//! The order of the modules: each uses only those left of it, and no modules use one another in a circle.
 
+use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
 
 /// The library's modules, from the one that uses no other to the one that may use all.
@@ -17,7 +18,7 @@ const ORDER: [&str; 12] = [
     "interchange",
     "system",
     "analysis",
-    "scene",
+    "ask",
     "output",
 ];
 
@@ -154,7 +155,7 @@ fn the_command_line_sees_only_what_the_library_shows() {
         for line in code.lines().filter(|line| line.starts_with("use ")) {
             let first = path(line.trim_start_matches("use "));
             let first = first.split("::").next().unwrap_or_default();
-            let allowed = ["std", "clap", "linkwork", "super", "self"];
+            let allowed = ["std", "clap", "indicatif", "linkwork", "super", "self"];
             assert!(allowed.contains(&first), "src/{file}.rs uses {first}");
         }
     }
@@ -165,4 +166,230 @@ fn uses_are_found_in_all_their_forms() {
     let code = "use crate::a::B;\nuse crate::{c, d::{E, F}, g};\nlet x = crate::h::i(1);";
     assert_eq!(uses(code, "crate::"), ["a::B", "c", "d::", "g", "h::i"]);
     assert_eq!(uses("supercrate::x", "crate::"), [""; 0]);
+}
+
+/// The path of a module within the crate: `["system", "curve", "walk"]`.
+type Module = Vec<String>;
+
+/// A `use` of one item: where, whether others may use it from there, the path that is written, and the name it gets.
+struct Import {
+    exported: bool,
+    path: Vec<String>,
+    name: String,
+}
+
+/// All modules of the library, with their imports and their code without them.
+struct Modules(BTreeMap<Module, (Vec<Import>, String)>);
+
+/// The paths of a tree of imports, each with the name it gets: `a::{b, c as d}` gives `a::b`, `b` and `a::c`, `d`.
+fn leaves(tree: &str, before: &[String], found: &mut Vec<(Vec<String>, String)>) {
+    let mut depth = 0;
+    let separate = |c: char| {
+        depth += i32::from(c == '{') - i32::from(c == '}');
+        depth == 0 && c == ','
+    };
+    for part in tree.split(separate).map(str::trim) {
+        let (own, inner) = part.split_once('{').unwrap_or((part, ""));
+        let (own, name) = own.split_once(" as ").unwrap_or((own, ""));
+        let own = own.split("::").map(str::trim).filter(|own| !own.is_empty());
+        let mut path: Vec<String> = before
+            .iter()
+            .cloned()
+            .chain(own.map(str::to_owned))
+            .collect();
+        if let Some(inner) = inner.strip_suffix('}') {
+            leaves(inner, &path, found);
+            continue;
+        }
+        if path.last().is_some_and(|last| last == "self") {
+            path.pop();
+        }
+        if let Some(last) = path.last().cloned() {
+            let name = if name.is_empty() {
+                last
+            } else {
+                name.trim().to_owned()
+            };
+            found.push((path, name));
+        }
+    }
+}
+
+/// The imports of a text, and the text without them.
+fn imports(code: &str) -> (Vec<Import>, String) {
+    let (mut imports, mut rest) = (Vec::new(), String::new());
+    let mut statement: Option<String> = None;
+    for line in code.lines() {
+        let begins = ["use ", "pub use ", "pub(super) use ", "pub(crate) use "];
+        match &mut statement {
+            Some(begun) => *begun += line,
+            None if begins.iter().any(|begin| line.starts_with(begin)) => {
+                statement = Some(line.to_owned())
+            }
+            None => rest = rest + line + "\n",
+        }
+        if let Some(whole) = statement.take_if(|begun| begun.contains(';')) {
+            let (kind, tree) = whole.split_once("use ").unwrap();
+            let mut found = Vec::new();
+            leaves(tree.split(';').next().unwrap(), &[], &mut found);
+            let exported = !kind.is_empty();
+            let import = |(path, name)| Import {
+                exported,
+                path,
+                name,
+            };
+            imports.extend(found.into_iter().map(import));
+        }
+    }
+    (imports, rest)
+}
+
+impl Modules {
+    fn read() -> Self {
+        let files = files()
+            .into_iter()
+            .filter(|(path, _)| !["lib", "main"].contains(&path[0].as_str()));
+        let files = files.filter(|(path, _)| path.last().is_some_and(|name| name != "tests"));
+        Modules(
+            files
+                .map(|(path, code)| {
+                    let own = code.split("#[cfg(test)]\nmod ").next().unwrap_or_default();
+                    (path, imports(own))
+                })
+                .collect(),
+        )
+    }
+
+    /// The module of which a path that stands in a module speaks, or the module that defines the item it names; re-exports
+    /// are followed. None for what is not of this crate.
+    fn defining(&self, from: &Module, path: &[String], depth: usize) -> Option<Module> {
+        let (mut module, mut rest) = match path.first()?.as_str() {
+            "crate" => (Vec::new(), &path[1..]),
+            "self" => (from.clone(), &path[1..]),
+            "super" => {
+                let ups = path.iter().take_while(|part| *part == "super").count();
+                (from[..from.len().checked_sub(ups)?].to_vec(), &path[ups..])
+            }
+            name => {
+                let child = [&from[..], &[name.to_owned()]].concat();
+                self.0.contains_key(&child).then_some((child, &path[1..]))?
+            }
+        };
+        while let Some(name) = rest.first() {
+            let child = [&module[..], std::slice::from_ref(name)].concat();
+            if !self.0.contains_key(&child) {
+                break;
+            }
+            (module, rest) = (child, &rest[1..]);
+        }
+        if let (Some(name), Some((imports, _)), true) =
+            (rest.first(), self.0.get(&module), depth < 9)
+        {
+            let sources = imports.iter().filter(|import| import.exported);
+            let source = |import: &Import| match import.name.as_str() {
+                "*" => {
+                    let whole =
+                        self.defining(&module, &import.path[..import.path.len() - 1], depth + 1)?;
+                    self.defines(&whole, name).then_some(whole)
+                }
+                own if own == name => self.defining(&module, &import.path, depth + 1),
+                _ => None,
+            };
+            if let Some(source) = sources.into_iter().find_map(source) {
+                return Some(source);
+            }
+        }
+        Some(module)
+    }
+
+    fn defines(&self, module: &Module, name: &str) -> bool {
+        let code = self.0.get(module).map_or("", |(_, code)| code);
+        let kinds = ["struct", "enum", "trait", "type", "fn", "const"];
+        kinds
+            .iter()
+            .any(|kind| code.contains(&format!("pub {kind} {name}")))
+    }
+
+    /// The modules whose items a module uses.
+    fn used(&self, module: &Module) -> BTreeSet<Module> {
+        let (imports, code) = &self.0[module];
+        let mut paths: Vec<Vec<String>> =
+            imports.iter().map(|import| import.path.clone()).collect();
+        let mut rest = code.as_str();
+        while let Some(at) = rest.find("::") {
+            let named = |c: char| c.is_alphanumeric() || c == '_';
+            let start = rest[..at].rfind(|c| !named(c)).map_or(0, |i| i + 1);
+            let whole = path(&rest[start..]);
+            let mut parts: Vec<String> = whole.split("::").map(str::to_owned).collect();
+            if let Some(import) = imports.iter().find(|import| import.name == parts[0]) {
+                parts.splice(..1, import.path.iter().cloned());
+            }
+            paths.push(parts);
+            rest = &rest[(start + whole.len()).max(at + 2)..];
+        }
+        let used = paths
+            .iter()
+            .filter_map(|path| self.defining(module, path, 0));
+        used.filter(|used| used != module).collect()
+    }
+}
+
+/// Edges of a graph that are on circles or between them.
+fn circular<'a>(edges: &[(&'a str, &'a str, String)]) -> Vec<String> {
+    let mut left: Vec<&(&str, &str, String)> = edges.iter().collect();
+    loop {
+        let before = left.len();
+        let (from, to): (Vec<&str>, Vec<&str>) = left.iter().map(|edge| (edge.0, edge.1)).unzip();
+        left.retain(|edge| from.contains(&edge.1) && to.contains(&edge.0));
+        if left.len() == before {
+            return left.iter().map(|edge| edge.2.clone()).collect();
+        }
+    }
+}
+
+/// A module's file and the files of its folder are one thing seen from outside, and may use one another; beside one
+/// another, modules with all that is in them do not.
+#[test]
+fn modules_do_not_use_one_another_in_a_circle() {
+    let modules = Modules::read();
+    let uses: Vec<(&Module, Module)> = (modules.0.keys())
+        .flat_map(|module| {
+            modules
+                .used(module)
+                .into_iter()
+                .map(move |used| (module, used))
+        })
+        .collect();
+    assert!(uses.len() > 500, "the uses of modules are not found");
+    let mut beside: BTreeMap<&[String], Vec<(&str, &str, String)>> = BTreeMap::new();
+    for (module, used) in &uses {
+        let common = module.iter().zip(used).take_while(|(a, b)| a == b).count();
+        if let (Some(own), Some(other)) = (module.get(common), used.get(common)) {
+            let words = format!("src/{}.rs uses src/{}.rs", module.join("/"), used.join("/"));
+            beside
+                .entry(&module[..common])
+                .or_default()
+                .push((own, other, words));
+        }
+    }
+    let circles: Vec<String> = beside.values().flat_map(|edges| circular(edges)).collect();
+    assert!(circles.is_empty(), "{}", circles.join("\n"));
+}
+
+#[test]
+fn circles_are_found() {
+    let edge = |(a, b): (&'static str, &'static str)| (a, b, format!("{a}{b}"));
+    let edges = [("a", "b"), ("b", "c"), ("c", "b"), ("c", "d")].map(edge);
+    assert_eq!(circular(&edges), ["bc", "cb"]);
+    assert_eq!(circular(&edges[..2]), [""; 0]);
+}
+
+#[test]
+fn trees_of_imports_are_taken_apart() {
+    let (imports, rest) = imports("pub use a::{b, c::{self, D as E},\n    f};\nlet x = 1;");
+    let found: Vec<String> = (imports.iter())
+        .map(|i| i.path.join("::") + " " + &i.name)
+        .collect();
+    assert_eq!(found, ["a::b b", "a::c c", "a::c::D E", "a::f f"]);
+    assert_eq!(rest, "let x = 1;\n");
 }

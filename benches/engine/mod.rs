@@ -31,7 +31,7 @@ impl<const N: usize> Follower<N> {
         assert_eq!(report.outcome, Outcome::Converged);
         let mechanism = question.mechanism();
         Follower {
-            tracker: Tracker::new(question.system(), report.configuration).with(warm()),
+            tracker: Tracker::new(question.system(), report.configuration()).with(warm()),
             held: names.map(|name| mechanism.joint(name).expect("it was held")),
         }
     }

@@ -2,7 +2,8 @@
 
 use std::fmt::{self, Display, Formatter};
 
-use serde::{Serialize, Serializer};
+use serde::de::{Error, Visitor};
+use serde::{Deserialize, Deserializer, Serialize, Serializer};
 
 use super::{Expression, Node, Operator};
 
@@ -120,6 +121,37 @@ impl<N: Display> Serialize for Expression<N> {
     }
 }
 
+/// From a number or a text, as it is serialised.
+impl<'de> Deserialize<'de> for Expression {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        struct NumberOrText;
+        impl Visitor<'_> for NumberOrText {
+            type Value = Expression;
+
+            fn expecting(&self, f: &mut Formatter) -> fmt::Result {
+                f.write_str("a number or an expression")
+            }
+
+            fn visit_f64<E: Error>(self, value: f64) -> Result<Expression, E> {
+                Ok(Expression::number(value))
+            }
+
+            fn visit_i64<E: Error>(self, value: i64) -> Result<Expression, E> {
+                Ok(Expression::number(value as f64))
+            }
+
+            fn visit_u64<E: Error>(self, value: u64) -> Result<Expression, E> {
+                Ok(Expression::number(value as f64))
+            }
+
+            fn visit_str<E: Error>(self, text: &str) -> Result<Expression, E> {
+                Expression::parse(text).map_err(E::custom)
+            }
+        }
+        deserializer.deserialize_any(NumberOrText)
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use proptest::prelude::*;
@@ -150,14 +182,9 @@ mod tests {
 
     #[test]
     fn plain_numbers_are_serialised_as_numbers() {
-        assert_eq!(
-            serde_json::to_string(&Expression::parse("1.50").unwrap()).unwrap(),
-            "1.5"
-        );
-        assert_eq!(
-            serde_json::to_string(&Expression::parse("60deg").unwrap()).unwrap(),
-            "\"60 deg\""
-        );
+        let json = |text| serde_json::to_string(&Expression::parse(text).unwrap()).unwrap();
+        assert_eq!(json("1.50"), "1.5");
+        assert_eq!(json("60deg"), "\"60 deg\"");
     }
 
     fn any_expression() -> impl Strategy<Value = Expression> {
@@ -172,22 +199,13 @@ mod tests {
         ];
         leaf.prop_map(|node| node.at(0..0))
             .prop_recursive(8, 64, 2, |inner| {
-                let operator = prop::sample::select(
-                    &[
-                        Operator::Add,
-                        Operator::Subtract,
-                        Operator::Multiply,
-                        Operator::Divide,
-                        Operator::Power,
-                    ][..],
-                );
+                use Operator::{Add, Divide, Multiply, Power, Subtract};
+                let operator = [Add, Subtract, Multiply, Divide, Power].as_slice();
+                let operator = prop::sample::select(operator);
                 prop_oneof![
-                    inner.clone().prop_map(|x| Node::Negate(Box::new(x))),
-                    (operator, inner.clone(), inner.clone()).prop_map(|(o, x, y)| Node::Binary(
-                        o,
-                        x.into(),
-                        y.into()
-                    )),
+                    inner.clone().prop_map(Node::negated),
+                    (operator, inner.clone(), inner.clone())
+                        .prop_map(|(o, x, y)| Node::binary(o, x, y)),
                     inner
                         .clone()
                         .prop_map(|x| Node::Call(Function::Cos, vec![x])),

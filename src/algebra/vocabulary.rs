@@ -2,7 +2,7 @@
 
 use crate::number::Number;
 
-/// Enumerations of words of the file: all of them, how each is written, and the one of a word.
+/// Enumerations of words of the file: all of them, how each is written, also in reports, and the one of a word.
 macro_rules! words {
     ($($(#[$about:meta])* $part:ident { $($(#[$doc:meta])* $name:ident = $word:literal,)+ })+) => {
         $(
@@ -26,6 +26,20 @@ macro_rules! words {
                 /// The one written `word`.
                 pub fn from_word(word: &str) -> Option<Self> {
                     Self::ALL.into_iter().find(|known| known.word() == word)
+                }
+            }
+
+            impl serde::Serialize for $part {
+                fn serialize<S: serde::Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+                    serializer.serialize_unit_variant(stringify!($part), *self as u32, self.word())
+                }
+            }
+
+            impl<'de> serde::Deserialize<'de> for $part {
+                fn deserialize<D: serde::Deserializer<'de>>(reader: D) -> Result<Self, D::Error> {
+                    let word = String::deserialize(reader)?;
+                    let known = Self::from_word(&word);
+                    known.ok_or_else(|| serde::de::Error::unknown_variant(&word, &[$($word),+]))
                 }
             }
         )+

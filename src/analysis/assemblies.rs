@@ -16,9 +16,10 @@ mod report;
 mod search;
 mod track;
 
-pub use follow::{Fold, Followed};
+pub use follow::{Fold, Followed, LostMode, LostReason};
 pub use report::{
-    AssembliesReport, Assembly, ClosestApproach, ComplexAssembly, Continuum, Fit, Named, PoseReport,
+    AssembliesReport, Assembly, ClosestApproach, ComplexAssembly, Continuum, Fit, ListedJoint,
+    Named, PoseReport,
 };
 pub use search::{GenericSolutions, StoredError};
 

@@ -2,10 +2,17 @@
 
 mod singular;
 
-use crate::mechanism::{Configuration, Mechanism};
+use serde::{Deserialize, Serialize};
+
+use crate::algebra::SiUnit;
+use crate::description::Role;
+use crate::geometry::{Quaternion, Vector3};
+use crate::mechanism::{Configuration, Frame, Mechanism, PlatformPose};
 use crate::solve::{Equations, Newton, Report, Stop, Watch};
-use crate::system::{Attempt, Freedoms, Question, QuestionError, Search, approach, check_count};
-pub use crate::system::{Count, Gap};
+use crate::system::{
+    Attempt, Freedoms, Question, QuestionError, Search, approach, check_count, infinite_if_null,
+};
+pub use crate::system::{Count, FrameRecord, Gap, Named, PlatformRecord};
 
 /// How to look for an assembled configuration.
 #[derive(Clone, Debug, PartialEq)]
@@ -31,47 +38,73 @@ impl Default for AssemblySettings {
     }
 }
 
-/// How the search ended.
-#[derive(Clone, Debug, PartialEq)]
+/// How the search ended. Joints, platforms and closures are told by name.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(tag = "outcome", rename_all = "snake_case")]
 pub enum Outcome {
     /// Assembled.
     Converged,
     /// Assembled, but some joints are outside their limits.
     ConvergedOutsideLimits {
-        /// Indices of those joints.
-        joints: Vec<usize>,
+        /// Those joints.
+        #[serde(rename = "outside_limits")]
+        joints: Vec<String>,
     },
     /// Assembled at a singular configuration: something moves although all inputs are held.
     Singular {
-        /// What can move: joints and platforms, by name, the most mobile first.
+        /// What can move: joints and platforms, the most mobile first.
         moving: Vec<String>,
-        /// Index of the closure whose equations depend on the others.
-        closure: usize,
-        /// Indices of the held joints that cannot drive the mechanism there.
-        powerless: Vec<usize>,
+        /// The closure whose equations depend on the others, if the mechanism has closures.
+        #[serde(
+            rename = "dependent_closure",
+            default,
+            skip_serializing_if = "Option::is_none"
+        )]
+        closure: Option<String>,
+        /// The held joints that cannot drive the mechanism there.
+        #[serde(default, skip_serializing_if = "Vec::is_empty")]
+        powerless: Vec<String>,
     },
     /// No start assembles.
     CannotBeAssembled {
-        /// Index of the closure with the widest gap at the closest approach.
-        worst: usize,
+        /// The closure with the widest gap at the closest approach.
+        worst: String,
         /// Whether the closest approach is a true local minimum of the gaps: no small motion comes
         /// closer.
         local_minimum: bool,
     },
     /// No start assembles, and none settled either.
     GaveUp {
-        /// Index of the closure with the widest gap.
-        worst: usize,
+        /// The closure with the widest gap.
+        worst: String,
     },
 }
 
+/// A joint variable and what the question makes of it.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct JointVariable {
+    /// Its name.
+    pub name: String,
+    /// The unit of its values, rad or m.
+    pub unit: SiUnit,
+    /// Whether it is driven.
+    pub role: Role,
+    /// Whether its value was given; otherwise it was solved for.
+    pub held: bool,
+    /// Lowest and highest value, rad or m, if it has limits.
+    pub limits: Option<(f64, f64)>,
+    /// Whether its value is within them.
+    pub within_limits: bool,
+}
+
 /// Where the search for an assembled configuration ended.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct AssemblyReport {
+    /// Name of the mechanism.
+    pub mechanism: String,
     /// How it ended.
+    #[serde(flatten)]
     pub outcome: Outcome,
-    /// The assembled configuration, or the closest approach.
-    pub configuration: Configuration<f64>,
     /// Newton steps of the start that succeeded.
     pub steps: usize,
     /// Random starts made after the guess.
@@ -83,18 +116,66 @@ pub struct AssemblyReport {
     pub residual: f64,
     /// Ratio of the largest to the smallest singular value of the dimensionless Jacobian; infinite
     /// at a singular configuration, NaN where there are too many unknowns to compute it
-    /// ([`SPECTRUM_LIMIT`](crate::linear::SPECTRUM_LIMIT)).
+    /// ([`SPECTRUM_LIMIT`](crate::linear::SPECTRUM_LIMIT)); `null` in JSON in both cases.
+    #[serde(deserialize_with = "infinite_if_null")]
     pub condition: f64,
     /// Whether the condition number is poor.
     pub near_singular: bool,
-    /// For each closure how far it is from being whole.
-    pub gaps: Vec<Gap>,
+    /// Freedoms of the mechanism, if it assembles near the start.
+    pub mobility: Option<usize>,
     /// Freedoms that only turn a link about its own line and do not matter.
     pub idle: usize,
-    /// What is held beside what the mechanism allows.
-    pub count: Count,
+    /// Names of what is held.
+    pub held: Vec<String>,
+    /// Joint values of the assembled configuration, or of the closest approach, rad or m.
+    pub joints: Named<f64>,
+    /// Poses of the platforms there.
+    pub platforms: Named<PlatformRecord>,
+    /// Tip frames of the chains there.
+    pub frames: Named<FrameRecord>,
+    /// For each closure how far it is from being whole.
+    pub gaps: Named<Gap>,
+    /// The joint variables.
+    pub variables: Vec<JointVariable>,
+    /// What is odd about the file or the answer, one sentence each.
+    pub warnings: Vec<String>,
     /// Whether the search was stopped before all starts were made.
+    #[serde(default, skip_serializing_if = "std::ops::Not::not")]
     pub interrupted: bool,
+}
+
+impl AssemblyReport {
+    /// The assembled configuration, or the closest approach.
+    pub fn configuration(&self) -> Configuration<f64> {
+        Configuration {
+            joints: self.joints.values().copied().collect(),
+            platforms: (self.platforms.values())
+                .map(|platform| PlatformPose {
+                    orientation: Quaternion(platform.frame.quaternion),
+                    position: Vector3(platform.frame.position),
+                })
+                .collect(),
+        }
+    }
+
+    /// Whether the configuration closes every loop.
+    pub fn is_assembled(&self) -> bool {
+        !matches!(
+            self.outcome,
+            Outcome::CannotBeAssembled { .. } | Outcome::GaveUp { .. }
+        )
+    }
+
+    /// What is worth a warning about the configuration.
+    pub fn warning(&self) -> Option<String> {
+        let singular = matches!(self.outcome, Outcome::Singular { .. });
+        (self.near_singular && !singular).then(|| {
+            format!(
+                "near a singular configuration: the condition number is {:.1e}",
+                self.condition
+            )
+        })
+    }
 }
 
 /// Finds the assembled configuration near the start of a question.
@@ -113,6 +194,7 @@ pub fn assemble(
     let mut search = Search::new(question, &settings.newton);
     let found = search.run(settings.restarts, settings.seed, watch);
     let reporter = Reporter {
+        question,
         mechanism: question.mechanism(),
         settings,
         search,
@@ -129,6 +211,7 @@ pub fn assemble(
 
 /// Says what an attempt means.
 struct Reporter<'a> {
+    question: &'a Question<'a>,
     mechanism: &'a Mechanism,
     settings: &'a AssemblySettings,
     search: Search<'a>,
@@ -141,7 +224,18 @@ impl Reporter<'_> {
     fn report(&self, attempt: Attempt, outcome: Outcome) -> AssemblyReport {
         let freedoms = Freedoms::at(self.mechanism.dimensions(), self.search.held(), &attempt.at);
         let condition = freedoms.condition();
+        let mechanism = self.mechanism;
+        let gaps = Gap::of(mechanism, &attempt.at);
+        let at = self.by_limits(attempt.at);
+        let joints = mechanism.joints().iter().zip(&at.joints);
+        let platforms = mechanism.platforms().iter().zip(&at.platforms);
+        let frames = mechanism.chains().iter().enumerate().map(|(chain, part)| {
+            let pose = mechanism.transform(Frame::Ground, Frame::Tip { chain }, &at);
+            (part.name.clone(), FrameRecord::of(&pose))
+        });
+        let held = &self.search.held().joints;
         AssemblyReport {
+            mechanism: mechanism.name().into(),
             near_singular: attempt.report.stop == Stop::Solved
                 && condition > self.settings.poor_condition,
             condition,
@@ -150,12 +244,38 @@ impl Reporter<'_> {
             restarts: self.restarts,
             seed: self.settings.seed,
             residual: attempt.report.size.largest,
-            gaps: Gap::of(self.mechanism, &attempt.at),
+            mobility: self.count.mobility,
             idle: 0,
-            count: self.count,
+            held: self.question.held_names(),
+            frames: frames.collect(),
+            platforms: platforms
+                .map(|(part, pose)| (part.name.clone(), PlatformRecord::of(&pose.pose())))
+                .collect(),
+            gaps: (mechanism.closures().iter().zip(gaps))
+                .map(|(closure, gap)| (closure.name.clone(), gap))
+                .collect(),
+            variables: joints
+                .zip(held)
+                .map(|((joint, &value), &held)| JointVariable {
+                    name: joint.name.clone(),
+                    unit: SiUnit::of_coordinate(joint.kind.is_angle()),
+                    role: joint.role,
+                    held,
+                    limits: joint.limits,
+                    within_limits: joint.allows(value),
+                })
+                .collect(),
+            joints: mechanism.named_joints(&at.joints),
+            warnings: (mechanism.warnings().iter())
+                .map(|problem| problem.kind.title())
+                .collect(),
             interrupted: self.interrupted,
-            configuration: self.by_limits(attempt.at),
         }
+    }
+
+    fn joint_names(&self, joints: &[usize]) -> Vec<String> {
+        let all = self.mechanism.joints();
+        joints.iter().map(|&i| all[i].name.clone()).collect()
     }
 
     /// Angles that were solved for by the turn that is within their limits, if one is.
@@ -180,7 +300,9 @@ impl Reporter<'_> {
         } else if outside.is_empty() {
             Outcome::Converged
         } else {
-            Outcome::ConvergedOutsideLimits { joints: outside }
+            Outcome::ConvergedOutsideLimits {
+                joints: self.joint_names(&outside),
+            }
         };
         let mut report = self.report(attempt, outcome);
         if idle > 0 {
@@ -189,6 +311,7 @@ impl Reporter<'_> {
             report.near_singular = report.condition > self.settings.poor_condition;
             report.idle = idle;
         }
+        report.warnings.extend(report.warning());
         report
     }
 
@@ -216,6 +339,8 @@ impl Reporter<'_> {
                 worst
             }
         });
+        let closures = self.mechanism.closures();
+        let worst = (closures.get(worst)).map_or(String::new(), |closure| closure.name.clone());
         let outcome = if !self.interrupted && (settled || local_minimum) {
             Outcome::CannotBeAssembled {
                 worst,

@@ -10,11 +10,12 @@ mod variables;
 
 use std::ops::ControlFlow;
 
-use serde::{Serialize, Serializer};
+use serde::{Deserialize, Serialize};
 
 use crate::geometry::Pose;
 use crate::mechanism::{ClosedForm, Configuration, Given, MatrixEntry, Mechanism};
 use crate::solve::{Stage, Watch};
+use crate::system::{FormulaNames, Named};
 use formula::{Evaluated, Values};
 pub use proof::{Difference, Proof, Reason};
 use samples::Samples;
@@ -47,8 +48,12 @@ impl Default for CompareSettings {
 }
 
 /// What became of the closed forms of a mechanism.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct CompareReport {
+    /// Name of the mechanism.
+    pub mechanism: String,
+    /// The names that stand in its formulas.
+    pub names: FormulaNames,
     /// Whether every form agrees.
     pub agree: bool,
     /// The forms, in the order of the file.
@@ -68,7 +73,7 @@ pub struct CompareReport {
 }
 
 /// What became of one closed form.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct FormReport {
     /// Its name.
     pub name: String,
@@ -86,12 +91,11 @@ pub struct FormReport {
     pub components: Vec<ComponentReport>,
     /// The joint values at which its worst component differs most, rad or m; empty if there was no
     /// sample.
-    #[serde(serialize_with = "as_map")]
-    pub worst: Vec<(String, f64)>,
+    pub worst: Named<f64>,
 }
 
 /// What can be said of a closed form.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Verdict {
     /// It agrees at every sample.
@@ -103,7 +107,7 @@ pub enum Verdict {
 }
 
 /// What became of one entry of a pose or one identity.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct ComponentReport {
     /// `px`, `r11`, … or the name of the identity.
     pub name: String,
@@ -126,11 +130,10 @@ pub struct ComponentReport {
 }
 
 /// The sample at which a component differs most.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct WorstSample {
     /// Joint values, rad or m.
-    #[serde(serialize_with = "as_map")]
-    pub joints: Vec<(String, f64)>,
+    pub joints: Named<f64>,
     /// What the closed form gives.
     pub closed_form: f64,
     /// What the chains give; zero for an identity.
@@ -138,7 +141,7 @@ pub struct WorstSample {
 }
 
 /// What kind of quantity a component is.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Quantity {
     /// A coordinate of a position, in m.
@@ -147,10 +150,6 @@ pub enum Quantity {
     Rotation,
     /// An identity, in whatever unit it is written.
     Identity,
-}
-
-fn as_map<S: Serializer>(values: &[(String, f64)], serializer: S) -> Result<S::Ok, S::Error> {
-    serializer.collect_map(values.iter().map(|(name, value)| (name, value)))
 }
 
 /// Checks every closed form of a mechanism against its chains.
@@ -205,6 +204,8 @@ pub fn compare(mechanism: &Mechanism, settings: &CompareSettings, watch: &Watch)
         .map(|checked| checked.report(mechanism, settings.tolerance, watch))
         .collect();
     CompareReport {
+        mechanism: mechanism.name().into(),
+        names: mechanism.names_in_formulas(),
         agree: closed_forms.iter().all(|form| form.agree),
         closed_forms,
         home_assembles,
@@ -265,7 +266,7 @@ impl Check {
             report.max_difference = difference;
             self.worst = joints.to_vec();
             report.worst = Some(WorstSample {
-                joints: Vec::new(),
+                joints: Named::default(),
                 closed_form,
                 chains,
             });
@@ -367,10 +368,7 @@ fn report(
         let names = mechanism.joints().iter().map(|joint| joint.name.clone());
         worst.joints = names.zip(check.worst.iter().copied()).collect();
     }
-    let open = |check: &Check| {
-        let reason = Reason::NeedsElimination;
-        check.report.proof == Proof::NotDecided { reason }
-    };
+    let open = |check: &Check| check.report.proof == Proof::undecided(Reason::NeedsElimination);
     let refuted = |check: &Check| !check.report.agree && check.report.samples > 0 && open(check);
     if checks.iter().any(refuted) && !watch.is_stopped() {
         // what numbers refute is written out
@@ -398,7 +396,7 @@ fn report(
         max_difference: (components.iter()).fold(0.0, |m, c| c.max_difference.max(m)),
         samples: components.iter().map(|c| c.samples).max().unwrap_or(0),
         source: form.source.clone(),
-        worst: worst.map_or(Vec::new(), |worst| worst.joints.clone()),
+        worst: worst.map_or(Named::default(), |worst| worst.joints.clone()),
         components,
     }
 }

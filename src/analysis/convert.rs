@@ -7,10 +7,15 @@ mod convention;
 mod cut;
 mod references;
 
-use serde::Serialize;
+use std::error::Error;
+use std::fmt::{self, Display, Formatter};
+
+use serde::{Deserialize, Serialize};
 
 use crate::algebra::{Expression, Node, Operator};
-use crate::description::{Axis, Convention, Description, Displacement, Entry, Problem};
+use crate::description::{
+    Axis, Convention, Description, Displacement, Entry, Problem, mechanism_text,
+};
 use crate::mechanism::Mechanism;
 
 pub use cut::CutError;
@@ -25,17 +30,17 @@ pub struct ConvertSettings {
 }
 
 /// A mechanism file that says the same another way.
-#[derive(Clone, Debug, Serialize)]
+#[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct Conversion {
-    /// The file.
-    #[serde(skip)]
+    /// The file, serialised as its text.
+    #[serde(rename = "file", with = "mechanism_text")]
     pub description: Description,
     /// What it no longer says, or says by other names.
     pub notes: Vec<ConversionNote>,
 }
 
 /// What a converted file says differently.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(tag = "note", rename_all = "snake_case")]
 pub enum ConversionNote {
     /// A frame is called otherwise now.
@@ -78,6 +83,31 @@ pub enum ConvertError {
     Cut(CutError),
     /// What came out is not a mechanism.
     Wrong(Vec<Problem>),
+}
+
+impl Display for ConvertError {
+    fn fmt(&self, f: &mut Formatter) -> fmt::Result {
+        match self {
+            ConvertError::Cut(error) => error.fmt(f),
+            ConvertError::Wrong(problems) => {
+                let titles: Vec<String> = problems.iter().map(|p| p.kind.title()).collect();
+                write!(
+                    f,
+                    "the converted file is not a mechanism: {}",
+                    titles.join("; ")
+                )
+            }
+        }
+    }
+}
+
+impl Error for ConvertError {
+    fn source(&self) -> Option<&(dyn Error + 'static)> {
+        match self {
+            ConvertError::Cut(error) => error.source(),
+            ConvertError::Wrong(_) => None,
+        }
+    }
 }
 
 /// The same mechanism, written another way.

@@ -51,6 +51,8 @@ pub fn formulas(
         settings,
         used: Default::default(),
         report: FormulasReport {
+            mechanism: mechanism.name().into(),
+            names: mechanism.names_in_formulas(),
             letters: vec![],
             links: vec![],
             transforms: vec![],
@@ -270,7 +272,7 @@ impl Writer<'_> {
         };
         self.report.closures.push(ClosureFormula {
             name: own.name.clone(),
-            kind: own.kind.word(),
+            kind: own.kind,
             between: own.frames.map(|frame| self.mechanism.frame_name(frame)),
             equations,
             identically_zero,

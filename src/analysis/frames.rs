@@ -10,11 +10,11 @@ mod graph;
 mod loops;
 mod values;
 
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
 use crate::description::{
     AxesDescription, AxesProblem, AxisKind, Convention, Description, Displacement, Problem,
-    ProblemKind, Role,
+    ProblemKind, Role, axes_text, mechanism_text,
 };
 use crate::geometry::{Pose, Relation, Vector3};
 use crate::mechanism::{Assignment, Mechanism, Normal, SerialAxes};
@@ -32,10 +32,12 @@ pub struct FramesSettings {
 }
 
 /// Tables for joint axes.
-#[derive(Clone, Debug, Serialize)]
+#[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct FramesReport {
-    /// `Modified` or `Standard`.
-    pub convention: &'static str,
+    /// Name of the mechanism.
+    pub mechanism: String,
+    /// How the rows of the tables are read.
+    pub convention: Convention,
     /// The chains with their frames.
     pub chains: Vec<PlacedChain>,
     /// Where loops were cut, and why there; `None` for a serial chain.
@@ -44,16 +46,35 @@ pub struct FramesReport {
     pub turned: f64,
     /// The same in m.
     pub moved: f64,
-    /// The mechanism file.
-    #[serde(skip)]
+    /// The mechanism file, serialised as its text.
+    #[serde(rename = "file", with = "mechanism_text")]
     pub description: Description,
-    /// What is odd about the file of axes.
+    /// What is odd about the file of axes: places in its text, which are not serialised.
     #[serde(skip)]
     pub warnings: Vec<Problem>,
 }
 
+/// The joint axes that the tables of a mechanism describe.
+#[derive(Clone, Debug, Serialize, Deserialize)]
+pub struct AxesReport {
+    /// Name of the mechanism.
+    pub mechanism: String,
+    /// The file of joint axes, serialised as its text.
+    #[serde(rename = "file", with = "axes_text")]
+    pub axes: AxesDescription,
+}
+
+impl From<AxesDescription> for AxesReport {
+    fn from(axes: AxesDescription) -> Self {
+        AxesReport {
+            mechanism: axes.name.value.clone(),
+            axes,
+        }
+    }
+}
+
 /// A chain whose frames are placed.
-#[derive(Clone, Debug, Serialize)]
+#[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct PlacedChain {
     /// Its name.
     pub name: String,
@@ -76,7 +97,7 @@ pub struct PlacedChain {
 }
 
 /// A common normal between consecutive axes.
-#[derive(Clone, Debug, Serialize)]
+#[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct PlacedNormal {
     /// How the axes lie; `None` at an end where nothing given fixes it.
     pub relation: Option<Relation>,
@@ -93,7 +114,7 @@ pub struct PlacedNormal {
 }
 
 /// The constant parts of a row.
-#[derive(Clone, Copy, Debug, Serialize)]
+#[derive(Clone, Copy, Debug, Serialize, Deserialize)]
 pub struct PlacedRow {
     /// Twist in rad.
     pub alpha: f64,
@@ -110,7 +131,7 @@ pub struct PlacedRow {
 }
 
 /// A frame at home, in ground.
-#[derive(Clone, Copy, Debug, Serialize)]
+#[derive(Clone, Copy, Debug, Serialize, Deserialize)]
 pub struct PlacedFrame {
     /// Its origin in m.
     pub position: [f64; 3],
@@ -123,7 +144,7 @@ pub struct PlacedFrame {
 }
 
 /// A joint axis at home, in ground.
-#[derive(Clone, Copy, Debug, Serialize)]
+#[derive(Clone, Copy, Debug, Serialize, Deserialize)]
 pub struct PlacedAxis {
     /// A point on it, in m.
     pub point: [f64; 3],
@@ -134,7 +155,7 @@ pub struct PlacedAxis {
 }
 
 /// Where loops were cut.
-#[derive(Clone, Debug, Serialize)]
+#[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct CutReport {
     /// The joints that were cut.
     pub cut: Vec<String>,
@@ -147,7 +168,7 @@ pub struct CutReport {
 }
 
 /// One way to cut the loops.
-#[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize)]
+#[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
 pub struct Way {
     /// Rows of the longest chain.
     pub longest: usize,
@@ -356,7 +377,8 @@ pub fn frames(
     }
     warnings.extend(far_normals(axes, &values, &built.chains));
     Ok(FramesReport {
-        convention: convention.word(),
+        mechanism: axes.name.value.clone(),
+        convention,
         chains: built.chains,
         cuts: built.cuts,
         turned: built.turned,

@@ -12,13 +12,13 @@ mod redundancy;
 
 use rand::SeedableRng;
 use rand_pcg::Pcg64Mcg;
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
 use crate::linear::axis_aligned;
-use crate::mechanism::{ClosureKind, Mechanism};
+use crate::mechanism::{ClosureKind, Mechanism, Variable};
 use crate::solve::{Newton, Stage, Watch};
 use crate::system::{
-    Analysed, Neighbourhood, Question, Tangent, TwistSpace, Unknown, WidestGap, close,
+    Analysed, Named, Neighbourhood, Question, Tangent, TwistSpace, Unknown, WidestGap, close,
     random_configuration, too_large,
 };
 
@@ -63,8 +63,12 @@ impl Default for MobilitySettings {
 }
 
 /// What an assembled mechanism can do.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct MobilityReport {
+    /// Name of the mechanism.
+    pub mechanism: String,
+    /// The joint variables with their units, in the order of the file.
+    pub variables: Vec<Variable>,
     /// Finite freedoms at the configuration, without idle ones: the largest dimension of a branch.
     pub mobility: usize,
     /// Kutzbach's count: joint variables and 6 for each platform less closure equations.
@@ -77,10 +81,12 @@ pub struct MobilityReport {
     pub redundant: usize,
     /// Joints that stand still in every finite motion, or move in idle freedoms only.
     pub idle_joints: Vec<String>,
+    /// Those of the idle joints that spin a link about its own line.
+    pub spinning_joints: Vec<String>,
     /// Joints that move.
     pub moving_joints: Vec<String>,
     /// Joint values of the closed configuration, rad or m.
-    pub joints: Vec<f64>,
+    pub joints: Named<f64>,
     /// What kind of point of the configuration space this is.
     pub character: Character,
     /// The branches through the configuration, if more than the one regular motion; of very many
@@ -113,11 +119,15 @@ pub struct MobilityReport {
     /// length of a step, in rad and normalising lengths: to first order, along the motions.
     pub singular_at: Option<f64>,
     /// The characteristic length that makes it dimensionless, in m.
+    #[serde(rename = "normalising_length")]
     pub length: f64,
     /// The widest gap of the pose given, before it was closed.
+    #[serde(rename = "given_gap")]
     pub given: Option<WidestGap>,
     /// Whether joints held by the file kept their values when the mechanism was closed.
     pub kept: bool,
+    /// Names of the joints that are outside their limits.
+    pub outside_limits: Vec<String>,
     /// What is left of the closure equations after a finite step along the infinitesimal freedoms,
     /// dimensionless; `None` if the step does not settle.
     pub gap_after_step: Option<f64>,
@@ -127,7 +137,7 @@ pub struct MobilityReport {
 }
 
 /// What kind of point of the configuration space a configuration is.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Character {
     /// No freedom, not even an infinitesimal one.
@@ -145,7 +155,7 @@ pub enum Character {
 }
 
 /// A freedom that only turns a link about its own line.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum IdleFreedom {
     /// The link turns in joints of its own, which these are.
@@ -161,8 +171,20 @@ pub enum IdleFreedom {
     Rod(String),
 }
 
+impl IdleFreedom {
+    /// Whether the joint turns in it.
+    fn moves(&self, joint: &String) -> bool {
+        match self {
+            IdleFreedom::Joints(joints) | IdleFreedom::Platforms { joints, .. } => {
+                joints.contains(joint)
+            }
+            IdleFreedom::Rod(_) => false,
+        }
+    }
+}
+
 /// A branch of assembled configurations through the one given.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct BranchReport {
     /// Its freedoms.
     pub mobility: usize,
@@ -178,12 +200,12 @@ pub struct BranchReport {
 }
 
 /// An assembly of another mobility.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Elsewhere {
     /// Its freedoms.
     pub mobility: usize,
     /// Joint values there, rad or m.
-    pub joints: Vec<f64>,
+    pub joints: Named<f64>,
 }
 
 /// Counts the freedoms of a mechanism, closed near the start of a question.
@@ -234,18 +256,25 @@ pub fn mobility(
         })
         .collect();
     let redundancies = redundancy::find(&mut near, &tangent);
+    let idle_freedoms = idle_freedoms(mechanism, near.system().unknowns(), &tangent);
+    let idle_joints: Vec<String> = (mechanism.joints().iter())
+        .map(|joint| joint.name.clone())
+        .filter(|name| !moving_joints.contains(name))
+        .collect();
+    let spins = |name: &&String| idle_freedoms.iter().any(|freedom| freedom.moves(name));
     let mut report = MobilityReport {
+        mechanism: mechanism.name().into(),
+        variables: Variable::joints(mechanism),
         mobility: found.freedoms,
         kutzbach: unknowns as i64 - rows as i64,
         rank: tangent.decomposition.rank(),
         infinitesimal: tangent.motions.len(),
         redundant: rows - tangent.decomposition.rank(),
-        idle_joints: (mechanism.joints().iter())
-            .map(|joint| joint.name.clone())
-            .filter(|name| !moving_joints.contains(name))
-            .collect(),
+        spinning_joints: idle_joints.iter().filter(spins).cloned().collect(),
+        idle_joints,
+        outside_limits: closed.outside_limits(mechanism),
         moving_joints,
-        joints: closed.configuration.joints.clone(),
+        joints: mechanism.named_joints(&closed.configuration.joints),
         character: found.character,
         branches,
         branch_count: found.count,
@@ -258,7 +287,7 @@ pub fn mobility(
         },
         unknowns,
         equations: rows,
-        idle_freedoms: idle_freedoms(mechanism, near.system().unknowns(), &tangent),
+        idle_freedoms,
         loops: loops::count(&mut near, &closed.configuration),
         redundancies,
         twists: near.twist_spaces(&tangent.at, &tangent.motions, &tangent.idle),
@@ -313,7 +342,7 @@ fn elsewhere(
         }
         found.push(Elsewhere {
             mobility: freedoms,
-            joints: tangent.at.joints.clone(),
+            joints: mechanism.named_joints(&tangent.at.joints),
         });
     }
     found

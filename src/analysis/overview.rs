@@ -5,19 +5,20 @@ mod loops;
 
 use std::collections::HashSet;
 
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
 pub use count::{MobilityCount, PlanarCount};
 pub use loops::{Loop, LoopStep};
 
-use crate::algebra::{Affine, Node};
+use crate::algebra::{Affine, Node, SiUnit};
 use crate::geometry::{Pose, Quaternion, RollPitchYaw};
 use crate::mechanism::{
-    Chain, FixedStep, Formula, Frame, Given, Joint, Mechanism, NamedClosure, Platform, Row, Symbol,
+    Chain, ClosureKind, Convention, FixedStep, Formula, Frame, Given, Joint, JointKind, Mechanism,
+    NamedClosure, Platform, Role, Row, Symbol,
 };
 
 /// What a mechanism file means.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Overview {
     /// What the mechanism is called.
     #[serde(rename = "mechanism")]
@@ -45,7 +46,7 @@ pub struct Overview {
 }
 
 /// A parameter.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct ParameterOverview {
     /// Its name.
     pub name: String,
@@ -56,31 +57,57 @@ pub struct ParameterOverview {
 }
 
 /// A joint.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct JointOverview {
     /// Its name.
     pub name: String,
-    /// `revolute`, `prismatic` or `helical`; `unused` if it stands nowhere.
-    pub kind: &'static str,
-    /// `Actuated` or `Passive`.
-    pub role: &'static str,
-    /// Unit of its values: `rad` or `m`; none if it is unused.
-    pub unit: Option<&'static str>,
-    /// Its value in the home configuration.
+    /// How it moves.
+    pub kind: JointUse,
+    /// Whether it is driven.
+    pub role: Role,
+    /// Unit of its values, rad or m; none if it is unused.
+    pub unit: Option<SiUnit>,
+    /// Its value in the home configuration, rad or m.
     pub home: f64,
-    /// Lowest and highest value.
+    /// Lowest and highest value, rad or m.
     pub limits: Option<(f64, f64)>,
 }
 
+/// How a joint moves.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum JointUse {
+    /// It turns.
+    Revolute,
+    /// It slides.
+    Prismatic,
+    /// It turns and slides at once.
+    Helical,
+    /// It stands nowhere.
+    Unused,
+}
+
+impl JointUse {
+    /// What it is called.
+    pub fn word(self) -> &'static str {
+        match self {
+            JointUse::Revolute => JointKind::Revolute.word(),
+            JointUse::Prismatic => JointKind::Prismatic.word(),
+            JointUse::Helical => JointKind::Helical.word(),
+            JointUse::Unused => "unused",
+        }
+    }
+}
+
 /// A chain.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct ChainOverview {
     /// Its name.
     pub name: String,
     /// The frame it stands on.
     pub on: String,
-    /// `Modified` or `Standard`.
-    pub convention: &'static str,
+    /// How its rows are read.
+    pub convention: Convention,
     /// From that frame to the chain's frame 0, as written.
     pub base: Vec<String>,
     /// The rows of its table.
@@ -90,7 +117,7 @@ pub struct ChainOverview {
 }
 
 /// A row of a table.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct RowOverview {
     /// Twist.
     pub alpha: EntryOverview,
@@ -103,7 +130,7 @@ pub struct RowOverview {
 }
 
 /// An entry of a table.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct EntryOverview {
     /// As written in the file.
     pub written: String,
@@ -114,7 +141,7 @@ pub struct EntryOverview {
 }
 
 /// A platform.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct PlatformOverview {
     /// Its name.
     pub name: String,
@@ -129,7 +156,7 @@ pub struct PlatformOverview {
 }
 
 /// A frame of a platform.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct PlatformFrameOverview {
     /// Its name.
     pub name: String,
@@ -138,12 +165,12 @@ pub struct PlatformFrameOverview {
 }
 
 /// A closure.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct ClosureOverview {
     /// Its name.
     pub name: String,
-    /// The kind of joint, as in the file.
-    pub kind: &'static str,
+    /// The kind of joint.
+    pub kind: ClosureKind,
     /// The frames it joins.
     pub frames: [String; 2],
     /// Its length, if it is a `Distance`.
@@ -153,7 +180,7 @@ pub struct ClosureOverview {
 }
 
 /// A closed form.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct ClosedFormOverview {
     /// Its name.
     pub name: String,
@@ -235,11 +262,17 @@ fn joints(mechanism: &Mechanism) -> Vec<JointOverview> {
 }
 
 fn joint(joint: &Joint, used: bool) -> JointOverview {
-    let unit = if joint.kind.is_angle() { "rad" } else { "m" };
+    let unit = SiUnit::of_coordinate(joint.kind.is_angle());
+    let kind = match joint.kind {
+        _ if !used => JointUse::Unused,
+        JointKind::Revolute => JointUse::Revolute,
+        JointKind::Prismatic => JointUse::Prismatic,
+        JointKind::Helical => JointUse::Helical,
+    };
     JointOverview {
         name: joint.name.clone(),
-        kind: if used { joint.kind.word() } else { "unused" },
-        role: joint.role.word(),
+        kind,
+        role: joint.role,
         unit: used.then_some(unit),
         home: joint.home,
         limits: joint.limits,
@@ -250,7 +283,7 @@ fn chain(mechanism: &Mechanism, chain: &Chain) -> ChainOverview {
     ChainOverview {
         name: chain.name.clone(),
         on: mechanism.frame_name(chain.on),
-        convention: chain.convention.word(),
+        convention: chain.convention,
         base: steps(mechanism, &chain.base),
         rows: chain.rows.iter().map(|part| row(mechanism, part)).collect(),
         tip: steps(mechanism, &chain.tip),
@@ -300,7 +333,7 @@ fn platform(mechanism: &Mechanism, platform: &Platform) -> PlatformOverview {
 fn closure(mechanism: &Mechanism, closure: &NamedClosure) -> ClosureOverview {
     ClosureOverview {
         name: closure.name.clone(),
-        kind: closure.kind.word(),
+        kind: closure.kind,
         frames: closure
             .frames
             .map(|frame: Frame| mechanism.frame_name(frame)),

@@ -22,10 +22,10 @@ pub use locus::{Bound, Locus, LocusReport, loci};
 pub use outputs::{Coupled, default_outputs, inputs_of};
 pub use projected::Shape;
 
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
 use crate::linear::RANK_TOLERANCE;
-use crate::mechanism::{Configuration, Mechanism};
+use crate::mechanism::{Configuration, Mechanism, Variable};
 use crate::solve::{Continuation, Newton, Watch};
 use crate::system::{
     Analysed, Holdable, Lock, Question, QuestionError, WidestGap, check_angles, check_count, close,
@@ -70,8 +70,12 @@ impl Default for SingularitiesSettings {
 }
 
 /// What is special about an assembled configuration.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct SingularitiesReport {
+    /// The mechanism's name.
+    pub mechanism: String,
+    /// The joints, in the order of the file.
+    pub variables: Vec<Variable>,
     /// The inputs.
     pub inputs: Vec<String>,
     /// The outputs.
@@ -143,6 +147,8 @@ pub fn singularities(
     check_outputs(mechanism, &outputs, at)?;
     let mut classifier = Classifier::new(mechanism, &inputs, &outputs, at);
     Ok(Analysed::Closed(SingularitiesReport {
+        mechanism: mechanism.name().to_owned(),
+        variables: Variable::joints(mechanism),
         inputs: names(mechanism, &inputs),
         outputs: output_names(mechanism, &outputs),
         coupled: coupled(mechanism, &inputs, &outputs, at, settings, true),

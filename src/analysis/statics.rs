@@ -2,9 +2,10 @@
 
 mod reactions;
 
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
-use crate::linear::{Decomposition, RANK_TOLERANCE, norm};
+use crate::algebra::SiUnit;
+use crate::linear::{Decomposition, RANK_TOLERANCE, add, norm};
 use crate::mechanism::{Configuration, Frame, Mechanism};
 use crate::solve::{Newton, Watch};
 use crate::system::{
@@ -37,7 +38,7 @@ impl Default for StaticsSettings {
 
 /// The forces in an assembled mechanism at rest without weight or friction. Vectors are in ground,
 /// forces in N, moments in N·m, points in m.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct StaticsReport {
     /// The mechanism's name.
     pub mechanism: String,
@@ -75,7 +76,7 @@ pub struct StaticsReport {
 }
 
 /// A wrench on a frame.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct AppliedWrench {
     /// The frame.
     pub frame: String,
@@ -86,12 +87,12 @@ pub struct AppliedWrench {
 }
 
 /// A force or moment along a coordinate.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Force {
     /// The coordinate.
     pub name: String,
     /// `N` or `N·m`.
-    pub unit: &'static str,
+    pub unit: SiUnit,
     /// How large, along the coordinate.
     pub force: f64,
     /// Whether equilibrium determines it.
@@ -150,9 +151,7 @@ pub fn statics(
     let mut forces = equations.solve(&opposite);
     let mut left = generalised.clone();
     for (column, force) in entries.chunks_exact(unknowns.len().max(1)).zip(&forces) {
-        left.iter_mut()
-            .zip(column)
-            .for_each(|(left, a)| *left += force * a);
+        add(&mut left, *force, column);
     }
     let stresses = equations.null_space();
     let none = Load::default();
@@ -162,10 +161,7 @@ pub fn statics(
     let length = mechanism.characteristic_length();
     let found = reactions::of(&mut near, at, load, &forces[..rows]);
     for (share, stress) in found.least(&changes, length).iter().zip(&stresses) {
-        forces
-            .iter_mut()
-            .zip(stress)
-            .for_each(|(x, s)| *x += share * s);
+        add(&mut forces, *share, stress);
     }
     let found = reactions::of(&mut near, at, load, &forces[..rows]);
 

@@ -22,8 +22,9 @@ pub use points::{PointError, TracedPoint};
 
 use std::ops::ControlFlow;
 
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
+use crate::algebra::SiUnit;
 use crate::mechanism::{Configuration, Mechanism};
 use crate::solve::{Continuation, Stage, Stray, Watch};
 use crate::system::{Curve, Driven, Event, Held, Walk};
@@ -76,12 +77,12 @@ pub type Sink<'s> = dyn FnMut(&Row) + 's;
 type Flow<'s> = dyn FnMut(&Row) -> ControlFlow<()> + 's;
 
 /// An input of a sweep.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct InputReport {
     /// Its name.
     pub name: String,
     /// rad or m.
-    pub unit: &'static str,
+    pub unit: SiUnit,
     /// Its value at the start of the segment.
     pub from: f64,
     /// Its value at the end.
@@ -89,7 +90,7 @@ pub struct InputReport {
 }
 
 /// How a motion ended.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Ending {
     /// The inputs went through their whole segment.
@@ -127,7 +128,7 @@ impl Ending {
 }
 
 /// What a motion came to.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct SweepReport {
     /// The inputs; none for a motion that follows its curve.
     pub inputs: Vec<InputReport>,

@@ -5,8 +5,9 @@ mod frames;
 mod jacobian;
 mod planar;
 
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
+use crate::algebra::SiUnit;
 use crate::linear::RANK_TOLERANCE;
 use crate::mechanism::{Frame, Mechanism};
 use crate::solve::{Newton, Watch};
@@ -45,7 +46,7 @@ impl Default for VelocitySettings {
 
 /// How an assembled mechanism moves. All vectors are in ground; angles in rad, lengths in m, time
 /// in s.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct VelocityReport {
     /// The mechanism's name.
     pub mechanism: String,
@@ -90,12 +91,12 @@ impl VelocityReport {
 }
 
 /// A coordinate and how fast it changes.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Rate {
     /// The coordinate.
     pub name: String,
     /// `rad` or `m`.
-    pub unit: &'static str,
+    pub unit: SiUnit,
     /// Its rate, per s.
     pub rate: f64,
     /// Its acceleration, per s².
@@ -103,12 +104,12 @@ pub struct Rate {
 }
 
 /// A joint variable and how fast it changes.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct JointRate {
     /// The joint.
     pub name: String,
     /// `rad` or `m`.
-    pub unit: &'static str,
+    pub unit: SiUnit,
     /// Whether it is held.
     pub held: bool,
     /// Its value.
@@ -120,7 +121,7 @@ pub struct JointRate {
 }
 
 /// How a frame moves.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct FrameRate {
     /// The frame.
     pub name: String,
@@ -140,7 +141,7 @@ pub struct FrameRate {
 }
 
 /// Freedoms that are left although what is held stands still.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Gain {
     /// How many.
     pub freedoms: usize,
@@ -151,7 +152,7 @@ pub struct Gain {
 }
 
 /// Rates that exist to first order and belong to no motion.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct FirstOrderOnly {
     /// Whether nothing at all can move: the mechanism has one infinitesimal freedom, not finite.
     pub shaky: bool,
@@ -163,7 +164,7 @@ pub struct FirstOrderOnly {
 
 /// How well rates and accelerations are known. Near a singular configuration what rounding leaves of
 /// the closures may be far along the direction in which these hardly resist.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Accuracy {
     /// The smallest singular value of the dimensionless closure equations with what is held, of
     /// those that count; `None` if nothing is unknown.
@@ -189,14 +190,6 @@ impl Accuracy {
     /// Whether accelerations can be told.
     pub fn tells_accelerations(&self) -> bool {
         self.tells_rates() && self.accelerations <= Accuracy::LOST
-    }
-}
-
-/// The unit of a coordinate.
-fn unit(is_angle: bool) -> &'static str {
-    match is_angle {
-        true => "rad",
-        false => "m",
     }
 }
 
@@ -267,7 +260,7 @@ pub fn velocity(
         let known = determined && !spinning.contains(&i);
         JointRate {
             name: joint.name.clone(),
-            unit: unit(joint.kind.is_angle()),
+            unit: SiUnit::of_coordinate(joint.kind.is_angle()),
             held: is_held,
             value: at.joints[i],
             rate: known.then(|| rates[i] * scales[i]),
@@ -282,7 +275,7 @@ pub fn velocity(
     let inputs = drive.coordinates.iter().enumerate();
     let inputs = inputs.map(|(i, coordinate)| Rate {
         name: coordinate.name(mechanism),
-        unit: unit(coordinate.is_angle(mechanism)),
+        unit: SiUnit::of_coordinate(coordinate.is_angle(mechanism)),
         rate: drive.rates[i],
         acceleration: drive.accelerations[i],
     });

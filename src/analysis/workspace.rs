@@ -88,6 +88,19 @@ pub enum WorkspaceError {
     },
 }
 
+impl std::fmt::Display for WorkspaceError {
+    fn fmt(&self, f: &mut std::fmt::Formatter) -> std::fmt::Result {
+        match self {
+            WorkspaceError::TooMany { most } => write!(
+                f,
+                "the map would have more than the {most} nodes that may be kept: use a coarser grid or a smaller box"
+            ),
+        }
+    }
+}
+
+impl std::error::Error for WorkspaceError {}
+
 /// Bytes that a node in one mode takes at most at a time, roughly.
 pub fn cell_bytes(question: &Question, axes: usize) -> usize {
     let mechanism = question.mechanism();

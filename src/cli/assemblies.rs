@@ -62,8 +62,8 @@ impl Assemblies {
         })?;
         Ok(Answer {
             data: match self.format {
-                Format::Text => assemblies::text(&question, &report),
-                Format::Json => assemblies::json(&question, &report),
+                Format::Text => assemblies::text(&report),
+                Format::Json => assemblies::json(&report),
             },
             remarks,
             yes: report.real > 0

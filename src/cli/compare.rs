@@ -41,8 +41,8 @@ impl Compare {
         let report = watched(|watch| compare(&loaded.mechanism, &settings, watch));
         Ok(Answer {
             data: match self.format {
-                Format::Text => comparison::text(&loaded.mechanism, &report),
-                Format::Json => comparison::json(&loaded.mechanism, &report),
+                Format::Text => comparison::text(&report),
+                Format::Json => comparison::json(&report),
             },
             remarks: loaded.warnings(),
             yes: report.agree,

@@ -74,11 +74,11 @@ impl Formulas {
             ))
         })?;
         let data = match (self.format, self.latex, self.ron, self.rust) {
-            (Format::Json, ..) => output::json(mechanism, &report),
-            (_, true, ..) => output::latex(mechanism, &report),
-            (_, _, true, _) => output::ron(mechanism, &report),
-            (_, _, _, true) => output::rust(mechanism, &report),
-            _ => output::text(mechanism, &report),
+            (Format::Json, ..) => output::json(&report),
+            (_, true, ..) => output::latex(&report),
+            (_, _, true, _) => output::ron(&report),
+            (_, _, _, true) => output::rust(&report),
+            _ => output::text(&report),
         };
         Ok(Answer {
             data,

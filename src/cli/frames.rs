@@ -114,10 +114,7 @@ impl Frames {
                 output::text(&report, &overview(&mechanism), self.steps)
             }
             FileFormat::Ron => report.description.to_ron().map_err(unwritten)?,
-            FileFormat::Json => {
-                let file = report.description.to_ron().map_err(unwritten)?;
-                output::json(&axes.name.value, &report, &file)
-            }
+            FileFormat::Json => output::json(&report),
         };
         let remarks = match report.warnings.is_empty() {
             true => String::new(),
@@ -176,7 +173,7 @@ impl Frames {
             data: match self.format {
                 FileFormat::Text => output::axes_text(&axes),
                 FileFormat::Ron => axes.to_ron().map_err(unwritten)?,
-                FileFormat::Json => output::axes_json(&axes, &axes.to_ron().map_err(unwritten)?),
+                FileFormat::Json => output::axes_json(&axes.into()),
             },
             remarks: match gap {
                 true => output::NOT_ASSEMBLED.into(),

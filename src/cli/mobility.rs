@@ -41,11 +41,10 @@ impl Mobility {
         };
         let answer = watched(|watch| mobility(&question, &settings, watch));
         let (data, yes) = match self.format {
-            Format::Text => analysed::text(mechanism, &answer, output::text),
-            Format::Json => analysed::json(mechanism, &answer, output::json),
+            Format::Text => analysed::text(mechanism, &answer, |_, report| output::text(report)),
+            Format::Json => analysed::json(mechanism, &answer, |_, report| output::json(report)),
         };
-        let warning =
-            yes.map(|report| analysed::limits_warning(&output::outside_limits(mechanism, report)));
+        let warning = yes.map(|report| analysed::limits_warning(&report.outside_limits));
         let yes = yes.is_some();
         Ok(Answer {
             data,

@@ -2,14 +2,14 @@
 
 use std::path::PathBuf;
 
-use clap::{Args, ValueEnum};
+use clap::Args;
 use linkwork::analysis::assemblies::Wanted;
 use linkwork::analysis::singularities::{
     Coupled, Ending, SingularitiesSettings, along, inputs_of, loci, singularities,
 };
 use linkwork::mechanism::{Configuration, Mechanism};
 use linkwork::output::option::Given;
-use linkwork::output::{closing as analysed, singularities as output, sweep as motion};
+use linkwork::output::{singularities as output, sweep as motion};
 use linkwork::solve::{Newton, Watch};
 use linkwork::system::{
     Driven, Held, Holdable, Lock, Question, QuestionError, Search as NearbySearch, check_count,
@@ -17,6 +17,7 @@ use linkwork::system::{
 };
 
 use super::asked::{Asked, frame, refusal};
+use super::format::Format;
 use super::range::{RangeWords, ranges};
 use super::search::Search;
 use super::source::{Assignment, Source};
@@ -72,16 +73,6 @@ pub struct Singularities {
     /// Draw the loci to a file
     #[arg(long, value_name = "FILE", requires = "locus")]
     svg: Option<PathBuf>,
-}
-
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-enum Format {
-    /// To be read by people.
-    Text,
-    /// To be read by programs: metres and radians with all digits.
-    Json,
-    /// Singularities along inputs, or points of loci, as rows.
-    Csv,
 }
 
 /// Random starts made at most.
@@ -159,21 +150,18 @@ impl Singularities {
         }
         let report = watched(|watch| singularities(&question, settings, watch))
             .map_err(|error| refusal(&error, None))?;
-        let (data, found) = match self.format {
-            Format::Text => analysed::text(mechanism, &report, output::text),
-            Format::Json => analysed::json(mechanism, &report, output::json),
-            Format::Csv => {
-                return Err(Refusal(
-                    "error: one configuration is told as text or JSON; rows are written of --input \
-                     and --locus\n"
-                        .into(),
-                ));
-            }
-        };
+        if self.format == Format::Csv {
+            return Err(Refusal(
+                "error: one configuration has no rows: choose another --format, or ask for rows \
+                 along --input or --locus\n"
+                    .into(),
+            ));
+        }
+        let found = report.report();
         Ok(Answer {
-            data,
             remarks: found.map(output::limits_remark).unwrap_or_default(),
             yes: found.is_some(),
+            data: self.format.shown(&report),
         })
     }
 
@@ -198,17 +186,17 @@ impl Singularities {
             report.ending,
             Ending::Complete | Ending::Returned | Ending::Closed
         );
+        let whole = match self.format {
+            Format::Csv => rows(output::along_rows(&report))?,
+            _ => true,
+        };
         Ok(Answer {
-            data: match self.format {
-                Format::Text => output::along_text(mechanism, &report),
-                Format::Json => output::along_json(mechanism, &report),
-                Format::Csv => output::along_csv(mechanism, &report),
-            },
+            data: self.format.shown(&report),
             remarks: match self.format {
                 Format::Csv if !yes => format!("note: {}\n", output::ending(&report)),
                 _ => String::new(),
             } + &self.beside_rows(&report.coupled),
-            yes,
+            yes: yes && whole,
         })
     }
 
@@ -247,17 +235,13 @@ impl Singularities {
                 .map_err(|spins| Refusal(output::spinning(spins).render(style())))?;
         #[cfg(feature = "plot")]
         if let Some(path) = &self.svg {
-            save(path, &output::svg(mechanism, &report))?;
+            save(path, &output::svg(&report))?;
         }
-        let mut whole = true;
-        let data = match self.format {
-            Format::Text => output::locus_text(mechanism, &report),
-            Format::Json => output::locus_json(mechanism, &report),
-            Format::Csv => {
-                whole = rows(output::locus_csv(mechanism, &report).split_inclusive('\n'))?;
-                String::new()
-            }
+        let whole = match self.format {
+            Format::Csv => rows(output::locus_rows(&report))?,
+            _ => true,
         };
+        let data = self.format.shown(&report);
         Ok(Answer {
             data,
             remarks: match self.format {

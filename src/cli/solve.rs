@@ -1,7 +1,6 @@
 //! `linkwork solve`
 
 use clap::Args;
-use linkwork::analysis::assemblies::Followed;
 use linkwork::analysis::assembly::{AssemblySettings, Outcome, assemble};
 use linkwork::output::{assemblies, solution};
 use linkwork::system::check_count;
@@ -54,23 +53,13 @@ impl Solve {
                 let followed = solver.follow(mode, &question.start(), &question.held(), watch);
                 followed.map_err(|error| Refusal(format!("error: {error}\n")))
             })?;
-            match followed {
-                Followed::Arrived(at) => question = question.near(&at),
-                Followed::Meets { multiplicity } => {
+            match followed.arrived(&loaded.mechanism, mode) {
+                Ok(at) => question = question.near(&at),
+                Err(lost) => {
                     return Ok(Answer {
                         data: match self.format {
-                            Format::Text => assemblies::meets_text(&question, mode, multiplicity),
-                            Format::Json => assemblies::meets_json(&question, mode, multiplicity),
-                        },
-                        remarks: loaded.warnings(),
-                        yes: false,
-                    });
-                }
-                Followed::Fold(fold) => {
-                    return Ok(Answer {
-                        data: match self.format {
-                            Format::Text => assemblies::fold_text(&question, mode, &fold),
-                            Format::Json => assemblies::fold_json(&question, mode, &fold),
+                            Format::Text => assemblies::lost_text(&lost),
+                            Format::Json => assemblies::lost_json(&lost),
                         },
                         remarks: loaded.warnings(),
                         yes: false,
@@ -82,16 +71,14 @@ impl Solve {
         }
         let report = watched(|watch| assemble(&question, &settings, watch))
             .map_err(|error| refusal(&error, None))?;
-        let warnings = solution::warnings(&report);
-        let warnings = warnings
-            .iter()
-            .map(|warning| format!("warning: {warning}\n"));
+        let warning = report.warning();
+        let warning = warning.map(|warning| format!("warning: {warning}\n"));
         Ok(Answer {
             data: match self.format {
-                Format::Text => solution::text(&question, &report),
-                Format::Json => solution::json(&question, &report),
+                Format::Text => solution::text(&report),
+                Format::Json => solution::json(&report),
             },
-            remarks: loaded.warnings() + &warnings.collect::<String>(),
+            remarks: loaded.warnings() + &warning.unwrap_or_default(),
             yes: report.outcome == Outcome::Converged,
         })
     }

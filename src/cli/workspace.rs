@@ -3,7 +3,7 @@
 use std::f64::consts::TAU;
 use std::path::PathBuf;
 
-use clap::{Args, ValueEnum};
+use clap::Args;
 use linkwork::analysis::assemblies::Wanted;
 use linkwork::analysis::workspace::{WorkspaceError, WorkspaceSettings, cell_bytes, workspace};
 use linkwork::mechanism::{Configuration, Coordinate, Mechanism};
@@ -13,6 +13,7 @@ use linkwork::system::{
 };
 
 use super::asked::{Split, refusal};
+use super::format::Format;
 use super::range::{RangeWords, ranges};
 use super::search::Search;
 use super::source::{Assignment, Source};
@@ -64,16 +65,6 @@ pub struct Workspace {
     /// Draw the map to a file
     #[arg(long, value_name = "FILE")]
     svg: Option<PathBuf>,
-}
-
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-enum Format {
-    /// To be read by people: modes, aspects and boundaries.
-    Text,
-    /// To be read by programs: metres and radians with all digits.
-    Json,
-    /// Nodes, or boundary points, as rows in metres and radians with all digits.
-    Csv,
 }
 
 /// Bytes that a map takes at most.
@@ -135,27 +126,21 @@ impl Workspace {
         let mut remarks = loaded.warnings();
         #[cfg(feature = "plot")]
         if let Some(path) = &self.svg {
-            save(path, &output::svg(mechanism, &report))?;
+            save(path, &output::svg(&report))?;
             if let Some(drawn) = output::left_out(&report) {
                 remarks += &format!("note: {drawn} in {}\n", path.display());
             }
         }
-        let mut whole = true;
-        let data = match self.format {
-            Format::Text => output::text(mechanism, &report),
-            Format::Json => output::json(mechanism, &report),
-            Format::Csv => {
-                whole = match self.boundary {
-                    true => rows(output::boundary_csv(mechanism, &report))?,
-                    false => rows(output::csv(mechanism, &report))?,
-                };
-                String::new()
-            }
+        let whole = match (self.format, self.boundary) {
+            (Format::Csv, true) => rows(output::boundary_rows(&report))?,
+            (Format::Csv, false) => rows(output::node_rows(&report))?,
+            _ => true,
         };
+        let data = self.format.shown(&report);
         remarks += &match self.format {
             Format::Csv if !whole => INTERRUPTED_REMARK.to_owned(),
             Format::Csv => format!("note: {}\n", output::completeness(&report)),
-            Format::Text | Format::Json => String::new(),
+            _ => String::new(),
         };
         Ok(Answer {
             data,

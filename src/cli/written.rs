@@ -4,6 +4,8 @@ use std::io::{self, Write};
 #[cfg(feature = "plot")]
 use std::path::Path;
 
+use linkwork::output::csv::{Csv, Record};
+
 use super::Refusal;
 use super::watched::{interruptions, read_no_more};
 
@@ -23,15 +25,6 @@ impl Lines {
             wanted,
             waiting: Vec::new(),
             failed: None,
-        }
-    }
-
-    pub fn add(&mut self, line: &str) {
-        if self.wanted {
-            if self.waiting.len() + line.len() > Self::MANY {
-                self.send();
-            }
-            self.waiting.extend_from_slice(line.as_bytes());
         }
     }
 
@@ -87,17 +80,19 @@ pub fn unwritten(error: io::Error) -> Refusal {
 /// What is said where an interruption ended the rows before their time.
 pub const INTERRUPTED_REMARK: &str = "note: interrupted: the rows end before the answer does\n";
 
-/// All lines of a text to stdout; whether nobody interrupted meanwhile.
-pub fn rows<L: AsRef<str>>(all: impl Iterator<Item = L>) -> Result<bool, Refusal> {
+/// All rows to stdout; whether nobody interrupted meanwhile.
+pub fn rows<'a>(
+    (columns, all): (Vec<String>, impl Iterator<Item = Record<'a>>),
+) -> Result<bool, Refusal> {
     let before = interruptions();
-    let mut lines = Lines::new(true);
-    for line in all {
-        if !lines.open() || interruptions() > before {
+    let mut csv = Csv::new(Lines::new(true), columns).map_err(unwritten)?;
+    for row in all {
+        if !csv.target().open() || interruptions() > before {
             break;
         }
-        lines.add(line.as_ref());
+        csv.row(row).map_err(unwritten)?;
     }
-    lines.finish()?;
+    csv.finish().map_err(unwritten)?.finish()?;
     Ok(interruptions() == before)
 }
 

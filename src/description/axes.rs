@@ -4,9 +4,7 @@ use std::ops::Range;
 
 use thiserror::Error;
 
-use super::{
-    ClosureKind, Convention, Displacement, Entry, GROUND, Named, Problem, Role, Spanned, reader,
-};
+use super::{ClosureKind, Convention, Displacement, Entry, GROUND, Named, Role, Spanned};
 use crate::algebra::words;
 
 /// A whole file of joint axes. Everything is in the order of the file.
@@ -155,25 +153,5 @@ impl AxesProblem {
                 | Self::BaseUnused { .. }
                 | Self::FarNormal { .. }
         )
-    }
-}
-
-/// Whether a text seems to be a mechanism file, not a file of joint axes.
-pub fn is_mechanism(text: &str) -> bool {
-    reader::first_word(text).is_some_and(|word| word == "Mechanism")
-}
-
-impl AxesDescription {
-    /// Reads the text of a file of joint axes, or returns all its problems of form, in the order of the text.
-    pub fn read(text: &str) -> Result<Self, Vec<Problem>> {
-        let (description, mut problems) = reader::read_axes(text);
-        if let Some(description) = &description {
-            super::checks::check_axes(description, &mut problems);
-        }
-        problems.sort_by_key(|problem| (problem.span.start, problem.span.end));
-        match description {
-            Some(description) if problems.is_empty() => Ok(description),
-            _ => Err(problems),
-        }
     }
 }

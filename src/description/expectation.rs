@@ -1,7 +1,24 @@
 //! The values expected at each place of a mechanism file.
 
-use super::Noun;
 use crate::algebra::words;
+
+/// The kinds of named items.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+#[allow(missing_docs)]
+pub enum Noun {
+    Field,
+    Parameter,
+    Joint,
+    Axis,
+    Chain,
+    Platform,
+    PlatformFrame,
+    Closure,
+    ClosedForm,
+    LocalName,
+    MatrixEntry,
+    Identity,
+}
 
 words! {
     /// The groups of named fields in a file, with the names that stand before them.

@@ -7,10 +7,7 @@ use std::path::{Path, PathBuf};
 
 use thiserror::Error;
 
-use super::{Description, Lines, Problem, Severity, words};
-
-/// The largest file that is read (bytes); a mechanism of a thousand chains needs a tenth of it.
-pub const MAX_BYTES: u64 = 1 << 20;
+use super::{Description, Lines, MAX_BYTES, Problem, Severity, words};
 
 /// Why a mechanism file could not be loaded.
 #[derive(Debug, Error)]

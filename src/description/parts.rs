@@ -6,6 +6,7 @@ use std::fmt::{self, Display, Formatter};
 use std::ops::Range;
 
 use crate::algebra::{Expression, words};
+pub use crate::geometry::Axis;
 
 /// A value and the bytes of the file where it stands.
 #[derive(Debug, Clone, Default)]
@@ -136,15 +137,6 @@ pub struct Row {
     pub theta: Entry,
     /// Where the row stands.
     pub span: Range<usize>,
-}
-
-/// A coordinate axis.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
-#[allow(missing_docs)]
-pub enum Axis {
-    X,
-    Y,
-    Z,
 }
 
 /// One step of a transform; a list of them is read left to right.

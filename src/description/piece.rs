@@ -329,24 +329,16 @@ mod tests {
     fn values_know_their_places_without_the_comments_around_them() {
         let text = "/* before */ ( a: /* c */ 1.5 /* d */, b: [\"x\" , 'c'] // end\n ) // after";
         let whole = Piece::new(text, 0);
-        assert_eq!(
-            &text[whole.span()],
-            "( a: /* c */ 1.5 /* d */, b: [\"x\" , 'c'] // end\n )"
-        );
-        let fields = whole.fields().unwrap();
-        assert_eq!(
-            fields
-                .iter()
-                .map(|(name, _)| &text[name.span.clone()])
-                .collect::<Vec<_>>(),
-            ["a", "b"]
-        );
-        assert_eq!(&text[fields[0].1.span()], "1.5");
-        let elements = fields[1].1.elements().unwrap();
-        assert_eq!(
-            elements.iter().map(|x| &text[x.span()]).collect::<Vec<_>>(),
-            ["\"x\"", "'c'"]
-        );
+        let expected = "( a: /* c */ 1.5 /* d */, b: [\"x\" , 'c'] // end\n )";
+        assert_eq!(&text[whole.span()], expected);
+        let [(a, one), (b, list)] = &whole.fields().unwrap()[..] else {
+            panic!("two fields")
+        };
+        assert_eq!([&text[a.span.clone()], &text[b.span.clone()]], ["a", "b"]);
+        assert_eq!(&text[one.span()], "1.5");
+        let elements = list.elements().unwrap();
+        let elements: Vec<_> = elements.iter().map(|x| &text[x.span()]).collect();
+        assert_eq!(elements, ["\"x\"", "'c'"]);
     }
 
     #[test]

@@ -1,15 +1,19 @@
-//! What can be wrong with a mechanism file, as data with a title; `words.rs` says what to do about it.
+//! What can be wrong with a mechanism file, as data with a title; `advice.rs` says what to do about it.
+
+mod advice;
+mod parts;
 
 use std::ops::Range;
 
 use thiserror::Error;
 
-use super::words::{count, cycle, expression, syntax};
-use super::{AxesProblem, Expected, Found, MAX_BYTES, Structure};
+use super::words::{count, cycle, syntax};
+use super::{AxesProblem, Expected, Found, MAX_BYTES, Noun, Structure};
 use crate::algebra::{EvaluationErrorKind, MeasureErrorKind, ParseErrorKind};
 
 /// A problem of a mechanism file.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, Error, PartialEq)]
+#[error("{kind}")]
 pub struct Problem {
     /// What is wrong.
     pub kind: ProblemKind,
@@ -41,24 +45,6 @@ pub enum Note {
     DeclaredHere(Noun),
     /// One more step of a cycle.
     ThenHere,
-}
-
-/// The kinds of named items.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
-#[allow(missing_docs)]
-pub enum Noun {
-    Field,
-    Parameter,
-    Joint,
-    Axis,
-    Chain,
-    Platform,
-    PlatformFrame,
-    Closure,
-    ClosedForm,
-    LocalName,
-    MatrixEntry,
-    Identity,
 }
 
 /// Which names an expression may use.
@@ -127,7 +113,7 @@ pub enum ProblemKind {
     DuplicateField { field: String },
     #[error("the name `{name}` is given twice")]
     DuplicateName { noun: Noun, name: String },
-    #[error("{}", expression::title(_0))]
+    #[error("{_0}")]
     Expression(ParseErrorKind),
     #[error("the number is not finite")]
     NotFinite,
@@ -185,10 +171,10 @@ pub enum ProblemKind {
     #[error("the expression is not a constant plus multiples of joint variables")]
     NotAffine,
     /// An expression that has no value.
-    #[error("{}", expression::no_value(_0))]
+    #[error("{_0}")]
     NoValue(EvaluationErrorKind),
     /// A unit that does not fit.
-    #[error("{}", expression::unit(_0))]
+    #[error("{_0}")]
     Unit(MeasureErrorKind),
     #[error("the closure `{closure}` joins two frames of the same body")]
     SameBody { closure: String },

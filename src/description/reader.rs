@@ -22,19 +22,39 @@ pub(super) fn read(text: &str) -> (Option<Description>, Vec<Problem>, HashSet<St
 }
 
 /// The same for a file of joint axes.
-pub(super) fn read_axes(text: &str) -> (Option<AxesDescription>, Vec<Problem>) {
+fn read_axes(text: &str) -> (Option<AxesDescription>, Vec<Problem>) {
     let (description, reader) = read_with(text, Reader::axes);
     (description, reader.problems)
 }
 
 /// The word that a text begins with, if it is one RON value that does.
-pub(super) fn first_word(text: &str) -> Option<&str> {
+fn first_word(text: &str) -> Option<&str> {
     let start = text.len() - text.strip_prefix('\u{feff}').unwrap_or(text).len();
     let within = text.len() as u64 <= MAX_BYTES;
     let begin = within.then(|| syntax::begin(text, start)).flatten()?;
     match Piece::new(&text[begin..], begin).shape() {
         Shape::Word { word, .. } => Some(word),
         _ => None,
+    }
+}
+
+/// Whether a text seems to be a mechanism file, not a file of joint axes.
+pub fn is_mechanism(text: &str) -> bool {
+    first_word(text).is_some_and(|word| word == "Mechanism")
+}
+
+impl AxesDescription {
+    /// Reads the text of a file of joint axes, or returns all its problems of form, in the order of the text.
+    pub fn read(text: &str) -> Result<Self, Vec<Problem>> {
+        let (description, mut problems) = read_axes(text);
+        if let Some(description) = &description {
+            super::checks::check_axes(description, &mut problems);
+        }
+        problems.sort_by_key(|problem| (problem.span.start, problem.span.end));
+        match description {
+            Some(description) if problems.is_empty() => Ok(description),
+            _ => Err(problems),
+        }
     }
 }
 

@@ -216,12 +216,6 @@ impl Serialize for ClosureDescription {
     }
 }
 
-impl Serialize for Convention {
-    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
-        serializer.serialize_unit_variant("Convention", *self as u32, self.word())
-    }
-}
-
 impl<T: Serialize> Serialize for Spanned<T> {
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
         self.value.serialize(serializer)

@@ -11,7 +11,7 @@ pub struct Line {
 }
 
 /// The relative position of two directed lines.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, serde::Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, serde::Serialize, serde::Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Relation {
     /// They do not meet and are not parallel: one common normal.
@@ -171,27 +171,16 @@ mod tests {
     fn special_cases_are_told_apart() {
         let z = line([0.0; 3], [0.0, 0.0, 1.0]);
         let relation = |point, along| z.common_normal(&line(point, along), 1.0).relation;
-        assert_eq!(
-            relation([1.0, 0.0, 9.0], [0.0, 0.0, 2.0]),
-            Relation::Parallel
-        );
-        assert_eq!(
-            relation([1.0, 0.0, 0.0], [0.0, 0.0, -1.0]),
-            Relation::AntiParallel
-        );
-        assert_eq!(
-            relation([0.0, 0.0, 4.0], [0.0, 0.0, 1.0]),
-            Relation::Coincident
-        );
-        assert_eq!(
-            relation([0.0, 0.0, 4.0], [0.0, 0.0, -3.0]),
-            Relation::AntiCoincident
-        );
-        assert_eq!(
-            relation([0.0, 2.0, 4.0], [0.0, 1.0, 1.0]),
-            Relation::Intersecting
-        );
-        assert_eq!(relation([1.0, 2.0, 4.0], [0.0, 1.0, 1.0]), Relation::Skew);
+        for (point, along, expected) in [
+            ([1.0, 0.0, 9.0], [0.0, 0.0, 2.0], Relation::Parallel),
+            ([1.0, 0.0, 0.0], [0.0, 0.0, -1.0], Relation::AntiParallel),
+            ([0.0, 0.0, 4.0], [0.0, 0.0, 1.0], Relation::Coincident),
+            ([0.0, 0.0, 4.0], [0.0, 0.0, -3.0], Relation::AntiCoincident),
+            ([0.0, 2.0, 4.0], [0.0, 1.0, 1.0], Relation::Intersecting),
+            ([1.0, 2.0, 4.0], [0.0, 1.0, 1.0], Relation::Skew),
+        ] {
+            assert_eq!(relation(point, along), expected);
+        }
     }
 
     #[test]

@@ -2,6 +2,8 @@
 
 use std::path::Path;
 
+use thiserror::Error;
+
 use super::mjcf::{self, Files};
 use super::names::fit;
 use super::problem::{ImportProblem, ImportProblemKind, WrongFile};
@@ -44,43 +46,25 @@ pub struct Imported {
 }
 
 /// Why a file of another program could not be read.
-#[derive(Debug)]
+#[derive(Debug, Error)]
 pub enum ImportError {
     /// The file could not be opened, or is not text.
+    #[error(transparent)]
     Unreadable(LoadError),
     /// The file has problems.
+    #[error(transparent)]
     Wrong(WrongFile),
 }
 
 impl ImportError {
     /// All problems, one line each: `file:line:column: problem (hint)`.
     pub fn lines(&self) -> Vec<String> {
-        let WrongFile { files, problems } = match self {
-            ImportError::Unreadable(error) => return vec![error.to_string()],
-            ImportError::Wrong(wrong) => wrong,
-        };
-        let line = |(file, problem): &(usize, ImportProblem)| {
-            let (name, text) = &files[*file];
-            let place = problem.span.as_ref().map_or(String::new(), |span| {
-                let (line, column) = crate::description::Lines::new(text).position(span.start);
-                format!("{line}:{column}: ")
-            });
-            let help = problem.kind.help();
-            let help = help.map_or(String::new(), |help| format!(" ({help})"));
-            let separator = if place.is_empty() { ": " } else { ":" };
-            format!("{name}{separator}{place}{}{help}", problem.kind.title())
-        };
-        problems.iter().map(line).collect()
+        match self {
+            ImportError::Unreadable(error) => vec![error.to_string()],
+            ImportError::Wrong(wrong) => wrong.lines(),
+        }
     }
 }
-
-impl std::fmt::Display for ImportError {
-    fn fmt(&self, f: &mut std::fmt::Formatter) -> std::fmt::Result {
-        f.write_str(&self.lines().join("\n"))
-    }
-}
-
-impl std::error::Error for ImportError {}
 
 /// Reads a URDF or MJCF file; MJCF with the files it includes.
 ///

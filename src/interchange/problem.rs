@@ -4,10 +4,11 @@ use std::ops::Range;
 
 use thiserror::Error;
 
-use crate::description::listed;
+use crate::description::{Lines, listed};
 
 /// A problem of a file of another program, with its place.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, Error, PartialEq)]
+#[error("{kind}")]
 pub struct ImportProblem {
     /// What is wrong.
     pub kind: ImportProblemKind,
@@ -16,12 +17,31 @@ pub struct ImportProblem {
 }
 
 /// A file, the files it includes, and all their problems.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, Error, PartialEq)]
+#[error("{}", self.lines().join("\n"))]
 pub struct WrongFile {
     /// Names and texts; the first is the main file.
     pub files: Vec<(String, String)>,
     /// The problems, each with the index of its file.
     pub problems: Vec<(usize, ImportProblem)>,
+}
+
+impl WrongFile {
+    /// All problems, one line each: `file:line:column: problem (hint)`.
+    pub fn lines(&self) -> Vec<String> {
+        let line = |(file, problem): &(usize, ImportProblem)| {
+            let (name, text) = &self.files[*file];
+            let place = problem.span.as_ref().map_or(String::new(), |span| {
+                let (line, column) = Lines::new(text).position(span.start);
+                format!("{line}:{column}: ")
+            });
+            let help = problem.kind.help();
+            let help = help.map_or(String::new(), |help| format!(" ({help})"));
+            let separator = if place.is_empty() { ": " } else { ":" };
+            format!("{name}{separator}{place}{problem}{help}")
+        };
+        self.problems.iter().map(line).collect()
+    }
 }
 
 /// The kinds of problems, in one line each.

@@ -50,6 +50,16 @@ pub(crate) enum Side {
     B,
 }
 
+impl Side {
+    #[inline(always)]
+    fn sign(self) -> f64 {
+        match self {
+            Side::A => -1.0,
+            Side::B => 1.0,
+        }
+    }
+}
+
 /// The rows of a closure at a configuration: residuals and the wrenches that measure twists.
 #[derive(Clone, Debug)]
 pub(crate) struct Rows<T> {
@@ -112,12 +122,9 @@ impl<T: Number> Closure<T> {
     /// The joints whose variables affect the closure, without repetition.
     pub(crate) fn joints(&self) -> Vec<usize> {
         let moved = self.movers.iter().flatten().map(|mover| mover.joint);
-        let mut joints: Vec<usize> = moved
-            .chain(self.extension.0.iter().map(|(j, _)| *j))
-            .collect();
-        joints.sort_unstable();
-        joints.dedup();
-        joints
+        let extending = self.extension.0.iter().map(|(joint, _)| *joint);
+        let joints: std::collections::BTreeSet<usize> = moved.chain(extending).collect();
+        joints.into_iter().collect()
     }
 
     /// Whether a joint variable occurs in the length of the closure.
@@ -165,34 +172,24 @@ impl<T: Number> Closure<T> {
         let [a, b] = self.frames(placement);
         let gap = b.position - a.position;
         let point = || gap.0.to_vec();
-        let offsets = |axes: &[Vector3<T>]| axes.iter().map(|axis| axis.dot(&gap)).collect();
-        let (mut conditions, more): (Vec<T>, Vec<T>) = match self.kind {
-            ClosureKind::Spherical => (point(), vec![]),
-            ClosureKind::Revolute => (point(), misalignment(a, b).0.to_vec()),
-            ClosureKind::Universal => {
-                let (az, bz) = (a.rotation.0[2], b.rotation.0[2]);
-                (point(), vec![az.dot(&bz)])
-            }
-            ClosureKind::Rigid => (point(), disorientation(a, b).0.to_vec()),
-            ClosureKind::Prismatic => {
-                let turned = disorientation(a, b).0.to_vec();
-                (turned, offsets(&a.rotation.0[..2]))
-            }
-            ClosureKind::Cylindrical => {
-                let turned = misalignment(a, b).0.to_vec();
-                (turned, offsets(&a.rotation.0[..2]))
-            }
-            ClosureKind::Planar => {
-                let turned = misalignment(a, b).0.to_vec();
-                (turned, offsets(&a.rotation.0[2..]))
-            }
+        let offsets =
+            |axes: &[Vector3<T>]| -> Vec<T> { axes.iter().map(|z| z.dot(&gap)).collect() };
+        let aligned = || misalignment(a, b).0.to_vec();
+        let oriented = || disorientation(a, b).0.to_vec();
+        let axes = &a.rotation.0;
+        match self.kind {
+            ClosureKind::Spherical => point(),
+            ClosureKind::Revolute => [point(), aligned()].concat(),
+            ClosureKind::Universal => [point(), vec![axes[2].dot(&b.rotation.0[2])]].concat(),
+            ClosureKind::Rigid => [point(), oriented()].concat(),
+            ClosureKind::Prismatic => [oriented(), offsets(&axes[..2])].concat(),
+            ClosureKind::Cylindrical => [aligned(), offsets(&axes[..2])].concat(),
+            ClosureKind::Planar => [aligned(), offsets(&axes[2..])].concat(),
             ClosureKind::Distance => {
                 let length = self.length + self.extension.at(joints);
-                (vec![gap.dot(&gap) - length * length], vec![])
+                vec![gap.dot(&gap) - length * length]
             }
-        };
-        conditions.extend(more);
-        conditions
+        }
     }
 
     /// Residuals and wrenches.
@@ -342,10 +339,7 @@ impl<T: Number> Rows<T> {
     /// at that side's [`Rows::velocity_point`].
     #[inline(always)]
     pub(crate) fn rates(&self, side: Side, omega: &Vector3<T>, v: &Vector3<T>, out: &mut [T]) {
-        let sign = match side {
-            Side::A => -1.0,
-            Side::B => 1.0,
-        };
+        let sign = side.sign();
         let mut out = out.iter_mut();
         if self.point {
             let factor = sign * self.inverse_length;
@@ -372,10 +366,7 @@ impl<T: Number> Rows<T> {
         length: f64,
         mut put: impl FnMut(usize, [T; 6]),
     ) {
-        let sign = match side {
-            Side::A => -1.0,
-            Side::B => 1.0,
-        };
+        let sign = side.sign();
         let force_row = |force: &Vector3<T>| {
             let [a, b, c] = arm.cross(force).0.map(|m| m.scale(sign));
             let [x, y, z] = force.0.map(|f| f.scale(sign * length));
@@ -445,17 +436,7 @@ mod tests {
             frame: 0,
         };
         let tips = [0, 1].map(|chain| Frame::Tip { chain });
-        use ClosureKind::*;
-        for kind in [
-            Spherical,
-            Revolute,
-            Prismatic,
-            Universal,
-            Cylindrical,
-            Planar,
-            Rigid,
-            Distance,
-        ] {
+        for kind in ClosureKind::ALL {
             for frames in [tips, [tips[0], on_platform], [on_platform, tips[1]]] {
                 dimensions.closures = vec![ClosureDimensions {
                     kind,

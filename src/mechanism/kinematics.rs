@@ -1,6 +1,6 @@
 //! Frames of a mechanism by chain products, over any number.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 use super::Frame;
 use super::configuration::Configuration;
@@ -277,9 +277,7 @@ impl<T: Number> Kinematics<T> {
         while slot > self.platforms {
             let step = &self.steps[slot - 1 - self.platforms];
             let (turns, slides) = (step.turn.0.iter(), step.slide.0.iter());
-            let mut joints: Vec<usize> = turns.chain(slides).map(|(joint, _)| *joint).collect();
-            joints.sort_unstable();
-            joints.dedup();
+            let joints: BTreeSet<usize> = turns.chain(slides).map(|(joint, _)| *joint).collect();
             movers.extend(joints.into_iter().map(|joint| Mover {
                 slot,
                 joint,

@@ -137,16 +137,14 @@ impl<'a> Formal<'a> {
     /// ⁱⱼT. The part of the chain that carries both frames is left out, so that nothing has to cancel.
     pub fn transform(&self, relative_to: Frame, of: Frame) -> Pose<Symbolic> {
         let (dimensions, platforms) = self.seen_from_common(relative_to, of);
-        let [relative_to, of] = {
-            let kinematics = Kinematics::new(&dimensions, [relative_to, of]);
-            let mut placement = kinematics.placement();
-            kinematics.place_on(&platforms, &self.joints, &mut placement);
-            [relative_to, of].map(|frame| {
-                let pose = kinematics.pose(frame, &placement).copied();
-                pose.expect("the kinematics was planned for these frames")
-            })
-        };
-        relative_to.inverse() * of
+        let kinematics = Kinematics::new(&dimensions, [relative_to, of]);
+        let mut placement = kinematics.placement();
+        kinematics.place_on(&platforms, &self.joints, &mut placement);
+        let [relative_to, of] = [relative_to, of].map(|frame| {
+            let pose = kinematics.pose(frame, &placement);
+            pose.expect("the kinematics was planned for these frames")
+        });
+        relative_to.inverse() * *of
     }
 
     fn seen_from_common(
@@ -156,15 +154,17 @@ impl<'a> Formal<'a> {
     ) -> (Dimensions<Symbolic>, Vec<Pose<Symbolic>>) {
         let below = self.mechanism.stands_on(relative_to);
         let of = self.mechanism.stands_on(of);
-        let common = of.iter().find(|frame| below.contains(frame));
         let mut platforms = self.platforms.clone();
-        match common {
+        match of.iter().find(|frame| below.contains(frame)) {
             Some(Frame::Platform { platform } | Frame::OnPlatform { platform, .. }) => {
                 platforms[*platform] = Pose::identity();
                 (self.dimensions.clone(), platforms)
             }
-            Some(frame) => (self.dimensions.standing_on(*frame), platforms),
-            None => (self.dimensions.clone(), platforms),
+            // the ground and no common frame leave all as it is
+            common => {
+                let frame = common.copied().unwrap_or(Frame::Ground);
+                (self.dimensions.standing_on(frame), platforms)
+            }
         }
     }
 
@@ -187,13 +187,14 @@ impl<'a> Formal<'a> {
             let (omega, velocity) = placement.twist(&mover, &point);
             let omega = seen.rotation.inverse_rotate(&omega);
             let velocity = seen.rotation.inverse_rotate(&velocity);
-            match twists.iter_mut().find(|twist| twist.joint == mover.joint) {
+            let joint = mover.joint;
+            match twists.iter_mut().find(|twist| twist.joint == joint) {
                 Some(twist) => {
                     twist.omega += omega;
                     twist.velocity += velocity;
                 }
                 None => twists.push(Twist {
-                    joint: mover.joint,
+                    joint,
                     omega,
                     velocity,
                 }),

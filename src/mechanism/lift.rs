@@ -108,10 +108,8 @@ impl Mechanism {
     ) -> Result<Dimensions<T>, EvaluationError> {
         let mut chains = Vec::with_capacity(self.chains.len());
         for chain in &self.chains {
-            let rows = chain
-                .rows
-                .iter()
-                .map(|row| row.over(chain.convention, parameters));
+            let rows = chain.rows.iter();
+            let rows = rows.map(|row| row.over(chain.convention, parameters));
             chains.push(ChainDimensions {
                 on: chain.on,
                 base: product(&chain.base, parameters)?,
@@ -121,10 +119,8 @@ impl Mechanism {
         }
         let mut platforms = Vec::with_capacity(self.platforms.len());
         for platform in &self.platforms {
-            let frames = platform
-                .frames
-                .iter()
-                .map(|(_, steps)| product(steps, parameters));
+            let frames = platform.frames.iter();
+            let frames = frames.map(|(_, steps)| product(steps, parameters));
             platforms.push(frames.collect::<Result<_, _>>()?);
         }
         let mut closures = Vec::with_capacity(self.closures.len());
@@ -168,10 +164,8 @@ impl Mechanism {
             rows.chain([&chain.base, &chain.tip])
         });
         let poses = chains.chain(dimensions.platforms.iter().flatten());
-        let distances = dimensions
-            .closures
-            .iter()
-            .map(|closure| closure.length.real().abs());
+        let closures = dimensions.closures.iter();
+        let distances = closures.map(|closure| closure.length.real().abs());
         let slides = self.joints.iter().filter(|joint| !joint.kind.is_angle());
         let slides = slides.map(|joint| joint.home.abs());
         let largest = (poses.map(size).chain(distances).chain(slides)).fold(0.0, f64::max);

@@ -5,7 +5,9 @@ use std::collections::HashMap;
 
 use super::Frame;
 use super::model::Symbol;
-use crate::description::{Description, GROUND, Named, ProblemKind, Scope, nearest};
+use crate::description::{
+    Description, GROUND, Named, ProblemKind, Scope, names_of, nearest, place_of,
+};
 
 /// The names that expressions and frame references of a file may use.
 pub(super) struct Names<'a> {
@@ -23,8 +25,10 @@ pub(super) struct Names<'a> {
 const MOST_SUGGESTIONS: usize = 200;
 
 fn index<T>(named: &[Named<T>]) -> HashMap<&str, usize> {
-    let names = named.iter().map(|named| named.name.value.as_str());
-    names.enumerate().map(|(i, name)| (name, i)).collect()
+    names_of(named)
+        .enumerate()
+        .map(|(i, name)| (name, i))
+        .collect()
 }
 
 impl<'a> Names<'a> {
@@ -111,8 +115,7 @@ impl<'a> Names<'a> {
                 return Ok(Frame::Platform { platform });
             };
             let frames = &self.description.platforms[platform].value.frames;
-            let found = frames.iter().position(|frame| frame.name.value == rest);
-            if let Some(frame) = found {
+            if let Some(frame) = place_of(frames, rest) {
                 return Ok(Frame::OnPlatform { platform, frame });
             }
         }

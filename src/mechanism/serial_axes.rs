@@ -51,24 +51,26 @@ pub struct JointAxis {
 impl JointAxis {
     /// The axis of a revolute joint whose variable is `home` rad there.
     pub fn revolute(line: Line, home: f64) -> Self {
-        let (turn, slide) = (1.0, 0.0);
         JointAxis {
             line,
-            turn,
-            slide,
+            turn: 1.0,
+            slide: 0.0,
             home,
         }
     }
 
     /// The axis of a prismatic joint whose variable is `home` m there.
     pub fn prismatic(line: Line, home: f64) -> Self {
-        let (turn, slide) = (0.0, 1.0);
         JointAxis {
-            line,
-            turn,
-            slide,
-            home,
+            turn: 0.0,
+            slide: 1.0,
+            ..JointAxis::revolute(line, home)
         }
+    }
+
+    /// How far the variable turns and slides at home, in rad and m.
+    pub(super) fn home_motion(&self) -> (f64, f64) {
+        (self.turn * self.home, self.slide * self.home)
     }
 
     /// Whether the joint is prismatic, so that its axis has no position.
@@ -94,23 +96,14 @@ impl SerialAxes {
     /// there is none.
     pub fn length(&self) -> f64 {
         let placed = self.joints.iter().filter(|joint| !joint.is_prismatic());
-        let points: Vec<Vector3<f64>> = placed
-            .map(|joint| joint.line.point)
-            .chain(
-                [&self.base, &self.tool]
-                    .into_iter()
-                    .flatten()
-                    .map(|p| p.position),
-            )
-            .collect();
+        let ends = [&self.base, &self.tool].into_iter().flatten();
+        let points = placed.map(|joint| joint.line.point);
+        let points: Vec<Vector3<f64>> = points.chain(ends.map(|pose| pose.position)).collect();
         let apart = |p: &Vector3<f64>| {
             let distances = points.iter().map(|q| (*p - *q).norm());
             distances.fold(0.0, f64::max)
         };
-        let slides = self
-            .joints
-            .iter()
-            .map(|joint| (joint.slide * joint.home).abs());
+        let slides = self.joints.iter().map(|joint| joint.home_motion().1.abs());
         let largest = points.iter().map(apart).chain(slides).fold(0.0, f64::max);
         if largest > 0.0 { largest } else { 1.0 }
     }

@@ -5,6 +5,7 @@ use std::fmt::{self, Display, Formatter};
 use serde::{Deserialize, Serialize};
 
 use super::Mechanism;
+use crate::algebra::SiUnit;
 
 /// The name of a number with its unit, written `theta1 (rad)`.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
@@ -12,23 +13,26 @@ use super::Mechanism;
 pub struct Variable {
     /// The name.
     pub name: String,
-    /// `rad`, `m`; empty if it has none.
-    pub unit: String,
+    /// Its unit; [`SiUnit::ONE`] if it has none.
+    pub unit: SiUnit,
 }
 
 impl Variable {
-    /// A number with a unit, or without one if that is empty.
-    pub fn new(name: impl Into<String>, unit: impl ToString) -> Self {
-        Variable {
-            name: name.into(),
-            unit: unit.to_string(),
-        }
+    /// A number with a unit.
+    pub fn new(name: impl Into<String>, unit: SiUnit) -> Self {
+        let name = name.into();
+        Variable { name, unit }
+    }
+
+    /// A number without a unit.
+    pub fn plain(name: impl Into<String>) -> Self {
+        Variable::new(name, SiUnit::ONE)
     }
 
     /// The joints of a mechanism, in the order of the file.
     pub fn joints(mechanism: &Mechanism) -> Vec<Self> {
         let joints = mechanism.joints().iter();
-        let unit = |is_angle: bool| if is_angle { "rad" } else { "m" };
+        let unit = SiUnit::of_coordinate;
         joints
             .map(|joint| Variable::new(&joint.name, unit(joint.kind.is_angle())))
             .collect()
@@ -36,14 +40,14 @@ impl Variable {
 
     /// The poses of its platforms: position and quaternion.
     pub fn poses(mechanism: &Mechanism) -> Vec<Self> {
-        const PARTS: [(&str, &str); 7] = [
-            ("x", "m"),
-            ("y", "m"),
-            ("z", "m"),
-            ("qw", ""),
-            ("qx", ""),
-            ("qy", ""),
-            ("qz", ""),
+        const PARTS: [(&str, SiUnit); 7] = [
+            ("x", SiUnit::METRE),
+            ("y", SiUnit::METRE),
+            ("z", SiUnit::METRE),
+            ("qw", SiUnit::ONE),
+            ("qx", SiUnit::ONE),
+            ("qy", SiUnit::ONE),
+            ("qz", SiUnit::ONE),
         ];
         let platforms = mechanism.platforms().iter();
         let parts =
@@ -56,7 +60,7 @@ impl Variable {
 
 impl Display for Variable {
     fn fmt(&self, f: &mut Formatter) -> fmt::Result {
-        match self.unit.is_empty() {
+        match self.unit == SiUnit::ONE {
             true => f.write_str(&self.name),
             false => write!(f, "{} ({})", self.name, self.unit),
         }
@@ -72,9 +76,10 @@ impl From<Variable> for String {
 impl From<String> for Variable {
     fn from(written: String) -> Self {
         let parts = written.strip_suffix(')').and_then(|w| w.rsplit_once(" ("));
+        let parts = parts.and_then(|(name, unit)| Some((name, unit.parse().ok()?)));
         match parts {
             Some((name, unit)) => Variable::new(name, unit),
-            None => Variable::new(written, ""),
+            None => Variable::plain(written),
         }
     }
 }

@@ -2,41 +2,39 @@
 
 use std::fmt::Write;
 
-use serde::Serialize;
-
 mod tables;
 
 use super::closing;
 use super::json::document;
 use super::layout::indented;
 use super::quantity::{number, quantity};
-use crate::analysis::assemblies::{AssembliesReport, ClosestApproach, Continuum, Fit, Fold};
+use crate::analysis::assemblies::{
+    AssembliesReport, ClosestApproach, Continuum, Fit, Fold, LostMode, LostReason,
+};
 use crate::description::count;
 use crate::description::listed;
-use crate::mechanism::{Coordinate, Mechanism};
-use crate::system::Question;
+use crate::mechanism::{Coordinate, Variable};
 use tables::{complex, joints, overview, platforms, reasons, times};
 
 /// The report as text.
-pub fn text(question: &Question, report: &AssembliesReport) -> String {
-    let mechanism = question.mechanism();
+pub fn text(report: &AssembliesReport) -> String {
     let mut sections = vec![format!(
         "{}\n{}\n{}",
-        mechanism.name(),
+        report.mechanism,
         sentence(report),
-        indented(&accounting(mechanism, report))
+        indented(&accounting(report))
     )];
     if !report.assemblies.is_empty() {
         sections.push(overview(report));
-        sections.extend(joints(question, report));
-        sections.extend(platforms(question, report));
+        sections.extend(joints(report));
+        sections.extend(platforms(report));
         sections.extend(reasons(report));
     }
     if !report.complex_assemblies.is_empty() {
-        sections.push(complex(mechanism, report));
+        sections.push(complex(report));
     }
     if let Some(closest) = &report.closest {
-        sections.push(nearest(mechanism, closest));
+        sections.push(nearest(report, closest));
     }
     sections.join("\n")
 }
@@ -107,7 +105,7 @@ fn infinitely_many(report: &AssembliesReport) -> String {
     )
 }
 
-fn accounting(mechanism: &Mechanism, report: &AssembliesReport) -> String {
+fn accounting(report: &AssembliesReport) -> String {
     let mut text = String::new();
     let mut doubles: Vec<String> = (report.assemblies.iter().filter(|a| a.multiplicity > 1))
         .map(|a| format!("{} is {}", a.mode, times(a.multiplicity)))
@@ -164,7 +162,7 @@ fn accounting(mechanism: &Mechanism, report: &AssembliesReport) -> String {
         let _ = writeln!(text, "bound for {source}");
     }
     if report.assemblies.iter().any(|a| a.certified) {
-        let length = quantity(mechanism.characteristic_length(), false);
+        let length = quantity(report.characteristic_length, false);
         let _ = writeln!(
             text,
             "radii of certificates in rad and, for lengths, in units of {length}"
@@ -179,7 +177,7 @@ fn accounting(mechanism: &Mechanism, report: &AssembliesReport) -> String {
     text
 }
 
-fn nearest(mechanism: &Mechanism, closest: &ClosestApproach) -> String {
+fn nearest(report: &AssembliesReport, closest: &ClosestApproach) -> String {
     let mut text = match closest.local_minimum {
         true => format!("Closest approach: closure {} gapes most\n", closest.worst),
         false => format!(
@@ -190,111 +188,78 @@ fn nearest(mechanism: &Mechanism, closest: &ClosestApproach) -> String {
     for (name, gap) in &closest.gaps.0 {
         let _ = writeln!(text, "  {name}: {}", closing::gap(gap.distance, gap.angle));
     }
-    for ((name, value), joint) in closest.joints.0.iter().zip(mechanism.joints()) {
-        let _ = writeln!(
-            text,
-            "  {name} = {}",
-            quantity(*value, joint.kind.is_angle())
-        );
+    for ((name, value), joint) in closest.joints.0.iter().zip(&report.variables) {
+        let angle = joint.unit.is_angle();
+        let _ = writeln!(text, "  {name} = {}", quantity(*value, angle));
     }
     text
 }
 
 /// The report as JSON: lengths in m, angles in rad, every number with all its digits.
-pub fn json(question: &Question, report: &AssembliesReport) -> String {
-    document(question.mechanism().name(), report)
+pub fn json(report: &AssembliesReport) -> String {
+    document(&report.mechanism, report)
 }
 
-/// Where a mode ceases to exist, as text.
-pub fn fold_text(question: &Question, mode: usize, fold: &Fold) -> String {
-    let mechanism = question.mechanism();
-    let part = number(100.0 * fold.fraction);
-    let what = match fold.turns_back {
-        true => format!(
-            "Mode {mode} ceases to exist on the way from home, {part} % of the way: there it meets another mode."
+/// Why a mode was not followed, as JSON.
+pub fn lost_json(lost: &LostMode) -> String {
+    document(&lost.mechanism, lost)
+}
+
+/// Why a mode was not followed, as text.
+pub fn lost_text(lost: &LostMode) -> String {
+    let LostMode {
+        mechanism,
+        mode,
+        reason,
+        ..
+    } = lost;
+    let percent = |fold: &Fold| number(100.0 * fold.fraction);
+    let what = match reason {
+        LostReason::Ceases(fold) => format!(
+            "Mode {mode} ceases to exist on the way from home, {} % of the way: there it meets another mode.",
+            percent(fold)
         ),
-        false => format!(
-            "Mode {mode} cannot be followed beyond {part} % of the way from home, where it meets other \
-             assemblies: its number does not tell which of them to follow."
+        LostReason::MeetsOthers(fold) => format!(
+            "Mode {mode} cannot be followed beyond {} % of the way from home, where it meets other \
+             assemblies: its number does not tell which of them to follow.",
+            percent(fold)
         ),
+        LostReason::MeetAtHome { multiplicity } => {
+            let what = match multiplicity {
+                0 => "one of infinitely many connected assemblies".into(),
+                n => format!("{}: {n} assemblies meet there", times(*n)),
+            };
+            format!(
+                "At home mode {mode} is {what}, and its number does not tell which of them to follow. \
+                 `assemblies` lists those at the inputs asked; `solve --guess` starts near one of them."
+            )
+        }
     };
-    let mut text = format!("{}\n{what}\n", mechanism.name());
+    let mut text = format!("{mechanism}\n{what}\n");
+    let (LostReason::Ceases(fold) | LostReason::MeetsOthers(fold)) = reason else {
+        return text;
+    };
     for (name, value) in &fold.inputs.0 {
-        let _ = writeln!(text, "  {name} = {}", input(mechanism, name, *value));
+        let _ = writeln!(text, "  {name} = {}", input(&lost.variables, name, *value));
     }
     text += "\nJoints there\n";
-    for ((name, value), joint) in fold.joints.0.iter().zip(mechanism.joints()) {
+    for ((name, value), joint) in fold.joints.0.iter().zip(&lost.variables) {
         let _ = writeln!(
             text,
             "  {name} = {}",
-            quantity(*value, joint.kind.is_angle())
+            quantity(*value, joint.unit.is_angle())
         );
     }
     text
 }
 
 /// An input with its unit: joints and platform coordinates by name, parts of quaternions without.
-fn input(mechanism: &Mechanism, name: &str, value: f64) -> String {
-    if let Some(joint) = mechanism.joint(name) {
-        return quantity(value, mechanism.joints()[joint].kind.is_angle());
+fn input(variables: &[Variable], name: &str, value: f64) -> String {
+    if let Some(joint) = variables.iter().find(|joint| joint.name == name) {
+        return quantity(value, joint.unit.is_angle());
     }
     let coordinate = name
         .rsplit_once('.')
         .and_then(|(_, c)| Coordinate::by_name(c));
     coordinate.map_or(number(value), |c| quantity(value, c.is_angle()))
-}
-
-/// A mode that cannot be followed from home, as text.
-pub fn meets_text(question: &Question, mode: usize, multiplicity: usize) -> String {
-    let what = match multiplicity {
-        0 => "one of infinitely many connected assemblies".into(),
-        n => format!("{}: {n} assemblies meet there", times(n)),
-    };
-    format!(
-        "{}\nAt home mode {mode} is {what}, and its number does not tell which of them to follow. \
-         `assemblies` lists those at the inputs asked; `solve --guess` starts near one of them.\n",
-        question.mechanism().name()
-    )
-}
-
-/// A mode that cannot be followed from home, as JSON.
-pub fn meets_json(question: &Question, mode: usize, multiplicity: usize) -> String {
-    #[derive(Serialize)]
-    struct MeetsJson {
-        outcome: &'static str,
-        mode: usize,
-        multiplicity: usize,
-    }
-    let outcome = "modes_meet_at_home";
-    document(
-        question.mechanism().name(),
-        &MeetsJson {
-            outcome,
-            mode,
-            multiplicity,
-        },
-    )
-}
-
-/// Where a mode ceases to exist, as JSON: m and rad.
-pub fn fold_json(question: &Question, mode: usize, fold: &Fold) -> String {
-    #[derive(Serialize)]
-    struct FoldJson<'a> {
-        outcome: &'static str,
-        mode: usize,
-        #[serde(flatten)]
-        fold: &'a Fold,
-    }
-    let outcome = match fold.turns_back {
-        true => "mode_ceases",
-        false => "mode_meets_others",
-    };
-    document(
-        question.mechanism().name(),
-        &FoldJson {
-            outcome,
-            mode,
-            fold,
-        },
-    )
 }

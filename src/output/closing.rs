@@ -51,6 +51,10 @@ impl<R: Report> Report for Analysed<R> {
             Analysed::TooLarge(large) => Document::new(&large.mechanism, too_large(large.unknowns)),
         }
     }
+
+    fn sentences(&self) -> Vec<(&'static str, Option<String>)> {
+        self.report().map_or(Vec::new(), Report::sentences)
+    }
 }
 
 impl Report for NotClosed {

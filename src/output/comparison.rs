@@ -10,11 +10,10 @@ use crate::analysis::compare::{
     WorstSample,
 };
 use crate::description::count;
-use crate::mechanism::Mechanism;
 
 /// The report as a table of forms, what is wrong with each that disagrees, and one sentence.
-pub fn text(mechanism: &Mechanism, report: &CompareReport) -> String {
-    let name = mechanism.name();
+pub fn text(report: &CompareReport) -> String {
+    let name = &report.mechanism;
     if report.closed_forms.is_empty() {
         return format!("{name}: the file has no closed forms to compare.\n");
     }
@@ -23,11 +22,11 @@ pub fn text(mechanism: &Mechanism, report: &CompareReport) -> String {
         table(report)
     );
     text += &units(report);
-    let notation = Notation::new(mechanism, Script::Unicode);
+    let notation = Notation::new(&report.names, Script::Unicode);
     for form in &report.closed_forms {
         text += &exact(&notation, form);
         for component in &form.components {
-            text += &remark(mechanism, form, component);
+            text += &remark(report, form, component);
         }
     }
     if report.not_assembled > 0 {
@@ -243,7 +242,7 @@ fn why(reason: Reason) -> &'static str {
 }
 
 /// What is to be said of a component that does not simply agree; nothing of others.
-fn remark(mechanism: &Mechanism, form: &FormReport, component: &ComponentReport) -> String {
+fn remark(report: &CompareReport, form: &FormReport, component: &ComponentReport) -> String {
     let ComponentReport {
         name,
         quantity,
@@ -275,7 +274,7 @@ fn remark(mechanism: &Mechanism, form: &FormReport, component: &ComponentReport)
                 worst.closed_form, worst.chains
             ),
         };
-        text += &format!("at {}\n", joint_values(mechanism, worst));
+        text += &format!("at {}\n", joint_values(report, worst));
     }
     if *without_value > 0 {
         let of = samples + without_value;
@@ -285,9 +284,9 @@ fn remark(mechanism: &Mechanism, form: &FormReport, component: &ComponentReport)
 }
 
 /// `theta1 = 30 deg, l1 = 0.6 m`
-fn joint_values(mechanism: &Mechanism, worst: &WorstSample) -> String {
-    let values = worst.joints.iter().zip(mechanism.joints());
-    let values = values.map(|((name, value), joint)| match joint.kind.is_angle() {
+fn joint_values(report: &CompareReport, worst: &WorstSample) -> String {
+    let values = worst.joints.0.iter().zip(&report.names.joints);
+    let values = values.map(|((name, value), joint)| match joint.unit.is_angle() {
         true => format!("{name} = {:.4} deg", value.to_degrees()),
         false => format!("{name} = {value:.6} m"),
     });
@@ -331,6 +330,6 @@ fn sentence(report: &CompareReport) -> String {
 }
 
 /// The report as JSON, with the mechanism's name and the program's version.
-pub fn json(mechanism: &Mechanism, report: &CompareReport) -> String {
-    document(mechanism.name(), report)
+pub fn json(report: &CompareReport) -> String {
+    document(&report.mechanism, report)
 }

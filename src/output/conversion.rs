@@ -1,14 +1,9 @@
 //! Words for mechanisms written another way.
 
 use crate::analysis::convert::{ConversionNote, ConvertError, CutError};
-use crate::description::listed;
+use crate::description::quoted;
 
 use super::option::Complaint;
-
-fn quoted(names: &[String]) -> String {
-    let quoted: Vec<String> = names.iter().map(|name| format!("`{name}`")).collect();
-    listed(&quoted)
-}
 
 /// A line for each note.
 pub fn notes(notes: &[ConversionNote]) -> String {

@@ -1,14 +1,20 @@
 //! Rows of numbers as comma-separated values.
 
+use std::borrow::Cow;
 use std::io::{self, Write};
 
+use super::quantity::is_long;
+
+/// The values of a row.
+pub type Record<'a> = Vec<Value<'a>>;
+
 /// One value of a row.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 pub enum Value<'a> {
     /// Nothing: not known, or not a number.
     Empty,
     /// A word.
-    Text(&'a str),
+    Text(Cow<'a, str>),
     /// A whole number.
     Count(usize),
     /// A number, written with all its digits.
@@ -26,7 +32,19 @@ impl From<f64> for Value<'_> {
 
 impl<'a> From<&'a str> for Value<'a> {
     fn from(text: &'a str) -> Self {
-        Value::Text(text)
+        Value::Text(text.into())
+    }
+}
+
+impl From<String> for Value<'_> {
+    fn from(text: String) -> Self {
+        Value::Text(text.into())
+    }
+}
+
+impl From<bool> for Value<'_> {
+    fn from(value: bool) -> Self {
+        Value::Text(if value { "true" } else { "false" }.into())
     }
 }
 
@@ -76,14 +94,18 @@ impl<W: Write> Csv<W> {
             self.number.clear();
             match value {
                 Value::Empty => self.writer.write_field("")?,
-                Value::Text(text) => self.writer.write_field(text)?,
+                Value::Text(text) => self.writer.write_field(text.as_ref())?,
                 Value::Count(count) => {
                     let _ = write!(self.number, "{count}");
                     self.writer.write_field(&self.number)?;
                 }
                 Value::Number(value) => {
                     // a zero has no sign: what is left of one tells of the way a number was computed
-                    let _ = write!(self.number, "{}", value + 0.0);
+                    let value = value + 0.0;
+                    let _ = match is_long(value) {
+                        true => write!(self.number, "{value:e}"),
+                        false => write!(self.number, "{value}"),
+                    };
                     self.writer.write_field(&self.number)?;
                 }
             }
@@ -107,6 +129,16 @@ impl<W: Write> Csv<W> {
             .into_inner()
             .map_err(|error| io::Error::other(error.to_string()))
     }
+}
+
+/// All rows as one text.
+pub fn render<'a>((columns, rows): (Vec<String>, impl Iterator<Item = Record<'a>>)) -> String {
+    let written = Csv::new(Vec::new(), columns).and_then(|mut csv| {
+        rows.into_iter().try_for_each(|row| csv.row(row))?;
+        csv.finish()
+    });
+    // writing to memory cannot fail, and all that is written is text
+    String::from_utf8(written.unwrap_or_default()).unwrap_or_default()
 }
 
 #[cfg(test)]

@@ -21,6 +21,11 @@ pub(crate) use cells;
 pub trait Report: Serialize {
     /// The report in words and tables. It needs nothing but the report.
     fn document(&self) -> Document;
+
+    /// Sentences that JSON has beside the answer, each with the name of its field.
+    fn sentences(&self) -> Vec<(&'static str, Option<String>)> {
+        Vec::new()
+    }
 }
 
 /// Something to read, whatever the format. In all its texts names and commands stand between back
@@ -156,6 +161,15 @@ impl Document {
             .into_iter()
             .for_each(|note| push(&mut self.notes, note));
         self
+    }
+
+    /// With a note if the work was stopped before it was done, and what may be missing then.
+    #[must_use]
+    pub fn interrupted(self, interrupted: bool, missing: &str) -> Self {
+        match interrupted {
+            true => self.note(format!("interrupted: {missing} may be missing")),
+            false => self,
+        }
     }
 
     /// With a line on how the answer was found; an empty one is left out.

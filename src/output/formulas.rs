@@ -16,11 +16,10 @@ pub(super) use notation::{Notation, Script};
 use super::json::document;
 use crate::algebra::Expression;
 use crate::analysis::formulas::{FormulasReport, Meaning};
-use crate::mechanism::Mechanism;
 
 /// The report as JSON, with the mechanism's name and the program's version. Expressions are written as in a file.
-pub fn json(mechanism: &Mechanism, report: &FormulasReport) -> String {
-    document(mechanism.name(), report)
+pub fn json(report: &FormulasReport) -> String {
+    document(&report.mechanism, report)
 }
 
 /// Sentences about what a reader might miss; none for most mechanisms.

@@ -9,10 +9,12 @@ use super::layout::{align_right, indented, plain};
 use super::option::Complaint;
 use super::overview;
 use super::quantity::{degrees, number, quantity, short, size};
-use crate::analysis::frames::{AxesError, CutReport, FramesReport, PlacedChain, PlacedNormal, Way};
+use crate::analysis::frames::{
+    AxesError, AxesReport, CutReport, FramesReport, PlacedChain, PlacedNormal, Way,
+};
 use crate::analysis::overview::Overview;
 use crate::description::{
-    AxesDescription, AxisDescription, AxisKind, AxisPlace, Entry, count, listed,
+    AxesDescription, AxisDescription, AxisKind, AxisPlace, Convention, Entry, count, listed,
 };
 use crate::geometry::Relation;
 use crate::linear::RANK_TOLERANCE;
@@ -38,7 +40,10 @@ pub fn text(report: &FramesReport, overview: &Overview, steps: bool) -> String {
             .find(|placed| placed.name == chain.name);
         sections.extend(placed.map(normals));
         if let (Some(placed), true) = (placed, steps) {
-            sections.push(steps::steps(placed, report.convention == "Modified"));
+            sections.push(steps::steps(
+                placed,
+                report.convention == Convention::Modified,
+            ));
         }
     }
     sections.extend(overview::platforms(overview));
@@ -50,14 +55,8 @@ pub fn text(report: &FramesReport, overview: &Overview, steps: bool) -> String {
 }
 
 /// The report as JSON, with the mechanism file as a text.
-pub fn json(name: &str, report: &FramesReport, file: &str) -> String {
-    #[derive(serde::Serialize)]
-    struct WithFile<'a> {
-        #[serde(flatten)]
-        report: &'a FramesReport,
-        file: &'a str,
-    }
-    document(name, &WithFile { report, file })
+pub fn json(report: &FramesReport) -> String {
+    document(&report.mechanism, report)
 }
 
 fn cut_section(cuts: &CutReport) -> String {
@@ -294,12 +293,8 @@ fn home(axis: &AxisDescription) -> String {
 }
 
 /// The same as JSON: the file of axes as a text.
-pub fn axes_json(axes: &AxesDescription, file: &str) -> String {
-    #[derive(serde::Serialize)]
-    struct File<'a> {
-        file: &'a str,
-    }
-    document(&axes.name.value, &File { file })
+pub fn axes_json(report: &AxesReport) -> String {
+    document(&report.mechanism, report)
 }
 
 /// Why the joints of a mechanism are not given by axes.

@@ -15,6 +15,9 @@ pub fn render(report: &impl Report) -> String {
     if !document.answer.is_empty() {
         object.insert("sentence".into(), document.answer.into());
     }
+    for (name, sentence) in report.sentences() {
+        object.insert(name.into(), sentence.into());
+    }
     extended(object, report)
 }
 

@@ -5,163 +5,39 @@ mod words;
 use std::fmt::Write;
 
 use serde::Serialize;
-use serde_json::{Map, Value};
 
 use super::closing;
 use super::json::document;
 use super::layout::{align_right, indented, plain};
 use super::quantity::{number, signed, size};
 use super::screws::twists;
-use crate::analysis::mobility::{
-    BranchReport, Character, IdleFreedom, LoopCount, MobilityReport, Redundancy,
-};
+use crate::analysis::mobility::{LoopCount, MobilityReport};
 use crate::description::listed;
-use crate::mechanism::Mechanism;
-use crate::system::{TwistSpace, WidestGap};
 
-/// The report as it is written. A number that is not finite is written as `null`.
-#[derive(Clone, Debug, PartialEq, Serialize)]
-pub struct MobilityJson<'a> {
-    /// Finite freedoms.
-    pub mobility: usize,
-    /// Kutzbach's count.
-    pub kutzbach: i64,
-    /// Rank of the closure equations.
-    pub rank: usize,
-    /// Infinitesimal freedoms.
-    pub infinitesimal: usize,
-    /// Closure equations that depend on the others.
-    pub redundant: usize,
-    /// Joints that take no part in the mobility: they stand still, or only spin a link.
-    pub idle_joints: &'a [String],
-    /// Joints that move.
-    pub moving_joints: &'a [String],
-    /// The dependent equations in words, by closure and direction in the closure's first frame.
-    pub redundant_constraints: Vec<String>,
-    /// The answer in sentences.
-    pub explanation: String,
-    /// Those of the idle joints that spin a link about its own line.
-    pub spinning_joints: Vec<String>,
-    /// What kind of point of the configuration space this is.
-    pub character: Character,
-    /// Joint values (rad or m) of the closed configuration.
-    pub joints: Map<String, Value>,
-    /// The branches that meet there.
-    pub branches: &'a [BranchReport],
-    /// How many there are, at least.
-    pub branch_count: usize,
-    /// Whether there are certainly no more.
-    pub branches_complete: bool,
-    /// Assemblies of another mobility.
-    pub elsewhere: Vec<ElsewhereJson>,
-    /// Random starts from which they were sought.
-    pub elsewhere_starts: usize,
-    /// Joint variables and six for each platform.
-    pub unknowns: usize,
-    /// Closure equations.
-    pub equations: usize,
-    /// Freedoms that only turn a link about its own line.
-    pub idle_freedoms: &'a [IdleFreedom],
-    /// Kutzbach's count loop by loop.
-    pub loops: &'a [LoopCount],
-    /// The dependent equations as wrenches, forces without unit and moments in m.
-    pub redundancies: &'a [Redundancy],
-    /// Infinitesimal motions of the platforms, or of the links at the closures.
-    pub twists: &'a [TwistSpace],
-    /// Ratio of the largest to the smallest singular value that counts.
-    pub condition: f64,
-    /// About how far a singular configuration is, in rad and normalising lengths, if it is near.
-    pub singular_at: Option<f64>,
-    /// The length that makes the Jacobian dimensionless (m).
-    pub normalising_length: f64,
-    /// The widest gap of the pose given; `null` if it was closed.
-    pub given_gap: Option<&'a WidestGap>,
-    /// Whether what the file holds kept its values when the mechanism was closed.
-    pub kept: bool,
-    /// Names of the joints that are outside their limits.
-    pub outside_limits: Vec<String>,
-    /// What a finite step leaves of the closure equations, dimensionless.
-    pub gap_after_step: Option<f64>,
-}
-
-/// An assembly of another mobility.
-#[derive(Clone, Debug, PartialEq, Serialize)]
-pub struct ElsewhereJson {
-    /// Its freedoms.
-    pub mobility: usize,
-    /// Joint values (rad or m).
-    pub joints: Map<String, Value>,
-}
-
-fn joint_map(mechanism: &Mechanism, values: &[f64]) -> Map<String, Value> {
-    let joints = mechanism.joints().iter().zip(values);
-    joints
-        .map(|(joint, &value)| (joint.name.clone(), value.into()))
-        .collect()
-}
-
-impl<'a> MobilityJson<'a> {
-    /// The report of a mechanism.
-    pub fn new(mechanism: &Mechanism, report: &'a MobilityReport) -> Self {
-        MobilityJson {
-            mobility: report.mobility,
-            kutzbach: report.kutzbach,
-            rank: report.rank,
-            infinitesimal: report.infinitesimal,
-            redundant: report.redundant,
-            idle_joints: &report.idle_joints,
-            spinning_joints: words::spinning(report),
-            moving_joints: &report.moving_joints,
-            redundant_constraints: report.redundancies.iter().map(words::redundancy).collect(),
-            explanation: words::explanation(mechanism, report),
-            character: report.character,
-            joints: joint_map(mechanism, &report.joints),
-            branches: &report.branches,
-            branch_count: report.branch_count,
-            branches_complete: report.branches_complete,
-            elsewhere: (report.elsewhere.iter())
-                .map(|other| ElsewhereJson {
-                    mobility: other.mobility,
-                    joints: joint_map(mechanism, &other.joints),
-                })
-                .collect(),
-            elsewhere_starts: report.elsewhere_starts,
-            unknowns: report.unknowns,
-            equations: report.equations,
-            idle_freedoms: &report.idle_freedoms,
-            loops: &report.loops,
-            redundancies: &report.redundancies,
-            twists: &report.twists,
-            condition: report.condition,
-            singular_at: report.singular_at,
-            normalising_length: report.length,
-            given_gap: report.given.as_ref(),
-            kept: report.kept,
-            outside_limits: outside_limits(mechanism, report),
-            gap_after_step: report.gap_after_step,
-        }
+/// The report as JSON: the fields of [`MobilityReport`] with the answer in sentences.
+pub fn json(report: &MobilityReport) -> String {
+    #[derive(Serialize)]
+    struct MobilityJson<'a> {
+        explanation: String,
+        redundant_constraints: Vec<String>,
+        #[serde(flatten)]
+        report: &'a MobilityReport,
     }
-}
-
-/// Names of the joints that are outside their limits at the closed configuration.
-pub fn outside_limits(mechanism: &Mechanism, report: &MobilityReport) -> Vec<String> {
-    let joints = mechanism.joints().iter().zip(&report.joints);
-    let outside = joints.filter(|(joint, value)| !joint.allows(**value));
-    outside.map(|(joint, _)| joint.name.clone()).collect()
-}
-
-/// The report as JSON.
-pub fn json(mechanism: &Mechanism, report: &MobilityReport) -> String {
-    document(mechanism.name(), &MobilityJson::new(mechanism, report))
+    let json = MobilityJson {
+        explanation: words::explanation(report),
+        redundant_constraints: report.redundancies.iter().map(words::redundancy).collect(),
+        report,
+    };
+    document(&report.mechanism, &json)
 }
 
 /// So many branches are shown with their motions.
 const SHOWN: usize = 8;
 
 /// The report as text.
-pub fn text(mechanism: &Mechanism, report: &MobilityReport) -> String {
-    let mut sections = vec![heading(mechanism, report)];
-    if !mechanism.joints().is_empty() {
+pub fn text(report: &MobilityReport) -> String {
+    let mut sections = vec![heading(report)];
+    if !report.joints.is_empty() {
         sections.push(joints(report));
     }
     if !report.redundancies.is_empty() {
@@ -206,8 +82,8 @@ pub fn text(mechanism: &Mechanism, report: &MobilityReport) -> String {
     sections.join("\n")
 }
 
-fn heading(mechanism: &Mechanism, report: &MobilityReport) -> String {
-    let mut text = format!("{}\n{}\n", mechanism.name(), words::mobility(report));
+fn heading(report: &MobilityReport) -> String {
+    let mut text = format!("{}\n{}\n", report.mechanism, words::mobility(report));
     let _ = writeln!(
         text,
         "  Kutzbach {} − {} = {}, rank {}, infinitesimal {}, redundant {}",
@@ -228,7 +104,7 @@ fn heading(mechanism: &Mechanism, report: &MobilityReport) -> String {
         let _ = writeln!(text, "  not counted: {}", words::idle(freedom));
     }
     for other in &report.elsewhere {
-        let _ = writeln!(text, "  {}", words::elsewhere(mechanism, other));
+        let _ = writeln!(text, "  {}", words::elsewhere(report, other));
     }
     if let Some(gap) = &report.given {
         let _ = writeln!(text, "  {}", closing::given(gap, report.kept));
@@ -242,7 +118,7 @@ fn joints(report: &MobilityReport) -> String {
         names => listed(names),
     };
     let (moving, idle) = (said(&report.moving_joints), said(&words::still(report)));
-    let spinning = match &words::spinning(report)[..] {
+    let spinning = match &report.spinning_joints[..] {
         [] => String::new(),
         names => format!("  spin    {}\n", listed(names)),
     };

@@ -9,7 +9,7 @@ use crate::analysis::overview::{
     ChainOverview, ClosureOverview, LoopStep, MobilityCount, Overview, PlatformOverview,
     RowOverview,
 };
-use crate::description::count;
+use crate::description::{ClosureKind, Convention, count};
 
 /// The overview as JSON.
 pub fn json(overview: &Overview) -> String {
@@ -63,14 +63,20 @@ fn joints(overview: &Overview) -> String {
     let mut table = plain(["name", "kind", "role", "home", "limits"]);
     for joint in &overview.joints {
         let shown = |value| match joint.unit {
-            Some(unit) => quantity(value, unit == "rad"),
+            Some(unit) => quantity(value, unit.is_angle()),
             None => number(value),
         };
         let limits = joint.limits.map_or("none".to_owned(), |(low, high)| {
             format!("{} to {}", shown(low), shown(high))
         });
-        let role = joint.role.to_lowercase();
-        table.add_row([&joint.name, joint.kind, &role, &shown(joint.home), &limits]);
+        let role = joint.role.word().to_lowercase();
+        table.add_row([
+            &joint.name,
+            joint.kind.word(),
+            &role,
+            &shown(joint.home),
+            &limits,
+        ]);
     }
     align_right(&mut table, [3]);
     format!("Joints\n{}", indented(&table.to_string()))
@@ -79,7 +85,7 @@ fn joints(overview: &Overview) -> String {
 pub(super) fn chain(chain: &ChainOverview) -> String {
     let mut text = format!("Chain {} on {}", chain.name, chain.on);
     if !chain.rows.is_empty() {
-        let convention = chain.convention.to_lowercase();
+        let convention = chain.convention.word().to_lowercase();
         let _ = write!(text, ", {convention} Denavit–Hartenberg table");
     }
     text.push('\n');
@@ -118,7 +124,7 @@ fn product(steps: &[String]) -> String {
 
 /// The table in the order of its convention, as lectures print it.
 fn table(chain: &ChainOverview) -> String {
-    let modified = chain.convention == "Modified";
+    let modified = chain.convention == Convention::Modified;
     let mut table = match modified {
         true => ruled(["i", "αᵢ₋₁", "aᵢ₋₁", "dᵢ", "θᵢ"]),
         false => ruled(["i", "θᵢ", "dᵢ", "aᵢ", "αᵢ"]),
@@ -160,7 +166,7 @@ pub(super) fn closures(overview: &Overview) -> String {
     let mut table = plain(["name", "kind", "between", "equations"]);
     for closure in &overview.closures {
         let [from, to] = &closure.frames;
-        let kind = closure.kind.to_lowercase();
+        let kind = closure.kind.word().to_lowercase();
         table.add_row([
             &closure.name,
             &kind,
@@ -174,15 +180,15 @@ pub(super) fn closures(overview: &Overview) -> String {
 /// The equations of a closure in words; the axes are the z axes of the frames.
 fn equations(closure: &ClosureOverview) -> String {
     match (closure.kind, &closure.length) {
-        ("Distance", Some(length)) => format!("origins at distance {length} (1)"),
-        ("Spherical", _) => "origins coincide (3)".into(),
-        ("Revolute", _) => "origins coincide (3), axes aligned (2)".into(),
-        ("Prismatic", _) => "orientations equal (3), origins on one axis (2)".into(),
-        ("Universal", _) => "origins coincide (3), axes perpendicular (1)".into(),
-        ("Cylindrical", _) => "axes aligned (2), origins on one axis (2)".into(),
-        ("Planar", _) => "axes aligned (2), origins in one plane (1)".into(),
-        ("Rigid", _) => "origins coincide (3), orientations equal (3)".into(),
-        (other, _) => other.to_lowercase(),
+        (ClosureKind::Distance, Some(length)) => format!("origins at distance {length} (1)"),
+        (ClosureKind::Distance, None) => "origins at a given distance (1)".into(),
+        (ClosureKind::Spherical, _) => "origins coincide (3)".into(),
+        (ClosureKind::Revolute, _) => "origins coincide (3), axes aligned (2)".into(),
+        (ClosureKind::Prismatic, _) => "orientations equal (3), origins on one axis (2)".into(),
+        (ClosureKind::Universal, _) => "origins coincide (3), axes perpendicular (1)".into(),
+        (ClosureKind::Cylindrical, _) => "axes aligned (2), origins on one axis (2)".into(),
+        (ClosureKind::Planar, _) => "axes aligned (2), origins in one plane (1)".into(),
+        (ClosureKind::Rigid, _) => "origins coincide (3), orientations equal (3)".into(),
     }
 }
 

@@ -1,11 +1,8 @@
 //! Numbers as people read them; JSON keeps every digit instead.
 
-/// All digits, with a power of ten where noughts would fill the line.
-pub fn digits(x: f64) -> String {
-    match x != 0.0 && !(1e-5..1e16).contains(&x.abs()) {
-        true => format!("{x:e}"),
-        false => x.to_string(),
-    }
+/// Whether a number needs a power of ten to be short.
+pub(super) fn is_long(x: f64) -> bool {
+    x != 0.0 && !(1e-5..1e16).contains(&x.abs())
 }
 
 /// A count with the minus sign of the formulas it stands in.

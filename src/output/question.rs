@@ -239,6 +239,9 @@ pub(super) fn value(text: &str, error: &ValueError) -> (Complaint, Part) {
         }
         ValueError::NoValue(kind) => (ProblemKind::NoValue(*kind), Part::WholeValue),
         ValueError::Unit(kind) => (ProblemKind::Unit(*kind), Part::WholeValue),
+        ValueError::NotANumber => {
+            return (said(error.to_string(), "", None), Part::WholeValue);
+        }
         ValueError::NotAPose { .. } => {
             let title = error.to_string();
             let help = "a pose is a list such as [Tz(0.5), Rx(10 deg)], or home".to_owned();

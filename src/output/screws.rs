@@ -1,8 +1,31 @@
 //! Twists in words and numbers.
 
+use super::document::{Column, Table, cells};
 use super::layout::{indented, plain};
 use super::quantity::{quantity, short};
 use crate::system::{Screw, TwistSpace};
+
+/// A table of twists.
+pub(super) fn twist_table(spaces: &[TwistSpace]) -> Table {
+    let mut table = Table::new([
+        Column::words("body"),
+        Column::words("motion"),
+        Column::words("along"),
+        Column::words("through").in_unit("m"),
+        Column::words("pitch"),
+    ]);
+    for space in spaces {
+        for screw in &space.screws {
+            let [kind, along, through, pitch] = screw_words(screw);
+            table.row(cells![&space.body, kind, along, through, pitch]);
+        }
+        for spin in &space.spins {
+            let [_, along, through, _] = screw_words(spin);
+            table.row(cells![&space.body, "idle spin", along, through, ""]);
+        }
+    }
+    table
+}
 
 /// A table of twists under a title; nothing if there are none.
 pub(super) fn twists(title: &str, spaces: &[TwistSpace]) -> String {

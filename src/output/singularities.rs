@@ -1,12 +1,16 @@
-//! Singularities as text, JSON and CSV, and loci as pictures.
+//! Singularities as documents and rows, and loci as pictures.
 
+mod along;
 mod coupled;
+mod loci;
 #[cfg(feature = "plot")]
 mod picture;
 mod refusals;
 mod words;
 
+pub use along::along_rows;
 pub use coupled::note;
+pub use loci::locus_rows;
 #[cfg(feature = "plot")]
 pub use picture::svg;
 pub use refusals::{
@@ -14,104 +18,76 @@ pub use refusals::{
 };
 pub use words::{completeness, ending, pinned};
 
-use std::fmt::Write;
-
-use serde::Serialize;
-
-use super::json::document;
-use super::layout::{align_right, indented, plain};
-use super::quantity::{digits, number, quantity, short};
-use super::screws::{screw_words, twists};
+use super::csv::Value;
+use super::document::{Column, Document, Report, Section, Table, cells};
+use super::quantity::{number, quantity, short};
+use super::screws::{screw_words, twist_table};
 use crate::analysis::singularities::{
-    AlongReport, Distances, Kind, LocusReport, Movement, Resisted, Shape, SingularitiesReport,
-    Singularity,
+    Distances, Kind, Movement, Resisted, SingularitiesReport, Singularity,
 };
-use crate::description::{count, listed};
-use crate::mechanism::Mechanism;
+use crate::description::listed;
+use crate::mechanism::Variable;
 
-/// What is special about a configuration as JSON: the fields of [`SingularitiesReport`] after one
-/// sentence and the [`note`] on its outputs.
-pub fn json(mechanism: &Mechanism, report: &SingularitiesReport) -> String {
-    #[derive(Serialize)]
-    struct Json<'a> {
-        sentence: String,
-        note: Option<String>,
-        #[serde(flatten)]
-        report: &'a SingularitiesReport,
+impl Report for SingularitiesReport {
+    fn document(&self) -> Document {
+        let singularity = &self.singularity;
+        let answer = words::sentence(singularity, &self.inputs, &self.outputs);
+        let gap = self.given_gap.as_ref();
+        let at = self.variables.iter().zip(&self.joints);
+        let at = at.map(|(of, x)| format!("{} = {}", of.name, quantity(*x, of.unit.is_angle())));
+        let at: Vec<String> = at.collect();
+        let at = (!at.is_empty()).then(|| format!("at {}", at.join(", ")));
+        Document::new(&self.mechanism, answer)
+            .note(words::split(&self.inputs, &self.outputs))
+            .notes(note(&self.coupled))
+            .notes(gap.map(|gap| super::closing::given(gap, self.kept)))
+            .notes(at)
+            .sections(details(singularity))
+            .section(distances(&singularity.distances, self.normalising_length))
     }
-    let json = Json {
-        sentence: words::sentence(&report.singularity, &report.inputs, &report.outputs),
-        note: note(&report.coupled),
-        report,
-    };
-    document(mechanism.name(), &json)
-}
 
-/// What is special about a configuration as text.
-pub fn text(mechanism: &Mechanism, report: &SingularitiesReport) -> String {
-    let singularity = &report.singularity;
-    let mut text = format!(
-        "{}\n{}\n{}\n{}",
-        mechanism.name(),
-        words::split(&report.inputs, &report.outputs),
-        words::sentence(singularity, &report.inputs, &report.outputs),
-        coupled::line(&report.coupled)
-    );
-    if let Some(gap) = &report.given_gap {
-        text += &format!("{}\n", super::closing::given(gap, report.kept));
+    fn sentences(&self) -> Vec<(&'static str, Option<String>)> {
+        vec![("note", note(&self.coupled))]
     }
-    let values = mechanism.joints().iter().zip(&report.joints);
-    let values = values.map(|(joint, value)| {
-        format!(
-            "{} = {}",
-            joint.name,
-            quantity(*value, joint.kind.is_angle())
-        )
-    });
-    let values: Vec<String> = values.collect();
-    if !values.is_empty() {
-        text += &format!("At {}\n", values.join(", "));
-    }
-    text += &details(singularity);
-    text + &distances(&singularity.distances, report.normalising_length)
 }
 
 /// Types, motions and wrenches.
-fn details(singularity: &Singularity) -> String {
-    let mut text = String::new();
-    for kind in &singularity.zlatanov {
-        let _ = writeln!(text, "  {}", words::zlatanov(*kind));
-    }
-    if let Some(gained) = &singularity.gained {
-        text += &movement("Gained, while the inputs stand still", gained);
-    }
-    if let Some(idle) = &singularity.idle_inputs {
-        text += &movement("Moves while the outputs stand still", idle);
-    }
-    for resisted in &singularity.resisted {
-        text += &wrenches(resisted);
-    }
-    text
+fn details(singularity: &Singularity) -> Vec<Section> {
+    let kinds = singularity.zlatanov.iter();
+    let kinds = Section::new("Types of Zlatanov, Fenton and Benhabib")
+        .list(kinds.map(|kind| words::zlatanov(*kind)));
+    let gained = singularity.gained.as_ref();
+    let gained = gained.map(|of| movement("Gained, while the inputs stand still", of));
+    let idle = singularity.idle_inputs.as_ref();
+    let idle = idle.map(|of| movement("Moves while the outputs stand still", of));
+    let parts = [kinds].into_iter().chain(gained).chain(idle);
+    parts
+        .chain(singularity.resisted.iter().map(wrenches))
+        .collect()
 }
 
-fn movement(title: &str, movement: &Movement) -> String {
-    let mut text = match movement.twists.iter().all(|space| space.screws.is_empty()) {
-        true => format!("{title}\n"),
-        false => twists(title, &movement.twists),
-    };
+fn movement(title: &str, movement: &Movement) -> Section {
+    let moves = movement.twists.iter().any(|space| !space.screws.is_empty());
+    let spaces: &[_] = if moves { &movement.twists } else { &[] };
     let joints = movement.joints.iter().map(|moving| match moving.rate {
         Some(rate) => format!("{} {}", moving.joint, short(rate)),
         None => moving.joint.clone(),
     });
     let joints: Vec<String> = joints.collect();
-    if !joints.is_empty() {
-        let _ = writeln!(text, "  joints {}", joints.join(", "));
-    }
-    text
+    let joints = match joints.is_empty() {
+        true => String::new(),
+        false => format!("joints {}", joints.join(", ")),
+    };
+    Section::new(title).table(twist_table(spaces)).text(joints)
 }
 
-fn wrenches(resisted: &Resisted) -> String {
-    let mut table = plain(["wrench", "along", "through (m)", "pitch"]);
+fn wrenches(resisted: &Resisted) -> Section {
+    let mut table = Table::new([
+        Column::words("wrench"),
+        Column::words("along"),
+        Column::words("through").in_unit("m"),
+        Column::words("pitch"),
+    ]);
     for screw in &resisted.wrenches {
         let [kind, along, through, pitch] = screw_words(screw);
         let kind = match kind.as_str() {
@@ -119,17 +95,17 @@ fn wrenches(resisted: &Resisted) -> String {
             "shift" => "moment",
             _ => "wrench",
         };
-        table.add_row([kind, &along, &through, &pitch]);
+        table.row(cells![kind, along, through, pitch]);
     }
-    format!(
-        "Lost: {} cannot move against this; it is borne without the inputs\n{}",
-        resisted.output,
-        indented(&table.to_string())
-    )
+    let title = format!(
+        "Lost: {} cannot move against this wrench, which is carried without the inputs",
+        resisted.output
+    );
+    Section::new(title).table(table)
 }
 
-fn distances(distances: &Distances, length: f64) -> String {
-    let mut table = plain(["", "σ"]);
+fn distances(distances: &Distances, length: f64) -> Section {
+    let mut table = Table::new([Column::words(""), Column::words("σ")]);
     let rows = [
         ("direct, inputs at rest", distances.direct),
         ("inverse, outputs at rest", distances.inverse),
@@ -140,117 +116,45 @@ fn distances(distances: &Distances, length: f64) -> String {
             true => "0".into(),
             false => format!("{value:.4e}"),
         });
-        table.add_row([name, &value]);
+        table.row(cells![name, value]);
     }
-    format!(
-        "Distance to singularity: smallest singular values, lengths over {} m\n{}",
-        number(length),
-        indented(&table.to_string())
-    )
-}
-
-/// A motion along inputs as JSON: the fields of [`AlongReport`] after one sentence and the [`note`] on
-/// its outputs.
-pub fn along_json(mechanism: &Mechanism, report: &AlongReport) -> String {
-    #[derive(Serialize)]
-    struct Json<'a> {
-        sentence: String,
-        note: Option<String>,
-        #[serde(flatten)]
-        report: &'a AlongReport,
-    }
-    let json = Json {
-        sentence: words::ending(report),
-        note: note(&report.coupled),
-        report,
-    };
-    document(mechanism.name(), &json)
-}
-
-/// A motion along inputs as text.
-pub fn along_text(mechanism: &Mechanism, report: &AlongReport) -> String {
-    let mut text = format!(
-        "{}\n{}\n{}\n{}",
-        mechanism.name(),
-        words::split(&report.inputs, &report.outputs),
-        words::ending(report),
-        coupled::line(&report.coupled)
+    let title = format!(
+        "Distance to singularity: smallest singular values, lengths over {} m",
+        number(length)
     );
-    for (i, crossing) in report.crossings.iter().enumerate() {
-        let _ = writeln!(
-            text,
-            "\n{}. {}: {}",
-            i + 1,
-            words::place(report, &crossing.moved),
-            words::crossing(crossing, report)
-        );
-        text += &indented(&details(&crossing.singularity));
+    Section::new(title).table(table)
+}
+
+/// Columns of rows, without those that come again: a coordinate that moves or bounds the box is also
+/// a joint or part of a pose.
+struct Once {
+    columns: Vec<String>,
+    stays: Vec<bool>,
+}
+
+impl Once {
+    /// Columns of their own, then variables of which some may be the same.
+    fn new<'a>(own: &[&str], variables: impl IntoIterator<Item = &'a Variable>) -> Self {
+        let mut columns: Vec<String> = own.iter().map(|name| (*name).to_owned()).collect();
+        let mut stays = Vec::new();
+        for variable in variables {
+            let name = variable.to_string();
+            stays.push(!columns.contains(&name));
+            if stays.last() == Some(&true) {
+                columns.push(name);
+            }
+        }
+        Once { columns, stays }
     }
-    text
-}
 
-/// The singularities on the way as CSV, in m and rad with all digits.
-pub fn along_csv(mechanism: &Mechanism, report: &AlongReport) -> String {
-    let mut columns: Vec<String> = ["number", "part", "type", "zlatanov", "fold", "branches"]
-        .map(str::to_owned)
-        .to_vec();
-    let own = columns.len();
-    columns.extend(
-        report
-            .moved
-            .iter()
-            .map(|m| field(&format!("{} ({})", m.name, m.unit))),
-    );
-    columns.extend(joint_columns(mechanism));
-    let once = once(&mut columns, own);
-    let mut text = columns.join(",") + "\n";
-    for (i, crossing) in report.crossings.iter().enumerate() {
-        let kind = crossing.singularity.gosselin_angeles;
-        let zlatanov = crossing.singularity.zlatanov.iter();
-        let zlatanov: Vec<&str> = zlatanov.map(|kind| words::letters(*kind)).collect();
-        let mut fields = vec![
-            (i + 1).to_string(),
-            crossing.part.to_string(),
-            kind.map_or(String::new(), |kind| kind.to_string()),
-            zlatanov.join(" "),
-            crossing.fold.to_string(),
-            crossing.branches.to_string(),
-        ];
-        let values = crossing.moved.iter().chain(&crossing.joints);
-        let values = values.zip(&once).filter(|(_, once)| **once);
-        fields.extend(values.map(|(value, _)| digits(*value)));
-        text += &(fields.join(",") + "\n");
+    /// The values of the variables that stay.
+    fn values<'a>(
+        &self,
+        values: impl Iterator<Item = &'a f64>,
+    ) -> impl Iterator<Item = Value<'static>> {
+        let values = values.zip(&self.stays).filter(|(_, stays)| **stays);
+        values.map(|(value, _)| Value::from(*value))
     }
-    text
-}
-
-/// A name with a comma stands in quotes (RFC 4180).
-fn field(name: &str) -> String {
-    match name.contains([',', '"']) {
-        true => format!("\"{}\"", name.replace('"', "\"\"")),
-        false => name.to_owned(),
-    }
-}
-
-fn joint_columns(mechanism: &Mechanism) -> Vec<String> {
-    let joints = mechanism.joints().iter();
-    joints
-        .map(|joint| {
-            let unit = if joint.kind.is_angle() { "rad" } else { "m" };
-            field(&format!("{} ({unit})", joint.name))
-        })
-        .collect()
-}
-
-/// Leaves out what comes again after the first columns, and tells which of those that follow stay: a
-/// coordinate that moves or bounds the box is also a joint or part of a pose.
-fn once(columns: &mut Vec<String>, own: usize) -> Vec<bool> {
-    let stays: Vec<bool> = (0..columns.len())
-        .map(|i| !columns[..i].contains(&columns[i]))
-        .collect();
-    let mut of = stays.iter();
-    columns.retain(|_| of.next().copied().unwrap_or(true));
-    stays[own..].to_vec()
 }
 
 fn kind_word(kind: Kind) -> &'static str {
@@ -258,114 +162,6 @@ fn kind_word(kind: Kind) -> &'static str {
         Kind::Direct => "direct",
         Kind::Inverse => "inverse",
     }
-}
-
-/// Loci as JSON: the fields of [`LocusReport`] after two sentences and the [`note`] on its outputs.
-pub fn locus_json(mechanism: &Mechanism, report: &LocusReport) -> String {
-    #[derive(Serialize)]
-    struct Json<'a> {
-        sentence: String,
-        completeness: String,
-        note: Option<String>,
-        #[serde(flatten)]
-        report: &'a LocusReport,
-    }
-    let json = Json {
-        sentence: words::loci(report),
-        completeness: words::completeness(report),
-        note: note(&report.coupled),
-        report,
-    };
-    document(mechanism.name(), &json)
-}
-
-/// Loci as text: each curve with its extent.
-pub fn locus_text(mechanism: &Mechanism, report: &LocusReport) -> String {
-    let mut text = format!(
-        "{}\n{}\n{}\n{}{}",
-        mechanism.name(),
-        words::split(&report.inputs, &report.outputs),
-        words::loci(report),
-        words::pinned(report).map_or(String::new(), |said| said + "\n"),
-        coupled::line(&report.coupled)
-    );
-    if !report.loci.is_empty() {
-        let [a, b] = report.bounds.each_ref().map(|bound| bound.name.as_str());
-        let mut table = plain(["locus", "type", "kind", a, b, "ends", "points", "over it"]);
-        for (i, locus) in report.loci.iter().enumerate() {
-            let extent = |k: usize| {
-                let [low, high] = locus.extents[k];
-                let angle = report.bounds[k].unit == "rad";
-                match high - low < 1e-9 {
-                    true => quantity(low, angle),
-                    false => format!("{} to {}", quantity(low, angle), quantity(high, angle)),
-                }
-            };
-            let kind = locus.singularity.gosselin_angeles;
-            table.add_row([
-                (i + 1).to_string(),
-                kind.map_or("none".into(), |kind| kind.to_string()),
-                kind_word(locus.kind).into(),
-                extent(0),
-                extent(1),
-                words::ends(locus),
-                locus.points.len().to_string(),
-                locus.configurations.to_string(),
-            ]);
-        }
-        align_right(&mut table, [0, 6, 7]);
-        text += &indented(&table.to_string());
-        if report.loci.iter().any(|locus| locus.configurations > 1) {
-            text += "  Over a locus so many curves of configurations were found, which look alike in the box.\n";
-        }
-        let crossings: usize = report.loci.iter().map(|locus| locus.crossings.len()).sum();
-        if crossings > 0 {
-            let crossings = count(crossings, "crossing");
-            let _ = writeln!(text, "  {crossings} of loci passed straight through");
-        }
-    }
-    text += &format!("{}\n", words::completeness(report));
-    text
-}
-
-/// Points of loci as CSV, in m and rad with all digits.
-pub fn locus_csv(mechanism: &Mechanism, report: &LocusReport) -> String {
-    let mut columns: Vec<String> = ["locus", "kind", "type", "shape", "configurations"]
-        .map(str::to_owned)
-        .to_vec();
-    let own = columns.len();
-    let sides = report.bounds.iter();
-    columns.extend(sides.map(|bound| field(&format!("{} ({})", bound.name, bound.unit))));
-    columns.extend(joint_columns(mechanism));
-    for platform in mechanism.platforms() {
-        let parts = ["x (m)", "y (m)", "z (m)", "qw", "qx", "qy", "qz"];
-        columns.extend(parts.map(|part| field(&format!("{}.{part}", platform.name))));
-    }
-    let once = once(&mut columns, own);
-    let mut text = columns.join(",") + "\n";
-    for (i, locus) in report.loci.iter().enumerate() {
-        let kind = locus.singularity.gosselin_angeles;
-        let kind = kind.map_or(String::new(), |kind| kind.to_string());
-        for ((point, joints), poses) in locus.points.iter().zip(&locus.joints).zip(&locus.poses) {
-            let _ = write!(
-                text,
-                "{},{},{kind},{},{}",
-                i + 1,
-                kind_word(locus.kind),
-                match locus.shape {
-                    Shape::Curve => "curve",
-                    Shape::Point => "point",
-                },
-                locus.configurations
-            );
-            let values = point.iter().chain(joints).chain(poses.iter().flatten());
-            for (value, _) in values.zip(&once).filter(|(_, once)| **once) {
-                let _ = write!(text, ",{}", digits(*value));
-            }
-            text.push('\n');
-        }
-    }
-    text
 }
 
 /// The remark that joints are outside their limits.

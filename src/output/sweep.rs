@@ -18,6 +18,7 @@ use serde::{Serialize, Serializer};
 
 use super::csv::Value;
 use super::document::{Cell, Column, Document, Report, Section, Table};
+use crate::algebra::SiUnit;
 use crate::analysis::sweep::{Columns, MetKind, MotionReport, MotionsReport, Row, SweepReport};
 use crate::mechanism::Variable;
 
@@ -86,7 +87,7 @@ fn rows(motion: &MotionReport) -> Section {
     let shown = values.iter().enumerate();
     let shown = shown.filter(|(i, _)| i.is_multiple_of(every) || *i == last);
     // quaternions are for programs
-    let is_shown = |i: &usize| *i == 0 || !motion.columns[*i].unit.is_empty();
+    let is_shown = |i: &usize| *i == 0 || motion.columns[*i].unit != SiUnit::ONE;
     let columns: Vec<usize> = (0..motion.columns.len()).filter(is_shown).collect();
     let headers = columns.iter().map(|&i| match i {
         0 => Column::words("step"),
@@ -95,7 +96,7 @@ fn rows(motion: &MotionReport) -> Section {
     let mut table = Table::new(headers);
     for (_, row) in shown {
         let cell = |&i: &usize| match row.get(i) {
-            Some(Some(value)) => Cell::quantity(*value, &motion.columns[i].unit),
+            Some(Some(value)) => Cell::quantity(*value, motion.columns[i].unit),
             _ => Cell::Empty,
         };
         table.row(columns.iter().map(cell).collect());

@@ -1,191 +1,135 @@
-//! Maps of the workspace as text, JSON, CSV and as pictures.
+//! Maps of the workspace as documents, as rows and as pictures.
 
 #[cfg(feature = "plot")]
 mod picture;
+mod refusals;
 mod words;
 
 #[cfg(feature = "plot")]
 pub use picture::{left_out, svg};
-pub use words::{
-    also_held, boundary_flat, completeness, empty_side, more_than_a_turn, no_platform, no_range,
-    sentence, too_fine, too_many_axes, too_many_cells, wrong_count, wrong_grid,
+pub use refusals::{
+    also_held, boundary_flat, empty_side, more_than_a_turn, no_platform, no_range, too_fine,
+    too_many_axes, too_many_cells, wrong_count, wrong_grid,
 };
+pub use words::{completeness, sentence};
 
-use std::fmt::Write;
-
-use serde::Serialize;
-
-use super::json::document;
-use super::layout::{align_right, indented, plain};
-use super::quantity::{digits, number, quantity, size};
-use crate::analysis::workspace::{AspectReport, BoundaryKind, Cell, Conditioned, WorkspaceReport};
+use super::csv::{Record, Value};
+use super::document::{Cell, Column, Document, Report, Section, Table, cells};
+use super::quantity::{number, quantity};
+use crate::algebra::SiUnit;
+use crate::analysis::workspace::{AspectReport, BoundaryKind, Conditioned, WorkspaceReport};
 use crate::description::count;
-use crate::mechanism::Mechanism;
+use crate::mechanism::Variable;
 
-/// A map as JSON: the fields of [`WorkspaceReport`] after two sentences, then columns and rows.
-pub fn json(mechanism: &Mechanism, report: &WorkspaceReport) -> String {
-    #[derive(Serialize)]
-    struct Json<'a> {
-        sentence: String,
-        completeness: String,
-        #[serde(flatten)]
-        report: &'a WorkspaceReport,
-        columns: Vec<String>,
-        values: Vec<Vec<Option<f64>>>,
+/// Modes and aspects shown at most.
+const MOST: usize = 20;
+
+impl Report for WorkspaceReport {
+    fn document(&self) -> Document {
+        Document::new(&self.mechanism, sentence(self))
+            .note(words::question(self))
+            .interrupted(self.interrupted, "nodes, modes and boundaries")
+            .section(modes(self))
+            .section(aspects(self))
+            .section(boundary(self))
+            .method(completeness(self))
     }
-    let json = Json {
-        sentence: sentence(report),
-        completeness: completeness(report),
-        report,
-        columns: columns(mechanism, report),
-        values: report.cells.iter().map(|cell| row(&cell)).collect(),
-    };
-    document(mechanism.name(), &json)
+
+    fn sentences(&self) -> Vec<(&'static str, Option<String>)> {
+        vec![("completeness", Some(completeness(self)))]
+    }
 }
 
-fn columns(mechanism: &Mechanism, report: &WorkspaceReport) -> Vec<String> {
+/// The nodes as rows: the names of the columns, then the values in SI units and rad. An aspect is
+/// missing for a node outside limits or on a singularity.
+pub fn node_rows(
+    report: &WorkspaceReport,
+) -> (Vec<String>, impl Iterator<Item = Record<'static>> + '_) {
+    let columns = report.cells.columns.iter().map(Variable::to_string);
+    let rows = report.cells.iter();
+    let rows = rows.map(|cell| cell.values().map(Value::from).collect());
+    (columns.collect(), rows)
+}
+
+/// The points of the boundary curves as rows, in the same way.
+pub fn boundary_rows(
+    report: &WorkspaceReport,
+) -> (Vec<String>, impl Iterator<Item = Record<'static>> + '_) {
+    let own = ["curve", "kind", "ends reach"].map(str::to_owned);
     let axes = report.axes.iter();
-    let mut columns: Vec<String> = axes.map(|a| format!("{} ({})", a.name, a.unit)).collect();
-    columns.extend(["mode", "aspect", "condition", "direct", "inverse"].map(str::to_owned));
-    columns.extend(joint_columns(mechanism));
-    let following = report.following.iter();
-    columns.extend(following.map(|c| format!("{} ({})", c.name, c.unit)));
-    columns
-}
-
-fn joint_columns(mechanism: &Mechanism) -> Vec<String> {
-    let joints = mechanism.joints().iter();
-    joints
-        .map(|joint| {
-            let unit = if joint.kind.is_angle() { "rad" } else { "m" };
-            format!("{} ({unit})", joint.name)
-        })
-        .collect()
-}
-
-/// An aspect that is missing stands for a node outside limits or on a singularity.
-fn row(cell: &Cell) -> Vec<Option<f64>> {
-    let mut row: Vec<Option<f64>> = cell.at.iter().copied().map(Some).collect();
-    row.push(Some(cell.mode as f64));
-    row.push(cell.aspect.map(|aspect| aspect as f64));
-    row.extend([cell.condition, cell.direct, cell.inverse]);
-    row.extend(cell.joints.iter().chain(cell.following).copied().map(Some));
-    row
-}
-
-/// A name with a comma stands in quotes (RFC 4180).
-fn header(columns: &[String]) -> String {
-    let fields = columns.iter().map(|name| match name.contains([',', '"']) {
-        true => format!("\"{}\"", name.replace('"', "\"\"")),
-        false => name.clone(),
-    });
-    fields.collect::<Vec<String>>().join(",") + "\n"
-}
-
-/// The nodes as lines of CSV, in m and rad with all digits; the first is the header.
-pub fn csv<'a>(
-    mechanism: &Mechanism,
-    report: &'a WorkspaceReport,
-) -> impl Iterator<Item = String> + 'a {
-    let first = header(&columns(mechanism, report));
-    let rows = report.cells.iter().map(|cell| {
-        let fields = row(&cell);
-        let fields = fields.iter().map(|x| x.map_or(String::new(), digits));
-        fields.collect::<Vec<String>>().join(",") + "\n"
-    });
-    std::iter::once(first).chain(rows)
-}
-
-/// The points of the boundary curves as lines of CSV.
-pub fn boundary_csv<'a>(
-    mechanism: &Mechanism,
-    report: &'a WorkspaceReport,
-) -> impl Iterator<Item = String> + 'a {
-    let axes = report.axes.iter();
-    let mut columns = vec!["curve".to_owned(), "kind".into(), "ends reach".into()];
-    columns.extend(axes.map(|a| format!("{} ({})", a.name, a.unit)));
-    columns.extend(joint_columns(mechanism));
+    let axes = axes.map(|axis| Variable::new(&axis.name, axis.unit).to_string());
+    let joints = report.variables.iter().map(Variable::to_string);
+    let columns = own.into_iter().chain(axes).chain(joints).collect();
     let rows = report.curves.iter().enumerate().flat_map(|(i, curve)| {
-        let start = format!(
-            "{},{},{}",
-            i + 1,
-            words::kind(&curve.kind),
-            curve.ends_reach
-        );
         let points = curve.points.iter().zip(&curve.joints);
         points.map(move |(point, joints)| {
-            let mut line = start.clone();
-            for value in point.iter().chain(&curve.slice).chain(joints) {
-                // writing to a string cannot fail
-                let _ = write!(line, ",{}", digits(*value));
-            }
-            line + "\n"
+            let first = [
+                Value::from(i + 1),
+                Value::from(words::kind(&curve.kind)),
+                Value::from(curve.ends_reach),
+            ];
+            let values = point.iter().chain(&curve.slice).chain(joints);
+            let values = values.map(|value| Value::from(*value));
+            first.into_iter().chain(values).collect()
         })
     });
-    std::iter::once(header(&columns)).chain(rows)
+    (columns, rows)
 }
 
-/// A map as text.
-pub fn text(mechanism: &Mechanism, report: &WorkspaceReport) -> String {
-    /// Modes and aspects listed.
-    const MOST: usize = 20;
-    let mut text = format!(
-        "{}\n{}\n{}\n",
-        mechanism.name(),
-        words::question(report),
-        sentence(report)
-    );
-    let mut table = plain(["mode", "nodes", "within limits", "size", "aspects"]);
+fn modes(report: &WorkspaceReport) -> Section {
+    let mut table = Table::new([
+        Column::numbers("mode"),
+        Column::numbers("nodes"),
+        Column::numbers("within limits"),
+        Column::words("size"),
+        Column::words("aspects"),
+    ]);
     for mode in report.modes.iter().take(MOST) {
-        let aspects: Vec<&AspectReport> = report
-            .aspects
-            .iter()
-            .filter(|a| a.mode == mode.mode)
-            .collect();
+        let aspects = report.aspects.iter().filter(|a| a.mode == mode.mode);
+        let aspects: Vec<usize> = aspects.map(|aspect| aspect.aspect).collect();
         let aspects = match aspects[..] {
             [] => "none".into(),
-            [one] => one.aspect.to_string(),
-            [first, .., last] => format!("{} to {}", first.aspect, last.aspect),
+            [one] => one.to_string(),
+            [first, .., last] => format!("{first} to {last}"),
         };
-        table.add_row([
-            mode.mode.to_string(),
-            mode.nodes.to_string(),
-            mode.within.to_string(),
-            words::area(report, mode.size),
-            aspects,
-        ]);
+        let size = words::area(report, mode.size);
+        table.row(cells![mode.mode, mode.nodes, mode.within, size, aspects]);
     }
-    align_right(&mut table, [0, 1, 2]);
-    if !report.modes.is_empty() {
-        text += &format!("\nModes{}\n", more(report.modes.len(), MOST));
-        text += &indented(&table.to_string());
-        for mode in report.modes.iter().filter(|mode| mode.repeated > 0) {
-            let _ = writeln!(
-                text,
-                "  mode {} meets itself: going round in the box leads from one configuration to \
-                 another, at {}",
-                mode.mode,
-                count(mode.repeated, "node")
-            );
-        }
-        text += &aspects(report, MOST);
-    }
-    text += &boundary(report);
-    text + &format!("\n{}\n", completeness(report))
+    let repeated = report.modes.iter().filter(|mode| mode.repeated > 0);
+    let repeated = repeated.map(|mode| {
+        format!(
+            "mode {} meets itself: going round in the box leads from one configuration to another, \
+             at {}",
+            mode.mode,
+            count(mode.repeated, "node")
+        )
+    });
+    Section::new(format!("Modes{}", more(report.modes.len())))
+        .table(table)
+        .list(repeated)
 }
 
-fn more(all: usize, most: usize) -> String {
-    match all > most {
-        true => format!(", {most} of {all}; --format json has all of them"),
+fn more(all: usize) -> String {
+    match all > MOST {
+        true => format!(", {MOST} of {all}; --format json has all of them"),
         false => String::new(),
     }
 }
 
-fn aspects(report: &WorkspaceReport, most: usize) -> String {
+fn aspects(report: &WorkspaceReport) -> Section {
     /// Aspects of fewer nodes are only counted.
     const FEW: usize = 4;
-    let mut table = plain([
-        "aspect", "mode", "nodes", "size", "direct", "inverse", "best", "at", "worst", "at",
+    let mut table = Table::new([
+        Column::numbers("aspect"),
+        Column::numbers("mode"),
+        Column::numbers("nodes"),
+        Column::words("size"),
+        Column::words("direct"),
+        Column::words("inverse"),
+        Column::numbers("best"),
+        Column::words("at"),
+        Column::numbers("worst"),
+        Column::words("at"),
     ]);
     let sign = |sign: i8| match sign {
         0 => "",
@@ -194,85 +138,76 @@ fn aspects(report: &WorkspaceReport, most: usize) -> String {
     };
     let at = |node: &Conditioned| {
         let values = node.at.iter().zip(&report.axes);
-        let values = values.map(|(x, axis)| quantity(*x, axis.unit == "rad"));
+        let values = values.map(|(x, axis)| quantity(*x, axis.unit.is_angle()));
         values.collect::<Vec<String>>().join(", ")
     };
-    let large = |aspect: &&AspectReport| aspect.nodes >= FEW;
-    let listed = report.aspects.iter().filter(large);
-    let small = report.aspects.len() - listed.clone().count();
-    for aspect in listed.clone().take(most) {
-        let mut row = vec![
-            aspect.aspect.to_string(),
-            aspect.mode.to_string(),
-            aspect.nodes.to_string(),
+    let (large, small): (Vec<&AspectReport>, Vec<_>) = report
+        .aspects
+        .iter()
+        .partition(|aspect| aspect.nodes >= FEW);
+    for aspect in large.iter().take(MOST) {
+        let best = aspect.best.as_ref();
+        let worst = aspect.worst.as_ref();
+        table.row(cells![
+            aspect.aspect,
+            aspect.mode,
+            aspect.nodes,
             words::area(report, aspect.size),
-            sign(aspect.direct).into(),
-            sign(aspect.inverse).into(),
-        ];
-        for node in [&aspect.best, &aspect.worst] {
-            match node {
-                Some(node) => row.extend([size(node.condition), at(node)]),
-                None => row.extend([String::new(), String::new()]),
-            }
-        }
-        table.add_row(row);
+            sign(aspect.direct),
+            sign(aspect.inverse),
+            best.map(|node| Cell::size(node.condition)),
+            best.map(at),
+            worst.map(|node| Cell::size(node.condition)),
+            worst.map(at),
+        ]);
     }
-    align_right(&mut table, [0, 1, 2, 6, 8]);
-    let few = match (small, listed.clone().next()) {
-        (0, _) => String::new(),
-        (n, Some(_)) => format!("  and {} of fewer than {FEW} nodes\n", count(n, "aspect")),
-        (n, None) => format!("  {} of fewer than {FEW} nodes\n", count(n, "aspect")),
+    let few = match (small.len(), large.is_empty()) {
+        (0, _) => None,
+        (n, false) => Some(format!(
+            "and {} of fewer than {FEW} nodes",
+            count(n, "aspect")
+        )),
+        (n, true) => Some(format!("{} of fewer than {FEW} nodes", count(n, "aspect"))),
     };
-    if report.aspects.is_empty() {
-        return String::new();
+    let section = Section::new(format!("Aspects{}", more(large.len())));
+    match report.aspects.is_empty() {
+        true => section,
+        false => section
+            .table(table)
+            .list(few.into_iter().chain(words::explanation(report))),
     }
-    let table = match listed.clone().next() {
-        Some(_) => indented(&table.to_string()),
-        None => String::new(),
-    };
-    format!(
-        "\nAspects{}\n{table}{few}{}",
-        more(listed.count(), most),
-        words::explanation(report)
-    )
 }
 
-fn boundary(report: &WorkspaceReport) -> String {
+fn boundary(report: &WorkspaceReport) -> Section {
     let mut kinds: Vec<(&BoundaryKind, bool)> = Vec::new();
     for point in &report.points {
         if !kinds.iter().any(|(kind, _)| **kind == point.kind) {
             kinds.push((&point.kind, point.ends_reach));
         }
     }
-    if kinds.is_empty() {
-        return String::new();
-    }
     kinds.sort();
-    let mut table = plain(["what", "does", "points", "curves"]);
+    let mut table = Table::new([
+        Column::words("what"),
+        Column::words("does"),
+        Column::numbers("points"),
+        Column::numbers("curves"),
+    ]);
     for (kind, ends) in kinds {
         let points = report.points.iter().filter(|point| point.kind == *kind);
         let curves = report.curves.iter().filter(|curve| curve.kind == *kind);
-        let curves = match report.axes.len() {
-            1 => String::new(),
-            _ => curves.count().to_string(),
+        let curves = (report.axes.len() > 1).then(|| curves.count());
+        let does = if ends {
+            "ends modes"
+        } else {
+            "separates aspects"
         };
-        let does = if ends { "ends modes" } else { "parts aspects" };
-        table.add_row([
-            words::kind(kind),
-            does.into(),
-            points.count().to_string(),
-            curves,
-        ]);
+        table.row(cells![words::kind(kind), does, points.count(), curves]);
     }
-    align_right(&mut table, [2, 3]);
-    format!(
-        "\nBoundary, located to rounding on the edges of the grid\n{}",
-        indented(&table.to_string())
-    )
+    Section::new("Boundary, located to rounding on the edges of the grid").table(table)
 }
 
-fn range(name: &str, from: f64, to: f64, unit: &str, nodes: usize) -> String {
-    let value = |x| quantity(x, unit == "rad");
+fn range(name: &str, from: f64, to: f64, unit: SiUnit, nodes: usize) -> String {
+    let value = |x| quantity(x, unit.is_angle());
     format!(
         "{name} from {} to {} in {nodes} nodes",
         value(from),

@@ -2,6 +2,7 @@ mod count;
 mod demand;
 mod drive;
 mod error;
+mod error_words;
 mod held;
 mod load;
 mod value;
@@ -11,7 +12,7 @@ pub use demand::{Demand, Verb};
 pub use drive::{Drive, DriveError};
 pub use error::QuestionError;
 pub use load::{Load, LoadError};
-pub use value::{ValueError, number as number_of};
+pub use value::{Value, ValueError, number as number_of};
 
 use super::equations::System;
 use crate::description::{Role, nearest};
@@ -64,9 +65,13 @@ impl<'a> Question<'a> {
 
     /// Holds a joint, a platform coordinate or a whole pose.
     ///
-    /// `value` is a number or an expression over the file's parameters such as `60 deg`, for a pose
-    /// a list such as `[Tz(0.5), Rx(10 deg)]`, or `home` for the value in the file.
-    pub fn hold(mut self, name: &str, value: &str) -> Result<Self, QuestionError> {
+    /// `value` is a number in m or rad, or a text as in the file ([`Value`]).
+    ///
+    /// # Errors
+    /// If there is no such joint or coordinate, the value has none, or something else was demanded of
+    /// it before.
+    pub fn hold(mut self, name: &str, value: impl Into<Value>) -> Result<Self, QuestionError> {
+        let value = &value.into();
         match self.demand(Verb::Hold, name, Some(value))? {
             Target::Joint(joint) => {
                 let value = self.number(name, value, Holdable::Joint(joint))?;
@@ -112,7 +117,8 @@ impl<'a> Question<'a> {
     }
 
     /// Starts the search at another value of a joint, a platform coordinate or a whole pose.
-    pub fn guess(mut self, name: &str, value: &str) -> Result<Self, QuestionError> {
+    pub fn guess(mut self, name: &str, value: impl Into<Value>) -> Result<Self, QuestionError> {
+        let value = &value.into();
         match self.demand(Verb::Guess, name, Some(value))? {
             Target::Joint(joint) => {
                 let value = self.number(name, value, Holdable::Joint(joint))?;
@@ -158,13 +164,17 @@ impl<'a> Question<'a> {
     ///
     /// # Errors
     /// If there is no such joint or coordinate, or the expression has no value.
-    pub fn value(&self, name: &str, text: &str) -> Result<(Holdable, f64), QuestionError> {
+    pub fn value(
+        &self,
+        name: &str,
+        value: impl Into<Value>,
+    ) -> Result<(Holdable, f64), QuestionError> {
         let coordinate = match self.target(name)? {
             Target::Joint(joint) => Holdable::Joint(joint),
             Target::Coordinate(platform, c) => Holdable::Coordinate(platform, c),
             Target::Pose(_) => return Err(QuestionError::NotAJoint { name: name.into() }),
         };
-        Ok((coordinate, self.number(name, text, coordinate)?))
+        Ok((coordinate, self.number(name, &value.into(), coordinate)?))
     }
 
     /// The same question with some held coordinates at other values, in m or rad.
@@ -284,13 +294,13 @@ impl<'a> Question<'a> {
         &mut self,
         verb: Verb,
         name: &str,
-        value: Option<&str>,
+        value: Option<&Value>,
     ) -> Result<Target, QuestionError> {
         let target = self.target(name)?;
         let second = Demand {
             verb,
             name: name.into(),
-            value: value.map(str::to_owned),
+            value: value.map(Value::to_string),
         };
         let mut demands = self.demands.iter();
         let clash = demands.find(|(of, first)| of.meets(target) && first.verb.clashes(verb));
@@ -302,28 +312,20 @@ impl<'a> Question<'a> {
         Ok(target)
     }
 
-    fn number(&self, name: &str, text: &str, of: Holdable) -> Result<f64, QuestionError> {
-        if text.trim() == "home" {
+    fn number(&self, name: &str, value: &Value, of: Holdable) -> Result<f64, QuestionError> {
+        if value.is_home() {
             return Ok(of.home(self.mechanism));
         }
-        value::number(self.mechanism, text, of.measure(self.mechanism)).map_err(|error| {
-            QuestionError::Value {
-                name: name.into(),
-                text: text.into(),
-                error,
-            }
-        })
+        let number = value.number(self.mechanism, of.measure(self.mechanism));
+        number.map_err(|error| QuestionError::value(name, value, error))
     }
 
-    fn pose(&self, name: &str, text: &str, platform: usize) -> Result<Pose<f64>, QuestionError> {
-        if text.trim() == "home" {
+    fn pose(&self, name: &str, value: &Value, platform: usize) -> Result<Pose<f64>, QuestionError> {
+        if value.is_home() {
             return Ok(self.mechanism.platforms()[platform].home);
         }
-        value::pose(self.mechanism, text).map_err(|error| QuestionError::Value {
-            name: name.into(),
-            text: text.into(),
-            error,
-        })
+        let pose = value.pose(self.mechanism);
+        pose.map_err(|error| QuestionError::value(name, value, error))
     }
 
     fn target(&self, name: &str) -> Result<Target, QuestionError> {

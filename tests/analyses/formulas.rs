@@ -70,7 +70,7 @@ fn between(mechanism: &Mechanism, of: &str, relative_to: &str) -> FormulasReport
 
 /// The lines of a matrix, without the spaces that align it.
 fn matrix(mechanism: &Mechanism, of: &str, relative_to: &str) -> Vec<String> {
-    let text = output::text(mechanism, &between(mechanism, of, relative_to));
+    let text = output::text(&between(mechanism, of, relative_to));
     let rows = text.lines().skip_while(|line| !line.contains('⎡')).take(3);
     let rows = rows.map(|line| {
         let cells = line.trim().trim_matches(|c| "⎡⎢⎣⎤⎥⎦ ".contains(c));
@@ -302,7 +302,7 @@ fn ron_pastes_back_and_is_proved() {
         let mut description = Description::read(&fs::read_to_string(path).unwrap()).unwrap();
         description.closed_forms.clear();
         let text = description.to_ron().unwrap();
-        let ron = output::ron(mechanism, report);
+        let ron = output::ron(report);
         let end = text.trim_end().strip_suffix(')').unwrap();
         let comma = if end.trim_end().ends_with(',') {
             ""
@@ -360,7 +360,7 @@ fn rust_functions_compile_and_agree_with_the_chains() {
     let mut expected: Vec<(String, f64)> = Vec::new();
     for (name, mechanism, report) in all() {
         let values = values(report);
-        let text = output::rust(mechanism, report);
+        let text = output::rust(report);
         let plain: BTreeMap<String, f64> = values
             .iter()
             .map(|(name, value)| (name.replace('.', "_"), *value))
@@ -462,11 +462,11 @@ fn latex_is_set_by_katex() {
             .output()
     };
     let mut whole = String::new();
-    for (_, mechanism, report) in all() {
-        whole += &output::latex(mechanism, report);
+    for (_, _, report) in all() {
+        whole += &output::latex(report);
     }
     let strange = strange_names();
-    whole += &output::latex(&strange, &everything(&strange));
+    whole += &output::latex(&everything(&strange));
     let displays = whole.lines().filter(|line| *line == "\\[").count();
     assert!(displays > 300, "{displays}");
     let tex = folder.path().join("formulas.tex");
@@ -513,7 +513,7 @@ fn strange_names() -> Mechanism {
 fn strange_names_are_escaped() {
     let mechanism = strange_names();
     let report = everything(&mechanism);
-    let latex = output::latex(&mechanism, &report);
+    let latex = output::latex(&report);
     assert!(latex.contains(r"\text{a\&b\%.1}"), "{latex}");
     let other = r#"\text{x\$y\textbackslash{}z\_1\textasciicircum{}2\textasciitilde{}\{w\} \#\textless{}ü\textgreater{}"-.1}"#;
     assert!(latex.contains(other), "{latex}");
@@ -523,7 +523,7 @@ fn strange_names_are_escaped() {
         "{latex}"
     );
     // and what is pasted back into a file is read
-    let pasted = output::ron(&mechanism, &report);
+    let pasted = output::ron(&report);
     let text = format!(
         r#"Mechanism(version: 1, name: "x", convention: Modified, parameters: {{ "l_1": 2, "a__b": 1, "x_": 1 }},
         joints: {{ "theta_1": Actuated(home: 0.3), "q": Actuated(home: 0.2) }},
@@ -541,7 +541,7 @@ fn strange_names_are_escaped() {
         joints: { "q": Actuated(home: 0.2) },
         chains: { "c": Chain(rows: [(a: "l_1", d: "l1", theta: "q")]) })"#,
     );
-    let latex = output::latex(&both, &everything(&both));
+    let latex = output::latex(&everything(&both));
     assert!(
         latex.contains("\\mathit{l\\_}_{1}") && latex.contains("& l_{1}"),
         "{latex}"
@@ -584,10 +584,7 @@ fn a_screw_joint_stands_in_angles_and_in_lengths() {
     let column = &report.jacobians[0].columns[0];
     assert_eq!(column.velocity[2].to_string(), "h");
     assert_eq!(column.omega[2].to_string(), "1");
-    for text in [
-        output::text(&mechanism, &report),
-        output::latex(&mechanism, &report),
-    ] {
+    for text in [output::text(&report), output::latex(&report)] {
         assert!(text.contains("theta1 turns and slides at once"), "{text}");
     }
 }
@@ -606,7 +603,7 @@ fn what_is_too_long_is_left_out_and_said() {
             .left_out
             .contains(&"the transform of arm in ground".to_owned())
     );
-    let text = output::text(&mechanism, &report);
+    let text = output::text(&report);
     assert!(text.contains(
         "Left out, for it is too long to be multiplied out: the transform of arm in ground."
     ));
@@ -622,7 +619,7 @@ fn names_that_rust_and_latex_reserve_are_changed() {
     )"#,
     );
     let report = everything(&mechanism);
-    let rust = output::rust(&mechanism, &report);
+    let rust = output::rust(&report);
     assert!(
         rust.contains("x_fn: f64")
             && rust.contains("x_match: f64")
@@ -652,7 +649,7 @@ fn names_that_rust_and_latex_reserve_are_changed() {
         "{}",
         String::from_utf8_lossy(&built.stderr)
     );
-    let latex = output::latex(&mechanism, &report);
+    let latex = output::latex(&report);
     assert!(
         latex.contains("\\mathit{l\\_a}") && latex.contains("\\theta_{0}"),
         "{latex}"

@@ -9,6 +9,7 @@ use linkwork::analysis::singularities::{
 };
 use linkwork::description::Description;
 use linkwork::mechanism::{Configuration, Mechanism};
+use linkwork::output::{self, Report};
 use linkwork::solve::Newton;
 use linkwork::solve::Watch;
 use linkwork::system::{Driven, Lock, Question, Search};
@@ -1136,7 +1137,7 @@ fn legs_of_either_sign_make_one_locus_and_legs_without_length_points() {
     }
     assert_eq!(of(Kind::Inverse, Shape::Curve).count(), 0);
     // rows say so too
-    let csv = linkwork::output::singularities::locus_csv(&rpr, &report);
+    let csv = output::csv::render(output::singularities::locus_rows(&report));
     let columns: Vec<&str> = csv.lines().next().unwrap().split(',').collect();
     let mut unique = columns.clone();
     unique.sort_unstable();
@@ -1301,9 +1302,12 @@ fn no_report_of_a_shipped_mechanism_holds_nan() {
         let Some(report) = answer.closed() else {
             continue;
         };
-        let text = linkwork::output::singularities::text(&mechanism, &report);
-        let json = linkwork::output::singularities::json(&mechanism, &report);
-        for written in [text, json] {
+        let document = report.document();
+        let (text, html) = (
+            output::text::render(&document),
+            output::html::render(&document),
+        );
+        for written in [text, html, output::json::render(&report)] {
             assert!(
                 !written.contains("NaN") && !written.contains("inf "),
                 "{written}"

@@ -51,7 +51,7 @@ fn solved<'a>(
     guess: &AssemblyReport,
 ) -> Option<(Question<'a>, AssemblyReport)> {
     let mut question = Question::new(mechanism).free("actuated").unwrap();
-    for (joint, value) in mechanism.joints().iter().zip(&guess.configuration.joints) {
+    for (joint, value) in mechanism.joints().iter().zip(&guess.configuration().joints) {
         question = question.guess(&joint.name, &format!("{value:?}")).unwrap();
     }
     for (name, value) in held {
@@ -81,7 +81,7 @@ fn rates_and_accelerations_are_those_of_solved_configurations() {
             let values = names.iter().enumerate();
             let values = values.map(|(i, name)| {
                 let joint = mechanism.joint(name).unwrap();
-                let value = start.configuration.joints[joint];
+                let value = start.configuration().joints[joint];
                 (name.clone(), value + rate(i) * t + 0.5 * change(i) * t * t)
             });
             values.collect()
@@ -97,9 +97,9 @@ fn rates_and_accelerations_are_those_of_solved_configurations() {
         let length = mechanism.characteristic_length();
         let name = mechanism.name();
         for (i, joint) in found.joints.iter().enumerate() {
-            let [a, b, c] = [&before, &now, &after].map(|report| report.configuration.joints[i]);
+            let [a, b, c] = [&before, &now, &after].map(|report| report.configuration().joints[i]);
             // a leg that spins freely is where the solver leaves it
-            let scale = if joint.unit == "rad" { 1.0 } else { length };
+            let scale = if joint.unit.is_angle() { 1.0 } else { length };
             let rate = (c - a) / (2.0 * STEP * scale);
             let change = (c - 2.0 * b + a) / (STEP * STEP * scale);
             let rough = 1e-5 * (1.0 + rate.abs() + change.abs());
@@ -115,7 +115,9 @@ fn rates_and_accelerations_are_those_of_solved_configurations() {
         }
         for frame in &found.frames {
             let place = |report: &AssemblyReport| {
-                mechanism.pose(&frame.name, &report.configuration).unwrap()
+                mechanism
+                    .pose(&frame.name, &report.configuration())
+                    .unwrap()
             };
             let [a, b, c] = [&before, &now, &after].map(place);
             let velocity = (c.position - a.position).times(0.5 / STEP);
@@ -437,7 +439,7 @@ fn angles_of_a_platform_have_rates_and_accelerations_with_all_three_held() {
     for others in [["top.x", "top.y", "top.z"], ["l4", "l5", "l6"]] {
         let others = others.map(|name| {
             let value = match mechanism.joint(name) {
-                Some(joint) => start.configuration.joints[joint],
+                Some(joint) => start.configuration().joints[joint],
                 None if name == "top.z" => 0.9,
                 None => 0.0,
             };
@@ -461,7 +463,7 @@ fn angles_of_a_platform_have_rates_and_accelerations_with_all_three_held() {
         let found = report(&question, &drive);
         let [before, after] = [-STEP, STEP].map(|t| solved(&mechanism, &at(t), &now).unwrap().1);
         for (i, joint) in found.joints.iter().enumerate() {
-            let [a, b, c] = [&before, &now, &after].map(|report| report.configuration.joints[i]);
+            let [a, b, c] = [&before, &now, &after].map(|report| report.configuration().joints[i]);
             let (rate, change) = ((c - a) / (2.0 * STEP), (c - 2.0 * b + a) / (STEP * STEP));
             assert!(
                 (joint.rate.unwrap() - rate).abs() < 1e-6,
@@ -848,7 +850,7 @@ fn fichters_platform_gains_a_freedom_when_turned_by_ninety_degrees() {
         let mut direct = Question::new(&mechanism);
         let pose = format!("[Tz(0.9), Rz({yaw} deg)]");
         direct = direct.guess("top", &pose).unwrap();
-        for (joint, value) in mechanism.joints().iter().zip(&legs.configuration.joints) {
+        for (joint, value) in mechanism.joints().iter().zip(&legs.configuration().joints) {
             direct = direct.hold(&joint.name, &format!("{value:?}")).unwrap();
         }
         match velocity(

@@ -125,7 +125,7 @@ fn a_motion_ends_where_it_was_stopped() {
     let question = Question::new(&mechanism).hold("theta1", "1").unwrap();
     let settings = AssemblySettings::default();
     let start = assemble(&question, &settings, &Watch::none()).unwrap();
-    let (start, held) = (start.configuration, question.held());
+    let (start, held) = (start.configuration(), question.held());
     let still = held.without(theta1.coordinate);
     stopped("sweep", &|watch| {
         let settings = SweepSettings::default();

@@ -329,7 +329,7 @@ fn in_the_joint_space_of_a_five_bar_its_assemblies_meet_where_the_distal_links_s
     for (at, _) in stretched {
         assert!((apart(at[0], at[1]) - 0.5).abs() < 1e-9, "{at:?}");
     }
-    assert_eq!(report.unit, "rad²");
+    assert_eq!(report.unit.to_string(), "rad²");
     // a leg that is stretched does not move the hand: type 1 inside
     let inverse = boundary(&report, |kind| *kind == BoundaryKind::Inverse);
     assert!(!inverse.is_empty());
@@ -521,7 +521,7 @@ fn three_coordinates_are_mapped_in_slices() {
         }
         Some(modes)
     });
-    assert_eq!(report.unit, "rad²·m");
+    assert_eq!(report.unit.to_string(), "rad²·m");
     assert!(report.curves.iter().all(|curve| curve.slice.is_some()));
     assert!(report.curves.iter().any(|curve| curve.points.len() > 2));
 }
@@ -544,7 +544,10 @@ fn one_coordinate_is_mapped_to_intervals() {
     };
     let report = workspace(&question, &axes, &[], &settings, &Watch::none()).unwrap();
     assert!(matches!(coordinate, Holdable::Joint(_)));
-    assert_eq!((report.modes.len(), report.unit.as_str()), (2, "m"));
+    assert_eq!(
+        (report.modes.len(), report.unit.to_string()),
+        (2, "m".into())
+    );
     let ends = [2.0f64, 4.0].map(|reach| (reach * reach - 0.25).sqrt());
     assert!(
         (report.reached_size - (ends[1] - ends[0])).abs() < 1e-9,

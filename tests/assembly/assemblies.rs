@@ -274,6 +274,7 @@ fn legs_that_close_apart_are_combined() {
             all_complex: false,
             starts: false,
         },
+        &Watch::none(),
     );
     sound(&report);
     let other = answer(
@@ -413,7 +414,7 @@ fn planar_linkages_agree_with_their_closed_forms() {
             &[],
             &[("theta", format!("{} deg", row["theta_deg"]))],
         );
-        let report = solver_of_watt.at(&question.start(), Wanted::default());
+        let report = solver_of_watt.at(&question.start(), Wanted::default(), &Watch::none());
         sound(&report);
         let found =
             (0..report.real).map(|k| ["phi1", "phi2"].map(|n| joint(&report, k, n)).to_vec());
@@ -777,8 +778,8 @@ fn stored_solutions_answer_as_new_ones_do() {
     let loaded = AssemblySolver::from_stored(&mechanism, &question.held(), stored.clone()).unwrap();
     let start = question.start();
     assert_eq!(
-        loaded.at(&start, Wanted::default()),
-        fresh.at(&start, Wanted::default())
+        loaded.at(&start, Wanted::default(), &Watch::none()),
+        fresh.at(&start, Wanted::default(), &Watch::none())
     );
     // other dimensions, another split and other files are refused
     let refused = |mechanism: &Mechanism, question: &Question| {

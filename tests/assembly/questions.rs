@@ -29,7 +29,7 @@ fn answer(question: &Question) -> AssemblyReport {
 }
 
 fn joint(mechanism: &Mechanism, report: &AssemblyReport, name: &str) -> f64 {
-    report.configuration.joints[mechanism.joint(name).unwrap()]
+    report.configuration().joints[mechanism.joint(name).unwrap()]
 }
 
 #[test]
@@ -59,7 +59,7 @@ fn without_a_guess_the_assembly_mode_of_home_is_kept() {
             let question = question.hold("theta1", &format!("{degrees} deg")).unwrap();
             let report = answer(&question);
             assert_eq!(report.outcome, Outcome::Converged);
-            let found = report.configuration;
+            let found = report.configuration();
             let left = mechanism.frames().into_iter().map(|f| {
                 mechanism
                     .transform(linkwork::mechanism::Frame::Ground, f, &found)
@@ -164,11 +164,11 @@ fn the_closest_approach_keeps_what_is_held() {
         assert!(local_minimum);
         // the arm reaches 1.0 + 0.8
         assert!(
-            (report.gaps[0].distance - gap).abs() < 1e-6,
+            (report.gaps.0[0].1.distance - gap).abs() < 1e-6,
             "{:?}",
             report.gaps
         );
-        let hand = report.configuration.platforms[0].pose();
+        let hand = report.configuration().platforms[0].pose();
         assert!((Coordinate::X.of(&hand) - x).abs() < 1e-8);
         assert!(Coordinate::Y.of(&hand).abs() < 1e-8);
     }

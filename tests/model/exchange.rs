@@ -58,7 +58,7 @@ fn home_assembly(mechanism: &Mechanism) -> Configuration<f64> {
     )
     .unwrap();
     assert!(report.residual < 1e-9, "{}", mechanism.name());
-    report.configuration
+    report.configuration()
 }
 
 /// A configuration in which all closures are whole.
@@ -428,7 +428,7 @@ fn a_four_bar_read_from_urdf_has_the_assemblies_of_the_one_in_the_shipped_file()
         let question = question.guess("phi1", &guess.to_string()).unwrap();
         let report = assemble(&question, &AssemblySettings::default(), &Watch::none()).unwrap();
         assert!(report.residual < 1e-9);
-        ["phi1", "phi2"].map(|joint| report.configuration.joints[mechanism.joint(joint).unwrap()])
+        ["phi1", "phi2"].map(|joint| report.configuration().joints[mechanism.joint(joint).unwrap()])
     };
     let settings = ImportSettings::default();
     let (read, first) = imported(&with_loop, &settings, None);

@@ -233,7 +233,7 @@ fn the_eight_assemblies_of_the_3_rps() {
         let report = assemble(&question, &AssemblySettings::default(), &Watch::none()).unwrap();
         assert_eq!(report.restarts, 0);
         assert!(report.residual <= 1e-12);
-        same(&report.configuration, &printed, DIGITS);
+        same(&report.configuration(), &printed, DIGITS);
     }
 }
 

@@ -12,9 +12,10 @@ use std::ops::Range;
 
 use super::Wanted;
 use super::family::{C, Coordinates, KnownBound, size};
-use super::report::{AssembliesReport, ComplexAssembly, Continuum, Fit, Named};
+use super::report::{AssembliesReport, ComplexAssembly, Continuum, Fit, ListedJoint, Named};
 use super::search::GenericSolutions;
 use super::track::{End, Ends, Local, Way, are_one};
+use crate::algebra::SiUnit;
 use crate::geometry::Quaternion;
 use crate::mechanism::{Configuration, Coordinate, Mechanism};
 use crate::number::Number;
@@ -244,7 +245,24 @@ impl Question<'_> {
     }
 
     fn empty(&self, generic: &GenericSolutions) -> AssembliesReport {
+        let platforms = self.mechanism.platforms().iter().zip(&self.held.platforms);
+        let joints = self.mechanism.joints().iter().zip(&self.held.joints);
         AssembliesReport {
+            mechanism: self.mechanism.name().into(),
+            variables: joints
+                .enumerate()
+                .map(|(j, (joint, &held))| ListedJoint {
+                    name: joint.name.clone(),
+                    unit: SiUnit::of_coordinate(joint.kind.is_angle()),
+                    held,
+                    periodic: self.mechanism.repeats(j) && joint.limits.is_none(),
+                })
+                .collect(),
+            held_platforms: platforms
+                .filter(|(_, held)| **held == HeldPlatform::Pose)
+                .map(|(platform, _)| platform.name.clone())
+                .collect(),
+            characteristic_length: self.mechanism.characteristic_length(),
             assemblies: Vec::new(),
             complex_assemblies: Vec::new(),
             complex: 0,

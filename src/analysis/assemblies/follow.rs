@@ -1,13 +1,13 @@
 //! Keeping a mode's name: a real assembly followed continuously from inputs to other inputs.
 
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
 use super::AssembliesError;
 use super::answer::{named_joints, real_solution};
 use super::family::{C, Family, Member};
 use super::report::Named;
 use super::track::{Way, located, polish};
-use crate::mechanism::{Configuration, Mechanism};
+use crate::mechanism::{Configuration, Mechanism, Variable};
 use crate::number::Number;
 use crate::solve::{Arrival, Homotopy, Stages, Tracker};
 use crate::system::{Held, System};
@@ -28,7 +28,7 @@ pub enum Followed {
 }
 
 /// Where a mode ceases to exist.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Fold {
     /// The part of the way that was gone, from 0 to 1.
     pub fraction: f64,
@@ -39,6 +39,63 @@ pub struct Fold {
     /// Whether the two modes turn back there, at a place known to the last digits. Otherwise they
     /// cross, or no more is known than that the mode cannot be followed beyond.
     pub turns_back: bool,
+}
+
+/// A mode that was not followed to the inputs asked for.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct LostMode {
+    /// Name of the mechanism.
+    pub mechanism: String,
+    /// The joint variables with their units, in the order of the file.
+    pub variables: Vec<Variable>,
+    /// The number of the mode at home.
+    pub mode: usize,
+    /// Why it was not.
+    #[serde(flatten)]
+    pub reason: LostReason,
+}
+
+/// Why a mode was not followed.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(tag = "outcome")]
+pub enum LostReason {
+    /// It ceases to exist on the way.
+    #[serde(rename = "mode_ceases")]
+    Ceases(Fold),
+    /// It meets other assemblies on the way, and its number does not tell which of them to follow.
+    #[serde(rename = "mode_meets_others")]
+    MeetsOthers(Fold),
+    /// Assemblies meet already at home, and its number does not tell which of them to follow.
+    #[serde(rename = "modes_meet_at_home")]
+    MeetAtHome {
+        /// How many meet: 0 if it is one of infinitely many.
+        multiplicity: usize,
+    },
+}
+
+impl Followed {
+    /// The configuration at the asked inputs, or why there is none.
+    ///
+    /// # Errors
+    /// If the mode was not followed to the inputs.
+    pub fn arrived(
+        self,
+        mechanism: &Mechanism,
+        mode: usize,
+    ) -> Result<Configuration<f64>, Box<LostMode>> {
+        let reason = match self {
+            Followed::Arrived(at) => return Ok(at),
+            Followed::Fold(fold) if fold.turns_back => LostReason::Ceases(fold),
+            Followed::Fold(fold) => LostReason::MeetsOthers(fold),
+            Followed::Meets { multiplicity } => LostReason::MeetAtHome { multiplicity },
+        };
+        Err(Box::new(LostMode {
+            mechanism: mechanism.name().into(),
+            variables: Variable::joints(mechanism),
+            mode,
+            reason,
+        }))
+    }
 }
 
 /// Follows an assembled configuration along the straight way between two sets of inputs.

@@ -1,38 +1,17 @@
 //! What is said about the assemblies of a mechanism.
 
-use serde::ser::SerializeMap;
-use serde::{Serialize, Serializer};
+use serde::{Deserialize, Serialize};
 
+use crate::algebra::SiUnit;
 use crate::description::count;
 use crate::geometry::{Quaternion, Vector3};
 use crate::linear::RANK_TOLERANCE;
 use crate::mechanism::Configuration;
 use crate::system::Gap;
-
-/// Values by name, in the order of the mechanism file; serialised as a map.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Named<T>(pub Vec<(String, T)>);
-
-impl<T> Named<T> {
-    /// The value of that name.
-    pub fn get(&self, name: &str) -> Option<&T> {
-        let mut found = self.0.iter().filter(|(n, _)| n == name);
-        found.next().map(|(_, value)| value)
-    }
-}
-
-impl<T: Serialize> Serialize for Named<T> {
-    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
-        let mut map = serializer.serialize_map(Some(self.0.len()))?;
-        for (name, value) in &self.0 {
-            map.serialize_entry(name, value)?;
-        }
-        map.end()
-    }
-}
+pub use crate::system::Named;
 
 /// The pose of a platform in ground.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct PoseReport {
     /// Position of its origin in m.
     pub position: [f64; 3],
@@ -43,7 +22,7 @@ pub struct PoseReport {
 }
 
 /// One assembled configuration.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Assembly {
     /// Its number, from 1.
     pub mode: usize,
@@ -92,7 +71,7 @@ impl Assembly {
 }
 
 /// How near the mechanism comes to being assembled, where it cannot be.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct ClosestApproach {
     /// How far each closure is from being whole.
     pub gaps: Named<Gap>,
@@ -107,7 +86,7 @@ pub struct ClosestApproach {
 }
 
 /// How the question fits the mechanism.
-#[derive(Clone, Debug, PartialEq, Eq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Fit {
     /// As many inputs are held as the mechanism has freedoms: a finite number of assemblies.
@@ -123,7 +102,7 @@ pub enum Fit {
 }
 
 /// Assemblies that are connected, infinitely many, at the inputs asked.
-#[derive(Clone, Debug, PartialEq, Eq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Continuum {
     /// How many coordinates can be chosen freely on it.
     pub dimension: usize,
@@ -134,9 +113,30 @@ pub struct Continuum {
     pub samples: Vec<usize>,
 }
 
+/// A joint variable of the list.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub struct ListedJoint {
+    /// Its name.
+    pub name: String,
+    /// The unit of its values, rad or m.
+    pub unit: SiUnit,
+    /// Whether its value was given.
+    pub held: bool,
+    /// Whether its values repeat with every turn, without limits that tell turns apart.
+    pub periodic: bool,
+}
+
 /// All assemblies for the inputs asked.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct AssembliesReport {
+    /// Name of the mechanism.
+    pub mechanism: String,
+    /// The joint variables, in the order of the file.
+    pub variables: Vec<ListedJoint>,
+    /// Names of the platforms whose whole pose is held.
+    pub held_platforms: Vec<String>,
+    /// The length by which lengths are divided where angles and lengths are compared, in m.
+    pub characteristic_length: f64,
     /// The real assemblies in the order of their numbers.
     pub assemblies: Vec<Assembly>,
     /// Complex assemblies that are not real, if they were asked for: unknown joints and platforms
@@ -208,7 +208,7 @@ pub struct AssembliesReport {
 }
 
 /// A complex solution that is not real.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct ComplexAssembly {
     /// Joint values as (real, imaginary), rad or m.
     pub joints: Named<[f64; 2]>,

@@ -64,9 +64,13 @@ pub(super) fn blame(
             strongest = (most, closure, powerless.map(|(joint, _)| *joint).collect());
         }
     }
+    let (_, closure, powerless) = strongest;
+    let closure = mechanism.closures().get(closure);
     Outcome::Singular {
         moving: freedoms.moving(mechanism),
-        closure: strongest.1,
-        powerless: strongest.2,
+        closure: closure.map(|closure| closure.name.clone()),
+        powerless: (powerless.into_iter())
+            .map(|joint: usize| mechanism.joints()[joint].name.clone())
+            .collect(),
     }
 }

@@ -44,7 +44,7 @@ fn a_right_form_agrees_and_a_wrong_one_says_which_component_and_where() {
     };
     assert!(!px.agree && r11.agree);
     let worst = px.worst.as_ref().unwrap();
-    let (t, p) = (worst.joints[0].1, worst.joints[1].1);
+    let (t, p) = (worst.joints.0[0].1, worst.joints.0[1].1);
     assert!((worst.closed_form - (t.cos() - 3.0 * (t + p).cos())).abs() < 1e-12);
     assert!((worst.chains - (t.cos() + 3.0 * (t + p).cos())).abs() < 1e-12);
     assert!((px.max_difference - (worst.closed_form - worst.chains).abs()).abs() < 1e-12);

@@ -1,12 +1,18 @@
 //! What comes out when a mechanism is multiplied out.
 
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
 use crate::algebra::Expression;
+use crate::mechanism::ClosureKind;
+use crate::system::FormulaNames;
 
 /// A mechanism in closed form. Lengths are in m and angles in rad.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct FormulasReport {
+    /// Name of the mechanism.
+    pub mechanism: String,
+    /// The names that stand in its formulas.
+    pub names: FormulaNames,
     /// Every letter that stands in a formula.
     pub letters: Vec<Letter>,
     /// From link to link, chain by chain.
@@ -24,7 +30,7 @@ pub struct FormulasReport {
 }
 
 /// What a name in the formulas stands for.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Letter {
     /// Its name.
     pub name: String,
@@ -35,7 +41,7 @@ pub struct Letter {
 }
 
 /// What kind of thing a letter is.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Meaning {
     /// A named constant.
@@ -51,7 +57,7 @@ pub enum Meaning {
 }
 
 /// ⁱⱼT in closed form.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct TransformFormula {
     /// The frame.
     pub of: String,
@@ -65,12 +71,12 @@ pub struct TransformFormula {
 }
 
 /// What a closure asks for.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct ClosureFormula {
     /// Its name.
     pub name: String,
     /// The joint it restores.
-    pub kind: &'static str,
+    pub kind: ClosureKind,
     /// The frames it joins.
     pub between: [String; 2],
     /// Expressions that vanish where it is closed, without those that vanish everywhere.
@@ -86,7 +92,7 @@ pub struct ClosureFormula {
 }
 
 /// The screw Jacobian of a frame: its twist is the sum of these columns times the joint rates.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct JacobianFormula {
     /// The frame, whose origin's velocity is taken.
     pub of: String,
@@ -98,7 +104,7 @@ pub struct JacobianFormula {
 }
 
 /// The twist for a unit rate of a joint variable.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct TwistFormula {
     /// The joint.
     pub joint: String,

@@ -29,6 +29,25 @@ pub enum AxesError {
     TooFew,
 }
 
+impl std::fmt::Display for AxesError {
+    fn fmt(&self, f: &mut std::fmt::Formatter) -> std::fmt::Result {
+        match self {
+            AxesError::Row { chain, row } => write!(
+                f,
+                "row {row} of chain `{chain}` is not one joint with a variable of its own"
+            ),
+            AxesError::Closure { closure, kind } => write!(
+                f,
+                "the length of the {} closure `{closure}` is not one joint",
+                kind.word().to_lowercase()
+            ),
+            AxesError::TooFew => f.write_str("the mechanism has no joints with axes"),
+        }
+    }
+}
+
+impl std::error::Error for AxesError {}
+
 /// A joint with the bodies it connects.
 struct Joint {
     name: String,

@@ -1,6 +1,6 @@
 //! Kutzbach's count, loop by loop.
 
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
 use crate::linear::Decomposition;
 use crate::mechanism::Configuration;
@@ -10,7 +10,7 @@ use crate::system::{MechanismLoop, Neighbourhood, loops};
 ///
 /// M = Σf − λ with λ = 6; and once more with λ the order of the loop's screw system: 3 for a planar
 /// or a spherical loop.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct LoopCount {
     /// The closure that completes the loop.
     pub closure: String,

@@ -1,6 +1,6 @@
 //! Closure equations that depend on the others, by closure and direction.
 
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
 use crate::description::ClosureKind;
 use crate::geometry::Vector3;
@@ -9,7 +9,7 @@ use crate::system::{Neighbourhood, Tangent};
 
 /// The equations of a closure that follow from those of the closures before it in the file and from
 /// one another.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Redundancy {
     /// The closure.
     pub closure: String,
@@ -25,7 +25,7 @@ pub struct Redundancy {
 }
 
 /// A wrench in the first frame of a closure.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Wrench {
     /// Force, without unit.
     pub force: [f64; 3],

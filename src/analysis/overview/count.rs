@@ -1,6 +1,6 @@
 //! How many freedoms counting leads to expect (Chebyshev, Grübler, Kutzbach).
 
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
 use crate::description::ClosureKind;
 use crate::geometry::Vector3;
@@ -9,7 +9,7 @@ use crate::mechanism::{Frame, Mechanism};
 /// The terms of M = 6·(N − 1) − Σ (6 − f) + (joint variables that are not driven row by row) − Σ equations.
 ///
 /// The count knows nothing of dimensions: it is wrong for every mechanism whose loops are special.
-#[derive(Clone, Debug, PartialEq, Eq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct MobilityCount {
     /// N: bodies, the ground among them.
     pub bodies: usize,
@@ -31,7 +31,7 @@ pub struct MobilityCount {
 }
 
 /// The count of a mechanism all of whose joints move in parallel planes.
-#[derive(Clone, Debug, PartialEq, Eq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct PlanarCount {
     /// Equations of all closures within the plane.
     pub equations: usize,

@@ -1,11 +1,11 @@
 //! The independent loops of a mechanism.
 
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
 use crate::mechanism::{Body, Frame, Mechanism};
 
 /// A loop, from a body round to the same body.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Loop {
     /// The closure that closes it: no earlier closure and no chain does.
     pub closed_by: String,
@@ -14,7 +14,7 @@ pub struct Loop {
 }
 
 /// A part of a loop.
-#[derive(Clone, Debug, PartialEq, Eq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum LoopStep {
     /// The ground.

@@ -1,21 +1,26 @@
 //! Every singularity on the way of the inputs along a segment.
 
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
 use super::classify::{Classifier, Singularity};
 use super::drops::Drops;
 use super::outputs::{Coupled, coupled, outputs_of};
 use super::{SingularitiesSettings, names, output_names};
+use crate::algebra::SiUnit;
 use crate::linear::norm;
-use crate::mechanism::{Configuration, Mechanism};
+use crate::mechanism::{Configuration, Mechanism, Variable};
 use crate::solve::{Continuation, Place, SolutionCurve, Stage, Stray, Watch};
 use crate::system::{Curve, Driven, Event, Held, Holdable, Leg, Walk};
 
 type At = Place<Configuration<f64>>;
 
 /// What a motion along a segment of inputs met.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct AlongReport {
+    /// The mechanism's name.
+    pub mechanism: String,
+    /// The joints, in the order of the file.
+    pub variables: Vec<Variable>,
     /// The inputs that singularities are told of.
     pub inputs: Vec<String>,
     /// The outputs.
@@ -42,12 +47,12 @@ pub struct AlongReport {
 }
 
 /// What is moved.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Moved {
     /// Its name.
     pub name: String,
     /// rad or m.
-    pub unit: &'static str,
+    pub unit: SiUnit,
     /// Its value at the start.
     pub from: f64,
     /// Its value at the end.
@@ -55,7 +60,7 @@ pub struct Moved {
 }
 
 /// A singularity that was met.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Crossing {
     /// The part of the segment that was gone.
     pub part: f64,
@@ -72,7 +77,7 @@ pub struct Crossing {
 }
 
 /// How a motion ended.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Ending {
     /// The whole segment was gone through.
@@ -114,13 +119,15 @@ pub fn along(
 ) -> AlongReport {
     let outputs = outputs_of(mechanism, held, moved, inputs, settings);
     let mut report = AlongReport {
+        mechanism: mechanism.name().to_owned(),
+        variables: Variable::joints(mechanism),
         inputs: names(mechanism, inputs),
         outputs: output_names(mechanism, &outputs),
         coupled: coupled(mechanism, inputs, &outputs, start, settings, false),
         moved: (moved.iter())
             .map(|input| Moved {
                 name: input.coordinate.name(mechanism),
-                unit: unit(input.coordinate.is_angle(mechanism)),
+                unit: SiUnit::of_coordinate(input.coordinate.is_angle(mechanism)),
                 from: input.from,
                 to: input.to,
             })
@@ -218,13 +225,6 @@ pub fn along(
 
 /// Into how many parts the segment is divided to tell how far the motion is.
 const PARTS: u16 = 1000;
-
-fn unit(is_angle: bool) -> &'static str {
-    match is_angle {
-        true => "rad",
-        false => "m",
-    }
-}
 
 /// Something on a leg.
 struct Met {

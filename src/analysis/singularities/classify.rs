@@ -2,14 +2,14 @@
 
 mod resisted;
 
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
 use crate::linear::{orthonormal, remove};
 use crate::mechanism::{Configuration, Mechanism};
 use crate::system::{Holdable, Lock, Locked, Mobility, Neighbourhood, Screw, TwistSpace, Unknown};
 
 /// The types of D. Zlatanov, R. G. Fenton and B. Benhabib 1994.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub enum Zlatanov {
     /// Redundant input: inputs move while the outputs stand still.
     #[serde(rename = "RI")]
@@ -32,7 +32,7 @@ pub enum Zlatanov {
 }
 
 /// What is singular about a configuration; nothing may be.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Singularity {
     /// The type of C. Gosselin and J. Angeles 1990: 1 inverse, 2 direct, 3 both; `None` if neither
     /// Jacobian loses rank.
@@ -59,7 +59,7 @@ pub struct Singularity {
 }
 
 /// Infinitesimal motions, with other things at rest.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Movement {
     /// How many are independent.
     pub freedoms: usize,
@@ -71,7 +71,7 @@ pub struct Movement {
 }
 
 /// A joint that moves.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Moving {
     /// Its name.
     pub joint: String,
@@ -80,7 +80,7 @@ pub struct Moving {
 }
 
 /// Wrenches that an output takes without help of the inputs.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Resisted {
     /// The output; the platform, where outputs are coordinates of one.
     pub output: String,
@@ -90,7 +90,7 @@ pub struct Resisted {
 
 /// The smallest singular values of the dimensionless matrices, of those that vanish only at
 /// singularities; `None` where nothing can vanish. Lengths are over the normalising length.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Distances {
     /// Of the closure Jacobian J: zero at constraint singularities.
     pub constraint: Option<f64>,
@@ -319,7 +319,7 @@ impl Nullities {
 }
 
 /// Which matrix loses rank.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Kind {
     /// [J; H]: freedoms are gained while the inputs stand still.

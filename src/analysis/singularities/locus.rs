@@ -1,6 +1,6 @@
 //! Singularities in two inputs: loci as curves.
 
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
 use super::classify::{Classifier, Kind, Singularity};
 use super::extents::extents;
@@ -9,15 +9,22 @@ use super::pins::pins;
 use super::projected::{Projection, Shape, groups};
 use super::starts::{Found, Search};
 use super::{SingularitiesSettings, names, output_names};
-use crate::mechanism::{Configuration, Mechanism};
+use crate::algebra::SiUnit;
+use crate::mechanism::{Configuration, Mechanism, Variable};
 use crate::solve::{Place, Watch};
 use crate::system::{Driven, Held, Holdable, Lock, LocusCurve, LocusEnd, Region, Singular, Traced};
 
 type At = Place<Singular>;
 
 /// The singularity loci in a box of two coordinates.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct LocusReport {
+    /// The mechanism's name.
+    pub mechanism: String,
+    /// The joints, in the order of the file.
+    pub variables: Vec<Variable>,
+    /// The poses of platforms, in the order of the file: position and quaternion.
+    pub pose_variables: Vec<Variable>,
     /// The inputs that singularities are told of.
     pub inputs: Vec<String>,
     /// The outputs.
@@ -51,12 +58,12 @@ pub struct LocusReport {
 }
 
 /// A side of the box.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Bound {
     /// The coordinate.
     pub name: String,
     /// rad or m.
-    pub unit: &'static str,
+    pub unit: SiUnit,
     /// Its least value.
     pub from: f64,
     /// Its greatest value.
@@ -64,7 +71,7 @@ pub struct Bound {
 }
 
 /// What a curve of singular configurations is in the box, or several that look alike there.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Locus {
     /// Which matrix loses rank on it.
     pub kind: Kind,
@@ -158,6 +165,9 @@ pub fn loci(
         classifier,
     };
     let mut report = LocusReport {
+        mechanism: mechanism.name().to_owned(),
+        variables: Variable::joints(mechanism),
+        pose_variables: Variable::poses(mechanism),
         inputs: names(mechanism, inputs),
         outputs: output_names(mechanism, &outputs),
         coupled: coupled(mechanism, inputs, &outputs, start, settings, false),
@@ -166,10 +176,7 @@ pub fn loci(
             .collect(),
         bounds: sides.map(|side| Bound {
             name: side.coordinate.name(mechanism),
-            unit: match side.coordinate.is_angle(mechanism) {
-                true => "rad",
-                false => "m",
-            },
+            unit: SiUnit::of_coordinate(side.coordinate.is_angle(mechanism)),
             from: side.from,
             to: side.to,
         }),

@@ -1,6 +1,6 @@
 //! What moves out: the outputs of a question, and what their choice may hide.
 
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
 use super::SingularitiesSettings;
 use super::classify::Classifier;
@@ -127,7 +127,7 @@ pub(super) fn outputs_of(
 /// An output whose turning and shifting depend on one another: it has fewer freedoms than there are
 /// directions in which it moves somewhere. What its position loses, its twist as a whole need not
 /// lose: a stretched 2R arm still turns.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Coupled {
     /// The frame.
     pub output: String,

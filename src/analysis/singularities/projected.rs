@@ -1,7 +1,7 @@
 //! Curves of configurations as they look in the box of two coordinates: which are one there, and
 //! which are but a point.
 
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
 use super::classify::Singularity;
 use crate::linear::norm;
@@ -9,7 +9,7 @@ use crate::solve::Place;
 use crate::system::{LocusCurve, Region, Singular, Traced};
 
 /// What a curve of configurations is in the box.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Shape {
     /// A curve.

@@ -1,6 +1,6 @@
 //! What closures and joints pass on from body to body.
 
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
 use crate::geometry::Vector3;
 use crate::linear::{Decomposition, RANK_TOLERANCE};
@@ -8,7 +8,7 @@ use crate::mechanism::{Body, Configuration, Frame, Mechanism};
 use crate::system::{Load, Neighbourhood};
 
 /// The wrench that one body exerts on another.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Reaction {
     /// The closure, or the link after the joint.
     pub name: String,

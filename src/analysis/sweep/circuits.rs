@@ -9,9 +9,10 @@ mod described;
 
 use std::f64::consts::TAU;
 
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
 use super::follow::forwards;
+use crate::algebra::SiUnit;
 use crate::description::Role;
 use crate::linear::norm;
 use crate::mechanism::{Configuration, Mechanism};
@@ -40,12 +41,12 @@ impl Default for CircuitsSettings {
 }
 
 /// How a joint moves over a circuit or branch.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct JointMotion {
     /// Its name.
     pub name: String,
     /// rad or m.
-    pub unit: &'static str,
+    pub unit: SiUnit,
     /// Whole turns it makes while the circuit is gone round once; 0 if it swings.
     pub turns: i64,
     /// The lowest value; of a joint that turns where the circuit was begun.
@@ -55,7 +56,7 @@ pub struct JointMotion {
 }
 
 /// What lies between two dead points of the input.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Branch {
     /// The lowest value of the input, rad or m.
     pub low: f64,
@@ -66,7 +67,7 @@ pub struct Branch {
 }
 
 /// What can be reached without taking the mechanism apart, along one curve.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Circuit {
     /// Its number, from 1.
     pub number: usize,
@@ -89,7 +90,7 @@ pub struct Circuit {
 }
 
 /// The class of a planar 4-bar, as its circuits show it.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum FourBarClass {
     /// One of the links on ground turns fully.
@@ -105,7 +106,7 @@ pub enum FourBarClass {
 }
 
 /// The circuits of a mechanism.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct CircuitsReport {
     /// The mechanism's name.
     pub mechanism: String,
@@ -332,7 +333,7 @@ fn described(
         let shift = turned(mechanism, joint, low, high);
         JointMotion {
             name: of.name.clone(),
-            unit: if of.kind.is_angle() { "rad" } else { "m" },
+            unit: SiUnit::of_coordinate(of.kind.is_angle()),
             turns,
             low: low + shift,
             high: high + shift,

@@ -1,14 +1,15 @@
 //! What a motion met on its way.
 
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
 use super::{Ending, InputReport, SweepReport};
+use crate::algebra::SiUnit;
 use crate::mechanism::{Configuration, Mechanism};
 use crate::solve::{Continuation, Place, Stray};
 use crate::system::{Curve, Driven, Event, Unknown};
 
 /// Something special that was met, with where it is.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Met {
     /// What it is.
     #[serde(flatten)]
@@ -26,7 +27,7 @@ pub struct Met {
 }
 
 /// What can be met.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case", tag = "met")]
 pub enum MetKind {
     /// A joint turns back: driven, it would lock here.
@@ -48,7 +49,7 @@ pub enum MetKind {
         /// The limit, rad or m.
         limit: f64,
         /// rad or m.
-        unit: &'static str,
+        unit: SiUnit,
         /// Whether it is the upper one.
         upper: bool,
     },
@@ -66,7 +67,7 @@ pub enum MetKind {
 }
 
 /// A branch that passes through a crossing.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Passing {
     /// Whether it is the one that was followed.
     pub followed: bool,
@@ -195,7 +196,7 @@ impl<'m> Record<'m> {
         MetKind::Limit {
             joint: of.name.clone(),
             limit,
-            unit: if of.kind.is_angle() { "rad" } else { "m" },
+            unit: SiUnit::of_coordinate(of.kind.is_angle()),
             upper,
         }
     }
@@ -256,10 +257,7 @@ impl<'m> Record<'m> {
         let mechanism = self.mechanism;
         let inputs = self.inputs.iter().map(|input| InputReport {
             name: input.coordinate.name(mechanism),
-            unit: match input.coordinate.is_angle(mechanism) {
-                true => "rad",
-                false => "m",
-            },
+            unit: SiUnit::of_coordinate(input.coordinate.is_angle(mechanism)),
             from: input.from,
             to: input.to,
         });

@@ -3,10 +3,11 @@
 use serde::{Deserialize, Serialize};
 
 use super::{Row, SweepReport, TracedPoint};
+use crate::algebra::SiUnit;
 use crate::mechanism::{Mechanism, Variable};
 
 /// The motions of one question: one, or one in each mode.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct MotionsReport {
     /// The mechanism's name.
     pub mechanism: String,
@@ -15,11 +16,12 @@ pub struct MotionsReport {
 }
 
 /// A motion with its mode and the rows that are kept.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Deserialize)]
 pub struct MotionReport {
     /// The number of the mode, if it was asked for.
     pub mode: Option<usize>,
     /// What it came to.
+    #[serde(flatten)]
     pub sweep: SweepReport,
     /// What the columns are: the number of the step, joints, platforms, traced points.
     pub columns: Vec<Variable>,
@@ -37,12 +39,14 @@ pub struct Columns {
 impl Columns {
     /// The number of the step, then all joints, platforms and traced points of a mechanism.
     pub fn new(mechanism: &Mechanism, points: &[TracedPoint]) -> Self {
-        let mut variables = vec![Variable::new("step", "")];
+        let mut variables = vec![Variable::plain("step")];
         variables.extend(Variable::joints(mechanism));
         variables.extend(Variable::poses(mechanism));
         for point in points {
             let axes = ["x", "y", "z"];
-            variables.extend(axes.map(|axis| Variable::new(format!("{}.{axis}", point.name), "m")));
+            variables.extend(
+                axes.map(|axis| Variable::new(format!("{}.{axis}", point.name), SiUnit::METRE)),
+            );
         }
         Columns {
             variables,

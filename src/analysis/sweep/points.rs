@@ -1,5 +1,8 @@
 //! Points of bodies whose paths are traced.
 
+use std::error::Error;
+use std::fmt::{self, Display, Formatter};
+
 use crate::algebra::Measure;
 use crate::geometry::Vector3;
 use crate::mechanism::{Configuration, Frame, Kinematics, Mechanism, Placement};
@@ -30,6 +33,30 @@ pub enum PointError {
     },
     /// There are more than three offsets.
     TooMany(usize),
+}
+
+impl Display for PointError {
+    fn fmt(&self, f: &mut Formatter) -> fmt::Result {
+        match self {
+            PointError::NoFrame(name) => write!(f, "there is no frame `{name}`"),
+            PointError::Value { text, error } => {
+                write!(f, "`{text}` cannot be an offset: {error}")
+            }
+            PointError::TooMany(offsets) => write!(
+                f,
+                "a point has at most three offsets, along x, y and z, but {offsets} were given"
+            ),
+        }
+    }
+}
+
+impl Error for PointError {
+    fn source(&self) -> Option<&(dyn Error + 'static)> {
+        match self {
+            PointError::Value { error, .. } => Some(error),
+            PointError::NoFrame(_) | PointError::TooMany(_) => None,
+        }
+    }
 }
 
 impl TracedPoint {

@@ -1,16 +1,16 @@
 //! The input–output Jacobian.
 
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
 use super::frames::Spins;
-use super::unit;
+use crate::algebra::SiUnit;
 use crate::geometry;
 use crate::linear::{Decomposition, rank};
 use crate::mechanism::{Configuration, Coordinate, Frame, Mechanism, Role};
 use crate::system::{FrameTwists, Holdable, Motion, without};
 
 /// Rates of outputs for unit rates of the inputs, one at a time.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct InputOutput {
     /// The outputs.
     pub rows: Vec<Axis>,
@@ -33,12 +33,12 @@ pub struct InputOutput {
 }
 
 /// A row or column.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Axis {
     /// What it is.
     pub name: String,
     /// `rad/s` or `m/s`.
-    pub unit: String,
+    pub unit: SiUnit,
 }
 
 /// What the inputs drive.
@@ -140,44 +140,39 @@ pub(super) fn input_output(
     let mut rows = Vec::new();
     // what a row is divided by to have no length in it
     let mut row_scales = Vec::new();
+    let mut row = |name: String, is_angle: bool| {
+        let unit = SiUnit::of_coordinate(is_angle).per_second();
+        rows.push(Axis { name, unit });
+        row_scales.push(if is_angle { 1.0 } else { length });
+    };
     for output in outputs {
         let (kinds, name): (&[&str], String) = match output {
             Output::Twist(frame) => (&["ω", "v"], mechanism.frame_name(*frame)),
             Output::Point(frame) => (&["v"], mechanism.frame_name(*frame)),
             Output::Joint(joint) => {
                 let joint = &mechanism.joints()[*joint];
-                rows.push(Axis {
-                    name: joint.name.clone(),
-                    unit: format!("{}/s", unit(joint.kind.is_angle())),
-                });
-                row_scales.push(if joint.kind.is_angle() { 1.0 } else { length });
+                row(joint.name.clone(), joint.kind.is_angle());
                 continue;
             }
             &Output::Coordinate(platform, c) => {
-                rows.push(Axis {
-                    name: Holdable::Coordinate(platform, c).name(mechanism),
-                    unit: format!("{}/s", unit(c.is_angle())),
-                });
-                row_scales.push(if c.is_angle() { 1.0 } else { length });
+                row(
+                    Holdable::Coordinate(platform, c).name(mechanism),
+                    c.is_angle(),
+                );
                 continue;
             }
             &Output::Turn(platform, axis) => {
-                let axis = ["x", "y", "z"][axis as usize];
-                rows.push(Axis {
-                    name: format!("{} ω{axis}", mechanism.platforms()[platform].name),
-                    unit: format!("{}/s", unit(true)),
-                });
-                row_scales.push(1.0);
+                let axis = axis.letter();
+                row(
+                    format!("{} ω{axis}", mechanism.platforms()[platform].name),
+                    true,
+                );
                 continue;
             }
         };
         for &kind in kinds {
             for axis in ["x", "y", "z"] {
-                rows.push(Axis {
-                    name: format!("{name} {kind}{axis}"),
-                    unit: format!("{}/s", unit(kind == "ω")),
-                });
-                row_scales.push(if kind == "ω" { 1.0 } else { length });
+                row(format!("{name} {kind}{axis}"), kind == "ω");
             }
         }
     }
@@ -189,7 +184,7 @@ pub(super) fn input_output(
         let angle = input.is_angle(mechanism);
         columns.push(Axis {
             name: input.name(mechanism),
-            unit: format!("{}/s", unit(angle)),
+            unit: SiUnit::of_coordinate(angle).per_second(),
         });
         let mut given = vec![0.0; inputs.len()];
         given[i] = 1.0;

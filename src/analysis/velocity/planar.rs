@@ -2,7 +2,7 @@
 
 use std::f64::consts::FRAC_PI_2;
 
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
 use crate::geometry::Vector3;
 use crate::linear::{dot, norm};
@@ -16,7 +16,7 @@ use crate::system::{
 /// The coupler passes a force along the line between its hinges. Its *pressure angle* is the one
 /// between that line and the way the output link moves at their hinge; the *transmission angle* is
 /// 90° less that, at a rocker the acute angle between coupler and rocker (Alt 1932).
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Transmission {
     /// The closure of the loop.
     pub closure: String,
@@ -33,7 +33,7 @@ pub struct Transmission {
 }
 
 /// The point about which a body turns beside another, at the instant.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct InstantCentre {
     /// The two bodies.
     pub bodies: [String; 2],

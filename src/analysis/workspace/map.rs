@@ -17,7 +17,8 @@ use super::aspects::{self, Region};
 use super::boundary::{Crossing, named};
 use super::flood::{Filled, Link};
 use super::problem::{Asked, Grid};
-use crate::mechanism::{Coordinate, turn_near};
+use crate::algebra::SiUnit;
+use crate::mechanism::{Coordinate, Variable, turn_near};
 use crate::solve::each;
 use crate::system::Holdable;
 
@@ -90,10 +91,7 @@ impl<'a> Map<'a> {
 
     pub fn report(&self, crossings: &[Crossing]) -> WorkspaceReport {
         let mechanism = self.asked.mechanism;
-        let unit = |of: Holdable| match of.is_angle(mechanism) {
-            true => "rad",
-            false => "m",
-        };
+        let unit = |of: Holdable| SiUnit::of_coordinate(of.is_angle(mechanism));
         let name = |of: &Holdable| of.name(mechanism);
         let axes = self.asked.axes.iter().enumerate();
         let held = self.held();
@@ -123,6 +121,8 @@ impl<'a> Map<'a> {
         });
         let (aspects, numbers) = self.aspects(&cuts);
         WorkspaceReport {
+            mechanism: mechanism.name().to_owned(),
+            variables: Variable::joints(mechanism),
             axes: axes
                 .map(|(i, axis)| AxisReport {
                     name: name(&axis.coordinate),
@@ -151,7 +151,8 @@ impl<'a> Map<'a> {
             outputs: self.asked.outputs.iter().map(name).collect(),
             nodes: self.grid.len(),
             reached: reached.count(),
-            unit: size_unit(self.asked.axes.iter().map(|axis| unit(axis.coordinate))),
+            unit: (self.asked.axes.iter().map(|axis| unit(axis.coordinate)))
+                .fold(SiUnit::ONE, SiUnit::times),
             size: (self.asked.axes.iter().map(|a| a.to - a.from)).product(),
             reached_size: self.size(&reached, &whole, &cuts),
             modes: each(self.modes, &(), |(), mode| {
@@ -331,19 +332,4 @@ fn bring(asked: &Asked, joints: &mut [f64], plain: bool) {
     if !plain {
         asked.mechanism.turn_to_limits(joints);
     }
-}
-
-/// `m²`, `rad·m`
-fn size_unit<'u>(units: impl Iterator<Item = &'u str>) -> String {
-    let units: Vec<&str> = units.collect();
-    let parts = ["rad", "m"].into_iter().filter_map(|unit| {
-        let count = units.iter().filter(|u| **u == unit).count();
-        match count {
-            0 => None,
-            1 => Some(unit.to_owned()),
-            2 => Some(format!("{unit}²")),
-            _ => Some(format!("{unit}³")),
-        }
-    });
-    parts.collect::<Vec<String>>().join("·")
 }

@@ -1,50 +1,10 @@
 //! Words for what is wrong with an expression.
 
-use super::syntax::shown;
-use super::{count, nearest, quoted};
-use crate::algebra::{
-    EvaluationErrorKind, Function, LARGEST, MAX_HEIGHT, MAX_NESTING, Measure, MeasureErrorKind,
-    ParseErrorKind, Unit,
-};
+use super::quoted;
+use crate::algebra::{Function, Measure, MeasureErrorKind, ParseErrorKind, Unit};
+use crate::description::nearest;
 
-pub(in crate::description) fn title(error: &ParseErrorKind) -> String {
-    use ParseErrorKind::*;
-    match error {
-        Empty => "the expression is empty".into(),
-        UnexpectedCharacter(c) => format!(
-            "the character `{}` has no meaning in an expression",
-            shown(*c)
-        ),
-        ExpectedOperand => "expected a number, a name or `(`".into(),
-        MissingOperator => "an operator is missing between two values".into(),
-        UnknownUnit(unit) => format!("`{unit}` after a number is not a unit"),
-        UnclosedParenthesis => "a parenthesis is not closed".into(),
-        UnopenedParenthesis => "a closing parenthesis has no opening one".into(),
-        UnexpectedComma => "there is a comma outside the arguments of a function".into(),
-        UnknownFunction(name) => format!("there is no function `{name}`"),
-        MissingArguments(function) => format!(
-            "the function `{}` needs its argument in parentheses",
-            function.word()
-        ),
-        WrongArgumentCount { function, found } => {
-            format!(
-                "`{}` takes {}, found {found}",
-                function.word(),
-                count(function.arity(), "argument")
-            )
-        }
-        PowerOfUnit => {
-            "it is not clear whether the power belongs to the number or to its unit".into()
-        }
-        DoubleStar => "a power is written `^`, not `**`".into(),
-        MalformedNumber => "this is not a number".into(),
-        NumberTooLarge => "the number is too large".into(),
-        TooDeep => format!("the expression is nested more than {MAX_NESTING} levels deep"),
-        TooLong => format!("the expression has more than {MAX_HEIGHT} operations in a row"),
-    }
-}
-
-pub(super) fn label(error: &ParseErrorKind) -> &'static str {
+pub(in crate::description) fn label(error: &ParseErrorKind) -> &'static str {
     use ParseErrorKind::*;
     match error {
         Empty => "empty",
@@ -56,7 +16,7 @@ pub(super) fn label(error: &ParseErrorKind) -> &'static str {
     }
 }
 
-pub(super) fn help(error: &ParseErrorKind) -> Option<String> {
+pub(in crate::description) fn help(error: &ParseErrorKind) -> Option<String> {
     use ParseErrorKind::*;
     let help = match error {
         Empty => "write 0 or leave the field out",
@@ -106,43 +66,15 @@ fn alias(name: &str) -> Option<&'static str> {
     }
 }
 
-pub(in crate::description) fn no_value(error: &EvaluationErrorKind) -> String {
-    use EvaluationErrorKind::*;
+pub(in crate::description) fn unit_label(error: &MeasureErrorKind) -> &'static str {
     match error {
-        DivisionByZero => "division by zero".into(),
-        RootOfNegative(x) => format!("the square root of {x} is not a real number"),
-        LogarithmOfNonPositive(x) => format!("the logarithm of {x} is not a real number"),
-        OutOfRange(function, x) => format!("`{}` of {x} is not a real number", function.word()),
-        PowerOfNegative(x) => format!("a non-integer power of {x} is not a real number"),
-        TooLarge(x) => {
-            format!("the value {x:e} is too large; the limit is {LARGEST:e}")
-        }
-        NotFinite => "the value is not finite".into(),
-    }
-}
-
-pub(in crate::description) fn unit(error: &MeasureErrorKind) -> String {
-    match error {
-        MeasureErrorKind::Wrong { wanted, found } => {
-            let (wanted, found) = (measure(*wanted), measure(*found));
-            format!("expected {wanted}, found {found}")
-        }
-        MeasureErrorKind::Mixed => "an angle and a length are mixed".into(),
-        MeasureErrorKind::LengthAsAngle(function) => {
-            format!("`{}` takes an angle, not a length", function.word())
-        }
-    }
-}
-
-pub(super) fn unit_label(error: &MeasureErrorKind) -> &'static str {
-    match error {
-        MeasureErrorKind::Wrong { found, .. } => measure(*found),
+        MeasureErrorKind::Wrong { found, .. } => found.words(),
         MeasureErrorKind::Mixed => "an angle and a length",
         MeasureErrorKind::LengthAsAngle(_) => "a length",
     }
 }
 
-pub(super) fn unit_help(error: &MeasureErrorKind) -> &'static str {
+pub(in crate::description) fn unit_help(error: &MeasureErrorKind) -> &'static str {
     match error {
         MeasureErrorKind::Wrong { wanted, .. } => match wanted {
             Measure::Length => "write m, cm, mm or in; a number without unit is in m",
@@ -155,15 +87,5 @@ pub(super) fn unit_help(error: &MeasureErrorKind) -> &'static str {
         MeasureErrorKind::LengthAsAngle(_) => {
             "write deg or rad, or divide by a length; a number without unit is in rad"
         }
-    }
-}
-
-fn measure(measure: Measure) -> &'static str {
-    match measure {
-        Measure::Number | Measure::Open => "a number",
-        Measure::Angle => "an angle",
-        Measure::Length => "a length",
-        Measure::Force => "a force",
-        Measure::Moment => "a moment",
     }
 }

@@ -57,7 +57,7 @@ fn first_lower(text: &str) -> String {
         .collect()
 }
 
-pub(super) fn label(error: &Error, found: Option<char>) -> &'static str {
+pub(in crate::description) fn label(error: &Error, found: Option<char>) -> &'static str {
     match (error, found) {
         (Error::Eof, _) => "more is expected here",
         (Error::ExpectedComma, Some('=')) => "not a colon",
@@ -79,7 +79,7 @@ pub(super) fn label(error: &Error, found: Option<char>) -> &'static str {
     }
 }
 
-pub(super) fn help(error: &Error, found: Option<char>) -> Option<&'static str> {
+pub(in crate::description) fn help(error: &Error, found: Option<char>) -> Option<&'static str> {
     match (error, found) {
         (Error::UnexpectedChar('#') | Error::ExpectedAttribute, _) => {
             Some("a comment begins with `//`")

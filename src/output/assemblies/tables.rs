@@ -6,10 +6,8 @@ use comfy_table::{Table, presets};
 
 use super::super::layout::{align_right, indented};
 use super::super::quantity::{degrees, number, quantity, size};
-use crate::analysis::assemblies::{AssembliesReport, Assembly, ComplexAssembly};
+use crate::analysis::assemblies::{AssembliesReport, Assembly, ComplexAssembly, ListedJoint};
 use crate::description::listed;
-use crate::mechanism::Mechanism;
-use crate::system::{HeldPlatform, Question};
 
 /// Columns of joint values that stand beside each other.
 const ABREAST: usize = 8;
@@ -73,27 +71,20 @@ pub(super) fn overview(report: &AssembliesReport) -> String {
 }
 
 /// Values of the joints that are not held.
-pub(super) fn joints(question: &Question, report: &AssembliesReport) -> Vec<String> {
-    let mechanism = question.mechanism();
-    let held = question.held();
-    let free: Vec<usize> = (0..held.joints.len())
-        .filter(|&j| !held.joints[j])
-        .collect();
+pub(super) fn joints(report: &AssembliesReport) -> Vec<String> {
+    let variables = report.variables.iter().enumerate();
+    let free: Vec<(usize, &ListedJoint)> = variables.filter(|(_, joint)| !joint.held).collect();
     let blocks = free.chunks(ABREAST).enumerate();
     let blocks = blocks.map(|(block, free)| {
-        let names = free.iter().map(|&j| mechanism.joints()[j].name.clone());
+        let names = free.iter().map(|(_, joint)| joint.name.clone());
         let header: Vec<String> = std::iter::once("mode".into()).chain(names).collect();
         let mut table = table(&header);
         for a in &report.assemblies {
-            let values = free.iter().map(|&j| {
-                let angle = mechanism.joints()[j].kind.is_angle();
-                let text = quantity(settled(a.joints.0[j].1, mechanism, angle), angle);
+            let values = free.iter().map(|&(j, joint)| {
+                let angle = joint.unit.is_angle();
+                let text = quantity(settled(a.joints.0[j].1, report, angle), angle);
                 // −180° may be within limits where 180° is not
-                if mechanism.repeats(j) && mechanism.joints()[j].limits.is_none() {
-                    once(text)
-                } else {
-                    text
-                }
+                if joint.periodic { once(text) } else { text }
             });
             table.add_row(std::iter::once(a.mode.to_string()).chain(values));
         }
@@ -109,23 +100,19 @@ pub(super) fn joints(question: &Question, report: &AssembliesReport) -> Vec<Stri
 }
 
 /// Poses of the platforms that are not held.
-pub(super) fn platforms(question: &Question, report: &AssembliesReport) -> Vec<String> {
-    let held = question.held();
-    let parts = question
-        .mechanism()
-        .platforms()
-        .iter()
-        .zip(&held.platforms)
-        .enumerate();
-    let parts = parts.filter(|(_, (_, held))| **held != HeldPlatform::Pose);
-    let parts = parts.map(|(p, (part, _))| {
+pub(super) fn platforms(report: &AssembliesReport) -> Vec<String> {
+    let Some(first) = report.assemblies.first() else {
+        return Vec::new();
+    };
+    let parts = first.platforms.0.iter().enumerate();
+    let parts = parts.filter(|(_, (name, _))| !report.held_platforms.contains(name));
+    let parts = parts.map(|(p, (name, _))| {
         let header = ["mode", "x", "y", "z", "roll", "pitch", "yaw"];
         let mut table = table(&header.map(String::from));
         for a in &report.assemblies {
             let (_, pose) = &a.platforms.0[p];
-            let mechanism = question.mechanism();
-            let position = (pose.position).map(|x| quantity(settled(x, mechanism, false), false));
-            let angles = (pose.roll_pitch_yaw).map(|x| once(degrees(settled(x, mechanism, true))));
+            let position = (pose.position).map(|x| quantity(settled(x, report, false), false));
+            let angles = (pose.roll_pitch_yaw).map(|x| once(degrees(settled(x, report, true))));
             table.add_row(
                 std::iter::once(a.mode.to_string())
                     .chain(position)
@@ -133,7 +120,7 @@ pub(super) fn platforms(question: &Question, report: &AssembliesReport) -> Vec<S
             );
         }
         align_right(&mut table, 0..7);
-        format!("Platform {}\n{}", part.name, indented(&table.to_string()))
+        format!("Platform {name}\n{}", indented(&table.to_string()))
     });
     parts.collect()
 }
@@ -162,7 +149,7 @@ pub(super) fn reasons(report: &AssembliesReport) -> Option<String> {
     (!lines.is_empty()).then(|| format!("Not certified\n{}", indented(&lines)))
 }
 
-pub(super) fn complex(mechanism: &Mechanism, report: &AssembliesReport) -> String {
+pub(super) fn complex(report: &AssembliesReport) -> String {
     let mut text = String::from("Complex solutions that are not real\n");
     for (
         i,
@@ -180,19 +167,20 @@ pub(super) fn complex(mechanism: &Mechanism, report: &AssembliesReport) -> Strin
         };
         let condition = condition.map_or("infinite".into(), size);
         let _ = writeln!(text, "  {}{multiple}, condition {condition}", i + 1);
-        for ((name, [re, im]), joint) in joints.0.iter().zip(mechanism.joints()) {
-            let [re, im] = [re, im].map(|x| settled(*x, mechanism, joint.kind.is_angle()));
-            let (re, im) = match joint.kind.is_angle() {
+        for ((name, [re, im]), joint) in joints.0.iter().zip(&report.variables) {
+            let angle = joint.unit.is_angle();
+            let [re, im] = [re, im].map(|x| settled(*x, report, angle));
+            let (re, im) = match angle {
                 true => (re.to_degrees(), im.to_degrees()),
                 false => (re, im),
             };
-            let unit = if joint.kind.is_angle() { "°" } else { " m" };
+            let unit = if angle { "°" } else { " m" };
             let _ = writeln!(text, "    {name} = {}{unit}", complex_number(re, im));
         }
         for (name, numbers) in &platforms.0 {
             let parts = numbers.iter().enumerate().map(|(i, parts)| {
                 // three lengths, then the quaternion
-                let [re, im] = parts.map(|x| settled(x, mechanism, i >= 3));
+                let [re, im] = parts.map(|x| settled(x, report, i >= 3));
                 complex_number(re, im)
             });
             let parts: Vec<String> = parts.collect();
@@ -210,12 +198,12 @@ pub(super) fn complex(mechanism: &Mechanism, report: &AssembliesReport) -> Strin
 
 /// What is left of a zero after rounding is a zero: solutions are good to some 1e-12 rad or
 /// characteristic lengths, and what rounding leaves differs from one way to them to another.
-fn settled(value: f64, mechanism: &Mechanism, angle: bool) -> f64 {
+fn settled(value: f64, report: &AssembliesReport, angle: bool) -> f64 {
     const ROUNDING: f64 = 1e-10;
     let unit = if angle {
         1.0
     } else {
-        mechanism.characteristic_length()
+        report.characteristic_length
     };
     if value.abs() < ROUNDING * unit {
         0.0

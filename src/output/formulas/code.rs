@@ -5,17 +5,16 @@ use std::collections::{BTreeMap, BTreeSet};
 use super::notes;
 use crate::algebra::{Constant, Expression, Function, Node, Operator};
 use crate::analysis::formulas::{ClosureFormula, FormulasReport, Letter, Meaning};
-use crate::mechanism::Mechanism;
 
 /// One function for each transform, closure and Jacobian; they need nothing but `f64`.
-pub fn rust(mechanism: &Mechanism, report: &FormulasReport) -> String {
+pub fn rust(report: &FormulasReport) -> String {
     let mut writer = Writer {
         arguments: arguments(&report.letters),
         functions: BTreeSet::new(),
     };
     let mut text = format!(
         "// {}, by linkwork. Lengths in m, angles in rad.\n",
-        one_line(mechanism.name())
+        one_line(&report.mechanism)
     );
     notes(report)
         .iter()

@@ -6,22 +6,24 @@ use crate::algebra::Expression;
 use crate::analysis::formulas::{
     ClosureFormula, FormulasReport, JacobianFormula, TransformFormula,
 };
-use crate::mechanism::Mechanism;
 
 /// Matrices with longer rows are set entry by entry.
 const WIDEST: usize = 240;
 
 /// The report as displayed equations `\[…\]` that need amsmath (or KaTeX, or MathJax); what stands between them are comments.
-pub fn latex(mechanism: &Mechanism, report: &FormulasReport) -> String {
-    let notation = Notation::new(mechanism, Script::Latex);
-    let mut text = comment(&format!("{}, by linkwork; needs amsmath", mechanism.name()));
+pub fn latex(report: &FormulasReport) -> String {
+    let notation = Notation::new(&report.names, Script::Latex);
+    let mut text = comment(&format!("{}, by linkwork; needs amsmath", report.mechanism));
     for transform in report.links.iter().chain(&report.transforms) {
         text += &display(transform_of(&notation, transform));
     }
     for closure in &report.closures {
         text += &comment(&format!(
             "closure {}: {} between {} and {}",
-            closure.name, closure.kind, closure.between[0], closure.between[1]
+            closure.name,
+            closure.kind.word(),
+            closure.between[0],
+            closure.between[1]
         ));
         if let Some(equations) = closure_of(&notation, closure) {
             text += &display(equations);

@@ -5,7 +5,7 @@ mod characters;
 use std::collections::BTreeSet;
 
 use crate::algebra::{Constant, Expression, Function, Node, Operator};
-use crate::mechanism::Mechanism;
+use crate::system::FormulaNames;
 use characters::{GREEK, VULGAR, escaped, parts, raised};
 pub(super) use characters::{lowered, upright};
 
@@ -51,19 +51,18 @@ fn operand(text: String) -> Printed {
 }
 
 impl Notation {
-    pub fn new(mechanism: &Mechanism, script: Script) -> Self {
-        let joints = mechanism.joints().iter();
-        let angles = joints.filter(|joint| joint.kind.is_angle());
+    pub fn new(names: &FormulaNames, script: Script) -> Self {
+        let joints = names.joints.iter();
+        let angles = joints.filter(|joint| joint.unit.is_angle());
         let split: Vec<(&str, String)> = angles.map(|joint| parts(&joint.name)).collect();
         let stems: BTreeSet<&str> = split.iter().map(|(stem, _)| *stem).collect();
         // c₁₁ would be both cos θ₁₁ and cos(θ₁ + θ₁); and no other letter may look like c₁
         let indexed = split.iter().all(|(_, digits)| digits.len() == 1);
-        let joints = mechanism.joints().iter().map(|joint| &joint.name);
-        let parameters = mechanism
-            .parameters()
-            .iter()
-            .map(|parameter| &parameter.name);
-        let taken = joints.chain(parameters).any(|name| {
+        let all = || {
+            let joints = names.joints.iter().map(|joint| &joint.name);
+            joints.chain(&names.parameters)
+        };
+        let taken = all().any(|name| {
             let (stem, digits) = parts(name);
             ["c", "s"].contains(&stem) && !digits.is_empty()
         });
@@ -71,17 +70,11 @@ impl Notation {
             [stem] if indexed && !taken => Some((*stem).to_owned()),
             _ => None,
         };
-        let platform = match mechanism.platforms() {
-            [only] => Some(only.name.clone()),
+        let platform = match &names.platforms[..] {
+            [only] => Some(only.clone()),
             _ => None,
         };
-        let joints = mechanism.joints().iter().map(|joint| &joint.name);
-        let parameters = mechanism
-            .parameters()
-            .iter()
-            .map(|parameter| &parameter.name);
-        let bare: Vec<(&str, String)> = joints
-            .chain(parameters)
+        let bare: Vec<(&str, String)> = all()
             .map(|name| parts(name))
             .map(|(stem, digits)| (stem.trim_end_matches('_'), digits))
             .collect();

@@ -5,11 +5,10 @@ use std::collections::BTreeMap;
 use super::{Notation, Script, needs_platform};
 use crate::algebra::{Expression, Function, Node};
 use crate::analysis::formulas::{ClosureFormula, FormulasReport, TransformFormula};
-use crate::mechanism::Mechanism;
 
 /// The `closed_forms` of a mechanism file.
-pub fn ron(mechanism: &Mechanism, report: &FormulasReport) -> String {
-    let notation = Notation::new(mechanism, Script::Unicode);
+pub fn ron(report: &FormulasReport) -> String {
+    let notation = Notation::new(&report.names, Script::Unicode);
     let mut text = "closed_forms: {\n".to_owned();
     for transform in report.links.iter().chain(&report.transforms) {
         text += &transform_of(&notation, report, transform);

@@ -7,15 +7,14 @@ use crate::algebra::Expression;
 use crate::analysis::formulas::{
     ClosureFormula, FormulasReport, JacobianFormula, Meaning, TransformFormula,
 };
-use crate::mechanism::Mechanism;
 
 /// Wider matrices are printed entry by entry.
 const WIDEST: usize = 110;
 
 /// The report for people: matrices, equations, and what the letters mean.
-pub fn text(mechanism: &Mechanism, report: &FormulasReport) -> String {
-    let notation = Notation::new(mechanism, Script::Unicode);
-    let mut text = format!("{}\n", mechanism.name());
+pub fn text(report: &FormulasReport) -> String {
+    let notation = Notation::new(&report.names, Script::Unicode);
+    let mut text = format!("{}\n", report.mechanism);
     let mut section = |title: &str, blocks: Vec<String>| {
         if !blocks.is_empty() {
             text += &format!("\n{title}\n{}", blocks.join("\n"));
@@ -113,7 +112,7 @@ fn closure(notation: &Notation, closure: &ClosureFormula) -> String {
         same_axes,
         admits_flipped,
     } = closure;
-    let mut text = format!("  {name}: {kind} between {a} and {b}\n");
+    let mut text = format!("  {name}: {} between {a} and {b}\n", kind.word());
     for equation in equations {
         text += &format!("    {} = 0\n", notation.print(equation));
     }

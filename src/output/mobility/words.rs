@@ -5,12 +5,11 @@ use crate::analysis::mobility::{
 };
 use crate::description::count;
 use crate::description::listed;
-use crate::mechanism::Mechanism;
 use crate::output::closing;
 use crate::output::quantity::{coarse, number, quantity, signed};
 
 /// The answer: how many freedoms, and why that is not what counting says.
-pub(super) fn explanation(mechanism: &Mechanism, report: &MobilityReport) -> String {
+pub(super) fn explanation(report: &MobilityReport) -> String {
     let mut sentences = vec![mobility(report), counted(report)];
     if !report.redundancies.is_empty() {
         let redundant: Vec<String> = report.redundancies.iter().map(redundancy).collect();
@@ -50,7 +49,7 @@ pub(super) fn explanation(mechanism: &Mechanism, report: &MobilityReport) -> Str
         };
         sentences.push(format!("{} {stand} still.", listed(&still)));
     }
-    sentences.extend((report.elsewhere.iter()).map(|other| elsewhere(mechanism, other)));
+    sentences.extend((report.elsewhere.iter()).map(|other| elsewhere(report, other)));
     sentences.extend((report.given.as_ref()).map(|gap| closing::given(gap, report.kept)));
     sentences.join(" ")
 }
@@ -58,25 +57,9 @@ pub(super) fn explanation(mechanism: &Mechanism, report: &MobilityReport) -> Str
 /// Joints that stand still in every motion, idle ones too.
 pub(super) fn still(report: &MobilityReport) -> Vec<String> {
     let idle = report.idle_joints.iter();
-    idle.filter(|joint| !spins(report, joint))
+    idle.filter(|joint| !report.spinning_joints.contains(joint))
         .cloned()
         .collect()
-}
-
-/// Joints that move only because a link spins about its own line.
-pub(super) fn spinning(report: &MobilityReport) -> Vec<String> {
-    let idle = report.idle_joints.iter();
-    idle.filter(|joint| spins(report, joint)).cloned().collect()
-}
-
-fn spins(report: &MobilityReport, joint: &String) -> bool {
-    let freedoms = report.idle_freedoms.iter();
-    freedoms
-        .filter_map(|freedom| match freedom {
-            IdleFreedom::Joints(joints) | IdleFreedom::Platforms { joints, .. } => Some(joints),
-            IdleFreedom::Rod(_) => None,
-        })
-        .any(|joints| joints.contains(joint))
 }
 
 fn freedoms(number: usize) -> String {
@@ -209,13 +192,13 @@ pub(super) fn idle(freedom: &IdleFreedom) -> String {
 }
 
 /// Where the mechanism has another mobility.
-pub(super) fn elsewhere(mechanism: &Mechanism, other: &Elsewhere) -> String {
-    let joints = mechanism.joints().iter().zip(&other.joints);
+pub(super) fn elsewhere(report: &MobilityReport, other: &Elsewhere) -> String {
+    let joints = report.variables.iter().zip(other.joints.values());
     let joints = joints.map(|(joint, &value)| {
         format!(
             "{} = {}",
             joint.name,
-            quantity(value, joint.kind.is_angle())
+            quantity(value, joint.unit.is_angle())
         )
     });
     format!(

@@ -2,18 +2,17 @@
 
 use crate::analysis::singularities::{Kind, Locus, LocusReport, Shape};
 use crate::description::listed;
-use crate::mechanism::Mechanism;
 use crate::output::plot::{self, Chart, Marks, Series};
 
 /// The loci as SVG.
-pub fn svg(mechanism: &Mechanism, report: &LocusReport) -> String {
-    let shown = |k: usize, x: f64| match report.bounds[k].unit {
-        "rad" => x.to_degrees(),
-        _ => x,
+pub fn svg(report: &LocusReport) -> String {
+    let shown = |k: usize, x: f64| match report.bounds[k].unit.is_angle() {
+        true => x.to_degrees(),
+        false => x,
     };
     let point = |p: &[f64; 2]| (shown(0, p[0]), shown(1, p[1]));
     let [x, y] = report.bounds.each_ref().map(|bound| {
-        let unit = if bound.unit == "rad" { "°" } else { "m" };
+        let unit = if bound.unit.is_angle() { "°" } else { "m" };
         format!("{} ({unit})", bound.name)
     });
     let kind = |locus: &Locus| match locus.kind {
@@ -65,7 +64,7 @@ pub fn svg(mechanism: &Mechanism, report: &LocusReport) -> String {
         });
     }
     plot::svg(&[Chart {
-        title: format!("{}: singularities", mechanism.name()),
+        title: format!("{}: singularities", report.mechanism),
         x,
         y,
         equal: report.bounds[0].unit == report.bounds[1].unit,

@@ -79,8 +79,8 @@ pub(super) fn sentence(singularity: &Singularity, inputs: &[String], outputs: &[
     }
     if !singularity.compared {
         sentences.push(
-            "No configuration beside it was found to compare with: what is singular everywhere does \
-             not show."
+            "No neighbouring configuration was found for comparison: what is singular everywhere is \
+             not reported."
                 .into(),
         );
     }
@@ -92,10 +92,8 @@ fn names_of(names: &[String]) -> String {
 }
 
 fn counted(freedoms: usize) -> String {
-    match freedoms {
-        1 => "1 freedom is".into(),
-        n => format!("{n} freedoms are"),
-    }
+    let verb = if freedoms == 1 { "is" } else { "are" };
+    format!("{} {verb}", count(freedoms, "freedom"))
 }
 
 /// The letters of a type.
@@ -128,7 +126,7 @@ pub(super) fn zlatanov(kind: Zlatanov) -> String {
 /// `theta1 = 60° and l2 = 0.5 m`
 pub(super) fn place(report: &AlongReport, moved: &[f64]) -> String {
     let values = report.moved.iter().zip(moved);
-    let values = values.map(|(m, x)| format!("{} = {}", m.name, quantity(*x, m.unit == "rad")));
+    let values = values.map(|(m, x)| format!("{} = {}", m.name, quantity(*x, m.unit.is_angle())));
     listed(&values.collect::<Vec<_>>())
 }
 
@@ -153,14 +151,13 @@ pub(super) fn crossing(crossing: &Crossing, report: &AlongReport) -> String {
 /// How a motion ended, in a sentence.
 pub fn ending(report: &AlongReport) -> String {
     let way = report.moved.iter().map(|m| {
-        let value = |x| quantity(x, m.unit == "rad");
+        let value = |x| quantity(x, m.unit.is_angle());
         format!("{} from {} to {}", m.name, value(m.from), value(m.to))
     });
     let way = listed(&way.collect::<Vec<_>>());
     let found = match report.crossings.len() {
         0 => "no singularity".to_owned(),
-        1 => "1 singularity".into(),
-        n => format!("{n} singularities"),
+        n => count(n, "singularity"),
     };
     let here: Vec<f64> = (report.moved.iter())
         .map(|m| m.from + report.part * (m.to - m.from))
@@ -182,15 +179,17 @@ pub fn ending(report: &AlongReport) -> String {
         ),
         Ending::Limit => format!("{way}: {joint} reaches its limit at {here}; {found}."),
         Ending::OutsideLimits => format!(
-            "{way}: {joint} is outside its limits where the motion is to begin. Begin elsewhere, or \
-             in another mode with --mode."
+            "{way}: {joint} is outside its limits at the start. Begin elsewhere, or in another mode with \
+             --mode."
         ),
         Ending::SingularStart => format!(
-            "{way}: the start is singular, so that the branch is not clear. Begin beside it."
+            "{way}: the start is singular, so the branch is not unique. Begin slightly away from it."
         ),
         Ending::Stopped => format!("{way}: interrupted at {here}; {found} before."),
         Ending::Lost => {
-            format!("{way}: beyond {here} no step is short enough to be sure; {found} before.")
+            format!(
+                "{way}: the curve could not be followed reliably beyond {here}; {found} before."
+            )
         }
     }
 }
@@ -203,7 +202,7 @@ pub(super) fn loci(report: &LocusReport) -> String {
             .count()
     };
     let in_box = report.bounds.each_ref().map(|bound| {
-        let value = |x| quantity(x, bound.unit == "rad");
+        let value = |x| quantity(x, bound.unit.is_angle());
         format!(
             "{} from {} to {}",
             bound.name,
@@ -230,7 +229,9 @@ pub(super) fn loci(report: &LocusReport) -> String {
     };
     let inverse = match report.sought[1] {
         true => curves(Kind::Inverse, "inverse"),
-        false => "inverse ones not sought, because the outputs determine the inputs nowhere".into(),
+        false => "inverse singularities were not searched for, because the outputs nowhere determine the \
+                  inputs"
+            .into(),
     };
     format!(
         "In the box {}: {} and {inverse}.",
@@ -271,15 +272,13 @@ pub fn completeness(report: &LocusReport) -> String {
             let missing = missing(report);
             format!("Every locus was met by several starts{beside}; {missing}")
         }
-        (_, 1) => "1 locus was met by one start only, so that others may be missing".into(),
-        (_, once) => {
-            format!("{once} loci were met by one start only, so that others may be missing")
-        }
+        (_, 1) => "1 locus was met by one start only, so others may be missing".into(),
+        (_, once) => format!("{once} loci were met by one start only, so others may be missing"),
     };
     let mut sure = sure.chars();
     let first = sure.next().map(|c| c.to_uppercase().to_string());
     format!(
-        "{} {}{}: --starts makes more.",
+        "{} {}{}; --starts sets their number.",
         sought(report, [direct, inverse], &last),
         first.unwrap_or_default(),
         sure.as_str()
@@ -293,9 +292,11 @@ fn missing(report: &LocusReport) -> String {
     let fewest = starts.filter(|(_, sought)| *sought).map(|(n, _)| n / 3);
     match fewest.min() {
         Some(n @ 2..) => {
-            format!("one that fewer than 1 in {n} starts lead to may be missing (95 %)")
+            format!(
+                "a locus reached by fewer than 1 in {n} starts may be missing (95 % confidence)"
+            )
         }
-        _ => "so few starts say nothing of what is missing".into(),
+        _ => "so few starts do not show whether loci are missing".into(),
     }
 }
 
@@ -308,8 +309,8 @@ fn sought(report: &LocusReport, [direct, inverse]: [usize; 2], last: &str) -> St
         [direct, inverse] => format!("{direct} and {inverse} random starts"),
     };
     format!(
-        "Sought from {starts} (seed {}): {direct} led to direct and {inverse} to inverse singularities in \
-         the box, {last}.",
+        "Searched from {starts} (seed {}): {direct} led to direct and {inverse} to inverse singularities \
+         in the box; {last}.",
         report.seed
     )
 }

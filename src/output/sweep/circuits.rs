@@ -17,6 +17,7 @@ impl Report for CircuitsReport {
             }
         );
         Document::new(&self.mechanism, sentence(self))
+            .interrupted(self.interrupted, "circuits")
             .sections(self.circuits.iter().map(|circuit| one(self, circuit)))
             .method(seeds)
     }
@@ -84,7 +85,7 @@ fn one(report: &CircuitsReport, circuit: &Circuit) -> Section {
         ]);
     }
     let input = circuit.joints.iter().position(|j| j.name == report.input);
-    let is_angle = input.is_some_and(|input| circuit.joints[input].unit == "rad");
+    let is_angle = input.is_some_and(|input| circuit.joints[input].unit.is_angle());
     let branches = circuit.branches.iter().enumerate();
     let branches = branches.map(|(i, branch)| match branch.turns {
         true => format!("branch {}: {} turns fully", i + 1, report.input),

@@ -6,7 +6,11 @@ use crate::output::document::{Cell, Column, Section, Table};
 use crate::output::quantity::{number, quantity};
 
 fn at(input: &InputReport, value: f64) -> String {
-    format!("{} = {}", input.name, quantity(value, input.unit == "rad"))
+    format!(
+        "{} = {}",
+        input.name,
+        quantity(value, input.unit.is_angle())
+    )
 }
 
 /// `theta1 = 60° and l2 = 0.5 m`
@@ -24,7 +28,7 @@ pub fn sentence(report: &SweepReport) -> String {
     let last = report.met.last();
     let way: Vec<String> = (report.inputs.iter())
         .map(|input| {
-            let value = |x| quantity(x, input.unit == "rad");
+            let value = |x| quantity(x, input.unit.is_angle());
             format!(
                 "{} from {} to {}",
                 input.name,
@@ -84,7 +88,7 @@ pub fn sentence(report: &SweepReport) -> String {
                 None => String::new(),
             };
             let place = match (&report.inputs[..], last.map(|met| &met.inputs[..])) {
-                ([input], Some([value])) => quantity(*value, input.unit == "rad"),
+                ([input], Some([value])) => quantity(*value, input.unit.is_angle()),
                 _ => place,
             };
             format!(
@@ -104,7 +108,7 @@ pub fn sentence(report: &SweepReport) -> String {
         ) => format!(
             "{joint} reaches its {} limit of {}{}.",
             side(*upper),
-            quantity(*limit, *unit == "rad"),
+            quantity(*limit, unit.is_angle()),
             match report.inputs.iter().any(|input| input.name == *joint) {
                 true => String::new(),
                 false => format!(" at {place}"),
@@ -146,7 +150,7 @@ pub fn sentence(report: &SweepReport) -> String {
             "{joint} is outside its {} limit of {} at the start: begin elsewhere, or in another mode \
              with --mode.",
             side(*upper),
-            quantity(*limit, *unit == "rad")
+            quantity(*limit, unit.is_angle())
         ),
         (Ending::Stopped, _) => "Stopped before the end.".into(),
         _ => format!(

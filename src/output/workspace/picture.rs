@@ -1,7 +1,6 @@
 //! Maps drawn: a picture for each mode, with its boundary over its conditioning.
 
 use crate::analysis::workspace::{AxisReport, BoundaryKind, WorkspaceReport};
-use crate::mechanism::Mechanism;
 use crate::output::plot::{Chart, Heat, Series, sheet};
 use crate::output::quantity::quantity;
 
@@ -43,16 +42,16 @@ pub fn left_out(report: &WorkspaceReport) -> Option<String> {
 
 /// The map as SVG: where it has two coordinates a picture for each mode, where it has three also for
 /// each slice of the third, where it has one a curve for each mode. All have one scale of colours.
-pub fn svg(mechanism: &Mechanism, report: &WorkspaceReport) -> String {
+pub fn svg(report: &WorkspaceReport) -> String {
     let Drawn { modes, slices } = drawn(report);
     let inside = report.cells.iter().filter(|cell| cell.aspect.is_some());
     let highest = inside
         .map(|cell| quality(cell.condition))
         .fold(0.0, f64::max);
     let highest = if highest > 0.0 { highest } else { 1.0 };
-    let draw = |axes, mode, slice| picture(mechanism, report, axes, mode, slice, highest);
+    let draw = |axes, mode, slice| picture(report, axes, mode, slice, highest);
     let (columns, charts): (usize, Vec<Chart>) = match &report.axes[..] {
-        [axis] => (1, vec![along(mechanism, report, axis)]),
+        [axis] => (1, vec![along(report, axis)]),
         [x, y] => (
             1,
             (1..=modes).map(|mode| draw([x, y], mode, None)).collect(),
@@ -70,14 +69,14 @@ pub fn svg(mechanism: &Mechanism, report: &WorkspaceReport) -> String {
 }
 
 fn shown(axis: &AxisReport, x: f64) -> f64 {
-    match axis.unit {
-        "rad" => x.to_degrees(),
-        _ => x,
+    match axis.unit.is_angle() {
+        true => x.to_degrees(),
+        false => x,
     }
 }
 
 fn label(axis: &AxisReport) -> String {
-    let unit = if axis.unit == "rad" { "°" } else { "m" };
+    let unit = if axis.unit.is_angle() { "°" } else { "m" };
     format!("{} ({unit})", axis.name)
 }
 
@@ -93,7 +92,6 @@ fn quality(condition: Option<f64>) -> f64 {
 }
 
 fn picture(
-    mechanism: &Mechanism,
     report: &WorkspaceReport,
     [x, y]: [&AxisReport; 2],
     mode: usize,
@@ -142,10 +140,10 @@ fn picture(
     }
     let at = slice.map_or(String::new(), |(z, _)| {
         let value = third.unwrap_or(0.0);
-        format!(", {} = {}", z.name, quantity(value, z.unit == "rad"))
+        format!(", {} = {}", z.name, quantity(value, z.unit.is_angle()))
     });
     Chart {
-        title: format!("{}: mode {mode}{at}", mechanism.name()),
+        title: format!("{}: mode {mode}{at}", report.mechanism),
         x: label(x),
         y: label(y),
         equal: x.unit == y.unit,
@@ -173,7 +171,7 @@ const KINDS: &[(&str, Wanted)] = &[
 ];
 
 /// One coordinate: the conditioning over it.
-fn along(mechanism: &Mechanism, report: &WorkspaceReport, axis: &AxisReport) -> Chart {
+fn along(report: &WorkspaceReport, axis: &AxisReport) -> Chart {
     let series = report.modes.iter().map(|mode| {
         let mut points = Vec::new();
         let mut before = None;
@@ -194,7 +192,7 @@ fn along(mechanism: &Mechanism, report: &WorkspaceReport, axis: &AxisReport) -> 
         }
     });
     Chart {
-        title: format!("{}: conditioning", mechanism.name()),
+        title: format!("{}: conditioning", report.mechanism),
         x: label(axis),
         y: "1/condition".into(),
         equal: false,

@@ -1,6 +1,6 @@
 //! A curve of configurations followed from a place on it, in a box and within limits.
 
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
 use super::locus::{LocusCurve, Singular};
 use super::{Curve, Driven};
@@ -49,7 +49,7 @@ impl ConfigurationCurve for Curve {
 }
 
 /// How a curve ends.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum LocusEnd {
     /// Where it began.

@@ -3,7 +3,7 @@ use crate::geometry::Quaternion;
 use crate::mechanism::{Configuration, Mechanism};
 
 /// How far a closure is from being whole.
-#[derive(Clone, Copy, Debug, PartialEq, serde::Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
 pub struct Gap {
     /// Distance in m: between the origins, or what a `Distance` differs by, or along the blocked
     /// directions of a sliding joint.

@@ -1,6 +1,6 @@
 //! What is held beside what the mechanism allows.
 
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
 use super::Question;
 use super::error::QuestionError;
@@ -12,7 +12,7 @@ use crate::solve::{Newton, Stop};
 use crate::system::{HeldPlatform, Holdable, Mobility, System};
 
 /// What is held beside what the mechanism allows.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Count {
     /// Freedoms of the mechanism, if it assembles near the start.
     pub mobility: Option<usize>,

@@ -2,7 +2,7 @@
 
 use super::Question;
 use super::error::QuestionError;
-use super::value::{self, ValueError};
+use super::value::Value;
 use crate::algebra::Measure;
 use crate::description::nearest;
 use crate::geometry::Axis;
@@ -97,15 +97,20 @@ impl Drive {
         }
     }
 
-    /// Gives a held coordinate a rate, an expression as in the file, in m/s or rad/s.
+    /// Gives a held coordinate a rate, a number in m/s or rad/s or an expression as in the file.
     ///
     /// A platform whose whole orientation is held turns as `top.wx`, `top.wy` and `top.wz` say, about
     /// axes of ground, or as `top.roll`, `top.pitch` and `top.yaw` do.
     ///
     /// # Errors
     /// If the coordinate is not held or the value has none.
-    pub fn rate(self, question: &Question, name: &str, text: &str) -> Result<Self, DriveError> {
-        self.give(question, name, text, Order::Rate)
+    pub fn rate(
+        self,
+        question: &Question,
+        name: &str,
+        value: impl Into<Value>,
+    ) -> Result<Self, DriveError> {
+        self.give(question, name, &value.into(), Order::Rate)
     }
 
     /// Gives a held coordinate an acceleration, in m/s² or rad/s².
@@ -116,22 +121,22 @@ impl Drive {
         self,
         question: &Question,
         name: &str,
-        text: &str,
+        value: impl Into<Value>,
     ) -> Result<Self, DriveError> {
-        self.give(question, name, text, Order::Acceleration)
+        self.give(question, name, &value.into(), Order::Acceleration)
     }
 
     fn give(
         mut self,
         question: &Question,
         name: &str,
-        text: &str,
+        value: &Value,
         order: Order,
     ) -> Result<Self, DriveError> {
         let mechanism = question.mechanism();
         let coordinate = self.find(question, name)?;
         // a rate has the unit of its coordinate per unit of time, which is not written
-        let value = number(question, name, text, coordinate.measure(mechanism))?;
+        let value = number(question, name, value, coordinate.measure(mechanism))?;
         self.given = true;
         let mixed = |platform: usize| DriveError::Mixed {
             platform: mechanism.platforms()[platform].name.clone(),
@@ -258,15 +263,9 @@ fn is_structure(question: &Question) -> bool {
 pub(crate) fn number(
     question: &Question,
     name: &str,
-    text: &str,
+    value: &Value,
     wanted: Measure,
 ) -> Result<f64, DriveError> {
-    let value = value::number(question.mechanism(), text, wanted);
-    value.map_err(|error: ValueError| {
-        DriveError::Question(QuestionError::Value {
-            name: name.into(),
-            text: text.into(),
-            error,
-        })
-    })
+    let number = value.number(question.mechanism(), wanted);
+    number.map_err(|error| DriveError::Question(QuestionError::value(name, value, error)))
 }

@@ -4,7 +4,7 @@ use std::error::Error;
 use std::fmt::{self, Display, Formatter};
 
 use super::demand::{Demand, Verb};
-use super::value::ValueError;
+use super::value::{Value, ValueError};
 use crate::description::{ProblemKind, Scope, count, listed};
 
 /// Why a question cannot be put.
@@ -71,6 +71,14 @@ pub enum QuestionError {
 }
 
 impl QuestionError {
+    pub(super) fn value(name: &str, value: &Value, error: ValueError) -> Self {
+        QuestionError::Value {
+            name: name.into(),
+            text: value.to_string(),
+            error,
+        }
+    }
+
     /// What is wrong, without what to do about it.
     pub fn title(&self) -> String {
         match self {
@@ -130,7 +138,14 @@ impl Display for QuestionError {
     }
 }
 
-impl Error for QuestionError {}
+impl Error for QuestionError {
+    fn source(&self) -> Option<&(dyn Error + 'static)> {
+        match self {
+            QuestionError::Value { error, .. } => Some(error),
+            _ => None,
+        }
+    }
+}
 
 impl Verb {
     /// What it is called.
@@ -165,6 +180,7 @@ impl Display for ValueError {
                 scope: Scope::Parameters,
             },
             ValueError::NotAPose { part } => return write!(f, "`{part}` is not a pose"),
+            ValueError::NotANumber => return write!(f, "a number or an expression is expected"),
         };
         f.write_str(&kind.title())
     }

@@ -2,7 +2,8 @@
 
 use super::Question;
 use super::drive::{DriveError, number};
-use crate::algebra::Measure;
+use super::value::Value;
+use crate::algebra::{Measure, SiUnit};
 use crate::description::nearest;
 use crate::mechanism::{Body, Coordinate, Frame};
 use crate::system::Holdable;
@@ -64,30 +65,9 @@ impl Load {
     ///
     /// # Errors
     /// If the frame does not exist or does not move, or the components are not three or six values.
-    pub fn wrench(
-        mut self,
-        question: &Question,
-        name: &str,
-        text: &str,
-    ) -> Result<Self, LoadError> {
-        let mechanism = question.mechanism();
-        let Some(frame) = mechanism.frame(name) else {
-            return Err(LoadError::UnknownFrame { name: name.into() });
-        };
-        if mechanism.body(frame) == Body::Ground {
-            let platforms = mechanism.platforms().iter().map(|p| p.name.clone());
-            let mut instead: Vec<String> = platforms.collect();
-            if instead.is_empty() {
-                let chains = 0..mechanism.chains().len();
-                let tips = chains.map(|chain| Frame::Tip { chain });
-                let moving = tips.filter(|&tip| mechanism.body(tip) != Body::Ground);
-                instead = moving.map(|tip| mechanism.frame_name(tip)).collect();
-            }
-            return Err(LoadError::OnGround {
-                name: name.into(),
-                instead,
-            });
-        }
+    pub fn wrench(self, question: &Question, name: &str, text: &str) -> Result<Self, LoadError> {
+        // the frame is the first thing to be wrong
+        moving_frame(question, name)?;
         let inside = text.trim();
         let inside = inside.strip_prefix(['[', '(']).unwrap_or(inside);
         let inside = inside.strip_suffix([']', ')']).unwrap_or(inside);
@@ -98,16 +78,32 @@ impl Load {
             return Err(LoadError::Components { given });
         }
         let values = (parts.iter().zip(measures))
-            .map(|(part, wanted)| number(question, name, part, wanted).map_err(LoadError::Value))
+            .map(|(part, wanted)| {
+                number(question, name, &Value::from(*part), wanted).map_err(LoadError::Value)
+            })
             .collect::<Result<Vec<f64>, _>>()?;
         match values[..] {
-            [x, y, z] => self.wrenches.push((frame, [x, y, z], [0.0; 3])),
-            [x, y, z, a, b, c] => self.wrenches.push((frame, [x, y, z], [a, b, c])),
+            [x, y, z] => self.forces(question, name, ([x, y, z], [0.0; 3])),
+            [x, y, z, a, b, c] => self.forces(question, name, ([x, y, z], [a, b, c])),
             _ => {
                 let given = values.len();
-                return Err(LoadError::Components { given });
+                Err(LoadError::Components { given })
             }
         }
+    }
+
+    /// Adds a wrench: force in N and moment in N·m at the origin of a frame in directions of ground.
+    ///
+    /// # Errors
+    /// If the frame does not exist or does not move.
+    pub fn forces(
+        mut self,
+        question: &Question,
+        name: &str,
+        (force, moment): ([f64; 3], [f64; 3]),
+    ) -> Result<Self, LoadError> {
+        let frame = moving_frame(question, name)?;
+        self.wrenches.push((frame, force, moment));
         Ok(self)
     }
 
@@ -115,7 +111,12 @@ impl Load {
     ///
     /// # Errors
     /// If there is no such joint or the value has none.
-    pub fn joint(mut self, question: &Question, name: &str, text: &str) -> Result<Self, LoadError> {
+    pub fn joint(
+        mut self,
+        question: &Question,
+        name: &str,
+        value: impl Into<Value>,
+    ) -> Result<Self, LoadError> {
         let mechanism = question.mechanism();
         let Some(joint) = mechanism.joint(name) else {
             let (platform, part) = name.rsplit_once('.').unwrap_or((name, ""));
@@ -145,18 +146,38 @@ impl Load {
             true => Measure::Moment,
             false => Measure::Force,
         };
-        let value = number(question, name, text, wanted).map_err(LoadError::Value)?;
+        let value = number(question, name, &value.into(), wanted).map_err(LoadError::Value)?;
         self.joints.push((joint, value));
         Ok(self)
     }
 }
 
-impl Holdable {
-    /// Unit of the force that holds it: `N·m` or `N`.
-    pub fn force_unit(self, mechanism: &crate::mechanism::Mechanism) -> &'static str {
-        match self.is_angle(mechanism) {
-            true => "N·m",
-            false => "N",
+/// The frame of that name, if something moves it.
+fn moving_frame(question: &Question, name: &str) -> Result<Frame, LoadError> {
+    let mechanism = question.mechanism();
+    let Some(frame) = mechanism.frame(name) else {
+        return Err(LoadError::UnknownFrame { name: name.into() });
+    };
+    if mechanism.body(frame) == Body::Ground {
+        let platforms = mechanism.platforms().iter().map(|p| p.name.clone());
+        let mut instead: Vec<String> = platforms.collect();
+        if instead.is_empty() {
+            let chains = 0..mechanism.chains().len();
+            let tips = chains.map(|chain| Frame::Tip { chain });
+            let moving = tips.filter(|&tip| mechanism.body(tip) != Body::Ground);
+            instead = moving.map(|tip| mechanism.frame_name(tip)).collect();
         }
+        return Err(LoadError::OnGround {
+            name: name.into(),
+            instead,
+        });
+    }
+    Ok(frame)
+}
+
+impl Holdable {
+    /// Unit of the force that holds it: N·m or N.
+    pub fn force_unit(self, mechanism: &crate::mechanism::Mechanism) -> SiUnit {
+        SiUnit::of_effort(self.is_angle(mechanism))
     }
 }

@@ -1,9 +1,109 @@
 //! Values given beside a file, in the words of the file.
 
-use crate::algebra::{EvaluationErrorKind, Expression, Measure, MeasureErrorKind, ParseErrorKind};
+use crate::algebra::{
+    EvaluationErrorKind, Expression, LARGEST, Measure, MeasureErrorKind, ParseErrorKind,
+};
 use crate::description::nearest;
 use crate::geometry::{Axis, Pose, Vector3};
 use crate::mechanism::Mechanism;
+
+/// A value that is given to a coordinate or a pose.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Value {
+    /// In m or rad, for a rate in these and seconds, for a load in N or N·m.
+    Number(f64),
+    /// An expression over the file's parameters such as `60 deg`; for a pose a list such as
+    /// `[Tz(0.5), Rx(10 deg)]`. `home` is the value in the file.
+    Text(String),
+    /// The value in the file.
+    Home,
+    /// The whole pose of a platform in ground, in m.
+    Pose(Pose<f64>),
+}
+
+impl Value {
+    pub(super) fn is_home(&self) -> bool {
+        match self {
+            Value::Home => true,
+            Value::Text(text) => text.trim() == "home",
+            Value::Number(_) | Value::Pose(_) => false,
+        }
+    }
+
+    /// The number, in m, rad, N or N·m, and per unit of time for a rate.
+    pub(super) fn number(&self, mechanism: &Mechanism, wanted: Measure) -> Result<f64, ValueError> {
+        match self {
+            Value::Number(value) if !value.is_finite() => {
+                Err(ValueError::NoValue(EvaluationErrorKind::NotFinite))
+            }
+            Value::Number(value) if value.abs() > LARGEST => {
+                Err(ValueError::NoValue(EvaluationErrorKind::TooLarge(*value)))
+            }
+            Value::Number(value) => Ok(*value),
+            Value::Text(text) => number(mechanism, text, wanted),
+            Value::Home | Value::Pose(_) => Err(ValueError::NotANumber),
+        }
+    }
+
+    /// The pose.
+    pub(super) fn pose(&self, mechanism: &Mechanism) -> Result<Pose<f64>, ValueError> {
+        match self {
+            Value::Pose(at) => Ok(*at),
+            Value::Text(text) => pose(mechanism, text),
+            Value::Home | Value::Number(_) => Err(ValueError::NotAPose {
+                part: self.to_string(),
+            }),
+        }
+    }
+}
+
+/// As it would be written in a question.
+impl std::fmt::Display for Value {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        match self {
+            Value::Number(value) => write!(f, "{value}"),
+            Value::Text(text) => write!(f, "{text}"),
+            Value::Home => write!(f, "home"),
+            Value::Pose(_) => write!(f, "a pose"),
+        }
+    }
+}
+
+impl From<f64> for Value {
+    fn from(value: f64) -> Self {
+        Value::Number(value)
+    }
+}
+
+impl From<Pose<f64>> for Value {
+    fn from(pose: Pose<f64>) -> Self {
+        Value::Pose(pose)
+    }
+}
+
+impl From<String> for Value {
+    fn from(text: String) -> Self {
+        Value::Text(text)
+    }
+}
+
+impl From<&str> for Value {
+    fn from(text: &str) -> Self {
+        Value::Text(text.into())
+    }
+}
+
+impl From<&String> for Value {
+    fn from(text: &String) -> Self {
+        Value::Text(text.clone())
+    }
+}
+
+impl From<&Value> for Value {
+    fn from(value: &Value) -> Self {
+        value.clone()
+    }
+}
 
 /// What is wrong with a value.
 #[derive(Clone, Debug, PartialEq)]
@@ -26,6 +126,8 @@ pub enum ValueError {
         /// The part that is none.
         part: String,
     },
+    /// It is no number but a whole pose, or what only a coordinate has.
+    NotANumber,
 }
 
 /// The value of an expression over the mechanism's parameters, in m, rad, N or N·m, and per unit of

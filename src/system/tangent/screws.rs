@@ -1,6 +1,6 @@
 //! Spaces of twists as screws with pitch.
 
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
 use super::neighbourhood::Neighbourhood;
 use crate::geometry::Vector3;
@@ -8,7 +8,7 @@ use crate::linear::{axis_aligned, norm, remove};
 use crate::mechanism::{Body, Configuration, Frame, Mechanism};
 
 /// The infinitesimal motions of a body.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct TwistSpace {
     /// The body: a platform, or a link by its frame.
     pub body: String,
@@ -19,7 +19,7 @@ pub struct TwistSpace {
 }
 
 /// A twist up to its size, in ground.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Screw {
     /// Unit vector along the axis, or along the translation.
     pub direction: [f64; 3],

@@ -1,13 +1,13 @@
 //! What a boundary is: its kinds, the points found on edges of the grid, and curves.
 
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
 use crate::analysis::workspace::problem::Asked;
 use crate::mechanism::Configuration;
 use crate::system::{Holdable, LocusEnd};
 
 /// What a boundary is.
-#[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize)]
+#[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum BoundaryKind {
     /// An inverse singularity (type 1 of Gosselin and Angeles): modes of the inverse problem meet.
@@ -55,7 +55,7 @@ impl Kind {
 }
 
 /// A boundary curve.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct BoundaryCurve {
     /// What it is.
     pub kind: BoundaryKind,
@@ -74,7 +74,7 @@ pub struct BoundaryCurve {
 }
 
 /// A piece of a curve on the boundary of a mode.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Piece {
     /// The mode.
     pub mode: usize,

@@ -1,8 +1,18 @@
 //! Every node in every mode that reaches it, as a table.
 
+use serde::de::Error;
+use serde::ser::SerializeStruct;
+use serde::{Deserialize, Deserializer, Serialize, Serializer};
+
+use super::report::AxisReport;
+
+use crate::mechanism::Variable;
+
 /// A table of nodes in modes, sorted by nodes and modes.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Cells {
+    /// What the columns of its rows are: see [`Cell::values`].
+    pub columns: Vec<Variable>,
     /// Mapped coordinates, joints and coordinates that follow in a row.
     pub(crate) widths: [usize; 3],
     pub(crate) parts: Vec<Part>,
@@ -52,7 +62,101 @@ pub struct Cell<'a> {
     pub following: &'a [f64],
 }
 
+impl Cell<'_> {
+    /// The values in the columns of its table: what is mapped, then mode, aspect, condition, the
+    /// determinants of direct and inverse singularities, joints, coordinates that follow. An aspect
+    /// is missing outside limits and on singularities.
+    pub fn values(&self) -> impl Iterator<Item = Option<f64>> {
+        let told = [
+            Some(self.mode as f64),
+            self.aspect.map(|aspect| aspect as f64),
+            self.condition,
+            self.direct,
+            self.inverse,
+        ];
+        let values = self.joints.iter().chain(self.following);
+        let mapped = self.at.iter().copied().map(Some);
+        mapped.chain(told).chain(values.copied().map(Some))
+    }
+}
+
+/// The columns, then the rows.
+impl Serialize for Cells {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        let rows: Vec<Vec<Option<f64>>> = self.iter().map(|cell| cell.values().collect()).collect();
+        let mut table = serializer.serialize_struct("Cells", 2)?;
+        table.serialize_field("columns", &self.columns)?;
+        table.serialize_field("values", &rows)?;
+        table.end()
+    }
+}
+
+/// What is told of a node stands in so many numbers of a row.
+const TOLD: usize = 5;
+
+/// The values one after another: what they are is not known before they are
+/// [`arranged`](Cells::arranged).
+impl<'de> Deserialize<'de> for Cells {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        #[derive(Deserialize)]
+        struct Table {
+            columns: Vec<Variable>,
+            values: Vec<Vec<Option<f64>>>,
+        }
+        let Table { columns, values } = Table::deserialize(deserializer)?;
+        if values.iter().any(|row| row.len() != columns.len()) {
+            return Err(D::Error::custom("a row has too few or too many values"));
+        }
+        let values = values.into_iter().flatten();
+        let values = values.map(|value| value.unwrap_or(f64::NAN)).collect();
+        let heads = Vec::new();
+        Ok(Cells {
+            columns,
+            widths: [0; 3],
+            parts: vec![Part { heads, values }],
+        })
+    }
+}
+
 impl Cells {
+    /// Cells that were just deserialised, with what their values are; `None` if they cannot be that.
+    pub(crate) fn arranged(self, widths: [usize; 3], axes: &[AxisReport]) -> Option<Self> {
+        let Cells { columns, parts, .. } = self;
+        if widths.iter().sum::<usize>() + TOLD != columns.len() {
+            return None;
+        }
+        let mut part = Part::default();
+        let rows = parts.iter();
+        for row in rows.flat_map(|part| part.values.chunks_exact(columns.len())) {
+            let (at, rest) = row.split_at(widths[0]);
+            let (told, rest) = rest.split_at(TOLD);
+            let count = |x: f64| (x.is_finite() && x >= 0.0).then_some(x as usize);
+            let known = |x: f64| (!x.is_nan()).then_some(x);
+            // the first coordinate runs fastest
+            let mut node = 0;
+            for (x, axis) in at.iter().zip(axes).rev() {
+                let part = (x - axis.from) / (axis.to - axis.from);
+                let place = (part * axis.nodes.saturating_sub(1) as f64).round();
+                node = node * axis.nodes + count(place)?;
+            }
+            part.heads.push(Head {
+                node,
+                mode: count(told[0])?,
+                aspect: count(told[1]),
+                condition: known(told[2]),
+                direct: known(told[3]),
+                inverse: known(told[4]),
+            });
+            part.values.extend(at.iter().chain(rest));
+        }
+        let parts = vec![part];
+        Some(Cells {
+            columns,
+            widths,
+            parts,
+        })
+    }
+
     /// How many there are.
     pub fn len(&self) -> usize {
         self.parts.iter().map(|part| part.heads.len()).sum()

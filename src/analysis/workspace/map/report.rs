@@ -1,13 +1,21 @@
 //! What a map of the workspace tells.
 
-use serde::Serialize;
+use serde::de::Error;
+use serde::{Deserialize, Deserializer, Serialize, Serializer};
 
 use super::cells::Cells;
+use crate::algebra::SiUnit;
 use crate::analysis::workspace::boundary::{BoundaryCurve, BoundaryKind};
+use crate::mechanism::Variable;
 
 /// Where a mechanism reaches in a box of coordinates, and how.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(remote = "Self")]
 pub struct WorkspaceReport {
+    /// The mechanism's name.
+    pub mechanism: String,
+    /// The joints, in the order of the file.
+    pub variables: Vec<Variable>,
     /// The mapped coordinates.
     pub axes: Vec<AxisReport>,
     /// What is held beside them.
@@ -24,7 +32,7 @@ pub struct WorkspaceReport {
     /// Nodes that are reached within limits in some mode. A node exactly where a mode ends is not.
     pub reached: usize,
     /// The unit of the sizes, e.g. m² or rad·m.
-    pub unit: String,
+    pub unit: SiUnit,
     /// The size of the box.
     pub size: f64,
     /// The size of what is reached within limits in some mode.
@@ -55,17 +63,37 @@ pub struct WorkspaceReport {
     #[serde(default, skip_serializing_if = "std::ops::Not::not")]
     pub interrupted: bool,
     /// Every node in every mode that reaches it, those outside limits too.
-    #[serde(skip)]
+    #[serde(flatten)]
     pub cells: Cells,
 }
 
+impl Serialize for WorkspaceReport {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        WorkspaceReport::serialize(self, serializer)
+    }
+}
+
+impl<'de> Deserialize<'de> for WorkspaceReport {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        let mut report = WorkspaceReport::deserialize(deserializer)?;
+        let widths = [
+            report.axes.len(),
+            report.variables.len(),
+            report.following.len(),
+        ];
+        let cells = std::mem::take(&mut report.cells).arranged(widths, &report.axes);
+        report.cells = cells.ok_or_else(|| D::Error::custom("rows do not fit their columns"))?;
+        Ok(report)
+    }
+}
+
 /// A mapped coordinate.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct AxisReport {
     /// Its name.
     pub name: String,
     /// rad or m.
-    pub unit: &'static str,
+    pub unit: SiUnit,
     /// Its least value.
     pub from: f64,
     /// Its greatest value.
@@ -75,27 +103,27 @@ pub struct AxisReport {
 }
 
 /// A coordinate.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct CoordinateReport {
     /// Its name.
     pub name: String,
     /// rad or m.
-    pub unit: &'static str,
+    pub unit: SiUnit,
 }
 
 /// A coordinate that is held.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct HeldReport {
     /// Its name.
     pub name: String,
     /// rad or m.
-    pub unit: &'static str,
+    pub unit: SiUnit,
     /// Its value.
     pub value: f64,
 }
 
 /// A mode: what regular motion within the box connects, whether within limits or not.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct ModeReport {
     /// Its number: modes are sorted by the first node they reach, those with the same first node by
     /// the joints there, angles in (−π, π].
@@ -114,7 +142,7 @@ pub struct ModeReport {
 }
 
 /// A region of one mode within limits that no singularity parts.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct AspectReport {
     /// Its number: by mode, then by nodes, the most first.
     pub aspect: usize,
@@ -137,7 +165,7 @@ pub struct AspectReport {
 }
 
 /// A node with the condition number there.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Conditioned {
     /// The mapped coordinates, rad or m.
     pub at: Vec<f64>,
@@ -146,7 +174,7 @@ pub struct Conditioned {
 }
 
 /// A boundary point.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct BoundaryPoint {
     /// What bounds.
     pub kind: BoundaryKind,

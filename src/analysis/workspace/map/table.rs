@@ -2,9 +2,11 @@
 
 use super::cells::{Cells, Head, Part};
 use super::{Map, bring};
+use crate::algebra::SiUnit;
 use crate::analysis::workspace::flood::Band;
-use crate::mechanism::Coordinate;
+use crate::mechanism::{Coordinate, Variable};
 use crate::solve::each;
+use crate::system::Holdable;
 
 impl Map<'_> {
     /// The table, given for the first sheet of each aspect its number.
@@ -58,7 +60,23 @@ impl Map<'_> {
             }
             part
         });
-        Cells { widths, parts }
+        let mechanism = self.asked.mechanism;
+        let variable = |of: &Holdable| {
+            let unit = SiUnit::of_coordinate(of.is_angle(mechanism));
+            Variable::new(of.name(mechanism), unit)
+        };
+        let told = ["mode", "aspect", "condition", "direct", "inverse"];
+        let mut columns: Vec<Variable> = (self.asked.axes.iter())
+            .map(|axis| variable(&axis.coordinate))
+            .collect();
+        columns.extend(told.map(Variable::plain));
+        columns.extend(Variable::joints(mechanism));
+        columns.extend((following.iter()).map(|&(p, c)| variable(&Holdable::Coordinate(p, c))));
+        Cells {
+            columns,
+            widths,
+            parts,
+        }
     }
 
     /// The sheets of a band that are in modes, in the order of their nodes and then of modes.

@@ -1,0 +1,230 @@
+//! Questions about a mechanism, posed once for every asker: a program, a page, the command line.
+//!
+//! A [`Question`] owns all that it needs: the mechanism, what is held and what is free, where to start, which
+//! coordinates move over which ranges. It is built without checks, sent anywhere and asked as often as wanted; each
+//! analysis is a method, which first poses the question in full and says what is wrong with it as data
+//! ([`AskError`]).
+//!
+//! ```
+//! use linkwork::ask::Question;
+//! use linkwork::mechanism::Mechanism;
+//! use linkwork::solve::Watch;
+//! # fn main() -> Result<(), Box<dyn std::error::Error>> {
+//! let mechanism = Mechanism::load("mechanisms/four_bar.ron".as_ref())?;
+//! let question = Question::new(mechanism).hold("theta1", "60 deg");
+//! let report = question.assemblies(Default::default(), &Watch::none())?;
+//! assert_eq!(report.real, 2);
+//! # Ok(())
+//! # }
+//! ```
+
+mod closed;
+mod error;
+mod modes;
+mod ranges;
+mod singularities;
+mod sweep;
+mod workspace;
+
+use std::sync::Arc;
+
+pub use crate::system::Value;
+pub use error::{AskError, Item, Role};
+pub use modes::{Mode, Modes, Solved, Store};
+pub use sweep::Motions;
+pub use workspace::{MOST_BYTES, MapSettings};
+
+use crate::mechanism::Mechanism;
+use crate::system;
+
+/// A coordinate that moves or is mapped over a range.
+#[derive(Clone, Debug, PartialEq)]
+struct Range {
+    name: String,
+    from: Value,
+    to: Value,
+}
+
+/// A force and a moment at the origin of a frame.
+#[derive(Clone, Debug, PartialEq)]
+enum Wrench {
+    Numbers([f64; 3], [f64; 3]),
+    Text(String),
+}
+
+/// What is asked of a mechanism.
+///
+/// A fresh question holds the actuated joints at home, starts at the home configuration and moves nothing. Coordinates
+/// are named as for [`system::Question`]; values are numbers in m and rad, or texts as in the file ([`Value`]).
+#[derive(Clone)]
+pub struct Question {
+    mechanism: Arc<Mechanism>,
+    hold: Vec<(String, Value)>,
+    free: Vec<String>,
+    guess: Vec<(String, Value)>,
+    mode: Mode,
+    seed: u64,
+    inputs: Vec<Range>,
+    outputs: Vec<String>,
+    points: Vec<String>,
+    rates: Vec<(String, Value)>,
+    accelerations: Vec<(String, Value)>,
+    wrenches: Vec<(String, Wrench)>,
+    loads: Vec<(String, Value)>,
+    store: Option<Arc<dyn Store>>,
+}
+
+impl Question {
+    /// The file's own question: actuated joints held at home, all else to be found.
+    pub fn new(mechanism: impl Into<Arc<Mechanism>>) -> Self {
+        Question {
+            mechanism: mechanism.into(),
+            hold: Vec::new(),
+            free: Vec::new(),
+            guess: Vec::new(),
+            mode: Mode::Nearest,
+            seed: 1,
+            inputs: Vec::new(),
+            outputs: Vec::new(),
+            points: Vec::new(),
+            rates: Vec::new(),
+            accelerations: Vec::new(),
+            wrenches: Vec::new(),
+            loads: Vec::new(),
+            store: None,
+        }
+    }
+
+    /// The mechanism.
+    pub fn mechanism(&self) -> &Arc<Mechanism> {
+        &self.mechanism
+    }
+
+    /// Holds a joint, a coordinate of a platform or a whole platform. What is freed is freed first: `actuated` may be
+    /// free and one actuated joint held.
+    pub fn hold(mut self, name: impl Into<String>, value: impl Into<Value>) -> Self {
+        self.hold.push((name.into(), value.into()));
+        self
+    }
+
+    /// Lets a joint be solved for; `actuated` frees all actuated joints.
+    pub fn free(mut self, name: impl Into<String>) -> Self {
+        self.free.push(name.into());
+        self
+    }
+
+    /// Starts the search at a value.
+    pub fn guess(mut self, name: impl Into<String>, value: impl Into<Value>) -> Self {
+        self.guess.push((name.into(), value.into()));
+        self
+    }
+
+    /// Which of several assemblies is meant.
+    pub fn mode(mut self, mode: Mode) -> Self {
+        self.mode = mode;
+        self
+    }
+
+    /// Seed of everything random. Where several assemblies exist it may decide which of them is found.
+    pub fn seed(mut self, seed: u64) -> Self {
+        self.seed = seed;
+        self
+    }
+
+    /// Moves a coordinate over a range; for loci a side of their box, for a map a mapped coordinate.
+    pub fn input(
+        mut self,
+        name: impl Into<String>,
+        from: impl Into<Value>,
+        to: impl Into<Value>,
+    ) -> Self {
+        self.inputs.push(Range {
+            name: name.into(),
+            from: from.into(),
+            to: to.into(),
+        });
+        self
+    }
+
+    /// Adds an output of singularities: a joint, a coordinate of a platform, or a frame with its orientation.
+    pub fn output(mut self, name: impl Into<String>) -> Self {
+        self.outputs.push(name.into());
+        self
+    }
+
+    /// Adds a point: for singularities the origin of a frame as an output, for velocities one that is followed, for a
+    /// motion one whose path is traced, there with an offset as in `left+0.5,0.2`.
+    pub fn point(mut self, name: impl Into<String>) -> Self {
+        self.points.push(name.into());
+        self
+    }
+
+    /// Gives a held coordinate a rate, in m/s or rad/s.
+    pub fn rate(mut self, name: impl Into<String>, value: impl Into<Value>) -> Self {
+        self.rates.push((name.into(), value.into()));
+        self
+    }
+
+    /// Gives a held coordinate an acceleration, in m/s² or rad/s².
+    pub fn acceleration(mut self, name: impl Into<String>, value: impl Into<Value>) -> Self {
+        self.accelerations.push((name.into(), value.into()));
+        self
+    }
+
+    /// Applies a force (N) and a moment (N·m) at the origin of a frame, in ground.
+    pub fn wrench(mut self, frame: impl Into<String>, force: [f64; 3], moment: [f64; 3]) -> Self {
+        let wrench = Wrench::Numbers(force, moment);
+        self.wrenches.push((frame.into(), wrench));
+        self
+    }
+
+    /// The same as `Fx,Fy,Fz` or `Fx,Fy,Fz,Mx,My,Mz`, with expressions as in the file.
+    pub fn wrench_text(mut self, frame: impl Into<String>, text: impl Into<String>) -> Self {
+        let wrench = Wrench::Text(text.into());
+        self.wrenches.push((frame.into(), wrench));
+        self
+    }
+
+    /// Applies a force (N) or a moment (N·m) along a joint variable.
+    pub fn load(mut self, joint: impl Into<String>, value: impl Into<Value>) -> Self {
+        self.loads.push((joint.into(), value.into()));
+        self
+    }
+
+    /// Keeps generic solutions where they are found again.
+    pub fn store(mut self, store: Arc<dyn Store>) -> Self {
+        self.store = Some(store);
+        self
+    }
+
+    /// What is held, free and guessed, resolved.
+    ///
+    /// # Errors
+    /// If a name or a value is wrong, or two demands contradict one another.
+    pub fn resolved(&self) -> Result<system::Question<'_>, AskError> {
+        self.put(system::Question::new(&self.mechanism))
+    }
+
+    /// The same where the actuated joints are held only if that is asked for.
+    fn released(&self) -> Result<system::Question<'_>, AskError> {
+        let released = system::Question::new(&self.mechanism).free("actuated");
+        self.put(released.map_err(AskError::Question)?)
+    }
+
+    /// What is freed is freed first, so that one joint of several that are free can be held.
+    fn put<'q>(
+        &self,
+        mut question: system::Question<'q>,
+    ) -> Result<system::Question<'q>, AskError> {
+        for (index, name) in self.free.iter().enumerate() {
+            question = (question.free(name)).map_err(Role::Free.named(index))?;
+        }
+        for (index, (name, value)) in self.hold.iter().enumerate() {
+            question = (question.hold(name, value)).map_err(Role::Hold.named(index))?;
+        }
+        for (index, (name, value)) in self.guess.iter().enumerate() {
+            question = (question.guess(name, value)).map_err(Role::Guess.named(index))?;
+        }
+        Ok(question)
+    }
+}

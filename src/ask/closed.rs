@@ -1,0 +1,141 @@
+//! Analyses of one assembled configuration, and those that need none.
+
+use super::{AskError, Question, Role, Wrench};
+use crate::algebra::EvaluationError;
+use crate::analysis::compare::{CompareReport, CompareSettings, compare};
+use crate::analysis::formulas::{FormulasReport, FormulasSettings, formulas};
+use crate::analysis::mobility::{MobilityReport, MobilitySettings, mobility};
+use crate::analysis::statics::{StaticsReport, StaticsSettings, statics};
+use crate::analysis::velocity::{VelocityReport, VelocitySettings, velocity};
+use crate::mechanism::{Body, Frame};
+use crate::solve::{Newton, Watch};
+use crate::system::{self, Analysed, Closed, Drive, Load, NotClosed, close};
+
+/// Random starts where a mechanism is closed.
+const RESTARTS: usize = 40;
+
+impl Question {
+    /// The mechanism closed near the start, as all analyses of one configuration close it.
+    ///
+    /// # Errors
+    /// If a name or a value is wrong.
+    pub fn closed(&self, watch: &Watch) -> Result<Result<Closed, NotClosed>, AskError> {
+        let question = self.resolved()?;
+        let newton = Newton::default();
+        Ok(close(&question, &newton, (RESTARTS, self.seed), watch))
+    }
+
+    /// The freedoms of the assembled mechanism.
+    ///
+    /// # Errors
+    /// If a name or a value is wrong.
+    pub fn mobility(&self, watch: &Watch) -> Result<Analysed<MobilityReport>, AskError> {
+        let settings = MobilitySettings {
+            seed: self.seed,
+            ..MobilitySettings::default()
+        };
+        Ok(mobility(&self.resolved()?, &settings, watch))
+    }
+
+    /// How everything moves when the held coordinates move at the rates of the question; those without one stand still.
+    /// Points of the question are followed.
+    ///
+    /// # Errors
+    /// If the question is wrong.
+    pub fn velocity(&self, watch: &Watch) -> Result<Analysed<VelocityReport>, AskError> {
+        let question = self.resolved()?;
+        let settings = VelocitySettings {
+            points: self.followed()?,
+            ..VelocitySettings::default()
+        };
+        let drive = self.drive(&question)?;
+        velocity(&question, &drive, &settings, watch).map_err(AskError::Question)
+    }
+
+    /// The forces that balance the wrenches and loads of the question.
+    ///
+    /// # Errors
+    /// If the question is wrong.
+    pub fn statics(&self, watch: &Watch) -> Result<Analysed<StaticsReport>, AskError> {
+        let question = self.resolved()?;
+        let mut load = Load::default();
+        for (index, (frame, wrench)) in self.wrenches.iter().enumerate() {
+            let loaded = match wrench {
+                Wrench::Numbers(force, moment) => load.forces(&question, frame, (*force, *moment)),
+                Wrench::Text(text) => load.wrench(&question, frame, text),
+            };
+            load = loaded.map_err(|error| AskError::Load {
+                item: Role::Wrench.item(index),
+                error,
+            })?;
+        }
+        for (index, (joint, value)) in self.loads.iter().enumerate() {
+            load = (load.joint(&question, joint, value)).map_err(|error| AskError::Load {
+                item: Role::Load.item(index),
+                error,
+            })?;
+        }
+        let settings = StaticsSettings::default();
+        statics(&question, &load, &settings, watch).map_err(AskError::Question)
+    }
+
+    /// The closed forms of the file against its chains.
+    pub fn compare(&self, samples: usize, watch: &Watch) -> CompareReport {
+        let settings = CompareSettings {
+            samples,
+            seed: self.seed,
+            ..CompareSettings::default()
+        };
+        compare(&self.mechanism, &settings, watch)
+    }
+
+    /// What the mechanism has in closed form.
+    ///
+    /// # Errors
+    /// If an expression of the file has no value in letters.
+    pub fn formulas(&self, settings: &FormulasSettings) -> Result<FormulasReport, EvaluationError> {
+        formulas(&self.mechanism, settings)
+    }
+
+    fn drive(&self, question: &system::Question) -> Result<Drive, AskError> {
+        let mut drive = Drive::still(question);
+        for (index, (name, value)) in self.rates.iter().enumerate() {
+            drive = (drive.rate(question, name, value)).map_err(|error| AskError::Drive {
+                item: Role::Rate.item(index),
+                error,
+            })?;
+        }
+        for (index, (name, value)) in self.accelerations.iter().enumerate() {
+            let driven = drive.acceleration(question, name, value);
+            drive = driven.map_err(|error| AskError::Drive {
+                item: Role::Acceleration.item(index),
+                error,
+            })?;
+        }
+        Ok(drive)
+    }
+
+    /// The frames of the points, which must move.
+    fn followed(&self) -> Result<Vec<Frame>, AskError> {
+        let frames = self.points.iter().enumerate().map(|(index, name)| {
+            let frame = self.frame(index)?;
+            match self.mechanism.body(frame) {
+                Body::Ground => Err(AskError::Motionless {
+                    item: Role::Point.item(index),
+                    name: name.clone(),
+                }),
+                _ => Ok(frame),
+            }
+        });
+        frames.collect()
+    }
+
+    /// The frame of a point.
+    pub(super) fn frame(&self, index: usize) -> Result<Frame, AskError> {
+        let name = &self.points[index];
+        (self.mechanism.frame(name)).ok_or_else(|| AskError::UnknownFrame {
+            item: Role::Point.item(index),
+            name: name.clone(),
+        })
+    }
+}

@@ -1,0 +1,237 @@
+//! Which of several assemblies is meant: their numbers, and where work begins.
+
+use super::{AskError, Question};
+use crate::analysis::assemblies::{
+    AssembliesError, AssembliesReport, AssembliesSettings, AssemblySolver, Fold, Followed,
+    GenericSolutions, Wanted,
+};
+use crate::analysis::assembly::{AssemblyReport, AssemblySettings, assemble};
+use crate::mechanism::Configuration;
+use crate::solve::{Newton, Watch};
+use crate::system::{self, Search, check_count};
+
+/// Which assembly work begins in.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
+pub enum Mode {
+    /// The one found near the start.
+    #[default]
+    Nearest,
+    /// The one of this number, from 1: everywhere as [`Question::assemblies`] numbers them for the inputs in question.
+    Number(usize),
+    /// Each of them.
+    All,
+}
+
+/// Keeps generic solutions from one question to the next.
+pub trait Store: Send + Sync {
+    /// What it has.
+    fn known(&self) -> Option<GenericSolutions>;
+
+    /// Called before solutions are searched for, because there are none or those of another question.
+    ///
+    /// # Errors
+    /// If they could not be kept.
+    fn prepare(&self, has_others: bool) -> Result<(), String>;
+
+    /// Keeps what was found.
+    fn keep(&self, generic: &GenericSolutions);
+}
+
+/// What solving came to.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Solved {
+    /// Where the search ended.
+    Ended(AssemblyReport),
+    /// The mode ceased to exist on its way from home to what is held.
+    Fold {
+        /// Its number.
+        mode: usize,
+        /// Where.
+        fold: Fold,
+    },
+    /// Solutions meet at home already where the mode is to be followed from.
+    Meets {
+        /// Its number.
+        mode: usize,
+        /// How many meet: 0 if it is one of infinitely many.
+        multiplicity: usize,
+    },
+}
+
+/// Assembled configurations to begin with: numbers of their modes, if they were asked for, and where they are.
+pub type Modes = Vec<(Option<usize>, Configuration<f64>)>;
+
+/// Random starts where one assembly near the start is wanted.
+const RESTARTS: usize = 20;
+
+/// What is worked out where only the numbers of modes are wanted. The numbers depend on what is found, so that
+/// everything that numbers modes searches as hard as [`Question::assemblies`] does.
+const NUMBERED: Wanted = Wanted {
+    certificates: false,
+    all_complex: false,
+    starts: true,
+};
+
+impl Question {
+    /// All assembled configurations. Where freedoms are left, those listed are samples.
+    ///
+    /// # Errors
+    /// If the question is wrong or holds too much.
+    pub fn assemblies(&self, wanted: Wanted, watch: &Watch) -> Result<AssembliesReport, AskError> {
+        let question = self.resolved()?;
+        match check_count(&question) {
+            // samples answer it
+            Ok(_) | Err(system::QuestionError::TooFew { .. }) => {}
+            Err(error) => return Err(AskError::Question(error)),
+        }
+        let wanted = Wanted {
+            starts: true,
+            ..wanted
+        };
+        self.all(&question, wanted, watch)
+    }
+
+    /// The assembled configuration near the start; where a mode is asked for, that of the home configuration, followed
+    /// to what is held.
+    ///
+    /// # Errors
+    /// If the question is wrong, or there is no such mode.
+    pub fn solve(&self, settings: &AssemblySettings, watch: &Watch) -> Result<Solved, AskError> {
+        let mut question = self.resolved()?;
+        let mut settings = AssemblySettings {
+            seed: self.seed,
+            ..settings.clone()
+        };
+        if let Mode::Number(mode) = self.mode {
+            check_count(&question).map_err(AskError::Question)?;
+            let solver = self.solver(&question, watch)?;
+            let followed = solver.follow(mode, &question.start(), &question.held(), watch);
+            match followed.map_err(AskError::from)? {
+                Followed::Arrived(at) => question = question.near(&at),
+                Followed::Meets { multiplicity } => {
+                    return Ok(Solved::Meets { mode, multiplicity });
+                }
+                Followed::Fold(fold) => return Ok(Solved::Fold { mode, fold }),
+            }
+            // another start could end in another mode
+            settings.restarts = 0;
+        }
+        let report = assemble(&question, &settings, watch).map_err(AskError::Question)?;
+        Ok(Solved::Ended(report))
+    }
+
+    /// Where work begins: near the start, or in the mode or modes asked for.
+    pub(super) fn starts(
+        &self,
+        question: &system::Question,
+        watch: &Watch,
+    ) -> Result<Modes, AskError> {
+        if self.mode == Mode::Nearest {
+            let newton = Newton::default();
+            let found = Search::new(question, &newton).run(RESTARTS, self.seed, watch);
+            return match found.assembles() {
+                true => Ok(vec![(None, found.attempt.at)]),
+                false if watch.is_stopped() => Err(AskError::Interrupted),
+                false => Err(AskError::NotAssembled {
+                    held: question.held_names(),
+                }),
+            };
+        }
+        let report = self.all(question, NUMBERED, watch)?;
+        if report.interrupted {
+            return Err(AskError::Interrupted);
+        }
+        let like = question.start();
+        let chosen = |number: usize| match self.mode {
+            Mode::Number(mode) => number == mode,
+            Mode::Nearest | Mode::All => true,
+        };
+        let modes: Modes = (report.assemblies.iter())
+            .filter(|assembly| chosen(assembly.mode))
+            .map(|assembly| (Some(assembly.mode), assembly.configuration(&like)))
+            .collect();
+        match (modes.is_empty(), self.mode) {
+            (false, _) => Ok(modes),
+            (true, mode) => Err(AskError::NoSuchMode {
+                mode: match mode {
+                    Mode::Number(mode) => mode,
+                    Mode::Nearest | Mode::All => 1,
+                },
+                modes: report.real,
+            }),
+        }
+    }
+
+    /// The only place where work begins.
+    pub(super) fn start(
+        &self,
+        question: &system::Question,
+        watch: &Watch,
+    ) -> Result<Configuration<f64>, AskError> {
+        let mut starts = self.starts(question, watch)?;
+        Ok(starts.swap_remove(0).1)
+    }
+
+    /// Every assembly, as they are numbered everywhere.
+    pub(super) fn modes(
+        &self,
+        question: &system::Question,
+        watch: &Watch,
+    ) -> Result<Vec<Configuration<f64>>, AskError> {
+        let report = self.all(question, NUMBERED, watch)?;
+        let like = question.start();
+        let found = report.assemblies.iter();
+        Ok(found
+            .map(|assembly| assembly.configuration(&like))
+            .collect())
+    }
+
+    fn all(
+        &self,
+        question: &system::Question,
+        wanted: Wanted,
+        watch: &Watch,
+    ) -> Result<AssembliesReport, AskError> {
+        let solver = self.solver(question, watch)?;
+        Ok(solver.at_targets(&question.start(), &question.held(), wanted, watch))
+    }
+
+    /// The solver for what is held, from the store if that has it.
+    pub(super) fn solver(
+        &self,
+        question: &system::Question,
+        watch: &Watch,
+    ) -> Result<AssemblySolver, AskError> {
+        let (mechanism, held) = (question.mechanism(), question.held());
+        if let Some(store) = &self.store {
+            let mut others = false;
+            if let Some(known) = store.known() {
+                match AssemblySolver::from_stored(mechanism, &held, known) {
+                    Err(AssembliesError::StoredForAnotherQuestion) => others = true,
+                    solver => return solver.map_err(AskError::from),
+                }
+            }
+            store.prepare(others).map_err(AskError::Store)?;
+        }
+        let settings = AssembliesSettings {
+            seed: self.seed,
+            ..AssembliesSettings::default()
+        };
+        let solver = AssemblySolver::new(mechanism, &held, &settings, watch)?;
+        if let Some(store) = &self.store
+            && !solver.is_interrupted()
+        {
+            store.keep(solver.generic());
+        }
+        Ok(solver)
+    }
+}
+
+impl From<AssembliesError> for AskError {
+    fn from(error: AssembliesError) -> Self {
+        match error {
+            AssembliesError::Interrupted => AskError::Interrupted,
+            error => AskError::Assemblies(error),
+        }
+    }
+}

@@ -1,0 +1,75 @@
+//! Coordinates that move or are mapped, with their ranges.
+
+use super::{AskError, Question, Role};
+use crate::system::{self, Driven, Held, Holdable, QuestionError};
+
+impl Question {
+    /// The inputs with their ranges; `refuse` tells whether a range is no use.
+    pub(super) fn driven(&self, refuse: fn(f64, f64) -> bool) -> Result<Vec<Driven>, AskError> {
+        let question = system::Question::new(&self.mechanism);
+        for (index, input) in self.inputs.iter().enumerate() {
+            let mut before = self.inputs[..index].iter();
+            if let Some(first) = before.position(|first| first.name == input.name) {
+                return Err(AskError::Twice {
+                    item: Role::Input.item(index),
+                    first: Role::Input.item(first),
+                    name: input.name.clone(),
+                });
+            }
+        }
+        let mut ranges = Vec::new();
+        for (index, input) in self.inputs.iter().enumerate() {
+            let name = &input.name;
+            // a wrong name is the first thing to say
+            (question.value(name, "home")).map_err(Role::Input.named(index))?;
+            let from = question.value(name, &input.from);
+            let (coordinate, from) = from.map_err(Role::From.named(index))?;
+            let (_, to) = (question.value(name, &input.to)).map_err(Role::To.named(index))?;
+            if refuse(from, to) {
+                return Err(AskError::EmptyRange {
+                    item: Role::Input.item(index),
+                    name: name.clone(),
+                });
+            }
+            ranges.push(Driven {
+                coordinate,
+                from,
+                to,
+            });
+        }
+        Ok(ranges)
+    }
+
+    /// A question with the inputs held too, at these values in m or rad.
+    pub(super) fn with_inputs<'q>(
+        &self,
+        mut question: system::Question<'q>,
+        values: &[f64],
+    ) -> Result<system::Question<'q>, AskError> {
+        for (index, (input, value)) in self.inputs.iter().zip(values).enumerate() {
+            question = (question.hold(&input.name, *value)).map_err(Role::Input.named(index))?;
+        }
+        Ok(question)
+    }
+}
+
+/// The middle of each range.
+pub(super) fn middles(ranges: &[Driven]) -> Vec<f64> {
+    ranges.iter().map(|r| 0.5 * (r.from + r.to)).collect()
+}
+
+/// What is held while these move.
+pub(super) fn still(held: Held<f64>, moved: &[Driven]) -> Held<f64> {
+    let without = |held: Held<f64>, input: &Driven| held.without(input.coordinate);
+    moved.iter().fold(held, without)
+}
+
+/// Whether it is a coordinate of a platform.
+pub(super) fn of_platform(coordinate: &Holdable) -> bool {
+    !matches!(coordinate, Holdable::Joint(_))
+}
+
+/// Whether more is held than can be.
+pub(super) fn is_too_many<T>(count: &Result<T, QuestionError>) -> bool {
+    matches!(count, Err(QuestionError::TooMany { .. }))
+}

@@ -1,0 +1,142 @@
+//! Singularities: at a configuration, along inputs, and as loci.
+
+use super::ranges::{is_too_many, middles, of_platform, still};
+use super::{AskError, Mode, Question, Role};
+use crate::analysis::singularities::{
+    AlongReport, LocusReport, SingularitiesReport, SingularitiesSettings, along, inputs_of, loci,
+    singularities,
+};
+use crate::solve::Watch;
+use crate::system::{self, Analysed, Held, Holdable, Lock, TooLarge, check_count, too_large};
+
+/// Random starts made at most.
+const MOST_STARTS: usize = 1_000_000;
+
+impl Question {
+    /// Whether and how the assembled configuration is singular.
+    ///
+    /// # Errors
+    /// If the question is wrong, holds too much or too little, or has no such mode.
+    pub fn singularities(
+        &self,
+        settings: &SingularitiesSettings,
+        watch: &Watch,
+    ) -> Result<Analysed<SingularitiesReport>, AskError> {
+        let settings = self.with_outputs(settings)?;
+        let (mut question, _) = self.holding(&[])?;
+        inputs(&question)?;
+        if self.mode != Mode::Nearest {
+            let start = self.start(&question, watch)?;
+            question = question.near(&start);
+        }
+        singularities(&question, &settings, watch).map_err(AskError::Question)
+    }
+
+    /// Every singularity on the way of the inputs through their ranges.
+    ///
+    /// # Errors
+    /// If the question is wrong, or the mechanism does not assemble where the inputs begin.
+    pub fn along(
+        &self,
+        settings: &SingularitiesSettings,
+        watch: &Watch,
+    ) -> Result<AlongReport, AskError> {
+        let settings = self.with_outputs(settings)?;
+        let moved = self.driven(|from, to| from == to)?;
+        let begin: Vec<f64> = moved.iter().map(|input| input.from).collect();
+        let (question, held) = self.holding(&begin)?;
+        let inputs = inputs(&question)?;
+        let held = still(held, &moved);
+        let start = self.start(&question, watch)?;
+        let mechanism = &self.mechanism;
+        Ok(along(
+            mechanism, &held, &moved, &inputs, &start, &settings, watch,
+        ))
+    }
+
+    /// The singularity loci in the box of the two inputs.
+    ///
+    /// # Errors
+    /// If the question is wrong, or the mechanism too large.
+    pub fn loci(
+        &self,
+        settings: &SingularitiesSettings,
+        watch: &Watch,
+    ) -> Result<LocusReport, AskError> {
+        let settings = self.with_outputs(settings)?;
+        let sides = self.driven(|from, to| from >= to)?;
+        let [a, b] = sides[..] else {
+            return Err(AskError::Sides(sides.len()));
+        };
+        let (question, held) = self.holding(&middles(&sides))?;
+        if let Some(TooLarge { unknowns, .. }) = too_large(&self.mechanism) {
+            return Err(AskError::TooLarge { unknowns });
+        }
+        let inputs = inputs(&question)?;
+        let (held, start) = (still(held, &sides), question.start());
+        let mechanism = &self.mechanism;
+        loci(mechanism, &held, [a, b], &inputs, &start, &settings, watch)
+            .map_err(AskError::Spinning)
+    }
+
+    /// Settings with the outputs and points of the question.
+    fn with_outputs(
+        &self,
+        settings: &SingularitiesSettings,
+    ) -> Result<SingularitiesSettings, AskError> {
+        if !(1..=MOST_STARTS).contains(&settings.starts) {
+            return Err(AskError::Starts {
+                given: settings.starts,
+                most: MOST_STARTS,
+            });
+        }
+        let question = system::Question::new(&self.mechanism);
+        let named = self.outputs.iter().enumerate().map(|(index, name)| {
+            if let Ok((coordinate, _)) = question.value(name, "home") {
+                return Ok(Lock::Coordinate(coordinate));
+            }
+            let frame = self.mechanism.frame(name).map(Lock::Frame);
+            frame.ok_or_else(|| AskError::UnknownOutput {
+                item: Role::Output.item(index),
+                name: name.clone(),
+            })
+        });
+        let points = 0..self.points.len();
+        let points = points.map(|index| self.frame(index).map(Lock::Point));
+        Ok(SingularitiesSettings {
+            seed: self.seed,
+            outputs: named.chain(points).collect::<Result<_, _>>()?,
+            ..settings.clone()
+        })
+    }
+
+    /// The question with the inputs held at values, which must leave no freedom, and what it holds without them. Where
+    /// coordinates of platforms make it hold too much, the actuated joints that only the file holds are free.
+    fn holding<'q>(
+        &'q self,
+        values: &[f64],
+    ) -> Result<(system::Question<'q>, Held<f64>), AskError> {
+        let with_inputs = |question: system::Question<'q>| -> Result<_, AskError> {
+            let held = question.held();
+            Ok((self.with_inputs(question, values)?, held))
+        };
+        let mut posed = with_inputs(self.resolved()?)?;
+        let mut count = check_count(&posed.0);
+        let inverse = posed.0.held_coordinates().iter().any(of_platform);
+        if inverse && is_too_many(&count) {
+            posed = with_inputs(self.released()?)?;
+            count = check_count(&posed.0);
+        }
+        count.map_err(AskError::Question)?;
+        Ok(posed)
+    }
+}
+
+/// The inputs of a question, of which there must be some.
+fn inputs(question: &system::Question) -> Result<Vec<Holdable>, AskError> {
+    let inputs = inputs_of(question);
+    match inputs.is_empty() {
+        true => Err(AskError::NothingToDrive),
+        false => Ok(inputs),
+    }
+}

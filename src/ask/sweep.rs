@@ -1,0 +1,197 @@
+//! Motions and circuits.
+
+use std::f64::consts::TAU;
+
+use super::ranges::still;
+use super::{AskError, Question, Role};
+use crate::analysis::assemblies::{AssemblySolver, Wanted};
+use crate::analysis::sweep::{
+    CircuitsReport, CircuitsSettings, Sink, SweepReport, SweepSettings, TracedPoint, circuits,
+    follow, sweep,
+};
+use crate::mechanism::{Configuration, Mechanism};
+use crate::solve::{Stage, Watch};
+use crate::system::{self, Driven, Held, Holdable, QuestionError, check_count, sampling_range};
+
+/// Steps made at most.
+const MOST_STEPS: usize = 1_000_000_000;
+
+/// Motions that can begin: of one mode or of several.
+#[derive(Clone, Debug)]
+pub struct Motions<'q> {
+    mechanism: &'q Mechanism,
+    held: Held<f64>,
+    settings: SweepSettings,
+    /// The inputs; none where the whole curve is followed.
+    pub inputs: Vec<Driven>,
+    /// Where each begins, with the number of its mode if one was asked for.
+    pub starts: super::Modes,
+}
+
+impl Motions<'_> {
+    /// The points that are traced.
+    pub fn points(&self) -> &[TracedPoint] {
+        &self.settings.points
+    }
+
+    /// Moves from one of the starts. Rows go to `sink` as they are found.
+    pub fn run(&self, start: &Configuration<f64>, sink: &mut Sink, watch: &Watch) -> SweepReport {
+        let Motions {
+            mechanism,
+            held,
+            settings,
+            inputs,
+            ..
+        } = self;
+        match inputs.is_empty() {
+            true => follow(mechanism, held, start, settings, sink, watch),
+            false => sweep(mechanism, held, inputs, start, settings, sink, watch),
+        }
+    }
+}
+
+impl Question {
+    /// The motions of the inputs through their ranges; without inputs those along the whole curve of a mechanism with
+    /// one freedom. Points of the question are traced.
+    ///
+    /// # Errors
+    /// If the question is wrong, or the mechanism does not assemble where the inputs begin.
+    pub fn motions(
+        &self,
+        settings: &SweepSettings,
+        watch: &Watch,
+    ) -> Result<Motions<'_>, AskError> {
+        let mechanism = &*self.mechanism;
+        if self.inputs.is_empty() && !settings.follow {
+            let driven = CircuitsReport::input_of(mechanism);
+            return Err(AskError::NothingMoves {
+                driven: driven.map(|joint| mechanism.joints()[joint].name.clone()),
+            });
+        }
+        if !(1..=MOST_STEPS).contains(&settings.steps) {
+            return Err(AskError::Steps {
+                given: settings.steps,
+                most: MOST_STEPS,
+            });
+        }
+        let inputs = self.driven(|from, to| from == to)?;
+        let begin: Vec<f64> = inputs.iter().map(|input| input.from).collect();
+        let question = self.with_inputs(self.resolved()?, &begin)?;
+        for (index, input) in inputs.iter().enumerate() {
+            if let Holdable::Joint(joint) = input.coordinate
+                && let joint = &mechanism.joints()[joint]
+                && let Some(limits) = joint.limits
+                && !joint.allows(input.from)
+            {
+                return Err(AskError::OutsideLimits {
+                    item: Role::Input.item(index),
+                    name: joint.name.clone(),
+                    limits,
+                    is_angle: joint.kind.is_angle(),
+                });
+            }
+        }
+        // everything but the inputs stands still; where none is given, the freedom is let go
+        let held = match inputs.is_empty() {
+            false => {
+                check_count(&question).map_err(AskError::Question)?;
+                still(self.resolved()?.held(), &inputs)
+            }
+            true => self.one_freedom()?.held(),
+        };
+        let settings = SweepSettings {
+            points: self.traced()?,
+            ..settings.clone()
+        };
+        Ok(Motions {
+            mechanism,
+            held,
+            settings,
+            inputs,
+            starts: self.starts(&question, watch)?,
+        })
+    }
+
+    /// All circuits and branches of a mechanism with one freedom.
+    ///
+    /// # Errors
+    /// If the question is wrong or leaves another number of freedoms.
+    pub fn circuits(&self, watch: &Watch) -> Result<CircuitsReport, AskError> {
+        let mechanism = &*self.mechanism;
+        let released = self.one_freedom()?;
+        let question = self.resolved()?;
+        check_count(&question).map_err(AskError::Question)?;
+        let kept = released.held_coordinates();
+        let let_go = question.held_coordinates();
+        let mut let_go = let_go.into_iter().filter(|held| !kept.contains(held));
+        let (Some(Holdable::Joint(input)), None) = (let_go.next(), let_go.next()) else {
+            return Err(AskError::NotOneJoint);
+        };
+        let solver = self.solver(&question, watch)?;
+        let seeds = seeds(mechanism, &question, &solver, input, watch);
+        let (held, settings) = (released.held(), CircuitsSettings::default());
+        Ok(circuits(mechanism, &held, input, &seeds, &settings, watch))
+    }
+
+    /// The question that leaves one freedom: actuated joints are held only if that is asked for.
+    fn one_freedom(&self) -> Result<system::Question<'_>, AskError> {
+        let question = self.released()?;
+        match check_count(&question) {
+            Err(QuestionError::TooFew { mobility, held, .. }) if mobility == held + 1 => {
+                Ok(question)
+            }
+            Ok(_) | Err(QuestionError::TooMany { .. }) => Err(AskError::NothingLeft {
+                held: question.held_names(),
+            }),
+            Err(error @ QuestionError::TooFew { .. }) => Err(AskError::NotOneFreedom(error)),
+            Err(error) => Err(AskError::Question(error)),
+        }
+    }
+
+    fn traced(&self) -> Result<Vec<TracedPoint>, AskError> {
+        let points = self.points.iter().enumerate().map(|(index, text)| {
+            TracedPoint::read(&self.mechanism, text).map_err(|error| AskError::Traced {
+                item: Role::Point.item(index),
+                error,
+            })
+        });
+        points.collect()
+    }
+}
+
+/// All assemblies at home and at values of the input spread over its range.
+fn seeds(
+    mechanism: &Mechanism,
+    question: &system::Question,
+    solver: &AssemblySolver,
+    input: usize,
+    watch: &Watch,
+) -> Vec<Configuration<f64>> {
+    const VALUES: u32 = 12;
+    let joint = &mechanism.joints()[input];
+    let (low, high) = match joint.limits {
+        Some(limits) => limits,
+        None if mechanism.repeats(input) => (joint.home, joint.home + TAU),
+        None => sampling_range(joint, mechanism.characteristic_length()),
+    };
+    let wanted = Wanted {
+        certificates: false,
+        ..Wanted::default()
+    };
+    let mut seeds = Vec::new();
+    for k in 0..=VALUES {
+        if watch.stops(Stage::Inputs, k as usize, Some(VALUES as usize + 1)) {
+            break;
+        }
+        let mut at = question.start();
+        if k > 0 {
+            // uneven, so that nothing special is hit
+            let part = (f64::from(k) - 0.618_034) / f64::from(VALUES);
+            at.joints[input] = low + part * (high - low);
+        }
+        let report = solver.at_targets(&at, &question.held(), wanted, watch);
+        let found = report.assemblies.iter();
+        seeds.extend(found.map(|assembly| assembly.configuration(&at)));
+    }
+    seeds
+}

@@ -1,0 +1,207 @@
+//! Maps of the workspace.
+
+use std::f64::consts::TAU;
+
+use super::ranges::{middles, of_platform};
+use super::{AskError, Question, Role};
+use crate::analysis::workspace::{
+    WorkspaceError, WorkspaceReport, WorkspaceSettings, cell_bytes, workspace,
+};
+use crate::mechanism::Coordinate;
+use crate::solve::Watch;
+use crate::system::{
+    self, Driven, Holdable, Mobility, QuestionError, TooLarge, check_count, too_large,
+};
+
+/// Bytes that a map takes at most, unless it is told otherwise.
+pub const MOST_BYTES: f64 = 4e9;
+/// Random starts made at most.
+const MOST_STARTS: usize = 1_000_000;
+
+/// How to map a workspace.
+#[derive(Clone, Debug, PartialEq)]
+pub struct MapSettings {
+    /// Nodes along each mapped coordinate, or one number for all of them; none for what suits their number.
+    pub nodes: Vec<usize>,
+    /// Nodes, spread over the box, that are searched for modes.
+    pub searched: usize,
+    /// Random starts at each of them.
+    pub starts: usize,
+    /// Whether to begin with all assemblies in the middle of the box too.
+    pub assemblies: bool,
+    /// Bytes that the map may take.
+    pub most_bytes: f64,
+}
+
+impl Default for MapSettings {
+    fn default() -> Self {
+        let settings = WorkspaceSettings::default();
+        MapSettings {
+            nodes: Vec::new(),
+            searched: settings.searched,
+            starts: settings.starts,
+            assemblies: false,
+            most_bytes: MOST_BYTES,
+        }
+    }
+}
+
+impl Question {
+    /// Maps the inputs over their ranges. Where coordinates of platforms are mapped or held the actuated joints are
+    /// free.
+    ///
+    /// # Errors
+    /// If the question is wrong, holds too much or too little, or the map would take too much memory.
+    pub fn workspace(
+        &self,
+        settings: &MapSettings,
+        watch: &Watch,
+    ) -> Result<WorkspaceReport, AskError> {
+        let axes = self.axes()?;
+        let question = self.mapped(&axes)?;
+        let bytes = cell_bytes(&question, axes.len()) as f64;
+        let nodes = nodes(&settings.nodes, axes.len(), (bytes, settings.most_bytes))?;
+        for given in [settings.starts, settings.searched] {
+            if !(1..=MOST_STARTS).contains(&given) {
+                let most = MOST_STARTS;
+                return Err(AskError::Starts { given, most });
+            }
+        }
+        let known = match settings.assemblies {
+            true => self.modes(&question, watch)?,
+            false => Vec::new(),
+        };
+        let inner = WorkspaceSettings {
+            nodes,
+            searched: settings.searched,
+            starts: settings.starts,
+            seed: self.seed,
+            most: (settings.most_bytes / bytes) as usize,
+            ..WorkspaceSettings::default()
+        };
+        let report = workspace(&question, &axes, &known, &inner, watch);
+        report.map_err(|error| match error {
+            WorkspaceError::TooMany { most: cells } => AskError::TooMany {
+                cells,
+                most: settings.most_bytes,
+            },
+        })
+    }
+
+    /// The mapped coordinates with their ranges.
+    fn axes(&self) -> Result<Vec<Driven>, AskError> {
+        let mechanism = &self.mechanism;
+        let question = system::Question::new(mechanism);
+        for (index, input) in self.inputs.iter().enumerate() {
+            (question.value(&input.name, "home")).map_err(|error| AskError::NotMapped {
+                item: Role::Input.item(index),
+                error,
+            })?;
+        }
+        // a range that is no number is refused too
+        let axes = self.driven(|a, b| a >= b || !(b - a).is_finite())?;
+        // what comes round again is mapped once
+        let turns = |axis: &Driven| match axis.coordinate {
+            Holdable::Joint(joint) => mechanism.repeats(joint),
+            of => of.is_angle(mechanism),
+        };
+        let round = |axis: &&Driven| turns(axis) && axis.to - axis.from > TAU * (1.0 + 1e-9);
+        if let Some(axis) = axes.iter().find(round) {
+            let name = axis.coordinate.name(mechanism);
+            return Err(AskError::MoreThanATurn { name });
+        }
+        match axes.len() {
+            1..=3 => Ok(axes),
+            n => Err(AskError::Axes(n)),
+        }
+    }
+
+    /// The question with the mapped coordinates in the middle of their ranges.
+    fn mapped(&self, axes: &[Driven]) -> Result<system::Question<'_>, AskError> {
+        let mechanism = &self.mechanism;
+        let held = self.resolved()?;
+        let mapped = axes.iter().map(|axis| axis.coordinate);
+        let inverse = (mapped.chain(held.held_coordinates())).any(|h| of_platform(&h));
+        let question = match inverse {
+            true => self.released()?,
+            false => held,
+        };
+        let demanded = self.hold.iter().map(|(name, _)| name).chain(&self.free);
+        for (index, (input, axis)) in self.inputs.iter().zip(axes).enumerate() {
+            let platform = match axis.coordinate {
+                Holdable::Coordinate(platform, _) => Some(&mechanism.platforms()[platform].name),
+                Holdable::Joint(_) | Holdable::Turn(..) => None,
+            };
+            if (demanded.clone()).any(|name| *name == input.name || Some(name) == platform) {
+                return Err(AskError::AlsoHeld {
+                    item: Role::Input.item(index),
+                    name: input.name.clone(),
+                });
+            }
+        }
+        let question = self.with_inputs(question, &middles(axes))?;
+        if let Some(TooLarge { unknowns, .. }) = too_large(mechanism) {
+            return Err(AskError::TooLarge { unknowns });
+        }
+        // roll and yaw turn about one axis there, and do not tell a map
+        for axis in axes {
+            if let Holdable::Coordinate(platform, c) = axis.coordinate
+                && c.is_angle()
+                && (question.held_coordinates().iter())
+                    .any(|held| matches!(held, Holdable::Turn(of, _) if *of == platform))
+            {
+                let platform = mechanism.platforms()[platform].name.clone();
+                return Err(AskError::Question(QuestionError::AnglesLocked { platform }));
+            }
+        }
+        check_count(&question).map_err(|error| AskError::Mapped {
+            missing: match error {
+                QuestionError::TooFew { .. } if inverse => missing(&question),
+                _ => Vec::new(),
+            },
+            mapped: self.inputs.iter().map(|input| input.name.clone()).collect(),
+            error,
+        })?;
+        Ok(question)
+    }
+}
+
+/// Nodes along each coordinate, each of which takes so many bytes of those that there may be.
+fn nodes(given: &[usize], axes: usize, (bytes, most): (f64, f64)) -> Result<Vec<usize>, AskError> {
+    let nodes = match given[..] {
+        [] => vec![[200, 60, 24][axes - 1]; axes],
+        [one] => vec![one; axes],
+        _ => given.to_vec(),
+    };
+    if nodes.len() != axes || nodes.iter().any(|n| *n < 2) {
+        return Err(AskError::Grid { nodes, axes });
+    }
+    let all: f64 = nodes.iter().map(|n| *n as f64).product();
+    let bytes = all * bytes;
+    match bytes > most {
+        true => Err(AskError::TooFine {
+            nodes: all,
+            bytes,
+            most,
+        }),
+        false => Ok(nodes),
+    }
+}
+
+/// Coordinates of platforms that are to be mapped or held too.
+fn missing(question: &system::Question) -> Vec<String> {
+    let mechanism = question.mechanism();
+    let held = question.held_coordinates();
+    let platforms = 0..mechanism.platforms().len();
+    let coordinates = platforms.flat_map(|platform| {
+        let all = Coordinate::ALL.into_iter();
+        all.map(move |c| Holdable::Coordinate(platform, c))
+    });
+    let candidates: Vec<Holdable> = held.iter().copied().chain(coordinates).collect();
+    let Some(mobility) = Mobility::near(mechanism, &question.start()) else {
+        return Vec::new();
+    };
+    let chosen = mobility.independent(mechanism, &candidates).into_iter();
+    let new = chosen.filter(|c| !held.contains(c));
+    new.map(|c| c.name(mechanism)).collect()
+}

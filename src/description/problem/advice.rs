@@ -1,0 +1,139 @@
+//! The words beside the title of a problem: a label for the offending text, and what to do about it.
+
+mod axes;
+
+use super::*;
+use crate::algebra::EvaluationErrorKind;
+use crate::description::VERSION;
+use crate::description::words::expression;
+use crate::description::words::quoted;
+
+impl ProblemKind {
+    /// What is wrong, in one sentence without a full stop.
+    pub fn title(&self) -> String {
+        self.to_string()
+    }
+
+    /// A few words below the offending text; may be empty.
+    pub fn label(&self) -> String {
+        use ProblemKind::*;
+        match self {
+            Syntax { error, found } => syntax::label(error, *found).into(),
+            WrongType { expected, .. } => format!("must be {expected}"),
+            WrongLength { found, .. } => {
+                format!("there {} {found}", if *found == 1 { "is" } else { "are" })
+            }
+            UnknownWord { .. } | UnknownField { .. } | UnknownMatrixEntry { .. } => {
+                "not known here".into()
+            }
+            MissingField { field, .. } => format!("`{field}` is missing"),
+            DuplicateField { .. } | DuplicateName { .. } => "given again here".into(),
+            Expression(error) => expression::label(error).into(),
+            NoConvention { .. } => "Modified or Standard?".into(),
+            UnknownName { .. } | UnknownFrame { .. } => "not known".into(),
+            NoSuchLink { rows, .. } => format!("the last link is {rows}"),
+            JointNotAllowed { .. } => "a joint variable".into(),
+            NotAffine => "not affine".into(),
+            NoValue(EvaluationErrorKind::TooLarge(_)) => "too large".into(),
+            NoValue(_) => "has no value".into(),
+            Unit(error) => expression::unit_label(error).into(),
+            EmptyClosedForm => "no formula".into(),
+            UnfeltJoint { .. } => "no effect on any closure".into(),
+            UnusedJoint { .. } | UnusedParameter { .. } | UnusedPlatform { .. } => {
+                "not used".into()
+            }
+            DefinitionCycle { .. } | ChainCycle { .. } => "the cycle begins here".into(),
+            _ => String::new(),
+        }
+    }
+
+    /// A hint on how to correct it.
+    pub fn help(&self) -> Option<String> {
+        use ProblemKind::*;
+        let help = match self {
+            TooDeep => "lists of rows and transforms need no extra brackets".into(),
+            Syntax { error, found } => return syntax::help(error, *found).map(str::to_owned),
+            Empty => format!("begin with `Mechanism(version: {VERSION}, name: \"…\", …)`"),
+            LaterVersion(_) => format!("this program reads version {VERSION}"),
+            NotAVersion(_) => format!("write `version: {VERSION}`"),
+            WrongType { expected, found } => return wrong_type_help(*expected, found).map(str::to_owned),
+            UnknownWord { suggestion: Some(meant), .. }
+            | UnknownField { suggestion: Some(meant), .. }
+            | UnknownName { suggestion: Some(meant), .. }
+            | UnknownFrame { suggestion: Some(meant), .. } => format!("did you mean `{meant}`?"),
+            UnknownWord { known, .. } if known.len() > 2 => format!("possible here: {}", quoted(known)),
+            UnknownField { structure, .. } => format!("its fields are {}", quoted(structure.fields())),
+            UnknownFrame { .. } => {
+                "a frame is `ground`, a chain, `chain.k`, a platform, or `platform.frame`".into()
+            }
+            UnknownName { scope: Scope::ClosedForm, .. } => "declare it under `where`, `parameters` or `joints`".into(),
+            UnknownName { scope: Scope::ParametersAndJoints, .. } => {
+                "declare it under `parameters` or `joints`".into()
+            }
+            UnknownName { scope: Scope::Parameters, .. } => "declare it under `parameters`".into(),
+            Expression(error) => return expression::help(error),
+            Unit(error) => expression::unit_help(error).into(),
+            NotAName { .. } => {
+                "a name starts with a letter or `_`, followed by letters, digits or `_`".into()
+            }
+            DottedName { .. } => "the dot is reserved for frames, as in `leg.2`".into(),
+            NoConvention { .. } => {
+                "write `convention: Modified` or `convention: Standard` in the file, or in each chain".into()
+            }
+            EmptyClosedForm => {
+                "give `position`, `rotation`, `transform` or `entries`, or else `identity` or `identities`".into()
+            }
+            MixedClosedForm => "write two closed forms".into(),
+            UnknownMatrixEntry { .. } => "entries are r11 to r33, px, py and pz".into(),
+            JointNotAllowed { .. } => "only parameters, numbers and constants can be used here".into(),
+            NotAffine => "only theta, d and distances may contain joints, as in `\"pi/2 - 2*phi1\"`".into(),
+            SameBody { .. } => "a closure within one body is either always or never satisfied".into(),
+            UnfeltJoint { .. } => "its value is arbitrary; remove it, or close the chain that it moves".into(),
+            NegativeLinkLength { .. } => "add 180 deg to theta and change the sign of alpha, or leave it as it is".into(),
+            ZeroDistance { .. } => "use `Spherical` for two points that coincide".into(),
+            LimitsReversed { .. } => "write the lowest value first".into(),
+            Axes(problem) => return axes::help(problem),
+            DefinitionCycle { .. } => "define one of them without the others".into(),
+            ChainCycle { .. } => "attach one of them to `ground` and close the loop with a closure".into(),
+            _ => return None,
+        };
+        Some(help)
+    }
+}
+
+impl Note {
+    /// How another place is involved in the problem.
+    pub fn label(self) -> String {
+        match self {
+            Self::FirstHere(Noun::Field) => "first given here".into(),
+            Self::FirstHere(noun) => format!("first given here, as {noun}"),
+            Self::AlsoHere => "here too".into(),
+            Self::StillOpen => "this bracket is still open".into(),
+            Self::DeclaredHere(noun) => format!("declared here as {noun}"),
+            Self::ThenHere => "then here".into(),
+        }
+    }
+}
+
+fn wrong_type_help(expected: Expected, found: &Found) -> Option<&'static str> {
+    match (expected, found) {
+        (Expected::Convention | Expected::Role, Found::Text) => Some("write it without quotes"),
+        (
+            Expected::Text | Expected::NameOf(_) | Expected::Frame,
+            Found::Word(_) | Found::Character,
+        ) => Some("write it in double quotes"),
+        (Expected::Entry, Found::Word(_) | Found::Call(_) | Found::Character) => {
+            Some("write an expression in double quotes")
+        }
+        (Expected::Fields(_) | Expected::Joint, Found::Map) => {
+            Some("write fields in `(…)`; `{…}` is for named items")
+        }
+        (Expected::MapOf(_), Found::List | Found::Tuple | Found::Fields) => {
+            Some("write `{ \"name\": …, … }`, with the names in double quotes")
+        }
+        (Expected::Rows | Expected::Transform, _) => Some("write a list in `[…]`"),
+        (_, Found::Call(word)) if word == "Some" => Some("leave out `Some(…)`"),
+        (_, Found::Word(word)) if word == "None" => Some("leave the field out"),
+        _ => None,
+    }
+}

@@ -1,0 +1,162 @@
+//! Plain data that the reports of several analyses share.
+
+use std::fmt::{self, Formatter};
+use std::marker::PhantomData;
+
+use serde::de::{MapAccess, Visitor};
+use serde::ser::SerializeMap;
+use serde::{Deserialize, Deserializer, Serialize, Serializer};
+
+use crate::geometry::{Pose, Quaternion, RollPitchYaw};
+use crate::mechanism::{Mechanism, Variable};
+
+/// Values by name, in the order of the mechanism file; serialised as a map.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Named<T>(pub Vec<(String, T)>);
+
+impl<T> Default for Named<T> {
+    fn default() -> Self {
+        Named(Vec::new())
+    }
+}
+
+impl<T> Named<T> {
+    /// The value of that name.
+    pub fn get(&self, name: &str) -> Option<&T> {
+        let mut found = self.0.iter().filter(|(n, _)| n == name);
+        found.next().map(|(_, value)| value)
+    }
+
+    /// The values without their names.
+    pub fn values(&self) -> impl ExactSizeIterator<Item = &T> {
+        self.0.iter().map(|(_, value)| value)
+    }
+
+    /// How many there are.
+    pub fn len(&self) -> usize {
+        self.0.len()
+    }
+
+    /// Whether there are none.
+    pub fn is_empty(&self) -> bool {
+        self.0.is_empty()
+    }
+}
+
+impl<T> FromIterator<(String, T)> for Named<T> {
+    fn from_iter<I: IntoIterator<Item = (String, T)>>(values: I) -> Self {
+        Named(values.into_iter().collect())
+    }
+}
+
+impl<T: Serialize> Serialize for Named<T> {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        let mut map = serializer.serialize_map(Some(self.0.len()))?;
+        for (name, value) in &self.0 {
+            map.serialize_entry(name, value)?;
+        }
+        map.end()
+    }
+}
+
+impl<'de, T: Deserialize<'de>> Deserialize<'de> for Named<T> {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        struct InOrder<T>(PhantomData<T>);
+        impl<'de, T: Deserialize<'de>> Visitor<'de> for InOrder<T> {
+            type Value = Named<T>;
+
+            fn expecting(&self, f: &mut Formatter) -> fmt::Result {
+                f.write_str("a map from names to values")
+            }
+
+            fn visit_map<A: MapAccess<'de>>(self, mut map: A) -> Result<Named<T>, A::Error> {
+                let mut values = Vec::new();
+                while let Some(entry) = map.next_entry()? {
+                    values.push(entry);
+                }
+                Ok(Named(values))
+            }
+        }
+        deserializer.deserialize_map(InOrder(PhantomData))
+    }
+}
+
+/// A frame in ground.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct FrameRecord {
+    /// Its origin, in m.
+    pub position: [f64; 3],
+    /// Its rotation matrix, row by row; the columns are its axes n, s, a.
+    pub rotation: [[f64; 3]; 3],
+    /// The same as a unit quaternion: scalar first, its first component that is not zero positive.
+    pub quaternion: [f64; 4],
+}
+
+/// A platform in ground.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct PlatformRecord {
+    /// Its own frame.
+    #[serde(flatten)]
+    pub frame: FrameRecord,
+    /// Roll, pitch, yaw in rad: R = Rz(yaw)·Ry(pitch)·Rx(roll).
+    pub roll_pitch_yaw: [f64; 3],
+}
+
+impl FrameRecord {
+    /// The frame at a pose.
+    pub fn of(pose: &Pose<f64>) -> Self {
+        FrameRecord {
+            position: pose.position.0,
+            rotation: pose.rotation.rows(),
+            quaternion: Quaternion::from_rotation(&pose.rotation).canonical().0,
+        }
+    }
+}
+
+impl PlatformRecord {
+    /// The platform at a pose.
+    pub fn of(pose: &Pose<f64>) -> Self {
+        let RollPitchYaw { roll, pitch, yaw } = RollPitchYaw::from_rotation(&pose.rotation);
+        PlatformRecord {
+            frame: FrameRecord::of(pose),
+            roll_pitch_yaw: [roll, pitch, yaw],
+        }
+    }
+}
+
+/// The names that stand in formulas about a mechanism.
+#[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+pub struct FormulaNames {
+    /// The joint variables, in the order of the file.
+    pub joints: Vec<Variable>,
+    /// The parameters, in the order of the file.
+    pub parameters: Vec<String>,
+    /// The platforms, in the order of the file.
+    pub platforms: Vec<String>,
+}
+
+impl Mechanism {
+    /// Values of the joint variables, rad or m, with the names of these.
+    pub fn named_joints(&self, values: &[f64]) -> Named<f64> {
+        let joints = self.joints().iter().zip(values);
+        joints
+            .map(|(joint, &value)| (joint.name.clone(), value))
+            .collect()
+    }
+
+    /// The names that stand in formulas.
+    pub fn names_in_formulas(&self) -> FormulaNames {
+        let parameters = self.parameters().iter().map(|part| part.name.clone());
+        let platforms = self.platforms().iter().map(|part| part.name.clone());
+        FormulaNames {
+            joints: Variable::joints(self),
+            parameters: parameters.collect(),
+            platforms: platforms.collect(),
+        }
+    }
+}
+
+/// A number whose absence in JSON means that it is infinite: JSON has no infinite numbers.
+pub fn infinite_if_null<'de, D: Deserializer<'de>>(deserializer: D) -> Result<f64, D::Error> {
+    Ok(Option::deserialize(deserializer)?.unwrap_or(f64::INFINITY))
+}
