@@ -14,8 +14,8 @@ mod search;
 mod tangent;
 
 pub use curve::{
-    ConfigurationCurve, Curve, Driven, Event, Leg, LocusCurve, LocusEnd, Monitor, Region, Singular,
-    Traced, Tracker, Walk, met_at, passes, settled,
+    ConfigurationCurve, Curve, Driven, Event, Leg, LocusCurve, LocusEnd, Monitor, NoStart, Region,
+    Singular, Traced, Tracker, Walk, met_at, neared, passes, settled,
 };
 pub use equations::{
     ClosureAxes, ClosureWrenches, Gap, Held, HeldPlatform, Holdable, System, Unknown, Work,
