@@ -22,8 +22,9 @@ pub use equations::{
     approach, independent_parts,
 };
 pub use question::{
-    Count, Demand, Drive, DriveError, Load, LoadError, Question, QuestionError, Value, ValueError,
-    Verb, check_angles, check_count, number_of, with_coordinates,
+    Count, Demand, Drive, DriveError, Load, LoadError, Output, Question, QuestionError, Value,
+    ValueError, Verb, actuated, check_angles, check_count, default_outputs, free_outputs,
+    inputs_of, number_of, platform_outputs, with_coordinates,
 };
 pub use record::{FormulaNames, FrameRecord, Named, PlatformRecord, infinite_if_null};
 pub use search::{
