@@ -3,7 +3,7 @@
 use crate::analysis::convert::{ConversionNote, ConvertError, CutError};
 use crate::description::quoted;
 
-use super::option::Complaint;
+use super::complaint::Complaint;
 
 /// A line for each note.
 pub fn notes(notes: &[ConversionNote]) -> String {
@@ -61,11 +61,7 @@ pub fn complaint(error: &ConvertError, possible: &[String]) -> Complaint {
             (title, None)
         }
     };
-    Complaint {
-        title,
-        label: String::new(),
-        help,
-    }
+    Complaint::new(title, "", help)
 }
 
 /// Where tables cannot be rearranged as they are written, axes can.

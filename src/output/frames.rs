@@ -4,9 +4,9 @@ mod steps;
 
 use std::fmt::Write;
 
+use super::complaint::Complaint;
 use super::json::document;
 use super::layout::{align_right, indented, plain};
-use super::option::Complaint;
 use super::overview;
 use super::quantity::{degrees, number, quantity, short, size};
 use crate::analysis::frames::{
@@ -317,9 +317,5 @@ pub fn no_axes(error: &AxesError) -> Complaint {
         ),
         AxesError::TooFew => ("the mechanism has no joints with axes".to_owned(), None),
     };
-    Complaint {
-        title,
-        label: String::new(),
-        help,
-    }
+    Complaint::new(title, "", help)
 }
