@@ -13,7 +13,7 @@ use roxmltree::Node;
 use super::check::look;
 use super::constraints;
 use crate::geometry::{Pose, Quaternion, Rotation, Vector3};
-use crate::interchange::page::{Problems, document};
+use crate::interchange::page::{Problems, document, turned};
 use crate::interchange::problem::{ImportProblem, ImportProblemKind};
 use crate::interchange::remark::Remark;
 use crate::interchange::tree::{Body, Joint, Motion, Tree};
@@ -104,32 +104,11 @@ fn without(text: &str, mut removed: Vec<Range<usize>>) -> String {
 
 /// A pose of mjcf-rs.
 pub(super) fn pose(pose: &mjcf_rs::Pose) -> Pose<f64> {
-    let q = pose.rotation;
-    let q = Quaternion([q.w, q.x, q.y, q.z]).normalised();
-    let t = pose.translation;
+    let (q, t) = (pose.rotation, pose.translation);
     Pose {
-        rotation: exact(q.rotation()),
+        rotation: turned([q.w, q.x, q.y, q.z]),
         position: Vector3([t.x, t.y, t.z]),
     }
-}
-
-/// Entries that differ from 0, 1 and −1 by rounding made exact, so that planar linkages stay planar.
-fn exact(rotation: Rotation<f64>) -> Rotation<f64> {
-    let clean = |x: f64| {
-        let whole = x.round();
-        if (x - whole).abs() < 4.0 * f64::EPSILON {
-            whole + 0.0
-        } else {
-            x
-        }
-    };
-    let cleaned = Rotation(rotation.0.map(|column| column.map(clean)));
-    let axes = cleaned
-        .0
-        .iter()
-        .filter(|column| column.0.iter().any(|x| x.abs() == 1.0));
-    // all three axes are along coordinates, or one is and the others are turned about it
-    if axes.count() > 0 { cleaned } else { rotation }
 }
 
 /// All bodies, and for each body of the model the bodies of the tree that it became.
