@@ -8,12 +8,12 @@
 //!
 //! ```
 //! use linkwork::analysis::assembly::{AssemblySettings, assemble};
-//! use linkwork::{mechanism::Mechanism, system::Question};
+//! use linkwork::{mechanism::Mechanism, solve::Watch, system::Question};
 //!
 //! # fn main() -> Result<(), Box<dyn std::error::Error>> {
 //! let mechanism = Mechanism::load("mechanisms/three_rps.ron")?;
 //! let question = Question::new(&mechanism).hold("l1", "0.7")?;
-//! let report = assemble(&question, &AssemblySettings::default())?;
+//! let report = assemble(&question, &AssemblySettings::default(), &Watch::none())?;
 //! println!("{}", linkwork::output::solution::sentence(&mechanism, &report));
 //! let top = mechanism.pose("top", &report.configuration).ok_or("no platform `top`")?;
 //! println!("top at {:?} m", top.position.0);

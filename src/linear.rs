@@ -18,7 +18,7 @@ mod svd;
 pub use aligned::axis_aligned;
 pub use block::{Block, DenseOnly, SparseStep};
 pub use bordered::Bordered;
-pub use decomposition::{Decomposition, complement, dot, norm, orthonormal, remove};
+pub use decomposition::{Decomposition, add, complement, dot, norm, orthonormal, remove};
 pub use factorable::Factorable;
 pub use qr::Qr;
 #[cfg(feature = "sparse")]

@@ -570,11 +570,11 @@ fn questions_that_make_no_sense_are_told_what_to_ask_instead() {
         ),
         (
             &["velocity", FOUR_BAR, "--rate", "theta1=0.1 m"],
-            "a length stands where an angle must stand",
+            "expected an angle, found a length",
         ),
         (
             &["statics", FOUR_BAR, "--load", "phi1=2 deg"],
-            "an angle stands where a moment must stand",
+            "expected a moment, found an angle",
         ),
         (&["statics", FOUR_BAR, "--wrench", "ground=0,0,1"], "left"),
         (&["statics", FOUR_BAR, "--wrench", "left=0,1"], "Fx,Fy,Fz"),
@@ -739,7 +739,7 @@ fn a_joint_used_nowhere_is_neither_hinge_nor_slide() {
     assert!(joints[1]["unit"].is_null());
     let said = stderr(&run(&["check", path]));
     assert!(
-        said.contains("uses the joint `idle`") && !said.contains("feels"),
+        said.contains("uses the joint `idle`") && !said.contains("moves no closure"),
         "{said}"
     );
 }

@@ -242,10 +242,12 @@ impl Continuation {
         const EVALUATIONS: usize = 80;
         let end = dot(&curve.difference(&from.at, &to.at), &from.tangent);
         let (mut low, mut high) = ((0.0, f(curve, from)), (end, f(curve, to)));
-        let mut best = match low.1.abs() < high.1.abs() {
-            true => (low.1.abs(), from.clone()),
-            false => (high.1.abs(), to.clone()),
+        let (nearest, value) = if low.1.abs() < high.1.abs() {
+            (from, low.1)
+        } else {
+            (to, high.1)
         };
+        let mut best = (value.abs(), nearest.clone());
         let (mut width, mut slow) = (end.abs(), 0);
         for _ in 0..EVALUATIONS {
             if best.0 == 0.0 || (high.0 - low.0).abs() <= 4.0 * f64::EPSILON * end.abs() {
@@ -296,9 +298,8 @@ pub(super) fn change<P>(from: &Place<P>, to: &Place<P>) -> f64 {
         0 => return 0.0,
         n => from.jacobian.len() / n,
     };
-    let columns =
-        (from.jacobian.chunks_exact(rows.max(1))).zip(to.jacobian.chunks_exact(rows.max(1)));
-    let squares = columns.map(|(before, after)| {
+    let [before, after] = [from, to].map(|place| place.jacobian.chunks_exact(rows.max(1)));
+    let squares = before.zip(after).map(|(before, after)| {
         let moved: Vec<f64> = after.iter().zip(before).map(|(a, b)| a - b).collect();
         let beside = from.decomposition.solve(&moved);
         dot(&beside, &beside)
@@ -342,10 +343,8 @@ pub(super) mod tests {
     /// x²/4 + y² = 1 twice over, so that the rows are redundant.
     fn ellipse(x: &[f64]) -> (Vec<f64>, Vec<f64>) {
         let r = 0.25 * x[0] * x[0] + x[1] * x[1] - 1.0;
-        (
-            vec![r, 2.0 * r],
-            vec![0.5 * x[0], x[0], 2.0 * x[1], 4.0 * x[1]],
-        )
+        let columns = [[0.5 * x[0], x[0]], [2.0 * x[1], 4.0 * x[1]]];
+        (vec![r, 2.0 * r], columns.concat())
     }
 
     #[test]
@@ -373,10 +372,8 @@ pub(super) mod tests {
         }
         assert_eq!(folds.len(), 2);
         for (fold, x) in folds.iter().zip([2.0, -2.0]) {
-            assert!(
-                (fold[0] - x).abs() < 1e-15 && fold[1].abs() < 1e-14,
-                "{fold:?}"
-            );
+            let exact = (fold[0] - x).abs() < 1e-15 && fold[1].abs() < 1e-14;
+            assert!(exact, "{fold:?}");
         }
     }
 
@@ -401,10 +398,8 @@ pub(super) mod tests {
         let mut curve = Plain(2, bent);
         let place = method.settle(&mut curve, vec![-0.3, 0.055]).unwrap();
         let mut place = place.towards(&[1.0, 0.0]);
-        assert!(
-            method.step(&mut curve, &place, 0.5).is_err(),
-            "a step across the other line"
-        );
+        let across = method.step(&mut curve, &place, 0.5);
+        assert!(across.is_err(), "a step across the other line");
         let mut length = 0.1;
         while place.at[0] < 0.3 {
             match method.step(&mut curve, &place, length) {

@@ -8,10 +8,9 @@ use linkwork::mechanism::Mechanism;
 use linkwork::output::comparison;
 use linkwork::solve::Watch;
 
-fn compared(text: &str) -> (Mechanism, CompareReport) {
+fn compared(text: &str) -> CompareReport {
     let mechanism = Mechanism::new(&Description::read(text).unwrap()).unwrap();
-    let report = compare(&mechanism, &CompareSettings::default(), &Watch::none());
-    (mechanism, report)
+    compare(&mechanism, &CompareSettings::default(), &Watch::none())
 }
 
 const THREE_RPS: &str = include_str!("../../mechanisms/three_rps.ron");
@@ -25,8 +24,8 @@ fn wrong() -> String {
 
 #[test]
 fn all_agree() {
-    let (mechanism, report) = compared(THREE_RPS);
-    let text = comparison::text(&mechanism, &report);
+    let report = compared(THREE_RPS);
+    let text = comparison::text(&report);
     assert!(text.starts_with("3-RPS parallel manipulator: closed forms beside the chains\n\n"));
     assert!(
         text.ends_with("\nAll 6 closed forms agree with the chains (seed 1). All are proved.\n")
@@ -43,8 +42,8 @@ fn all_agree() {
 
 #[test]
 fn a_wrong_sign_is_shown_with_its_component_and_joint_values() {
-    let (mechanism, report) = compared(&wrong());
-    let text = comparison::text(&mechanism, &report);
+    let report = compared(&wrong());
+    let text = comparison::text(&report);
     insta::assert_snapshot!(
         text.split_once("\n\n")
             .unwrap()
@@ -57,8 +56,8 @@ fn a_wrong_sign_is_shown_with_its_component_and_joint_values() {
 
 #[test]
 fn json_says_the_same() {
-    let (mechanism, report) = compared(&wrong());
-    let json = comparison::json(&mechanism, &report);
+    let report = compared(&wrong());
+    let json = comparison::json(&report);
     let json: serde_json::Value = serde_json::from_str(&json).unwrap();
     assert_eq!(json["agree"], false);
     assert_eq!(json["seed"], 1);
@@ -96,11 +95,11 @@ fn a_wrong_sign_is_refuted_with_the_exact_difference() {
         1,
     );
     assert_ne!(text, THREE_RPS);
-    let (mechanism, report) = compared(&text);
-    let said = comparison::text(&mechanism, &report);
+    let report = compared(&text);
+    let said = comparison::text(&report);
     let expected = "S2, py: the form has √3/2 l₂ cos θ₂ where the chains give −√3/2 l₂ cos θ₂; difference √3 l₂ cos θ₂.";
     assert!(said.contains(expected), "{said}");
-    let json = comparison::json(&mechanism, &report);
+    let json = comparison::json(&report);
     let json: serde_json::Value = serde_json::from_str(&json).unwrap();
     let proof = &json["closed_forms"][3]["components"][1]["proof"];
     assert_eq!(proof["outcome"], "different");
@@ -120,9 +119,9 @@ fn what_roots_and_other_dimensions_hide_is_said() {
         )
     };
     let outcome = |text: &str| {
-        let (mechanism, report) = compared(text);
+        let report = compared(text);
         assert!(report.agree, "{report:#?}");
-        let text = comparison::text(&mechanism, &report);
+        let text = comparison::text(&report);
         (report.closed_forms[0].components[0].proof.clone(), text)
     };
     let y = "\"a*sin(t) + b*sin(t + u)\", \"0\"";
@@ -266,8 +265,8 @@ fn a_slip_in_a_loop_equation_is_shown_beside_the_closure_equation() {
     const FOUR_BAR: &str = include_str!("../../mechanisms/four_bar.ron");
     let wrong = FOUR_BAR.replacen("- (l0 + l3*cos(phi1))", "- (l0 - l3*cos(phi1))", 1);
     assert_ne!(wrong, FOUR_BAR);
-    let (mechanism, report) = compared(&wrong);
-    let text = comparison::text(&mechanism, &report);
+    let report = compared(&wrong);
+    let text = comparison::text(&report);
     assert!(
         text.contains(
             "the form has l₃ cos φ₁ where the closures give −l₃ cos φ₁; difference 2 l₃ cos φ₁."
@@ -284,7 +283,7 @@ fn slipped(name: &str, right: &str, wrong: &str) -> (CompareReport, String) {
     assert_ne!(slip, text);
     let mechanism = Mechanism::new(&Description::read(&slip).unwrap()).unwrap();
     let report = compare(&mechanism, &FEW, &Watch::none());
-    let text = comparison::text(&mechanism, &report);
+    let text = comparison::text(&report);
     (report, text)
 }
 
@@ -331,7 +330,7 @@ fn overconstrained_loops_are_eliminated() {
         let path = format!("{}/mechanisms/{name}.ron", env!("CARGO_MANIFEST_DIR"));
         let mechanism = Mechanism::load(path).unwrap();
         let report = compare(&mechanism, &FEW, &Watch::none());
-        let text = comparison::text(&mechanism, &report);
+        let text = comparison::text(&report);
         let only = text.contains("for these dimensions only.");
         assert!(text.contains("roved") && only == special, "{text}");
     }
@@ -343,8 +342,8 @@ fn a_proof_for_one_set_of_dimensions_is_said_to_be_that() {
         joints: { "t": Actuated(home: 0.3) },
         chains: { "arm": Chain(rows: [(theta: "t")], tip: [Tx("b")]) },
         closed_forms: { "p": (of: "arm", position: ("2*a*cos(t)", "b*sin(t)", "0")) })"#;
-    let (mechanism, report) = compared(file);
-    let text = comparison::text(&mechanism, &report);
+    let report = compared(file);
+    let text = comparison::text(&report);
     assert!(
         text.ends_with("(seed 1). It is proved for these dimensions only.\n"),
         "{text}"
@@ -353,10 +352,10 @@ fn a_proof_for_one_set_of_dimensions_is_said_to_be_that() {
 
 #[test]
 fn a_file_without_closed_forms_says_so_and_agrees() {
-    let (mechanism, report) = compared(include_str!("../../mechanisms/dietmaier.ron"));
+    let report = compared(include_str!("../../mechanisms/dietmaier.ron"));
     assert!(report.agree);
     assert_eq!(
-        comparison::text(&mechanism, &report),
+        comparison::text(&report),
         "Dietmaier's platform with 40 real postures: the file has no closed forms to compare.\n"
     );
 }

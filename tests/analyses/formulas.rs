@@ -462,7 +462,7 @@ fn latex_is_set_by_katex() {
             .output()
     };
     let mut whole = String::new();
-    for (_, mechanism, report) in all() {
+    for (_, _, report) in all() {
         whole += &output::latex(report);
     }
     let strange = strange_names();

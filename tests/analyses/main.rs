@@ -7,6 +7,7 @@ mod formulas;
 mod frames;
 mod mobility;
 mod modes;
+mod reports;
 mod singularities;
 mod statics;
 mod sweep;

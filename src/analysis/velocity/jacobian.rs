@@ -140,44 +140,39 @@ pub(super) fn input_output(
     let mut rows = Vec::new();
     // what a row is divided by to have no length in it
     let mut row_scales = Vec::new();
+    let mut row = |name: String, is_angle: bool| {
+        let unit = SiUnit::of_coordinate(is_angle).per_second();
+        rows.push(Axis { name, unit });
+        row_scales.push(if is_angle { 1.0 } else { length });
+    };
     for output in outputs {
         let (kinds, name): (&[&str], String) = match output {
             Output::Twist(frame) => (&["ω", "v"], mechanism.frame_name(*frame)),
             Output::Point(frame) => (&["v"], mechanism.frame_name(*frame)),
             Output::Joint(joint) => {
                 let joint = &mechanism.joints()[*joint];
-                rows.push(Axis {
-                    name: joint.name.clone(),
-                    unit: SiUnit::of_coordinate(joint.kind.is_angle()).per_second(),
-                });
-                row_scales.push(if joint.kind.is_angle() { 1.0 } else { length });
+                row(joint.name.clone(), joint.kind.is_angle());
                 continue;
             }
             &Output::Coordinate(platform, c) => {
-                rows.push(Axis {
-                    name: Holdable::Coordinate(platform, c).name(mechanism),
-                    unit: SiUnit::of_coordinate(c.is_angle()).per_second(),
-                });
-                row_scales.push(if c.is_angle() { 1.0 } else { length });
+                row(
+                    Holdable::Coordinate(platform, c).name(mechanism),
+                    c.is_angle(),
+                );
                 continue;
             }
             &Output::Turn(platform, axis) => {
-                let axis = ["x", "y", "z"][axis as usize];
-                rows.push(Axis {
-                    name: format!("{} ω{axis}", mechanism.platforms()[platform].name),
-                    unit: SiUnit::of_coordinate(true).per_second(),
-                });
-                row_scales.push(1.0);
+                let axis = axis.letter();
+                row(
+                    format!("{} ω{axis}", mechanism.platforms()[platform].name),
+                    true,
+                );
                 continue;
             }
         };
         for &kind in kinds {
             for axis in ["x", "y", "z"] {
-                rows.push(Axis {
-                    name: format!("{name} {kind}{axis}"),
-                    unit: SiUnit::of_coordinate(kind == "ω").per_second(),
-                });
-                row_scales.push(if kind == "ω" { 1.0 } else { length });
+                row(format!("{name} {kind}{axis}"), kind == "ω");
             }
         }
     }
