@@ -8,7 +8,7 @@ use clap::Args;
 use linkwork::description::{self, Description, FileError, LoadError, Problem};
 use linkwork::mechanism::Mechanism;
 use linkwork::output::diagnostics;
-use linkwork::output::option::{Complaint, Given, Part, replacement};
+use linkwork::output::option::{Complaint, Given, Part};
 
 use super::{Refusal, style};
 
@@ -104,7 +104,7 @@ impl Source {
                 Ok(changed) => description = changed,
                 Err(error) => {
                     let given = assignment.given("--set");
-                    refused.push(replacement(&error, &given, style()));
+                    refused.push(diagnostics::replacement(&error, &given, style()));
                 }
             }
         }

@@ -4,8 +4,6 @@ use std::ops::Range;
 
 use serde::{Deserialize, Serialize};
 
-#[cfg(feature = "cli")]
-pub use super::diagnostics::replacement;
 use crate::description::Problem;
 
 /// An option as it was given: `--set l1=2*l0`.
