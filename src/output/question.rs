@@ -244,7 +244,7 @@ pub(super) fn value(text: &str, error: &ValueError) -> (Complaint, Part) {
         ValueError::NoValue(kind) => (ProblemKind::NoValue(*kind), Part::WholeValue),
         ValueError::Unit(kind) => (ProblemKind::Unit(*kind), Part::WholeValue),
         ValueError::NotANumber => {
-            return (said(error.to_string(), "", None), Part::WholeValue);
+            return (Complaint::new(error.to_string(), "", None), Part::WholeValue);
         }
         ValueError::NotAPose { .. } => {
             let title = error.to_string();
