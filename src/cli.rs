@@ -11,7 +11,6 @@ mod formulas;
 mod frames;
 mod import;
 mod mobility;
-mod range;
 mod search;
 mod singularities;
 mod solve;
@@ -120,7 +119,7 @@ pub fn run() -> ExitCode {
         }
         Err(Refusal(problems)) => {
             say(&problems);
-            ExitCode::from(2)
+            ExitCode::from(if watched::interruptions() > 0 { 1 } else { 2 })
         }
     }
 }

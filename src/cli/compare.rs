@@ -1,7 +1,8 @@
 //! `linkwork compare`
 
 use clap::Args;
-use linkwork::analysis::compare::{CompareSettings, compare};
+use linkwork::analysis::compare::CompareSettings;
+use linkwork::ask::Question;
 use linkwork::output::comparison;
 
 use super::search::seed;
@@ -33,12 +34,8 @@ pub struct Compare {
 impl Compare {
     pub fn run(&self) -> Result<Answer, Refusal> {
         let loaded = self.source.load()?;
-        let settings = CompareSettings {
-            samples: self.samples,
-            seed: self.seed,
-            ..CompareSettings::default()
-        };
-        let report = watched(|watch| compare(&loaded.mechanism, &settings, watch));
+        let question = Question::new(loaded.mechanism.clone()).seed(self.seed);
+        let report = watched(|watch| question.compare(self.samples, watch));
         Ok(Answer {
             data: match self.format {
                 Format::Text => comparison::text(&report),

@@ -1,7 +1,7 @@
 //! `linkwork mobility`
 
 use clap::Args;
-use linkwork::analysis::mobility::{MobilitySettings, mobility};
+use linkwork::analysis::mobility::MobilitySettings;
 use linkwork::output::{closing as analysed, mobility as output};
 
 use super::asked::Asked;
@@ -34,12 +34,10 @@ impl Mobility {
     pub fn run(&self) -> Result<Answer, Refusal> {
         let loaded = self.source.load()?;
         let mechanism = &loaded.mechanism;
-        let question = self.asked.question(mechanism)?;
-        let settings = MobilitySettings {
-            seed: self.seed,
-            ..MobilitySettings::default()
-        };
-        let answer = watched(|watch| mobility(&question, &settings, watch));
+        let posed = self.asked.pose(&loaded);
+        let question = posed.question.clone().seed(self.seed);
+        let answer = watched(|watch| question.mobility(watch));
+        let answer = answer.map_err(|error| posed.refusal(&error))?;
         let (data, yes) = match self.format {
             Format::Text => analysed::text(mechanism, &answer, |_, report| output::text(report)),
             Format::Json => analysed::json(mechanism, &answer, |_, report| output::json(report)),
