@@ -38,5 +38,3 @@ pub mod statics;
 pub mod sweep;
 pub mod velocity;
 pub mod workspace;
-
-pub use complaint as option;

@@ -5,7 +5,7 @@ use std::sync::Arc;
 use clap::Args;
 use linkwork::ask::{AskError, Question, Role};
 use linkwork::mechanism::{Frame, Mechanism};
-use linkwork::output::option::{Complaint, Given, Part};
+use linkwork::output::complaint::{Complaint, Given, Part};
 use linkwork::output::question::{complaint, driven_complaint, motionless_frame, unknown_frame};
 use linkwork::output::{
     singularities as of_singularities, statics as of_statics, sweep as of_motion,
@@ -160,29 +160,27 @@ impl<'o> Posed<'o> {
         match error {
             AskError::Named { item, error } => {
                 let given = given(item);
-                let (said, part) = complaint(error);
+                let said = complaint(error);
                 let value = given.and_then(|given| given.value).unwrap_or_default();
                 let first = value.find("..").unwrap_or(value.len());
                 let part = match item.role {
                     Role::From => Part::Value(0..first),
                     Role::To => Part::Value((first + 2).min(value.len())..value.len()),
-                    _ => part,
+                    _ => said.part.clone(),
                 };
-                refused((said, part), given.as_ref())
+                refused(said.at(part), given.as_ref())
             }
-            AskError::Question(error) => whole(complaint(error).0),
+            AskError::Question(error) => whole(complaint(error)),
             AskError::Mapped {
                 error,
                 mapped,
                 missing,
             } => whole(
-                of_map::wrong_count(error, mapped, missing).unwrap_or_else(|| complaint(error).0),
+                of_map::wrong_count(error, mapped, missing).unwrap_or_else(|| complaint(error)),
             ),
             AskError::NotMapped { item, error } => {
-                let said = match of_map::no_platform(mechanism, error) {
-                    Some(said) => (said, Part::Name),
-                    None => complaint(error),
-                };
+                let said = of_map::no_platform(mechanism, error);
+                let said = said.unwrap_or_else(|| complaint(error));
                 refused(said, given(item).as_ref())
             }
             AskError::Drive { item, error } => {
@@ -207,8 +205,8 @@ impl<'o> Posed<'o> {
                 refused(said, given(item).as_ref())
             }
             AskError::Traced { item, error } => {
-                let (said, _) = of_motion::point_complaint(mechanism, error);
-                refused((said, Part::Name), given(item).as_ref())
+                let said = of_motion::point_complaint(mechanism, error);
+                refused(said, given(item).as_ref())
             }
             AskError::EmptyRange { item, name } => {
                 let given = given(item);
@@ -233,13 +231,10 @@ impl<'o> Posed<'o> {
             AskError::AlsoHeld { item, name } => {
                 let said = match self.ranges {
                     Ranges::Map => of_map::also_held(name),
-                    Ranges::Input | Ranges::Locus => (
-                        Complaint {
-                            title: format!("`{name}` is both moved and held"),
-                            label: "also held".into(),
-                            help: Some("give only one of them".into()),
-                        },
-                        Part::Name,
+                    Ranges::Input | Ranges::Locus => Complaint::with_help(
+                        format!("`{name}` is both moved and held"),
+                        "also held",
+                        "give only one of them".into(),
                     ),
                 };
                 refused(said, given(item).as_ref())
@@ -273,9 +268,9 @@ impl<'o> Posed<'o> {
     }
 }
 
-fn refused((said, part): (Complaint, Part), given: Option<&Given>) -> Refusal {
+fn refused(said: Complaint, given: Option<&Given>) -> Refusal {
     Refusal(match given {
-        Some(given) => said.render_in(given, &part, style()),
+        Some(given) => said.render_in(given, style()),
         None => said.render(style()),
     })
 }

@@ -47,7 +47,7 @@ impl Assemblies {
         let mut remarks = loaded.warnings();
         // samples answer a question that holds too little, but what is missing is said too
         if let Err(AskError::Question(error)) = question.count() {
-            remarks += &complaint(&error).0.render_warning(style());
+            remarks += &complaint(&error).render_warning(style());
         }
         let wanted = Wanted {
             all_complex: self.all_complex,

@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 
 use linkwork::analysis::assemblies::{GenericSolutions, StoredError};
 use linkwork::ask;
-use linkwork::output::option::Complaint;
+use linkwork::output::complaint::Complaint;
 
 use super::{Refusal, say, style};
 
@@ -22,12 +22,7 @@ pub struct Store {
 }
 
 fn refusal(title: String, help: &str) -> Refusal {
-    let complaint = Complaint {
-        title,
-        label: String::new(),
-        help: Some(help.into()),
-    };
-    Refusal(complaint.render(style()))
+    Refusal(Complaint::with_help(title, "", help.into()).render(style()))
 }
 
 const ANOTHER: &str = "name another file with --store, or leave the option out";

@@ -26,6 +26,8 @@ pub struct Complaint {
     pub label: String,
     /// What to do about it.
     pub help: Option<String>,
+    /// Which part of the option is wrong, if one asked for it.
+    pub part: Part,
 }
 
 /// Which part of an option is wrong.
@@ -46,7 +48,14 @@ impl Complaint {
             title,
             label: label.into(),
             help,
+            part: Part::Name,
         }
+    }
+
+    /// The same about another part of the option than its name.
+    #[must_use]
+    pub fn at(self, part: Part) -> Self {
+        Complaint { part, ..self }
     }
 
     /// The same where there is something to do.
@@ -56,10 +65,7 @@ impl Complaint {
 
     /// The words for a problem of a mechanism file.
     pub fn of(problem: &Problem) -> Self {
-        Complaint {
-            title: problem.kind.title(),
-            label: problem.kind.label(),
-            help: problem.kind.help(),
-        }
+        let kind = &problem.kind;
+        Complaint::new(kind.title(), &kind.label(), kind.help())
     }
 }

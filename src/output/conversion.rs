@@ -36,11 +36,11 @@ pub fn notes(notes: &[ConversionNote]) -> String {
 
 /// What is said where neither a convention nor a cut is asked for.
 pub fn nothing_asked() -> Complaint {
-    Complaint {
-        title: "nothing is asked for: the file would come out as it is".into(),
-        label: String::new(),
-        help: Some("give --convention modified or standard, or --cut JOINT, or both".into()),
-    }
+    Complaint::with_help(
+        "nothing is to be changed: the file would come out as it is".into(),
+        "",
+        "give --convention modified or standard, or --cut JOINT, or both".into(),
+    )
 }
 
 /// Why a mechanism is not converted, unless it is what came out that is wrong. `possible` are the joints that can be cut.

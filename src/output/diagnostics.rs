@@ -182,12 +182,12 @@ impl Page<'_> {
 
 impl Complaint {
     /// The complaint about a part of an option.
-    pub fn render_in(&self, given: &Given, part: &Part, style: Style) -> String {
+    pub fn render_in(&self, given: &Given, style: Style) -> String {
         let value = given.value.unwrap_or_default();
         let equals = if given.value.is_some() { "=" } else { "" };
         let before = format!("{} {}{equals}", given.option, given.name);
         let source = format!("{before}{value}");
-        let span = match part {
+        let span = match &self.part {
             Part::Name => given.option.len() + 1..given.option.len() + 1 + given.name.len(),
             Part::WholeValue => before.len()..source.len(),
             Part::Value(span) => before.len() + span.start..before.len() + span.end,
@@ -239,16 +239,12 @@ pub fn replacement(error: &ReplacementError, given: &Given, style: Style) -> Str
         ReplacementError::UnknownParameter { suggestion, .. } => {
             let meant = suggestion.as_ref();
             let help = meant.map(|meant| format!("did you mean `{meant}`?"));
-            Complaint::new(error.to_string(), "not known", help).render_in(
-                given,
-                &Part::Name,
-                style,
-            )
+            Complaint::new(error.to_string(), "not known", help).render_in(given, style)
         }
         ReplacementError::Value(problems) => {
             let rendered = problems.iter().map(|problem| {
                 let part = Part::Value(problem.span.clone());
-                Complaint::of(problem).render_in(given, &part, style)
+                Complaint::of(problem).at(part).render_in(given, style)
             });
             rendered.collect::<Vec<_>>().join("\n")
         }

@@ -5,17 +5,17 @@ use crate::mechanism::Mechanism;
 use crate::output::complaint::{Complaint, Part};
 
 /// A side of a box without a range.
-pub fn no_side(name: &str) -> (Complaint, Part) {
+pub fn no_side(name: &str) -> Complaint {
     let said = Complaint::with_help(
         format!("the side `{name}` of the box has no range"),
         "no range",
         format!("write --locus {name}=FROM..TO, e.g. --locus {name}=0deg..360deg"),
     );
-    (said, Part::WholeValue)
+    said.at(Part::WholeValue)
 }
 
 /// A box without an inside.
-pub fn empty_side(name: &str) -> (Complaint, Part) {
+pub fn empty_side(name: &str) -> Complaint {
     let said = Complaint::with_help(
         format!("the box is empty: the range of `{name}` does not end above its beginning"),
         "empty",
@@ -23,7 +23,7 @@ pub fn empty_side(name: &str) -> (Complaint, Part) {
          the other coordinate use --input"
             .into(),
     );
-    (said, Part::WholeValue)
+    said.at(Part::WholeValue)
 }
 
 /// Not two coordinates for a locus.
@@ -71,7 +71,7 @@ pub fn spinning(spins: usize) -> Complaint {
 }
 
 /// An output that is neither a joint, a coordinate nor a frame.
-pub fn unknown_output(mechanism: &Mechanism, name: &str) -> (Complaint, Part) {
+pub fn unknown_output(mechanism: &Mechanism, name: &str) -> Complaint {
     let frames = mechanism.frames().into_iter();
     let mut known: Vec<String> = frames.map(|frame| mechanism.frame_name(frame)).collect();
     known.extend(mechanism.joints().iter().map(|joint| joint.name.clone()));
@@ -80,5 +80,5 @@ pub fn unknown_output(mechanism: &Mechanism, name: &str) -> (Complaint, Part) {
         None => "an output is a joint, a platform coordinate such as `top.x`, or a frame".into(),
     };
     let said = Complaint::with_help(format!("`{name}` is not an output"), "not known", help);
-    (said, Part::Name)
+    said
 }

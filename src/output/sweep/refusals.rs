@@ -22,17 +22,17 @@ pub fn what_moves(actuated: Option<&str>) -> Complaint {
 }
 
 /// A value that is no range.
-pub fn no_range(name: &str) -> (Complaint, Part) {
+pub fn no_range(name: &str) -> Complaint {
     let said = Complaint::with_help(
         format!("the input `{name}` has no range"),
         "no range",
         format!("write --input {name}=FROM..TO, e.g. --input {name}=0deg..90deg"),
     );
-    (said, Part::WholeValue)
+    said.at(Part::WholeValue)
 }
 
 /// A range of no length.
-pub fn nothing_moves(name: &str, value: &str) -> (Complaint, Part) {
+pub fn nothing_moves(name: &str, value: &str) -> Complaint {
     let said = Complaint::with_help(
         format!("`{name}` does not move: its range begins where it ends"),
         "no length",
@@ -41,7 +41,7 @@ pub fn nothing_moves(name: &str, value: &str) -> (Complaint, Part) {
             quoted(value.trim())
         ),
     );
-    (said, Part::WholeValue)
+    said.at(Part::WholeValue)
 }
 
 /// A number of steps that is none.
@@ -69,7 +69,7 @@ pub fn no_steps(steps: usize, most: usize, rows_kept: bool) -> Complaint {
 }
 
 /// An input that begins outside the limits of its joint.
-pub fn outside(name: &str, limits: (f64, f64), is_angle: bool) -> (Complaint, Part) {
+pub fn outside(name: &str, limits: (f64, f64), is_angle: bool) -> Complaint {
     let shown = |x: f64| quantity(x, is_angle);
     let written = |x: f64| match is_angle {
         true => format!("{}deg", number(x.to_degrees())),
@@ -88,7 +88,7 @@ pub fn outside(name: &str, limits: (f64, f64), is_angle: bool) -> (Complaint, Pa
             written(limits.1)
         ),
     );
-    (said, Part::WholeValue)
+    said.at(Part::WholeValue)
 }
 
 /// Not one freedom is left to follow.
@@ -135,20 +135,17 @@ pub fn nothing_left(held: &[String]) -> Complaint {
 }
 
 /// What is wrong with a traced point.
-pub fn point_complaint(mechanism: &Mechanism, error: &PointError) -> (Complaint, Part) {
+pub fn point_complaint(mechanism: &Mechanism, error: &PointError) -> Complaint {
     match error {
         PointError::NoFrame(name) => unknown_frame(mechanism, name),
-        PointError::Value { text, error } => {
-            let (said, _) = value(text, error);
-            (said, Part::Name)
-        }
+        PointError::Value { text, error } => value(text, error).at(Part::Name),
         PointError::TooMany(given) => {
             let said = Complaint::with_help(
                 format!("a point has three offsets from its frame, and {given} are given"),
                 "too many",
                 "write FRAME+X,Y,Z, e.g. --of left+0.5,0.2,0".into(),
             );
-            (said, Part::Name)
+            said
         }
     }
 }

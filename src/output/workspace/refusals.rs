@@ -7,18 +7,16 @@ use crate::output::quantity::number;
 use crate::system::QuestionError;
 
 /// A mapped coordinate without a range.
-pub fn no_range(name: &str) -> (Complaint, Part) {
+pub fn no_range(name: &str) -> Complaint {
     let help = format!(
         "write --map {name}=FROM..TO, e.g. --map {name}=-1..1 or --map {name}=-90deg..90deg"
     );
-    (
-        Complaint::with_help(
-            format!("the map of `{name}` has no range"),
-            "no range",
-            help,
-        ),
-        Part::WholeValue,
+    Complaint::with_help(
+        format!("the map of `{name}` has no range"),
+        "no range",
+        help,
     )
+    .at(Part::WholeValue)
 }
 
 /// A range that comes round again.
@@ -33,10 +31,10 @@ pub fn more_than_a_turn(name: &str) -> Complaint {
 }
 
 /// A box without an inside.
-pub fn empty_side(name: &str, _: &str) -> (Complaint, Part) {
+pub fn empty_side(name: &str, _: &str) -> Complaint {
     let title = format!("the map is empty: the range of `{name}` does not end above its beginning");
     let help = "write the lower end first; for one value hold it with --hold".to_owned();
-    (Complaint::with_help(title, "empty", help), Part::WholeValue)
+    Complaint::with_help(title, "empty", help).at(Part::WholeValue)
 }
 
 /// Nothing mapped, or too much.
@@ -72,12 +70,9 @@ pub fn too_many_axes(mechanism: &Mechanism, given: usize) -> Complaint {
 }
 
 /// A coordinate that is mapped and held.
-pub fn also_held(name: &str) -> (Complaint, Part) {
+pub fn also_held(name: &str) -> Complaint {
     let title = format!("`{name}` is both mapped and held");
-    (
-        Complaint::with_help(title, "also held", "give only one of them".into()),
-        Part::Name,
-    )
+    Complaint::with_help(title, "also held", "give only one of them".into())
 }
 
 /// A name where there is no platform.
