@@ -69,7 +69,7 @@ fn eliminate<T: Field>(n: usize, a: &mut [T], exchanges: &mut [usize]) -> f64 {
         let column = &mut left[k * n..];
         column[k] = reciprocal;
         for entry in &mut column[k + 1..] {
-            *entry *= reciprocal;
+            *entry = *entry * reciprocal;
         }
         for other in right.chunks_exact_mut(n) {
             let factor = other[k];
