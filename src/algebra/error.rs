@@ -25,9 +25,7 @@ impl Display for ParseErrorKind {
             MissingOperator => f.write_str("an operator is missing between two values"),
             UnknownUnit(unit) => write!(f, "`{unit}` after a number is not a unit"),
             UnclosedParenthesis => f.write_str("a parenthesis is not closed"),
-            UnopenedParenthesis => {
-                f.write_str("there is a closing parenthesis without an opening one")
-            }
+            UnopenedParenthesis => f.write_str("a closing parenthesis has no opening one"),
             UnexpectedComma => f.write_str("there is a comma outside the arguments of a function"),
             UnknownFunction(name) => write!(f, "there is no function `{name}`"),
             MissingArguments(function) => {

@@ -27,7 +27,7 @@ pub struct WrongFile {
 }
 
 impl WrongFile {
-    /// Everything that is wrong, one line each: `file:line:column: what is wrong (what to do)`.
+    /// All problems, one line each: `file:line:column: problem (hint)`.
     pub fn lines(&self) -> Vec<String> {
         let line = |(file, problem): &(usize, ImportProblem)| {
             let (name, text) = &self.files[*file];
