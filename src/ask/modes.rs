@@ -44,7 +44,7 @@ pub trait Store: Send + Sync {
 #[derive(Clone, Debug, PartialEq)]
 pub enum Solved {
     /// Where the search ended.
-    Ended(AssemblyReport),
+    Ended(Box<AssemblyReport>),
     /// The mode could not be followed from home to what is held.
     Lost(Box<LostMode>),
 }
@@ -113,7 +113,7 @@ impl Question {
             settings.restarts = 0;
         }
         let report = assemble(&question, &settings, watch).map_err(AskError::Question)?;
-        Ok(Solved::Ended(report))
+        Ok(Solved::Ended(Box::new(report)))
     }
 
     /// Where work begins: near the start, or in the mode or modes asked for.

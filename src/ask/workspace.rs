@@ -72,7 +72,7 @@ impl Question {
         for (index, input) in self.inputs.iter().enumerate() {
             (question.value(&input.name, "home")).map_err(|error| AskError::NotMapped {
                 item: Role::Input.item(index),
-                error,
+                error: Box::new(error),
             })?;
         }
         // a range that is no number is refused too
@@ -137,7 +137,7 @@ impl Question {
                 _ => Vec::new(),
             },
             mapped: self.inputs.iter().map(|input| input.name.clone()).collect(),
-            error,
+            error: Box::new(error),
         })?;
         Ok(question)
     }

@@ -61,7 +61,7 @@ impl Export {
         let (tree, mut said) = tree_of(&loaded.mechanism, &closed.configuration);
         let (text, more): (String, Vec<Remark>) = match self.to {
             To::Mjcf => write_mjcf(&tree, &said),
-            To::Urdf => write_urdf(&tree).map_err(|error| Refusal(format!("error: {error}\n")))?,
+            To::Urdf => write_urdf(&tree),
         };
         said.extend(more);
         let mut remarks = loaded.warnings();

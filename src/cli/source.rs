@@ -98,7 +98,7 @@ impl Source {
                 Ok(changed) => description = changed,
                 Err(error) => {
                     let given = assignment.given("--set");
-                    refused.push(replacement(&error, &given, style()));
+                    refused.push(diagnostics::replacement(&error, &given, style()));
                 }
             }
         }
