@@ -2,7 +2,6 @@
 
 use clap::Args;
 use linkwork::analysis::assemblies::{Fit, Wanted};
-use linkwork::output::assemblies;
 use linkwork::output::question::complaint;
 use linkwork::system::{QuestionError, check_count};
 
@@ -10,7 +9,8 @@ use super::asked::{Split, refusal};
 use super::search::Search;
 use super::source::Source;
 use super::watched::watched;
-use super::{Answer, Format, Refusal, style};
+use super::format::Written;
+use super::{Answer, Refusal, style};
 
 /// List all assembled configurations for held inputs, numbered, each with a certificate.
 ///
@@ -33,9 +33,8 @@ pub struct Assemblies {
     all_complex: bool,
     #[command(flatten)]
     search: Search,
-    /// How to write the answer
-    #[arg(long, value_enum, default_value_t = Format::Text)]
-    format: Format,
+    #[command(flatten)]
+    format: Written,
 }
 
 impl Assemblies {
@@ -61,10 +60,7 @@ impl Assemblies {
             Ok(solver.at_targets(&question.start(), &question.held(), wanted, watch))
         })?;
         Ok(Answer {
-            data: match self.format {
-                Format::Text => assemblies::text(&report),
-                Format::Json => assemblies::json(&report),
-            },
+            data: self.format.shown(&report),
             remarks,
             yes: report.real > 0
                 && report.lost == 0

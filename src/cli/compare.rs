@@ -2,12 +2,12 @@
 
 use clap::Args;
 use linkwork::analysis::compare::{CompareSettings, compare};
-use linkwork::output::comparison;
 
 use super::search::seed;
 use super::source::Source;
 use super::watched::watched;
-use super::{Answer, Format, Refusal};
+use super::format::Written;
+use super::{Answer, Refusal};
 
 /// Check every closed form of a mechanism file against its chains.
 ///
@@ -25,9 +25,8 @@ pub struct Compare {
     #[arg(long, value_parser = seed, allow_negative_numbers = true)]
     #[arg(default_value_t = CompareSettings::default().seed)]
     seed: u64,
-    /// How to write the answer
-    #[arg(long, value_enum, default_value_t = Format::Text)]
-    format: Format,
+    #[command(flatten)]
+    format: Written,
 }
 
 impl Compare {
@@ -40,10 +39,7 @@ impl Compare {
         };
         let report = watched(|watch| compare(&loaded.mechanism, &settings, watch));
         Ok(Answer {
-            data: match self.format {
-                Format::Text => comparison::text(&report),
-                Format::Json => comparison::json(&report),
-            },
+            data: self.format.shown(&report),
             remarks: loaded.warnings(),
             yes: report.agree,
         })

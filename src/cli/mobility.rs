@@ -2,13 +2,14 @@
 
 use clap::Args;
 use linkwork::analysis::mobility::{MobilitySettings, mobility};
-use linkwork::output::{closing as analysed, mobility as output};
+use linkwork::output::{closing as analysed};
 
 use super::asked::Asked;
 use super::search::seed;
 use super::source::Source;
 use super::watched::watched;
-use super::{Answer, Format, Refusal};
+use super::format::Written;
+use super::{Answer, Refusal};
 
 /// Count the freedoms of the assembled mechanism, and say which joints move and what is redundant.
 ///
@@ -25,9 +26,8 @@ pub struct Mobility {
     #[arg(long, value_parser = seed, allow_negative_numbers = true)]
     #[arg(default_value_t = MobilitySettings::default().seed)]
     seed: u64,
-    /// How to write the answer
-    #[arg(long, value_enum, default_value_t = Format::Text)]
-    format: Format,
+    #[command(flatten)]
+    format: Written,
 }
 
 impl Mobility {
@@ -39,15 +39,12 @@ impl Mobility {
             seed: self.seed,
             ..MobilitySettings::default()
         };
-        let answer = watched(|watch| mobility(&question, &settings, watch));
-        let (data, yes) = match self.format {
-            Format::Text => analysed::text(mechanism, &answer, |_, report| output::text(report)),
-            Format::Json => analysed::json(mechanism, &answer, |_, report| output::json(report)),
-        };
+        let report = watched(|watch| mobility(&question, &settings, watch));
+        let yes = report.report();
         let warning = yes.map(|report| analysed::limits_warning(&report.outside_limits));
         let yes = yes.is_some();
         Ok(Answer {
-            data,
+            data: self.format.shown(&report),
             remarks: loaded.warnings() + &warning.unwrap_or_default(),
             yes,
         })

@@ -2,14 +2,14 @@
 
 use clap::Args;
 use linkwork::analysis::assembly::{AssemblySettings, Outcome, assemble};
-use linkwork::output::{assemblies, solution};
 use linkwork::system::check_count;
 
 use super::asked::{Asked, refusal};
 use super::search::{Search, mode};
 use super::source::Source;
 use super::watched::watched;
-use super::{Answer, Format, Refusal};
+use super::format::Written;
+use super::{Answer, Refusal};
 
 /// Find the assembled configuration near a guess.
 ///
@@ -32,9 +32,8 @@ pub struct Solve {
     mode: Option<usize>,
     #[command(flatten)]
     search: Search,
-    /// How to write the answer
-    #[arg(long, value_enum, default_value_t = Format::Text)]
-    format: Format,
+    #[command(flatten)]
+    format: Written,
 }
 
 impl Solve {
@@ -57,10 +56,7 @@ impl Solve {
                 Ok(at) => question = question.near(&at),
                 Err(lost) => {
                     return Ok(Answer {
-                        data: match self.format {
-                            Format::Text => assemblies::lost_text(&lost),
-                            Format::Json => assemblies::lost_json(&lost),
-                        },
+                        data: self.format.shown(&*lost),
                         remarks: loaded.warnings(),
                         yes: false,
                     });
@@ -74,10 +70,7 @@ impl Solve {
         let warning = report.warning();
         let warning = warning.map(|warning| format!("warning: {warning}\n"));
         Ok(Answer {
-            data: match self.format {
-                Format::Text => solution::text(&report),
-                Format::Json => solution::json(&report),
-            },
+            data: self.format.shown(&report),
             remarks: loaded.warnings() + &warning.unwrap_or_default(),
             yes: report.outcome == Outcome::Converged,
         })

@@ -18,6 +18,9 @@ pub fn render(report: &impl Report) -> String {
     for (name, sentence) in report.sentences() {
         object.insert(name.into(), sentence.into());
     }
+    for (name, sentences) in report.lists() {
+        object.insert(name.into(), sentences.into());
+    }
     extended(object, report)
 }
 
