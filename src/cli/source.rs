@@ -8,7 +8,7 @@ use clap::Args;
 use linkwork::description::{self, Description, FileError, LoadError, Problem};
 use linkwork::mechanism::Mechanism;
 use linkwork::output::complaint::{Complaint, Given, Part};
-use linkwork::output::diagnostics::{self, replacement};
+use linkwork::output::diagnostics;
 
 use super::{Refusal, style};
 
