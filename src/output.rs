@@ -24,7 +24,6 @@ pub mod formulas;
 pub mod frames;
 #[cfg(feature = "interchange")]
 pub mod import;
-mod layout;
 pub mod mobility;
 pub mod overview;
 #[cfg(feature = "plot")]
