@@ -1,8 +1,8 @@
 //! Expressions such as `"90 deg - phi1"` or `"b - l1*cos(theta1)"`.
 //!
-//! An [`Expression`] is read once, its names are exchanged for whatever they turn out to mean with
-//! [`Expression::try_resolve`], and it is then evaluated in any [`Number`](crate::number::Number). Every part
-//! knows where it stands in the text, so that whoever finds a fault in it can point at it.
+//! An [`Expression`] is parsed once, its names are resolved with [`Expression::try_resolve`], and it is then evaluated
+//! over any [`Number`](crate::number::Number). Every part has its position in the text, so that any problem can refer
+//! to it.
 
 mod affine;
 mod arrangement;
@@ -53,7 +53,7 @@ pub enum Node<N> {
     Name(N),
     /// `-x`
     Negate(Box<Expression<N>>),
-    /// `x + y` and its like.
+    /// An operation such as `x + y`.
     Binary(Operator, Box<Expression<N>>, Box<Expression<N>>),
     /// `f(x)` or `f(x, y)`, with as many arguments as the function takes.
     Call(Function, Vec<Expression<N>>),
@@ -111,7 +111,7 @@ impl<N> Expression<N> {
         self.as_number() == Some(0.0)
     }
 
-    /// The expressions this one is directly made of, in the order they are written.
+    /// The direct subexpressions, in the order in which they are written.
     pub fn operands(&self) -> impl DoubleEndedIterator<Item = &Expression<N>> {
         let (first, second, arguments): (Option<&Self>, Option<&Self>, &[Self]) = match &self.node {
             Node::Number(_) | Node::Quantity(..) | Node::Constant(_) | Node::Name(_) => {
@@ -138,21 +138,20 @@ impl<N> Expression<N> {
         })
     }
 
-    /// Exchanges every name for what `resolve` makes of it; returns all its errors if there are any.
+    /// Replaces every name by its meaning according to `resolve`; returns all errors if there are any.
     pub fn try_resolve<M, E>(
         &self,
         mut resolve: impl FnMut(&N, &Range<usize>) -> Result<M, E>,
     ) -> Result<Expression<M>, Vec<E>> {
         let mut errors = Vec::new();
-        match self.exchange(&mut |name, span| {
+        let mut resolve = |name: &N, span: &Range<usize>| {
             resolve(name, span).map_err(|error| errors.push(error)).ok()
-        }) {
-            Some(resolved) if errors.is_empty() => Ok(resolved),
-            _ => Err(errors),
-        }
+        };
+        let resolved = self.exchange(&mut resolve);
+        resolved.filter(|_| errors.is_empty()).ok_or(errors)
     }
 
-    /// Visits every name even after one has no answer, so that all of them are heard.
+    /// Visits every name even after an error, so that all errors are reported.
     fn exchange<M>(
         &self,
         resolve: &mut impl FnMut(&N, &Range<usize>) -> Option<M>,
@@ -175,7 +174,7 @@ impl<N> Expression<N> {
         Some(node.at(self.span.clone()))
     }
 
-    /// The same expression standing elsewhere: every span is exchanged.
+    /// The same expression with every span replaced.
     pub fn relocate(mut self, place: &impl Fn(Range<usize>) -> Range<usize>) -> Self {
         self.relocate_in_place(place);
         self
@@ -221,44 +220,29 @@ mod tests {
     #[test]
     fn names_come_in_the_order_they_are_written_with_their_places() {
         let expression = Expression::parse("b - l1*cos(θ1) + b").unwrap();
-        let names: Vec<_> = expression
+        let names = expression
             .names()
-            .map(|(name, span)| (name.as_str(), span.clone()))
-            .collect();
-        assert_eq!(
-            names,
-            [("b", 0..1), ("l1", 4..6), ("θ1", 11..14), ("b", 18..19)]
-        );
+            .map(|(name, span)| (name.as_str(), span.clone()));
+        let expected = [("b", 0..1), ("l1", 4..6), ("θ1", 11..14), ("b", 18..19)];
+        assert_eq!(names.collect::<Vec<_>>(), expected);
     }
 
     #[test]
     fn every_name_that_cannot_be_resolved_is_reported() {
         let expression = Expression::parse("atan2(x, a + y) - z").unwrap();
-        let errors = expression
-            .try_resolve(|name, span| {
-                if name == "a" {
-                    Ok(7_usize)
-                } else {
-                    Err((name.clone(), span.clone()))
-                }
-            })
-            .unwrap_err();
-        assert_eq!(
-            errors,
-            [
-                ("x".to_owned(), 6..7),
-                ("y".to_owned(), 13..14),
-                ("z".to_owned(), 18..19)
-            ]
-        );
+        let resolved = expression.try_resolve(|name, span| match name.as_str() {
+            "a" => Ok(7_usize),
+            other => Err((other.to_owned(), span.clone())),
+        });
+        let unknown = [("x", 6..7), ("y", 13..14), ("z", 18..19)];
+        let unknown = unknown.map(|(name, span)| (name.to_owned(), span));
+        assert_eq!(resolved.unwrap_err(), unknown);
     }
 
     #[test]
     fn resolved_names_keep_their_places() {
-        let expression = Expression::parse("2*a")
-            .unwrap()
-            .try_resolve(|_, _| Ok::<_, ()>(3_usize))
-            .unwrap();
+        let expression = Expression::parse("2*a").unwrap();
+        let expression = expression.try_resolve(|_, _| Ok::<_, ()>(3_usize)).unwrap();
         assert_eq!(expression.names().collect::<Vec<_>>(), [(&3, &(2..3))]);
     }
 
@@ -268,24 +252,14 @@ mod tests {
             .unwrap()
             .relocate(&|span| span.start + 10..span.end + 10);
         assert_eq!(expression.span, 10..13);
-        assert_eq!(
-            expression
-                .names()
-                .map(|(_, span)| span.clone())
-                .collect::<Vec<_>>(),
-            [10..11, 12..13]
-        );
+        let places: Vec<_> = expression.names().map(|(_, span)| span.clone()).collect();
+        assert_eq!(places, [10..11, 12..13]);
     }
 
     #[test]
     fn equality_does_not_look_at_places() {
-        assert_eq!(
-            Expression::parse("a+b").unwrap(),
-            Expression::parse(" a + b ").unwrap()
-        );
-        assert_ne!(
-            Expression::parse("a+b").unwrap(),
-            Expression::parse("b+a").unwrap()
-        );
+        let [one, same, other] = ["a+b", " a + b ", "b+a"].map(|t| Expression::parse(t).unwrap());
+        assert_eq!(one, same);
+        assert_ne!(one, other);
     }
 }

@@ -1,8 +1,8 @@
-//! The mechanism file, well formed but not yet meaningful.
+//! The mechanism file: well formed, its names not yet resolved.
 //!
 //! Text becomes a [`Description`] in which every field has the right type, every expression parses and every name
-//! is a possible name. Whether the names refer to anything is asked later. All problems of a file are found in one
-//! reading; each is a [`Problem`] that points into the text, and one file puts words to them.
+//! is a possible name. Names are resolved later, by [`Mechanism`](crate::mechanism::Mechanism). All problems of a file
+//! are found in one reading; each is a [`Problem`] with its place in the text.
 
 use std::collections::HashSet;
 
@@ -46,15 +46,15 @@ pub const VERSION: u32 = 1;
 
 /// A file as far as it could be read.
 pub struct Draft {
-    /// What could be read; parts with a problem are left out or hold something harmless.
+    /// What could be read; parts with a problem are left out or have harmless values.
     pub description: Description,
-    /// What is wrong with the form of the file, in the order of the text.
+    /// The problems of form, in the order of the text.
     pub problems: Vec<Problem>,
-    /// Names whose definitions have one of these problems: what they stand for is not known.
+    /// Names whose definitions have one of these problems: their meaning is unknown.
     pub doubtful: HashSet<String>,
     /// Names given twice.
     double: HashSet<String>,
-    /// Kinds of names of which some may have been given where they were not read.
+    /// Kinds of names of which some may stand in unread parts of the file.
     lost: HashSet<Noun>,
 }
 
@@ -99,7 +99,7 @@ impl Draft {
         }
     }
 
-    /// Whether a problem with the meaning may be there only because a part could not be read: a name whose
+    /// Whether a problem of meaning may be a mere consequence of an unread part: a name whose
     /// definition, or the map that holds it, has a problem of form.
     pub fn explains(&self, problem: &Problem) -> bool {
         let doubtful = |name: &str| self.doubtful.contains(name);
@@ -147,7 +147,7 @@ fn may_hide(kind: &ProblemKind) -> Vec<Noun> {
 }
 
 impl Description {
-    /// Reads the text of a mechanism file, or says what is wrong with its form, in the order of the text.
+    /// Reads the text of a mechanism file, or returns its problems of form, in the order of the text.
     pub fn read(text: &str) -> Result<Self, Vec<Problem>> {
         let draft = Draft::read(text)?;
         match draft.problems.is_empty() {

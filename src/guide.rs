@@ -4,7 +4,7 @@
 //!
 //! | Page | Subject |
 //! |---|---|
-//! | [`file`] | the mechanism file |
+//! | [`file`](mod@file) | the mechanism file |
 //! | [`solve`] | the assembled configuration near a guess: direct, inverse and mixed kinematics |
 //! | [`assemblies`] | all assemblies, with certificates |
 //! | [`mobility`] | mobility, velocities and forces |
@@ -18,57 +18,58 @@
 //! | [`library`] | use from Rust |
 //! | [`performance`] | builds, features, speed |
 
-// The pages are read by rustdoc only: editing them does not recompile the library.
+// The pages are read by rustdoc only: editing them does not recompile the library. On docs.rs their links lead to
+// modules, by `links.txt`; the definitions at their own ends are for readers of the files.
 
 /// All assemblies (assembly modes, working modes) for held inputs, each with a certificate.
-#[cfg_attr(doc, doc = "", doc = include_str!("guide/assemblies.md"))]
+#[cfg_attr(doc, doc = "", doc = include_str!("guide/links.txt"), doc = "", doc = include_str!("guide/assemblies.md"))]
 pub mod assemblies {}
 
 /// Units, frames, tables, angles, names, exit status.
-#[cfg_attr(doc, doc = "", doc = include_str!("guide/conventions.md"))]
+#[cfg_attr(doc, doc = "", doc = include_str!("guide/links.txt"), doc = "", doc = include_str!("guide/conventions.md"))]
 pub mod conventions {}
 
 /// Exchange with other programs: URDF and MJCF.
-#[cfg_attr(doc, doc = "", doc = include_str!("guide/exchange.md"))]
+#[cfg_attr(doc, doc = "", doc = include_str!("guide/links.txt"), doc = "", doc = include_str!("guide/exchange.md"))]
 pub mod exchange {}
 
 /// The mechanism file: tables, platforms, closures, closed forms.
-#[cfg_attr(doc, doc = "", doc = include_str!("guide/file.md"))]
+#[cfg_attr(doc, doc = "", doc = include_str!("guide/links.txt"), doc = "", doc = include_str!("guide/file.md"))]
 pub mod file {}
 
 /// Formulas derived from the tables, and printed formulas checked against them.
-#[cfg_attr(doc, doc = "", doc = include_str!("guide/formulas.md"))]
+#[cfg_attr(doc, doc = "", doc = include_str!("guide/links.txt"), doc = "", doc = include_str!("guide/formulas.md"))]
 pub mod formulas {}
 
 /// From joint axes to tables and back; other conventions, other cuts.
-#[cfg_attr(doc, doc = "", doc = include_str!("guide/frames.md"))]
+#[cfg_attr(doc, doc = "", doc = include_str!("guide/links.txt"), doc = "", doc = include_str!("guide/frames.md"))]
 pub mod frames {}
 
 /// The Rust library: load, ask, answer.
-#[cfg_attr(doc, doc = "", doc = include_str!("guide/library.md"))]
+#[cfg_attr(doc, doc = "", doc = include_str!("guide/links.txt"), doc = "", doc = include_str!("guide/library.md"))]
 pub mod library {}
 
 /// Mobility, velocities and forces of an assembled mechanism.
-#[cfg_attr(doc, doc = "", doc = include_str!("guide/mobility.md"))]
+#[cfg_attr(doc, doc = "", doc = include_str!("guide/links.txt"), doc = "", doc = include_str!("guide/mobility.md"))]
 pub mod mobility {}
 
 /// Motion: inputs swept through a range, whole curves, circuits and branches.
-#[cfg_attr(doc, doc = "", doc = include_str!("guide/motion.md"))]
+#[cfg_attr(doc, doc = "", doc = include_str!("guide/links.txt"), doc = "", doc = include_str!("guide/motion.md"))]
 pub mod motion {}
 
 /// Features, builds, and what is fast.
-#[cfg_attr(doc, doc = "", doc = include_str!("guide/performance.md"))]
+#[cfg_attr(doc, doc = "", doc = include_str!("guide/links.txt"), doc = "", doc = include_str!("guide/performance.md"))]
 pub mod performance {}
 
 /// Singularities: at a configuration, along inputs, and as loci.
-#[cfg_attr(doc, doc = "", doc = include_str!("guide/singularities.md"))]
+#[cfg_attr(doc, doc = "", doc = include_str!("guide/links.txt"), doc = "", doc = include_str!("guide/singularities.md"))]
 pub mod singularities {}
 
 /// The assembled configuration near a guess: direct, inverse and mixed kinematics.
-#[cfg_attr(doc, doc = "", doc = include_str!("guide/solve.md"))]
+#[cfg_attr(doc, doc = "", doc = include_str!("guide/links.txt"), doc = "", doc = include_str!("guide/solve.md"))]
 pub mod solve {}
 
 /// Workspace maps: reached values, modes, aspects and boundaries.
-#[cfg_attr(doc, doc = "", doc = include_str!("guide/workspace.md"))]
+#[cfg_attr(doc, doc = "", doc = include_str!("guide/links.txt"), doc = "", doc = include_str!("guide/workspace.md"))]
 #[cfg_attr(doc, doc = "<div>", doc = include_str!("guide/workspace.svg"), doc = "</div>")]
 pub mod workspace {}

@@ -1,7 +1,7 @@
 //! Files of other programs: URDF and MJCF, read as descriptions and written from mechanisms.
 //!
-//! Both formats know trees of bodies; they differ in what they say about loops. In between stands the [`Tree`]: writing
-//! goes mechanism → tree → text, reading text → tree → description.
+//! Both formats describe trees of bodies; they differ in how they close loops. The [`Tree`] is the intermediate
+//! form: writing goes mechanism → tree → text, reading text → tree → description.
 
 mod cut;
 mod import;

@@ -7,16 +7,16 @@
 //! Load, ask, answer:
 //!
 //! ```
-//! use linkwork::analysis::assembly::{AssemblySettings, assemble};
-//! use linkwork::{mechanism::Mechanism, system::Question};
+//! use linkwork::{ask::Question, mechanism::Mechanism, solve::Watch};
 //!
 //! # fn main() -> Result<(), Box<dyn std::error::Error>> {
 //! let mechanism = Mechanism::load("mechanisms/three_rps.ron")?;
-//! let question = Question::new(&mechanism).hold("l1", "0.7")?;
-//! let report = assemble(&question, &AssemblySettings::default())?;
-//! println!("{}", linkwork::output::solution::sentence(&mechanism, &report));
-//! let top = mechanism.pose("top", &report.configuration).ok_or("no platform `top`")?;
-//! println!("top at {:?} m", top.position.0);
+//! let question = Question::new(mechanism).hold("l1", 0.7);
+//! let report = question.assemblies(Default::default(), &Watch::none())?;
+//! println!("{} real assemblies", report.real);
+//! for mode in &report.assemblies {
+//!     println!("mode {}: {:?}", mode.mode, mode.platforms.get("top"));
+//! }
 //! # Ok(())
 //! # }
 //! ```
@@ -36,7 +36,8 @@
 //! | [`interchange`] | URDF and MJCF |
 //! | [`system`] | equations, Jacobians and curves of one question about a mechanism |
 //! | [`analysis`] | the analyses: a mechanism, a question and settings in, a report out |
-//! | [`output`] | reports as text, JSON, CSV and pictures |
+//! | [`ask`] | questions that own their mechanism, and every analysis as a method of them |
+//! | [`output`] | reports as text, JSON, CSV, Markdown, HTML and pictures |
 
 pub mod algebra;
 pub mod analysis;

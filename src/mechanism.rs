@@ -1,4 +1,4 @@
-//! The meaningful, immutable mechanism, and its one kinematics over any number.
+//! The valid, immutable mechanism, and its kinematics over any number.
 
 mod build;
 mod closure;
@@ -41,7 +41,7 @@ pub(crate) use kinematics::Mover;
 pub(crate) use letters::{Formal, Letters};
 pub(crate) use turns::{principal, turn_near};
 
-/// A valid mechanism. It never changes; holding one proves that its description makes sense.
+/// A valid mechanism. It is immutable; its existence proves that its description is meaningful.
 #[derive(Clone, Debug)]
 pub struct Mechanism {
     name: String,

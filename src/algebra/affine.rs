@@ -4,7 +4,7 @@ use std::ops::Range;
 
 use super::{Expression, Node, Operator};
 
-/// An expression taken apart: `constant + Σ coefficient·variable`.
+/// An affine expression, decomposed: `constant + Σ coefficient·variable`.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Affine<N> {
     /// What is left when every variable is zero.
@@ -21,7 +21,7 @@ pub struct NonAffine {
 }
 
 impl<N: Clone + PartialEq> Expression<N> {
-    /// Takes the expression apart, where `is_variable` tells variables from other names.
+    /// Decomposes the expression; `is_variable` distinguishes variables from other names.
     ///
     /// Constant and coefficients are expressions over the other names.
     pub fn affine(&self, is_variable: impl Fn(&N) -> bool) -> Result<Affine<N>, NonAffine> {

@@ -3,7 +3,7 @@
 //! The normal form is a sum over waves. An angle that always occurs together with another one of the same sign, as
 //! θ₂ with θ₃ when their axes are parallel, is merged with it; products of the remaining angles are multiplied out again:
 //! cos(θ₁ + θ₂ + θ₃)/2 + cos(θ₁ − θ₂ − θ₃)/2 is printed c₁ c₂₃. The sum over waves is printed instead where it
-//! is shorter. What several terms have in common is taken out, letters first.
+//! is shorter. Common factors are extracted, letters first.
 
 mod product;
 
@@ -305,7 +305,7 @@ fn taken_out(factor: &Factor, mut inside: Vec<Product>, name: Name) -> Summand {
         powers: vec![],
         circular: vec![],
     };
-    // what all have in common goes out with it
+    // common factors are extracted with it
     let mut common = vec![factor.clone()];
     let shared = |inside: &[Product]| {
         let mut factors = inside[0].factors();
@@ -364,24 +364,18 @@ mod tests {
             printed(&[&r11, "a*cos(t1)*cos(t2)"]),
             ["cos(t1)*cos(t2 + t3)", "a*cos(t1)*cos(t2)"]
         );
-        assert_eq!(
-            printed(&["l*cos(t1) + a*cos(t1)*cos(t2) - a*sin(t1)*sin(t2)"]),
-            ["l*cos(t1) + a*cos(t1 + t2)"]
-        );
+        let planar = "l*cos(t1) + a*cos(t1)*cos(t2) - a*sin(t1)*sin(t2)";
+        assert_eq!(printed(&[planar]), ["l*cos(t1) + a*cos(t1 + t2)"]);
     }
 
     #[test]
     fn what_terms_have_in_common_is_taken_out() {
-        assert_eq!(
-            printed(&["b*cos(t1)*(l + a*cos(t2))"]),
-            ["b*cos(t1)*(l + a*cos(t2))"]
-        );
-        assert_eq!(
-            printed(&[
-                "cos(t1)*(cos(t4)*cos(t5)*cos(t6) - sin(t4)*sin(t6)) + sin(t1)*sin(t5)*cos(t6)"
-            ]),
-            ["cos(t1)*(cos(t4)*cos(t5)*cos(t6) - sin(t4)*sin(t6)) + sin(t1)*sin(t5)*cos(t6)"]
-        );
+        for same in [
+            "b*cos(t1)*(l + a*cos(t2))",
+            "cos(t1)*(cos(t4)*cos(t5)*cos(t6) - sin(t4)*sin(t6)) + sin(t1)*sin(t5)*cos(t6)",
+        ] {
+            assert_eq!(printed(&[same]), [same]);
+        }
         assert_eq!(printed(&["-a*cos(t1) - a*b"]), ["-a*(b + cos(t1))"]);
     }
 

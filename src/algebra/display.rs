@@ -7,7 +7,7 @@ use serde::{Deserialize, Deserializer, Serialize, Serializer};
 
 use super::{Expression, Node, Operator};
 
-/// How tightly the outermost operation of an expression binds.
+/// The precedence of the outermost operation of an expression.
 #[derive(Clone, Copy, PartialEq, PartialOrd)]
 enum Tightness {
     Sum,
@@ -54,7 +54,7 @@ impl<N> Expression<N> {
     }
 }
 
-/// A part of an expression, in parentheses unless it binds at least as tightly as asked.
+/// A part of an expression, in parentheses unless its precedence is at least the given one.
 struct Part<'a, N>(&'a Expression<N>, Tightness);
 
 impl<N: Display> Display for Part<'_, N> {
@@ -182,14 +182,9 @@ mod tests {
 
     #[test]
     fn plain_numbers_are_serialised_as_numbers() {
-        assert_eq!(
-            serde_json::to_string(&Expression::parse("1.50").unwrap()).unwrap(),
-            "1.5"
-        );
-        assert_eq!(
-            serde_json::to_string(&Expression::parse("60deg").unwrap()).unwrap(),
-            "\"60 deg\""
-        );
+        let json = |text| serde_json::to_string(&Expression::parse(text).unwrap()).unwrap();
+        assert_eq!(json("1.50"), "1.5");
+        assert_eq!(json("60deg"), "\"60 deg\"");
     }
 
     fn any_expression() -> impl Strategy<Value = Expression> {
@@ -204,22 +199,13 @@ mod tests {
         ];
         leaf.prop_map(|node| node.at(0..0))
             .prop_recursive(8, 64, 2, |inner| {
-                let operator = prop::sample::select(
-                    &[
-                        Operator::Add,
-                        Operator::Subtract,
-                        Operator::Multiply,
-                        Operator::Divide,
-                        Operator::Power,
-                    ][..],
-                );
+                use Operator::{Add, Divide, Multiply, Power, Subtract};
+                let operator = [Add, Subtract, Multiply, Divide, Power].as_slice();
+                let operator = prop::sample::select(operator);
                 prop_oneof![
-                    inner.clone().prop_map(|x| Node::Negate(Box::new(x))),
-                    (operator, inner.clone(), inner.clone()).prop_map(|(o, x, y)| Node::Binary(
-                        o,
-                        x.into(),
-                        y.into()
-                    )),
+                    inner.clone().prop_map(Node::negated),
+                    (operator, inner.clone(), inner.clone())
+                        .prop_map(|(o, x, y)| Node::binary(o, x, y)),
                     inner
                         .clone()
                         .prop_map(|x| Node::Call(Function::Cos, vec![x])),

@@ -21,14 +21,12 @@ impl Display for ParseErrorKind {
             UnexpectedCharacter(c) => {
                 write!(f, "the character `{c}` has no meaning in an expression")
             }
-            ExpectedOperand => f.write_str("a number, a name or `(` must stand here"),
+            ExpectedOperand => f.write_str("expected a number, a name or `(`"),
             MissingOperator => f.write_str("an operator is missing between two values"),
             UnknownUnit(unit) => write!(f, "`{unit}` after a number is not a unit"),
             UnclosedParenthesis => f.write_str("a parenthesis is not closed"),
-            UnopenedParenthesis => {
-                f.write_str("there is a closing parenthesis without an opening one")
-            }
-            UnexpectedComma => f.write_str("a comma stands outside the arguments of a function"),
+            UnopenedParenthesis => f.write_str("a closing parenthesis has no opening one"),
+            UnexpectedComma => f.write_str("there is a comma outside the arguments of a function"),
             UnknownFunction(name) => write!(f, "there is no function `{name}`"),
             MissingArguments(function) => {
                 let word = function.word();
@@ -68,12 +66,9 @@ impl Display for EvaluationErrorKind {
                 write!(f, "`{}` of {x} is not a real number", function.word())
             }
             PowerOfNegative(x) => {
-                write!(f, "a power of {x} that is not whole is not a real number")
+                write!(f, "a non-integer power of {x} is not a real number")
             }
-            TooLarge(x) => write!(
-                f,
-                "the value {x:e} is too large: the largest value allowed is {LARGEST:e}"
-            ),
+            TooLarge(x) => write!(f, "the value {x:e} is too large; the limit is {LARGEST:e}"),
             NotFinite => f.write_str("the value is not finite"),
         }
     }
@@ -83,14 +78,9 @@ impl Display for MeasureErrorKind {
     fn fmt(&self, f: &mut Formatter) -> fmt::Result {
         match self {
             Self::Wrong { wanted, found } => {
-                write!(
-                    f,
-                    "{} stands where {} must stand",
-                    found.words(),
-                    wanted.words()
-                )
+                write!(f, "expected {}, found {}", wanted.words(), found.words())
             }
-            Self::Mixed => f.write_str("an angle and a length stand where both must be the same"),
+            Self::Mixed => f.write_str("an angle and a length are mixed"),
             Self::LengthAsAngle(function) => {
                 write!(f, "`{}` takes an angle, not a length", function.word())
             }

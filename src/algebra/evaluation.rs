@@ -5,7 +5,7 @@ use std::ops::Range;
 use super::{Expression, Function, Node, Operator};
 use crate::number::Number;
 
-/// Why an expression has no value, and which part of it is to blame.
+/// Why an expression has no value, and which part of it is the cause.
 #[derive(Debug, Clone, PartialEq)]
 pub struct EvaluationError {
     /// The smallest part that has no value.
@@ -33,7 +33,7 @@ pub enum EvaluationErrorKind {
     NotFinite,
 }
 
-/// The largest value an expression may have: beside it all dimensions of a mechanism drown in
+/// The largest value an expression may have: beside it, all dimensions of a mechanism are lost to
 /// rounding, and its fourth power, a squared closure row, is still far from overflow.
 pub const LARGEST: f64 = 1e30;
 
@@ -52,15 +52,12 @@ impl<N> Expression<N> {
             Node::Binary(operator, x, y) => {
                 let (x, y_value) = (x.evaluate(value_of)?, y.evaluate(value_of)?);
                 if *operator == Operator::Divide && y_value == T::from_f64(0.0) {
-                    return Err(EvaluationError {
-                        span: y.span.clone(),
-                        kind: EvaluationErrorKind::DivisionByZero,
-                    });
+                    let (span, kind) = (y.span.clone(), EvaluationErrorKind::DivisionByZero);
+                    return Err(EvaluationError { span, kind });
                 }
                 let value = combine(*operator, x, y_value);
-                return self.finite(value, || {
-                    fault_of_operator(*operator, x.real(), y_value.real())
-                });
+                let fault = || fault_of_operator(*operator, x.real(), y_value.real());
+                return self.finite(value, fault);
             }
             Node::Call(function, arguments) => {
                 let x = arguments[0].evaluate(value_of)?;
@@ -149,10 +146,8 @@ mod tests {
     use super::*;
 
     fn fault(text: &str) -> (EvaluationErrorKind, Range<usize>) {
-        let error = Expression::parse(text)
-            .unwrap()
-            .evaluate(&|_| 0.0_f64)
-            .unwrap_err();
+        let expression = Expression::parse(text).unwrap();
+        let error = expression.evaluate(&|_| 0.0_f64).unwrap_err();
         (error.kind, error.span)
     }
 
@@ -174,26 +169,14 @@ mod tests {
 
     #[test]
     fn a_name_without_a_finite_value_is_pointed_at() {
-        let error = Expression::parse("1 + x")
-            .unwrap()
-            .evaluate(&|_| f64::NAN)
-            .unwrap_err();
-        assert_eq!(
-            error,
-            EvaluationError {
-                span: 4..5,
-                kind: NotFinite
-            }
-        );
+        let expression = Expression::parse("1 + x").unwrap();
+        let error = expression.evaluate(&|_| f64::NAN).unwrap_err();
+        assert_eq!((error.kind, error.span), (NotFinite, 4..5));
     }
 
     #[test]
     fn whole_powers_of_negative_numbers_have_values() {
-        assert_eq!(
-            Expression::parse("(-2)^3 + (-2)^n")
-                .unwrap()
-                .evaluate(&|_| 2.0),
-            Ok(-4.0)
-        );
+        let expression = Expression::parse("(-2)^3 + (-2)^n").unwrap();
+        assert_eq!(expression.evaluate(&|_| 2.0), Ok(-4.0));
     }
 }

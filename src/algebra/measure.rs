@@ -1,23 +1,23 @@
-//! What an expression measures, as far as the units in it tell.
+//! The dimension of an expression (length, angle, none), as far as its units determine it.
 
 use std::ops::Range;
 
 use super::{Constant, Expression, Function, Node, Operator, Unit};
 
-/// What a value measures.
+/// The dimension of a value.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub enum Measure {
-    /// A number, which may stand for anything.
+    /// A number, which may have any dimension.
     Number,
     /// An angle.
     Angle,
     /// A length.
     Length,
-    /// A force; nothing that is written has its unit.
+    /// A force; it has no unit that can be written.
     Force,
-    /// A moment; nothing that is written has its unit.
+    /// A moment; it has no unit that can be written.
     Moment,
-    /// Not told by units: it may be anything.
+    /// Not determined by units.
     Open,
 }
 
@@ -26,18 +26,18 @@ pub enum Measure {
 pub struct MeasureError {
     /// The smallest part that is wrong.
     pub span: Range<usize>,
-    /// What is wrong with it.
+    /// Its problems.
     pub kind: MeasureErrorKind,
 }
 
 /// Why a unit does not fit.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum MeasureErrorKind {
-    /// The value measures something else than what it stands for.
+    /// The value has another dimension than its place requires.
     Wrong {
-        /// What must stand here.
+        /// What is expected.
         wanted: Measure,
-        /// What stands here.
+        /// What was found.
         found: Measure,
     },
     /// An angle and a length are added or compared.
@@ -47,7 +47,7 @@ pub enum MeasureErrorKind {
 }
 
 impl Unit {
-    /// What a number with this unit measures.
+    /// The dimension of a number with this unit.
     pub fn measure(self) -> Measure {
         match self {
             Self::Degree | Self::Radian => Measure::Angle,
@@ -57,7 +57,7 @@ impl Unit {
 }
 
 impl<N> Expression<N> {
-    /// Refuses units that do not fit `wanted`; `of` tells what names measure.
+    /// Refuses units that do not fit `wanted`; `of` gives the dimension of each name.
     ///
     /// Units decide in a number with its unit, in sums, and in products with plain numbers. What
     /// has a name without a unit as a factor, products and quotients of two units, powers and
@@ -77,10 +77,10 @@ impl<N> Expression<N> {
         }
     }
 
-    /// What the expression measures.
+    /// The dimension of the expression.
     ///
     /// # Errors
-    /// If an angle meets a length where both must measure the same.
+    /// If an angle and a length are combined where both must have the same dimension.
     pub fn measure(&self, of: &impl Fn(&N) -> Measure) -> Result<Measure, MeasureError> {
         use Measure::{Length, Number, Open};
         Ok(match &self.node {
@@ -123,7 +123,7 @@ impl<N> Expression<N> {
         })
     }
 
-    /// What two parts measure that must measure the same.
+    /// The common dimension of two parts.
     fn same(&self, x: Measure, y: Measure) -> Result<Measure, MeasureError> {
         match (x, y) {
             (Measure::Number, other) | (other, Measure::Number) => Ok(other),

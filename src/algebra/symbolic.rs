@@ -1,4 +1,4 @@
-//! Formulas as numbers: the kinematics run over letters.
+//! Formulas as numbers: the kinematics evaluated over symbols.
 //!
 //! [`Number`] is `Copy`, and the kernels of the kinematics rely on it: relaxing it to `Clone` would put a clone into every
 //! product of every number for the sake of the one that is no plain value. A [`Symbolic`] is therefore a
@@ -26,7 +26,7 @@ pub struct Symbolic {
     arena: u32,
 }
 
-/// What has no formula: too long, infinite or from another arena.
+/// A value without a formula: too long, infinite or from another arena.
 const UNDEFINED: Symbolic = Symbolic {
     place: u32::MAX,
     arena: 0,
@@ -121,7 +121,7 @@ impl Symbolic {
         Symbolic::new(Trigonometric::symbol(symbol))
     }
 
-    /// What it is; `None` if it is undefined or its arena is closed.
+    /// The formula; `None` if it is undefined or its arena is closed.
     pub fn formula(self) -> Option<Arc<Trigonometric>> {
         OPEN.with(|open| open.borrow().as_ref()?.formula(self))
     }

@@ -9,11 +9,11 @@
 //! sines and cosines is left: exponentials of different linear forms are linearly independent over
 //! the polynomials, and square roots of different squarefree numbers over the rationals. Two values are equal
 //! if and only if their terms are, as far as letters are independent of one another; how constant angles that
-//! are not multiples of 15° are told apart is said at [`Trigonometric::vanishes`].
+//! are not multiples of 15° are distinguished is explained at [`Trigonometric::vanishes`].
 //!
-//! What is no trigonometric polynomial, as 1/(1 + cos θ) or an arc tangent, enters as a letter of its own
-//! ([`Atom::Inverse`], [`Atom::Root`], [`Atom::Call`]); then sameness is still proof of equality, but difference is not
-//! proof of the contrary.
+//! Anything that is not a trigonometric polynomial, such as 1/(1 + cos θ) or an arc tangent, becomes a letter of its
+//! own ([`Atom::Inverse`], [`Atom::Root`], [`Atom::Call`]); then equal terms still prove equality, but different terms
+//! do not prove the contrary.
 
 mod constants;
 mod cyclotomic;
@@ -119,7 +119,7 @@ impl Trigonometric {
         }
     }
 
-    /// Whether letters stand in it that are no polynomial of others: inverses, roots, inverse functions.
+    /// Whether it contains letters that are not polynomials of others: inverses, roots, inverse functions.
     pub fn is_opaque(&self) -> bool {
         self.terms.keys().any(Key::is_opaque)
     }
@@ -324,7 +324,7 @@ impl Trigonometric {
         Some(Wave(angles))
     }
 
-    /// cos(acos x) = x and its like: what a triangle of sides 1, x and √(1 − x²) says.
+    /// Identities such as cos(acos x) = x, from a triangle with sides 1, x and √(1 − x²).
     fn sin_cos_of_inverse(&self, budget: &mut Budget) -> Option<Option<(Self, Self)>> {
         let (key, coefficient) = self.terms.iter().next().filter(|_| self.terms.len() == 1)?;
         let [(Atom::Call(function, arguments), 1)] = key.powers.as_slice() else {
@@ -386,7 +386,7 @@ impl Trigonometric {
         Some(Trigonometric::atom(Atom::Root(Arc::new(self.clone()))))
     }
 
-    /// A function that is kept as it is.
+    /// A function that is not expanded.
     pub fn call(function: Function, arguments: &[Self]) -> Self {
         Trigonometric::atom(Atom::Call(function, Arc::from(arguments)))
     }

@@ -1,4 +1,4 @@
-//! The words an expression understands by itself.
+//! The constants, units and functions known to every expression.
 
 use crate::number::Number;
 

@@ -368,10 +368,7 @@ fn report(
         let names = mechanism.joints().iter().map(|joint| joint.name.clone());
         worst.joints = names.zip(check.worst.iter().copied()).collect();
     }
-    let open = |check: &Check| {
-        let reason = Reason::NeedsElimination;
-        check.report.proof == Proof::NotDecided { reason }
-    };
+    let open = |check: &Check| check.report.proof == Proof::undecided(Reason::NeedsElimination);
     let refuted = |check: &Check| !check.report.agree && check.report.samples > 0 && open(check);
     if checks.iter().any(refuted) && !watch.is_stopped() {
         // what numbers refute is written out

@@ -5,7 +5,7 @@ mod reactions;
 use serde::{Deserialize, Serialize};
 
 use crate::algebra::SiUnit;
-use crate::linear::{Decomposition, RANK_TOLERANCE, norm};
+use crate::linear::{Decomposition, RANK_TOLERANCE, add, norm};
 use crate::mechanism::{Configuration, Frame, Mechanism};
 use crate::solve::{Newton, Watch};
 use crate::system::{
@@ -151,9 +151,7 @@ pub fn statics(
     let mut forces = equations.solve(&opposite);
     let mut left = generalised.clone();
     for (column, force) in entries.chunks_exact(unknowns.len().max(1)).zip(&forces) {
-        left.iter_mut()
-            .zip(column)
-            .for_each(|(left, a)| *left += force * a);
+        add(&mut left, *force, column);
     }
     let stresses = equations.null_space();
     let none = Load::default();
@@ -163,10 +161,7 @@ pub fn statics(
     let length = mechanism.characteristic_length();
     let found = reactions::of(&mut near, at, load, &forces[..rows]);
     for (share, stress) in found.least(&changes, length).iter().zip(&stresses) {
-        forces
-            .iter_mut()
-            .zip(stress)
-            .for_each(|(x, s)| *x += share * s);
+        add(&mut forces, *share, stress);
     }
     let found = reactions::of(&mut near, at, load, &forces[..rows]);
 

@@ -3,8 +3,8 @@
 use clap::Args;
 use linkwork::analysis::overview::overview;
 
-use super::source::Source;
 use super::format::Written;
+use super::source::Source;
 use super::{Answer, Refusal};
 
 /// Say what a mechanism file means, or everything that is wrong with it.

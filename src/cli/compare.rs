@@ -1,12 +1,13 @@
 //! `linkwork compare`
 
 use clap::Args;
-use linkwork::analysis::compare::{CompareSettings, compare};
+use linkwork::analysis::compare::CompareSettings;
+use linkwork::ask::Question;
 
+use super::format::Written;
 use super::search::seed;
 use super::source::Source;
 use super::watched::watched;
-use super::format::Written;
 use super::{Answer, Refusal};
 
 /// Check every closed form of a mechanism file against its chains.
@@ -32,12 +33,8 @@ pub struct Compare {
 impl Compare {
     pub fn run(&self) -> Result<Answer, Refusal> {
         let loaded = self.source.load()?;
-        let settings = CompareSettings {
-            samples: self.samples,
-            seed: self.seed,
-            ..CompareSettings::default()
-        };
-        let report = watched(|watch| compare(&loaded.mechanism, &settings, watch));
+        let question = Question::new(loaded.mechanism.clone()).seed(self.seed);
+        let report = watched(|watch| question.compare(self.samples, watch));
         Ok(Answer {
             data: self.format.shown(&report),
             remarks: loaded.warnings(),

@@ -6,8 +6,8 @@ use linkwork::description::listed;
 use linkwork::mechanism::Frame;
 use linkwork::output::formulas as output;
 
-use super::source::Source;
 use super::format::Written;
+use super::source::Source;
 use super::{Answer, Refusal, asked};
 
 /// Multiply a mechanism out: transforms, closure equations and screw Jacobians as closed forms.

@@ -12,8 +12,8 @@ use linkwork::output::{Report, diagnostics, frames as output};
 use linkwork::solve::Newton;
 use linkwork::system::{Question, close};
 
-use super::watched::watched;
 use super::format::Format;
+use super::watched::watched;
 use super::{Answer, Refusal, style};
 
 /// Place Denavit–Hartenberg frames on joint axes and read the tables off them.

@@ -1,14 +1,14 @@
 //! `linkwork mobility`
 
 use clap::Args;
-use linkwork::analysis::mobility::{MobilitySettings, mobility};
-use linkwork::output::{closing as analysed};
+use linkwork::analysis::mobility::MobilitySettings;
+use linkwork::output::closing as analysed;
 
 use super::asked::Asked;
+use super::format::Written;
 use super::search::seed;
 use super::source::Source;
 use super::watched::watched;
-use super::format::Written;
 use super::{Answer, Refusal};
 
 /// Count the freedoms of the assembled mechanism, and say which joints move and what is redundant.
@@ -33,13 +33,10 @@ pub struct Mobility {
 impl Mobility {
     pub fn run(&self) -> Result<Answer, Refusal> {
         let loaded = self.source.load()?;
-        let mechanism = &loaded.mechanism;
-        let question = self.asked.question(mechanism)?;
-        let settings = MobilitySettings {
-            seed: self.seed,
-            ..MobilitySettings::default()
-        };
-        let report = watched(|watch| mobility(&question, &settings, watch));
+        let posed = self.asked.pose(&loaded);
+        let question = posed.question.clone().seed(self.seed);
+        let report = watched(|watch| question.mobility(watch));
+        let report = report.map_err(|error| posed.refusal(&error))?;
         let yes = report.report();
         let warning = yes.map(|report| analysed::limits_warning(&report.outside_limits));
         let yes = yes.is_some();

@@ -2,6 +2,7 @@
 
 use std::path::PathBuf;
 use std::str::FromStr;
+use std::sync::Arc;
 
 use clap::Args;
 use linkwork::description::{self, Description, FileError, LoadError, Problem};
@@ -83,7 +84,7 @@ pub struct Loaded {
     text: String,
     /// What the file says, with what `--set` changed.
     pub description: Description,
-    pub mechanism: Mechanism,
+    pub mechanism: Arc<Mechanism>,
 }
 
 impl Source {
@@ -116,7 +117,7 @@ impl Source {
                 set: self.set.iter().map(|given| given.name.clone()).collect(),
                 text,
                 description,
-                mechanism,
+                mechanism: Arc::new(mechanism),
             }),
             Err(problems) => Err(Refusal(self.wrong(text, problems, &description))),
         }

@@ -1,4 +1,4 @@
-//! What a file of joint axes says: the same kind of file as a mechanism's, before frames are placed.
+//! The contents of a file of joint axes: like a mechanism file, before frames are placed.
 
 use std::ops::Range;
 
@@ -10,25 +10,25 @@ use crate::algebra::words;
 /// A whole file of joint axes. Everything is in the order of the file.
 #[derive(Debug, Clone, PartialEq)]
 pub struct AxesDescription {
-    /// What the mechanism is called.
+    /// The name of the mechanism.
     pub name: Spanned<String>,
-    /// Where it comes from.
+    /// Its source in the literature.
     pub source: Option<Spanned<String>>,
-    /// The convention of the tables that are asked for.
+    /// The convention of the tables to be made.
     pub convention: Option<Spanned<Convention>>,
     /// Dimensions and other constants.
     pub parameters: Vec<Named<Entry>>,
     /// The joints; in a serial chain from the base to the tool.
     pub joints: Vec<Named<AxisDescription>>,
-    /// The frame from which the tables shall start.
+    /// The frame from which the tables should start.
     pub base: Option<Vec<Displacement>>,
     /// The frame at which a serial chain ends.
     pub tool: Option<Vec<Displacement>>,
-    /// The joints at which closed loops shall be broken.
+    /// The joints at which closed loops are to be cut.
     pub cut: Vec<Spanned<String>>,
 }
 
-/// A joint of which the axis is known.
+/// A joint given by its axis.
 #[derive(Debug, Clone)]
 pub struct AxisDescription {
     /// How it moves.
@@ -48,18 +48,18 @@ pub struct AxisDescription {
 }
 
 words! {
-    /// How a joint moves of which the axis is known.
+    /// The kind of a joint given by its axis.
     AxisKind {
-        /// It turns about its axis.
+        /// Revolute about its axis.
         Revolute = "Revolute",
-        /// It slides along its axis, which has a direction only.
+        /// Prismatic along its axis, which has a direction only.
         Prismatic = "Prismatic",
-        /// A ball, which has a centre only. It is always cut.
+        /// Spherical, with a centre only. It is always cut.
         Spherical = "Spherical",
     }
 }
 
-/// How the place of an axis is given: three coordinates in m, or a direction of any length.
+/// The position of an axis: three coordinates in m, or a direction of any length.
 #[derive(Debug, Clone, PartialEq)]
 pub enum AxisPlace {
     /// A point, which a prismatic joint need not have, and a direction.
@@ -71,7 +71,7 @@ pub enum AxisPlace {
 }
 
 impl AxisKind {
-    /// The closure that puts such a joint back.
+    /// The closure that restores such a joint.
     pub fn closure(self) -> ClosureKind {
         match self {
             Self::Revolute => ClosureKind::Revolute,
@@ -81,7 +81,7 @@ impl AxisKind {
     }
 }
 
-/// What is wrong with axes whose form is right. Lengths are in m, angles in rad.
+/// Problems of meaning in a well-formed file of axes. Lengths are in m, angles in rad.
 #[derive(Debug, Clone, Error, PartialEq)]
 #[allow(missing_docs)]
 pub enum AxesProblem {
@@ -93,7 +93,7 @@ pub enum AxesProblem {
     TooFew { joints: usize },
     #[error("the axis is given in two ways")]
     TwoPlaces { joint: &'static str },
-    #[error("nothing says which bodies the joint `{joint}` connects, as others do")]
+    #[error("the joint `{joint}` does not name the bodies that it connects, as other joints do")]
     NotBetween { joint: String },
     #[error("the joint connects the body `{body}` with itself")]
     OneBody { body: String },
@@ -101,35 +101,35 @@ pub enum AxesProblem {
     NoGround,
     #[error("no joints connect the body `{body}` with `{GROUND}`")]
     NotConnected { body: String },
-    #[error("there is no joint `{name}` to be cut")]
+    #[error("there is no joint `{name}` to cut")]
     UnknownCut {
         name: String,
         suggestion: Option<String>,
     },
-    #[error("cutting the joint `{joint}` takes bodies off instead of opening a loop")]
+    #[error("cutting the joint `{joint}` disconnects bodies instead of opening a loop")]
     CutsOff { joint: String },
     /// A loop that no cut opens; the joint is one of it that could be cut.
-    #[error("the cuts leave a loop closed that goes through the joint `{joint}`")]
+    #[error("the cuts leave a closed loop through the joint `{joint}`")]
     StillClosed { joint: String },
-    #[error("a loop has no joint to be cut, because all of them are driven")]
+    #[error("a loop has no joint to cut, because all its joints are driven")]
     NothingToCut,
-    #[error("`{field}` is for serial chains, and these joints say what they connect")]
+    #[error("`{field}` is for serial chains, but these joints connect named bodies")]
     SerialOnly { field: &'static str },
-    #[error("the spherical joint `{joint}` stands in a serial chain")]
+    #[error("a serial chain cannot contain the spherical joint `{joint}`")]
     SphericalInSerial { joint: String },
-    #[error("there are {joints} joints, more than are placed")]
+    #[error("there are {joints} joints, more than can be placed")]
     TooMany { joints: usize },
-    #[error("the driven joint `{joint}` is cut, and so has no variable any more")]
+    #[error("the driven joint `{joint}` is cut and loses its variable")]
     DriveCut { joint: String },
-    #[error("the joint `{joint}` is cut, and so has no variable and no limits any more")]
+    #[error("the joint `{joint}` is cut and loses its variable and its limits")]
     LimitsCut { joint: String },
     /// A base from which no row leads to the first axis.
-    #[error("frame 0 cannot stand where `base` says, and is placed freely")]
+    #[error("frame 0 cannot be placed as `base` says; it is placed freely")]
     BaseUnused { convention: Convention },
-    /// Nearly parallel axes whose common normal is far off.
+    /// Nearly parallel axes whose common normal is far away.
     #[error(
         "the axes of `{}` and `{}` are nearly parallel, {angle:.1e} rad apart: their common normal is \
-         {offset:.1e} m off, {:.0e} times the size of the mechanism",
+         {offset:.1e} m away, {:.0e} times the size of the mechanism",
         joints[0], joints[1], offset / size
     )]
     FarNormal {
@@ -144,7 +144,7 @@ pub enum AxesProblem {
 }
 
 impl AxesProblem {
-    /// Whether tables are made all the same.
+    /// Whether tables are made nevertheless.
     pub fn is_warning(&self) -> bool {
         matches!(
             self,

@@ -1,4 +1,4 @@
-//! Finds the bracket that a RON file forgets to close.
+//! Finds the bracket that a RON file leaves open.
 
 use std::ops::Range;
 
@@ -7,7 +7,7 @@ use std::ops::Range;
 pub(super) struct Unclosed {
     /// The opening bracket.
     pub open: Range<usize>,
-    /// Where its closing bracket is missed.
+    /// Where its closing bracket is missing.
     pub missed_at: usize,
 }
 

@@ -1,4 +1,4 @@
-//! What can be found wrong with a description without asking what its names refer to.
+//! Problems of a description that can be found without resolving its names.
 
 use std::collections::HashMap;
 use std::ops::Range;
@@ -42,7 +42,7 @@ pub(super) fn check(description: &Description, problems: &mut Vec<Problem>) {
     }
 }
 
-/// The same of a file of joint axes, as far as it differs from a mechanism's.
+/// The same for a file of joint axes, as far as it differs from a mechanism file.
 pub(super) fn check_axes(description: &AxesDescription, problems: &mut Vec<Problem>) {
     let parameters = names(Noun::Parameter, &description.parameters);
     let joints = names(Noun::Axis, &description.joints);
@@ -78,7 +78,7 @@ fn check_quantity(noun: Noun, name: &Spanned<String>, problems: &mut Vec<Problem
     }
 }
 
-/// A name that the names of frames begin with.
+/// A name with which names of frames begin.
 fn check_body(noun: Noun, name: &Spanned<String>, problems: &mut Vec<Problem>) {
     if !check_not_empty(noun, name, problems) {
         return;
@@ -91,7 +91,7 @@ fn check_body(noun: Noun, name: &Spanned<String>, problems: &mut Vec<Problem>) {
     }
 }
 
-/// Names of different things that share one namespace. (Within one map the reader has seen to it.)
+/// Names of different things that share one namespace. (Within one map the reader has checked this.)
 fn check_distinct(names: &[(Noun, &Spanned<String>)], problems: &mut Vec<Problem>) {
     let mut first: HashMap<&str, (Noun, &Range<usize>)> = HashMap::new();
     for &(noun, name) in names {
@@ -111,9 +111,9 @@ fn check_distinct(names: &[(Noun, &Spanned<String>)], problems: &mut Vec<Problem
     }
 }
 
-/// One problem for all chains: one line in the file mends them all.
+/// One problem for all chains: one line in the file corrects them all.
 fn check_conventions(description: &Description, problems: &mut Vec<Problem>) {
-    // A convention that could not be read was not forgotten.
+    // A convention that could not be read is not missing.
     let unreadable = |problem: &Problem| match problem.kind {
         ProblemKind::UnknownWord { expected, .. } | ProblemKind::WrongType { expected, .. } => {
             expected == Expected::Convention

@@ -1,8 +1,8 @@
-//! What may stand where in a mechanism file.
+//! The values expected at each place of a mechanism file.
 
 use crate::algebra::words;
 
-/// The kinds of things that have names.
+/// The kinds of named items.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 #[allow(missing_docs)]
 pub enum Noun {
@@ -38,7 +38,7 @@ words! {
     }
 }
 
-/// What must stand at a place of the file.
+/// The value expected at a place of the file.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub enum Expected {
     /// The fields of a structure.
@@ -59,7 +59,7 @@ pub enum Expected {
     Rows,
     /// A list of displacements.
     Transform,
-    /// `Tx(…)` and its like.
+    /// A displacement such as `Tx(…)`.
     Displacement,
     /// One of the displacements, with this many entries.
     DisplacementEntries(&'static str),
@@ -69,7 +69,7 @@ pub enum Expected {
     Limits,
     /// Modified or standard.
     Convention,
-    /// `Spherical(…)` and its like.
+    /// A closure such as `Spherical(…)`.
     Closure,
     /// The frames of a closure, for a distance with the length.
     ClosureFrames(&'static str),
@@ -83,7 +83,7 @@ pub enum Expected {
     TransformRows,
     /// One row of a transform.
     TransformRow,
-    /// `Revolute(…)` and its like in a file of joint axes.
+    /// A joint such as `Revolute(…)` in a file of joint axes.
     Axis,
     /// Two points on an axis.
     TwoPoints,
@@ -93,11 +93,11 @@ pub enum Expected {
     Body,
     /// The names of two bodies.
     Bodies,
-    /// A list of joints to be cut.
+    /// A list of joints to cut.
     Cuts,
 }
 
-/// What stands at a place of the file instead.
+/// The value found at a place of the file.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub enum Found {
     /// A number.

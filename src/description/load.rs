@@ -17,7 +17,7 @@ pub enum LoadError {
     Unreadable {
         /// The file.
         path: PathBuf,
-        /// What the machine says.
+        /// The error of the operating system.
         #[source]
         error: io::Error,
     },
@@ -29,7 +29,7 @@ pub enum LoadError {
     NotText {
         /// The file.
         path: PathBuf,
-        /// The first byte that is not.
+        /// The first byte that is not UTF-8.
         offset: usize,
     },
     /// The file is larger than [`MAX_BYTES`].
@@ -49,18 +49,18 @@ pub enum LoadError {
     Wrong(FileError),
 }
 
-/// A file and everything that is wrong with it.
+/// A file with all its problems.
 #[derive(Debug, Clone, PartialEq)]
 pub struct FileError {
     /// The file.
     pub path: PathBuf,
-    /// What it says.
+    /// Its text.
     pub text: String,
-    /// What is wrong with it.
+    /// Its problems.
     pub problems: Vec<Problem>,
 }
 
-/// Reads a mechanism file. Returns its text too, to point at in later problems.
+/// Reads a mechanism file. Returns its text too, to which later problems refer.
 pub fn load(path: impl AsRef<Path>) -> Result<(String, Description), LoadError> {
     let path = path.as_ref().to_owned();
     let text = read_text(&path)?;
@@ -74,7 +74,7 @@ pub fn load(path: impl AsRef<Path>) -> Result<(String, Description), LoadError> 
     }
 }
 
-/// Reads a file as text, whatever it describes.
+/// Reads a file as text, whatever its format.
 ///
 /// # Errors
 /// If it cannot be read, is too large or is not text.
@@ -110,7 +110,7 @@ fn read_text(path: &Path) -> Result<String, LoadError> {
     })
 }
 
-/// A file with more problems than this is not the file its author thinks it is.
+/// A file with more problems than this is probably not a mechanism file at all.
 const MAX_SHOWN: usize = 100;
 
 impl FileError {

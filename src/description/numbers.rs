@@ -1,11 +1,11 @@
-//! Numbers as a person would have written them in a file.
+//! Numbers written as briefly as a person would write them.
 
 use super::{Axis, Displacement, Entry};
 use crate::algebra::{Node, Unit};
-use crate::geometry::{self, Pose};
+use crate::geometry::Pose;
 use crate::number::Number;
 
-/// What may be lost when a number is written shorter, beside 1.
+/// The largest relative error when a number is written shorter.
 const ROUNDING: f64 = 4e-15;
 
 /// The number with at most twelve decimals that differs by no more than rounding, if there is one.
@@ -51,13 +51,13 @@ impl Displacement {
     pub fn of_pose(pose: &Pose<f64>) -> Vec<Displacement> {
         let mut steps = Displacement::of_position(pose.position.0);
         let mut left = *pose;
-        let mut turn = |axis: geometry::Axis, (sin, cos): (f64, f64), name: Axis| {
+        let mut turn = |axis: Axis, (sin, cos): (f64, f64)| {
             let angle = Number::atan2(sin, cos);
-            // what is left after each turn is measured anew, so that rounding does not add up
+            // the remainder is recomputed after each rotation, so that rounding does not accumulate
             left = Pose::rotation(axis, -angle) * left;
             let entry = Entry::angle(angle);
             if !entry.expression.is_zero() && angle.abs() > ROUNDING {
-                steps.push(Displacement::Rotate(name, entry));
+                steps.push(Displacement::Rotate(axis, entry));
             }
             left.rotation.0
         };
@@ -68,13 +68,13 @@ impl Displacement {
         } else {
             (n.0[1], n.0[0])
         };
-        let [n, ..] = turn(geometry::Axis::Z, yaw, Axis::Z);
-        let [_, s, _] = turn(geometry::Axis::Y, (-n.0[2], n.0[0]), Axis::Y);
-        turn(geometry::Axis::X, (s.0[2], s.0[1]), Axis::X);
+        let [n, ..] = turn(Axis::Z, yaw);
+        let [_, s, _] = turn(Axis::Y, (-n.0[2], n.0[0]));
+        turn(Axis::X, (s.0[2], s.0[1]));
         steps
     }
 
-    /// A translation in m, without what is zero.
+    /// A translation in m, without zero components.
     pub fn of_position(position: [f64; 3]) -> Vec<Displacement> {
         let entries = position.map(Entry::length);
         let given = |i: &usize| !entries[*i].expression.is_zero() && position[*i].abs() > ROUNDING;
@@ -120,13 +120,13 @@ mod tests {
 
     #[test]
     fn a_pose_becomes_the_displacements_that_make_it() {
-        let rx = Pose::rotation(geometry::Axis::X, std::f64::consts::FRAC_PI_2);
+        let rx = Pose::rotation(Axis::X, std::f64::consts::FRAC_PI_2);
         let made = Pose::translation(Vector3([0.5, 0.0, 0.0])) * rx;
         assert_eq!(
             shown(&Displacement::of_pose(&made)),
             ["Tx(0.5)", "Rx(90 deg)"]
         );
-        let up = Pose::rotation(geometry::Axis::Y, -std::f64::consts::FRAC_PI_2);
+        let up = Pose::rotation(Axis::Y, -std::f64::consts::FRAC_PI_2);
         assert_eq!(shown(&Displacement::of_pose(&up)), ["Ry(-90 deg)"]);
         assert!(Displacement::of_pose(&Pose::identity()).is_empty());
     }

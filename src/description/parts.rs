@@ -1,11 +1,12 @@
-//! What a mechanism file says, part by part.
+//! The contents of a mechanism file, part by part.
 //!
-//! Parts are equal when they say the same, wherever they stand in their files.
+//! Parts are equal if their contents are, wherever they stand in their files.
 
 use std::fmt::{self, Display, Formatter};
 use std::ops::Range;
 
 use crate::algebra::{Expression, words};
+pub use crate::geometry::Axis;
 
 /// A value and the bytes of the file where it stands.
 #[derive(Debug, Clone, Default)]
@@ -21,7 +22,7 @@ pub struct Spanned<T> {
 pub struct Named<T> {
     /// The name.
     pub name: Spanned<String>,
-    /// What bears the name.
+    /// The named value.
     pub value: T,
 }
 
@@ -37,9 +38,9 @@ pub struct Entry {
 /// A whole mechanism file. Everything is in the order of the file.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct Description {
-    /// What the mechanism is called.
+    /// The name of the mechanism.
     pub name: Spanned<String>,
-    /// Where it comes from.
+    /// Its source in the literature.
     pub source: Option<Spanned<String>>,
     /// The convention of the chains that give none.
     pub convention: Option<Spanned<Convention>>,
@@ -51,14 +52,14 @@ pub struct Description {
     pub chains: Vec<Named<ChainDescription>>,
     /// Rigid bodies whose pose is unknown.
     pub platforms: Vec<Named<PlatformDescription>>,
-    /// The broken joints, put back.
+    /// The closures that restore the broken joints.
     pub closures: Vec<Named<ClosureDescription>>,
     /// Formulas to be checked against the chains.
     pub closed_forms: Vec<Named<ClosedFormDescription>>,
 }
 
 words! {
-    /// Which of the two ways to attach frames a Denavit–Hartenberg table uses.
+    /// The convention by which frames are attached in a Denavit–Hartenberg table.
     Convention {
         /// Craig: T = Rx(alpha) Tx(a) Rz(theta) Tz(d).
         Modified = "Modified",
@@ -74,7 +75,7 @@ words! {
         Passive = "Passive",
     }
 
-    /// What joint is put back where the mechanism was broken. Axes are the z axes of the frames.
+    /// The kind of joint that a closure restores. Its axes are the z axes of the frames.
     ClosureKind {
         /// The origins coincide.
         Spherical = "Spherical",
@@ -111,11 +112,11 @@ pub struct JointDescription {
 /// A serial chain.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct ChainDescription {
-    /// The frame it stands on; ground if not given.
+    /// The frame to which it is attached; ground if not given.
     pub on: Option<Spanned<String>>,
     /// The convention of its rows, if it is not that of the file.
     pub convention: Option<Spanned<Convention>>,
-    /// From the frame it stands on to the frame before the first row.
+    /// From that frame to the frame before the first row.
     pub base: Vec<Displacement>,
     /// The Denavit–Hartenberg table.
     pub rows: Vec<Row>,
@@ -123,7 +124,7 @@ pub struct ChainDescription {
     pub tip: Vec<Displacement>,
 }
 
-/// One row of a Denavit–Hartenberg table. What is not given is 0.
+/// One row of a Denavit–Hartenberg table. Absent entries are 0.
 #[derive(Debug, Clone)]
 pub struct Row {
     /// Twist of the link (rad).
@@ -136,15 +137,6 @@ pub struct Row {
     pub theta: Entry,
     /// Where the row stands.
     pub span: Range<usize>,
-}
-
-/// A coordinate axis.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
-#[allow(missing_docs)]
-pub enum Axis {
-    X,
-    Y,
-    Z,
 }
 
 /// One step of a transform; a list of them is read left to right.
@@ -167,7 +159,7 @@ pub struct PlatformDescription {
     pub frames: Vec<Named<Vec<Displacement>>>,
 }
 
-/// A broken joint, put back between two frames.
+/// A closure: a broken joint, restored between two frames.
 #[derive(Debug, Clone)]
 pub struct ClosureDescription {
     /// The kind of joint.
@@ -183,7 +175,7 @@ pub struct ClosureDescription {
 /// A printed formula, either for the pose of a frame or an identity.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ClosedFormDescription {
-    /// The frame whose pose is given; always there unless only identities are.
+    /// The frame whose pose is given; absent only if the form consists of identities.
     pub of: Option<Spanned<String>>,
     /// `in`: the frame in which it is expressed; ground if not given.
     pub relative_to: Option<Spanned<String>>,
@@ -242,7 +234,7 @@ impl Entry {
         Self { expression, span }
     }
 
-    /// The 0 of an entry that is not given.
+    /// The value 0 of an absent entry.
     pub(crate) fn absent() -> Self {
         Self::number(0.0, 0..0)
     }
@@ -280,7 +272,7 @@ impl ChainDescription {
         }
     }
 
-    /// The frame the chain stands on.
+    /// The frame to which the chain is attached.
     pub fn stands_on(&self) -> &str {
         self.on.as_ref().map_or(GROUND, |frame| &frame.value)
     }
@@ -290,7 +282,7 @@ impl ChainDescription {
 pub const GROUND: &str = "ground";
 
 impl ClosureKind {
-    /// How many independent equations it sets between two free bodies.
+    /// The number of independent equations it imposes on two free bodies.
     pub fn equations(self) -> usize {
         match self {
             Self::Distance => 1,
@@ -316,7 +308,7 @@ impl Displacement {
         }
     }
 
-    /// The lengths or the angle it is made of.
+    /// Its lengths or its angle.
     pub fn entries(&self) -> &[Entry] {
         match self {
             Self::Translate(_, entry) | Self::Rotate(_, entry) => std::slice::from_ref(entry),

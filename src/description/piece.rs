@@ -1,7 +1,7 @@
-//! A piece of a RON text, and how it comes apart.
+//! A piece of a RON text, and its parts.
 //!
-//! `ron` reads values but not where they stand. It does lend out any value as a slice of the text, though, and a slice
-//! knows its place; so the tree is taken apart level by level, each child being lent out unread.
+//! `ron` reads values without their positions. It can return any value as a slice of the text, though, and a slice has
+//! a position; so the tree is parsed level by level, each child first as an unread slice.
 
 use std::borrow::Cow;
 use std::fmt::{self, Formatter};
@@ -35,14 +35,14 @@ pub(super) enum Shape<'a> {
     Tuple,
     /// In parentheses, with names.
     Fields,
-    /// A word and what stands in parentheses behind it.
+    /// A word followed by parentheses, with their contents.
     Word {
         word: &'a str,
         content: Option<Piece<'a>>,
     },
 }
 
-/// A text and the place of each of its bytes in the file.
+/// A text and the position of each of its bytes in the file.
 pub(super) struct Literal<'a> {
     pub text: Cow<'a, str>,
     places: Places,
@@ -118,7 +118,7 @@ impl<'a> Piece<'a> {
         }
     }
 
-    /// What to say stands here instead of something else.
+    /// The kind of value found here, for a problem.
     pub fn found(&self) -> Found {
         match self.shape() {
             Shape::Number => Found::Number,
@@ -329,24 +329,16 @@ mod tests {
     fn values_know_their_places_without_the_comments_around_them() {
         let text = "/* before */ ( a: /* c */ 1.5 /* d */, b: [\"x\" , 'c'] // end\n ) // after";
         let whole = Piece::new(text, 0);
-        assert_eq!(
-            &text[whole.span()],
-            "( a: /* c */ 1.5 /* d */, b: [\"x\" , 'c'] // end\n )"
-        );
-        let fields = whole.fields().unwrap();
-        assert_eq!(
-            fields
-                .iter()
-                .map(|(name, _)| &text[name.span.clone()])
-                .collect::<Vec<_>>(),
-            ["a", "b"]
-        );
-        assert_eq!(&text[fields[0].1.span()], "1.5");
-        let elements = fields[1].1.elements().unwrap();
-        assert_eq!(
-            elements.iter().map(|x| &text[x.span()]).collect::<Vec<_>>(),
-            ["\"x\"", "'c'"]
-        );
+        let expected = "( a: /* c */ 1.5 /* d */, b: [\"x\" , 'c'] // end\n )";
+        assert_eq!(&text[whole.span()], expected);
+        let [(a, one), (b, list)] = &whole.fields().unwrap()[..] else {
+            panic!("two fields")
+        };
+        assert_eq!([&text[a.span.clone()], &text[b.span.clone()]], ["a", "b"]);
+        assert_eq!(&text[one.span()], "1.5");
+        let elements = list.elements().unwrap();
+        let elements: Vec<_> = elements.iter().map(|x| &text[x.span()]).collect();
+        assert_eq!(elements, ["\"x\"", "'c'"]);
     }
 
     #[test]

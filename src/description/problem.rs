@@ -11,7 +11,7 @@ use super::words::{count, cycle, syntax};
 use super::{AxesProblem, Expected, Found, MAX_BYTES, Noun, Structure};
 use crate::algebra::{EvaluationErrorKind, MeasureErrorKind, ParseErrorKind};
 
-/// Something wrong with a mechanism file.
+/// A problem of a mechanism file.
 #[derive(Debug, Clone, Error, PartialEq)]
 #[error("{kind}")]
 pub struct Problem {
@@ -19,7 +19,7 @@ pub struct Problem {
     pub kind: ProblemKind,
     /// The offending bytes of the file.
     pub span: Range<usize>,
-    /// Other places that have to do with it.
+    /// Other places involved.
     pub related: Vec<(Range<usize>, Note)>,
 }
 
@@ -32,7 +32,7 @@ pub enum Severity {
     Error,
 }
 
-/// What another place has to do with a problem.
+/// How another place is involved in a problem.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Note {
     /// The name or field was first given here.
@@ -63,7 +63,7 @@ pub enum Scope {
 #[allow(missing_docs)]
 pub enum ProblemKind {
     /// The text is larger than the limit.
-    #[error("the text has {bytes} bytes, more than the {MAX_BYTES} that are read")]
+    #[error("the text has {bytes} bytes; the limit is {MAX_BYTES}")]
     TooLarge { bytes: usize },
     #[error("the file is empty")]
     Empty,
@@ -72,19 +72,19 @@ pub enum ProblemKind {
     /// The text is not RON.
     #[error("{}", syntax::title(error, *found))]
     Syntax {
-        /// What `ron` says.
+        /// The error of `ron`.
         error: Box<ron::Error>,
-        /// The character it stopped at, if the text goes on.
+        /// The character at which it stopped; `None` at the end of the text.
         found: Option<char>,
     },
-    #[error("the file has version {0}: it is written for a later linkwork")]
+    #[error("the file has version {0}, which needs a newer linkwork")]
     LaterVersion(f64),
     #[error("{0} is not a version of the file format")]
     NotAVersion(f64),
     #[error("expected {expected}, found {found}")]
     WrongType { expected: Expected, found: Found },
     /// Too few or too many things in parentheses.
-    #[error("expected {of}, which takes {}, found {found}", count(*expected, of.unit()))]
+    #[error("expected {of} with {}, found {found}", count(*expected, of.unit()))]
     WrongLength {
         of: Expected,
         expected: usize,
@@ -120,7 +120,7 @@ pub enum ProblemKind {
     /// A name that no expression could use.
     #[error("`{name}` cannot be the name of {noun}")]
     NotAName { noun: Noun, name: String },
-    /// A name that already means something else.
+    /// A reserved name.
     #[error("`{name}` is reserved and cannot be used for {noun}")]
     ReservedName { noun: Noun, name: String },
     /// A dot separates the name of a chain or platform from the names of its frames.
@@ -128,7 +128,7 @@ pub enum ProblemKind {
     DottedName { noun: Noun, name: String },
     #[error("the name of {noun} is empty")]
     EmptyName { noun: Noun },
-    #[error("nothing says which convention the rows of chain `{chain}` follow")]
+    #[error("the convention of the rows of chain `{chain}` is not given")]
     NoConvention { chain: String },
     #[error("the closed form gives no formula")]
     EmptyClosedForm,
@@ -139,7 +139,7 @@ pub enum ProblemKind {
     UnknownMatrixEntry { name: String },
     #[error("the fourth row of a transform must be (0, 0, 0, 1)")]
     WrongLastRow,
-    /// An expression uses a name that means nothing.
+    /// An expression uses an unknown name.
     #[error("`{name}` is {scope}")]
     UnknownName {
         name: String,
@@ -147,7 +147,7 @@ pub enum ProblemKind {
         /// The names possible here.
         scope: Scope,
     },
-    /// A joint variable where only parameters may stand.
+    /// A joint variable where only parameters are allowed.
     #[error("the joint `{name}` cannot be used here")]
     JointNotAllowed { name: String },
     #[error("there is no frame `{name}`")]
@@ -163,10 +163,10 @@ pub enum ProblemKind {
         rows: usize,
     },
     /// Parameters or local names defined through one another; the first follows the last.
-    #[error("{noun} is defined through itself: {}", cycle(names))]
+    #[error("{noun} is defined in terms of itself: {}", cycle(names))]
     DefinitionCycle { noun: Noun, names: Vec<String> },
     /// Chains that stand on one another; the first follows the last.
-    #[error("a chain stands on itself: {}", cycle(names))]
+    #[error("a chain is attached to itself: {}", cycle(names))]
     ChainCycle { names: Vec<String> },
     #[error("the expression is not a constant plus multiples of joint variables")]
     NotAffine,
@@ -193,20 +193,20 @@ pub enum ProblemKind {
     },
     #[error("the file has neither a chain nor a platform")]
     NothingToAnalyse,
-    #[error("no chain and no closure uses the joint `{name}`")]
+    #[error("no chain or closure uses the joint `{name}`")]
     UnusedJoint { name: String },
-    #[error("nothing uses the parameter `{name}`")]
+    #[error("the parameter `{name}` is not used")]
     UnusedParameter { name: String },
     /// A joint variable that moves no closure.
-    #[error("no closure feels the joint `{name}`")]
+    #[error("the joint `{name}` moves no closure")]
     UnfeltJoint { name: String },
     /// A link length below zero: the x axis points the other way. Rows count from 1.
     #[error("row {row} of chain `{chain}` has the negative link length {a} m")]
     NegativeLinkLength { chain: String, row: usize, a: f64 },
     /// A distance of zero, whose equation is singular where it holds.
-    #[error("the closure `{closure}` asks for a distance of zero")]
+    #[error("the distance of closure `{closure}` is zero")]
     ZeroDistance { closure: String },
-    /// Something wrong with a file of joint axes.
+    /// A problem of a file of joint axes.
     #[error("{0}")]
     Axes(Box<AxesProblem>),
     #[error("nothing is attached to the platform `{name}`")]
@@ -244,7 +244,7 @@ impl Problem {
         self.kind.severity()
     }
 
-    /// The same problem, with one more place that has to do with it.
+    /// The same problem, with one more place involved.
     pub fn with(mut self, span: Range<usize>, note: Note) -> Self {
         self.related.push((span, note));
         self

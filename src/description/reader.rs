@@ -1,6 +1,6 @@
 //! Text → description, noting every problem on the way.
 //!
-//! Where something is wrong the reader notes it, puts something harmless in its place and goes on.
+//! The reader notes each problem, substitutes a harmless value and continues.
 
 mod axes;
 mod closed_form;
@@ -15,13 +15,13 @@ use super::piece::{Piece, Shape};
 use super::*;
 use shapes::Fields;
 
-/// The description as far as it could be read, what is wrong with the text, and the names it is wrong with.
+/// The description as far as it could be read, the problems, and the names affected by them.
 pub(super) fn read(text: &str) -> (Option<Description>, Vec<Problem>, HashSet<String>) {
     let (description, reader) = read_with(text, Reader::mechanism);
     (description, reader.problems, reader.broken)
 }
 
-/// The same of a file of joint axes.
+/// The same for a file of joint axes.
 fn read_axes(text: &str) -> (Option<AxesDescription>, Vec<Problem>) {
     let (description, reader) = read_with(text, Reader::axes);
     (description, reader.problems)
@@ -38,13 +38,13 @@ fn first_word(text: &str) -> Option<&str> {
     }
 }
 
-/// Whether a text seems to be a file of a mechanism and not of joint axes.
+/// Whether a text seems to be a mechanism file, not a file of joint axes.
 pub fn is_mechanism(text: &str) -> bool {
     first_word(text).is_some_and(|word| word == "Mechanism")
 }
 
 impl AxesDescription {
-    /// Reads the text of a file of joint axes, or says all that is wrong with its form, in the order of the text.
+    /// Reads the text of a file of joint axes, or returns all its problems of form, in the order of the text.
     pub fn read(text: &str) -> Result<Self, Vec<Problem>> {
         let (description, mut problems) = read_axes(text);
         if let Some(description) = &description {
@@ -117,7 +117,7 @@ impl Reader {
         };
         let count = self.problems.len();
         self.version(version);
-        // A later format may differ in anything; all else would be noise.
+        // A later format may differ in anything; all other problems would be noise.
         let later = self.problems.get(count);
         let later = later.is_some_and(|p| matches!(p.kind, ProblemKind::LaterVersion(_)));
         if later {
@@ -180,7 +180,7 @@ impl Reader {
 
     fn row(&mut self, piece: Piece) -> Option<Row> {
         let Some(mut fields) = self.fields(piece, Structure::Row) else {
-            // it still counts, so that the links behind it keep their numbers
+            // it still counts, so that the links after it keep their numbers
             let [alpha, a, d, theta] = std::array::from_fn(|_| Entry::absent());
             return Some(Row {
                 span: piece.span(),

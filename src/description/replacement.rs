@@ -29,8 +29,8 @@ fn titles(problems: &[Problem]) -> String {
 impl Description {
     /// The same file with another definition of one parameter, an expression that may use the other parameters.
     ///
-    /// Problems that show only when all parameters are known (a cycle, a division by zero) are found later and
-    /// then point at the value in the file, which the new one replaces.
+    /// Problems that appear only when all parameters are known (a cycle, a division by zero) are found later and
+    /// then refer to the value in the file that the new one replaces.
     pub fn with_parameter(
         mut self,
         name: &str,

@@ -17,7 +17,7 @@ macro_rules! fields {
 }
 
 impl Description {
-    /// The text of a mechanism file that says the same. Comments are not kept.
+    /// The text of an equivalent mechanism file. Comments are not kept.
     pub fn to_ron(&self) -> Result<String, ron::Error> {
         // Rows and vectors stand on one line, as in a printed table.
         let layout = PrettyConfig::new().depth_limit(4);
@@ -26,7 +26,7 @@ impl Description {
 }
 
 impl AxesDescription {
-    /// The text of a file of joint axes that says the same. Comments are not kept.
+    /// The text of an equivalent file of joint axes. Comments are not kept.
     pub fn to_ron(&self) -> Result<String, ron::Error> {
         let layout = PrettyConfig::new().depth_limit(2);
         Ok(ron::ser::to_string_pretty(self, layout)? + "\n")

@@ -10,7 +10,7 @@ pub struct Line {
     pub direction: Vector3<f64>,
 }
 
-/// How two directed lines lie to one another.
+/// The relative position of two directed lines.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, serde::Serialize, serde::Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Relation {
@@ -29,7 +29,7 @@ pub enum Relation {
 }
 
 impl Relation {
-    /// Whether the directions are equal or opposite, so that the place of the common normal along
+    /// Whether the directions are equal or opposite, so that the position of the common normal along
     /// the lines is free.
     pub fn is_parallel(self) -> bool {
         !matches!(self, Relation::Skew | Relation::Intersecting)
@@ -47,7 +47,7 @@ impl Relation {
 /// The common normal of two directed lines.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct CommonNormal {
-    /// How the lines lie, decided at the rank tolerance.
+    /// The relative position, decided at the rank tolerance.
     pub relation: Relation,
     /// Angle between the directions in rad, in [0, π].
     pub angle: f64,
@@ -56,7 +56,7 @@ pub struct CommonNormal {
     /// Unit vector from the first line to the second along the normal; z₁ × z₂ where the lines
     /// meet in a point, `None` where they are one line.
     pub direction: Option<Vector3<f64>>,
-    /// Where the normal stands on each line. For parallel lines that at the first line's point.
+    /// The foot of the normal on each line. For parallel lines, the normal at the first line's point.
     pub feet: [Vector3<f64>; 2],
 }
 
@@ -171,27 +171,16 @@ mod tests {
     fn special_cases_are_told_apart() {
         let z = line([0.0; 3], [0.0, 0.0, 1.0]);
         let relation = |point, along| z.common_normal(&line(point, along), 1.0).relation;
-        assert_eq!(
-            relation([1.0, 0.0, 9.0], [0.0, 0.0, 2.0]),
-            Relation::Parallel
-        );
-        assert_eq!(
-            relation([1.0, 0.0, 0.0], [0.0, 0.0, -1.0]),
-            Relation::AntiParallel
-        );
-        assert_eq!(
-            relation([0.0, 0.0, 4.0], [0.0, 0.0, 1.0]),
-            Relation::Coincident
-        );
-        assert_eq!(
-            relation([0.0, 0.0, 4.0], [0.0, 0.0, -3.0]),
-            Relation::AntiCoincident
-        );
-        assert_eq!(
-            relation([0.0, 2.0, 4.0], [0.0, 1.0, 1.0]),
-            Relation::Intersecting
-        );
-        assert_eq!(relation([1.0, 2.0, 4.0], [0.0, 1.0, 1.0]), Relation::Skew);
+        for (point, along, expected) in [
+            ([1.0, 0.0, 9.0], [0.0, 0.0, 2.0], Relation::Parallel),
+            ([1.0, 0.0, 0.0], [0.0, 0.0, -1.0], Relation::AntiParallel),
+            ([0.0, 0.0, 4.0], [0.0, 0.0, 1.0], Relation::Coincident),
+            ([0.0, 0.0, 4.0], [0.0, 0.0, -3.0], Relation::AntiCoincident),
+            ([0.0, 2.0, 4.0], [0.0, 1.0, 1.0], Relation::Intersecting),
+            ([1.0, 2.0, 4.0], [0.0, 1.0, 1.0], Relation::Skew),
+        ] {
+            assert_eq!(relation(point, along), expected);
+        }
     }
 
     #[test]

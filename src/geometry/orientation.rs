@@ -67,13 +67,8 @@ impl<T: Number> Quaternion<T> {
             one - r[0][0] + r[1][1] - r[2][2],
             one - r[0][0] - r[1][1] + r[2][2],
         ];
-        let largest = (1..4).fold(0, |best, i| {
-            if four[i].real() > four[best].real() {
-                i
-            } else {
-                best
-            }
-        });
+        let larger = |i: usize, best: usize| four[i].real() > four[best].real();
+        let largest = (1..4).fold(0, |best, i| if larger(i, best) { i } else { best });
         let (a, b, c) = (r[2][1] - r[1][2], r[0][2] - r[2][0], r[1][0] - r[0][1]);
         let (d, e, f) = (r[1][0] + r[0][1], r[0][2] + r[2][0], r[2][1] + r[1][2]);
         Quaternion(match largest {
@@ -116,18 +111,11 @@ impl<T: Number> RollPitchYaw<T> {
         let r = rotation.rows();
         let cos_pitch = (r[0][0] * r[0][0] + r[1][0] * r[1][0]).sqrt();
         let pitch = (-r[2][0]).atan2(cos_pitch);
-        if cos_pitch.real().abs() < 1e-12 {
-            return RollPitchYaw {
-                roll: T::zero(),
-                pitch,
-                yaw: (-r[0][1]).atan2(r[1][1]),
-            };
-        }
-        RollPitchYaw {
-            roll: r[2][1].atan2(r[2][2]),
-            pitch,
-            yaw: r[1][0].atan2(r[0][0]),
-        }
+        let (roll, yaw) = match cos_pitch.real().abs() < 1e-12 {
+            true => (T::zero(), (-r[0][1]).atan2(r[1][1])),
+            false => (r[2][1].atan2(r[2][2]), r[1][0].atan2(r[0][0])),
+        };
+        RollPitchYaw { roll, pitch, yaw }
     }
 
     /// Whether the pitch is ±90° but for rounding, where roll and yaw turn about the same line.

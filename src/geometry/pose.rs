@@ -45,15 +45,6 @@ impl<T: Number> Pose<T> {
         }
     }
 
-    /// T·Rz(θ)·Tz(d): the motion of a joint about and along the frame's z axis.
-    #[inline(always)]
-    pub fn moved_along_z(&self, sin_cos: (T, T), d: T) -> Self {
-        Pose {
-            rotation: self.rotation.turned_about_z(sin_cos),
-            position: self.position + self.rotation.0[2].times(d),
-        }
-    }
-
     /// The displacement with every constant lifted to another number.
     pub fn map<U>(&self, mut f: impl FnMut(T) -> U) -> Pose<U> {
         let mut lift = |v: Vector3<T>| Vector3(v.0.map(&mut f));

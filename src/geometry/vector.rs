@@ -7,7 +7,7 @@ use crate::number::Number;
 pub struct Vector3<T>(pub [T; 3]);
 
 impl<T: Copy> Vector3<T> {
-    /// The vector of what each component becomes.
+    /// The vector with a function applied to each component.
     pub fn map<U>(&self, change: impl Fn(T) -> U) -> Vector3<U> {
         Vector3(self.0.map(change))
     }

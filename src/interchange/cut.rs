@@ -1,8 +1,8 @@
-//! A mechanism at a configuration as a tree of bodies and the loops that its closures put back.
+//! A mechanism at a configuration as a tree of bodies with the loops of its closures.
 //!
 //! A chain becomes a branch with one body for every row that moves; its frame is that of the row before `after`, so
-//! that the joint axis is its z axis. A row turned by a sum gets one joint for each variable. Every variable moves one
-//! joint that bears its name; others that it stands in follow that one.
+//! that the joint axis is its z axis. A row with a sum of variables gets one joint for each variable. Every variable
+//! moves one joint of its name; its other occurrences follow that joint.
 
 use std::collections::{BTreeMap, HashMap};
 
@@ -12,7 +12,7 @@ use crate::description::{GROUND, Role};
 use crate::geometry::{Pose, Vector3};
 use crate::mechanism::{Configuration, Frame, JointKind, LinearForm, Mechanism, RowDimensions};
 
-/// Where a variable stands: in a row of a chain, as an angle or as a length.
+/// An occurrence of a variable: in a row of a chain, as an angle or as a length.
 #[derive(Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
 struct Place {
     chain: usize,
@@ -21,7 +21,7 @@ struct Place {
     joint: usize,
 }
 
-/// The tree of a mechanism at a configuration, and what is said another way in it.
+/// The tree of a mechanism at a configuration, with remarks on what it expresses differently.
 pub fn tree_of(mechanism: &Mechanism, at: &Configuration<f64>) -> (Tree, Vec<Remark>) {
     let mut cutter = Cutter {
         mechanism,
@@ -50,7 +50,7 @@ pub fn tree_of(mechanism: &Mechanism, at: &Configuration<f64>) -> (Tree, Vec<Rem
     (tree, remarks)
 }
 
-/// Joint values, angles a whole turn further where that brings them within their limits.
+/// Joint values, with angles changed by full turns where that brings them within their limits.
 fn within_limits(mechanism: &Mechanism, at: &Configuration<f64>) -> Vec<f64> {
     let joints = mechanism.joints().iter().zip(&at.joints).enumerate();
     let value = |(i, (joint, &value)): (usize, (&crate::mechanism::Joint, &f64))| {
@@ -66,7 +66,7 @@ fn within_limits(mechanism: &Mechanism, at: &Configuration<f64>) -> Vec<f64> {
     joints.map(value).collect()
 }
 
-/// What can stand in XML: no control characters.
+/// A name for XML: without control characters.
 fn printable(name: &str) -> String {
     let fit = |c: char| match c {
         c if c.is_control() => '_',
@@ -79,7 +79,7 @@ fn printable(name: &str) -> String {
 struct Cutter<'a> {
     mechanism: &'a Mechanism,
     values: Vec<f64>,
-    /// Where each variable has the joint of its name; nowhere if that is on a body of its own.
+    /// For each variable the occurrence that has the joint of its name; none if the joint is on a body of its own.
     leading: HashMap<usize, Option<Place>>,
     placed: BTreeMap<Frame, Attachment>,
     couplings: Vec<Coupling>,
@@ -98,8 +98,8 @@ impl Cutter<'_> {
         self.placed.insert(frame, attachment);
     }
 
-    /// Chooses where each variable has the joint of its name: where it stands with factor 1 or −1, an angle before a
-    /// length; else on a body of its own.
+    /// Chooses the occurrence of each variable that gets the joint of its name: one with factor 1 or −1, angles
+    /// before lengths; otherwise a body of its own.
     fn lead(&mut self) -> Vec<Remark> {
         let mechanism = self.mechanism;
         let mut remarks = Vec::new();
@@ -135,7 +135,7 @@ impl Cutter<'_> {
         remarks
     }
 
-    /// The joint that bears the name of a variable.
+    /// The joint with the name of a variable.
     fn named(&self, joint: usize, sign: f64, slides: bool) -> Joint {
         let part = &self.mechanism.joints()[joint];
         let motion = if slides { Motion::Slide } else { Motion::Turn };
@@ -166,7 +166,7 @@ impl Cutter<'_> {
         }
     }
 
-    /// Chains after those they stand on.
+    /// Chains, each after the one that carries it.
     fn chains(&mut self) {
         let mechanism = self.mechanism;
         let mut waiting: Vec<usize> = (0..mechanism.chains().len()).collect();
@@ -215,7 +215,7 @@ impl Cutter<'_> {
         self.place(Frame::Tip { chain }, body, pose * dimensions.tip);
     }
 
-    /// The joint for a variable in a row; one that follows if the variable leads elsewhere.
+    /// The joint for a variable in a row; a following one if the variable's own joint is elsewhere.
     fn joint(&mut self, place: Place, factor: f64, row: &str) -> Joint {
         if self.leading[&place.joint] == Some(place) {
             return self.named(place.joint, factor, place.slides);
@@ -261,7 +261,7 @@ impl Cutter<'_> {
     }
 }
 
-/// Where variables stand in rows, with their factors.
+/// The occurrences of variables in rows, with their factors.
 fn places(mechanism: &Mechanism) -> impl Iterator<Item = (Place, f64)> {
     let chains = mechanism.dimensions().chains.iter().enumerate();
     let rows = chains.flat_map(|(chain, part)| {
@@ -289,7 +289,7 @@ fn places_in(
     })
 }
 
-/// What is said of the variables that others follow.
+/// The remarks on variables that others follow.
 fn followers(mechanism: &Mechanism, couplings: &[Coupling]) -> Vec<Remark> {
     let mut remarks = Vec::new();
     for joint in mechanism.joints() {

@@ -39,25 +39,25 @@ impl Default for ImportSettings {
 pub struct Imported {
     /// The mechanism.
     pub description: Description,
-    /// What is worth knowing about it.
+    /// Remarks.
     pub remarks: Vec<Remark>,
-    /// The names of all links and sites, by which a file of loops can speak of them.
+    /// The names of all links and sites, to which a file of loops can refer.
     pub links: Vec<String>,
 }
 
 /// Why a file of another program could not be read.
 #[derive(Debug, Error)]
 pub enum ImportError {
-    /// The file could not be opened, or is no text.
+    /// The file could not be opened, or is not text.
     #[error(transparent)]
     Unreadable(LoadError),
-    /// Something is wrong with what it says.
+    /// The file has problems.
     #[error(transparent)]
     Wrong(WrongFile),
 }
 
 impl ImportError {
-    /// Everything that is wrong, one line each: `file:line:column: what is wrong (what to do)`.
+    /// All problems, one line each: `file:line:column: problem (hint)`.
     pub fn lines(&self) -> Vec<String> {
         match self {
             ImportError::Unreadable(error) => vec![error.to_string()],
@@ -68,11 +68,11 @@ impl ImportError {
 
 /// Reads a URDF or MJCF file; MJCF with the files it includes.
 ///
-/// `loops` is the description of a file that closes loops: its closures, chains and platforms may stand on links and
-/// sites by their names, its joints say anew what role, home and limits imported ones have.
+/// `loops` is the description of a file that closes loops: its closures, chains and platforms refer to links and
+/// sites by their names, its joints override role, home and limits of the imported ones.
 ///
 /// # Errors
-/// If a file cannot be read, or with what is wrong with it.
+/// If a file cannot be read or has problems.
 pub fn load(
     path: &Path,
     loops: Option<&Description>,
@@ -92,7 +92,7 @@ pub fn load(
 /// The same for a text; `files` reads the files it includes.
 ///
 /// # Errors
-/// With what is wrong with the text.
+/// If the text has problems.
 pub fn import(
     name: &str,
     text: &str,
@@ -160,7 +160,7 @@ pub fn import(
     })
 }
 
-/// The frames of the tree that must keep their names.
+/// The frames of the tree that keep their names.
 fn asked(
     tree: &Tree,
     loops: Option<&Description>,
@@ -194,7 +194,7 @@ fn asked(
     Ok(asked)
 }
 
-/// Adds what a file of loops says; its names of links become those of frames.
+/// Adds the contents of a file of loops; its names of links become names of frames.
 fn add(description: &mut Description, loops: &Description, references: &[(String, String)]) {
     let frame = |name: &mut String| {
         if let Some((_, reference)) = references.iter().find(|(known, _)| known == name) {

@@ -11,9 +11,9 @@ use crate::description::{GROUND, first_free};
 pub(super) struct Names {
     variables: HashSet<String>,
     bodies: HashSet<String>,
-    /// The name of each platform as it was wanted.
+    /// The requested name of each platform.
     platforms: HashMap<String, String>,
-    /// The name of each frame as it was wanted.
+    /// The requested name of each frame.
     frames: HashMap<String, String>,
     renamed: Vec<(&'static str, String, String)>,
 }
@@ -39,7 +39,7 @@ impl Names {
         name
     }
 
-    /// The name of the platform that was to be called `wanted`.
+    /// The name given to the platform for which `wanted` was requested.
     pub fn of_platform(&self, wanted: &str) -> String {
         let name = self.platforms.get(wanted).cloned();
         name.unwrap_or_else(|| fit(wanted))
@@ -52,7 +52,7 @@ impl Names {
         name
     }
 
-    /// The name of the frame that was to be called `wanted`, if there is one.
+    /// The name given to the frame for which `wanted` was requested, if there is one.
     pub fn of_frame(&self, wanted: &str) -> Option<&String> {
         self.frames.get(wanted)
     }
@@ -71,7 +71,7 @@ impl Names {
         }
     }
 
-    /// What had to be called otherwise.
+    /// The items that had to be renamed.
     pub fn renamed(self) -> Vec<Remark> {
         let renamed = self.renamed.into_iter();
         renamed
@@ -80,7 +80,7 @@ impl Names {
     }
 }
 
-/// What a chain, platform or frame may be called instead of `wanted`.
+/// A valid name for a chain, platform or frame in place of `wanted`.
 pub(super) fn fit(wanted: &str) -> String {
     let name = wanted.trim().replace('.', "_");
     match name.as_str() {

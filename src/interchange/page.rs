@@ -1,4 +1,4 @@
-//! An XML text being read: its elements, and what is wrong with them.
+//! An XML text being read: its elements and their problems.
 
 use std::ops::Range;
 
@@ -8,7 +8,7 @@ use super::problem::{ImportProblem, ImportProblemKind};
 use crate::description::{Lines, nearest};
 use crate::geometry::{Axis, Pose, Vector3};
 
-/// How deep elements may stand in one another: readers of the formats call themselves for each level.
+/// The largest depth of nested elements: readers of the formats recurse for each level.
 const MOST_LEVELS: usize = 400;
 
 /// Problems gathered while a text is read.
@@ -19,12 +19,12 @@ pub(super) fn document(text: &str) -> Result<Document<'_>, ImportProblem> {
     if text.trim_start_matches('\u{feff}').trim().is_empty() {
         return Err(ImportProblemKind::Empty.anywhere());
     }
-    // the reader calls itself for each level too
+    // the reader recurses for each level too
     check_depth(text)?;
     let document = Document::parse(text).map_err(|error| {
         let position = error.pos();
         let message = error.to_string();
-        // the place is said beside the text
+        // the position is reported separately from the text
         let message = match message.rfind(" at ") {
             Some(end) if message[end..].contains(':') => message[..end].to_owned(),
             _ => message,
@@ -35,7 +35,7 @@ pub(super) fn document(text: &str) -> Result<Document<'_>, ImportProblem> {
     Ok(document)
 }
 
-/// Counts tags that open and close, near enough to bound the depth.
+/// Counts opening and closing tags, accurately enough to bound the depth.
 fn check_depth(text: &str) -> Result<(), ImportProblem> {
     let bytes = text.as_bytes();
     let mut depth: usize = 0;
@@ -214,7 +214,7 @@ impl Problems {
         None
     }
 
-    /// A name that nothing bears, in an attribute.
+    /// An unknown name in an attribute.
     pub fn unknown(
         &mut self,
         node: Node,
@@ -233,7 +233,7 @@ impl Problems {
     }
 }
 
-/// As many finite numbers as asked for.
+/// The given number of finite numbers.
 pub(super) fn parse<const N: usize>(text: &str) -> Option<[f64; N]> {
     let numbers = text
         .split_whitespace()

@@ -1,4 +1,4 @@
-//! What can be wrong with a file of another program, and the words for it.
+//! Problems of a file of another program, and their words.
 
 use std::ops::Range;
 
@@ -6,7 +6,7 @@ use thiserror::Error;
 
 use crate::description::{Lines, listed};
 
-/// Something wrong with a file of another program, and where.
+/// A problem of a file of another program, with its place.
 #[derive(Clone, Debug, Error, PartialEq)]
 #[error("{kind}")]
 pub struct ImportProblem {
@@ -16,18 +16,18 @@ pub struct ImportProblem {
     pub span: Option<Range<usize>>,
 }
 
-/// A file, those it includes, and everything that is wrong with them.
+/// A file, the files it includes, and all their problems.
 #[derive(Clone, Debug, Error, PartialEq)]
 #[error("{}", self.lines().join("\n"))]
 pub struct WrongFile {
-    /// Names and texts; the first is the file that was asked for.
+    /// Names and texts; the first is the main file.
     pub files: Vec<(String, String)>,
-    /// What is wrong, with the file it is wrong in.
+    /// The problems, each with the index of its file.
     pub problems: Vec<(usize, ImportProblem)>,
 }
 
 impl WrongFile {
-    /// Everything that is wrong, one line each: `file:line:column: what is wrong (what to do)`.
+    /// All problems, one line each: `file:line:column: problem (hint)`.
     pub fn lines(&self) -> Vec<String> {
         let line = |(file, problem): &(usize, ImportProblem)| {
             let (name, text) = &self.files[*file];
@@ -44,7 +44,7 @@ impl WrongFile {
     }
 }
 
-/// What can be wrong, in one line each.
+/// The kinds of problems, in one line each.
 #[derive(Clone, Debug, Error, PartialEq)]
 #[allow(missing_docs)]
 pub enum ImportProblemKind {
@@ -52,7 +52,7 @@ pub enum ImportProblemKind {
     Syntax { message: String },
     #[error("the file is empty")]
     Empty,
-    #[error("elements stand more than {most} levels deep in one another")]
+    #[error("elements are nested more than {most} levels deep")]
     TooDeep { most: usize },
     #[error("the outermost element is `{found}`, not {}", or(expected))]
     NotThisFormat {
@@ -65,10 +65,10 @@ pub enum ImportProblemKind {
     /// An attribute or element that must be there is not.
     #[error("`{element}` has no {needs}")]
     Missing { element: String, needs: String },
-    /// A text that is not as many finite numbers as it should be.
+    /// A text that does not consist of the right number of finite numbers.
     #[error("`{text}` is not {}", numbers(*count))]
     NotNumbers { text: String, count: usize },
-    #[error("`{word}` is not known here")]
+    #[error("unknown word `{word}`")]
     UnknownWord {
         word: String,
         known: &'static [&'static str],
@@ -91,22 +91,19 @@ pub enum ImportProblemKind {
         example: &'static str,
     },
     /// A quaternion or a pair of axes that gives no orientation.
-    #[error("`{text}` gives no orientation")]
+    #[error("`{text}` does not define an orientation")]
     NoOrientation { text: String },
     #[error("joints `{}` and `{}` both lead to link `{link}`", joints[0], joints[1])]
     TwoParents { link: String, joints: [String; 2] },
-    #[error(
-        "every link hangs on another one: {} stand on themselves",
-        quoted(links)
-    )]
+    #[error("no link is the root: {} form a cycle", quoted(links))]
     NoRoot { links: Vec<String> },
-    #[error("{} hang on no link and are not joined", quoted(links))]
+    #[error("{} have no parent and are not connected", quoted(links))]
     SeveralRoots { links: Vec<String> },
-    #[error("{} stand on themselves", quoted(links))]
+    #[error("{} form a cycle", quoted(links))]
     Cycle { links: Vec<String> },
-    #[error("joint `{joint}` follows two others")]
+    #[error("joint `{joint}` follows two other joints")]
     FollowsTwo { joint: String },
-    #[error("joint `{joint}` follows itself by way of others")]
+    #[error("joint `{joint}` follows itself through other joints")]
     FollowsItself { joint: String },
     #[error("keyframe `{name}` has {found} values, the joints have {expected}")]
     WrongKeyframe {
@@ -116,10 +113,10 @@ pub enum ImportProblemKind {
     },
     #[error("`{file}` cannot be included: {reason}")]
     NotIncluded { file: String, reason: String },
-    /// The words of the reader of the format.
+    /// The message of the reader of the format.
     #[error("the file cannot be read: {message}")]
     Reader { message: String },
-    /// A number beyond all that a mechanism can have.
+    /// A number larger than any mechanism can have.
     #[error("the numbers of `{of}` are too large")]
     TooLarge { of: String },
     #[error("nothing in the file moves")]
@@ -132,7 +129,7 @@ impl ImportProblemKind {
         self.to_string()
     }
 
-    /// What to do about it.
+    /// A hint on how to correct it.
     pub fn help(&self) -> Option<String> {
         let help = match self {
             Self::Syntax { .. } | Self::Reader { .. } => return None,
@@ -140,17 +137,19 @@ impl ImportProblemKind {
             Self::NotNumbers { count, .. } => {
                 let example = ["0.5"].repeat(*count).join(" ");
                 return Some(format!(
-                    "write {count} numbers with spaces between, such as \"{example}\""
+                    "write {count} numbers separated by spaces, such as \"{example}\""
                 ));
             }
-            Self::UnknownWord { known, .. } => return Some(format!("known are {}", or(known))),
+            Self::UnknownWord { known, .. } => {
+                return Some(format!("possible words are {}", or(known)));
+            }
             Self::Unknown { suggestion, .. } => {
                 return Some(format!("did you mean `{}`?", suggestion.as_ref()?));
             }
             Self::NoAxis { example, .. } => {
                 return Some(format!("give the axis a direction, such as {example}"));
             }
-            Self::TooDeep { .. } => "no mechanism is that deep",
+            Self::TooDeep { .. } => "remove the nesting",
             Self::Empty | Self::NotThisFormat { .. } => {
                 "linkwork reads URDF, which begins with `robot`, and MJCF, which begins with `mujoco`"
             }
@@ -162,21 +161,21 @@ impl ImportProblemKind {
                 "give numbers that are not all 0, and axes that are not parallel"
             }
             Self::TwoParents { .. } => {
-                "a tree has one joint for each link: leave one of them out, and close the loop with \
+                "a tree has one joint for each link: remove one of them, and close the loop with \
                  `loop_joint` or with --loops"
             }
             Self::NoRoot { .. } | Self::Cycle { .. } => {
-                "leave out one joint of the circle, and close the loop with `loop_joint` or with --loops"
+                "remove one joint of the cycle, and close the loop with `loop_joint` or with --loops"
             }
             Self::SeveralRoots { .. } => {
-                "join them to one link, with fixed joints if they do not move"
+                "connect them to one link, with fixed joints if they do not move"
             }
-            Self::FollowsTwo { .. } => "leave one of them out",
-            Self::FollowsItself { .. } => "let one of the joints follow none",
+            Self::FollowsTwo { .. } => "remove one of them",
+            Self::FollowsItself { .. } => "let one of these joints follow no other",
             Self::WrongKeyframe { .. } => {
                 "give one value for each hinge and slide, 4 for a ball, 7 for a free joint"
             }
-            Self::NotIncluded { .. } => "put the file there, or its content here",
+            Self::NotIncluded { .. } => "put the file there, or its contents here",
             Self::TooLarge { .. } => "lengths are in m and angles in rad",
             Self::NothingMoves => "a mechanism needs a joint that is not fixed",
         };

@@ -1,16 +1,16 @@
-//! What a file of another program cannot say, or says another way.
+//! Remarks on what a file of another program cannot express, or expresses differently.
 
 use thiserror::Error;
 
 use crate::description::{ClosureKind, count as count_of, listed};
 
-/// What is worth knowing about a file that was read or written: a warning, in one line.
+/// A remark on a file that was read or written, in one line.
 #[derive(Clone, Debug, Error, PartialEq)]
 #[allow(missing_docs)]
 pub enum Remark {
     /// URDF has trees only.
     #[error(
-        "closure `{closure}` is left out: URDF cannot say that `{}` and `{}` are joined ({})",
+        "closure `{closure}` is left out: URDF cannot express the closure of `{}` and `{}` ({})",
         frames[0], frames[1], kind.word()
     )]
     ClosureLost {
@@ -18,7 +18,7 @@ pub enum Remark {
         kind: ClosureKind,
         frames: [String; 2],
     },
-    /// A joint variable that only changes the length of closures which are lost.
+    /// A joint variable that only changes the length of lost closures.
     #[error(
         "joint `{joint}` is left out: it is the length of {}",
         quoted(closures)
@@ -27,45 +27,47 @@ pub enum Remark {
         joint: String,
         closures: Vec<String>,
     },
-    #[error("platform `{platform}` hangs on a floating joint, which many readers of URDF ignore")]
+    #[error(
+        "platform `{platform}` is attached by a floating joint, which many URDF readers ignore"
+    )]
     Floating { platform: String },
-    #[error("platform `{platform}` is fixed to `{frame}`, as closure `{closure}` says")]
+    #[error("platform `{platform}` is fixed to `{frame}` because of closure `{closure}`")]
     Fixed {
         platform: String,
         closure: String,
         frame: String,
     },
-    /// Every joint is at 0 in a URDF file; these are not at home.
+    /// Every joint starts at 0 in a URDF file; the home values of these joints are not 0.
     #[error(
-        "URDF has no home configuration: the home {} of {} {} lost, and readers start with 0",
+        "URDF has no home configuration: the home {} of {} {} lost, and readers start at 0",
         if joints.len() == 1 { "value" } else { "values" },
         quoted(joints),
         if joints.len() == 1 { "is" } else { "are" }
     )]
     HomeLost { joints: Vec<String> },
     #[error(
-        "joint `{joint}` turns and slides: {} for the rest of its motion",
+        "joint `{joint}` is helical: {} for the second part of its motion",
         follow(followers)
     )]
     Helical {
         joint: String,
         followers: Vec<String>,
     },
-    /// A variable that stands in several places or with a factor.
+    /// A variable that occurs several times or with a factor.
     #[error("joint `{joint}` moves several rows: {}", follow(followers))]
     Shared {
         joint: String,
         followers: Vec<String>,
     },
     #[error(
-        "joint `{joint}` moves no row by its own value: it is the joint of a body `{body}` on the ground"
+        "no row has joint `{joint}` with factor 1: it moves an added body `{body}` on the ground"
     )]
     Carried { joint: String, body: String },
     #[error("joint `{joint}` is left out: it moves nothing")]
     Unused { joint: String },
-    /// A sliding joint of URDF must have limits; the limit is in m.
+    /// A prismatic joint of URDF must have limits; the limit is in m.
     #[error(
-        "URDF asks for limits of sliding joints: {} may slide by {limit} m to both sides",
+        "URDF requires limits for prismatic joints: {} may slide by {limit} m in both directions",
         quoted(joints)
     )]
     LimitsInvented { joints: Vec<String>, limit: f64 },
@@ -79,18 +81,18 @@ pub enum Remark {
         kind: ClosureKind,
         joints: Vec<String>,
     },
-    #[error("closure `{closure}` is a distance of 0 m: it is written as a common point")]
+    #[error("closure `{closure}` has the distance 0 m: it is written as a common point")]
     ZeroDistance { closure: String },
-    #[error("masses, inertias, efforts and shapes are made up: the mechanism file has none")]
+    #[error("masses, inertias, efforts and shapes are placeholders: the mechanism file has none")]
     MassesInvented,
-    /// Elements of a file that linkwork has no use for.
+    /// Elements of a file that linkwork does not use.
     #[error("{} ignored: `{element}`", count_of(*count, "element"))]
     Ignored { element: String, count: usize },
-    /// How it was decided which joints are actuated.
+    /// The rule that decided which joints are actuated.
     #[error("{0}")]
     Driven(&'static str),
     #[error(
-        "links `{}` and `{}` look like the two sides of a broken joint: close it with --loops",
+        "links `{}` and `{}` look like the two halves of a cut joint: close it with --loops",
         _0[0], _0[1]
     )]
     Halves([String; 2]),
@@ -100,14 +102,14 @@ pub enum Remark {
     Inactive { name: String },
     /// A name that a mechanism file cannot use.
     #[error(
-        "{noun} `{from}` is called `{to}`: names of frames have no dots, those of joints only letters, digits and `_`"
+        "{noun} `{from}` is renamed `{to}`: names of frames have no dots, names of joints only letters, digits and `_`"
     )]
     Renamed {
         noun: &'static str,
         from: String,
         to: String,
     },
-    /// Where the home values come from.
+    /// The origin of the home values.
     #[error("{0}")]
     Home(String),
 }

@@ -1,4 +1,4 @@
-//! Bodies joined into a tree, and the loops that close it: what URDF, MJCF and a mechanism have in common.
+//! Bodies in a tree with the loops that close it: the common ground of URDF, MJCF and a mechanism.
 
 use crate::description::ClosureKind;
 use crate::geometry::{Pose, Rotation, Vector3};
@@ -10,9 +10,9 @@ pub enum Motion {
     Turn,
     /// Along its axis by a length in m.
     Slide,
-    /// About its point, any way.
+    /// About its point in any direction.
     Ball,
-    /// Any way at all.
+    /// Without restriction.
     Free,
 }
 
@@ -23,11 +23,11 @@ pub struct Joint {
     pub name: String,
     /// How it moves.
     pub motion: Motion,
-    /// The direction of its axis in the body, of length 1; of no meaning where there is none.
+    /// The unit direction of its axis in the body; meaningless if it has no axis.
     pub axis: Vector3<f64>,
     /// A point of the axis in the body (m).
     pub point: Vector3<f64>,
-    /// The value at which the body stands where [`Body::pose`] says.
+    /// The value at which the body has the pose [`Body::pose`].
     pub reference: f64,
     /// The value at home, in rad or m.
     pub home: f64,
@@ -42,7 +42,7 @@ pub struct Joint {
 pub struct Body {
     /// Its name.
     pub name: String,
-    /// The body it hangs on, before it in the list; only the first has none, and it is fixed.
+    /// Its parent, earlier in the list; only the first body has none, and it is fixed.
     pub parent: Option<usize>,
     /// Parent from body where every joint between them has its reference value; positions in m.
     pub pose: Pose<f64>,
@@ -61,7 +61,7 @@ pub struct Coupling {
     pub joint: String,
     /// The joint that leads.
     pub leader: String,
-    /// What a unit of the leader moves the follower by.
+    /// The motion of the follower for a unit of the leader.
     pub factor: f64,
     /// The follower's value where the leader's is 0.
     pub offset: f64,
@@ -78,7 +78,7 @@ pub struct Attachment {
     pub pose: Pose<f64>,
 }
 
-/// A length that joints may change: `constant + Σ factor · joint` (m).
+/// A length that may depend on joints: `constant + Σ factor · joint` (m).
 #[derive(Clone, Debug, PartialEq)]
 pub struct Extent {
     /// The part that does not change.
@@ -103,7 +103,7 @@ pub struct Loop {
 /// Bodies joined into a tree, and the loops that close it.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Tree {
-    /// What it is called.
+    /// Its name.
     pub name: String,
     /// The bodies, parents before their children; the first is the ground.
     pub bodies: Vec<Body>,
@@ -111,7 +111,7 @@ pub struct Tree {
     pub couplings: Vec<Coupling>,
     /// The loops.
     pub loops: Vec<Loop>,
-    /// A length in m that is typical of the bodies.
+    /// A typical length of the bodies in m.
     pub size: f64,
 }
 

@@ -1,9 +1,9 @@
 //! A tree of bodies and its loops → the description of a mechanism.
 //!
 //! Bodies that move one after the other without a branch become one chain; its table is placed on the joint axes by
-//! [`SerialAxes`], at the reference values of the joints. At a branch a new chain stands on a link of the chain before.
+//! [`SerialAxes`], at the reference values of the joints. At a branch a new chain is attached to a link of the previous chain.
 //! Bodies with a ball or free joint become platforms, a ball joint a spherical closure. Bodies that do not move
-//! against their parent are parts of it. A frame that is asked for becomes the tip of its chain, or, if that is taken,
+//! against their parent are parts of it. A requested frame becomes the tip of its chain, or, if the chain has one already,
 //! a chain without rows.
 
 mod closures;
@@ -26,11 +26,11 @@ use crate::description::{
 use crate::geometry::{Line, Pose};
 use crate::mechanism::{JointAxis, SerialAxes, Table};
 
-/// A description and what is worth knowing about it.
+/// A description with remarks.
 pub(super) struct Unrolled {
     pub description: Description,
     pub remarks: Vec<Remark>,
-    /// What the frames that were asked for are called.
+    /// The names of the requested frames.
     pub references: Vec<(String, String)>,
 }
 
@@ -118,7 +118,7 @@ type Floating = (usize, Named<PlatformDescription>);
 type Platforms = Vec<Named<PlatformDescription>>;
 type Closures = Vec<Named<ClosureDescription>>;
 
-/// Whether nothing is lost when a pose is left out.
+/// Whether a pose can be left out because it is the identity.
 fn is_identity(pose: &Pose<f64>) -> bool {
     Displacement::of_pose(pose).is_empty()
 }
@@ -139,7 +139,7 @@ impl Unroller<'_> {
         (*carrier, *pose * side.pose)
     }
 
-    /// Names for the frames of loops and those asked for.
+    /// Names for the frames of loops and the requested frames.
     fn needs(&mut self, asked: &[String]) {
         let mut found = Vec::new();
         for name in asked {
@@ -209,7 +209,7 @@ impl Unroller<'_> {
         if let Some((name, _, pose)) = self.needs.iter().find(|(_, carrier, _)| *carrier == last) {
             return (name.clone(), *pose);
         }
-        // the last of the parts fixed to the link, where there is one that none hangs on
+        // the last of the parts fixed to the link that has no children, if any
         let fixed = (last + 1..self.tree.bodies.len()).filter(|&i| self.carriers[i].0 == last);
         let fixed: Vec<usize> = fixed.collect();
         let hung: HashSet<_> = self.tree.bodies.iter().map(|body| body.parent).collect();
@@ -220,7 +220,7 @@ impl Unroller<'_> {
 
     fn chain(&mut self, on: usize, links: &[usize]) {
         let tree = self.tree;
-        // the axis of a slide has no place: that of a first one is put where its body is
+        // a prismatic axis has no position: the first one is placed at its body
         let first = &tree.bodies[links[0]].joints[0];
         let seen_from = match first.motion {
             Motion::Slide => self.zero[links[0]],
@@ -230,7 +230,7 @@ impl Unroller<'_> {
         let mut joints = Vec::new();
         for &link in links {
             let body = &tree.bodies[link];
-            // a joint carries those after it; at the references all stand where the body does
+            // a joint carries those after it; at the references all coincide with the body
             for joint in &body.joints {
                 let pose = zero(link);
                 let line = Line::new(pose * joint.point, pose.rotation * joint.axis);
@@ -268,7 +268,7 @@ impl Unroller<'_> {
         self.chains.push(Named::new(name, chain));
     }
 
-    /// The frame that a chain stands on, and the pose of its first frame there.
+    /// The frame to which a chain is attached, and the pose of its first frame there.
     fn standing(&self, on: usize, base: Pose<f64>) -> (String, Pose<f64>) {
         match self.places.get(&on) {
             Some(Placed { chain, row, frame }) => {
@@ -296,7 +296,7 @@ impl Unroller<'_> {
         rows.collect()
     }
 
-    /// constant + coefficient · joint, where a joint that follows is what it follows.
+    /// constant + coefficient · joint, with a following joint replaced by its leader.
     fn affine(
         &self,
         entry: fn(f64) -> Entry,

@@ -10,7 +10,7 @@ use crate::geometry::{Pose, Quaternion, Vector3};
 /// Text of nested elements.
 pub(super) struct Xml(Writer<Vec<u8>>);
 
-/// What writing into memory promises.
+/// Writing into memory cannot fail.
 const IN_MEMORY: &str = "memory can be written to";
 
 impl Xml {
@@ -66,7 +66,7 @@ pub(super) fn vector(v: &Vector3<f64>) -> String {
     numbers(v.0)
 }
 
-/// `pos` and `quat`, unless they say nothing.
+/// `pos` and `quat`, unless they are the identity.
 pub(super) fn place(pose: &Pose<f64>) -> Vec<(&'static str, String)> {
     let mut attributes = Vec::new();
     if pose.position.0.iter().any(|x| *x != 0.0) {

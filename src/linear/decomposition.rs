@@ -123,7 +123,8 @@ pub fn norm(a: &[f64]) -> f64 {
     dot(a, a).sqrt()
 }
 
-fn add(x: &mut [f64], factor: f64, y: &[f64]) {
+/// x ← x + factor·y.
+pub fn add(x: &mut [f64], factor: f64, y: &[f64]) {
     x.iter_mut().zip(y).for_each(|(x, y)| *x += factor * y);
 }
 

@@ -266,33 +266,27 @@ mod tests {
             qr.rotate(&mut b);
             qr.back_substitute(&mut b, &mut x);
             for j in 0..3 {
-                assert!(
-                    (x[j] - solution[j]).norm_squared().greatest() < 1e-26,
-                    "{x:?}"
-                );
+                let error = (x[j] - solution[j]).norm_squared().greatest();
+                assert!(error < 1e-26, "{x:?}");
             }
         }
         let real = |i: usize, j: usize| ((3 * i + 5 * j + i * j * j) % 7) as f64 - 2.5;
         check(real, [1.0, -2.0, 0.5]);
-        check(
-            |i, j| Complex::new(real(i, j), real(j + 1, i)),
-            [
-                Complex::new(1.0, 2.0),
-                Complex::new(-0.5, 0.1),
-                Complex::new(0.0, 3.0),
-            ],
-        );
+        let solution = [(1.0, 2.0), (-0.5, 0.1), (0.0, 3.0)];
+        let solution = solution.map(|(re, im)| Complex::new(re, im));
+        check(|i, j| Complex::new(real(i, j), real(j + 1, i)), solution);
     }
 
     #[test]
     fn a_repeated_column_lowers_the_rank_and_its_unknown_stays_zero() {
-        let mut qr = example(|i, j| {
+        let entry = |i: usize, j: usize| {
             if j == 0 {
                 i as f64
             } else {
                 1.0 + (i * i) as f64
             }
-        });
+        };
+        let mut qr = example(entry);
         qr.factorise(0.0);
         assert_eq!(qr.rank(), 2);
         let mut b = [1.0, 3.0, 7.0, 13.0];

@@ -1,4 +1,4 @@
-//! From a well-formed description to a meaningful mechanism, or to all that is wrong with it.
+//! From a well-formed description to a valid mechanism, or to all problems in it.
 
 mod closed_form;
 mod closures;
@@ -8,20 +8,20 @@ mod parameters;
 use std::collections::HashSet;
 use std::path::Path;
 
-use super::model::{Chain, FixedStep, Joint, JointKind, Platform, Row};
+use super::model::{Chain, FixedStep, Formula, Joint, JointKind, Platform, Row};
 use super::names::{Names, definition_order};
 use super::{Frame, Mechanism, inspect};
 use crate::algebra::Measure;
-use crate::description::{self, Description, Displacement, Draft, Named, Note};
+use crate::description::{self, Description, Displacement, Draft, Named};
 use crate::description::{FileError, LoadError, Problem, ProblemKind, Severity};
-use crate::geometry::{Axis, Pose};
+use crate::geometry::Pose;
 
 /// A chain as far as it could be resolved.
 struct Draughted {
     name: String,
     doubtful: bool,
     on: Option<Frame>,
-    /// Whether it stands, by way of others, on itself.
+    /// Whether it is attached to itself through other chains.
     in_ring: bool,
     convention: description::Convention,
     base: Vec<FixedStep>,
@@ -47,11 +47,11 @@ impl Draughted {
 pub(super) struct Builder<'a> {
     pub names: Names<'a>,
     pub problems: Vec<Problem>,
-    /// The values of the parameters; NaN where one is not known.
+    /// The values of the parameters; NaN where one is unknown.
     pub values: Vec<f64>,
-    /// What the parameters measure.
+    /// The dimensions of the parameters: length, angle or none.
     pub measures: Vec<Measure>,
-    /// Names that may stand for something else than they seem to; what uses them is not judged.
+    /// Names whose meaning is uncertain after an error; expressions that use them are not checked further.
     doubtful: &'a HashSet<String>,
 }
 
@@ -59,7 +59,7 @@ impl Mechanism {
     /// Reads a mechanism file.
     ///
     /// # Errors
-    /// If the file cannot be read, or with everything that is wrong with it.
+    /// If the file cannot be read, or has problems; then with all of them.
     pub fn load(path: impl AsRef<Path>) -> Result<Self, LoadError> {
         let (text, description) = Mechanism::read(&path)?;
         Mechanism::new(&description).map_err(|problems| {
@@ -74,7 +74,7 @@ impl Mechanism {
     /// Reads a mechanism file as a description, to be changed before it becomes a mechanism. Returns its text too.
     ///
     /// # Errors
-    /// If the file cannot be read or its form is wrong; then with everything that is wrong with it.
+    /// If the file cannot be read or is not well formed; then with all its problems.
     pub fn read(path: impl AsRef<Path>) -> Result<(String, Description), LoadError> {
         description::load(path).map_err(|error| match error {
             LoadError::Wrong(mut error) => {
@@ -85,8 +85,8 @@ impl Mechanism {
         })
     }
 
-    /// Everything that is wrong with the text of a mechanism file, in its form and in its meaning, in the order of
-    /// the text; nothing if it describes a mechanism.
+    /// All problems in the text of a mechanism file, of form and of meaning, in the order of the text; empty if it
+    /// describes a mechanism.
     pub fn problems(text: &str) -> Vec<Problem> {
         let draft = match Draft::read(text) {
             Ok(draft) => draft,
@@ -126,8 +126,7 @@ impl Mechanism {
         let closures = builder.closures(description, &chains);
         let closed_forms = builder.closed_forms(description);
         if description.chains.is_empty() && description.platforms.is_empty() {
-            let problem = ProblemKind::NothingToAnalyse.at(description.name.span.clone());
-            builder.problems.push(problem);
+            builder.refuse(ProblemKind::NothingToAnalyse, &description.name.span);
         }
         let mut mechanism = Mechanism {
             name: description.name.value.clone(),
@@ -151,14 +150,11 @@ impl Mechanism {
             match mechanism.dimensions_over(&builder.values) {
                 Ok(dimensions) => mechanism.dimensions = dimensions,
                 // the parts were evaluated one by one above; only their combination can fail
-                Err(error) => builder
-                    .problems
-                    .push(ProblemKind::NoValue(error.kind).at(error.span)),
+                Err(error) => builder.refuse(ProblemKind::NoValue(error.kind), &error.span),
             }
         }
-        builder
-            .problems
-            .sort_by_key(|problem| (problem.span.start, problem.span.end));
+        let problems = &mut builder.problems;
+        problems.sort_by_key(|problem| (problem.span.start, problem.span.end));
         if builder.problems.iter().any(refused) {
             return Err(builder.problems);
         }
@@ -176,14 +172,12 @@ impl Builder<'_> {
                 let (low, high) = (self.constant(low), self.constant(high));
                 Some((low?.1, high?.1))
             });
-            let joint = name.value.clone();
-            if let Some((low, high)) = limits.filter(|(low, high)| low > high) {
-                let span = value
-                    .limits
-                    .as_ref()
-                    .map_or(name.span.clone(), |(l, h)| l.span.start..h.span.end);
+            if let (Some((low, high)), Some((l, h))) = (limits, &value.limits)
+                && low > high
+            {
+                let joint = name.value.clone();
                 let kind = ProblemKind::LimitsReversed { joint, low, high };
-                self.problems.push(kind.at(span));
+                self.refuse(kind, &(l.span.start..h.span.end));
             }
             // a joint with a problem still counts, so that the indices of the others stay right
             joints.push(Joint {
@@ -200,38 +194,33 @@ impl Builder<'_> {
     fn fixed(&mut self, displacements: &[Displacement]) -> Vec<FixedStep> {
         let mut steps = Vec::new();
         for displacement in displacements {
-            let axis = |axis: &description::Axis| match axis {
-                description::Axis::X => Axis::X,
-                description::Axis::Y => Axis::Y,
-                description::Axis::Z => Axis::Z,
+            let measure = match displacement {
+                Displacement::Rotate(..) => Measure::Angle,
+                _ => Measure::Length,
             };
-            let step = match displacement {
-                Displacement::Translate(along, entry) => self
-                    .measured(entry, Measure::Length)
-                    .map(|(f, _)| FixedStep::Translate(axis(along), f)),
-                Displacement::Rotate(about, entry) => self
-                    .measured(entry, Measure::Angle)
-                    .map(|(f, _)| FixedStep::Rotate(axis(about), f)),
-                Displacement::TranslateBy(entries) => {
-                    let [x, y, z] = [0, 1, 2].map(|i| self.measured(&entries[i], Measure::Length));
-                    match (x, y, z) {
-                        (Some((x, _)), Some((y, _)), Some((z, _))) => {
-                            Some(FixedStep::TranslateBy([x, y, z]))
-                        }
-                        _ => None,
+            let entries = displacement.entries().iter();
+            let formulas: Vec<Option<Formula>> = entries
+                .map(|entry| Some(self.measured(entry, measure)?.0))
+                .collect();
+            let formulas: Option<Vec<Formula>> = formulas.into_iter().collect();
+            steps.extend(formulas.and_then(|formulas| {
+                let mut formulas = formulas.into_iter();
+                let mut next = || formulas.next();
+                Some(match displacement {
+                    Displacement::Translate(along, _) => FixedStep::Translate(*along, next()?),
+                    Displacement::Rotate(about, _) => FixedStep::Rotate(*about, next()?),
+                    Displacement::TranslateBy(_) => {
+                        FixedStep::TranslateBy([next()?, next()?, next()?])
                     }
-                }
-            };
-            steps.extend(step);
+                })
+            }));
         }
         steps
     }
 
     fn frame(&mut self, name: &description::Spanned<String>) -> Option<Frame> {
         let found = self.names.frame(&name.value);
-        found
-            .map_err(|kind| self.problems.push(kind.at(name.span.clone())))
-            .ok()
+        found.map_err(|kind| self.refuse(kind, &name.span)).ok()
     }
 
     fn chains(&mut self, description: &Description) -> Vec<Draughted> {
@@ -279,7 +268,7 @@ impl Builder<'_> {
         chains
     }
 
-    /// Chains may stand on one another, but not in a ring.
+    /// Chains may be attached to one another, but not in a cycle.
     fn check_mounting(&mut self, description: &Description, chains: &mut [Draughted]) {
         let uses: Vec<Vec<usize>> = (chains.iter())
             .map(|chain| match chain.on {
@@ -289,18 +278,11 @@ impl Builder<'_> {
             .collect();
         for cycle in definition_order(&uses).cycles {
             let names = cycle.iter().map(|&i| chains[i].name.clone()).collect();
-            let place = |i: usize| {
-                let chain = &description.chains[i];
-                chain
-                    .value
-                    .on
-                    .as_ref()
-                    .map_or(chain.name.span.clone(), |on| on.span.clone())
-            };
-            let problem = ProblemKind::ChainCycle { names }.at(place(cycle[0]));
-            let rest = cycle[1..].iter().map(|&i| place(i));
-            let problem = rest.fold(problem, |problem, span| problem.with(span, Note::ThenHere));
-            self.problems.push(problem);
+            let places = cycle.iter().map(|&i| {
+                let Named { name, value } = &description.chains[i];
+                value.on.as_ref().map_or(&name.span, |on| &on.span).clone()
+            });
+            self.refuse_cycle(ProblemKind::ChainCycle { names }, places);
             cycle.iter().for_each(|&i| chains[i].in_ring = true);
         }
     }

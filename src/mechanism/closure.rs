@@ -1,7 +1,7 @@
 //! Residuals of the eight closures and their derivatives along twists: the only copy of either.
 //!
 //! With A and B the two frames, a, b their axes in ground, g = p_B − p_A, and L the characteristic
-//! length, a closure is made of these rows, all dimensionless and zero when the joint is whole:
+//! length, a closure consists of these rows, all dimensionless and zero when the joint is closed:
 //!
 //! | rows | residual | derivative along a relative twist (ω, v) |
 //! |---|---|---|
@@ -30,12 +30,12 @@ pub(crate) const MOST_ROWS: usize = 6;
 /// A closure ready for evaluation.
 #[derive(Clone, Debug)]
 pub struct Closure<T> {
-    /// The joint it restores.
+    /// The joint that it restores.
     pub kind: ClosureKind,
     slots: [Slot; 2],
     /// The joints that move side A and side B.
     pub(crate) movers: [Vec<Mover<T>>; 2],
-    /// The platforms that sides A and B stand on.
+    /// The platforms that carry sides A and B.
     pub(crate) platforms: [Option<usize>; 2],
     length: T,
     extension: LinearForm<T>,
@@ -48,6 +48,16 @@ pub struct Closure<T> {
 pub(crate) enum Side {
     A,
     B,
+}
+
+impl Side {
+    #[inline(always)]
+    fn sign(self) -> f64 {
+        match self {
+            Side::A => -1.0,
+            Side::B => 1.0,
+        }
+    }
 }
 
 /// The rows of a closure at a configuration: residuals and the wrenches that measure twists.
@@ -65,7 +75,7 @@ pub(crate) struct Rows<T> {
     inverse_length: f64,
 }
 
-/// How much of the poses of its two frames the rows of a closure are made from.
+/// How much of the poses of its two frames the rows of a closure use.
 pub(crate) fn needs(kind: ClosureKind) -> [Need; 2] {
     match kind {
         ClosureKind::Spherical | ClosureKind::Distance => [Need::Position; 2],
@@ -101,7 +111,7 @@ impl<T: Number> Closure<T> {
         }
     }
 
-    /// The joints that stand in the length of a `Distance`, with the derivative of its residual for
+    /// The joint variables that occur in the length of a `Distance`, with the derivative of its residual for
     /// a unit of the scaled variable: −s cⱼ/L².
     pub(crate) fn length_column(&self, joint: usize, at: &Configuration<T>) -> T {
         let length = self.length + self.extension.at(&at.joints);
@@ -109,18 +119,15 @@ impl<T: Number> Closure<T> {
         -(length * self.extension.coefficient(joint)).scale(factor)
     }
 
-    /// The joints whose variables the closure feels, without repetition.
+    /// The joints whose variables affect the closure, without repetition.
     pub(crate) fn joints(&self) -> Vec<usize> {
         let moved = self.movers.iter().flatten().map(|mover| mover.joint);
-        let mut joints: Vec<usize> = moved
-            .chain(self.extension.0.iter().map(|(j, _)| *j))
-            .collect();
-        joints.sort_unstable();
-        joints.dedup();
-        joints
+        let extending = self.extension.0.iter().map(|(joint, _)| *joint);
+        let joints: std::collections::BTreeSet<usize> = moved.chain(extending).collect();
+        joints.into_iter().collect()
     }
 
-    /// Whether a joint stands in the length of the closure.
+    /// Whether a joint variable occurs in the length of the closure.
     pub(crate) fn extends_with(&self, joint: usize) -> bool {
         self.extension.0.iter().any(|(j, _)| *j == joint)
     }
@@ -152,47 +159,37 @@ impl<T: Number> Closure<T> {
                 out[0] = rows.residual[0];
             }
             _ => {
-                // taken out whole, so that the wrenches nobody reads are not computed
+                // extracted as a whole, so that unused wrenches are not computed
                 let residual = self.rows(placement, at).residual;
                 out.copy_from_slice(&residual[..out.len()]);
             }
         }
     }
 
-    /// What vanishes where the joint is whole, without the denominators and factors that make residuals well scaled:
+    /// Quantities that vanish where the joint is closed, without the denominators and factors that scale residuals:
     /// of a residual n/d the numerator n. The flipped joint, at which d vanishes, is not excluded by it.
     pub(crate) fn conditions(&self, placement: &Placement<T>, joints: &[T]) -> Vec<T> {
         let [a, b] = self.frames(placement);
         let gap = b.position - a.position;
         let point = || gap.0.to_vec();
-        let offsets = |axes: &[Vector3<T>]| axes.iter().map(|axis| axis.dot(&gap)).collect();
-        let (mut conditions, more): (Vec<T>, Vec<T>) = match self.kind {
-            ClosureKind::Spherical => (point(), vec![]),
-            ClosureKind::Revolute => (point(), misalignment(a, b).0.to_vec()),
-            ClosureKind::Universal => {
-                let (az, bz) = (a.rotation.0[2], b.rotation.0[2]);
-                (point(), vec![az.dot(&bz)])
-            }
-            ClosureKind::Rigid => (point(), disorientation(a, b).0.to_vec()),
-            ClosureKind::Prismatic => {
-                let turned = disorientation(a, b).0.to_vec();
-                (turned, offsets(&a.rotation.0[..2]))
-            }
-            ClosureKind::Cylindrical => {
-                let turned = misalignment(a, b).0.to_vec();
-                (turned, offsets(&a.rotation.0[..2]))
-            }
-            ClosureKind::Planar => {
-                let turned = misalignment(a, b).0.to_vec();
-                (turned, offsets(&a.rotation.0[2..]))
-            }
+        let offsets =
+            |axes: &[Vector3<T>]| -> Vec<T> { axes.iter().map(|z| z.dot(&gap)).collect() };
+        let aligned = || misalignment(a, b).0.to_vec();
+        let oriented = || disorientation(a, b).0.to_vec();
+        let axes = &a.rotation.0;
+        match self.kind {
+            ClosureKind::Spherical => point(),
+            ClosureKind::Revolute => [point(), aligned()].concat(),
+            ClosureKind::Universal => [point(), vec![axes[2].dot(&b.rotation.0[2])]].concat(),
+            ClosureKind::Rigid => [point(), oriented()].concat(),
+            ClosureKind::Prismatic => [oriented(), offsets(&axes[..2])].concat(),
+            ClosureKind::Cylindrical => [aligned(), offsets(&axes[..2])].concat(),
+            ClosureKind::Planar => [aligned(), offsets(&axes[2..])].concat(),
             ClosureKind::Distance => {
                 let length = self.length + self.extension.at(joints);
-                (vec![gap.dot(&gap) - length * length], vec![])
+                vec![gap.dot(&gap) - length * length]
             }
-        };
-        conditions.extend(more);
-        conditions
+        }
     }
 
     /// Residuals and wrenches.
@@ -342,10 +339,7 @@ impl<T: Number> Rows<T> {
     /// at that side's [`Rows::velocity_point`].
     #[inline(always)]
     pub(crate) fn rates(&self, side: Side, omega: &Vector3<T>, v: &Vector3<T>, out: &mut [T]) {
-        let sign = match side {
-            Side::A => -1.0,
-            Side::B => 1.0,
-        };
+        let sign = side.sign();
         let mut out = out.iter_mut();
         if self.point {
             let factor = sign * self.inverse_length;
@@ -372,10 +366,7 @@ impl<T: Number> Rows<T> {
         length: f64,
         mut put: impl FnMut(usize, [T; 6]),
     ) {
-        let sign = match side {
-            Side::A => -1.0,
-            Side::B => 1.0,
-        };
+        let sign = side.sign();
         let force_row = |force: &Vector3<T>| {
             let [a, b, c] = arm.cross(force).0.map(|m| m.scale(sign));
             let [x, y, z] = force.0.map(|f| f.scale(sign * length));
@@ -445,17 +436,7 @@ mod tests {
             frame: 0,
         };
         let tips = [0, 1].map(|chain| Frame::Tip { chain });
-        use ClosureKind::*;
-        for kind in [
-            Spherical,
-            Revolute,
-            Prismatic,
-            Universal,
-            Cylindrical,
-            Planar,
-            Rigid,
-            Distance,
-        ] {
+        for kind in ClosureKind::ALL {
             for frames in [tips, [tips[0], on_platform], [on_platform, tips[1]]] {
                 dimensions.closures = vec![ClosureDimensions {
                     kind,

@@ -51,7 +51,7 @@ pub struct Configuration<T> {
     pub platforms: Vec<PlatformPose<T>>,
 }
 
-/// A configuration whose numbers are kept elsewhere.
+/// A borrowed configuration.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ConfigurationRef<'a, T> {
     /// As in [`Configuration`].
@@ -61,7 +61,7 @@ pub struct ConfigurationRef<'a, T> {
 }
 
 impl<T: Clone> ConfigurationRef<'_, T> {
-    /// The same by itself.
+    /// An owned copy.
     pub fn owned(self) -> Configuration<T> {
         Configuration {
             joints: self.joints.to_vec(),
@@ -71,7 +71,7 @@ impl<T: Clone> ConfigurationRef<'_, T> {
 }
 
 impl<T> Configuration<T> {
-    /// Its numbers where they are.
+    /// A view of its numbers.
     pub fn view(&self) -> ConfigurationRef<'_, T> {
         ConfigurationRef {
             joints: &self.joints,

@@ -71,7 +71,7 @@ impl Coordinate {
         Some(x * cos + y * sin)
     }
 
-    /// How far the coordinate is from `value`, dimensionless, with the derivative along a twist
+    /// The deviation of the coordinate from `value`, dimensionless, with the derivative along a twist
     /// (ω; v/L) of the platform about its origin.
     ///
     /// An angle φ = atan2(y, x) differs from its value by atan2(y c − x s, x c + y s), which has no
@@ -118,7 +118,7 @@ impl Coordinate {
         slope
     }
 
-    /// What an angle is the arc tangent of, (y, dy) and (x, dx): an entry r of column n along e
+    /// The two arguments of an angle's arc tangent, (y, dy) and (x, dx): an entry r of column n along e
     /// changes by ω·(n × e).
     fn legs<T: Number>(self, pose: &Pose<T>) -> (Changing<T>, Changing<T>) {
         let [n, s, a] = pose.rotation.0;
@@ -143,7 +143,7 @@ impl Coordinate {
 /// A number with its derivative by ω.
 type Changing<T> = (T, Vector3<T>);
 
-/// How far an orientation is from a wanted one, as the rotation vector 2 tan(θ/2)·n in ground, with
+/// The deviation of an orientation from a wanted one, as the rotation vector 2 tan(θ/2)·n in ground, with
 /// the derivative along ω.
 ///
 /// w = 2 s/t with s = Σ wᵢ × rᵢ and t = 1 + Σ wᵢ·rᵢ over the columns of the wanted and the actual

@@ -55,7 +55,7 @@ impl<T> RowDimensions<T> {
 /// The dimensions of one chain.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ChainDimensions<T> {
-    /// The frame the chain stands on.
+    /// The frame to which the chain is attached.
     pub on: Frame,
     /// From that frame to the chain's frame 0.
     pub base: Pose<T>,
@@ -101,12 +101,8 @@ impl<T> Dimensions<T> {
     {
         let lift: &mut dyn FnMut(T) -> U = &mut lift;
         let form = |form: &LinearForm<T>, lift: &mut dyn FnMut(T) -> U| {
-            LinearForm(
-                form.0
-                    .iter()
-                    .map(|&(joint, factor)| (joint, lift(factor)))
-                    .collect(),
-            )
+            let terms = form.0.iter().map(|&(joint, factor)| (joint, lift(factor)));
+            LinearForm(terms.collect())
         };
         Dimensions {
             characteristic_length: self.characteristic_length,
@@ -156,12 +152,8 @@ impl<T> Dimensions<T> {
         part.on = Frame::Ground;
         part.base = Pose::identity();
         for row in &mut part.rows[..fixed] {
-            *row = RowDimensions {
-                before: Pose::identity(),
-                turn: LinearForm(vec![]),
-                slide: LinearForm(vec![]),
-                after: Pose::identity(),
-            };
+            (row.before, row.after) = (Pose::identity(), Pose::identity());
+            (row.turn, row.slide) = (LinearForm(vec![]), LinearForm(vec![]));
         }
         if let Frame::Tip { .. } = frame {
             part.tip = Pose::identity();

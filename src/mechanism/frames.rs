@@ -1,9 +1,11 @@
 //! What a mechanism tells about itself: parts, names, bodies, frames.
 
+use std::collections::BTreeSet;
+
 use super::configuration::{Configuration, PlatformPose};
 use super::kinematics::Kinematics;
 use super::model::{
-    Chain, ClosedForm, Closure, Formula, Joint, JointKind, Parameter, Platform, Symbol,
+    Chain, ClosedForm, Closure, Formula, Joint, JointKind, Parameter, Platform, Row, Symbol,
 };
 use super::{Dimensions, Frame, Mechanism};
 use crate::algebra::Affine;
@@ -27,12 +29,12 @@ pub enum Body {
 }
 
 impl Mechanism {
-    /// What the mechanism is called.
+    /// The name of the mechanism.
     pub fn name(&self) -> &str {
         &self.name
     }
 
-    /// Where it comes from.
+    /// Its source in the literature.
     pub fn source(&self) -> Option<&str> {
         self.source.as_deref()
     }
@@ -67,7 +69,7 @@ impl Mechanism {
         &self.closed_forms
     }
 
-    /// What is odd about the mechanism, though it can be analysed.
+    /// Warnings: peculiarities that do not prevent an analysis.
     pub fn warnings(&self) -> &[Problem] {
         &self.warnings
     }
@@ -77,7 +79,7 @@ impl Mechanism {
         &self.dimensions
     }
 
-    /// The length in m by which residuals and Jacobians are made dimensionless.
+    /// The characteristic length in m, by which residuals and Jacobians are made dimensionless.
     pub fn characteristic_length(&self) -> f64 {
         self.dimensions.characteristic_length
     }
@@ -89,17 +91,13 @@ impl Mechanism {
 
     /// The index of the platform of that name.
     pub fn platform(&self, name: &str) -> Option<usize> {
-        self.platforms
-            .iter()
-            .position(|platform| platform.name == name)
+        self.platforms.iter().position(|part| part.name == name)
     }
 
     /// The frame of that name: `ground`, `leg1`, `leg1.2`, `top`, `top.S1`.
     pub fn frame(&self, name: &str) -> Option<Frame> {
-        let frames = self.frames();
-        frames
-            .into_iter()
-            .find(|&frame| self.frame_name(frame) == name)
+        let mut frames = self.frames().into_iter();
+        frames.find(|&frame| self.frame_name(frame) == name)
     }
 
     /// The name of a frame.
@@ -147,11 +145,10 @@ impl Mechanism {
 
     /// The home configuration of the file; it need not be assembled.
     pub fn home(&self) -> Configuration<f64> {
+        let platforms = self.platforms.iter();
         Configuration {
             joints: self.joints.iter().map(|joint| joint.home).collect(),
-            platforms: self
-                .platforms
-                .iter()
+            platforms: platforms
                 .map(|p| PlatformPose::from_pose(&p.home))
                 .collect(),
         }
@@ -189,63 +186,59 @@ impl Mechanism {
     pub fn body(&self, frame: Frame) -> Body {
         let mut frame = frame;
         loop {
-            let (chain, rows) = match frame {
-                Frame::Ground => return Body::Ground,
-                Frame::Platform { platform } | Frame::OnPlatform { platform, .. } => {
-                    return Body::Platform(platform);
-                }
-                Frame::Link { chain, row } => (chain, row),
-                Frame::Tip { chain } => (chain, self.chains[chain].rows.len()),
+            let (chain, rows) = match self.on_chain(frame) {
+                Ok(link) => link,
+                Err(None) => return Body::Ground,
+                Err(Some(platform)) => return Body::Platform(platform),
             };
             let Chain {
                 rows: table, on, ..
             } = &self.chains[chain];
-            if let Some(row) = table[..rows]
-                .iter()
-                .rposition(|row| !row.joints().is_empty())
-            {
-                return Body::Link {
-                    chain,
-                    row: row + 1,
-                };
+            let moves = |row: &Row| !row.joints().is_empty();
+            if let Some(before) = table[..rows].iter().rposition(moves) {
+                let row = before + 1;
+                return Body::Link { chain, row };
             }
             frame = *on;
         }
     }
 
-    /// The platform that carries a frame; `None` if it stands on the ground. Joint values alone fix
+    /// The chain of a frame and the number of rows before it, or the platform it is fixed to; none for the ground.
+    fn on_chain(&self, frame: Frame) -> Result<(usize, usize), Option<usize>> {
+        match frame {
+            Frame::Ground => Err(None),
+            Frame::Platform { platform } | Frame::OnPlatform { platform, .. } => {
+                Err(Some(platform))
+            }
+            Frame::Link { chain, row } => Ok((chain, row)),
+            Frame::Tip { chain } => Ok((chain, self.chains[chain].rows.len())),
+        }
+    }
+
+    /// The platform that carries a frame; `None` if ground carries it. Joint values alone determine
     /// where a frame is on its carrier.
     pub fn carrier(&self, frame: Frame) -> Option<usize> {
-        match frame {
-            Frame::Ground => None,
-            Frame::Platform { platform } | Frame::OnPlatform { platform, .. } => Some(platform),
-            Frame::Link { chain, .. } | Frame::Tip { chain } => self.carrier(self.chains[chain].on),
+        match self.on_chain(frame) {
+            Ok((chain, _)) => self.carrier(self.chains[chain].on),
+            Err(platform) => platform,
         }
     }
 
     /// Every moving or fixed body, ground first.
     pub fn bodies(&self) -> Vec<Body> {
-        let mut bodies: Vec<Body> = self
-            .frames()
-            .into_iter()
-            .map(|frame| self.body(frame))
-            .collect();
-        bodies.sort_unstable();
-        bodies.dedup();
-        bodies
+        let frames = self.frames().into_iter();
+        let bodies: BTreeSet<Body> = frames.map(|frame| self.body(frame)).collect();
+        bodies.into_iter().collect()
     }
 
     /// Every entry that may contain joint variables.
     pub(super) fn affine_entries(&self) -> impl Iterator<Item = &Affine<Symbol>> {
         let rows = self.chains.iter().flat_map(|chain| &chain.rows);
-        let lengths = self
-            .closures
-            .iter()
-            .filter_map(|closure| closure.length.as_ref());
+        let lengths = self.closures.iter().filter_map(|c| c.length.as_ref());
         rows.flat_map(|row| [&row.d, &row.theta]).chain(lengths)
     }
 
-    /// The value of a formula over parameters that is known to have one.
+    /// The value of a formula over the parameters; it is known to exist.
     pub(super) fn constant(&self, formula: &Formula) -> f64 {
         let value = formula.evaluate(&|symbol| match *symbol {
             Symbol::Parameter(i) => self.parameters[i].value,
@@ -254,7 +247,7 @@ impl Mechanism {
         value.unwrap_or(f64::NAN)
     }
 
-    /// A joint turns where it stands in θ and slides where it stands in d or in a length.
+    /// A joint is revolute if its variable occurs in θ, prismatic if it occurs in d or in a length.
     pub(super) fn infer_kinds(&mut self) {
         let mut turns = vec![false; self.joints.len()];
         let mut slides = vec![false; self.joints.len()];
@@ -279,8 +272,8 @@ impl Mechanism {
     }
 
     /// The joints that move one side of a closure or change its length.
-    pub(super) fn felt_joints(&self) -> std::collections::BTreeSet<usize> {
-        let mut felt = std::collections::BTreeSet::new();
+    pub(super) fn felt_joints(&self) -> BTreeSet<usize> {
+        let mut felt = BTreeSet::new();
         for closure in &self.closures {
             felt.extend(closure.length.iter().flat_map(joints_of));
             for frame in closure.frames {
@@ -290,8 +283,8 @@ impl Mechanism {
         felt
     }
 
-    /// The joints that no closure feels: those of open chains.
-    pub fn unfelt_joints(&self) -> std::collections::BTreeSet<usize> {
+    /// The joints that affect no closure: those of open chains.
+    pub fn unfelt_joints(&self) -> BTreeSet<usize> {
         let felt = self.felt_joints();
         let all = 0..self.joints.len();
         all.filter(|joint| !felt.contains(joint)).collect()
@@ -301,35 +294,29 @@ impl Mechanism {
     pub fn joints_below(&self, frame: Frame) -> Vec<usize> {
         let mut joints = Vec::new();
         let mut frame = frame;
-        loop {
-            let (chain, rows) = match frame {
-                Frame::Link { chain, row } => (chain, row),
-                Frame::Tip { chain } => (chain, self.chains[chain].rows.len()),
-                _ => return joints,
-            };
+        while let Ok((chain, rows)) = self.on_chain(frame) {
             let Chain {
                 rows: table, on, ..
             } = &self.chains[chain];
             joints.extend(table[..rows].iter().rev().flat_map(|row| row.joints()));
             frame = *on;
         }
+        joints
     }
 }
 
 /// The joints in an affine entry.
-fn joints_of(affine: &Affine<Symbol>) -> impl Iterator<Item = usize> {
+pub(super) fn joints_of(affine: &Affine<Symbol>) -> impl Iterator<Item = usize> {
     affine.terms.iter().filter_map(|(symbol, _)| match symbol {
         Symbol::Joint(joint) => Some(*joint),
         _ => None,
     })
 }
 
-impl super::model::Row {
+impl Row {
     /// The joints whose variables stand in the row.
     pub fn joints(&self) -> Vec<usize> {
-        let mut joints: Vec<usize> = joints_of(&self.theta).chain(joints_of(&self.d)).collect();
-        joints.sort_unstable();
-        joints.dedup();
-        joints
+        let joints: BTreeSet<usize> = joints_of(&self.theta).chain(joints_of(&self.d)).collect();
+        joints.into_iter().collect()
     }
 }

@@ -1,7 +1,8 @@
-//! What is odd about a mechanism that makes sense.
+//! Warnings about a valid mechanism.
 
 use std::collections::HashSet;
 
+use super::frames::joints_of;
 use super::model::{FixedStep, Formula, Given, Symbol};
 use super::{Frame, Mechanism};
 use crate::description::{Description, Problem, ProblemKind};
@@ -45,21 +46,14 @@ fn unused(mechanism: &Mechanism, description: &Description, problems: &mut Vec<P
     mechanism.for_each_formula(&mut |formula: &Formula| {
         used.extend(formula.names().map(|(symbol, _)| *symbol));
     });
-    let mut in_rows_and_lengths: HashSet<usize> = HashSet::new();
-    for affine in mechanism.affine_entries() {
-        in_rows_and_lengths.extend(affine.terms.iter().filter_map(|(symbol, _)| match symbol {
-            Symbol::Joint(joint) => Some(*joint),
-            _ => None,
-        }));
-    }
+    let entries = mechanism.affine_entries();
+    let in_rows_and_lengths: HashSet<usize> = entries.flat_map(joints_of).collect();
     // homes and limits were evaluated and are kept as values only
     let homes_and_limits = description.joints.iter().flat_map(|joint| {
-        let limits = joint
-            .value
-            .limits
-            .iter()
-            .flat_map(|(low, high)| [low, high]);
-        limits.chain([&joint.value.home])
+        let limits = joint.value.limits.iter();
+        limits
+            .flat_map(|(low, high)| [low, high])
+            .chain([&joint.value.home])
     });
     let platform_homes = description.platforms.iter();
     let platform_homes = platform_homes.flat_map(|p| p.value.home.iter().flat_map(|d| d.entries()));
@@ -122,10 +116,7 @@ impl Mechanism {
         }
         for affine in self.affine_entries() {
             visit(&affine.constant);
-            affine
-                .terms
-                .iter()
-                .for_each(|(_, coefficient)| visit(coefficient));
+            affine.terms.iter().for_each(|(_, factor)| visit(factor));
         }
         for form in &self.closed_forms {
             form.locals.iter().for_each(|(_, formula)| visit(formula));

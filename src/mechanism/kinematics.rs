@@ -1,6 +1,6 @@
 //! Frames of a mechanism by chain products, over any number.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 use super::Frame;
 use super::configuration::Configuration;
@@ -11,7 +11,7 @@ use crate::number::Number;
 /// A place in a [`Placement`]: ground first, then the platforms, then everything that moves.
 pub(crate) type Slot = usize;
 
-/// The order in which the frames of a mechanism are multiplied out.
+/// The order in which the frames of a mechanism are evaluated.
 ///
 /// Fixed displacements between joints are merged when it is built, so that one step costs one
 /// product and one turn.
@@ -46,12 +46,12 @@ enum Shape {
     General,
 }
 
-/// How much of a frame's pose anyone asks for; the rest is not computed.
+/// The part of a frame's pose that is needed; the rest is not computed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub(crate) enum Need {
     /// Its origin.
     Position,
-    /// Its origin and its z axis, which is all that a joint's own motion is measured by.
+    /// Its origin and its z axis, which determine the motion of a joint.
     Axis,
     /// All of it.
     Pose,
@@ -61,7 +61,7 @@ pub(crate) enum Need {
 #[derive(Clone, Debug)]
 pub struct Placement<T>(pub(crate) Vec<Pose<T>>);
 
-/// A joint on the way from ground or a platform to a frame.
+/// A joint on the path from ground or a platform to a frame.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Mover<T> {
     /// Frame whose z is the joint's axis.
@@ -75,12 +75,12 @@ pub struct Mover<T> {
 }
 
 impl<T: Number> Kinematics<T> {
-    /// A plan that places the given frames and what they stand on, nothing else.
+    /// A plan that evaluates the given frames and the frames that carry them, nothing else.
     pub fn new(dimensions: &Dimensions<T>, frames: impl IntoIterator<Item = Frame>) -> Self {
         Kinematics::needing(dimensions, frames.into_iter().map(|f| (f, Need::Pose)))
     }
 
-    /// The same, of whose frames no more is placed than is needed.
+    /// The same, with only the needed part of each frame's pose evaluated.
     pub(crate) fn needing(
         dimensions: &Dimensions<T>,
         frames: impl IntoIterator<Item = (Frame, Need)>,
@@ -103,12 +103,12 @@ impl<T: Number> Kinematics<T> {
         plan
     }
 
-    /// Ground from a frame the plan was asked for; `None` for any other.
+    /// Ground from a frame of the plan; `None` for any other.
     pub fn pose<'a>(&self, frame: Frame, placement: &'a Placement<T>) -> Option<&'a Pose<T>> {
         Some(placement.pose(self.slot(frame)?))
     }
 
-    /// The slot of a frame the plan was asked for.
+    /// The slot of a frame of the plan.
     pub(crate) fn slot(&self, frame: Frame) -> Option<Slot> {
         let mut found = self.frames.iter().filter(|(f, _)| *f == frame);
         found.next().map(|&(_, slot)| slot)
@@ -202,7 +202,7 @@ impl<T: Number> Kinematics<T> {
         (slot, fixed)
     }
 
-    /// Room for the poses of all slots. Frames that never move are placed once and for all.
+    /// Storage for the poses of all slots. Frames that never move are evaluated here, once.
     pub fn placement(&self) -> Placement<T> {
         let mut poses = vec![Pose::identity(); 1 + self.platforms + self.steps.len()];
         for (i, step) in self.steps.iter().enumerate().filter(|(_, step)| step.still) {
@@ -270,16 +270,14 @@ impl<T: Number> Kinematics<T> {
         }
     }
 
-    /// The joints on the way to a slot, from it towards the root, and the platform it stands on.
+    /// The joints on the path to a slot, from it towards the root, and the platform that carries it.
     pub(crate) fn movers(&self, slot: Slot, scales: &[f64]) -> (Vec<Mover<T>>, Option<usize>) {
         let mut movers = Vec::new();
         let mut slot = slot;
         while slot > self.platforms {
             let step = &self.steps[slot - 1 - self.platforms];
             let (turns, slides) = (step.turn.0.iter(), step.slide.0.iter());
-            let mut joints: Vec<usize> = turns.chain(slides).map(|(joint, _)| *joint).collect();
-            joints.sort_unstable();
-            joints.dedup();
+            let joints: BTreeSet<usize> = turns.chain(slides).map(|(joint, _)| *joint).collect();
             movers.extend(joints.into_iter().map(|joint| Mover {
                 slot,
                 joint,

@@ -1,4 +1,4 @@
-//! A mechanism in letters: its one kinematics over symbolic numbers.
+//! A mechanism in letters: the same kinematics over symbolic numbers.
 
 use super::closure::Closure;
 use super::dimensions::Dimensions;
@@ -7,7 +7,7 @@ use super::{Frame, Mechanism};
 use crate::algebra::{EvaluationError, Symbolic};
 use crate::geometry::{Pose, Rotation, Vector3};
 
-/// Which symbol stands for what: parameters, joint variables, platform poses and local names, in this order.
+/// The meaning of each symbol: parameters, joint variables, platform poses and local names, in this order.
 #[derive(Clone, Copy)]
 pub(crate) struct Letters<'a>(pub &'a Mechanism);
 
@@ -44,7 +44,7 @@ impl Letters<'_> {
         self.platform(self.0.platforms().len(), local)
     }
 
-    /// What a symbol is called: `a2`, `theta1`, `top.nx`.
+    /// The name of a symbol: `a2`, `theta1`, `top.nx`.
     pub fn name(&self, symbol: u32) -> String {
         let mechanism = self.0;
         let place = symbol as usize;
@@ -134,19 +134,17 @@ impl<'a> Formal<'a> {
         })
     }
 
-    /// ⁱⱼT. What both frames stand on is left out, so that nothing has to cancel.
+    /// ⁱⱼT. The part of the chain that carries both frames is left out, so that nothing has to cancel.
     pub fn transform(&self, relative_to: Frame, of: Frame) -> Pose<Symbolic> {
         let (dimensions, platforms) = self.seen_from_common(relative_to, of);
-        let [relative_to, of] = {
-            let kinematics = Kinematics::new(&dimensions, [relative_to, of]);
-            let mut placement = kinematics.placement();
-            kinematics.place_on(&platforms, &self.joints, &mut placement);
-            [relative_to, of].map(|frame| {
-                let pose = kinematics.pose(frame, &placement).copied();
-                pose.expect("the kinematics was planned for these frames")
-            })
-        };
-        relative_to.inverse() * of
+        let kinematics = Kinematics::new(&dimensions, [relative_to, of]);
+        let mut placement = kinematics.placement();
+        kinematics.place_on(&platforms, &self.joints, &mut placement);
+        let [relative_to, of] = [relative_to, of].map(|frame| {
+            let pose = kinematics.pose(frame, &placement);
+            pose.expect("the kinematics was planned for these frames")
+        });
+        relative_to.inverse() * *of
     }
 
     fn seen_from_common(
@@ -156,20 +154,22 @@ impl<'a> Formal<'a> {
     ) -> (Dimensions<Symbolic>, Vec<Pose<Symbolic>>) {
         let below = self.mechanism.stands_on(relative_to);
         let of = self.mechanism.stands_on(of);
-        let common = of.iter().find(|frame| below.contains(frame));
         let mut platforms = self.platforms.clone();
-        match common {
+        match of.iter().find(|frame| below.contains(frame)) {
             Some(Frame::Platform { platform } | Frame::OnPlatform { platform, .. }) => {
                 platforms[*platform] = Pose::identity();
                 (self.dimensions.clone(), platforms)
             }
-            Some(frame) => (self.dimensions.standing_on(*frame), platforms),
-            None => (self.dimensions.clone(), platforms),
+            // the ground and no common frame leave all as it is
+            common => {
+                let frame = common.copied().unwrap_or(Frame::Ground);
+                (self.dimensions.standing_on(frame), platforms)
+            }
         }
     }
 
-    /// The twists (ω, v) of a frame seen from one it stands on, for a unit rate of each joint that moves it; v is the velocity
-    /// of its origin. `None` if it does not stand there.
+    /// The twists (ω, v) of a frame seen from one that carries it, for a unit rate of each joint that moves it; v is the velocity
+    /// of its origin. `None` if that frame does not carry it.
     pub fn twists(&self, relative_to: Frame, of: Frame) -> Option<Vec<Twist>> {
         if !self.mechanism.stands_on(of).contains(&relative_to) {
             return None;
@@ -180,20 +180,21 @@ impl<'a> Formal<'a> {
         kinematics.place_on(&platforms, &self.joints, &mut placement);
         let slot = kinematics.slot(of)?;
         let point = placement.pose(slot).position;
-        // a platform's named frame stands still on it, but is not where it is
+        // a named frame is fixed to its platform, but displaced from it
         let seen = *kinematics.pose(relative_to, &placement)?;
         let mut twists: Vec<Twist> = Vec::new();
         for mover in kinematics.movers(slot, &dimensions.joint_scales).0 {
             let (omega, velocity) = placement.twist(&mover, &point);
             let omega = seen.rotation.inverse_rotate(&omega);
             let velocity = seen.rotation.inverse_rotate(&velocity);
-            match twists.iter_mut().find(|twist| twist.joint == mover.joint) {
+            let joint = mover.joint;
+            match twists.iter_mut().find(|twist| twist.joint == joint) {
                 Some(twist) => {
                     twist.omega += omega;
                     twist.velocity += velocity;
                 }
                 None => twists.push(Twist {
-                    joint: mover.joint,
+                    joint,
                     omega,
                     velocity,
                 }),
@@ -203,7 +204,7 @@ impl<'a> Formal<'a> {
         Some(twists)
     }
 
-    /// What vanishes where a closure is whole; from its second frame to its first as seen from ground, and the length of
+    /// Quantities that vanish where a closure holds; from its second frame to its first as seen from ground, and the length of
     /// a `Distance`.
     pub fn closure(&self, closure: usize) -> ClosureInLetters {
         let own = &self.dimensions.closures[closure];
@@ -234,7 +235,7 @@ pub(crate) struct ClosureInLetters {
 }
 
 impl Mechanism {
-    /// The frame itself and all that it stands on, ending with ground or a platform.
+    /// The frame itself and all frames that carry it, ending with ground or a platform.
     pub(crate) fn stands_on(&self, frame: Frame) -> Vec<Frame> {
         let mut frames = vec![frame];
         let mut frame = frame;

@@ -1,4 +1,4 @@
-//! The one door from formulas to dimensions over a number type.
+//! From formulas to dimensions over a number type: the only place where this happens.
 
 use super::Mechanism;
 use super::dimensions::{
@@ -97,8 +97,8 @@ impl Row {
 impl Mechanism {
     /// All dimensions for given values of the parameters, over any number.
     ///
-    /// `parameters` holds a value for each parameter of the mechanism, in order; relations between
-    /// them are the caller's affair.
+    /// `parameters` holds a value for each parameter of the mechanism, in order; the caller keeps the
+    /// relations between them.
     ///
     /// # Errors
     /// If an expression has no value at these parameters.
@@ -108,10 +108,8 @@ impl Mechanism {
     ) -> Result<Dimensions<T>, EvaluationError> {
         let mut chains = Vec::with_capacity(self.chains.len());
         for chain in &self.chains {
-            let rows = chain
-                .rows
-                .iter()
-                .map(|row| row.over(chain.convention, parameters));
+            let rows = chain.rows.iter();
+            let rows = rows.map(|row| row.over(chain.convention, parameters));
             chains.push(ChainDimensions {
                 on: chain.on,
                 base: product(&chain.base, parameters)?,
@@ -121,10 +119,8 @@ impl Mechanism {
         }
         let mut platforms = Vec::with_capacity(self.platforms.len());
         for platform in &self.platforms {
-            let frames = platform
-                .frames
-                .iter()
-                .map(|(_, steps)| product(steps, parameters));
+            let frames = platform.frames.iter();
+            let frames = frames.map(|(_, steps)| product(steps, parameters));
             platforms.push(frames.collect::<Result<_, _>>()?);
         }
         let mut closures = Vec::with_capacity(self.closures.len());
@@ -157,7 +153,7 @@ impl Mechanism {
         Ok(dimensions)
     }
 
-    /// The largest length that stands in the mechanism, in m; 1 m if there is none.
+    /// The largest length in the mechanism, in m; 1 m if there is none.
     fn largest_length<T: Number>(&self, dimensions: &Dimensions<T>) -> f64 {
         let size = |pose: &Pose<T>| {
             let squares = pose.position.0.map(|x| x.real() * x.real());
@@ -168,10 +164,8 @@ impl Mechanism {
             rows.chain([&chain.base, &chain.tip])
         });
         let poses = chains.chain(dimensions.platforms.iter().flatten());
-        let distances = dimensions
-            .closures
-            .iter()
-            .map(|closure| closure.length.real().abs());
+        let closures = dimensions.closures.iter();
+        let distances = closures.map(|closure| closure.length.real().abs());
         let slides = self.joints.iter().filter(|joint| !joint.kind.is_angle());
         let slides = slides.map(|joint| joint.home.abs());
         let largest = (poses.map(size).chain(distances).chain(slides)).fold(0.0, f64::max);

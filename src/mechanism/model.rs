@@ -4,7 +4,7 @@ use crate::algebra::{Affine, Expression, Measure, words};
 use crate::description::{ClosureKind, Convention, MatrixEntry, Role};
 use crate::geometry::{Axis, Pose};
 
-/// What a name in an expression stands for.
+/// The meaning of a name in an expression.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub enum Symbol {
     /// The parameter of that index.
@@ -23,22 +23,22 @@ pub type Formula = Expression<Symbol>;
 pub struct Parameter {
     /// Its name.
     pub name: String,
-    /// What it is defined as; only parameters occur in it.
+    /// Its definition; only parameters occur in it.
     pub definition: Formula,
     /// Its value, in m or rad or without unit.
     pub value: f64,
-    /// What it measures, as far as units in its definition tell.
+    /// Its dimension, as far as the units in its definition determine it.
     pub measure: Measure,
 }
 
 words! {
     /// How a joint moves.
     JointKind {
-        /// Its variable is an angle in rad: it stands in `theta` only.
+        /// Revolute: the variable is an angle in rad and occurs in `theta` only.
         Revolute = "revolute",
-        /// Its variable is a length in m: it stands in `d` or in the length of a `Distance`.
+        /// Prismatic: the variable is a length in m and occurs in `d` or in the length of a `Distance`.
         Prismatic = "prismatic",
-        /// Its variable is an angle in rad that also slides: it stands in both.
+        /// Helical: the variable is an angle in rad and occurs in both.
         Helical = "helical",
     }
 }
@@ -50,7 +50,7 @@ pub struct Joint {
     pub name: String,
     /// Whether it is driven.
     pub role: Role,
-    /// How it moves, inferred from the columns where it stands.
+    /// Its kind, inferred from the columns in which its variable occurs.
     pub kind: JointKind,
     /// Its value in the home configuration, rad or m.
     pub home: f64,
@@ -115,11 +115,11 @@ pub struct Row {
 pub struct Chain {
     /// Its name, which is also that of its tip frame.
     pub name: String,
-    /// The frame it stands on.
+    /// The frame to which it is attached.
     pub on: super::Frame,
-    /// How its rows are multiplied.
+    /// The convention of its rows.
     pub convention: Convention,
-    /// From the frame it stands on to its frame 0.
+    /// From that frame to its frame 0.
     pub base: Vec<FixedStep>,
     /// Its table.
     pub rows: Vec<Row>,
@@ -138,7 +138,7 @@ pub struct Platform {
     pub frames: Vec<(String, Vec<FixedStep>)>,
 }
 
-/// A broken joint, put back between two frames.
+/// A closure: a broken joint, restored between two frames.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Closure {
     /// Its name.
@@ -158,13 +158,13 @@ pub struct ClosedForm {
     pub name: String,
     /// Where it is printed.
     pub source: Option<String>,
-    /// Local names and what they are defined as, each after those it uses.
+    /// Local names with their definitions, each after those it uses.
     pub locals: Vec<(String, Formula)>,
-    /// What it gives.
+    /// The formula.
     pub gives: Given,
 }
 
-/// What a closed form gives.
+/// The formula of a closed form.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Given {
     /// Entries of the transform of one frame seen from another.

@@ -1,11 +1,13 @@
-//! What the names of a description stand for.
+//! The meaning of the names in a description.
 
 use std::cell::Cell;
 use std::collections::HashMap;
 
 use super::Frame;
 use super::model::Symbol;
-use crate::description::{Description, GROUND, Named, ProblemKind, Scope, nearest};
+use crate::description::{
+    Description, GROUND, Named, ProblemKind, Scope, names_of, nearest, place_of,
+};
 
 /// The names that expressions and frame references of a file may use.
 pub(super) struct Names<'a> {
@@ -14,17 +16,19 @@ pub(super) struct Names<'a> {
     chains: HashMap<&'a str, usize>,
     platforms: HashMap<&'a str, usize>,
     description: &'a Description,
-    /// How many more names are compared with all others to find the one meant.
+    /// How many unknown names are compared with all others to find a suggestion.
     suggestions: Cell<usize>,
 }
 
-/// A file with more unknown names than this is not one with spelling mistakes, and comparing every name with every
-/// other would take long.
+/// A file with more unknown names than this does not contain mere spelling mistakes, and comparing all names would
+/// take long.
 const MOST_SUGGESTIONS: usize = 200;
 
 fn index<T>(named: &[Named<T>]) -> HashMap<&str, usize> {
-    let names = named.iter().map(|named| named.name.value.as_str());
-    names.enumerate().map(|(i, name)| (name, i)).collect()
+    names_of(named)
+        .enumerate()
+        .map(|(i, name)| (name, i))
+        .collect()
 }
 
 impl<'a> Names<'a> {
@@ -111,8 +115,7 @@ impl<'a> Names<'a> {
                 return Ok(Frame::Platform { platform });
             };
             let frames = &self.description.platforms[platform].value.frames;
-            let found = frames.iter().position(|frame| frame.name.value == rest);
-            if let Some(frame) = found {
+            if let Some(frame) = place_of(frames, rest) {
                 return Ok(Frame::OnPlatform { platform, frame });
             }
         }
@@ -160,7 +163,7 @@ pub(super) fn definition_order(uses: &[Vec<usize>]) -> Order {
     let mut order = Vec::with_capacity(uses.len());
     let mut cycles = Vec::new();
     for start in 0..uses.len() {
-        // depth first, with a stack of its own: a file may hold thousands of definitions in a row
+        // depth first, with an explicit stack: a file may contain a chain of thousands of definitions
         let mut path: Vec<(usize, usize)> = Vec::new();
         if marks[start] == Mark::New {
             marks[start] = Mark::Open;
@@ -177,7 +180,7 @@ pub(super) fn definition_order(uses: &[Vec<usize>]) -> Order {
                             path.push((used, 0));
                         }
                         Mark::Open => {
-                            // the search goes on as if the cycle were mended
+                            // the search continues as if the cycle were removed
                             let first = path.iter().rposition(|&(d, _)| d == used).unwrap_or(0);
                             let cycle: Vec<usize> = path.drain(first..).map(|(d, _)| d).collect();
                             cycle.iter().for_each(|&d| marks[d] = Mark::Done);

@@ -1,6 +1,6 @@
 //! Joint axes of a serial chain ↔ its Denavit–Hartenberg table, in both conventions.
 //!
-//! Between consecutive axes k and k + 1 stands the common normal N_k, with x_k along it. Both
+//! Consecutive axes k and k + 1 have the common normal N_k, with x_k along it. Both
 //! conventions read the same four numbers off it (Craig 1986, §3.4; Denavit and Hartenberg 1955):
 //!
 //! - a_k, the length of N_k, not negative, and α_k, the angle from z_k to z_{k+1} about x_k;
@@ -9,19 +9,19 @@
 //! The modified row k is (α_{k−1}, a_{k−1}, d_k, θ_k), the standard row k is (θ_k, d_k, a_k, α_k).
 //! z_k points along the given direction of axis k, so a joint's variable keeps its sense.
 //!
-//! Where the axes leave a choice the entry concerned becomes zero at the variable's own zero:
+//! Where the axes leave a choice, the entry concerned becomes zero at the variable's zero:
 //!
 //! | axes k, k + 1 | choice |
 //! |---|---|
 //! | skew | none |
 //! | intersecting | x_k along z_k × z_{k+1} or against it: θ_k within ±90°, at 90° along it |
 //! | parallel, anti-parallel | place of N_k along them: d_k = 0 |
-//! | one line | x_k and its place: θ_k = 0, d_k = 0 |
+//! | collinear | x_k and its place: θ_k = 0, d_k = 0 |
 //!
 //! A prismatic axis has a direction only; `prismatic.rs` says where it is put. The first link is
 //! (α₀, a₀) = (0, 0) unless a base frame is given from which another one leads to axis 1 (modified
 //! convention); the last is (α_n, a_n) = (0, 0) unless a tool frame is given to which another one
-//! leads (standard convention). What is left stands in `base` and `tip`.
+//! leads (standard convention). The remainder goes to `base` and `tip`.
 
 mod assignment;
 mod prismatic;
@@ -51,27 +51,29 @@ pub struct JointAxis {
 impl JointAxis {
     /// The axis of a revolute joint whose variable is `home` rad there.
     pub fn revolute(line: Line, home: f64) -> Self {
-        let (turn, slide) = (1.0, 0.0);
         JointAxis {
             line,
-            turn,
-            slide,
+            turn: 1.0,
+            slide: 0.0,
             home,
         }
     }
 
     /// The axis of a prismatic joint whose variable is `home` m there.
     pub fn prismatic(line: Line, home: f64) -> Self {
-        let (turn, slide) = (0.0, 1.0);
         JointAxis {
-            line,
-            turn,
-            slide,
-            home,
+            turn: 0.0,
+            slide: 1.0,
+            ..JointAxis::revolute(line, home)
         }
     }
 
-    /// Whether the joint slides only, so that its axis has no place.
+    /// How far the variable turns and slides at home, in rad and m.
+    pub(super) fn home_motion(&self) -> (f64, f64) {
+        (self.turn * self.home, self.slide * self.home)
+    }
+
+    /// Whether the joint is prismatic, so that its axis has no position.
     pub fn is_prismatic(&self) -> bool {
         self.turn == 0.0
     }
@@ -80,7 +82,7 @@ impl JointAxis {
 /// The joint axes of a serial chain in the home configuration, in one frame's coordinates.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SerialAxes {
-    /// The frame from which the table shall start. It does where a row can lead from it to the
+    /// The frame from which the table should start. It does if a row can lead from it to the
     /// first axis; `None` leaves the first frame free.
     pub base: Option<Pose<f64>>,
     /// The axes, from the base to the tool.
@@ -90,27 +92,18 @@ pub struct SerialAxes {
 }
 
 impl SerialAxes {
-    /// A length that is typical of the axes: the largest distance between places given, 1 m if
+    /// A typical length of the axes: the largest distance between given points, 1 m if
     /// there is none.
     pub fn length(&self) -> f64 {
         let placed = self.joints.iter().filter(|joint| !joint.is_prismatic());
-        let points: Vec<Vector3<f64>> = placed
-            .map(|joint| joint.line.point)
-            .chain(
-                [&self.base, &self.tool]
-                    .into_iter()
-                    .flatten()
-                    .map(|p| p.position),
-            )
-            .collect();
+        let ends = [&self.base, &self.tool].into_iter().flatten();
+        let points = placed.map(|joint| joint.line.point);
+        let points: Vec<Vector3<f64>> = points.chain(ends.map(|pose| pose.position)).collect();
         let apart = |p: &Vector3<f64>| {
             let distances = points.iter().map(|q| (*p - *q).norm());
             distances.fold(0.0, f64::max)
         };
-        let slides = self
-            .joints
-            .iter()
-            .map(|joint| (joint.slide * joint.home).abs());
+        let slides = self.joints.iter().map(|joint| joint.home_motion().1.abs());
         let largest = points.iter().map(apart).chain(slides).fold(0.0, f64::max);
         if largest > 0.0 { largest } else { 1.0 }
     }

@@ -1,4 +1,4 @@
-//! Which of the angles a whole turn apart a joint is told to have.
+//! Reduction of joint angles modulo a full turn, for reports.
 
 use std::f64::consts::{PI, TAU};
 
@@ -8,14 +8,14 @@ use super::model::JointKind;
 /// As much as `Joint::allows`, in rad or m.
 const ROUNDING: f64 = 1e-9;
 
-/// The turn of an angle that is nearest to another, in rad.
+/// The equivalent of an angle that is nearest to another, in rad.
 #[inline]
 pub(crate) fn turn_near(angle: f64, to: f64) -> f64 {
     angle - TAU * ((angle - to) / TAU).round()
 }
 
-/// The turn of an angle in (−π, π], in rad. −π and π are one angle, and rounding must not decide which
-/// of them is told: what is this near to −π is near π.
+/// The equivalent angle in (−π, π], in rad. −π and π are the same angle, and rounding must not decide which
+/// is reported: values this near to −π become those near π.
 pub(crate) fn principal(angle: f64, rounding: f64) -> f64 {
     let within = turn_near(angle, 0.0);
     match within <= -PI + rounding {
@@ -25,7 +25,7 @@ pub(crate) fn principal(angle: f64, rounding: f64) -> f64 {
 }
 
 impl Mechanism {
-    /// Whether a whole turn of the joint leaves every frame where it is: not if it also slides, or
+    /// Whether a full turn of the joint leaves every frame where it is: not if it also slides, or if
     /// its variable turns some row by a fraction.
     pub fn repeats(&self, joint: usize) -> bool {
         let rows = self.dimensions.chains.iter().flat_map(|chain| &chain.rows);
@@ -34,8 +34,8 @@ impl Mechanism {
             && rows.map(|row| row.turn.coefficient(joint)).all(whole)
     }
 
-    /// Turns joints with limits, where whole turns change nothing, to near the middle between these:
-    /// within them if that can be.
+    /// Brings joints with limits, where full turns change nothing, to the equivalent value nearest the middle of
+    /// the limits: within them if possible.
     pub fn turn_to_limits(&self, joints: &mut [f64]) {
         for (joint, value) in joints.iter_mut().enumerate() {
             if let Some((low, high)) = self.joints[joint].limits
@@ -46,8 +46,8 @@ impl Mechanism {
         }
     }
 
-    /// The value of a joint by the turn within its limits that is nearest to it, where whole turns
-    /// change nothing and one of them is; otherwise the value itself. In rad or m.
+    /// The equivalent value of a joint within its limits that is nearest to it, where full turns
+    /// change nothing and there is one; otherwise the value itself. In rad or m.
     pub fn by_limits(&self, joint: usize, value: f64) -> f64 {
         let Some((low, high)) = self.joints[joint].limits else {
             return value;
@@ -66,8 +66,8 @@ impl Mechanism {
         }
     }
 
-    /// The value of a joint as reports tell it: where whole turns change nothing, its turn within its
-    /// limits, or else that in (−π, π]. In rad or m.
+    /// The value of a joint for reports: where full turns change nothing, the equivalent value within its
+    /// limits, or else in (−π, π]. In rad or m.
     pub fn as_told(&self, joint: usize, value: f64) -> f64 {
         let of = &self.joints[joint];
         match (self.repeats(joint), of.limits) {

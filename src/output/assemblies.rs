@@ -21,7 +21,9 @@ impl Report for AssembliesReport {
             .section(reasons(self))
             .section(complex(self))
             .sections(nearest);
-        accounting(self).into_iter().fold(document, Document::method)
+        accounting(self)
+            .into_iter()
+            .fold(document, Document::method)
     }
 }
 

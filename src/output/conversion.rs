@@ -4,7 +4,7 @@ use super::document::{Document, Report, Section};
 use crate::analysis::convert::{Conversion, ConversionNote, ConvertError, CutError};
 use crate::description::quoted;
 
-use super::option::Complaint;
+use super::complaint::Complaint;
 
 /// The converted file, with what it says differently.
 impl Report for Conversion {
@@ -25,25 +25,25 @@ pub fn notes(notes: &[ConversionNote]) -> String {
 
 fn note(note: &ConversionNote) -> String {
     match note {
-            ConversionNote::Renamed { from, to } => format!("the frame `{from}` is now `{to}`"),
-            ConversionNote::Dropped { closed_form, joint } => format!(
-                "the closed form `{closed_form}` is left out: it names `{joint}`, which has become a closure"
-            ),
-            ConversionNote::DriveLost { joint } => format!(
-                "`{joint}` was driven but no longer has a variable: hold another joint with --hold"
-            ),
-            ConversionNote::LimitsLost { joint } => {
-                format!("`{joint}` had limits but no longer has a variable: its limits are lost")
-            }
-            ConversionNote::Variables { closure, joints } if joints.is_empty() => {
-                format!("the closure `{closure}` joins its frames rigidly and needs no variables")
-            }
-            ConversionNote::Variables { closure, joints } => {
-                format!(
-                    "the closure `{closure}` has become table rows with the variables {}",
-                    quoted(joints)
-                )
-            }
+        ConversionNote::Renamed { from, to } => format!("the frame `{from}` is now `{to}`"),
+        ConversionNote::Dropped { closed_form, joint } => format!(
+            "the closed form `{closed_form}` is left out: it names `{joint}`, which has become a closure"
+        ),
+        ConversionNote::DriveLost { joint } => format!(
+            "`{joint}` was driven but no longer has a variable: hold another joint with --hold"
+        ),
+        ConversionNote::LimitsLost { joint } => {
+            format!("`{joint}` had limits but no longer has a variable: its limits are lost")
+        }
+        ConversionNote::Variables { closure, joints } if joints.is_empty() => {
+            format!("the closure `{closure}` joins its frames rigidly and needs no variables")
+        }
+        ConversionNote::Variables { closure, joints } => {
+            format!(
+                "the closure `{closure}` has become table rows with the variables {}",
+                quoted(joints)
+            )
+        }
     }
 }
 
@@ -70,11 +70,7 @@ pub fn complaint(error: &ConvertError, possible: &[String]) -> Complaint {
         }
         ConvertError::Wrong(_) => (error.to_string(), None),
     };
-    Complaint {
-        title,
-        label: String::new(),
-        help,
-    }
+    Complaint::new(title, "", help)
 }
 
 /// Where tables cannot be rearranged as they are written, axes can.

@@ -4,8 +4,8 @@ mod steps;
 
 use serde::Serialize;
 
+use super::complaint::Complaint;
 use super::document::{Column, Document, Report, Section, Table, cells};
-use super::option::Complaint;
 use super::overview;
 use super::quantity::{degrees, number, quantity, short, size};
 use crate::analysis::frames::{
@@ -13,7 +13,7 @@ use crate::analysis::frames::{
 };
 use crate::analysis::overview::overview;
 use crate::description::{
-    AxesDescription, AxisDescription, AxisKind, AxisPlace, Convention, Entry, count, listed, quoted,
+    AxisDescription, AxisKind, AxisPlace, Convention, Entry, count, listed, quoted,
 };
 use crate::geometry::Relation;
 use crate::linear::RANK_TOLERANCE;
@@ -54,7 +54,10 @@ fn document(report: &FramesReport, steps: bool) -> Document {
         .sections(report.cuts.as_ref().map(cut_section));
     for chain in &overview.chains {
         document = document.section(overview::chain(chain));
-        let placed = report.chains.iter().find(|placed| placed.name == chain.name);
+        let placed = report
+            .chains
+            .iter()
+            .find(|placed| placed.name == chain.name);
         document = document.sections(placed.map(normals));
         if let (Some(placed), true) = (placed, steps) {
             let modified = report.convention == Convention::Modified;
@@ -93,7 +96,10 @@ fn cut_section(cuts: &CutReport) -> Section {
                 shown.map(|way| format!("alternatively at {}: {}", listed(&way.cut), simple(way))),
             );
             if others.len() > SHOWN {
-                lines.push(format!("and {}", count(others.len() - SHOWN, "other choice")));
+                lines.push(format!(
+                    "and {}",
+                    count(others.len() - SHOWN, "other choice")
+                ));
             }
             if cuts.more {
                 lines.push("further choices were not compared".into());
@@ -321,9 +327,5 @@ pub fn no_axes(error: &AxesError) -> Complaint {
         ),
         AxesError::TooFew => ("the mechanism has no joints with axes".to_owned(), None),
     };
-    Complaint {
-        title,
-        label: String::new(),
-        help,
-    }
+    Complaint::new(title, "", help)
 }

@@ -48,13 +48,11 @@ impl Report for MobilityReport {
                 false => document.section(section),
             }
         });
-        document
-            .section(more_branches(self))
-            .method(format!(
-                "condition number {} with lengths over {} m",
-                size(self.condition),
-                number(self.length)
-            ))
+        document.section(more_branches(self)).method(format!(
+            "condition number {} with lengths over {} m",
+            size(self.condition),
+            number(self.length)
+        ))
     }
 
     fn sentences(&self) -> Vec<(&'static str, Option<String>)> {

@@ -134,8 +134,7 @@ pub(super) fn platforms(overview: &Overview) -> Vec<Section> {
     let platform = |platform: &PlatformOverview| {
         let [x, y, z] = platform.position.map(number);
         let [roll, pitch, yaw] = platform.roll_pitch_yaw.map(degrees);
-        let home =
-            format!("home at ({x}, {y}, {z}) m, roll {roll}, pitch {pitch}, yaw {yaw}");
+        let home = format!("home at ({x}, {y}, {z}) m, roll {roll}, pitch {pitch}, yaw {yaw}");
         let mut table = Table::new(["frame", "placed by"].map(Column::words));
         for frame in &platform.frames {
             table.row(cells![&frame.name, product(&frame.placed)]);
@@ -255,7 +254,8 @@ fn explained(count: &MobilityCount) -> String {
             parts.push(self::count(correction as usize, "variable") + " in distances");
         }
         correction => parts.push(
-            self::count(correction.unsigned_abs() as usize, "row") + " driven together with another",
+            self::count(correction.unsigned_abs() as usize, "row")
+                + " driven together with another",
         ),
     }
     parts.push(self::count(count.equations, "closure equation"));

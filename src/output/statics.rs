@@ -1,8 +1,8 @@
 //! The forces in a mechanism as a document.
 
 use super::closing;
+use super::complaint::{Complaint, Part};
 use super::document::{Cell, Column, Digits, Document, Report, Section, Table, cells};
-use super::option::{Complaint, Part};
 use super::quantity::{number, size};
 use super::question::{driven_complaint, unknown_frame};
 use crate::analysis::statics::{Force, Reaction, StaticsReport};
@@ -198,10 +198,5 @@ pub fn complaint(mechanism: &Mechanism, error: &LoadError, option: &str) -> (Com
             )
         }
     };
-    let complaint = Complaint {
-        title,
-        label: label.into(),
-        help,
-    };
-    (complaint, part)
+    (Complaint::new(title, label, help), part)
 }

@@ -1,7 +1,7 @@
 //! Points where branches of a curve of solutions cross: there the Jacobian loses rank.
 
 use super::continuation::{Continuation, Place, SolutionCurve};
-use crate::linear::{Decomposition, dot, norm};
+use crate::linear::{Decomposition, add, dot, norm};
 
 /// A point where the Jacobian of a curve loses rank.
 #[derive(Clone, Debug)]
@@ -35,6 +35,20 @@ impl<P> BranchPoint<P> {
             0 | 1 => Contact::Single,
             _ => Contact::Crossing,
         }
+    }
+
+    /// The direction of the branch that goes straight on along a tangent, if the point lies ahead:
+    /// `step` leads to it from the place with that tangent.
+    pub fn straight_on(&self, step: &[f64], tangent: &[f64]) -> Option<Vec<f64>> {
+        if dot(step, tangent) < 0.9 * norm(step) {
+            return None;
+        }
+        let along = |d: &Vec<f64>| dot(d, tangent);
+        let best =
+            (self.directions.iter()).max_by(|a, b| along(a).abs().total_cmp(&along(b).abs()));
+        let straight = best.filter(|d| along(d).abs() > 0.9)?;
+        let sign = along(straight).signum();
+        Some(straight.iter().map(|x| sign * x).collect())
     }
 }
 
@@ -102,10 +116,7 @@ impl Continuation {
                     wanted.push(dot(w, &along));
                 }
             }
-            let entries: Vec<f64> = (0..unknowns)
-                .flat_map(|j| matrix.iter().map(move |row| row[j]))
-                .collect();
-            let augmented = Decomposition::of(matrix.len(), unknowns, &entries);
+            let augmented = decomposed(&matrix, unknowns);
             let mut step = augmented.solve(&wanted);
             step.iter_mut().for_each(|x| *x = -*x);
             let size = norm(&step);
@@ -137,6 +148,7 @@ impl Continuation {
         let here = Decomposition::of_rank(rows, unknowns, &jacobian, unknowns - freedoms);
         let values = here.singular_values();
         let defect = values.get(unknowns - freedoms).copied().unwrap_or(0.0);
+        let largest = values.first().copied().unwrap_or(1.0);
         let (left, right) = (here.left_null_space(), here.null_space());
         let forms = forms(curve, &at, &left, &right);
         let zeros = zeros(&forms, right.len());
@@ -144,30 +156,18 @@ impl Continuation {
         let directions = zeros.into_iter().map(|weights| {
             let mut direction = vec![0.0; unknowns];
             for (v, weight) in right.iter().zip(&weights) {
-                direction
-                    .iter_mut()
-                    .zip(v)
-                    .for_each(|(d, v)| *d += weight * v);
+                add(&mut direction, *weight, v);
             }
             direction
         });
-        let mut found: Vec<Vec<f64>> = Vec::new();
-        for direction in directions {
-            if self.leave(curve, &at, &direction).is_some() {
-                found.push(direction);
-            }
-        }
+        let mut leaves = |direction: &Vec<f64>| self.leave(curve, &at, direction).is_some();
+        let found = directions.filter(|direction| leaves(direction)).collect();
         BranchPoint {
             at,
             freedoms,
             directions: found,
             isolated,
-            defect: defect
-                / values
-                    .first()
-                    .copied()
-                    .unwrap_or(1.0)
-                    .max(f64::MIN_POSITIVE),
+            defect: defect / largest.max(f64::MIN_POSITIVE),
         }
     }
 
@@ -188,12 +188,10 @@ impl Continuation {
             if let Ok(place) = self.settle(curve, start) {
                 let place = place.towards(direction);
                 let gone = curve.difference(from, &place.at);
-                let straight = dot(&gone, direction) >= ALIGNED * norm(&gone);
-                if straight
-                    && dot(&place.tangent, direction) >= ALIGNED
-                    && norm(&gone) >= 0.5 * length
-                {
-                    return Some((place, norm(&gone)));
+                let (along, gone) = (dot(&gone, direction), norm(&gone));
+                let straight = along >= ALIGNED * gone && gone >= 0.5 * length;
+                if straight && dot(&place.tangent, direction) >= ALIGNED {
+                    return Some((place, gone));
                 }
             }
             length *= 0.35;
@@ -207,16 +205,12 @@ impl<P: Clone> BranchPoint<P> {
     /// Jacobian is singular.
     pub fn place<C: SolutionCurve<Point = P>>(&self, curve: &mut C, direction: &[f64]) -> Place<P> {
         let (residual, jacobian) = curve.linearise(&self.at);
-        let regular = direction.len().saturating_sub(self.freedoms);
+        let (rows, unknowns) = (residual.len(), direction.len());
+        let regular = unknowns.saturating_sub(self.freedoms);
         Place {
             at: self.at.clone(),
             tangent: direction.to_vec(),
-            decomposition: Decomposition::of_rank(
-                residual.len(),
-                direction.len(),
-                &jacobian,
-                regular,
-            ),
+            decomposition: Decomposition::of_rank(rows, unknowns, &jacobian, regular),
             jacobian,
         }
     }
@@ -247,14 +241,18 @@ fn bent<C: SolutionCurve>(curve: &mut C, at: &C::Point, v: &[f64]) -> Vec<f64> {
     both.map(|(a, b)| (a - b) / (2.0 * STEP)).collect()
 }
 
+/// The decomposition of a matrix given by its rows.
+fn decomposed(rows: &[Vec<f64>], columns: usize) -> Decomposition {
+    let columns_of = (0..columns).flat_map(|j| rows.iter().map(move |row| row[j]));
+    let entries: Vec<f64> = columns_of.collect();
+    Decomposition::of(rows.len(), columns, &entries)
+}
+
 /// J v.
 fn times(jacobian: &[f64], rows: usize, v: &[f64]) -> Vec<f64> {
     let mut product = vec![0.0; rows];
     for (column, v) in jacobian.chunks_exact(rows.max(1)).zip(v) {
-        product
-            .iter_mut()
-            .zip(column)
-            .for_each(|(p, c)| *p += c * v);
+        add(&mut product, *v, column);
     }
     product
 }
@@ -287,17 +285,13 @@ fn forms<C: SolutionCurve>(
 /// isolated: Newton's method from points spread over the sphere.
 fn zeros(forms: &[Vec<f64>], n: usize) -> Vec<Vec<f64>> {
     let largest = forms.iter().map(|form| norm(form)).fold(0.0, f64::max);
-    let forms: Vec<&Vec<f64>> = forms
-        .iter()
-        .filter(|f| norm(f) > NOTHING.max(1e-5 * largest))
-        .collect();
+    let counts = |form: &&Vec<f64>| norm(form) > NOTHING.max(1e-5 * largest);
+    let forms: Vec<&Vec<f64>> = forms.iter().filter(counts).collect();
     if forms.is_empty() || n < 2 {
         return Vec::new();
     }
     let slope = |form: &[f64], a: &[f64]| -> Vec<f64> {
-        (0..n)
-            .map(|i| 2.0 * dot(&form[i * n..(i + 1) * n], a))
-            .collect()
+        form.chunks_exact(n).map(|row| 2.0 * dot(row, a)).collect()
     };
     let starts = match n {
         2 => 32,
@@ -324,11 +318,7 @@ fn zeros(forms: &[Vec<f64>], n: usize) -> Vec<Vec<f64>> {
             best = norm(&values) / largest;
             rows.push(a.clone());
             values.push(0.0);
-            let entries: Vec<f64> = (0..n)
-                .flat_map(|j| rows.iter().map(move |r| r[j]))
-                .collect();
-            let here = Decomposition::of(rows.len(), n, &entries);
-            let step = here.solve(&values);
+            let step = decomposed(&rows, n).solve(&values);
             a.iter_mut().zip(&step).for_each(|(a, s)| *a -= s);
             if norm(&step) < 1e-15 {
                 break;
@@ -394,17 +384,12 @@ mod tests {
     fn an_avoided_crossing_is_none() {
         // y² − x² = 1e-4: two branches that come near
         let near = |x: &[f64]| {
-            (
-                vec![x[1] * x[1] - x[0] * x[0] - 1e-4],
-                vec![-2.0 * x[0], 2.0 * x[1]],
-            )
+            let r = x[1] * x[1] - x[0] * x[0] - 1e-4;
+            (vec![r], vec![-2.0 * x[0], 2.0 * x[1]])
         };
-        let method = Continuation::default();
-        assert!(
-            method
-                .branch_point(&mut Plain(2, near), &vec![0.02, 0.025], 0.2)
-                .is_none()
-        );
+        let mut curve = Plain(2, near);
+        let found = Continuation::default().branch_point(&mut curve, &vec![0.02, 0.025], 0.2);
+        assert!(found.is_none());
     }
 
     #[test]
@@ -412,17 +397,10 @@ mod tests {
         // x² + s y² + y³ = 0 on z = x: a point for s = 2, a crossing for s = −2, a cusp for s = 0
         let cubic = |s: f64| {
             move |x: &[f64]| {
-                (
-                    vec![x[0] * x[0] + s * x[1] * x[1] + x[1].powi(3), x[2] - x[0]],
-                    vec![
-                        2.0 * x[0],
-                        -1.0,
-                        2.0 * s * x[1] + 3.0 * x[1] * x[1],
-                        0.0,
-                        0.0,
-                        1.0,
-                    ],
-                )
+                let r = x[0] * x[0] + s * x[1] * x[1] + x[1].powi(3);
+                let slope = 2.0 * s * x[1] + 3.0 * x[1] * x[1];
+                let columns = [[2.0 * x[0], -1.0], [slope, 0.0], [0.0, 1.0]];
+                (vec![r, x[2] - x[0]], columns.concat())
             }
         };
         let method = Continuation::default();
@@ -443,10 +421,8 @@ mod tests {
         // xy = 0, yz = 0, zx = 0: the axes
         let axes = |x: &[f64]| {
             let residual = vec![x[0] * x[1], x[1] * x[2], x[2] * x[0]];
-            (
-                residual,
-                vec![x[1], 0.0, x[2], x[0], x[2], 0.0, 0.0, x[1], x[0]],
-            )
+            let columns = [[x[1], 0.0, x[2]], [x[0], x[2], 0.0], [0.0, x[1], x[0]]];
+            (residual, columns.concat())
         };
         let method = Continuation::default();
         let point = method

@@ -16,7 +16,7 @@
 //! infinite, steps become shorter in geometric progression and the point must be located and left by
 //! name ([`BranchPoint`](super::BranchPoint)).
 
-use crate::linear::{Decomposition, dot, norm, rank};
+use crate::linear::{BESIDE_A_CROSSING, Decomposition, SINGULAR_PLACE, dot, norm, rank};
 
 /// A set of solutions with one freedom, on a manifold of points with tangent coordinates.
 pub trait SolutionCurve {
@@ -63,7 +63,13 @@ impl<P> Place<P> {
 
     /// Whether branches may cross so near that rounding decides which one this is.
     pub fn is_beside_a_crossing(&self) -> bool {
-        self.least() < 1e-5 * self.largest()
+        self.least() < BESIDE_A_CROSSING * self.largest()
+    }
+
+    /// Whether branches cross here: only a [`BranchPoint`](super::BranchPoint) gives such a place,
+    /// located to rounding.
+    pub fn is_singular(&self) -> bool {
+        self.least() <= SINGULAR_PLACE * self.largest()
     }
 
     /// The same place, followed the other way.
@@ -229,7 +235,8 @@ impl Continuation {
     }
 
     /// The place between two where a function of places vanishes, to rounding: `f` must have
-    /// different signs at both. `to` must have been reached from `from` by one step.
+    /// different signs at both. `to` must have been reached from `from` by one step; where `from` is
+    /// singular, steps are made from `to`.
     ///
     /// Regula falsi with the weights of Anderson and Björck 1973, halving when that does not.
     pub fn root<C: SolutionCurve>(
@@ -239,13 +246,29 @@ impl Continuation {
         to: &Place<C::Point>,
         f: &mut dyn FnMut(&mut C, &Place<C::Point>) -> f64,
     ) -> Place<C::Point> {
+        if from.is_singular() {
+            let (from, to) = (to.clone().reversed(), from.clone().reversed());
+            return self.bracketed(curve, &from, &to, f).reversed();
+        }
+        self.bracketed(curve, from, to, f)
+    }
+
+    fn bracketed<C: SolutionCurve>(
+        &self,
+        curve: &mut C,
+        from: &Place<C::Point>,
+        to: &Place<C::Point>,
+        f: &mut dyn FnMut(&mut C, &Place<C::Point>) -> f64,
+    ) -> Place<C::Point> {
         const EVALUATIONS: usize = 80;
         let end = dot(&curve.difference(&from.at, &to.at), &from.tangent);
         let (mut low, mut high) = ((0.0, f(curve, from)), (end, f(curve, to)));
-        let mut best = match low.1.abs() < high.1.abs() {
-            true => (low.1.abs(), from.clone()),
-            false => (high.1.abs(), to.clone()),
+        let (nearest, value) = if low.1.abs() < high.1.abs() {
+            (from, low.1)
+        } else {
+            (to, high.1)
         };
+        let mut best = (value.abs(), nearest.clone());
         let (mut width, mut slow) = (end.abs(), 0);
         for _ in 0..EVALUATIONS {
             if best.0 == 0.0 || (high.0 - low.0).abs() <= 4.0 * f64::EPSILON * end.abs() {
@@ -296,9 +319,8 @@ pub(super) fn change<P>(from: &Place<P>, to: &Place<P>) -> f64 {
         0 => return 0.0,
         n => from.jacobian.len() / n,
     };
-    let columns =
-        (from.jacobian.chunks_exact(rows.max(1))).zip(to.jacobian.chunks_exact(rows.max(1)));
-    let squares = columns.map(|(before, after)| {
+    let [before, after] = [from, to].map(|place| place.jacobian.chunks_exact(rows.max(1)));
+    let squares = before.zip(after).map(|(before, after)| {
         let moved: Vec<f64> = after.iter().zip(before).map(|(a, b)| a - b).collect();
         let beside = from.decomposition.solve(&moved);
         dot(&beside, &beside)
@@ -342,10 +364,8 @@ pub(super) mod tests {
     /// x²/4 + y² = 1 twice over, so that the rows are redundant.
     fn ellipse(x: &[f64]) -> (Vec<f64>, Vec<f64>) {
         let r = 0.25 * x[0] * x[0] + x[1] * x[1] - 1.0;
-        (
-            vec![r, 2.0 * r],
-            vec![0.5 * x[0], x[0], 2.0 * x[1], 4.0 * x[1]],
-        )
+        let columns = [[0.5 * x[0], x[0]], [2.0 * x[1], 4.0 * x[1]]];
+        (vec![r, 2.0 * r], columns.concat())
     }
 
     #[test]
@@ -373,10 +393,8 @@ pub(super) mod tests {
         }
         assert_eq!(folds.len(), 2);
         for (fold, x) in folds.iter().zip([2.0, -2.0]) {
-            assert!(
-                (fold[0] - x).abs() < 1e-15 && fold[1].abs() < 1e-14,
-                "{fold:?}"
-            );
+            let exact = (fold[0] - x).abs() < 1e-15 && fold[1].abs() < 1e-14;
+            assert!(exact, "{fold:?}");
         }
     }
 
@@ -401,10 +419,8 @@ pub(super) mod tests {
         let mut curve = Plain(2, bent);
         let place = method.settle(&mut curve, vec![-0.3, 0.055]).unwrap();
         let mut place = place.towards(&[1.0, 0.0]);
-        assert!(
-            method.step(&mut curve, &place, 0.5).is_err(),
-            "a step across the other line"
-        );
+        let across = method.step(&mut curve, &place, 0.5);
+        assert!(across.is_err(), "a step across the other line");
         let mut length = 0.1;
         while place.at[0] < 0.3 {
             match method.step(&mut curve, &place, length) {

@@ -211,13 +211,8 @@ mod tests {
     fn end(c: f64) -> Ending {
         let radius = 0.03;
         let x = [C::new(0.0, f64::ln(c - 1.0 + radius))];
-        ending(
-            &mut Exponential { c },
-            &Tracker::default(),
-            &x,
-            radius,
-            &mut Stages::new(1),
-        )
+        let (tracker, mut stages) = (Tracker::default(), Stages::new(1));
+        ending(&mut Exponential { c }, &tracker, &x, radius, &mut stages)
     }
 
     #[test]

@@ -138,19 +138,14 @@ impl Tracker {
         let (mut steps, mut evaluations) = (0, 0);
         let mut moving = false;
         let Stages { k, stage, next } = stages;
+        // errors grow as the fifth power of the step
+        let fitting = |first: f64| (self.correction / first.max(1e-12)).powf(0.2);
         for _ in 0..self.max_steps {
             if done >= 1.0 {
-                return Track {
-                    arrival: Arrival::There,
-                    steps,
-                    evaluations,
-                };
+                return ended(Arrival::There, steps, evaluations);
             }
-            let step: f64 = if length >= 0.999 * (1.0 - done) {
-                1.0 - done
-            } else {
-                length
-            };
+            let left: f64 = 1.0 - done;
+            let step = if length >= 0.999 * left { left } else { length };
             let (s, ds) = (from + way * done, way * step);
             if !moving {
                 moving = h.velocity(s, x, &mut k[0]);
@@ -171,10 +166,11 @@ impl Tracker {
             let end = if step == 1.0 - done { to } else { s + ds };
             if fine {
                 let sixth = ds / 6.0;
+                let third = sixth * 2.0;
                 let terms = [
                     (sixth, &k[0]),
-                    (sixth * 2.0, &k[1]),
-                    (sixth * 2.0, &k[2]),
+                    (third, &k[1]),
+                    (third, &k[2]),
                     (sixth, &k[3]),
                 ];
                 shifted(h, x, &terms, next);
@@ -196,32 +192,30 @@ impl Tracker {
                 moving = done < 1.0 && h.velocity_again(end, x, &mut k[0]);
                 let size = x.iter().map(|z| z.norm_sqr()).fold(0.0, f64::max).sqrt();
                 if size > self.largest {
-                    return Track {
-                        arrival: Arrival::Diverged(done),
-                        steps,
-                        evaluations,
-                    };
+                    return ended(Arrival::Diverged(done), steps, evaluations);
                 }
-                length =
-                    step * (0.9 * (self.correction / first.max(1e-12)).powf(0.2)).clamp(0.4, 3.0);
+                length = step * (0.9 * fitting(first)).clamp(0.4, 3.0);
             } else {
                 moving &= fine;
-                let shrink = if first.is_finite() {
-                    (0.8 * (self.correction / first.max(1e-12)).powf(0.2)).clamp(0.1, 0.5)
-                } else {
-                    0.3
-                };
-                length = step * shrink;
+                length = step
+                    * match first.is_finite() {
+                        true => (0.8 * fitting(first)).clamp(0.1, 0.5),
+                        false => 0.3,
+                    };
             }
             if length < self.shortest {
                 break;
             }
         }
-        Track {
-            arrival: Arrival::Stuck(done),
-            steps,
-            evaluations,
-        }
+        ended(Arrival::Stuck(done), steps, evaluations)
+    }
+}
+
+fn ended(arrival: Arrival, steps: usize, evaluations: usize) -> Track {
+    Track {
+        arrival,
+        steps,
+        evaluations,
     }
 }
 

@@ -76,16 +76,14 @@ impl Newton {
             }
             // a slow step may be the way round a bend; several in a row are a minimum
             let progress = 1.0 - size.squares / before.squares;
-            slow = if progress < self.least_progress {
-                slow + 1
-            } else {
-                0
-            };
+            let is_slow = progress < self.least_progress;
+            slow = if is_slow { slow + 1 } else { 0 };
             if slow == 3 {
                 return report(Stop::Minimum, steps + 1, size);
             }
         }
-        let stop = if size.largest <= self.tolerance {
+        let solved = size.largest <= self.tolerance;
+        let stop = if solved {
             Stop::Solved
         } else {
             Stop::StepLimit

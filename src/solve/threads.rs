@@ -60,11 +60,8 @@ impl<S: Clone + Send + Sync> Pool<S> {
     pub fn each_of<I: Send>(&self, items: Vec<I>, f: impl Fn(&mut S, I) + Sync) {
         let items: Vec<Mutex<Option<I>>> = items.into_iter().map(|i| Mutex::new(Some(i))).collect();
         self.each(items.len(), |storage, i| {
-            let item = items[i]
-                .lock()
-                .unwrap_or_else(PoisonError::into_inner)
-                .take();
-            if let Some(item) = item {
+            let mut item = items[i].lock().unwrap_or_else(PoisonError::into_inner);
+            if let Some(item) = item.take() {
                 f(storage, item);
             }
         });

@@ -157,9 +157,8 @@ impl Warm {
         if order > 0 {
             let mut longest = 0.0f64;
             for (moved, differences) in trail.moved.iter_mut().zip(&trail.differences) {
-                *moved = differences[..order]
-                    .iter()
-                    .fold(E::Number::zero(), |sum, &d| sum + d);
+                let terms = differences[..order].iter();
+                *moved = terms.fold(E::Number::zero(), |sum, &d| sum + d);
                 longest = longest.max(moved.norm_squared().greatest());
             }
             longest_step = longest_step.min(longest.sqrt());

@@ -669,7 +669,7 @@ mod files {
                 "{q}\"p\": Prismatic(direction: (0, 0, \"1 - 1\"))"
             ))),
             [
-                "3:28 the axis of joint `p` has no direction (give a vector that is not zero, or two points that differ)"
+                "3:28 the axis of joint `p` has no direction (give a nonzero vector, or two different points)"
             ]
         );
         assert_eq!(
@@ -677,16 +677,16 @@ mod files {
                 "{q}\"p\": Revolute(through: ((1, 2, 3), (1, 2, 3)))"
             ))),
             [
-                "3:26 the axis of joint `p` has no direction (give a vector that is not zero, or two points that differ)"
+                "3:26 the axis of joint `p` has no direction (give a nonzero vector, or two different points)"
             ]
         );
         assert_eq!(
             titles(&serial(q)),
-            ["1:24 there is only one joint (a table between axes needs two of them)"]
+            ["1:24 there is only one joint (a table needs at least two axes)"]
         );
         assert_eq!(
             titles(&serial("")),
-            ["1:24 there are no joints (a table between axes needs two of them)"]
+            ["1:24 there are no joints (a table needs at least two axes)"]
         );
         assert_eq!(
             titles(&serial(&format!(
@@ -723,16 +723,13 @@ mod files {
             assert!(found.len() == 1 && found[0].contains(start), "{found:?}");
         };
         assert!(titles_none(&closed(&triangle, "")));
-        starts(
-            closed(&triangle, "\"d\""),
-            "there is no joint `d` to be cut",
-        );
+        starts(closed(&triangle, "\"d\""), "there is no joint `d` to cut");
         starts(
             closed(&triangle, "\"a\", \"b\""),
-            "cutting the joint `b` takes bodies off",
+            "cutting the joint `b` disconnects bodies",
         );
         let two = triangle.clone() + &joint("d", 3, "u", "ground");
-        starts(closed(&two, "\"a\""), "leave a loop closed");
+        starts(closed(&two, "\"a\""), "leave a closed loop");
         starts(
             closed(&(triangle.clone() + &joint("d", 3, "s", "t")), ""),
             "no joints connect the body `s`",
@@ -743,7 +740,7 @@ mod files {
         );
         starts(
             closed(&(triangle + q), ""),
-            "nothing says which bodies the joint `q` connects",
+            "the joint `q` does not name the bodies that it connects",
         );
         starts(
             closed(&(joint("a", 0, "u", "v") + &joint("b", 1, "v", "w")), ""),
@@ -766,14 +763,14 @@ mod files {
             |joint: &str| four_bar.replacen("joints:", &format!("cut: [\"{joint}\"], joints:"), 1);
         assert_eq!(
             warned(&cut("theta1")),
-            ["the driven joint `theta1` is cut, and so has no variable any more"]
+            ["the driven joint `theta1` is cut and loses its variable"]
         );
         assert!(warned(&cut("phi1")).is_empty());
         let home = "home: \"atan2(y3, x3 - l0)\"";
         let limited = cut("phi1").replacen(home, &format!("{home}, limits: (0, 3)"), 1);
         assert_eq!(
             warned(&limited),
-            ["the joint `phi1` is cut, and so has no variable and no limits any more"]
+            ["the joint `phi1` is cut and loses its variable and its limits"]
         );
         // where no role is given the first joint that is not cut is driven
         let silent = cut("theta1").replace("role: Actuated, ", "");
@@ -791,7 +788,7 @@ mod files {
         };
         assert_eq!(
             warned(&based("T(1, 0, 2)")),
-            ["frame 0 cannot stand where `base` says, and is placed freely"]
+            ["frame 0 cannot be placed as `base` says; it is placed freely"]
         );
         assert!(warned(&based("T(-1, 0, 2)")).is_empty());
         assert!(warned(&based("Tz(2)")).is_empty());
@@ -811,7 +808,7 @@ mod files {
         assert_eq!(found.len(), 1, "{found:?}");
         assert!(
             found[0].contains("`a` and `b` are nearly parallel, 3.0e-7 rad apart")
-                && found[0].contains("3.3e6 m off"),
+                && found[0].contains("3.3e6 m away"),
             "{found:?}"
         );
         // parallel within the tolerance, and far enough from parallel
@@ -821,7 +818,7 @@ mod files {
 
     #[test]
     fn the_sense_of_the_first_normal_is_told_as_it_is() {
-        use linkwork::analysis::overview::overview;
+        use linkwork::output::Report;
         let sense = |first: &str, second: &str, home: f64| {
             let text = format!(
                 "Axes(version: 1, name: \"p\", joints: {{
@@ -830,8 +827,7 @@ mod files {
             );
             let axes = AxesDescription::read(&text).unwrap();
             let report = frames(&axes, &FramesSettings::default()).unwrap();
-            let mechanism = Mechanism::new(&report.description).unwrap();
-            let said = linkwork::output::frames::text(&report, &overview(&mechanism), false);
+            let said = linkwork::output::text::render(&report.document());
             let x0 = report.chains[0].frames[0].x;
             let line = said.lines().find(|line| line.contains("sense of x1: "));
             let line = line.unwrap().split("sense of x1: ").nth(1).unwrap().trim();

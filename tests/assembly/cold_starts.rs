@@ -74,7 +74,7 @@ fn the_three_rps_assembles_from_random_leg_angles() {
         }
         tally.ask(&question);
     }
-    println!(
+    eprintln!(
         "3-RPS: {} of {STARTS}, {} without a restart",
         tally.answered, tally.from_the_guess
     );
@@ -131,7 +131,7 @@ fn stewart_gough(from_home: bool) -> Tally {
         }
         tally.ask(&question);
     }
-    println!(
+    eprintln!(
         "Stewart-Gough: {} of {STARTS}, {} without a restart",
         tally.answered, tally.from_the_guess
     );

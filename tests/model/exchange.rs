@@ -548,7 +548,7 @@ fn wrong_files_are_refused_with_their_places() {
         ),
         (
             joint("<limit lower=\"2\" upper=\"1\"/>"),
-            "the lower of which is higher",
+            "the lower above the upper",
         ),
         (joint("<mimic joint=\"k\"/>"), "there is no joint `k`"),
         (joint("<mimic joint=\"j\"/>"), "joint `j` follows itself"),
@@ -560,7 +560,7 @@ fn wrong_files_are_refused_with_their_places() {
             robot(&format!(
                 "{links}<joint name=\"j\" type=\"hinge\"><parent link=\"a\"/><child link=\"b\"/></joint>"
             )),
-            "`hinge` is not known here (known are `revolute`",
+            "unknown word `hinge` (possible words are `revolute`",
         ),
         (
             robot(&format!(
@@ -574,7 +574,7 @@ fn wrong_files_are_refused_with_their_places() {
             )),
             "there is no link `c`",
         ),
-        (robot(links), "`a` and `b` hang on no link"),
+        (robot(links), "`a` and `b` have no parent"),
         (robot("<link name=\"a\"/>"), "nothing in the file moves"),
         (robot(""), "nothing in the file moves"),
         (
@@ -582,7 +582,7 @@ fn wrong_files_are_refused_with_their_places() {
                 "{links}<joint name=\"j\" type=\"fixed\"><parent link=\"a\"/><child link=\"b\"/></joint>\
                          <joint name=\"k\" type=\"fixed\"><parent link=\"b\"/><child link=\"a\"/></joint>"
             )),
-            "every link hangs on another one",
+            "no link is the root",
         ),
         (
             robot(&format!(
@@ -617,7 +617,7 @@ fn wrong_files_are_refused_with_their_places() {
         ),
         (
             mujoco("<worldbody><body name=\"b\" quat=\"0 0 0 0\"/></worldbody>"),
-            "gives no orientation",
+            "does not define an orientation",
         ),
         (
             mujoco("<worldbody><replicate/></worldbody>"),

@@ -49,7 +49,7 @@ pub(super) fn cosine(k: i64) -> Vec<(u64, BigRational)> {
     }
 }
 
-/// Factors beyond this are not looked for.
+/// Larger factors are not searched for.
 const LARGEST_PRIME: u64 = 1000;
 
 /// √value = q √s with squarefree s; `None` if it is negative or too large to be factored.

@@ -1,4 +1,4 @@
-//! Whether a sum is zero, when constant angles such as 20° stand in it.
+//! Whether a sum that contains constant angles such as 20° is zero.
 //!
 //! exp(iπk) for k no multiple of 1/12 is a root of unity, and roots of unity obey relations beyond the addition
 //! theorems, as 1 + ζ + ζ² + ζ³ + ζ⁴ = 0 for ζ = exp(2πi/5). All constants are written as sums of powers of one root
@@ -12,14 +12,14 @@ use num_traits::Zero;
 
 use super::{Atom, Budget, Key, Trigonometric};
 
-/// Beyond this prime the relation is longer than anyone's formula.
+/// Beyond this prime the relation is longer than any practical formula.
 const LARGEST_PRIME: i64 = 61;
 
 impl Trigonometric {
     /// Whether it is zero for all values of its letters at which its denominators are not.
     ///
-    /// `None` if that was not found out: not zero as it stands, but letters such as roots and inverse functions stand in it
-    /// that may depend on others, or it is too long.
+    /// `None` if undecided: not zero as it stands, but it contains letters such as roots and inverse functions that may
+    /// depend on others, or it is too long.
     pub fn vanishes(&self, budget: &mut Budget) -> Option<bool> {
         if self.is_empty() {
             return Some(true);

@@ -16,7 +16,7 @@ use super::{Trigonometric, constants};
 pub enum Atom {
     /// π as a factor; as an angle it is multiplied out where that is exact.
     Pi,
-    /// Whatever the owner of the polynomial means by that number.
+    /// A symbol, whose meaning the caller defines.
     Symbol(u32),
     /// 1/P
     Inverse(Arc<Trigonometric>),

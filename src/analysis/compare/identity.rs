@@ -24,17 +24,16 @@ impl Setting<'_> {
         let mut roots = 0;
         for (key, coefficient) in form.terms() {
             let part = Trigonometric::term(key.clone(), coefficient.clone());
-            match key.powers.iter().any(is_root) {
-                true => {
-                    let alone = key.powers.len() == 1 && key.wave.0.is_empty() && !key.imaginary;
-                    if !alone || !coefficient.is_positive() {
-                        return None;
-                    }
-                    roots += 1;
-                    other = other.plus(&part);
-                }
-                false => rest = rest.plus(&part),
+            if !key.powers.iter().any(is_root) {
+                rest = rest.plus(&part);
+                continue;
             }
+            let alone = key.powers.len() == 1 && key.wave.0.is_empty() && !key.imaginary;
+            if !alone || !coefficient.is_positive() {
+                return None;
+            }
+            roots += 1;
+            other = other.plus(&part);
         }
         let constants = self.letters.joint(0);
         let constant = rest.symbols().iter().all(|symbol| *symbol < constants);
@@ -44,9 +43,8 @@ impl Setting<'_> {
         let parameters = self.letters.0.parameters();
         // NaN for what is no parameter, which there is none of
         let value = |symbol: u32| {
-            parameters
-                .get(symbol as usize)
-                .map_or(f64::NAN, |p| p.value)
+            let parameter = parameters.get(symbol as usize);
+            parameter.map_or(f64::NAN, |parameter| parameter.value)
         };
         if rest.value(&value).is_nan() || rest.value(&value) >= 0.0 {
             return None;
@@ -104,9 +102,8 @@ impl Setting<'_> {
     }
 
     pub(super) fn vanishing(&self, formula: &Formula, equations: &[Trigonometric]) -> Proof {
-        let not_decided = |reason| Proof::NotDecided { reason };
         let Some(form) = self.values.of(formula).ok().and_then(Symbolic::formula) else {
-            return not_decided(Reason::TooLong);
+            return Proof::undecided(Reason::TooLong);
         };
         let mut budget = Budget {
             products: MOST_PRODUCTS,
@@ -118,7 +115,7 @@ impl Setting<'_> {
             return Proof::FollowsFromClosures;
         }
         let Some(form) = form.without_denominators(&mut budget) else {
-            return not_decided(Reason::TooLong);
+            return Proof::undecided(Reason::TooLong);
         };
         if self.consequence(&form, equations, &mut budget) {
             return Proof::FollowsFromClosures;
@@ -136,10 +133,10 @@ impl Setting<'_> {
             Some(nearest) if 2 * form.minus(&nearest).len() <= form.len() => {
                 match self.decided(&form, &nearest) {
                     different @ Proof::Different(_) => different,
-                    _ => not_decided(Reason::NeedsElimination),
+                    _ => Proof::undecided(Reason::NeedsElimination),
                 }
             }
-            _ => not_decided(Reason::NeedsElimination),
+            _ => Proof::undecided(Reason::NeedsElimination),
         }
     }
 }

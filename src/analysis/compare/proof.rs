@@ -67,6 +67,10 @@ pub enum Reason {
 }
 
 impl Proof {
+    pub(super) fn undecided(reason: Reason) -> Self {
+        Proof::NotDecided { reason }
+    }
+
     /// Whether it is proved.
     pub fn proved(&self) -> bool {
         use Proof::*;
@@ -82,13 +86,13 @@ impl Proof {
 
 /// What can be proved of each component of a form, in order.
 pub(super) fn proofs(mechanism: &Mechanism, form: &ClosedForm) -> Vec<Proof> {
-    let general = Attempt::new(mechanism, form, false);
-    if general.proofs.iter().all(Proof::proved) {
-        return general.proofs;
+    let general = attempt(mechanism, form, false);
+    if general.iter().all(Proof::proved) {
+        return general;
     }
-    let special = Attempt::new(mechanism, form, true);
+    let special = attempt(mechanism, form, true);
     let of_loops = matches!(form.gives, Given::Identities(_));
-    let pairs = general.proofs.into_iter().zip(special.proofs);
+    let pairs = general.into_iter().zip(special);
     pairs
         .map(|(general, special)| match (general, special) {
             (general, _) if general.proved() => general,
@@ -145,53 +149,43 @@ fn over_letters<R>(mechanism: &Mechanism, form: &ClosedForm, work: impl FnOnce()
     with_letters(values, Budget { products }, work)
 }
 
-struct Attempt {
-    proofs: Vec<Proof>,
-}
-
-impl Attempt {
-    /// With parameters as letters, or with the numbers of the file.
-    fn new(mechanism: &Mechanism, form: &ClosedForm, numbers: bool) -> Self {
-        let count = match &form.gives {
-            Given::Pose { entries, .. } => entries.len(),
-            Given::Identities(identities) => identities.len(),
-        };
-        let proofs = over_letters(mechanism, form, || {
-            let setting = Setting::new(mechanism, form, numbers)?;
-            Some(match &form.gives {
-                Given::Pose {
-                    of,
-                    relative_to,
-                    entries,
-                } => {
-                    if mechanism.carrier(*of) != mechanism.carrier(*relative_to) {
-                        let reason = Reason::NeedsPlatform;
-                        return Some(vec![Proof::NotDecided { reason }; count]);
-                    }
-                    let pose = setting.formal.transform(*relative_to, *of);
-                    let proved = entries.iter().map(|(entry, formula)| {
-                        let chains = match *entry {
-                            MatrixEntry::Position(i) => pose.position.0[i],
-                            MatrixEntry::Rotation(i, j) => pose.rotation.0[j].0[i],
-                        };
-                        setting.compared(formula, chains)
-                    });
-                    proved.collect()
+/// What can be proved with parameters as letters, or with the numbers of the file.
+fn attempt(mechanism: &Mechanism, form: &ClosedForm, numbers: bool) -> Vec<Proof> {
+    let count = match &form.gives {
+        Given::Pose { entries, .. } => entries.len(),
+        Given::Identities(identities) => identities.len(),
+    };
+    let proofs = over_letters(mechanism, form, || {
+        let setting = Setting::new(mechanism, form, numbers)?;
+        Some(match &form.gives {
+            Given::Pose {
+                of,
+                relative_to,
+                entries,
+            } => {
+                if mechanism.carrier(*of) != mechanism.carrier(*relative_to) {
+                    return Some(vec![Proof::undecided(Reason::NeedsPlatform); count]);
                 }
-                Given::Identities(identities) => {
-                    let equations = setting.equations();
-                    let proved = identities.iter();
-                    proved
-                        .map(|(_, formula)| setting.vanishing(formula, &equations))
-                        .collect()
-                }
-            })
-        });
-        let reason = Reason::TooLong;
-        Attempt {
-            proofs: proofs.unwrap_or_else(|| vec![Proof::NotDecided { reason }; count]),
-        }
-    }
+                let pose = setting.formal.transform(*relative_to, *of);
+                let proved = entries.iter().map(|(entry, formula)| {
+                    let chains = match *entry {
+                        MatrixEntry::Position(i) => pose.position.0[i],
+                        MatrixEntry::Rotation(i, j) => pose.rotation.0[j].0[i],
+                    };
+                    setting.compared(formula, chains)
+                });
+                proved.collect()
+            }
+            Given::Identities(identities) => {
+                let equations = setting.equations();
+                let proved = identities.iter();
+                proved
+                    .map(|(_, formula)| setting.vanishing(formula, &equations))
+                    .collect()
+            }
+        })
+    });
+    proofs.unwrap_or_else(|| vec![Proof::undecided(Reason::TooLong); count])
 }
 
 /// The chains and the names of a closed form in letters.
@@ -240,8 +234,7 @@ impl<'a> Setting<'a> {
     fn compared(&self, formula: &Formula, chains: Symbolic) -> Proof {
         let form = self.values.of(formula).ok().and_then(Symbolic::formula);
         let (Some(form), Some(chains)) = (form, chains.formula()) else {
-            let reason = Reason::TooLong;
-            return Proof::NotDecided { reason };
+            return Proof::undecided(Reason::TooLong);
         };
         self.decided(&form, &chains)
     }
@@ -253,21 +246,14 @@ impl<'a> Setting<'a> {
         };
         match difference.vanishes(&mut budget) {
             Some(true) => Proof::Identical,
-            Some(false) if difference.len() > MOST_TERMS => {
-                let reason = Reason::TooLong;
-                Proof::NotDecided { reason }
-            }
+            Some(false) if difference.len() > MOST_TERMS => Proof::undecided(Reason::TooLong),
             Some(false) => {
                 let own = form.restricted_to(&difference);
                 let theirs = chains.restricted_to(&difference);
                 Proof::Different(Box::new(self.written(&own, &theirs, &difference)))
             }
-            None => Proof::NotDecided {
-                reason: match difference.is_opaque() {
-                    true => Reason::NotPolynomial,
-                    false => Reason::TooLong,
-                },
-            },
+            None if difference.is_opaque() => Proof::undecided(Reason::NotPolynomial),
+            None => Proof::undecided(Reason::TooLong),
         }
     }
 

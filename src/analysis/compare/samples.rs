@@ -122,9 +122,8 @@ impl Solver {
     fn new(mechanism: &Mechanism) -> Self {
         let closed = !mechanism.closures().is_empty();
         let joints = mechanism.joints().iter();
-        let held: Vec<bool> = joints
-            .map(|joint| joint.role == Role::Actuated || !closed)
-            .collect();
+        let held = joints.map(|joint| joint.role == Role::Actuated || !closed);
+        let held: Vec<bool> = held.collect();
         let platforms = vec![HeldPlatform::Free; mechanism.platforms().len()];
         let joints = held.clone();
         let system = System::new(mechanism.dimensions(), &Held { joints, platforms });

@@ -14,7 +14,7 @@ impl ProblemKind {
         self.to_string()
     }
 
-    /// A few words to stand under the offending text; may be empty.
+    /// A few words below the offending text; may be empty.
     pub fn label(&self) -> String {
         use ProblemKind::*;
         match self {
@@ -38,7 +38,7 @@ impl ProblemKind {
             NoValue(_) => "has no value".into(),
             Unit(error) => expression::unit_label(error).into(),
             EmptyClosedForm => "no formula".into(),
-            UnfeltJoint { .. } => "moves no closure".into(),
+            UnfeltJoint { .. } => "no effect on any closure".into(),
             UnusedJoint { .. } | UnusedParameter { .. } | UnusedPlatform { .. } => {
                 "not used".into()
             }
@@ -47,11 +47,11 @@ impl ProblemKind {
         }
     }
 
-    /// What to do about it.
+    /// A hint on how to correct it.
     pub fn help(&self) -> Option<String> {
         use ProblemKind::*;
         let help = match self {
-            TooDeep => "lists of rows and transforms need no further brackets".into(),
+            TooDeep => "lists of rows and transforms need no extra brackets".into(),
             Syntax { error, found } => return syntax::help(error, *found).map(str::to_owned),
             Empty => format!("begin with `Mechanism(version: {VERSION}, name: \"…\", …)`"),
             LaterVersion(_) => format!("this program reads version {VERSION}"),
@@ -66,7 +66,7 @@ impl ProblemKind {
             UnknownFrame { .. } => {
                 "a frame is `ground`, a chain, `chain.k`, a platform, or `platform.frame`".into()
             }
-            UnknownName { scope: Scope::ClosedForm, .. } => "name it under `where`, `parameters` or `joints`".into(),
+            UnknownName { scope: Scope::ClosedForm, .. } => "declare it under `where`, `parameters` or `joints`".into(),
             UnknownName { scope: Scope::ParametersAndJoints, .. } => {
                 "declare it under `parameters` or `joints`".into()
             }
@@ -74,9 +74,9 @@ impl ProblemKind {
             Expression(error) => return expression::help(error),
             Unit(error) => expression::unit_help(error).into(),
             NotAName { .. } => {
-                "a name begins with a letter or `_` and goes on with letters, digits and `_`".into()
+                "a name starts with a letter or `_`, followed by letters, digits or `_`".into()
             }
-            DottedName { .. } => "the dot separates it from the names of its frames".into(),
+            DottedName { .. } => "the dot is reserved for frames, as in `leg.2`".into(),
             NoConvention { .. } => {
                 "write `convention: Modified` or `convention: Standard` in the file, or in each chain".into()
             }
@@ -87,14 +87,14 @@ impl ProblemKind {
             UnknownMatrixEntry { .. } => "entries are r11 to r33, px, py and pz".into(),
             JointNotAllowed { .. } => "only parameters, numbers and constants can be used here".into(),
             NotAffine => "only theta, d and distances may contain joints, as in `\"pi/2 - 2*phi1\"`".into(),
-            SameBody { .. } => "such a closure either always holds or never".into(),
-            UnfeltJoint { .. } => "it can have any value; remove it, or close the chain it moves".into(),
-            NegativeLinkLength { .. } => "turn theta by 180 deg and change the sign of alpha, or leave it".into(),
-            ZeroDistance { .. } => "two points that coincide are a `Spherical` closure".into(),
+            SameBody { .. } => "a closure within one body is either always or never satisfied".into(),
+            UnfeltJoint { .. } => "its value is arbitrary; remove it, or close the chain that it moves".into(),
+            NegativeLinkLength { .. } => "add 180 deg to theta and change the sign of alpha, or leave it as it is".into(),
+            ZeroDistance { .. } => "use `Spherical` for two points that coincide".into(),
             LimitsReversed { .. } => "write the lowest value first".into(),
             Axes(problem) => return axes::help(problem),
-            DefinitionCycle { .. } => "give one of them a value of its own".into(),
-            ChainCycle { .. } => "let one of them stand on `ground` and close the loop by a closure".into(),
+            DefinitionCycle { .. } => "define one of them without the others".into(),
+            ChainCycle { .. } => "attach one of them to `ground` and close the loop with a closure".into(),
             _ => return None,
         };
         Some(help)
@@ -102,11 +102,11 @@ impl ProblemKind {
 }
 
 impl Note {
-    /// What another place has to do with the problem.
+    /// How another place is involved in the problem.
     pub fn label(self) -> String {
         match self {
             Self::FirstHere(Noun::Field) => "first given here".into(),
-            Self::FirstHere(noun) => format!("first given here, to {noun}"),
+            Self::FirstHere(noun) => format!("first given here, as {noun}"),
             Self::AlsoHere => "here too".into(),
             Self::StillOpen => "this bracket is still open".into(),
             Self::DeclaredHere(noun) => format!("declared here as {noun}"),
@@ -126,12 +126,12 @@ fn wrong_type_help(expected: Expected, found: &Found) -> Option<&'static str> {
             Some("write an expression in double quotes")
         }
         (Expected::Fields(_) | Expected::Joint, Found::Map) => {
-            Some("fields stand in `(…)`, only names in `{…}`")
+            Some("write fields in `(…)`; `{…}` is for named items")
         }
         (Expected::MapOf(_), Found::List | Found::Tuple | Found::Fields) => {
             Some("write `{ \"name\": …, … }`, with the names in double quotes")
         }
-        (Expected::Rows | Expected::Transform, _) => Some("a list stands in `[…]`"),
+        (Expected::Rows | Expected::Transform, _) => Some("write a list in `[…]`"),
         (_, Found::Call(word)) if word == "Some" => Some("leave out `Some(…)`"),
         (_, Found::Word(word)) if word == "None" => Some("leave the field out"),
         _ => None,

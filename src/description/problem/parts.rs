@@ -79,7 +79,7 @@ impl Display for Expected {
             Self::ClosureFrames("Distance") => "`Distance(frame, frame, length)`",
             Self::ClosureFrames(word) => return write!(f, "`{word}(frame, frame)`"),
             Self::Version => "the number of the file format",
-            Self::Text => "a text",
+            Self::Text => "a string",
             Self::Frame => "the name of a frame",
             Self::Entry => "a number or an expression",
             Self::Rows => "a list of rows",
@@ -124,9 +124,9 @@ impl Display for Found {
     fn fmt(&self, f: &mut Formatter) -> fmt::Result {
         f.write_str(match self {
             Self::Number => "a number",
-            Self::Text => "a text",
+            Self::Text => "a string",
             Self::Character => "a character in apostrophes",
-            Self::Bytes => "a string of bytes",
+            Self::Bytes => "a byte string",
             Self::List => "a list `[…]`",
             Self::Map => "a map `{…}`",
             Self::Tuple => "values without field names `(…)`",

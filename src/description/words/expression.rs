@@ -7,7 +7,7 @@ use crate::description::nearest;
 pub(in crate::description) fn label(error: &ParseErrorKind) -> &'static str {
     use ParseErrorKind::*;
     match error {
-        Empty => "nothing in it",
+        Empty => "empty",
         ExpectedOperand => "a value is missing here",
         MissingOperator => "an operator is missing before this",
         UnclosedParenthesis => "opened here",

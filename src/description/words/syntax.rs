@@ -5,7 +5,7 @@ use ron::Error;
 /// `found` is the character at which reading stopped.
 pub(in crate::description) fn title(error: &Error, found: Option<char>) -> String {
     let title = match (error, found) {
-        (Error::Eof, _) => "the file ends in the middle of something",
+        (Error::Eof, _) => "the file ends unexpectedly",
         (Error::ExpectedComma, Some('=')) | (Error::ExpectedMapColon, _) => "a colon is missing",
         (Error::ExpectedComma, _) => "a comma or a closing bracket is missing",
         (Error::ExpectedIdentifier, Some(')' | ']' | '}')) => "a closing bracket is missing",
@@ -15,18 +15,20 @@ pub(in crate::description) fn title(error: &Error, found: Option<char>) -> Strin
         }
         (Error::ExpectedArrayEnd, _) => "a comma or a closing `]` is missing",
         (Error::ExpectedMapEnd, _) => "a comma or a closing `}` is missing",
-        (Error::ExpectedIdentifier, _) => "the name of a field must stand here",
-        (Error::ExpectedStringEnd, _) => "a text is not closed by `\"`",
-        (Error::InvalidEscape(_), _) => "a text contains `\\` followed by something unknown",
+        (Error::ExpectedIdentifier, _) => "expected the name of a field",
+        (Error::ExpectedStringEnd, _) => "a string is not closed by `\"`",
+        (Error::InvalidEscape(_), _) => "a string contains `\\` followed by an unknown character",
         (Error::UnclosedBlockComment, _) => "a comment is not closed by `*/`",
-        (Error::TrailingCharacters, Some(')' | ']' | '}')) => "a bracket closes nothing",
-        (Error::TrailingCharacters, _) => "something follows the end of the mechanism",
+        (Error::TrailingCharacters, Some(')' | ']' | '}')) => {
+            "a closing bracket has no opening one"
+        }
+        (Error::TrailingCharacters, _) => "there is text after the end of the mechanism",
         (Error::ExpectedAttribute | Error::ExpectedAttributeEnd, _) => {
             "this is not a RON attribute"
         }
         (Error::IntegerOutOfBounds, _) => "the number is too large",
         (Error::UnexpectedChar(c), _) => {
-            return format!("the character `{}` must not stand here", shown(*c));
+            return format!("unexpected character `{}`", shown(*c));
         }
         (Error::SuggestRawIdentifier(name), _) => {
             return format!("`{name}` is not the name of a field");
@@ -57,7 +59,7 @@ fn first_lower(text: &str) -> String {
 
 pub(in crate::description) fn label(error: &Error, found: Option<char>) -> &'static str {
     match (error, found) {
-        (Error::Eof, _) => "more must follow",
+        (Error::Eof, _) => "more is expected here",
         (Error::ExpectedComma, Some('=')) => "not a colon",
         (Error::ExpectedIdentifier, Some(')' | ']' | '}'))
         | (Error::UnexpectedChar(')' | ']' | '}'), _) => "missing before this",

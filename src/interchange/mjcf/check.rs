@@ -1,4 +1,4 @@
-//! What can be found wrong with the elements of an MJCF file one by one.
+//! Problems of single elements of an MJCF file.
 
 use std::collections::HashSet;
 
@@ -8,7 +8,7 @@ use crate::geometry::Vector3;
 use crate::interchange::page::Problems;
 use crate::interchange::problem::ImportProblemKind;
 
-/// Elements that say nothing of how bodies move.
+/// Elements that do not affect how bodies move.
 pub(super) const IRRELEVANT: &[&str] = &[
     "asset",
     "camera",
@@ -38,7 +38,7 @@ pub(super) const IRRELEVANT: &[&str] = &[
 /// How an axis is written.
 pub(super) const AXIS: &str = "axis=\"0 0 1\"";
 
-/// Elements that make bodies in ways that are not followed here.
+/// Elements that create bodies in unsupported ways.
 const MAKING: &[&str] = &["attach", "replicate", "flexcomp", "model", "composite"];
 
 /// Attributes of numbers, and how many.
@@ -57,7 +57,7 @@ const NUMBERS: &[(&str, usize)] = &[
     ("coef", 1),
 ];
 
-/// What can be found wrong with one element.
+/// The problems of one element.
 pub(super) fn look<'a>(
     node: Node<'a, '_>,
     problems: &mut Problems,
@@ -81,13 +81,13 @@ pub(super) fn look<'a>(
         Some("frame") if matches!(element, "joint" | "freejoint") => {
             refuse(
                 format!("a `{element}` in a `frame`"),
-                "move it into the body, with its place and axis turned by the frame",
+                "move it into the body, with its position and axis transformed by the frame",
             );
         }
         Some("worldbody") if matches!(element, "joint" | "freejoint") => {
             refuse(
                 format!("a `{element}` of the world"),
-                "the world does not move: put the joint into a body",
+                "the world is fixed: put the joint into a body",
             );
         }
         _ => {}
@@ -98,7 +98,7 @@ pub(super) fn look<'a>(
     {
         refuse(
             format!("the sequence of angles `{word}`"),
-            "write three letters of x, y, z, X, Y and Z",
+            "write three letters out of x, y, z, X, Y and Z",
         );
     }
     for &(name, count) in NUMBERS {

@@ -11,7 +11,7 @@ use crate::interchange::page::{Problems, children, parse, tag};
 use crate::interchange::remark::Remark;
 use crate::interchange::tree::{Attachment, Coupling, Extent, Loop, Tree};
 
-/// Adds what the constraints of a file say to its tree.
+/// Adds the constraints of a file to its tree.
 pub(super) fn read(
     root: Node,
     model: &Model,
@@ -49,7 +49,7 @@ pub(super) fn read(
             "joint" => couplings.extend(reader.joint(node)),
             "tendon" => loops.extend(reader.tendon(node, name)),
             _ => {
-                let help = "linkwork knows rigid bodies: leave it out";
+                let help = "only rigid bodies are supported: remove it";
                 let what = format!("the constraint `{element}`");
                 let _: Option<()> = reader.problems.unsupported(what, help, node);
             }
@@ -172,7 +172,7 @@ impl<'r, 'i> Constraints<'_, 'r, 'i> {
             return None;
         };
         if numbers.iter().skip(2).any(|c| *c != 0.0) {
-            let help = "in linkwork a joint follows another by a factor and an offset";
+            let help = "a joint can follow another by a factor and an offset only";
             let what = "a polynomial of a higher degree than 1";
             return self.problems.unsupported(what, help, node);
         }
@@ -185,7 +185,8 @@ impl<'r, 'i> Constraints<'_, 'r, 'i> {
         match self.tree.joints().find(|joint| joint.name == name) {
             Some(joint) if !joint.motion.floats() => Some(joint.reference),
             Some(_) => {
-                let what = format!("a constraint on `{name}`, which is no hinge and no slide");
+                let what =
+                    format!("a constraint on `{name}`, which is neither a hinge nor a slide");
                 self.problems.unsupported(what, "leave it out", node)
             }
             None => {
@@ -227,7 +228,7 @@ impl<'r, 'i> Constraints<'_, 'r, 'i> {
         let names: Vec<&str> = sites.iter().filter_map(|s| s.attribute("site")).collect();
         let two = spatial.has_tag_name("spatial") && sites.len() == 2;
         let ([a, b], true) = (&names[..], two) else {
-            let help = "a tendon that holds a length leads straight from one site to another";
+            let help = "a tendon of constant length must lead straight from one site to another";
             let what = format!("the constraint on tendon `{first}`");
             return self.problems.unsupported(what, help, node);
         };
@@ -246,7 +247,7 @@ impl<'r, 'i> Constraints<'_, 'r, 'i> {
             if !fixed.has_tag_name("fixed") {
                 let what =
                     format!("two spatial tendons `{first}` and `{second}` of related lengths");
-                let help = "a length may depend on joints, by a fixed tendon";
+                let help = "a length may depend on joints, through a fixed tendon";
                 return self.problems.unsupported(what, help, node);
             }
             for term in children(fixed, "joint") {

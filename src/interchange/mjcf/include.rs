@@ -1,11 +1,11 @@
-//! One text of a file and all it includes.
+//! The text of a file and of all files it includes.
 
 use std::ops::Range;
 
 use crate::interchange::page::{document, tag};
 use crate::interchange::problem::{ImportProblem, ImportProblemKind, WrongFile};
 
-/// Files may include files this deep.
+/// The largest depth of nested includes.
 const MOST_LEVELS: usize = 20;
 
 /// The most bytes that a file and all it includes may have.
@@ -14,18 +14,18 @@ const MOST_BYTES: usize = 1 << 23;
 /// Reads another file by its name.
 pub(crate) type Files<'a> = &'a dyn Fn(&str) -> Result<String, String>;
 
-/// A text put together from files.
+/// A text assembled from files.
 pub(crate) struct Spliced {
     /// The text, without `include`.
     pub text: String,
-    /// Which part of the text is from which file, and where it begins there.
+    /// The origin of each part of the text: a file and a position in it.
     pieces: Vec<(Range<usize>, usize, usize)>,
-    /// The files: names and texts; the first is the one that was asked for.
+    /// The files: names and texts; the first is the main one.
     pub files: Vec<(String, String)>,
 }
 
 impl Spliced {
-    /// The file that a place of the text is from, and the place in it.
+    /// The file from which a place of the text comes, and the place in it.
     pub fn locate(&self, span: &Range<usize>) -> (usize, Range<usize>) {
         let mut pieces = self.pieces.iter();
         let found = pieces
@@ -42,7 +42,7 @@ impl Spliced {
     }
 }
 
-/// The text of a file with all it includes; or what is wrong, and in which file.
+/// The text of a file with all it includes; or a problem, and the file that has it.
 pub(crate) fn splice(name: &str, text: &str, files: Files) -> Result<Spliced, WrongFile> {
     let mut spliced = Spliced {
         text: String::new(),
@@ -67,7 +67,7 @@ fn expand(
     let text = spliced.files[file].1.clone();
     let page = document(&text).map_err(|problem| (file, problem))?;
     let root = page.root_element();
-    // of an included file only what is in its outermost element
+    // of an included file, only the contents of its outermost element
     let inside = match root.first_child().zip(root.last_child()) {
         Some((first, last)) => first.range().start..last.range().end,
         None => 0..0,
@@ -96,7 +96,7 @@ fn expand(
         }
         let content = files(name).map_err(|reason| refuse(failed(reason)))?;
         if spliced.text.len() + content.len() > MOST_BYTES {
-            return Err(refuse(failed("all together is too large".into())));
+            return Err(refuse(failed("the files together are too large".into())));
         }
         spliced.files.push((name.to_owned(), content));
         let included = spliced.files.len() - 1;

@@ -1,8 +1,8 @@
-//! What the bodies of an MJCF model become, and poses of mjcf-rs.
+//! The bodies of the tree that correspond to those of an MJCF model, and poses of mjcf-rs.
 
 use crate::geometry::{Pose, Quaternion, Rotation, Vector3};
 
-/// A body and where it is in the tree: its first and its last part, if it was taken apart.
+/// A body and its place in the tree: its first and its last part, if it was split.
 pub(super) type Parts = Vec<usize>;
 
 /// A pose of mjcf-rs.

@@ -1,7 +1,7 @@
 //! MJCF → tree.
 //!
-//! Bodies, joints, defaults and units are read by mjcf-rs, from a text that keeps only what moves and what joins.
-//! Sites of constraints and spatial tendons, which it does not know, are read beside it.
+//! Bodies, joints, defaults and units are read by mjcf-rs, from a text reduced to bodies, joints and constraints.
+//! Sites of constraints and spatial tendons, which it does not support, are read separately.
 
 use std::collections::HashSet;
 use std::ops::Range;
@@ -33,7 +33,7 @@ pub(crate) fn read(text: &str) -> Result<(Tree, Vec<Remark>), Vec<ImportProblem>
         if IRRELEVANT.contains(&node.tag_name().name()) {
             removed.push(node.range());
         }
-        // a named outermost class of defaults is the one of everything
+        // a named outermost class of defaults applies to everything
         let outermost = node.has_tag_name("default") && node.parent().is_some_and(|p| p == root);
         if let Some(class) = node.attribute_node("class").filter(|_| outermost) {
             removed.push(class.range());
@@ -57,7 +57,7 @@ pub(crate) fn read(text: &str) -> Result<(Tree, Vec<Remark>), Vec<ImportProblem>
     }
 }
 
-/// The text without some ranges, of which one may stand in another.
+/// The text without some ranges, which may be nested.
 fn without(text: &str, mut removed: Vec<Range<usize>>) -> String {
     removed.sort_by_key(|range| range.start);
     let mut kept = String::new();
@@ -71,7 +71,7 @@ fn without(text: &str, mut removed: Vec<Range<usize>>) -> String {
     kept + &text[at..]
 }
 
-/// All bodies, and for each body of the model the bodies of the tree that it became.
+/// All bodies, and for each body of the model the corresponding bodies of the tree.
 fn bodies(
     model: &Model,
     root: Node,

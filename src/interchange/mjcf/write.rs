@@ -19,7 +19,7 @@ use crate::interchange::remark::Remark;
 use crate::interchange::tree::{Attachment, Body, Extent, Joint, Loop, Motion, Tree};
 use crate::interchange::xml::{Xml, numbers, place, vector};
 
-/// The text of an MJCF file, and what it says another way than the mechanism.
+/// The text of an MJCF file, with remarks on what it expresses differently from the mechanism.
 pub fn write(tree: &Tree, known: &[Remark]) -> (String, Vec<Remark>) {
     let (tree, mut remarks) = with_sliders(tree);
     let mut page = Page {
@@ -118,7 +118,7 @@ impl Page<'_> {
 
     /// A tendon of a given length between two sites.
     ///
-    /// MuJoCo sets y − y₀ = c₀ + c₁ (x − x₀) for the lengths y, x and those they have where every joint is 0.
+    /// MuJoCo sets y − y₀ = c₀ + c₁ (x − x₀) for the lengths y, x and their values y₀, x₀ where every joint is 0.
     fn tendon(&mut self, name: &str, of: &Loop, sites: [String; 2], marked: bool, length: &Extent) {
         let poses = self.tree.poses(|joint| joint.reference);
         let [p, q] = [0, 1].map(|side| {
@@ -376,7 +376,7 @@ fn actuated(tree: &Tree) -> Vec<&Joint> {
     tree.joints().filter(|joint| joint.actuated).collect()
 }
 
-/// Three digits: enough for what is only looked at.
+/// Three digits: enough for dimensions that are only displayed.
 fn rounded(value: f64) -> f64 {
     let short = format!("{value:.2e}").parse();
     short.unwrap_or(value)

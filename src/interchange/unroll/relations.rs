@@ -1,4 +1,4 @@
-//! What a tree says of its bodies and joints before it is unrolled.
+//! Relations between the bodies and joints of a tree before it is unrolled.
 
 use std::collections::HashMap;
 
@@ -20,7 +20,7 @@ pub(super) fn carriers(tree: &Tree) -> Vec<(usize, Pose<f64>)> {
     carriers
 }
 
-/// What each joint that follows another one is: the first leader, factor and offset.
+/// For each following joint: the first leader, factor and offset.
 pub(super) fn leaders(tree: &Tree) -> Result<HashMap<String, Coupling>, ImportProblemKind> {
     let mut direct: HashMap<&str, &Coupling> = HashMap::new();
     for coupling in &tree.couplings {
@@ -48,7 +48,7 @@ pub(super) fn leaders(tree: &Tree) -> Result<HashMap<String, Coupling>, ImportPr
     Ok(leaders)
 }
 
-/// Refuses what no mechanism can have: lengths beside which all others drown in rounding.
+/// Refuses lengths so large that all others would be lost to rounding.
 pub(super) fn within_reason(tree: &Tree) -> Result<(), ImportProblemKind> {
     const MOST: f64 = 1e12;
     let fits = |x: &f64| x.abs() <= MOST;

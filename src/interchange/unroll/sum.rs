@@ -1,9 +1,9 @@
-//! Sums as a person would have written them.
+//! Sums written as briefly as a person would write them.
 
 use crate::algebra::Expression;
 use crate::description::Entry;
 
-/// constant + Σ factor · name, as it would be written.
+/// constant + Σ factor · name, as text.
 pub(super) fn sum(constant: Entry, terms: &[(String, f64)]) -> Entry {
     let mut text = String::new();
     for (name, factor) in terms.iter().filter(|(_, factor)| *factor != 0.0) {

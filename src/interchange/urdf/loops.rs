@@ -56,14 +56,19 @@ pub(super) fn read(
     };
     let elements = robot.children().filter(|node| node.is_element());
     for node in elements.filter(|node| is_loop(*node)) {
-        match node.tag_name().name() {
-            "ball_constraint" => reader.ball(node),
-            "gazebo" => {
-                for joint in children(node, "joint") {
-                    reader.gazebo(joint);
-                }
+        let joints = match node.tag_name().name() {
+            "gazebo" => children(node, "joint"),
+            _ => vec![node],
+        };
+        for node in joints {
+            let found = match node.tag_name().name() {
+                "ball_constraint" => reader.ball(node),
+                "joint" => reader.gazebo(node),
+                _ => reader.joined(node),
+            };
+            if let Some((kind, ends)) = found {
+                reader.close(node, kind, ends);
             }
-            _ => reader.joined(node),
         }
     }
     let loops = reader.loops;
@@ -82,6 +87,9 @@ pub(super) fn read(
     }
     loops
 }
+
+/// A kind of joint and the frames that it joins, by their bodies.
+type Closing = (ClosureKind, [(usize, Pose<f64>); 2]);
 
 struct LoopReader<'a> {
     tree: &'a Tree,
@@ -112,10 +120,8 @@ impl LoopReader<'_> {
     }
 
     /// `loop_joint`, `constraint`, `loop`: two links, a frame on each, a type, and axes in the frames.
-    fn joined(&mut self, node: Node) {
-        let Some(kind) = self.problems.word(node, "type", TYPES) else {
-            return;
-        };
+    fn joined(&mut self, node: Node) -> Option<Closing> {
+        let kind = self.problems.word(node, "type", TYPES)?;
         // the documentation of Isaac Sim writes `link1` for both
         let mut ends = [children(node, "link1"), children(node, "link2")].concat();
         for pair in [["parent", "child"], ["predecessor", "successor"]] {
@@ -123,18 +129,15 @@ impl LoopReader<'_> {
         }
         let [first, second] = ends[..] else {
             let needs = "two links, such as elements `link1` and `link2`";
-            return self.problems.missing(node, needs.into());
+            self.problems.missing(node, needs.into());
+            return None;
         };
         let mut axes = [Vector3::unit(0); 2];
         let mut sides = Vec::new();
         for (side, end) in [first, second].into_iter().enumerate() {
             let name = end.tag_name().name();
-            let Some(link) = self.problems.needed(end, "link") else {
-                return;
-            };
-            let Some(body) = self.link(end, "link", link) else {
-                return;
-            };
+            let link = self.problems.needed(end, "link")?;
+            let body = self.link(end, "link", link)?;
             let origin = child(node, &format!("{name}_origin")).or(child(end, "origin"));
             let pose = self.problems.origin(origin.unwrap_or(end));
             let axis = child(node, &format!("{name}_axis")).or(child(node, "axis"));
@@ -143,7 +146,8 @@ impl LoopReader<'_> {
             {
                 let Some(along) = direction(along) else {
                     let joint = node.attribute("name").unwrap_or("loop").to_owned();
-                    return self.problems.say(no_axis(joint), axis);
+                    self.problems.say(no_axis(joint), axis);
+                    return None;
                 };
                 axes[side] = along;
             }
@@ -157,50 +161,34 @@ impl LoopReader<'_> {
                 _ => (body, pose * along_z(&axes[side])),
             }
         });
-        self.close(node, kind, sides);
+        Some((kind, sides))
     }
 
     /// Points P on body A and Q on body B coincide.
-    fn ball(&mut self, node: Node) {
+    fn ball(&mut self, node: Node) -> Option<Closing> {
         let mut sides = Vec::new();
         for (body, point) in [("body_A", "p_AP"), ("body_B", "p_BQ")] {
             let [body, point] = [body, point].map(|name| format!("ball_constraint_{name}"));
-            let Some(end) = self.problems.needed_child(node, &body) else {
-                return;
-            };
-            let Some(name) = self.problems.needed(end, "name") else {
-                return;
-            };
-            let Some(body) = self.link(end, "name", name) else {
-                return;
-            };
+            let end = self.problems.needed_child(node, &body)?;
+            let name = self.problems.needed(end, "name")?;
+            let body = self.link(end, "name", name)?;
             let place = child(node, &point).and_then(|point| self.problems.numbers(point, "value"));
             sides.push((body, pose_of(place.unwrap_or_default(), [0.0; 3])));
         }
-        if let [a, b] = sides[..] {
-            self.close(node, ClosureKind::Spherical, [a, b]);
-        }
+        Some((ClosureKind::Spherical, <[_; 2]>::try_from(sides).ok()?))
     }
 
     /// A joint of SDFormat: its frame is given in the child, and where that is at zero it is on the parent too.
-    fn gazebo(&mut self, node: Node) {
-        let Some(kind) = self.problems.word(node, "type", TYPES) else {
-            return;
-        };
+    fn gazebo(&mut self, node: Node) -> Option<Closing> {
+        let kind = self.problems.word(node, "type", TYPES)?;
         let mut bodies = Vec::new();
         for end in ["parent", "child"] {
-            let Some(part) = self.problems.needed_child(node, end) else {
-                return;
-            };
+            let part = self.problems.needed_child(node, end)?;
             let link = part.attribute("link").or(part.text()).unwrap_or_default();
-            let Some(body) = self.link(part, "link", link.trim()) else {
-                return;
-            };
+            let body = self.link(part, "link", link.trim())?;
             bodies.push(body);
         }
-        let [parent, child_body] = bodies[..] else {
-            return;
-        };
+        let [parent, child_body] = <[usize; 2]>::try_from(bodies).ok()?;
         let mut numbers = |part: Node, count: usize| {
             let text = part.text().unwrap_or_default();
             let words: Option<Vec<f64>> = match count {
@@ -215,7 +203,7 @@ impl LoopReader<'_> {
         };
         let mut pose = Pose::identity();
         if let Some(part) = child(node, "pose") {
-            let Some(v) = numbers(part, 6) else { return };
+            let v = numbers(part, 6)?;
             pose = pose_of([v[0], v[1], v[2]], [v[3], v[4], v[5]]);
             if part
                 .attribute("relative_to")
@@ -223,18 +211,18 @@ impl LoopReader<'_> {
             {
                 let help = "give the pose in the child link";
                 let what = "a pose relative to a named frame";
-                self.problems.unsupported::<()>(what, help, part);
-                return;
+                return self.problems.unsupported(what, help, part);
             }
         }
         let mut axis = Vector3::unit(2);
         if let Some(part) = child(node, "axis").and_then(|axis| child(axis, "xyz")) {
-            let Some(v) = numbers(part, 3) else { return };
+            let v = numbers(part, 3)?;
             let Some(along) = direction([v[0], v[1], v[2]]) else {
                 let joint = node.attribute("name").unwrap_or("joint").to_owned();
                 let example = "<xyz>0 0 1</xyz>";
                 let problem = ImportProblemKind::NoAxis { joint, example };
-                return self.problems.say(problem, part);
+                self.problems.say(problem, part);
+                return None;
             };
             axis = along;
         }
@@ -242,7 +230,7 @@ impl LoopReader<'_> {
         let frame = pose * along_z(&axis);
         let on_parent = poses[parent].inverse() * poses[child_body] * frame;
         let ends = [(parent, on_parent), (child_body, frame)];
-        self.close(node, kind_of(kind), ends);
+        Some((kind_of(kind), ends))
     }
 }
 

@@ -1,4 +1,4 @@
-//! How the joints of a URDF file move.
+//! The motion of the joints of a URDF file.
 
 use std::collections::HashSet;
 
@@ -52,7 +52,7 @@ pub(super) fn reduced(robot: Node, links: &[String], joints: &[(Node, String)]) 
         ] {
             if let Some(part) = child(*joint, element) {
                 let attributes = kept(part, attributes);
-                // an axis that says nothing is the one that is not given
+                // an absent axis is the default one
                 if element != "axis" || !attributes.is_empty() {
                     xml.leaf(element, &attributes);
                 }
@@ -75,7 +75,7 @@ pub(super) fn moving(part: &urdf_rs::Joint, actuated: bool) -> Vec<Joint> {
     let axis = direction(part.axis.xyz.0).unwrap_or(Vector3::unit(0));
     let limits = (part.limit.lower, part.limit.upper);
     let finite = limits.0.is_finite() && limits.1.is_finite();
-    // two zeros are limits that are not given
+    // two zeros mean absent limits
     let limited = finite && limits.0 <= limits.1 && limits != (0.0, 0.0);
     let joint = |name: String, motion: Motion, axis: Vector3<f64>, limited: bool| {
         let limits = limited.then_some(limits);
@@ -134,7 +134,7 @@ pub(super) fn driven(
     let moves = |node: &Node| node.attribute("type") != Some("fixed");
     let efforts: Vec<Option<bool>> = joints.iter().map(|(node, _)| strong(node)).collect();
     if efforts.contains(&Some(true)) && efforts.contains(&Some(false)) {
-        let rule = "joints with an effort of 0, or none, are passive";
+        let rule = "joints with an effort of 0, or without effort, are passive";
         remarks.push(Remark::Driven(rule));
         let driven = joints.iter().zip(efforts);
         let driven = driven.map(|((node, _), strong)| strong == Some(true) && !follows(node));
@@ -144,7 +144,7 @@ pub(super) fn driven(
     driven.collect()
 }
 
-/// What is wrong with an axis of zero length.
+/// The problem of an axis of zero length.
 pub(super) fn no_axis(joint: String) -> ImportProblemKind {
     let example = "xyz=\"0 0 1\"";
     ImportProblemKind::NoAxis { joint, example }

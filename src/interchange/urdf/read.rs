@@ -1,8 +1,8 @@
 //! URDF → tree.
 //!
-//! The places of links and joints are read by urdf-rs, from a text that keeps only what moves: shapes and masses do not
-//! matter here, and whatever is wrong with them does not either. Loops, which URDF does not have, are read in the five
-//! ways in which programs have added them; `loops.rs` knows these.
+//! The poses of links and joints are read by urdf-rs, from a text reduced to links and joints: shapes and masses are
+//! not used, and their problems do not matter. Loops, which URDF does not have, are read in the five
+//! ways in which programs have added them; see `loops.rs`.
 
 use std::collections::{BTreeMap, HashMap, HashSet};
 
@@ -27,7 +27,7 @@ pub(super) const TYPES: &[&str] = &[
     "spherical",
 ];
 
-/// A tree that was read, and what is worth knowing about it.
+/// A tree with remarks.
 pub(crate) type Read = Result<(Tree, Vec<Remark>), Vec<ImportProblem>>;
 
 /// Reads the text of a URDF file.
@@ -52,7 +52,7 @@ struct Reader<'a, 'i> {
 }
 
 impl<'a, 'i> Reader<'a, 'i> {
-    /// Names of links and joints, and everything that is not known.
+    /// Checks names of links and joints, and reports unknown ones.
     fn elements(&mut self, robot: Node<'a, 'i>) {
         let mut ignored: BTreeMap<String, usize> = BTreeMap::new();
         let mut names = HashSet::new();
@@ -163,7 +163,7 @@ impl<'a, 'i> Reader<'a, 'i> {
         }
     }
 
-    /// What a joint joins; its numbers are looked at too.
+    /// The links of a joint; its numbers are checked too.
     fn hanging(&mut self, node: Node, name: &str) -> Option<Hanging> {
         let kind = self.problems.word(node, "type", TYPES);
         for part in children(node, "origin") {
@@ -185,7 +185,7 @@ impl<'a, 'i> Reader<'a, 'i> {
             if let (Some(low), Some(high)) = (low, high)
                 && low > high
             {
-                let what = format!("limits from {low} to {high}, the lower of which is higher");
+                let what = format!("limits from {low} to {high}, the lower above the upper");
                 self.problems.unsupported::<()>(what, "exchange them", part);
             }
         }
@@ -212,7 +212,7 @@ impl<'a, 'i> Reader<'a, 'i> {
         })
     }
 
-    /// The links, each after the one it hangs on.
+    /// The links, each after its parent.
     fn order(&mut self, joints: &[(Node, String)], hangs: &[Option<Hanging>]) -> Vec<String> {
         let mut parent_of: HashMap<&str, (usize, &str)> = HashMap::new();
         let mut below: HashMap<&str, Vec<&str>> = HashMap::new();
@@ -247,7 +247,7 @@ impl<'a, 'i> Reader<'a, 'i> {
                 self.problems.say(problem, mimic);
             }
         }
-        // joints that could not be read may be those that are missing
+        // the missing joints may be those that could not be read
         if !self.problems.0.is_empty() {
             return Vec::new();
         }

@@ -10,13 +10,13 @@ use crate::geometry::{Pose, RollPitchYaw};
 use crate::interchange::remark::Remark;
 use crate::interchange::tree::{Body, Joint, Loop, Motion, Tree};
 
-/// The limit of a sliding joint that has none, in units of the size of the mechanism.
+/// The limit of a prismatic joint that has none, in units of the size of the mechanism.
 const FAR: f64 = 1000.0;
 
-/// The text of a URDF file, and what it does not say.
+/// The text of a URDF file, with remarks on what it cannot express.
 ///
 /// # Errors
-/// If the text cannot be written; the XML writer's words.
+/// If the text cannot be written; with the error of the XML writer.
 pub fn write(tree: &Tree) -> Result<(String, Vec<Remark>), String> {
     let mut writer = UrdfWriter {
         tree,
@@ -70,7 +70,7 @@ struct UrdfWriter<'a> {
 }
 
 impl UrdfWriter<'_> {
-    /// The lengths of distances: joints of bodies that nothing else follows.
+    /// The lengths of distances: joints of bodies without children.
     fn is_lost(&self, body: &Body) -> bool {
         let [joint] = body.joints.as_slice() else {
             return false;
@@ -91,14 +91,14 @@ impl UrdfWriter<'_> {
     /// The closure that fixes a floating body to a frame of another one.
     fn fixing(&self, body: usize) -> Option<(&Loop, usize)> {
         let sides = self.rigid().flat_map(|l| [(l, 0), (l, 1)]);
-        // a body that comes before cannot hang on this one
+        // an earlier body cannot be a child of this one
         let mut fixing = sides.filter(|(l, side)| {
             l.sides[*side].body == body && !self.hangs_on(l.sides[1 - side].body, body)
         });
         fixing.next()
     }
 
-    /// Whether a body stands on another, by way of joints or of rigid closures.
+    /// Whether another body carries a body, through joints or rigid closures.
     fn hangs_on(&self, body: usize, on: usize) -> bool {
         let mut at = Some(body);
         while let Some(body) = at {
@@ -143,7 +143,7 @@ impl UrdfWriter<'_> {
         self.frames(body);
     }
 
-    /// A floating body is fixed where a rigid closure says so.
+    /// Fixes floating bodies that a rigid closure attaches.
     fn floating(
         &mut self,
         index: usize,
@@ -169,7 +169,7 @@ impl UrdfWriter<'_> {
         self.remarks.push(fixed);
     }
 
-    /// Frames that are not the body's own, as links fixed to it.
+    /// Further frames of the body, as links fixed to it.
     fn frames(&mut self, body: &Body) {
         for (name, pose) in &body.frames {
             if *name == body.name && *pose == Pose::identity() {

@@ -46,27 +46,21 @@ impl Builder<'_> {
         let [a, b] = frames;
         let bodies = frames.map(|frame| self.body(frame, chains));
         if a == b || (bodies[0].is_some() && bodies[0] == bodies[1]) {
-            let kind = ProblemKind::SameBody {
-                closure: name.into(),
-            };
+            let closure = name.to_owned();
             let [first, second] = &described.frames;
             let span = first.span.start..second.span.end;
-            self.problems.push(kind.at(span));
+            self.refuse(ProblemKind::SameBody { closure }, &span);
         }
     }
 
     /// A distance that no joint changes has a sign and a size that can be judged now.
     fn check_length(&mut self, closure: &str, entry: &Entry, length: f64) {
-        let kind = if length < 0.0 {
-            ProblemKind::NegativeDistance { length }
+        let closure = closure.to_owned();
+        if length < 0.0 {
+            self.refuse(ProblemKind::NegativeDistance { length }, &entry.span);
         } else if length == 0.0 {
-            ProblemKind::ZeroDistance {
-                closure: closure.into(),
-            }
-        } else {
-            return;
-        };
-        self.problems.push(kind.at(entry.span.clone()));
+            self.refuse(ProblemKind::ZeroDistance { closure }, &entry.span);
+        }
     }
 
     /// The body that a frame is fixed to, or `None` if that depends on what is wrong with the file.

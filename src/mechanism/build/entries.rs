@@ -1,13 +1,19 @@
 //! Entries of a file as formulas with values, in units that fit.
 
 use std::collections::HashMap;
+use std::ops::Range;
 
 use super::super::model::{Formula, Joint, Symbol};
 use super::Builder;
 use crate::algebra::{Affine, Measure};
-use crate::description::{Description, Entry, Named, ProblemKind, Scope};
+use crate::description::{Description, Entry, Named, Problem, ProblemKind, Scope};
 
 impl Builder<'_> {
+    /// Records a problem.
+    pub(super) fn refuse(&mut self, kind: ProblemKind, span: &Range<usize>) {
+        self.problems.push(kind.at(span.clone()));
+    }
+
     /// The formula of an entry, or `None` with its problems recorded.
     pub(super) fn formula(
         &mut self,
@@ -19,14 +25,11 @@ impl Builder<'_> {
             let symbol = self.names.symbol(name, scope, locals);
             symbol.map_err(|kind| Box::new(kind.at(span.clone())))
         });
-        match resolved {
-            Ok(formula) => Some(formula),
-            Err(problems) => {
-                self.problems
-                    .extend(problems.into_iter().map(|problem| *problem));
-                None
-            }
-        }
+        let refused = |problems: Vec<Box<Problem>>| {
+            self.problems
+                .extend(problems.into_iter().map(|problem| *problem));
+        };
+        resolved.map_err(refused).ok()
     }
 
     /// What a name measures; that of a joint shows only when all rows are known.
@@ -40,8 +43,7 @@ impl Builder<'_> {
     /// Records a unit that does not fit.
     pub(super) fn check_unit(&mut self, formula: &Formula, wanted: Measure) {
         if let Err(error) = formula.check_measure(wanted, &|symbol| self.measure(symbol)) {
-            let problem = ProblemKind::Unit(error.kind).at(error.span);
-            self.problems.push(problem);
+            self.refuse(ProblemKind::Unit(error.kind), &error.span);
         }
     }
 
@@ -94,13 +96,8 @@ impl Builder<'_> {
             Err(error) => {
                 let problem = ProblemKind::NoValue(error.kind).at(error.span);
                 // a divisor stands in the constant and in every coefficient of an entry
-                let known = self
-                    .problems
-                    .iter()
-                    .rev()
-                    .take(8)
-                    .any(|last| *last == problem);
-                if !known {
+                let mut latest = self.problems.iter().rev().take(8);
+                if latest.all(|known| *known != problem) {
                     self.problems.push(problem);
                 }
                 None
@@ -121,7 +118,7 @@ impl Builder<'_> {
                 parts.iter().all(Option::is_some).then_some(affine)
             }
             Err(refusal) => {
-                self.problems.push(ProblemKind::NotAffine.at(refusal.span));
+                self.refuse(ProblemKind::NotAffine, &refusal.span);
                 None
             }
         }

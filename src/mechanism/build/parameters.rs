@@ -1,6 +1,7 @@
 //! The parameters of a description, and definitions that use one another.
 
 use std::collections::HashMap;
+use std::ops::Range;
 
 use super::super::model::{Formula, Parameter};
 use super::super::names::definition_order;
@@ -23,10 +24,7 @@ impl Builder<'_> {
             if let Some(formula) = &formulas[i] {
                 match formula.measure(&|symbol| self.measure(symbol)) {
                     Ok(measure) => self.measures[i] = measure,
-                    Err(error) => {
-                        self.problems
-                            .push(ProblemKind::Unit(error.kind).at(error.span));
-                    }
+                    Err(error) => self.refuse(ProblemKind::Unit(error.kind), &error.span),
                 }
             }
             // NaN is the value of what is not known, here and in all that is defined through it
@@ -47,6 +45,17 @@ impl Builder<'_> {
             .collect()
     }
 
+    /// Records a cycle that begins at the first of some places.
+    pub(super) fn refuse_cycle(
+        &mut self,
+        kind: ProblemKind,
+        mut places: impl Iterator<Item = Range<usize>>,
+    ) {
+        let problem = kind.at(places.next().unwrap_or_default());
+        let problem = places.fold(problem, |problem, span| problem.with(span, Note::ThenHere));
+        self.problems.push(problem);
+    }
+
     /// The order in which definitions can be evaluated, and whether that is all of them; the cycles
     /// are recorded.
     pub(super) fn order(
@@ -59,9 +68,8 @@ impl Builder<'_> {
         let uses: Vec<Vec<usize>> = (entries.iter())
             .map(|named| {
                 let names = named.value.expression.names();
-                names
-                    .filter_map(|(name, _)| indices.get(name.as_str()).copied())
-                    .collect()
+                let indices = names.filter_map(|(name, _)| indices.get(name.as_str()));
+                indices.copied().collect()
             })
             .collect();
         let found = definition_order(&uses);
@@ -71,10 +79,7 @@ impl Builder<'_> {
                 .map(|&i| entries[i].name.value.clone())
                 .collect();
             let kind = ProblemKind::DefinitionCycle { noun, names };
-            let problem = kind.at(entries[cycle[0]].name.span.clone());
-            let rest = cycle[1..].iter().map(|&i| entries[i].name.span.clone());
-            let problem = rest.fold(problem, |problem, span| problem.with(span, Note::ThenHere));
-            self.problems.push(problem);
+            self.refuse_cycle(kind, cycle.iter().map(|&i| entries[i].name.span.clone()));
         }
         (found.order, found.cycles.is_empty())
     }

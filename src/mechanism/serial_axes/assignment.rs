@@ -129,12 +129,10 @@ impl SerialAxes {
         }
         if !starts_at_base && let [first, second, ..] = &mut normals[..] {
             // frame 0 is frame 1 where the variable is zero
-            let JointAxis {
-                turn, slide, home, ..
-            } = self.joints[0];
+            let (turn, slide) = self.joints[0].home_motion();
             let z = axes[0].direction;
-            let x = turned(&second.x, &z, -turn * home);
-            *first = Normal::nothing(x, z, second.feet[0] - z.times(slide * home));
+            let x = turned(&second.x, &z, -turn);
+            *first = Normal::nothing(x, z, second.feet[0] - z.times(slide));
         }
         self.read_off(convention, axes, normals, starts_at_base, length)
     }
@@ -172,11 +170,9 @@ impl SerialAxes {
     /// Where the last normal left axis k and how x stood, moved on by the joint's own variable:
     /// what θ_k = 0 and d_k = 0 ask for.
     fn unmoved(&self, k: usize, last: &Normal, axis: &Line) -> (Vector3<f64>, Vector3<f64>) {
-        let JointAxis {
-            turn, slide, home, ..
-        } = self.joints[k];
-        let x = turned(&last.x, &axis.direction, turn * home);
-        (x, last.feet[1] + axis.direction.times(slide * home))
+        let (turn, slide) = self.joints[k].home_motion();
+        let x = turned(&last.x, &axis.direction, turn);
+        (x, last.feet[1] + axis.direction.times(slide))
     }
 
     /// N_k between the axes of index k and k + 1, the second of which is moved to where the
@@ -363,12 +359,8 @@ fn link(
 fn wrapped(angle: f64) -> f64 {
     use std::f64::consts::{PI, TAU};
     let within = angle - TAU * (angle / TAU).round();
-    let within = if within < -PI + ROUNDING {
-        within + TAU
-    } else {
-        within
-    };
-    without_rounding(within, 1.0 + angle.abs())
+    let turn = if within < -PI + ROUNDING { TAU } else { 0.0 };
+    without_rounding(within + turn, 1.0 + angle.abs())
 }
 
 /// A pose whose entries that are zero or one but for rounding are so.

@@ -39,17 +39,10 @@ pub(super) fn place(
             from += 1;
         }
     }
-    let steps: Vec<Vector3<f64>> = (from..to)
-        .map(|k| {
-            lines[k]
-                .direction
-                .times(axes.joints[k].slide * axes.joints[k].home)
-        })
-        .collect();
-    let after_first = steps
-        .iter()
-        .skip(1)
-        .fold(Vector3::zero(), |sum, &step| sum + step);
+    let step = |k: usize| lines[k].direction.times(axes.joints[k].home_motion().1);
+    let steps: Vec<Vector3<f64>> = (from..to).map(step).collect();
+    let further = steps.iter().skip(1);
+    let after_first = further.fold(Vector3::zero(), |sum, &step| sum + step);
     if end < lines.len() {
         let whole = steps.iter().fold(near, |sum, &step| sum + step);
         let previous = from.checked_sub(1).map(|k| lines[k]);
@@ -68,10 +61,8 @@ pub(super) fn place(
         return (from == first && from < to).then_some(point);
     }
     let through_tool = |line: &Line| {
-        let tool = Line::new(
-            axes.tool?.position - after_first,
-            lines.get(from)?.direction,
-        )?;
+        let through = axes.tool?.position - after_first;
+        let tool = Line::new(through, lines.get(from)?.direction)?;
         let normal = line.common_normal(&tool, length);
         normal.relation.meets().then_some(normal.feet[0])
     };
@@ -95,9 +86,8 @@ fn defined_origin(
     k: usize,
     length: f64,
 ) -> Option<Vector3<f64>> {
-    axes.joints
-        .get(k + 1)
-        .filter(|joint| !joint.is_prismatic())?;
+    let next = axes.joints.get(k + 1);
+    next.filter(|joint| !joint.is_prismatic())?;
     let normal = lines[k].common_normal(&lines[k + 1], length);
     (!normal.relation.is_parallel()).then_some(normal.feet[0])
 }

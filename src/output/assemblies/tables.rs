@@ -72,7 +72,12 @@ pub(super) fn joints(report: &AssembliesReport) -> Vec<Section> {
             });
             table.row([Cell::from(a.mode)].into_iter().chain(values).collect());
         }
-        Section::new(if block == 0 { "Joints" } else { "Further joints" }).table(table)
+        Section::new(if block == 0 {
+            "Joints"
+        } else {
+            "Further joints"
+        })
+        .table(table)
     });
     blocks.collect()
 }

@@ -16,7 +16,7 @@ use crate::description::{
     Axis, ClosureKind, Convention, Description, Displacement, Entry, JointDescription, Named, Role,
     Row, free_variable, names_of,
 };
-use crate::geometry::{self, Pose, Rotation};
+use crate::geometry::{Pose, Rotation};
 use crate::mechanism::Mechanism;
 use crate::number::Number;
 
@@ -94,8 +94,7 @@ impl Motion {
             ClosureKind::Universal => {
                 // Rz(θ₁)·Rx(90°) takes z to (sin θ₁, −cos θ₁, 0)
                 let first = Number::atan2(z.0[0], -z.0[1]);
-                let cross = Pose::rotation(geometry::Axis::Z, first)
-                    * Pose::rotation(geometry::Axis::X, FRAC_PI_2);
+                let cross = Pose::rotation(Axis::Z, first) * Pose::rotation(Axis::X, FRAC_PI_2);
                 let [x, ..] = (cross.inverse() * pose).rotation.0;
                 let one = add("_1", Entry::angle(first));
                 let two = add("_2", Entry::angle(Number::atan2(x.0[1], x.0[0])));
@@ -146,11 +145,11 @@ fn meeting(rotation: &Rotation<f64>) -> ([f64; 3], bool) {
         let first = Number::atan2(z.0[1], z.0[0]);
         let beta = Number::atan2(z.0[0].hypot(z.0[1]), z.0[2]);
         let turn = |axis, angle| Pose::rotation(axis, angle);
-        let done = turn(geometry::Axis::Z, first) * turn(geometry::Axis::Y, beta);
+        let done = turn(Axis::Z, first) * turn(Axis::Y, beta);
         let [x, ..] = (done.rotation.transpose() * *r).0;
         [first, beta, Number::atan2(x.0[1], x.0[0])]
     };
-    let beyond = *rotation * Pose::rotation(geometry::Axis::Y, FRAC_PI_2).rotation;
+    let beyond = *rotation * Pose::rotation(Axis::Y, FRAC_PI_2).rotation;
     let (near, far) = (angles(rotation), angles(&beyond));
     match near[1].sin().abs() >= far[1].sin().abs() {
         true => (near, false),

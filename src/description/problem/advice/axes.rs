@@ -5,8 +5,8 @@ use crate::description::{AxesProblem, Convention, GROUND};
 pub(super) fn help(problem: &AxesProblem) -> Option<String> {
     use AxesProblem::*;
     Some(match problem {
-        NoDirection { .. } => "give a vector that is not zero, or two points that differ".into(),
-        TooFew { .. } => "a table between axes needs two of them".into(),
+        NoDirection { .. } => "give a nonzero vector, or two different points".into(),
+        TooFew { .. } => "a table needs at least two axes".into(),
         TwoPlaces { .. } => "give either `point` and `direction`, or `through` two points".into(),
         NotBetween { .. } => {
             "write `between: (\"body\", \"body\")` in all joints or in none".into()
@@ -18,21 +18,21 @@ pub(super) fn help(problem: &AxesProblem) -> Option<String> {
             ..
         } => format!("did you mean `{meant}`?"),
         CutsOff { .. } => "cut one joint of each loop only".into(),
-        StillClosed { joint } => format!("cut `{joint}` too, or leave out `cut` to be advised"),
-        NothingToCut => "leave one joint of each loop `role: Passive`".into(),
+        StillClosed { joint } => format!("cut `{joint}` too, or leave out `cut` and let the program choose"),
+        NothingToCut => "give one joint of each loop `role: Passive`".into(),
         SphericalInSerial { .. } => {
-            "write three revolute joints whose axes meet, or say what the joints connect".into()
+            "write three revolute joints with intersecting axes, or name the bodies that the joints connect".into()
         }
         DriveCut { .. } => "cut another joint of its loop, or hold another joint with --hold".into(),
         LimitsCut { .. } => "cut another joint of its loop to keep them".into(),
         BaseUnused {
             convention: Convention::Modified,
-        } => "its x axis must meet the first joint's axis at a right angle, and not behind its origin".into(),
+        } => "its x axis must intersect the first joint's axis at a right angle, not behind the origin".into(),
         BaseUnused {
             convention: Convention::Standard,
-        } => "its z axis must lie on the first joint's axis, the same way".into(),
+        } => "its z axis must lie on the first joint's axis and point the same way".into(),
         FarNormal { .. } => {
-            "if they shall be parallel give both the same direction: within 1e-7 rad they are taken as parallel".into()
+            "if they are meant to be parallel, give both the same direction: axes within 1e-7 rad count as parallel".into()
         }
         _ => return None,
     })
