@@ -101,7 +101,7 @@ pub enum Fit {
     AlwaysMultiple,
 }
 
-/// Assemblies that are connected, infinitely many, at the inputs asked.
+/// Assemblies that are connected, infinitely many, at the target inputs.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Continuum {
     /// How many coordinates can be chosen freely on it.
@@ -126,7 +126,7 @@ pub struct ListedJoint {
     pub periodic: bool,
 }
 
-/// All assemblies for the inputs asked.
+/// All assemblies for the target inputs.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct AssembliesReport {
     /// Name of the mechanism.

@@ -6,13 +6,13 @@ pub(super) use join::{joined, parts};
 
 use std::ops::Range;
 
-use super::flood::{Filled, signs};
+use super::flood::{ReachedSet, signs};
 use super::problem::Grid;
 use crate::solve::each;
 
-/// For each sheet the first of its aspect; none outside limits and on singularities.
-pub(super) fn aspects(filled: &Filled) -> Vec<Option<usize>> {
-    filled.parted(signs)
+/// For each solution the first of its aspect; none outside limits and on singularities.
+pub(super) fn aspects(reached_set: &ReachedSet) -> Vec<Option<usize>> {
+    reached_set.parted(signs)
 }
 
 /// A set of nodes.
@@ -146,13 +146,13 @@ fn slice(
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::system::{Driven, Holdable};
+    use crate::system::{Coordinate, Driven};
 
     #[test]
     fn the_area_of_a_disc_converges_to_second_order() {
         let area = |n: usize| {
             let axis = Driven {
-                coordinate: Holdable::Joint(0),
+                coordinate: Coordinate::Joint(0),
                 from: -1.5,
                 to: 1.5,
             };

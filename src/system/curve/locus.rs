@@ -4,7 +4,7 @@ use super::Curve;
 use crate::linear::dot;
 use crate::mechanism::{Configuration, Mechanism};
 use crate::solve::SolutionCurve;
-use crate::system::{Held, Holdable, Lock, Locked, Unknown};
+use crate::system::{Coordinate, Held, Lock, Locked, Unknown};
 
 /// An assembled configuration with a motion that leaves the locked things at rest.
 #[derive(Clone, Debug)]
@@ -35,7 +35,7 @@ impl LocusCurve {
     pub fn new(
         mechanism: &Mechanism,
         held: &Held<f64>,
-        inputs: &[Holdable],
+        inputs: &[Coordinate],
         locks: &[Lock],
     ) -> Self {
         let closed = Curve::along(mechanism, held, Vec::new());
@@ -45,7 +45,7 @@ impl LocusCurve {
             .unknowns()
             .iter()
             .map(|unknown| match *unknown {
-                Unknown::Joint(joint) => whole || inputs.contains(&Holdable::Joint(joint)),
+                Unknown::Joint(joint) => whole || inputs.contains(&Coordinate::Joint(joint)),
                 Unknown::Twist { .. } => true,
             });
         LocusCurve {

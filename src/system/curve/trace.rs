@@ -7,7 +7,7 @@ use super::{Curve, Driven};
 use crate::linear::{Decomposition, dot, norm};
 use crate::mechanism::{Configuration, Mechanism, turn_near};
 use crate::solve::{Continuation, Place, SolutionCurve};
-use crate::system::{Held, Holdable};
+use crate::system::{Coordinate, Held};
 
 /// A curve whose points are, or contain, configurations.
 pub trait ConfigurationCurve: SolutionCurve {
@@ -94,7 +94,7 @@ impl Region<'_> {
     pub fn side(&self, at: &Configuration<f64>, side: &Driven) -> f64 {
         let x = side.coordinate.of(at);
         match side.coordinate {
-            Holdable::Coordinate(_, c) if c.is_angle() => {
+            Coordinate::Pose(_, c) if c.is_angle() => {
                 let middle = 0.5 * (side.from + side.to);
                 turn_near(x, middle)
             }

@@ -4,13 +4,13 @@ use super::twists::FrameTwists;
 use crate::linear::Decomposition;
 use crate::mechanism::{Configuration, Frame, Mechanism};
 use crate::solve::Equations;
-use crate::system::{Held, Holdable, System, Work};
+use crate::system::{Coordinate, Held, System, Work};
 
 /// What is kept at rest.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Lock {
     /// A joint or a platform coordinate.
-    Coordinate(Holdable),
+    Coordinate(Coordinate),
     /// A frame: it neither turns nor moves.
     Frame(Frame),
     /// The origin of a frame: the frame may turn about it.

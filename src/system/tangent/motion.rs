@@ -7,7 +7,7 @@ use crate::geometry::{Quaternion, Vector3};
 use crate::mechanism::{Configuration, Mechanism, PlatformPose};
 use crate::number::{Dual, Number};
 use crate::solve::Equations;
-use crate::system::{Held, HeldPlatform, Holdable, System, Unknown, Work};
+use crate::system::{Coordinate, Held, HeldPlatform, System, Unknown, Work};
 
 pub use frames::{FrameMotion, FrameMotions};
 
@@ -26,7 +26,7 @@ type Second = Dual<Dual<f64>>;
 /// [`Freedoms`](super::Freedoms).
 #[derive(Clone, Debug)]
 pub struct Motion {
-    coordinates: Vec<Holdable>,
+    coordinates: Vec<Coordinate>,
     held: Held<f64>,
     system: System<f64>,
     work: Work<f64>,
@@ -48,7 +48,7 @@ pub struct Motion {
 
 impl Motion {
     /// For a choice of what is held.
-    pub fn new(mechanism: &Mechanism, coordinates: &[Holdable]) -> Self {
+    pub fn new(mechanism: &Mechanism, coordinates: &[Coordinate]) -> Self {
         let dimensions = mechanism.dimensions();
         let held = held::of(mechanism, coordinates);
         let system = System::new(dimensions, &held);
@@ -102,7 +102,7 @@ impl Motion {
     }
 
     /// The held coordinates.
-    pub fn coordinates(&self) -> &[Holdable] {
+    pub fn coordinates(&self) -> &[Coordinate] {
         &self.coordinates
     }
 
@@ -156,8 +156,8 @@ impl Motion {
                 self.rates[place] = rate / scale;
             }
             match coordinate {
-                Holdable::Joint(joint) => self.first_path.joints[joint].slope = rate,
-                Holdable::Coordinate(platform, c) if self.place(coordinate).is_none() => {
+                Coordinate::Joint(joint) => self.first_path.joints[joint].slope = rate,
+                Coordinate::Pose(platform, c) if self.place(coordinate).is_none() => {
                     let pose = self.first_path.platforms[platform].pose();
                     let target = Dual {
                         value: c.of(&pose).value,
@@ -165,7 +165,7 @@ impl Motion {
                     };
                     self.first.set_target(platform, c, target);
                 }
-                Holdable::Coordinate(..) | Holdable::Turn(..) => {}
+                Coordinate::Pose(..) | Coordinate::Turn(..) => {}
             }
         }
         for platform in 0..self.held.platforms.len() {
@@ -208,15 +208,15 @@ impl Motion {
 
     /// The place of a held coordinate among the unknowns, with the scale of its rate there; none for
     /// single coordinates of a platform and for its orientation alone, which are equations.
-    fn place(&self, coordinate: Holdable) -> Option<(usize, f64)> {
+    fn place(&self, coordinate: Coordinate) -> Option<(usize, f64)> {
         let twist = |platform: usize| self.scales.len() + 6 * platform;
         match coordinate {
-            Holdable::Joint(joint) => Some((joint, self.scales[joint])),
-            Holdable::Turn(platform, axis) => {
+            Coordinate::Joint(joint) => Some((joint, self.scales[joint])),
+            Coordinate::Turn(platform, axis) => {
                 let whole = self.held.platforms[platform] == HeldPlatform::Pose;
                 whole.then(|| (twist(platform) + axis as usize, 1.0))
             }
-            Holdable::Coordinate(platform, c) => {
+            Coordinate::Pose(platform, c) => {
                 let whole = self.held.platforms[platform] == HeldPlatform::Pose;
                 whole.then(|| (twist(platform) + 3 + c as usize, self.length))
             }
@@ -288,8 +288,7 @@ impl Motion {
         self.follow_accelerations(at);
         let asked = self.coordinates.iter().zip(rates).zip(given);
         for ((&coordinate, &rate), &acceleration) in asked {
-            if let (Holdable::Coordinate(platform, c), None) = (coordinate, self.place(coordinate))
-            {
+            if let (Coordinate::Pose(platform, c), None) = (coordinate, self.place(coordinate)) {
                 let mut target = time(rate, acceleration);
                 target.value.value = c.of(&at.platforms[platform].pose());
                 self.second.set_target(platform, c, target);

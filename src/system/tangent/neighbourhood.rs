@@ -9,7 +9,7 @@ use crate::mechanism::{Body, Configuration, Frame, Mechanism};
 use crate::solve::{Equations, Newton, Stop};
 use crate::system::{ClosureWrenches, Held, System, Unknown, Work};
 
-pub use follow::Followed;
+pub use follow::FiniteStep;
 
 /// What is rounding among the rates of motions of unit norm.
 const ROUNDING: f64 = 1e-6;
@@ -135,7 +135,7 @@ impl<'a> Neighbourhood<'a> {
     }
 
     /// Whether motions are idle: links turn about their own lines and nothing else moves.
-    pub fn are_idle(&self, at: &Configuration<f64>, motions: &[Vec<f64>]) -> bool {
+    pub fn are_local(&self, at: &Configuration<f64>, motions: &[Vec<f64>]) -> bool {
         let felt = self.felt(at, motions);
         felt.iter().all(|rate| rate.abs() < ROUNDING)
     }

@@ -10,7 +10,7 @@ use crate::solve::{Newton, Stop};
 use crate::system::{Gap, Work, approach};
 
 impl Question<'_> {
-    /// The smallest gaps that Newton's method leaves from the asked configuration and from the real
+    /// The smallest gaps that Newton's method leaves from the target configuration and from the real
     /// parts of complex solutions; whether nothing is left.
     pub(crate) fn nearest(
         &self,

@@ -2,7 +2,7 @@
 
 use crate::analysis::assemblies::family::{C, Coordinates, size};
 use crate::geometry::RollPitchYaw;
-use crate::mechanism::{Configuration, Coordinate, Mechanism, principal};
+use crate::mechanism::{Configuration, Mechanism, PoseCoordinate, principal};
 use crate::number::Number;
 use crate::solve::{Equations, Newton, Stop};
 use crate::system::{System, Work};
@@ -57,9 +57,10 @@ pub(crate) fn real_solution(
 /// The least cos(pitch) of platforms with a roll or yaw held: by it these angles, and their rows, are
 /// turned more than the platform is.
 fn steepness(point: &Configuration<f64>, coordinates: &Coordinates) -> f64 {
-    let turning = |c: &Coordinate| matches!(c, Coordinate::Roll | Coordinate::Yaw);
+    let turning = |c: &PoseCoordinate| matches!(c, PoseCoordinate::Roll | PoseCoordinate::Yaw);
     let targets = coordinates.targets.iter().filter(|(_, c)| turning(c));
-    let steepest = targets.map(|&(p, _)| Coordinate::Pitch.of(&point.platforms[p].pose()).cos());
+    let steepest =
+        targets.map(|&(p, _)| PoseCoordinate::Pitch.of(&point.platforms[p].pose()).cos());
     steepest.fold(1.0, |least, cos| least.min(cos.abs()).max(f64::EPSILON))
 }
 

@@ -66,13 +66,13 @@ impl GenericSolutions {
     /// Whether the generic member is assembled at every solution.
     pub(crate) fn solves(&self, family: &Family) -> bool {
         let member = self.member();
-        let Some(mut way) = family.way(&member, &member) else {
+        let Some(mut homotopy) = family.homotopy(&member, &member) else {
             return false;
         };
         // the others are combinations of these
-        let shown = self.stances();
+        let shown = self.legwise();
         let mut shown = (shown.iter()).flat_map(|s| s.spanning_points(&family.coordinates));
-        shown.all(|x| way.linearise(C::from_f64(0.0), &x) <= 1e-9 * (1.0 + size(&x).powi(2)))
+        shown.all(|x| homotopy.linearise(C::from_f64(0.0), &x) <= 1e-9 * (1.0 + size(&x).powi(2)))
     }
 }
 

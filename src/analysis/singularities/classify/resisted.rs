@@ -4,7 +4,7 @@ use super::{Classifier, Resisted};
 use crate::geometry::Vector3;
 use crate::linear::{complement, dot, norm, orthonormal, remove};
 use crate::mechanism::{Configuration, Frame};
-use crate::system::{Holdable, Lock, wrench_screws};
+use crate::system::{Coordinate, Lock, wrench_screws};
 
 /// An output, or the coordinates of one platform, with its wrenches (m/L; f) about the origin of the
 /// frame.
@@ -86,7 +86,7 @@ impl Classifier<'_> {
                     row += size;
                 }
                 Lock::Coordinate(
-                    coordinate @ (Holdable::Coordinate(platform, _) | Holdable::Turn(platform, _)),
+                    coordinate @ (Coordinate::Pose(platform, _) | Coordinate::Turn(platform, _)),
                 ) => {
                     let slope = coordinate.slope(&at.platforms[platform].pose(), length);
                     let frame = Frame::Platform { platform };
@@ -104,7 +104,7 @@ impl Classifier<'_> {
                     }
                     row += 1;
                 }
-                Lock::Coordinate(Holdable::Joint(_)) => row += 1,
+                Lock::Coordinate(Coordinate::Joint(_)) => row += 1,
             }
         }
         let resisted = parts.into_iter().map(|part| {

@@ -1,21 +1,21 @@
 //! Steps from the nodes of a grid to their neighbours, and which of them are sure.
 
 use super::arrivals::{Arrivals, Moving};
-use super::filled::{Name, Sheet, Signs, signs};
-use super::measure::Measure;
+use super::metric::Metric;
+use super::reached::{Name, NodeSolution, Signs, signs};
 use super::step::{SURE, Start, Steps};
-use crate::analysis::workspace::problem::{Asked, Grid, MOST_AXES};
+use crate::analysis::workspace::problem::{Grid, MOST_AXES, MapProblem};
 use crate::linear::{Factorable, norm};
 use crate::mechanism::{Configuration, ConfigurationRef};
 use crate::number::Packed;
 use crate::solve::Pool;
 
 #[derive(Clone, Copy)]
-pub(crate) struct Fill<'a> {
-    pub asked: &'a Asked<'a>,
+pub(crate) struct Flood<'a> {
+    pub problem: &'a MapProblem<'a>,
     pub grid: &'a Grid,
-    pub measure: &'a Measure,
-    /// Sheets kept at most.
+    pub metric: &'a Metric,
+    /// Solutions kept at most.
     pub most: usize,
     /// The signs of the one aspect that is to be spread over, if not all are.
     pub only: Option<Signs>,
@@ -35,10 +35,10 @@ pub(crate) struct Step<'a> {
     pub change: f64,
 }
 
-impl Fill<'_> {
-    /// Whether what is reached from a sheet is asked for.
-    pub(crate) fn goes_on_from(&self, sheet: &Sheet) -> bool {
-        self.only.is_none() || signs(sheet) == self.only
+impl Flood<'_> {
+    /// Whether what is reached from a solution is asked for.
+    pub(crate) fn goes_on_from(&self, solution: &NodeSolution) -> bool {
+        self.only.is_none() || signs(solution) == self.only
     }
 
     /// A start beside an assembled configuration at a node.
@@ -63,13 +63,13 @@ impl Fill<'_> {
         })
     }
 
-    /// Which of the sheets of a node has this configuration.
+    /// Which of the solutions of a node has this configuration.
     pub(crate) fn known<'s>(
         &self,
-        mut sheets: impl Iterator<Item = (Name, ConfigurationRef<'s, f64>)>,
+        mut solutions: impl Iterator<Item = (Name, ConfigurationRef<'s, f64>)>,
         at: ConfigurationRef<f64>,
     ) -> Option<Name> {
-        let known = sheets.find(|(_, known)| self.measure.same(*known, at));
+        let known = solutions.find(|(_, known)| self.metric.same(*known, at));
         known.map(|(name, _)| name)
     }
 
@@ -88,15 +88,15 @@ impl Fill<'_> {
         }
     }
 
-    /// Of the sheets at the neighbour the one that lies where both motions say.
+    /// Of the solutions at the neighbour the one that lies where both motions say.
     pub(crate) fn near<'s>(
         &self,
         step: &Step,
         there: impl Iterator<Item = (Name, Moving<'s>)>,
         storage: &mut Vec<f64>,
     ) -> Option<Name> {
-        let ahead = (self.measure).ahead(step.from, step.axis, step.change);
-        let mut near = there.filter(|(_, to)| self.measure.linked(&ahead, *to, storage));
+        let ahead = (self.metric).ahead(step.from, step.axis, step.change);
+        let mut near = there.filter(|(_, to)| self.metric.linked(&ahead, *to, storage));
         let (first, _) = near.next()?;
         // two as near are for surer steps to tell apart
         near.next().is_none().then_some(first)
@@ -115,8 +115,8 @@ impl Fill<'_> {
             .collect();
         steps.settle(&starts, arrivals);
         for (i, step) in planned.iter().enumerate() {
-            let (_, length) = self.measure.motion(step.from, step.axis, step.change);
-            let alike = |to| self.measure.alike(step.from, to, length, storage);
+            let (_, length) = self.metric.motion(step.from, step.axis, step.change);
+            let alike = |to| self.metric.alike(step.from, to, length, storage);
             if !arrivals.get(i).is_some_and(alike) {
                 arrivals.reject(i);
             }
@@ -131,7 +131,7 @@ impl Fill<'_> {
         change: f64,
         values: [f64; MOST_AXES],
     ) -> Start<'f> {
-        let (motion, factor) = self.measure.motion(from, axis, change);
+        let (motion, factor) = self.metric.motion(from, axis, change);
         Start {
             from: from.at,
             along: Some((motion, factor)),

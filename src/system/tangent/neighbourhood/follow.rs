@@ -7,7 +7,7 @@ use crate::solve::Equations;
 
 /// Where a finite step along an infinitesimal motion leads.
 #[derive(Clone, Debug)]
-pub struct Followed {
+pub struct FiniteStep {
     /// The configuration at which every equation is met that the Jacobian sees.
     pub at: Configuration<f64>,
     /// What is left of the others, dimensionless: zero if the motion is finite.
@@ -22,7 +22,12 @@ impl Neighbourhood<'_> {
     /// motion components alone, and a freedom is finite where it vanishes identically. `None` if
     /// the iteration does not settle.
     /// Source: Golubitsky and Schaeffer, Singularities and Groups in Bifurcation Theory I, 1985.
-    pub fn follow(&mut self, from: &Tangent, direction: &[f64], distance: f64) -> Option<Followed> {
+    pub fn follow(
+        &mut self,
+        from: &Tangent,
+        direction: &[f64],
+        distance: f64,
+    ) -> Option<FiniteStep> {
         const STEPS: usize = 60;
         /// What rounding leaves of a dimensionless residual.
         const CLOSED: f64 = 4e-15;
@@ -45,7 +50,7 @@ impl Neighbourhood<'_> {
             }
             if size < 1e-14 || (size < noise && size >= 0.5 * before) {
                 let gap = norm(residual);
-                return Some(Followed { at, gap });
+                return Some(FiniteStep { at, gap });
             }
             before = size;
             let back: Vec<f64> = correction.iter().map(|x| -x).collect();
@@ -62,7 +67,7 @@ impl Neighbourhood<'_> {
         from: &Tangent,
         direction: &[f64],
         distance: f64,
-    ) -> Result<Followed, Option<f64>> {
+    ) -> Result<FiniteStep, Option<f64>> {
         /// This gap may be left and the motion still counts as free: rounding. A freedom that is
         /// infinitesimal to order five only leaves 0.05⁶ = 1.6e-8 times its curvature.
         const FREE: f64 = 1e-11;

@@ -4,14 +4,14 @@ use std::f64::consts::PI;
 
 use super::arrivals::Moving;
 use super::step::SURE;
-use crate::analysis::workspace::problem::Asked;
+use crate::analysis::workspace::problem::MapProblem;
 use crate::mechanism::{ConfigurationRef, Role, turn_near};
 use crate::solve::SolutionCurve;
-use crate::system::{Curve, Held, Holdable, Unknown};
+use crate::system::{Coordinate, Curve, Held, Unknown};
 
 /// How far configurations are apart.
 #[derive(Clone, Debug)]
-pub(crate) struct Measure {
+pub(crate) struct Metric {
     free: Curve,
     /// Unknowns that tell modes apart: of platforms, actuated joints and joints with limits; without
     /// platforms of all joints. Legs that are folded the other way about their passive joints, or
@@ -49,9 +49,9 @@ pub(crate) struct Ahead<'a> {
 /// Configurations this near are the same.
 const SAME: f64 = 1e-6;
 
-impl Measure {
-    pub fn new(asked: &Asked) -> Self {
-        let mechanism = asked.mechanism;
+impl Metric {
+    pub fn new(problem: &MapProblem) -> Self {
+        let mechanism = problem.mechanism;
         let free = Curve::new(mechanism, &Held::nothing(mechanism));
         let whole = mechanism.platforms().is_empty();
         let seen = (free.system().unknowns().iter()).map(|unknown| match *unknown {
@@ -73,19 +73,17 @@ impl Measure {
             }),
             Unknown::Twist { .. } => None,
         });
-        Measure {
+        Metric {
             joints: joints.collect(),
             seen: seen
                 .into_iter()
                 .map(|seen| f64::from(u8::from(seen)))
                 .collect(),
-            units: (asked.axes.iter())
+            units: (problem.axes.iter())
                 .map(|axis| match axis.coordinate {
-                    Holdable::Joint(joint) => free.system().joint_scale(joint),
-                    Holdable::Coordinate(_, c) if !c.is_angle() => {
-                        mechanism.characteristic_length()
-                    }
-                    Holdable::Coordinate(..) | Holdable::Turn(..) => 1.0,
+                    Coordinate::Joint(joint) => free.system().joint_scale(joint),
+                    Coordinate::Pose(_, c) if !c.is_angle() => mechanism.characteristic_length(),
+                    Coordinate::Pose(..) | Coordinate::Turn(..) => 1.0,
                 })
                 .collect(),
             free,
@@ -157,7 +155,7 @@ impl Measure {
     }
 
     /// Whether the motions at two configurations, a step of the given length of the mapped
-    /// coordinates apart, are near enough for these to be on one sheet.
+    /// coordinates apart, are near enough for these to be on one solution.
     ///
     /// With M as in [`Rates`](super::rates::Rates), N₁ − N₀ = −M₁⁺(M₁ − M₀) N₀ is short beside N
     /// wherever Newton's theorem makes a step sure. Across a point where legs fold the configuration
