@@ -66,7 +66,7 @@ fn compare(criterion: &mut Criterion, work: &Work) {
         .free("actuated")
         .expect("a question");
     for (name, value) in work.held {
-        question = question.hold(name, value).expect("a coordinate");
+        question = question.hold(name, *value).expect("a coordinate");
     }
     for (name, from, to) in work.mapped {
         let middle = format!("{:?}", 0.5 * (from + to));

@@ -32,7 +32,7 @@ pub use crate::system::Value;
 pub use error::{AskError, Item, Role};
 pub use modes::{Mode, Modes, Solved, Store};
 pub use sweep::Motions;
-pub use workspace::{MOST_BYTES, MapSettings};
+pub use workspace::MOST_BYTES;
 
 use crate::mechanism::Mechanism;
 use crate::system;

@@ -11,7 +11,6 @@ mod formulas;
 mod frames;
 mod import;
 mod mobility;
-mod range;
 mod search;
 mod singularities;
 mod solve;
@@ -27,7 +26,7 @@ mod written;
 use std::io::{self, IsTerminal, Write};
 use std::process::ExitCode;
 
-use clap::{Parser, Subcommand, ValueEnum};
+use clap::{Parser, Subcommand};
 use linkwork::output::diagnostics::Style;
 
 /// Analyses parallel and closed-chain mechanisms described as Denavit–Hartenberg chains.
@@ -58,15 +57,6 @@ enum Command {
     Sweep(sweep::Sweep),
     Singularities(singularities::Singularities),
     Workspace(workspace::Workspace),
-}
-
-/// How an answer is written.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-enum Format {
-    /// To be read by people.
-    Text,
-    /// To be read by programs: metres and radians with all digits. Where there is no answer, stderr says why as text.
-    Json,
 }
 
 /// What a command has to say.
@@ -120,7 +110,7 @@ pub fn run() -> ExitCode {
         }
         Err(Refusal(problems)) => {
             say(&problems);
-            ExitCode::from(2)
+            ExitCode::from(if watched::interruptions() > 0 { 1 } else { 2 })
         }
     }
 }

@@ -33,6 +33,22 @@ pub use svd::Svd;
 /// 1e-7, and the Jacobian cannot be known better than that.
 pub const RANK_TOLERANCE: f64 = 1e-7;
 
+/// The other limits of rank decisions, all relative to the largest singular value or to the row itself.
+///
+/// Places of a curve are located to rounding, so a place where branches cross is told from a regular one
+/// by less than [`RANK_TOLERANCE`].
+pub const SINGULAR_PLACE: f64 = 1e-9;
+
+/// Nearer to a crossing than this the tangent of a curve has lost the digits that tell its branches apart.
+pub const BESIDE_A_CROSSING: f64 = 1e-5;
+
+/// Of rows that are chosen one after another, one counts as independent if Gram–Schmidt leaves this part
+/// of it: the choice shall be well conditioned, so it is stricter than a decision of rank.
+pub const INDEPENDENT: f64 = 1e-6;
+
+/// A condition number beyond the inverse of this has no digit in double precision.
+pub const ILL_CONDITIONED: f64 = 1e-12;
+
 /// The most unknowns that are factorised together as a dense matrix: beyond it the cubic growth of
 /// dense factors costs more than the bookkeeping of sparse ones (a row of 30 four-bars steps 15 times
 /// faster with sparse ones).

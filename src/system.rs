@@ -14,16 +14,17 @@ mod search;
 mod tangent;
 
 pub use curve::{
-    ConfigurationCurve, Curve, Driven, Event, Leg, LocusCurve, LocusEnd, Monitor, Region, Singular,
-    Traced, Tracker, Walk, met_at, passes, settled,
+    ConfigurationCurve, Curve, Driven, Event, Leg, LocusCurve, LocusEnd, Monitor, NoStart, Region,
+    Singular, Traced, Tracker, Walk, met_at, neared, passes, settled,
 };
 pub use equations::{
     ClosureAxes, ClosureWrenches, Gap, Held, HeldPlatform, Holdable, System, Unknown, Work,
     approach, independent_parts,
 };
 pub use question::{
-    Count, Demand, Drive, DriveError, Load, LoadError, Question, QuestionError, Value, ValueError,
-    Verb, check_angles, check_count, number_of, with_coordinates,
+    Count, Demand, Drive, DriveError, Load, LoadError, Output, Question, QuestionError, Value,
+    ValueError, Verb, actuated, check_angles, check_count, default_outputs, free_outputs,
+    inputs_of, number_of, platform_outputs, with_coordinates,
 };
 pub use record::{FormulaNames, FrameRecord, Named, PlatformRecord, infinite_if_null};
 pub use search::{

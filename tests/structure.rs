@@ -116,6 +116,10 @@ fn every_module_has_its_place_in_the_order() {
         let outside = ["lib", "main", "cli", "guide"].contains(&parts[0].as_str());
         assert!(known || outside, "src/{} has no place", parts[0]);
     }
+    for module in ORDER {
+        let exists = files().iter().any(|(parts, _)| parts[0] == module);
+        assert!(exists, "there is no module {module}");
+    }
 }
 
 #[test]

@@ -15,11 +15,11 @@ mod pins;
 mod projected;
 mod starts;
 
-pub use crate::system::LocusEnd;
+pub use crate::system::{LocusEnd, default_outputs, inputs_of};
 pub use along::{AlongReport, Crossing, Ending, along};
 pub use classify::{Distances, Kind, Movement, Resisted, Singularity, Zlatanov};
 pub use locus::{Bound, Locus, LocusReport, loci};
-pub use outputs::{Coupled, default_outputs, inputs_of};
+pub use outputs::Coupled;
 pub use projected::Shape;
 
 use serde::{Deserialize, Serialize};

@@ -26,7 +26,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::algebra::SiUnit;
 use crate::mechanism::{Configuration, Mechanism};
-use crate::solve::{Continuation, Stage, Stray, Watch};
+use crate::solve::{Continuation, Stage, Watch};
 use crate::system::{Curve, Driven, Event, Held, Walk};
 use met::Record;
 use rows::Rows;
@@ -181,25 +181,12 @@ pub fn sweep(
     let mut curve = Curve::along(mechanism, held, inputs.to_vec());
     let mut record = Record::new(mechanism, inputs);
     let mut start = start.clone();
-    mechanism.turn_to_limits(&mut start.joints);
-    for input in inputs {
-        if let crate::system::Holdable::Joint(joint) = input.coordinate {
-            start.joints[joint] = input.from;
-        }
-    }
-    if let Some(met) = record.outside(&start) {
-        return record.ended(met, Ending::OutsideLimits);
-    }
     let method = &settings.continuation;
-    let place = match method.settle(&mut curve, start.clone()) {
-        Ok(place) if place.is_beside_a_crossing() => {
-            return record.no_start(&mut curve, &start, Stray::Singular, method);
-        }
+    let place = match curve.begin(mechanism, &mut start, method) {
         Ok(place) => place,
-        Err(stray) => return record.no_start(&mut curve, &start, stray, method),
+        Err(why) => return record.no_start(&mut curve, &start, why, method),
     };
-    let rate = curve.part_rate(&place.at, &place.tangent);
-    let place = if rate < 0.0 { place.reversed() } else { place };
+    let (place, rate) = curve.towards_end(place);
     let mut rows = Rows::new(mechanism, held, inputs, &place, settings);
     if rows.first(&place, sink).is_break() {
         return interrupted(record.report(Ending::Stopped, 1, 0.0));
@@ -209,17 +196,14 @@ pub fn sweep(
         return record.report(Ending::Fold, 1, 0.0);
     }
     let mut walk = Walk::new(mechanism, &curve, place, method.clone());
-    let ending = 'walk: loop {
-        let done = curve.part(&walk.place().at).clamp(0.0, 1.0) * settings.steps as f64;
+    let ending = walk.follow(&mut curve, |curve, leg| {
+        let done = curve.part(&leg.from.at).clamp(0.0, 1.0) * settings.steps as f64;
         if watch.stops(Stage::Motion, done as usize, steps) {
-            break Ending::Stopped;
+            return ControlFlow::Break(Ending::Stopped);
         }
-        let leg = match walk.advance(&mut curve) {
-            Ok(leg) => leg,
-            Err(Stray::TooShort | Stray::NotClosed | Stray::Singular) => break Ending::Lost,
-        };
         record.steps += 1;
-        let mut from = leg.from.clone();
+        let stopped = |()| Ending::Stopped;
+        let mut from = &leg.from;
         for (place, event) in &leg.events {
             // a turn of the inputs closes the curve and is not the end of the sweep
             if let Event::Closed = event
@@ -227,38 +211,34 @@ pub fn sweep(
             {
                 continue;
             }
-            if rows.between(&mut curve, &from, place, sink).is_break() {
-                break 'walk Ending::Stopped;
-            }
-            from = place.clone();
-            record.meet(&curve, place, event);
+            rows.between(curve, from, place, sink).map_break(stopped)?;
+            from = place;
+            record.meet(curve, place, event);
             let special = matches!(
                 event,
                 Event::Fold | Event::Limit { .. } | Event::Branches(_) | Event::Closed
             );
-            if special && rows.special(place, record.latest(), sink).is_break() {
-                break 'walk Ending::Stopped;
+            if special {
+                (rows.special(place, record.latest(), sink)).map_break(stopped)?;
             }
-            let ending = match event {
-                Event::End(end) if *end => Some(Ending::Complete),
-                Event::End(_) => Some(Ending::Returned),
-                Event::Closed => Some(Ending::Closed),
-                Event::Limit { .. } => Some(Ending::Limit),
-                Event::Fold if !settings.follow => Some(Ending::Fold),
-                Event::Branches(_) if !settings.follow => Some(Ending::Crossing),
-                _ => None,
-            };
-            if let Some(ending) = ending {
-                break 'walk ending;
-            }
+            match event {
+                Event::End(end) if *end => ControlFlow::Break(Ending::Complete),
+                Event::End(_) => ControlFlow::Break(Ending::Returned),
+                Event::Closed => ControlFlow::Break(Ending::Closed),
+                Event::Limit { .. } => ControlFlow::Break(Ending::Limit),
+                Event::Fold if !settings.follow => ControlFlow::Break(Ending::Fold),
+                Event::Branches(_) if !settings.follow => ControlFlow::Break(Ending::Crossing),
+                _ => ControlFlow::Continue(()),
+            }?;
         }
-        if rows.between(&mut curve, &from, &leg.to, sink).is_break() {
-            break Ending::Stopped;
-        }
+        rows.between(curve, from, &leg.to, sink)
+            .map_break(stopped)?;
         // an end that was passed unseen is worse than one that was not reached
-        if !(-1e-6..=1.0 + 1e-6).contains(&curve.part(&leg.to.at)) {
-            break Ending::Lost;
+        match (-1e-6..=1.0 + 1e-6).contains(&curve.part(&leg.to.at)) {
+            true => ControlFlow::Continue(()),
+            false => ControlFlow::Break(Ending::Lost),
         }
-    };
+    });
+    let ending = ending.unwrap_or(Ending::Lost);
     interrupted(record.report(ending, rows.count(), walk.gone()))
 }

@@ -13,7 +13,7 @@ use crate::mechanism::{Frame, Mechanism};
 use crate::solve::{Newton, Watch};
 use crate::system::{
     Analysed, Drive, Holdable, Motion, Neighbourhood, Question, QuestionError, Tangent, Unknown,
-    WidestGap, check_angles, check_count, close, moving, too_large,
+    WidestGap, check_angles, check_count, close, free_outputs, moving, too_large,
 };
 
 use frames::Spins;
@@ -237,7 +237,7 @@ pub fn velocity(
     let spins = Spins::of(&held, &rest);
     let spinning = spinning(&held, &rest);
     let jacobian = determined.then(|| {
-        let mut outputs = jacobian::outputs(mechanism, &drive.coordinates, &spinning);
+        let mut outputs = free_outputs(mechanism, &drive.coordinates, &spinning);
         outputs.extend(jacobian::followed(&outputs, &settings.points));
         jacobian::input_output(mechanism, &mut motion, at, &outputs, &spins)
     });

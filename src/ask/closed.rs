@@ -66,13 +66,13 @@ impl Question {
             };
             load = loaded.map_err(|error| AskError::Load {
                 item: Role::Wrench.item(index),
-                error,
+                error: Box::new(error),
             })?;
         }
         for (index, (joint, value)) in self.loads.iter().enumerate() {
             load = (load.joint(&question, joint, value)).map_err(|error| AskError::Load {
                 item: Role::Load.item(index),
-                error,
+                error: Box::new(error),
             })?;
         }
         let settings = StaticsSettings::default();
@@ -102,14 +102,14 @@ impl Question {
         for (index, (name, value)) in self.rates.iter().enumerate() {
             drive = (drive.rate(question, name, value)).map_err(|error| AskError::Drive {
                 item: Role::Rate.item(index),
-                error,
+                error: Box::new(error),
             })?;
         }
         for (index, (name, value)) in self.accelerations.iter().enumerate() {
             let driven = drive.acceleration(question, name, value);
             drive = driven.map_err(|error| AskError::Drive {
                 item: Role::Acceleration.item(index),
-                error,
+                error: Box::new(error),
             })?;
         }
         Ok(drive)

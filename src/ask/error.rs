@@ -54,7 +54,7 @@ impl Role {
     pub(super) fn named(self, index: usize) -> impl Fn(QuestionError) -> AskError {
         move |error| AskError::Named {
             item: self.item(index),
-            error,
+            error: Box::new(error),
         }
     }
 }
@@ -68,14 +68,14 @@ pub enum AskError {
         /// Which.
         item: Item,
         /// What is wrong with it.
-        error: QuestionError,
+        error: Box<QuestionError>,
     },
     /// The question as a whole holds too much or too little.
     Question(QuestionError),
     /// The same for a map.
     Mapped {
         /// What is wrong.
-        error: QuestionError,
+        error: Box<QuestionError>,
         /// The mapped coordinates.
         mapped: Vec<String>,
         /// Coordinates of platforms that are to be mapped or held too, if the actuated joints are free.
@@ -86,21 +86,21 @@ pub enum AskError {
         /// Which.
         item: Item,
         /// What is wrong with it.
-        error: QuestionError,
+        error: Box<QuestionError>,
     },
     /// A rate or an acceleration is wrong.
     Drive {
         /// Which.
         item: Item,
         /// What is wrong with it.
-        error: DriveError,
+        error: Box<DriveError>,
     },
     /// A load is wrong.
     Load {
         /// Which.
         item: Item,
         /// What is wrong with it.
-        error: LoadError,
+        error: Box<LoadError>,
     },
     /// There is no frame of that name.
     UnknownFrame {
@@ -257,13 +257,12 @@ impl Display for AskError {
     fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
         match self {
             AskError::Named { error, .. }
-            | AskError::Question(error)
             | AskError::Mapped { error, .. }
-            | AskError::NotMapped { error, .. }
-            | AskError::NotOneFreedom(error) => write!(f, "{error}"),
-            AskError::Drive { error, .. } => write!(f, "{error:?}"),
-            AskError::Load { error, .. } => write!(f, "{error:?}"),
-            AskError::Traced { error, .. } => write!(f, "{error:?}"),
+            | AskError::NotMapped { error, .. } => write!(f, "{error}"),
+            AskError::Question(error) | AskError::NotOneFreedom(error) => write!(f, "{error}"),
+            AskError::Drive { error, .. } => write!(f, "{error}"),
+            AskError::Load { error, .. } => write!(f, "{error}"),
+            AskError::Traced { error, .. } => write!(f, "{error}"),
             AskError::UnknownFrame { name, .. } => write!(f, "`{name}` is not a frame"),
             AskError::Motionless { name, .. } => write!(f, "`{name}` does not move"),
             AskError::UnknownOutput { name, .. } => {

@@ -2,13 +2,13 @@
 
 use super::{AskError, Question};
 use crate::analysis::assemblies::{
-    AssembliesError, AssembliesReport, AssembliesSettings, AssemblySolver, Fold, Followed,
-    GenericSolutions, Wanted,
+    AssembliesError, AssembliesReport, AssembliesSettings, AssemblySolver, GenericSolutions,
+    LostMode, Wanted,
 };
 use crate::analysis::assembly::{AssemblyReport, AssemblySettings, assemble};
 use crate::mechanism::Configuration;
 use crate::solve::{Newton, Watch};
-use crate::system::{self, Search, check_count};
+use crate::system::{self, Count, QuestionError, Search, check_count};
 
 /// Which assembly work begins in.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
@@ -25,7 +25,10 @@ pub enum Mode {
 /// Keeps generic solutions from one question to the next.
 pub trait Store: Send + Sync {
     /// What it has.
-    fn known(&self) -> Option<GenericSolutions>;
+    ///
+    /// # Errors
+    /// If it cannot be read.
+    fn known(&self) -> Result<Option<GenericSolutions>, String>;
 
     /// Called before solutions are searched for, because there are none or those of another question.
     ///
@@ -41,21 +44,9 @@ pub trait Store: Send + Sync {
 #[derive(Clone, Debug, PartialEq)]
 pub enum Solved {
     /// Where the search ended.
-    Ended(AssemblyReport),
-    /// The mode ceased to exist on its way from home to what is held.
-    Fold {
-        /// Its number.
-        mode: usize,
-        /// Where.
-        fold: Fold,
-    },
-    /// Solutions meet at home already where the mode is to be followed from.
-    Meets {
-        /// Its number.
-        mode: usize,
-        /// How many meet: 0 if it is one of infinitely many.
-        multiplicity: usize,
-    },
+    Ended(Box<AssemblyReport>),
+    /// The mode could not be followed from home to what is held.
+    Lost(Box<LostMode>),
 }
 
 /// Assembled configurations to begin with: numbers of their modes, if they were asked for, and where they are.
@@ -73,16 +64,24 @@ const NUMBERED: Wanted = Wanted {
 };
 
 impl Question {
+    /// What is held beside what the mechanism allows.
+    ///
+    /// # Errors
+    /// If the question is wrong, or holds more or less than the mechanism has freedoms.
+    pub fn count(&self) -> Result<Count, AskError> {
+        check_count(&self.resolved()?).map_err(AskError::Question)
+    }
+
     /// All assembled configurations. Where freedoms are left, those listed are samples.
     ///
     /// # Errors
     /// If the question is wrong or holds too much.
     pub fn assemblies(&self, wanted: Wanted, watch: &Watch) -> Result<AssembliesReport, AskError> {
         let question = self.resolved()?;
-        match check_count(&question) {
+        match self.count() {
             // samples answer it
-            Ok(_) | Err(system::QuestionError::TooFew { .. }) => {}
-            Err(error) => return Err(AskError::Question(error)),
+            Ok(_) | Err(AskError::Question(QuestionError::TooFew { .. })) => {}
+            Err(error) => return Err(error),
         }
         let wanted = Wanted {
             starts: true,
@@ -106,18 +105,15 @@ impl Question {
             check_count(&question).map_err(AskError::Question)?;
             let solver = self.solver(&question, watch)?;
             let followed = solver.follow(mode, &question.start(), &question.held(), watch);
-            match followed.map_err(AskError::from)? {
-                Followed::Arrived(at) => question = question.near(&at),
-                Followed::Meets { multiplicity } => {
-                    return Ok(Solved::Meets { mode, multiplicity });
-                }
-                Followed::Fold(fold) => return Ok(Solved::Fold { mode, fold }),
+            match followed?.arrived(&self.mechanism, mode) {
+                Ok(at) => question = question.near(&at),
+                Err(lost) => return Ok(Solved::Lost(lost)),
             }
             // another start could end in another mode
             settings.restarts = 0;
         }
         let report = assemble(&question, &settings, watch).map_err(AskError::Question)?;
-        Ok(Solved::Ended(report))
+        Ok(Solved::Ended(Box::new(report)))
     }
 
     /// Where work begins: near the start, or in the mode or modes asked for.
@@ -172,20 +168,6 @@ impl Question {
         Ok(starts.swap_remove(0).1)
     }
 
-    /// Every assembly, as they are numbered everywhere.
-    pub(super) fn modes(
-        &self,
-        question: &system::Question,
-        watch: &Watch,
-    ) -> Result<Vec<Configuration<f64>>, AskError> {
-        let report = self.all(question, NUMBERED, watch)?;
-        let like = question.start();
-        let found = report.assemblies.iter();
-        Ok(found
-            .map(|assembly| assembly.configuration(&like))
-            .collect())
-    }
-
     fn all(
         &self,
         question: &system::Question,
@@ -205,7 +187,7 @@ impl Question {
         let (mechanism, held) = (question.mechanism(), question.held());
         if let Some(store) = &self.store {
             let mut others = false;
-            if let Some(known) = store.known() {
+            if let Some(known) = store.known().map_err(AskError::Store)? {
                 match AssemblySolver::from_stored(mechanism, &held, known) {
                     Err(AssembliesError::StoredForAnotherQuestion) => others = true,
                     solver => return solver.map_err(AskError::from),

@@ -47,7 +47,13 @@ impl Question {
         values: &[f64],
     ) -> Result<system::Question<'q>, AskError> {
         for (index, (input, value)) in self.inputs.iter().zip(values).enumerate() {
-            question = (question.hold(&input.name, *value)).map_err(Role::Input.named(index))?;
+            question = (question.hold(&input.name, *value)).map_err(|error| match error {
+                QuestionError::Contradiction { .. } => AskError::AlsoHeld {
+                    item: Role::Input.item(index),
+                    name: input.name.clone(),
+                },
+                error => Role::Input.named(index)(error),
+            })?;
         }
         Ok(question)
     }

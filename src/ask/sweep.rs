@@ -52,7 +52,7 @@ impl Motions<'_> {
 
 impl Question {
     /// The motions of the inputs through their ranges; without inputs those along the whole curve of a mechanism with
-    /// one freedom. Points of the question are traced.
+    /// one freedom. Points of the question are traced beside those of the settings.
     ///
     /// # Errors
     /// If the question is wrong, or the mechanism does not assemble where the inputs begin.
@@ -100,7 +100,7 @@ impl Question {
             true => self.one_freedom()?.held(),
         };
         let settings = SweepSettings {
-            points: self.traced()?,
+            points: [&settings.points[..], &self.traced()?].concat(),
             ..settings.clone()
         };
         Ok(Motions {

@@ -3,7 +3,7 @@
 use std::f64::consts::TAU;
 
 use super::ranges::{middles, of_platform};
-use super::{AskError, Question, Role};
+use super::{AskError, Mode, Question, Role};
 use crate::analysis::workspace::{
     WorkspaceError, WorkspaceReport, WorkspaceSettings, cell_bytes, workspace,
 };
@@ -13,77 +13,54 @@ use crate::system::{
     self, Driven, Holdable, Mobility, QuestionError, TooLarge, check_count, too_large,
 };
 
-/// Bytes that a map takes at most, unless it is told otherwise.
+/// Bytes that a map takes at most.
 pub const MOST_BYTES: f64 = 4e9;
 /// Random starts made at most.
 const MOST_STARTS: usize = 1_000_000;
 
-/// How to map a workspace.
-#[derive(Clone, Debug, PartialEq)]
-pub struct MapSettings {
-    /// Nodes along each mapped coordinate, or one number for all of them; none for what suits their number.
-    pub nodes: Vec<usize>,
-    /// Nodes, spread over the box, that are searched for modes.
-    pub searched: usize,
-    /// Random starts at each of them.
-    pub starts: usize,
-    /// Whether to begin with all assemblies in the middle of the box too.
-    pub assemblies: bool,
-    /// Bytes that the map may take.
-    pub most_bytes: f64,
-}
-
-impl Default for MapSettings {
-    fn default() -> Self {
-        let settings = WorkspaceSettings::default();
-        MapSettings {
-            nodes: Vec::new(),
-            searched: settings.searched,
-            starts: settings.starts,
-            assemblies: false,
-            most_bytes: MOST_BYTES,
-        }
-    }
-}
-
 impl Question {
     /// Maps the inputs over their ranges. Where coordinates of platforms are mapped or held the actuated joints are
-    /// free.
+    /// free. With [`Mode::All`] the map begins with all assemblies in the middle of the box too, besides those that
+    /// random starts lead to.
+    ///
+    /// `settings.nodes` are one number for each input, one for all of them, or none for what suits their number.
     ///
     /// # Errors
-    /// If the question is wrong, holds too much or too little, or the map would take too much memory.
+    /// If the question is wrong, holds too much or too little, or the map would take more than [`MOST_BYTES`].
     pub fn workspace(
         &self,
-        settings: &MapSettings,
+        settings: &WorkspaceSettings,
         watch: &Watch,
     ) -> Result<WorkspaceReport, AskError> {
         let axes = self.axes()?;
         let question = self.mapped(&axes)?;
         let bytes = cell_bytes(&question, axes.len()) as f64;
-        let nodes = nodes(&settings.nodes, axes.len(), (bytes, settings.most_bytes))?;
+        let nodes = nodes(&settings.nodes, axes.len(), bytes)?;
         for given in [settings.starts, settings.searched] {
             if !(1..=MOST_STARTS).contains(&given) {
                 let most = MOST_STARTS;
                 return Err(AskError::Starts { given, most });
             }
         }
-        let known = match settings.assemblies {
-            true => self.modes(&question, watch)?,
-            false => Vec::new(),
+        let known = match self.mode {
+            Mode::Nearest => Vec::new(),
+            Mode::Number(_) | Mode::All => match self.starts(&question, watch) {
+                Err(AskError::NoSuchMode { .. }) if self.mode == Mode::All => Vec::new(),
+                starts => starts?,
+            },
         };
-        let inner = WorkspaceSettings {
+        let known: Vec<_> = known.into_iter().map(|(_, at)| at).collect();
+        let settings = WorkspaceSettings {
             nodes,
-            searched: settings.searched,
-            starts: settings.starts,
             seed: self.seed,
-            most: (settings.most_bytes / bytes) as usize,
-            ..WorkspaceSettings::default()
+            most: settings.most.min((MOST_BYTES / bytes) as usize),
+            ..settings.clone()
         };
-        let report = workspace(&question, &axes, &known, &inner, watch);
+        let report = workspace(&question, &axes, &known, &settings, watch);
         report.map_err(|error| match error {
             WorkspaceError::TooMany { most: cells } => AskError::TooMany {
                 cells,
-                most: settings.most_bytes,
+                most: cells as f64 * bytes,
             },
         })
     }
@@ -95,7 +72,7 @@ impl Question {
         for (index, input) in self.inputs.iter().enumerate() {
             (question.value(&input.name, "home")).map_err(|error| AskError::NotMapped {
                 item: Role::Input.item(index),
-                error,
+                error: Box::new(error),
             })?;
         }
         // a range that is no number is refused too
@@ -160,14 +137,14 @@ impl Question {
                 _ => Vec::new(),
             },
             mapped: self.inputs.iter().map(|input| input.name.clone()).collect(),
-            error,
+            error: Box::new(error),
         })?;
         Ok(question)
     }
 }
 
-/// Nodes along each coordinate, each of which takes so many bytes of those that there may be.
-fn nodes(given: &[usize], axes: usize, (bytes, most): (f64, f64)) -> Result<Vec<usize>, AskError> {
+/// Nodes along each coordinate, each of which takes so many bytes.
+fn nodes(given: &[usize], axes: usize, bytes: f64) -> Result<Vec<usize>, AskError> {
     let nodes = match given[..] {
         [] => vec![[200, 60, 24][axes - 1]; axes],
         [one] => vec![one; axes],
@@ -178,6 +155,7 @@ fn nodes(given: &[usize], axes: usize, (bytes, most): (f64, f64)) -> Result<Vec<
     }
     let all: f64 = nodes.iter().map(|n| *n as f64).product();
     let bytes = all * bytes;
+    let most = MOST_BYTES;
     match bytes > most {
         true => Err(AskError::TooFine {
             nodes: all,

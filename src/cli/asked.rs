@@ -1,12 +1,19 @@
-//! The options that say what is held and where to start.
+//! The options that pose a question, and what is said where it has no answer.
+
+use std::sync::Arc;
 
 use clap::Args;
+use linkwork::ask::{AskError, Question, Role};
 use linkwork::mechanism::{Frame, Mechanism};
-use linkwork::output::option::{Complaint, Given, Part};
-use linkwork::output::question::{complaint, driven_complaint, unknown_frame};
-use linkwork::system::{DriveError, Question, QuestionError};
+use linkwork::output::complaint::{Complaint, Given, Part};
+use linkwork::output::question::{complaint, driven_complaint, motionless_frame, unknown_frame};
+use linkwork::output::{
+    singularities as of_singularities, statics as of_statics, sweep as of_motion,
+    workspace as of_map,
+};
+use linkwork::system;
 
-use super::source::Assignment;
+use super::source::{Assignment, Loaded, once};
 use super::{Refusal, style};
 
 #[derive(Args)]
@@ -20,39 +27,18 @@ pub struct Split {
 }
 
 impl Split {
-    /// What is freed is freed first, so that `--free actuated --hold l1=1` holds one joint.
-    pub fn question<'a>(&self, mechanism: &'a Mechanism) -> Result<Question<'a>, Refusal> {
-        self.put(Question::new(mechanism))
-    }
-
-    /// The same for a mechanism whose joints are held only if --hold says so.
-    pub fn released<'a>(&self, mechanism: &'a Mechanism) -> Result<Question<'a>, Refusal> {
-        let released = Question::new(mechanism).free("actuated");
-        self.put(released.map_err(|error| refusal(&error, None))?)
-    }
-
-    /// The names of what is held or freed.
-    pub fn demanded(&self) -> Vec<&str> {
-        let held = self.hold.iter().map(|assignment| assignment.name.as_str());
-        held.chain(self.free.iter().map(String::as_str)).collect()
-    }
-
-    fn put<'a>(&self, mut question: Question<'a>) -> Result<Question<'a>, Refusal> {
+    /// The question about a mechanism that these options pose.
+    pub fn pose<'o>(&'o self, loaded: &Loaded) -> Posed<'o> {
+        let mut posed = Posed::new(&loaded.mechanism);
         for name in &self.free {
-            let given = Given {
-                option: "--free",
-                name,
-                value: None,
-            };
-            question = (question.free(name)).map_err(|error| refusal(&error, Some(given)))?;
+            posed.name(Role::Free, "--free", name);
+            posed.question = posed.question.free(name);
         }
-        for assignment in &self.hold {
-            let Assignment { name, value } = assignment;
-            let given = assignment.given("--hold");
-            question =
-                (question.hold(name, value)).map_err(|error| refusal(&error, Some(given)))?;
+        for given in &self.hold {
+            posed.value(Role::Hold, "--hold", given);
+            posed.question = posed.question.hold(&given.name, &given.value);
         }
-        Ok(question)
+        posed
     }
 }
 
@@ -66,54 +52,238 @@ pub struct Asked {
 }
 
 impl Asked {
-    /// The split, with guesses for what is free.
-    pub fn question<'a>(&self, mechanism: &'a Mechanism) -> Result<Question<'a>, Refusal> {
-        self.guessed(self.split.question(mechanism)?)
-    }
-
-    /// The same for a mechanism whose joints are held only if --hold says so.
-    pub fn released<'a>(&self, mechanism: &'a Mechanism) -> Result<Question<'a>, Refusal> {
-        self.guessed(self.split.released(mechanism)?)
-    }
-
-    fn guessed<'a>(&self, mut question: Question<'a>) -> Result<Question<'a>, Refusal> {
-        for assignment in &self.guess {
-            let Assignment { name, value } = assignment;
-            let given = assignment.given("--guess");
-            question =
-                (question.guess(name, value)).map_err(|error| refusal(&error, Some(given)))?;
+    /// The same with guesses for what is free.
+    pub fn pose<'o>(&'o self, loaded: &Loaded) -> Posed<'o> {
+        let mut posed = self.split.pose(loaded);
+        for given in &self.guess {
+            posed.value(Role::Guess, "--guess", given);
+            posed.question = posed.question.guess(&given.name, &given.value);
         }
-        Ok(question)
+        posed
     }
 }
 
-/// What is wrong with the question, and with the option that asked it, if one did.
-pub fn refusal(error: &QuestionError, given: Option<Given>) -> Refusal {
-    let (complaint, part) = complaint(error);
-    Refusal(match given {
-        Some(given) => complaint.render_in(&given, &part, style()),
-        None => complaint.render(style()),
-    })
+/// What ranges are for, which decides the words.
+#[derive(Clone, Copy, PartialEq, Eq)]
+pub enum Ranges {
+    /// Inputs that move.
+    Input,
+    /// Sides of the box of loci.
+    Locus,
+    /// Mapped coordinates.
+    Map,
 }
 
-/// What is wrong with a rate, an acceleration or a force.
-pub fn driven(error: &DriveError, given: Given) -> Refusal {
-    let (complaint, part) = driven_complaint(error, given.option);
-    Refusal(complaint.render_in(&given, &part, style()))
+impl Ranges {
+    fn option(self) -> &'static str {
+        match self {
+            Ranges::Input => "--input",
+            Ranges::Locus => "--locus",
+            Ranges::Map => "--map",
+        }
+    }
+}
+
+/// A question with the options that posed it.
+pub struct Posed<'o> {
+    pub question: Question,
+    given: Vec<(Role, Given<'o>)>,
+    ranges: Ranges,
+}
+
+impl<'o> Posed<'o> {
+    pub fn new(mechanism: &Arc<Mechanism>) -> Self {
+        Posed {
+            question: Question::new(Arc::clone(mechanism)),
+            given: Vec::new(),
+            ranges: Ranges::Input,
+        }
+    }
+
+    /// Remembers an option that gives a name.
+    pub fn name(&mut self, role: Role, option: &'o str, name: &'o str) {
+        let value = None;
+        self.given.push((
+            role,
+            Given {
+                option,
+                name,
+                value,
+            },
+        ));
+    }
+
+    /// Remembers an option that gives a value to a name.
+    pub fn value(&mut self, role: Role, option: &'o str, given: &'o Assignment) {
+        self.given.push((role, given.given(option)));
+    }
+
+    /// The ranges of an option, `NAME=FROM..TO`.
+    pub fn ranges(&mut self, ranges: Ranges, given: &'o [Assignment]) -> Result<(), Refusal> {
+        self.ranges = ranges;
+        once(ranges.option(), given)?;
+        for assignment in given {
+            let (name, option) = (&assignment.name, ranges.option());
+            self.value(Role::Input, option, assignment);
+            let Some((from, to)) = assignment.value.split_once("..") else {
+                let mechanism = self.question.mechanism();
+                // a wrong name is the first thing to say
+                let known = system::Question::new(mechanism).value(name, "home");
+                let said = match known {
+                    Err(error) => complaint(&error),
+                    Ok(_) => match ranges {
+                        Ranges::Input => of_motion::no_range(name),
+                        Ranges::Locus => of_singularities::no_side(name),
+                        Ranges::Map => of_map::no_range(name),
+                    },
+                };
+                return Err(refused(said, Some(&assignment.given(option))));
+            };
+            self.question = self.question.clone().input(name, from, to);
+        }
+        Ok(())
+    }
+
+    /// What is wrong with the question, under the option that says so if one does.
+    pub fn refusal(&self, error: &AskError) -> Refusal {
+        let mechanism = self.question.mechanism();
+        let given = |item: &linkwork::ask::Item| {
+            let role = match item.role {
+                Role::From | Role::To => Role::Input,
+                role => role,
+            };
+            let mut of_role = self.given.iter().filter(|(of, _)| *of == role);
+            of_role.nth(item.index).map(|(_, given)| *given)
+        };
+        let whole = |said: Complaint| Refusal(said.render(style()));
+        let plain = |text: String| Refusal(format!("error: {text}\n"));
+        match error {
+            AskError::Named { item, error } => {
+                let given = given(item);
+                let said = complaint(error);
+                let value = given.and_then(|given| given.value).unwrap_or_default();
+                let first = value.find("..").unwrap_or(value.len());
+                let part = match item.role {
+                    Role::From => Part::Value(0..first),
+                    Role::To => Part::Value((first + 2).min(value.len())..value.len()),
+                    _ => said.part.clone(),
+                };
+                refused(said.at(part), given.as_ref())
+            }
+            AskError::Question(error) => whole(complaint(error)),
+            AskError::Mapped {
+                error,
+                mapped,
+                missing,
+            } => whole(
+                of_map::wrong_count(error, mapped, missing).unwrap_or_else(|| complaint(error)),
+            ),
+            AskError::NotMapped { item, error } => {
+                let said = of_map::no_platform(mechanism, error);
+                let said = said.unwrap_or_else(|| complaint(error));
+                refused(said, given(item).as_ref())
+            }
+            AskError::Drive { item, error } => {
+                let given = given(item);
+                let option = given.map_or("--rate", |given| given.option);
+                refused(driven_complaint(error, option), given.as_ref())
+            }
+            AskError::Load { item, error } => {
+                let given = given(item);
+                let option = given.map_or("--load", |given| given.option);
+                let said = of_statics::complaint(mechanism, error, option);
+                refused(said, given.as_ref())
+            }
+            AskError::UnknownFrame { item, name } => {
+                refused(unknown_frame(mechanism, name), given(item).as_ref())
+            }
+            AskError::Motionless { item, name } => {
+                refused(motionless_frame(name), given(item).as_ref())
+            }
+            AskError::UnknownOutput { item, name } => {
+                let said = of_singularities::unknown_output(mechanism, name);
+                refused(said, given(item).as_ref())
+            }
+            AskError::Traced { item, error } => {
+                let said = of_motion::point_complaint(mechanism, error);
+                refused(said, given(item).as_ref())
+            }
+            AskError::EmptyRange { item, name } => {
+                let given = given(item);
+                let value = given.and_then(|given| given.value).unwrap_or_default();
+                let from = value.split("..").next().unwrap_or_default();
+                let said = match self.ranges {
+                    Ranges::Input => of_motion::nothing_moves(name, from),
+                    Ranges::Locus => of_singularities::empty_side(name),
+                    Ranges::Map => of_map::empty_side(name, from),
+                };
+                refused(said, given.as_ref())
+            }
+            AskError::OutsideLimits {
+                item,
+                name,
+                limits,
+                is_angle,
+            } => {
+                let said = of_motion::outside(name, *limits, *is_angle);
+                refused(said, given(item).as_ref())
+            }
+            AskError::AlsoHeld { item, name } => {
+                let said = match self.ranges {
+                    Ranges::Map => of_map::also_held(name),
+                    Ranges::Input | Ranges::Locus => Complaint::with_help(
+                        format!("`{name}` is both moved and held"),
+                        "also held",
+                        "give only one of them".into(),
+                    ),
+                };
+                refused(said, given(item).as_ref())
+            }
+            AskError::MoreThanATurn { name } => whole(of_map::more_than_a_turn(name)),
+            AskError::NothingMoves { driven } => whole(of_motion::what_moves(driven.as_deref())),
+            AskError::NotOneJoint => whole(of_motion::what_moves(None)),
+            AskError::Steps { given, most } => whole(of_motion::no_steps(*given, *most, false)),
+            AskError::NothingLeft { held } => whole(of_motion::nothing_left(held)),
+            AskError::NotOneFreedom(error) => whole(of_motion::not_one_freedom(error)),
+            AskError::NotAssembled { held } => plain(format!(
+                "the mechanism does not assemble where the motion is to begin\n  \
+                 = help: `linkwork solve` says how near it comes: {}",
+                held.join(", ")
+            )),
+            AskError::NothingToDrive => whole(of_singularities::nothing_to_drive()),
+            AskError::Sides(given) => whole(of_singularities::not_two_sides(*given)),
+            AskError::Axes(given) => whole(of_map::too_many_axes(mechanism, *given)),
+            AskError::Spinning(spins) => whole(of_singularities::spinning(*spins)),
+            AskError::Grid { nodes, axes } => whole(of_map::wrong_grid(nodes, *axes)),
+            AskError::TooFine { nodes, bytes, most } => {
+                whole(of_map::too_fine(*nodes, *bytes, *most))
+            }
+            AskError::TooMany { cells, most } => whole(of_map::too_many_cells(*cells, *most)),
+            AskError::TooLarge { unknowns } => plain(format!(
+                "the mechanism has {unknowns} unknowns, too many for this analysis: ask about a part of it"
+            )),
+            AskError::Store(said) => Refusal(said.clone()),
+            other => plain(other.to_string()),
+        }
+    }
+}
+
+fn refused(said: Complaint, given: Option<&Given>) -> Refusal {
+    Refusal(match given {
+        Some(given) => said.render_in(given, style()),
+        None => said.render(style()),
+    })
 }
 
 /// The frame of that name.
 pub fn frame(mechanism: &Mechanism, name: &str, option: &str) -> Result<Frame, Refusal> {
-    let known = mechanism.frame(name);
-    known.ok_or_else(|| refused_frame(name, option, unknown_frame(mechanism, name)))
-}
-
-/// A frame that an option cannot have, with what is wrong with it.
-pub fn refused_frame(name: &str, option: &str, (complaint, part): (Complaint, Part)) -> Refusal {
-    let given = Given {
-        option,
-        name,
-        value: None,
-    };
-    Refusal(complaint.render_in(&given, &part, style()))
+    mechanism.frame(name).ok_or_else(|| {
+        let value = None;
+        let given = Given {
+            option,
+            name,
+            value,
+        };
+        refused(unknown_frame(mechanism, name), Some(&given))
+    })
 }

@@ -2,15 +2,15 @@
 
 use clap::Args;
 use linkwork::analysis::assemblies::{Fit, Wanted};
-use linkwork::output::assemblies;
+use linkwork::ask::AskError;
 use linkwork::output::question::complaint;
-use linkwork::system::{QuestionError, check_count};
 
-use super::asked::{Split, refusal};
+use super::asked::Split;
+use super::format::Written;
 use super::search::Search;
 use super::source::Source;
 use super::watched::watched;
-use super::{Answer, Format, Refusal, style};
+use super::{Answer, Refusal, style};
 
 /// List all assembled configurations for held inputs, numbered, each with a certificate.
 ///
@@ -33,38 +33,28 @@ pub struct Assemblies {
     all_complex: bool,
     #[command(flatten)]
     search: Search,
-    /// How to write the answer
-    #[arg(long, value_enum, default_value_t = Format::Text)]
-    format: Format,
+    #[command(flatten)]
+    format: Written,
 }
 
 impl Assemblies {
     pub fn run(&self) -> Result<Answer, Refusal> {
         let loaded = self.source.load()?;
-        let question = self.split.question(&loaded.mechanism)?;
+        let mut posed = self.split.pose(&loaded);
+        self.search.pose(&mut posed)?;
+        let (question, refusal) = (&posed.question, |error| posed.refusal(&error));
         let mut remarks = loaded.warnings();
-        match check_count(&question) {
-            Ok(_) => {}
-            // samples answer it, but what is missing is said too
-            Err(error @ QuestionError::TooFew { .. }) => {
-                remarks += &complaint(&error).0.render_warning(style());
-            }
-            Err(error) => return Err(refusal(&error, None)),
+        // samples answer a question that holds too little, but what is missing is said too
+        if let Err(AskError::Question(error)) = question.count() {
+            remarks += &complaint(&error).render_warning(style());
         }
         let wanted = Wanted {
-            certificates: true,
             all_complex: self.all_complex,
             ..Wanted::default()
         };
-        let report = watched(|watch| {
-            let solver = self.search.solver(&question, watch)?;
-            Ok(solver.at_targets(&question.start(), &question.held(), wanted, watch))
-        })?;
+        let report = watched(|watch| question.assemblies(wanted, watch)).map_err(refusal)?;
         Ok(Answer {
-            data: match self.format {
-                Format::Text => assemblies::text(&report),
-                Format::Json => assemblies::json(&report),
-            },
+            data: self.format.shown(&report),
             remarks,
             yes: report.real > 0
                 && report.lost == 0

@@ -3,11 +3,8 @@
 use std::path::PathBuf;
 
 use clap::{Args, ValueEnum};
-use linkwork::analysis::assembly::AssemblySettings;
 use linkwork::interchange::{Remark, tree_of, write_mjcf, write_urdf};
 use linkwork::output::{Report, closing, text};
-use linkwork::solve::Newton;
-use linkwork::system::close;
 
 use super::asked::Asked;
 use super::source::Source;
@@ -48,13 +45,9 @@ enum To {
 impl Export {
     pub fn run(&self) -> Result<Answer, Refusal> {
         let loaded = self.source.load()?;
-        let question = self.asked.question(&loaded.mechanism)?;
-        let (newton, search) = (Newton::default(), AssemblySettings::default());
-        let closed = watched(|watch| {
-            let starts = (search.restarts, search.seed);
-            close(&question, &newton, starts, watch)
-        });
-        let closed = match closed {
+        let posed = self.asked.pose(&loaded);
+        let closed = watched(|watch| posed.question.closed(watch));
+        let closed = match closed.map_err(|error| posed.refusal(&error))? {
             Ok(closed) => closed,
             Err(open) => {
                 let open = text::render(&open.document());
@@ -68,7 +61,7 @@ impl Export {
         let (tree, mut said) = tree_of(&loaded.mechanism, &closed.configuration);
         let (text, more): (String, Vec<Remark>) = match self.to {
             To::Mjcf => write_mjcf(&tree, &said),
-            To::Urdf => write_urdf(&tree).map_err(|error| Refusal(format!("error: {error}\n")))?,
+            To::Urdf => write_urdf(&tree),
         };
         said.extend(more);
         let mut remarks = loaded.warnings();

@@ -1,18 +1,18 @@
-//! The search for all assemblies, as commands make it.
+//! The options of every search for assemblies.
 
 use std::path::PathBuf;
+use std::sync::Arc;
 
 use clap::Args;
-use linkwork::analysis::assemblies::{AssembliesError, AssembliesSettings, AssemblySolver};
-use linkwork::solve::Watch;
-use linkwork::system::Question;
+use linkwork::analysis::assemblies::AssembliesSettings;
 
+use super::Refusal;
+use super::asked::Posed;
 use super::store::Store;
-use super::{Refusal, say};
 
 #[derive(Args)]
 pub struct Search {
-    /// Seed of random starts: it decides the way to the answer, not the answer
+    /// Seed of random starts; where several assemblies exist it may decide which of them is found
     #[arg(long, value_parser = seed, allow_negative_numbers = true)]
     #[arg(default_value_t = AssembliesSettings::default().seed)]
     pub seed: u64,
@@ -36,41 +36,13 @@ pub fn mode(text: &str) -> Result<usize, String> {
 }
 
 impl Search {
-    /// The solver for a question, from the store if it has it.
-    pub fn solver(&self, question: &Question, watch: &Watch) -> Result<AssemblySolver, Refusal> {
-        let (mechanism, held) = (question.mechanism(), question.held());
-        let store = self.store.as_deref().map(Store::at).transpose()?;
-        if let Some(store) = &store {
-            if let Some(stored) = store.read()? {
-                match AssemblySolver::from_stored(mechanism, &held, stored) {
-                    Err(AssembliesError::StoredForAnotherQuestion) => {
-                        store.check_writable()?;
-                        say(&format!(
-                            "note: {} has the solutions of another question and is written anew\n",
-                            store.path()
-                        ));
-                    }
-                    solver => return solver.map_err(|error| Refusal(format!("error: {error}\n"))),
-                }
-            }
-            store.check_writable()?;
+    /// Puts seed and store into a question.
+    pub fn pose(&self, posed: &mut Posed) -> Result<(), Refusal> {
+        let mut question = posed.question.clone().seed(self.seed);
+        if let Some(path) = &self.store {
+            question = question.store(Arc::new(Store::at(path)?));
         }
-        let settings = AssembliesSettings {
-            seed: self.seed,
-            ..AssembliesSettings::default()
-        };
-        let solver = AssemblySolver::new(mechanism, &held, &settings, watch)
-            .map_err(|error| Refusal(format!("error: {error}\n")))?;
-        // the answer is not lost with its store
-        if let Some(store) = &store
-            && !solver.is_interrupted()
-            && let Err(error) = store.write(solver.generic())
-        {
-            say(&format!(
-                "warning: the solutions could not be stored in {}: {error}\n",
-                store.path()
-            ));
-        }
-        Ok(solver)
+        posed.question = question;
+        Ok(())
     }
 }

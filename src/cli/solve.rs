@@ -1,15 +1,15 @@
 //! `linkwork solve`
 
 use clap::Args;
-use linkwork::analysis::assembly::{AssemblySettings, Outcome, assemble};
-use linkwork::output::{assemblies, solution};
-use linkwork::system::check_count;
+use linkwork::analysis::assembly::{AssemblySettings, Outcome};
+use linkwork::ask::{Mode, Solved};
 
-use super::asked::{Asked, refusal};
+use super::asked::Asked;
+use super::format::Written;
 use super::search::{Search, mode};
 use super::source::Source;
 use super::watched::watched;
-use super::{Answer, Format, Refusal};
+use super::{Answer, Refusal};
 
 /// Find the assembled configuration near a guess.
 ///
@@ -26,59 +26,46 @@ pub struct Solve {
     source: Source,
     #[command(flatten)]
     asked: Asked,
-    /// Assemble this mode of the home configuration, numbered as `assemblies` lists it there, followed to what is held
+    /// Assemble this mode: numbered as `assemblies` lists it at the home values of what is held, then followed to the
+    /// values held
     #[arg(long, value_name = "NUMBER", conflicts_with = "guess")]
     #[arg(value_parser = mode, allow_negative_numbers = true)]
     mode: Option<usize>,
     #[command(flatten)]
     search: Search,
-    /// How to write the answer
-    #[arg(long, value_enum, default_value_t = Format::Text)]
-    format: Format,
+    #[command(flatten)]
+    format: Written,
 }
 
 impl Solve {
     pub fn run(&self) -> Result<Answer, Refusal> {
         let loaded = self.source.load()?;
-        let question = self.asked.question(&loaded.mechanism)?;
-        let mut settings = AssemblySettings {
-            seed: self.search.seed,
-            ..AssemblySettings::default()
-        };
-        let mut question = question;
-        if let Some(mode) = self.mode {
-            check_count(&question).map_err(|error| refusal(&error, None))?;
-            let followed = watched(|watch| {
-                let solver = self.search.solver(&question, watch)?;
-                let followed = solver.follow(mode, &question.start(), &question.held(), watch);
-                followed.map_err(|error| Refusal(format!("error: {error}\n")))
-            })?;
-            match followed.arrived(&loaded.mechanism, mode) {
-                Ok(at) => question = question.near(&at),
-                Err(lost) => {
-                    return Ok(Answer {
-                        data: match self.format {
-                            Format::Text => assemblies::lost_text(&lost),
-                            Format::Json => assemblies::lost_json(&lost),
-                        },
-                        remarks: loaded.warnings(),
-                        yes: false,
-                    });
-                }
+        let mut posed = self.asked.pose(&loaded);
+        self.search.pose(&mut posed)?;
+        let mode = self.mode.map_or(Mode::Nearest, Mode::Number);
+        let question = posed.question.clone().mode(mode);
+        let settings = AssemblySettings::default();
+        let solved = watched(|watch| question.solve(&settings, watch));
+        let report = match solved.map_err(|error| posed.refusal(&error))? {
+            Solved::Ended(report) => report,
+            Solved::Lost(lost) => {
+                return Ok(Answer {
+                    data: self.format.shown(&*lost),
+                    remarks: loaded.warnings(),
+                    yes: false,
+                });
             }
-            // another start could end in another mode
-            settings.restarts = 0;
-        }
-        let report = watched(|watch| assemble(&question, &settings, watch))
-            .map_err(|error| refusal(&error, None))?;
+        };
         let warning = report.warning();
         let warning = warning.map(|warning| format!("warning: {warning}\n"));
+        let mut remarks = loaded.warnings() + &warning.unwrap_or_default();
+        let chosen = self.mode.is_some() || report.only;
+        if report.is_assembled() && !chosen && self.format.is_for_people() {
+            remarks += "note: other assemblies may exist; `linkwork assemblies` lists them\n";
+        }
         Ok(Answer {
-            data: match self.format {
-                Format::Text => solution::text(&report),
-                Format::Json => solution::json(&report),
-            },
-            remarks: loaded.warnings() + &warning.unwrap_or_default(),
+            data: self.format.shown(&*report),
+            remarks,
             yes: report.outcome == Outcome::Converged,
         })
     }

@@ -2,12 +2,13 @@
 
 use std::path::PathBuf;
 use std::str::FromStr;
+use std::sync::Arc;
 
 use clap::Args;
 use linkwork::description::{self, Description, FileError, LoadError, Problem};
 use linkwork::mechanism::Mechanism;
+use linkwork::output::complaint::{Complaint, Given, Part};
 use linkwork::output::diagnostics;
-use linkwork::output::option::{Complaint, Given, Part, replacement};
 
 use super::{Refusal, style};
 
@@ -57,20 +58,14 @@ pub fn once(option: &str, given: &[Assignment]) -> Result<(), Refusal> {
     for (i, second) in given.iter().enumerate() {
         if let Some(first) = given[..i].iter().find(|first| first.name == second.name) {
             let written = |a: &Assignment| format!("`{option} {}={}`", a.name, a.value);
-            let complaint = Complaint {
-                title: format!(
-                    "{} and {} contradict one another",
-                    written(first),
-                    written(second)
-                ),
-                label: String::new(),
-                help: Some("give only one of them".into()),
-            };
-            return Err(Refusal(complaint.render_in(
-                &second.given(option),
-                &Part::Name,
-                style(),
-            )));
+            let title = format!(
+                "{} and {} contradict one another",
+                written(first),
+                written(second)
+            );
+            let help = "give only one of them".to_owned();
+            let said = Complaint::with_help(title, "", help);
+            return Err(Refusal(said.render_in(&second.given(option), style())));
         }
     }
     Ok(())
@@ -83,7 +78,7 @@ pub struct Loaded {
     text: String,
     /// What the file says, with what `--set` changed.
     pub description: Description,
-    pub mechanism: Mechanism,
+    pub mechanism: Arc<Mechanism>,
 }
 
 impl Source {
@@ -103,7 +98,7 @@ impl Source {
                 Ok(changed) => description = changed,
                 Err(error) => {
                     let given = assignment.given("--set");
-                    refused.push(replacement(&error, &given, style()));
+                    refused.push(diagnostics::replacement(&error, &given, style()));
                 }
             }
         }
@@ -116,7 +111,7 @@ impl Source {
                 set: self.set.iter().map(|given| given.name.clone()).collect(),
                 text,
                 description,
-                mechanism,
+                mechanism: Arc::new(mechanism),
             }),
             Err(problems) => Err(Refusal(self.wrong(text, problems, &description))),
         }
@@ -141,8 +136,8 @@ impl Source {
             match option_of(&problem) {
                 Some(assignment) => {
                     let given = assignment.given("--set");
-                    let complaint = Complaint::of(&problem);
-                    shown.push(complaint.render_in(&given, &Part::WholeValue, style()));
+                    let said = Complaint::of(&problem).at(Part::WholeValue);
+                    shown.push(said.render_in(&given, style()));
                 }
                 None => in_file.push(problem),
             }

@@ -1,16 +1,14 @@
 //! `linkwork statics`
 
 use clap::Args;
-use linkwork::analysis::statics::{StaticsSettings, statics};
-use linkwork::mechanism::Mechanism;
-use linkwork::output::{closing as analysed, statics as output};
-use linkwork::system::{Load, LoadError};
+use linkwork::ask::Role;
+use linkwork::output::closing as analysed;
 
-use super::asked::{Asked, refusal};
+use super::asked::Asked;
 use super::format::Written;
 use super::source::{Assignment, Source};
 use super::watched::watched;
-use super::{Answer, Refusal, style};
+use super::{Answer, Refusal};
 
 /// Find the actuator forces that balance a load, and what every joint has to carry.
 ///
@@ -43,21 +41,17 @@ pub struct Statics {
 impl Statics {
     pub fn run(&self) -> Result<Answer, Refusal> {
         let loaded = self.source.load()?;
-        let mechanism = &loaded.mechanism;
-        let question = self.asked.question(mechanism)?;
-        let mut load = Load::default();
-        for assignment in &self.wrench {
-            let Assignment { name, value } = assignment;
-            load = (load.wrench(&question, name, value))
-                .map_err(|error| wrong(mechanism, &error, assignment, "--wrench"))?;
+        let mut posed = self.asked.pose(&loaded);
+        for given in &self.wrench {
+            posed.value(Role::Wrench, "--wrench", given);
+            posed.question = posed.question.wrench_text(&given.name, &given.value);
         }
-        for assignment in &self.load {
-            let Assignment { name, value } = assignment;
-            load = (load.joint(&question, name, value))
-                .map_err(|error| wrong(mechanism, &error, assignment, "--load"))?;
+        for given in &self.load {
+            posed.value(Role::Load, "--load", given);
+            posed.question = posed.question.load(&given.name, &given.value);
         }
-        let report = watched(|watch| statics(&question, &load, &StaticsSettings::default(), watch))
-            .map_err(|error| refusal(&error, None))?;
+        let report = watched(|watch| posed.question.statics(watch));
+        let report = report.map_err(|error| posed.refusal(&error))?;
         let yes = report.report();
         let warning = yes.map(|report| analysed::limits_warning(&report.outside_limits));
         let yes = yes.is_some_and(|report| report.unbalanced.is_empty());
@@ -67,9 +61,4 @@ impl Statics {
             yes,
         })
     }
-}
-
-fn wrong(mechanism: &Mechanism, error: &LoadError, given: &Assignment, option: &str) -> Refusal {
-    let (complaint, part) = output::complaint(mechanism, error, option);
-    Refusal(complaint.render_in(&given.given(option), &part, style()))
 }

@@ -5,9 +5,10 @@ use std::io::{self, ErrorKind, Read, Write};
 use std::path::{Path, PathBuf};
 
 use linkwork::analysis::assemblies::{GenericSolutions, StoredError};
-use linkwork::output::option::Complaint;
+use linkwork::ask;
+use linkwork::output::complaint::Complaint;
 
-use super::{Refusal, style};
+use super::{Refusal, say, style};
 
 /// The largest store that is read (bytes): a hundred times that of a thousand solutions of a large mechanism.
 const MAX_BYTES: u64 = 1 << 28;
@@ -21,12 +22,7 @@ pub struct Store {
 }
 
 fn refusal(title: String, help: &str) -> Refusal {
-    let complaint = Complaint {
-        title,
-        label: String::new(),
-        help: Some(help.into()),
-    };
-    Refusal(complaint.render(style()))
+    Refusal(Complaint::with_help(title, "", help.into()).render(style()))
 }
 
 const ANOTHER: &str = "name another file with --store, or leave the option out";
@@ -65,7 +61,7 @@ impl Store {
     }
 
     /// What is stored; nothing if there is no file yet, or an empty one.
-    pub fn read(&self) -> Result<Option<GenericSolutions>, Refusal> {
+    fn read(&self) -> Result<Option<GenericSolutions>, Refusal> {
         if !self.exists {
             return Ok(None);
         }
@@ -104,7 +100,7 @@ impl Store {
     }
 
     /// Refuses a place that cannot be written, before the search rather than after it. Leaves nothing behind.
-    pub fn check_writable(&self) -> Result<(), Refusal> {
+    fn check_writable(&self) -> Result<(), Refusal> {
         let refused = |reason: &dyn std::fmt::Display| {
             let path = self.path.display();
             refusal(
@@ -129,7 +125,7 @@ impl Store {
     }
 
     /// Writes beside the store and then puts the file in its place, so that it is never half written.
-    pub fn write(&self, generic: &GenericSolutions) -> io::Result<()> {
+    fn write(&self, generic: &GenericSolutions) -> io::Result<()> {
         let beside = self.beside().ok_or(ErrorKind::InvalidFilename)?;
         let written = File::create(&beside).and_then(|mut file| {
             file.write_all(generic.to_text().as_bytes())?;
@@ -142,9 +138,31 @@ impl Store {
         }
         written
     }
+}
 
-    /// The path as it was given.
-    pub fn path(&self) -> std::path::Display<'_> {
-        self.path.display()
+impl ask::Store for Store {
+    fn known(&self) -> Result<Option<GenericSolutions>, String> {
+        self.read().map_err(|Refusal(said)| said)
+    }
+
+    fn prepare(&self, has_others: bool) -> Result<(), String> {
+        self.check_writable().map_err(|Refusal(said)| said)?;
+        if has_others {
+            say(&format!(
+                "note: {} has the solutions of another question and is written anew\n",
+                self.path.display()
+            ));
+        }
+        Ok(())
+    }
+
+    fn keep(&self, generic: &GenericSolutions) {
+        // the answer is not lost with its store
+        if let Err(error) = self.write(generic) {
+            say(&format!(
+                "warning: the solutions could not be stored in {}: {error}\n",
+                self.path.display()
+            ));
+        }
     }
 }

@@ -1,38 +1,28 @@
 //! `linkwork sweep`
 
-mod circuits;
-
 use std::path::PathBuf;
 
 use clap::Args;
-use linkwork::analysis::assemblies::Wanted;
 use linkwork::analysis::sweep::{
-    CircuitsReport, Columns, KeptRows, MotionReport, MotionsReport, Row, SweepReport,
-    SweepSettings, TracedPoint, follow, sweep,
+    Columns, KeptRows, MotionReport, MotionsReport, Row, SweepSettings,
 };
-use linkwork::mechanism::{Configuration, Mechanism};
+use linkwork::ask::{Mode, Role};
 use linkwork::output::csv::Csv;
-use linkwork::output::option::{Given, Part};
 use linkwork::output::sweep as output;
 #[cfg(feature = "plot")]
 use linkwork::output::sweep::Picture;
-use linkwork::solve::{Newton, Watch};
-use linkwork::system::{
-    Driven, Held, Holdable, Question, QuestionError, Search as NearbySearch, check_count,
-};
 
-use super::asked::{Split, refusal};
+use super::asked::{Posed, Ranges, Split};
 use super::format::Format;
-use super::range::{RangeWords, ranges};
 use super::search::{Search, mode};
-use super::source::{Assignment, Source};
+use super::source::{Assignment, Loaded, Source};
 use super::watched::watched;
 #[cfg(feature = "plot")]
 use super::written::save;
 use super::written::{Lines, unwritten};
 use super::{Answer, Refusal, style};
 
-/// Move the inputs and see what happens: one branch, never another without a word.
+/// Move the inputs and see what happens, without ever switching branch silently.
 ///
 /// The motion begins assembled near home, or in the mode that `assemblies` lists under that number where the inputs
 /// begin. It ends where the inputs have gone their way, at a limit, at a dead point of the inputs, or where branches
@@ -82,11 +72,7 @@ pub struct Sweep {
     svg: Option<PathBuf>,
 }
 
-/// The number of a mode, if one was asked for, and its configuration where the inputs begin.
-type Start = (Option<usize>, Configuration<f64>);
-
-/// Steps made at most, and kept at most.
-const MOST_STEPS: usize = 1_000_000_000;
+/// Rows kept at most.
 const MOST_KEPT: usize = 1_000_000;
 /// Rows shown as text.
 const SHOWN: usize = 37;
@@ -94,10 +80,9 @@ const SHOWN: usize = 37;
 impl Sweep {
     pub fn run(&self) -> Result<Answer, Refusal> {
         let loaded = self.source.load()?;
-        let mechanism = &loaded.mechanism;
         let answer = match self.circuits {
-            true => self.list(mechanism)?,
-            false => self.moved(mechanism)?,
+            true => self.list(&loaded)?,
+            false => self.moved(&loaded)?,
         };
         Ok(Answer {
             remarks: loaded.warnings() + &answer.remarks,
@@ -105,59 +90,77 @@ impl Sweep {
         })
     }
 
-    fn moved(&self, mechanism: &Mechanism) -> Result<Answer, Refusal> {
-        if self.input.is_empty() && !self.follow {
-            let driven = CircuitsReport::input_of(mechanism);
-            let driven = driven.map(|joint| mechanism.joints()[joint].name.as_str());
-            return Err(Refusal(output::what_moves(driven).render(style())));
+    fn posed(&self, loaded: &Loaded) -> Result<Posed<'_>, Refusal> {
+        let mut posed = self.split.pose(loaded);
+        self.search.pose(&mut posed)?;
+        posed.ranges(Ranges::Input, &self.input)?;
+        for name in &self.of {
+            posed.name(Role::Point, "--of", name);
+            posed.question = posed.question.point(name);
         }
-        self.check_steps()?;
-        let inputs = self.inputs(mechanism)?;
-        let mut question = self.split.question(mechanism)?;
-        for (assignment, input) in self.input.iter().zip(&inputs) {
-            let from = assignment.value.split("..").next().unwrap_or_default();
-            let held = question.hold(&assignment.name, from);
-            question = held.map_err(|error| refusal(&error, Some(assignment.given("--input"))))?;
-            self.check_limits(mechanism, assignment, input)?;
+        posed.question = posed.question.mode(match self.mode {
+            Some(mode) => Mode::Number(mode),
+            None if self.all_modes => Mode::All,
+            None => Mode::Nearest,
+        });
+        Ok(posed)
+    }
+
+    /// `linkwork sweep --circuits`
+    fn list(&self, loaded: &Loaded) -> Result<Answer, Refusal> {
+        let posed = self.posed(loaded)?;
+        if self.format == Format::Csv {
+            return Err(Refusal(
+                "error: circuits have no rows: choose another --format, or write the rows of one with \
+                 --follow --format csv\n"
+                    .into(),
+            ));
         }
-        // everything but the inputs stands still; where none is given, the freedom is let go
-        let held = match inputs.is_empty() {
-            false => {
-                check_count(&question).map_err(|error| refusal(&error, None))?;
-                let without = |held: Held<f64>, input: &Driven| held.without(input.coordinate);
-                let still = self.split.question(mechanism)?.held();
-                inputs.iter().fold(still, without)
-            }
-            true => self.one_freedom(mechanism)?.held(),
-        };
-        let points = self.points(mechanism)?;
-        let columns = Columns::new(mechanism, &points);
-        let settings = SweepSettings {
-            steps: self.steps,
-            follow: self.follow,
-            points: points.clone(),
-            ..SweepSettings::default()
-        };
-        let starts = self.starts(&question)?;
-        #[cfg(feature = "plot")]
-        let mut picture = Picture::new(mechanism, &inputs, &points);
+        let report = watched(|watch| posed.question.circuits(watch));
+        let report = report.map_err(|error| posed.refusal(&error))?;
+        let whole = report.circuits.iter().all(|circuit| circuit.whole);
+        Ok(Answer {
+            data: self.format.shown(&report),
+            remarks: String::new(),
+            yes: whole && !report.circuits.is_empty(),
+        })
+    }
+
+    fn moved(&self, loaded: &Loaded) -> Result<Answer, Refusal> {
+        let mechanism = &*loaded.mechanism;
+        let kept = self.format == Format::Json;
+        if kept && self.steps > MOST_KEPT {
+            let said = output::no_steps(self.steps, MOST_KEPT, kept);
+            return Err(Refusal(said.render(style())));
+        }
         #[cfg(not(feature = "plot"))]
         if self.svg.is_some() {
             return Err(Refusal(
                 "error: built without feature `plot`, which draws\n".into(),
             ));
         }
+        let posed = self.posed(loaded)?;
+        let settings = SweepSettings {
+            steps: self.steps,
+            follow: self.follow,
+            ..SweepSettings::default()
+        };
+        let all = watched(|watch| posed.question.motions(&settings, watch));
+        let all = all.map_err(|error| posed.refusal(&error))?;
+        let columns = Columns::new(mechanism, all.points());
+        #[cfg(feature = "plot")]
+        let mut picture = Picture::new(mechanism, &all.inputs, all.points());
         let lines = Lines::new(self.format == Format::Csv);
         let mut csv = Csv::new(lines, output::row_columns(&columns)).map_err(unwritten)?;
         let mut motions = Vec::new();
-        for (mode, start) in starts {
+        for (mode, start) in &all.starts {
             let mut rows = KeptRows::of(match self.format {
                 Format::Text | Format::Markdown | Format::Html => SHOWN,
                 Format::Json => MOST_KEPT + 2,
                 Format::Csv => 2,
             });
             #[cfg(feature = "plot")]
-            picture.begin(mode);
+            picture.begin(*mode);
             let mut sink = |row: &Row| {
                 rows.take(&columns, row);
                 #[cfg(feature = "plot")]
@@ -166,21 +169,20 @@ impl Sweep {
                 }
                 if self.format == Format::Csv {
                     // lines keep what goes wrong
-                    let _ = csv.row(output::row_values(&columns, mode, row));
+                    let _ = csv.row(output::row_values(&columns, *mode, row));
                 }
             };
-            let report: SweepReport = watched(|watch| match inputs.is_empty() {
-                true => follow(mechanism, &held, &start, &settings, &mut sink, watch),
-                false => sweep(
-                    mechanism, &held, &inputs, &start, &settings, &mut sink, watch,
-                ),
-            });
+            let report = watched(|watch| all.run(start, &mut sink, watch));
+            let interrupted = report.interrupted;
             motions.push(MotionReport {
-                mode,
+                mode: *mode,
                 sweep: report,
                 columns: columns.variables().to_vec(),
                 values: rows.finished(),
             });
+            if interrupted {
+                break;
+            }
         }
         csv.finish().map_err(unwritten)?.finish()?;
         #[cfg(feature = "plot")]
@@ -204,124 +206,5 @@ impl Sweep {
             }),
             remarks,
         })
-    }
-
-    fn check_steps(&self) -> Result<(), Refusal> {
-        let kept = self.format == Format::Json;
-        let most = if kept { MOST_KEPT } else { MOST_STEPS };
-        match self.steps {
-            0 => Err(Refusal(output::no_steps(0, most, kept).render(style()))),
-            n if n > most => Err(Refusal(output::no_steps(n, most, kept).render(style()))),
-            _ => Ok(()),
-        }
-    }
-
-    /// The inputs with their ranges.
-    fn inputs(&self, mechanism: &Mechanism) -> Result<Vec<Driven>, Refusal> {
-        let words = RangeWords {
-            no_range: output::no_range,
-            refused: output::nothing_moves,
-        };
-        ranges(
-            mechanism,
-            "--input",
-            &self.input,
-            |from, to| from == to,
-            &words,
-        )
-    }
-
-    fn check_limits(
-        &self,
-        mechanism: &Mechanism,
-        assignment: &Assignment,
-        input: &Driven,
-    ) -> Result<(), Refusal> {
-        let Holdable::Joint(joint) = input.coordinate else {
-            return Ok(());
-        };
-        let joint = &mechanism.joints()[joint];
-        match joint.limits {
-            Some(limits) if !joint.allows(input.from) => {
-                let (complaint, part) = output::outside(&joint.name, limits, joint.kind.is_angle());
-                let given = assignment.given("--input");
-                Err(Refusal(complaint.render_in(&given, &part, style())))
-            }
-            _ => Ok(()),
-        }
-    }
-
-    /// The question that leaves one freedom.
-    fn one_freedom<'a>(&self, mechanism: &'a Mechanism) -> Result<Question<'a>, Refusal> {
-        let question = self.split.released(mechanism)?;
-        match check_count(&question) {
-            Err(QuestionError::TooFew { mobility, held, .. }) if mobility == held + 1 => {
-                Ok(question)
-            }
-            Ok(_) | Err(QuestionError::TooMany { .. }) => {
-                let held = question.held_names();
-                Err(Refusal(output::nothing_left(&held).render(style())))
-            }
-            Err(error @ QuestionError::TooFew { .. }) => {
-                Err(Refusal(output::not_one_freedom(&error).render(style())))
-            }
-            Err(error) => Err(refusal(&error, None)),
-        }
-    }
-
-    fn points(&self, mechanism: &Mechanism) -> Result<Vec<TracedPoint>, Refusal> {
-        let points = self.of.iter().map(|text| {
-            TracedPoint::read(mechanism, text).map_err(|error| {
-                let given = Given {
-                    option: "--of",
-                    name: text,
-                    value: None,
-                };
-                let (complaint, _) = output::point_complaint(mechanism, &error);
-                Refusal(complaint.render_in(&given, &Part::Name, style()))
-            })
-        });
-        points.collect()
-    }
-
-    /// Assembled configurations where the inputs begin, with the numbers of their modes.
-    fn starts(&self, question: &Question) -> Result<Vec<Start>, Refusal> {
-        if self.mode.is_none() && !self.all_modes {
-            let newton = Newton::default();
-            let found =
-                NearbySearch::new(question, &newton).run(20, self.search.seed, &Watch::none());
-            if !found.assembles() {
-                return Err(Refusal(format!(
-                    "error: the mechanism does not assemble where the motion is to begin\n  \
-                     = help: `linkwork solve` says how near it comes: {}\n",
-                    question.held_names().join(", ")
-                )));
-            }
-            return Ok(vec![(None, found.attempt.at)]);
-        }
-        let wanted = Wanted {
-            certificates: false,
-            all_complex: false,
-            starts: true,
-        };
-        let report = watched(|watch| {
-            let solver = self.search.solver(question, watch)?;
-            Ok(solver.at_targets(&question.start(), &question.held(), wanted, watch))
-        })?;
-        let like = question.start();
-        let modes = report.assemblies.iter();
-        let modes: Vec<_> = modes
-            .filter(|assembly| self.mode.is_none_or(|mode| mode == assembly.mode))
-            .map(|assembly| (Some(assembly.mode), assembly.configuration(&like)))
-            .collect();
-        if modes.is_empty() {
-            return Err(Refusal(match report.real {
-                0 => "error: there is no assembly where the inputs begin\n".into(),
-                n => format!(
-                    "error: there is no such mode: where the inputs begin there are modes 1 to {n}\n"
-                ),
-            }));
-        }
-        Ok(modes)
     }
 }

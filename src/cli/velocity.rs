@@ -1,13 +1,10 @@
 //! `linkwork velocity`
 
 use clap::Args;
-use linkwork::analysis::velocity::{VelocitySettings, velocity};
-use linkwork::mechanism::Body;
+use linkwork::ask::Role;
 use linkwork::output::closing as analysed;
-use linkwork::output::question::motionless_frame;
-use linkwork::system::Drive;
 
-use super::asked::{Asked, driven, frame, refusal, refused_frame};
+use super::asked::Asked;
 use super::format::Written;
 use super::source::{Assignment, Source, once};
 use super::watched::watched;
@@ -43,34 +40,23 @@ pub struct Velocity {
 impl Velocity {
     pub fn run(&self) -> Result<Answer, Refusal> {
         let loaded = self.source.load()?;
-        let mechanism = &loaded.mechanism;
-        let question = self.asked.question(mechanism)?;
+        let mut posed = self.asked.pose(&loaded);
         once("--rate", &self.rate)?;
         once("--acceleration", &self.acceleration)?;
-        let mut drive = Drive::still(&question);
-        for assignment in &self.rate {
-            let Assignment { name, value } = assignment;
-            drive = (drive.rate(&question, name, value))
-                .map_err(|error| driven(&error, assignment.given("--rate")))?;
+        for given in &self.rate {
+            posed.value(Role::Rate, "--rate", given);
+            posed.question = posed.question.rate(&given.name, &given.value);
         }
-        for assignment in &self.acceleration {
-            let Assignment { name, value } = assignment;
-            drive = (drive.acceleration(&question, name, value))
-                .map_err(|error| driven(&error, assignment.given("--acceleration")))?;
+        for given in &self.acceleration {
+            posed.value(Role::Acceleration, "--acceleration", given);
+            posed.question = posed.question.acceleration(&given.name, &given.value);
         }
-        let points = self.point.iter().map(|name| {
-            let frame = frame(mechanism, name, "--point")?;
-            match mechanism.body(frame) {
-                Body::Ground => Err(refused_frame(name, "--point", motionless_frame(name))),
-                _ => Ok(frame),
-            }
-        });
-        let settings = VelocitySettings {
-            points: points.collect::<Result<_, _>>()?,
-            ..VelocitySettings::default()
-        };
-        let report = watched(|watch| velocity(&question, &drive, &settings, watch))
-            .map_err(|error| refusal(&error, None))?;
+        for name in &self.point {
+            posed.name(Role::Point, "--point", name);
+            posed.question = posed.question.point(name);
+        }
+        let report = watched(|watch| posed.question.velocity(watch));
+        let report = report.map_err(|error| posed.refusal(&error))?;
         let yes = report.report();
         let warning = yes.map(|report| analysed::limits_warning(&report.outside_limits));
         let yes = yes.is_some_and(|report| report.is_determined());

@@ -1,20 +1,14 @@
 //! `linkwork workspace`
 
-use std::f64::consts::TAU;
 use std::path::PathBuf;
 
 use clap::Args;
-use linkwork::analysis::assemblies::Wanted;
-use linkwork::analysis::workspace::{WorkspaceError, WorkspaceSettings, cell_bytes, workspace};
-use linkwork::mechanism::{Configuration, Coordinate, Mechanism};
+use linkwork::analysis::workspace::WorkspaceSettings;
+use linkwork::ask::Mode;
 use linkwork::output::workspace as output;
-use linkwork::system::{
-    Driven, Holdable, Mobility, Question, QuestionError, check_count, too_large,
-};
 
-use super::asked::{Split, refusal};
+use super::asked::{Ranges, Split};
 use super::format::Format;
-use super::range::{RangeWords, ranges};
 use super::search::Search;
 use super::source::{Assignment, Source};
 use super::watched::watched;
@@ -67,18 +61,15 @@ pub struct Workspace {
     svg: Option<PathBuf>,
 }
 
-/// Bytes that a map takes at most.
-const MOST_BYTES: f64 = 4e9;
-/// Random starts made at most.
+/// Random starts, and nodes that are searched, at most.
 const MOST_STARTS: usize = 1_000_000;
 
 impl Workspace {
     pub fn run(&self) -> Result<Answer, Refusal> {
         let loaded = self.source.load()?;
-        let mechanism = &loaded.mechanism;
-        let axes = self.axes(mechanism)?;
-        let question = self.question(mechanism, &axes)?;
-        let nodes = self.nodes(&question, &axes)?;
+        let mut posed = self.split.pose(&loaded);
+        self.search.pose(&mut posed)?;
+        posed.ranges(Ranges::Map, &self.map)?;
         let counts = [
             (
                 self.starts,
@@ -94,7 +85,7 @@ impl Workspace {
                 )));
             }
         }
-        if self.boundary && axes.len() == 1 {
+        if self.boundary && self.map.len() == 1 {
             return Err(Refusal(output::boundary_flat().render(style())));
         }
         if self.boundary && self.format != Format::Csv {
@@ -108,21 +99,17 @@ impl Workspace {
                 "error: built without feature `plot`, which draws\n".into(),
             ));
         }
-        let known = self.known(&question)?;
+        if self.assemblies {
+            posed.question = posed.question.mode(Mode::All);
+        }
         let settings = WorkspaceSettings {
-            nodes,
+            nodes: self.grid.clone(),
             searched: self.searched,
             starts: self.starts,
-            seed: self.search.seed,
-            most: (MOST_BYTES / cell_bytes(&question, axes.len()) as f64) as usize,
             ..WorkspaceSettings::default()
         };
-        let report = watched(|watch| workspace(&question, &axes, &known, &settings, watch));
-        let report = report.map_err(|error| match error {
-            WorkspaceError::TooMany { most } => {
-                Refusal(output::too_many_cells(most, MOST_BYTES).render(style()))
-            }
-        })?;
+        let report = watched(|watch| posed.question.workspace(&settings, watch));
+        let report = report.map_err(|error| posed.refusal(&error))?;
         let mut remarks = loaded.warnings();
         #[cfg(feature = "plot")]
         if let Some(path) = &self.svg {
@@ -148,165 +135,4 @@ impl Workspace {
             yes: report.reached > 0 && whole,
         })
     }
-
-    /// The mapped coordinates with their ranges.
-    fn axes(&self, mechanism: &Mechanism) -> Result<Vec<Driven>, Refusal> {
-        let question = Question::new(mechanism);
-        for assignment in &self.map {
-            if let Err(error) = question.value(&assignment.name, "home")
-                && let Some(complaint) = output::no_platform(mechanism, &error)
-            {
-                let given = assignment.given("--map");
-                let part = linkwork::output::option::Part::Name;
-                return Err(Refusal(complaint.render_in(&given, &part, style())));
-            }
-        }
-        let words = RangeWords {
-            no_range: output::no_range,
-            refused: output::empty_side,
-        };
-        // a range that is no number is refused too
-        let refuse = |a: f64, b: f64| a >= b || !(b - a).is_finite();
-        let axes = ranges(mechanism, "--map", &self.map, refuse, &words)?;
-        // what comes round again is mapped once
-        let turns = |axis: &Driven| match axis.coordinate {
-            Holdable::Joint(joint) => mechanism.repeats(joint),
-            of => of.is_angle(mechanism),
-        };
-        let round = |axis: &&Driven| turns(axis) && axis.to - axis.from > TAU * (1.0 + 1e-9);
-        if let Some(axis) = axes.iter().find(round) {
-            let name = axis.coordinate.name(mechanism);
-            return Err(Refusal(output::more_than_a_turn(&name).render(style())));
-        }
-        match axes.len() {
-            1..=3 => Ok(axes),
-            n => Err(Refusal(output::too_many_axes(mechanism, n).render(style()))),
-        }
-    }
-
-    /// The question with the mapped coordinates in the middle of their ranges. Where coordinates of
-    /// platforms are mapped or held the actuated joints are free.
-    fn question<'a>(
-        &self,
-        mechanism: &'a Mechanism,
-        axes: &[Driven],
-    ) -> Result<Question<'a>, Refusal> {
-        let held = self.split.question(mechanism)?;
-        let platform = |h: &Holdable| !matches!(h, Holdable::Joint(_));
-        let mapped = axes.iter().map(|axis| axis.coordinate);
-        let inverse = mapped.chain(held.held_coordinates()).any(|h| platform(&h));
-        let asked = self.split.demanded();
-        let mut question = match inverse {
-            true => self.split.released(mechanism)?,
-            false => held,
-        };
-        for (assignment, axis) in self.map.iter().zip(axes) {
-            let given = assignment.given("--map");
-            let of_platform = |name: &str| match axis.coordinate {
-                Holdable::Coordinate(platform, _) => mechanism.platforms()[platform].name == name,
-                _ => false,
-            };
-            if asked
-                .iter()
-                .any(|name| *name == assignment.name || of_platform(name))
-            {
-                let (complaint, part) = output::also_held(&assignment.name);
-                return Err(Refusal(complaint.render_in(&given, &part, style())));
-            }
-            // all digits, so that the value is the one that was read
-            let middle = format!("{:?}", 0.5 * (axis.from + axis.to));
-            let held = question.hold(&assignment.name, &middle);
-            question = held.map_err(|error| refusal(&error, Some(given)))?;
-        }
-        if let Some(large) = too_large(mechanism) {
-            return Err(Refusal(format!(
-                "error: the mechanism has {} unknowns, too many for a map: ask about a part of it\n",
-                large.unknowns
-            )));
-        }
-        // roll and yaw turn about one axis there, and do not tell a map
-        for axis in axes {
-            if let Holdable::Coordinate(platform, c) = axis.coordinate
-                && c.is_angle()
-                && (question.held_coordinates().iter())
-                    .any(|held| matches!(held, Holdable::Turn(of, _) if *of == platform))
-            {
-                let platform = mechanism.platforms()[platform].name.clone();
-                return Err(refusal(&QuestionError::AnglesLocked { platform }, None));
-            }
-        }
-        let names: Vec<String> = self.map.iter().map(|map| map.name.clone()).collect();
-        check_count(&question).map_err(|error| {
-            let missing = match error {
-                QuestionError::TooFew { .. } if inverse => missing(&question),
-                _ => Vec::new(),
-            };
-            match output::wrong_count(&error, &names, &missing) {
-                Some(complaint) => Refusal(complaint.render(style())),
-                None => refusal(&error, None),
-            }
-        })?;
-        Ok(question)
-    }
-
-    /// Nodes along each coordinate.
-    fn nodes(&self, question: &Question, axes: &[Driven]) -> Result<Vec<usize>, Refusal> {
-        let nodes = match self.grid[..] {
-            [] => vec![[200, 60, 24][axes.len() - 1]; axes.len()],
-            [one] => vec![one; axes.len()],
-            _ => self.grid.clone(),
-        };
-        if nodes.len() != axes.len() || nodes.iter().any(|n| *n < 2) {
-            return Err(Refusal(
-                output::wrong_grid(&nodes, axes.len()).render(style()),
-            ));
-        }
-        let all: f64 = nodes.iter().map(|n| *n as f64).product();
-        let bytes = all * cell_bytes(question, axes.len()) as f64;
-        match bytes > MOST_BYTES {
-            true => Err(Refusal(
-                output::too_fine(all, bytes, MOST_BYTES).render(style()),
-            )),
-            false => Ok(nodes),
-        }
-    }
-
-    /// All assemblies in the middle of the box, if they are asked for.
-    fn known(&self, question: &Question) -> Result<Vec<Configuration<f64>>, Refusal> {
-        if !self.assemblies {
-            return Ok(Vec::new());
-        }
-        let wanted = Wanted {
-            certificates: false,
-            all_complex: false,
-            starts: false,
-        };
-        let like = question.start();
-        let report = watched(|watch| {
-            let solver = self.search.solver(question, watch)?;
-            Ok(solver.at_targets(&like, &question.held(), wanted, watch))
-        })?;
-        let found = report.assemblies.iter();
-        Ok(found
-            .map(|assembly| assembly.configuration(&like))
-            .collect())
-    }
-}
-
-/// Coordinates of platforms that are to be mapped or held too.
-fn missing(question: &Question) -> Vec<String> {
-    let mechanism = question.mechanism();
-    let held = question.held_coordinates();
-    let platforms = 0..mechanism.platforms().len();
-    let coordinates = platforms.flat_map(|platform| {
-        let all = Coordinate::ALL.into_iter();
-        all.map(move |c| Holdable::Coordinate(platform, c))
-    });
-    let candidates: Vec<Holdable> = held.iter().copied().chain(coordinates).collect();
-    let Some(mobility) = Mobility::near(mechanism, &question.start()) else {
-        return Vec::new();
-    };
-    let chosen = mobility.independent(mechanism, &candidates).into_iter();
-    let new = chosen.filter(|c| !held.contains(c));
-    new.map(|c| c.name(mechanism)).collect()
 }

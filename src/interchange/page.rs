@@ -6,7 +6,7 @@ use roxmltree::{Document, Node};
 
 use super::problem::{ImportProblem, ImportProblemKind};
 use crate::description::{Lines, nearest};
-use crate::geometry::{Axis, Pose, Vector3};
+use crate::geometry::{Axis, Pose, Quaternion, Rotation, Vector3};
 
 /// The largest depth of nested elements: readers of the formats recurse for each level.
 const MOST_LEVELS: usize = 400;
@@ -198,15 +198,15 @@ impl Problems {
     }
 
     /// The word of an attribute that must be one of those known.
-    pub fn word<'a>(
+    pub fn word(
         &mut self,
-        node: Node<'a, '_>,
+        node: Node,
         name: &str,
         known: &'static [&'static str],
-    ) -> Option<&'a str> {
+    ) -> Option<&'static str> {
         let word = self.needed(node, name)?;
-        if known.contains(&word) {
-            return Some(word);
+        if let Some(found) = known.iter().find(|known| **known == word) {
+            return Some(found);
         }
         let word = word.into();
         let problem = ImportProblemKind::UnknownWord { word, known };
@@ -248,4 +248,28 @@ pub(super) fn pose_of(position: [f64; 3], [roll, pitch, yaw]: [f64; 3]) -> Pose<
         * Pose::rotation(Axis::Z, yaw)
         * Pose::rotation(Axis::Y, pitch)
         * Pose::rotation(Axis::X, roll)
+}
+
+/// The rotation of a quaternion (w, x, y, z) of any length but zero; right angles are exact.
+pub(super) fn turned(quaternion: [f64; 4]) -> Rotation<f64> {
+    exact(Quaternion(quaternion).normalised().rotation())
+}
+
+/// Entries that differ from 0, 1 and −1 by rounding made exact, so that planar linkages stay planar.
+fn exact(rotation: Rotation<f64>) -> Rotation<f64> {
+    let clean = |x: f64| {
+        let whole = x.round();
+        if (x - whole).abs() < 4.0 * f64::EPSILON {
+            whole + 0.0
+        } else {
+            x
+        }
+    };
+    let cleaned = Rotation(rotation.0.map(|column| column.map(clean)));
+    let axes = cleaned
+        .0
+        .iter()
+        .filter(|column| column.0.iter().any(|x| x.abs() == 1.0));
+    // all three axes are along coordinates, or one is and the others are turned about it
+    if axes.count() > 0 { cleaned } else { rotation }
 }

@@ -58,8 +58,13 @@ fn pairs<'a>(attributes: &'a [(&str, String)]) -> impl Iterator<Item = (&'a str,
 
 /// Numbers with a space between, all digits, no negative zeros.
 pub(super) fn numbers(values: impl IntoIterator<Item = f64>) -> String {
-    let values = values.into_iter().map(|value| (value + 0.0).to_string());
+    let values = values.into_iter().map(number);
     values.collect::<Vec<_>>().join(" ")
+}
+
+/// A number with all digits, zero without sign.
+pub(super) fn number(value: f64) -> String {
+    (value + 0.0).to_string()
 }
 
 pub(super) fn vector(v: &Vector3<f64>) -> String {

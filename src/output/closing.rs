@@ -1,13 +1,9 @@
 //! Words about closing a mechanism before it is analysed.
 
-use serde::Serialize;
-
 use super::document::{Document, Report};
-use super::json::document;
 use super::quantity::{degrees, quantity};
 use crate::description::listed;
 use crate::linear::SPECTRUM_LIMIT;
-use crate::mechanism::Mechanism;
 use crate::system::{Analysed, NotClosed, WidestGap};
 
 /// `0.213 m and 4.2°`
@@ -61,52 +57,6 @@ impl Report for NotClosed {
     fn document(&self) -> Document {
         Document::new(&self.mechanism, sentence(self))
     }
-}
-
-/// The report as `show` writes it, or why there is none and what to ask instead.
-pub fn text<'a, R>(
-    mechanism: &Mechanism,
-    answer: &'a Analysed<R>,
-    show: impl Fn(&Mechanism, &R) -> String,
-) -> (String, Option<&'a R>) {
-    let why = match answer {
-        Analysed::Closed(report) => return (show(mechanism, report), Some(report)),
-        Analysed::NotClosed(open) => sentence(open),
-        Analysed::TooLarge(large) => too_large(large.unknowns),
-    };
-    (format!("{}\n{why}\n", mechanism.name()), None)
-}
-
-/// The same as JSON: `closed` and `sentence` where there is no report.
-pub fn json<'a, R>(
-    mechanism: &Mechanism,
-    answer: &'a Analysed<R>,
-    show: impl Fn(&Mechanism, &R) -> String,
-) -> (String, Option<&'a R>) {
-    let json = match answer {
-        Analysed::Closed(report) => return (show(mechanism, report), Some(report)),
-        Analysed::NotClosed(open) => UnansweredJson {
-            closed: Some(false),
-            sentence: sentence(open),
-            left: open.left.as_ref(),
-            held: &open.held,
-        },
-        Analysed::TooLarge(large) => UnansweredJson {
-            closed: None,
-            sentence: too_large(large.unknowns),
-            left: None,
-            held: &[],
-        },
-    };
-    (document(mechanism.name(), &json), None)
-}
-
-#[derive(Serialize)]
-struct UnansweredJson<'a> {
-    closed: Option<bool>,
-    sentence: String,
-    left: Option<&'a WidestGap>,
-    held: &'a [String],
 }
 
 fn too_large(unknowns: usize) -> String {

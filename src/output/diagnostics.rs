@@ -1,4 +1,5 @@
-//! The problems of a mechanism file, each with the offending lines and the offending text underlined.
+//! Complaints for a terminal: the problems of a mechanism file with the offending lines, and wrong
+//! options, each with the offending text underlined.
 
 use std::borrow::Cow;
 use std::ops::Range;
@@ -6,7 +7,8 @@ use std::ops::Range;
 use annotate_snippets::renderer::DecorStyle;
 use annotate_snippets::{AnnotationKind, Group, Level, Renderer, Snippet};
 
-use crate::description::{FileError, Lines, Problem, Severity, count};
+use super::complaint::{Complaint, Given, Part};
+use crate::description::{FileError, Lines, Problem, ReplacementError, Severity, count};
 
 /// Of longer lines only a part is shown: nobody could read them, and laying them out takes long.
 const MAX_WIDTH: usize = 2000;
@@ -26,11 +28,7 @@ pub enum Style {
 
 /// All problems of a file and how many there are.
 pub fn render(error: &FileError, style: Style) -> String {
-    let renderer = match style {
-        Style::Plain => Renderer::plain(),
-        Style::Coloured => Renderer::styled(),
-    }
-    .decor_style(DecorStyle::Ascii);
+    let renderer = renderer(style);
     let page = Page {
         path: error.path.display().to_string(),
         text: &error.text,
@@ -179,6 +177,77 @@ impl Page<'_> {
             self.lines.position(span.end).0,
         );
         self.lines.start(last + 1) - self.lines.start(first)
+    }
+}
+
+impl Complaint {
+    /// The complaint about a part of an option.
+    pub fn render_in(&self, given: &Given, style: Style) -> String {
+        let value = given.value.unwrap_or_default();
+        let equals = if given.value.is_some() { "=" } else { "" };
+        let before = format!("{} {}{equals}", given.option, given.name);
+        let source = format!("{before}{value}");
+        let span = match &self.part {
+            Part::Name => given.option.len() + 1..given.option.len() + 1 + given.name.len(),
+            Part::WholeValue => before.len()..source.len(),
+            Part::Value(span) => before.len() + span.start..before.len() + span.end,
+        };
+        let label = Some(self.label.as_str()).filter(|label| !label.is_empty());
+        let annotation = AnnotationKind::Primary
+            .span(span)
+            .label(label.map(Cow::Borrowed));
+        let snippet = Snippet::source(source.as_str()).annotation(annotation);
+        let title = Level::ERROR.primary_title(self.title.as_str());
+        let mut group = title.element(snippet);
+        if let Some(help) = &self.help {
+            group = group.element(Level::HELP.message(help.as_str()));
+        }
+        renderer(style).render(&[group]) + "\n"
+    }
+
+    /// The complaint about the options as a whole.
+    pub fn render(&self, style: Style) -> String {
+        self.at_level(Level::ERROR, style)
+    }
+
+    /// The same as a warning, where there is an answer all the same.
+    pub fn render_warning(&self, style: Style) -> String {
+        self.at_level(Level::WARNING, style)
+    }
+
+    fn at_level(&self, level: Level<'static>, style: Style) -> String {
+        let title = level.primary_title(self.title.as_str());
+        let group = match &self.help {
+            Some(help) => title.element(Level::HELP.message(help.as_str())),
+            None => Group::with_title(title),
+        };
+        renderer(style).render(&[group]) + "\n"
+    }
+}
+
+fn renderer(style: Style) -> Renderer {
+    let renderer = match style {
+        Style::Plain => Renderer::plain(),
+        Style::Coloured => Renderer::styled(),
+    };
+    renderer.decor_style(DecorStyle::Ascii)
+}
+
+/// Everything that is wrong with another value for a parameter.
+pub fn replacement(error: &ReplacementError, given: &Given, style: Style) -> String {
+    match error {
+        ReplacementError::UnknownParameter { suggestion, .. } => {
+            let meant = suggestion.as_ref();
+            let help = meant.map(|meant| format!("did you mean `{meant}`?"));
+            Complaint::new(error.to_string(), "not known", help).render_in(given, style)
+        }
+        ReplacementError::Value(problems) => {
+            let rendered = problems.iter().map(|problem| {
+                let part = Part::Value(problem.span.clone());
+                Complaint::of(problem).at(part).render_in(given, style)
+            });
+            rendered.collect::<Vec<_>>().join("\n")
+        }
     }
 }
 

@@ -26,6 +26,11 @@ pub trait Report: Serialize {
     fn sentences(&self) -> Vec<(&'static str, Option<String>)> {
         Vec::new()
     }
+
+    /// The same for lists of sentences.
+    fn lists(&self) -> Vec<(&'static str, Vec<String>)> {
+        Vec::new()
+    }
 }
 
 /// Something to read, whatever the format. In all its texts names and commands stand between back

@@ -18,16 +18,9 @@ pub fn render(report: &impl Report) -> String {
     for (name, sentence) in report.sentences() {
         object.insert(name.into(), sentence.into());
     }
-    extended(object, report)
-}
-
-/// A report as a JSON object that begins with the program's version and the mechanism's name.
-///
-/// Numbers keep all their digits; one that is not finite is written as `null`, a negative zero as zero.
-pub(super) fn document(mechanism: &str, report: &impl Serialize) -> String {
-    let mut object = Map::new();
-    object.insert("linkwork".into(), env!("CARGO_PKG_VERSION").into());
-    object.insert("mechanism".into(), mechanism.into());
+    for (name, sentences) in report.lists() {
+        object.insert(name.into(), sentences.into());
+    }
     extended(object, report)
 }
 
@@ -61,7 +54,7 @@ mod tests {
     #[test]
     fn zeros_have_no_sign_however_deep() {
         let report = serde_json::json!({ "a": [-0.0, [-1.5, { "b": -0.0 }]], "c": -0.0 });
-        let written: Value = serde_json::from_str(&document("x", &report)).unwrap();
+        let written: Value = serde_json::from_str(&extended(Map::new(), &report)).unwrap();
         assert_eq!(written["a"].to_string(), "[0.0,[-1.5,{\"b\":0.0}]]");
         assert_eq!(written["c"].to_string(), "0.0");
     }

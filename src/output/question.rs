@@ -1,13 +1,13 @@
 //! Words for questions that cannot be put, with the options that would put them right.
 
-use super::option::{Complaint, Part};
+use super::complaint::{Complaint, Part};
 use crate::algebra::Expression;
 use crate::description::{ProblemKind, Scope, listed, nearest};
 use crate::mechanism::Mechanism;
 use crate::system::{Demand, DriveError, QuestionError, ValueError};
 
 /// What is wrong with a question, and with which part of the option that asked it, if one did.
-pub fn complaint(error: &QuestionError) -> (Complaint, Part) {
+pub fn complaint(error: &QuestionError) -> Complaint {
     let title = error.title();
     match error {
         QuestionError::UnknownName { suggestion, .. } => {
@@ -17,25 +17,25 @@ pub fn complaint(error: &QuestionError) -> (Complaint, Part) {
                          `.yaw`, or a whole platform"
                     .into(),
             };
-            (said(title, "not known", Some(help)), Part::Name)
+            Complaint::new(title, "not known", Some(help))
         }
         QuestionError::NotAJoint { .. } => {
             let help = "a platform is free unless it is held with --hold".to_owned();
-            (said(title, "not a joint", Some(help)), Part::Name)
+            Complaint::new(title, "not a joint", Some(help))
         }
         QuestionError::Value { text, error, .. } => value(text, error),
         QuestionError::Contradiction { first, second } => {
             let [first, second] = [first, second].map(option);
             let title = format!("{first} and {second} contradict one another");
             let help = Some("give only one of them".to_owned());
-            (said(title, "", help), Part::Name)
+            Complaint::new(title, "", help)
         }
         QuestionError::TooMany { mobility, free, .. } => {
             let rest = match mobility {
                 0 => "; it is a structure, which nothing can move",
                 _ => "",
             };
-            (said(title, "", Some(release(free) + rest)), Part::Name)
+            Complaint::new(title, "", Some(release(free) + rest))
         }
         QuestionError::TooFew { hold, .. } => {
             let help = format!(
@@ -43,13 +43,13 @@ pub fn complaint(error: &QuestionError) -> (Complaint, Part) {
                 listed(hold),
                 options("--hold", hold, "=home")
             );
-            (said(title, "", Some(help)), Part::Name)
+            Complaint::new(title, "", Some(help))
         }
         QuestionError::AnglesLocked { platform } => {
             let help = format!(
                 "hold joints instead of `{platform}`, or describe `{platform}` by a frame that is turned"
             );
-            (said(title, "", Some(help)), Part::Name)
+            Complaint::new(title, "", Some(help))
         }
         QuestionError::Dependent { free, hold } => {
             let help = format!(
@@ -58,13 +58,13 @@ pub fn complaint(error: &QuestionError) -> (Complaint, Part) {
                 listed(hold),
                 options("--hold", hold, "=home")
             );
-            (said(title, "", Some(help)), Part::Name)
+            Complaint::new(title, "", Some(help))
         }
     }
 }
 
 /// What is wrong with a rate, an acceleration or a force that an option gives.
-pub fn driven_complaint(error: &DriveError, option: &str) -> (Complaint, Part) {
+pub fn driven_complaint(error: &DriveError, option: &str) -> Complaint {
     match error {
         DriveError::Question(error) => complaint(error),
         DriveError::UnknownName {
@@ -81,7 +81,7 @@ pub fn driven_complaint(error: &DriveError, option: &str) -> (Complaint, Part) {
                 (None, false) => format!("drive what is held: {}", options(option, held, "=0.1")),
                 (None, true) => "hold a joint with --hold, and give the rate of that".into(),
             };
-            (said(title.title(), "not known", Some(help)), Part::Name)
+            Complaint::new(title.title(), "not known", Some(help))
         }
         DriveError::Whole { platform, held } => {
             let title =
@@ -94,14 +94,14 @@ pub fn driven_complaint(error: &DriveError, option: &str) -> (Complaint, Part) {
                 ),
                 false => format!("give {}", options(option, held, "=0.1")),
             };
-            (said(title, "a platform", Some(help)), Part::Name)
+            Complaint::new(title, "a platform", Some(help))
         }
         DriveError::NotTurned { platform } => {
             let title = format!(
                 "`{platform}` turns about given axes only where its whole orientation is held"
             );
             let help = format!("hold it: {}", instead(platform));
-            (said(title, "not held", Some(help)), Part::Name)
+            Complaint::new(title, "not held", Some(help))
         }
         DriveError::Mixed { platform } => {
             let title = format!(
@@ -110,12 +110,12 @@ pub fn driven_complaint(error: &DriveError, option: &str) -> (Complaint, Part) {
             let help = format!(
                 "give either roll, pitch and yaw, or {platform}.wx, {platform}.wy and {platform}.wz"
             );
-            (said(title, "given twice", Some(help)), Part::Name)
+            Complaint::new(title, "given twice", Some(help))
         }
         DriveError::Structure => {
             let title = "nothing can be driven: the mechanism is a structure, without a freedom";
             let help = "`linkwork mobility` says why, `linkwork statics` what forces it carries";
-            (said(title.into(), "", Some(help.into())), Part::Name)
+            Complaint::new(title.into(), "", Some(help.into()))
         }
         DriveError::NotHeld { name, held } => {
             let title = format!("`{name}` is not held here, so its rate follows from the others");
@@ -128,13 +128,13 @@ pub fn driven_complaint(error: &DriveError, option: &str) -> (Complaint, Part) {
                     held[0]
                 ),
             };
-            (said(title, "not held", Some(help)), Part::Name)
+            Complaint::new(title, "not held", Some(help))
         }
     }
 }
 
 /// What is wrong with the name of a frame.
-pub fn unknown_frame(mechanism: &Mechanism, name: &str) -> (Complaint, Part) {
+pub fn unknown_frame(mechanism: &Mechanism, name: &str) -> Complaint {
     let frames = mechanism.frames().into_iter();
     let known: Vec<String> = frames.map(|frame| mechanism.frame_name(frame)).collect();
     let help = match nearest(name, known.iter().map(String::as_str)) {
@@ -142,25 +142,17 @@ pub fn unknown_frame(mechanism: &Mechanism, name: &str) -> (Complaint, Part) {
         None => format!("the frames are {}", listed(&known)),
     };
     let title = format!("`{name}` is not a frame");
-    (said(title, "not known", Some(help)), Part::Name)
+    Complaint::new(title, "not known", Some(help))
 }
 
 /// What is wrong with a frame that stands still, where its motion is asked for.
-pub fn motionless_frame(name: &str) -> (Complaint, Part) {
+pub fn motionless_frame(name: &str) -> Complaint {
     let title = match name {
         "ground" => "ground does not move".into(),
         name => format!("`{name}` stands on ground and does not move"),
     };
     let help = "follow a frame of a link or of a platform, e.g. the tip of a chain by its name";
-    (said(title, "stands still", Some(help.into())), Part::Name)
-}
-
-fn said(title: String, label: &str, help: Option<String>) -> Complaint {
-    Complaint {
-        title,
-        label: label.into(),
-        help,
-    }
+    Complaint::new(title, "stands still", Some(help.into()))
 }
 
 /// The options that hold a platform and nothing else.
@@ -205,7 +197,7 @@ fn options(option: &str, names: &[String], value: &str) -> String {
 }
 
 /// The word as a shell takes it.
-fn quoted(word: &str) -> String {
+pub(super) fn quoted(word: &str) -> String {
     let safe = |c: char| c.is_alphanumeric() || "._=-".contains(c);
     match word.chars().all(safe) {
         true => word.into(),
@@ -213,7 +205,7 @@ fn quoted(word: &str) -> String {
     }
 }
 
-pub(super) fn value(text: &str, error: &ValueError) -> (Complaint, Part) {
+pub(super) fn value(text: &str, error: &ValueError) -> Complaint {
     // a value that is one expression tells where it is wrong
     let parsed = Expression::parse(text);
     let (kind, part) = match error {
@@ -240,24 +232,20 @@ pub(super) fn value(text: &str, error: &ValueError) -> (Complaint, Part) {
         ValueError::NoValue(kind) => (ProblemKind::NoValue(*kind), Part::WholeValue),
         ValueError::Unit(kind) => (ProblemKind::Unit(*kind), Part::WholeValue),
         ValueError::NotANumber => {
-            return (said(error.to_string(), "", None), Part::WholeValue);
+            return Complaint::new(error.to_string(), "", None).at(Part::WholeValue);
         }
         ValueError::NotAPose { .. } => {
             let title = error.to_string();
             let help = "a pose is a list such as [Tz(0.5), Rx(10 deg)], or home".to_owned();
-            return (said(title, "", Some(help)), Part::WholeValue);
+            return Complaint::new(title, "", Some(help)).at(Part::WholeValue);
         }
     };
-    let complaint = Complaint {
-        title: kind.title(),
-        label: kind.label(),
-        help: match kind {
-            // nothing can be declared in an option
-            ProblemKind::UnknownName {
-                suggestion: None, ..
-            } => Some("a value may use the parameters of the file".into()),
-            kind => kind.help(),
-        },
+    let help = match &kind {
+        // nothing can be declared in an option
+        ProblemKind::UnknownName {
+            suggestion: None, ..
+        } => Some("a value may use the parameters of the file".into()),
+        kind => kind.help(),
     };
-    (complaint, part)
+    Complaint::new(kind.title(), &kind.label(), help).at(part)
 }

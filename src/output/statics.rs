@@ -1,8 +1,8 @@
 //! The forces in a mechanism as a document.
 
 use super::closing;
+use super::complaint::{Complaint, Part};
 use super::document::{Cell, Column, Digits, Document, Report, Section, Table, cells};
-use super::option::{Complaint, Part};
 use super::quantity::{number, size};
 use super::question::{driven_complaint, unknown_frame};
 use crate::analysis::statics::{Force, Reaction, StaticsReport};
@@ -135,46 +135,40 @@ fn reactions(reactions: &[Reaction], length: f64) -> Table {
 }
 
 /// What is wrong with a load.
-pub fn complaint(mechanism: &Mechanism, error: &LoadError, option: &str) -> (Complaint, Part) {
-    let (title, label, help, part) = match error {
+pub fn complaint(mechanism: &Mechanism, error: &LoadError, option: &str) -> Complaint {
+    match error {
         LoadError::Value(error) => {
-            let (complaint, part) = driven_complaint(error, option);
+            let said = driven_complaint(error, option);
             // of several components the wrong one is not known here
-            let part = match part {
-                Part::Value(_) if option == "--wrench" => Part::WholeValue,
-                part => part,
-            };
-            return (complaint, part);
+            match said.part {
+                Part::Value(_) if option == "--wrench" => said.at(Part::WholeValue),
+                _ => said,
+            }
         }
-        LoadError::UnknownFrame { name } => return unknown_frame(mechanism, name),
-        LoadError::OnGround { name, instead } => (
+        LoadError::UnknownFrame { name } => unknown_frame(mechanism, name),
+        LoadError::OnGround { name, instead } => Complaint::with_help(
             format!("`{name}` does not move: the ground carries any wrench"),
             "on the ground",
-            Some(format!(
-                "load a body that moves, such as {}",
-                listed(instead)
-            )),
-            Part::Name,
+            format!("load a body that moves, such as {}", listed(instead)),
         ),
-        LoadError::Components { given } => (
+        LoadError::Components { given } => Complaint::with_help(
             format!("a wrench has three or six components, not {given}"),
             "",
-            Some("write Fx,Fy,Fz in N, or Fx,Fy,Fz,Mx,My,Mz with N·m".to_owned()),
-            Part::WholeValue,
-        ),
+            "write Fx,Fy,Fz in N, or Fx,Fy,Fz,Mx,My,Mz with N·m".into(),
+        )
+        .at(Part::WholeValue),
         LoadError::UnknownJoint {
             name,
             suggestion,
             known,
-        } => (
+        } => Complaint::with_help(
             format!("`{name}` is not a joint"),
             "not known",
-            Some(match (suggestion, known.is_empty()) {
+            match (suggestion, known.is_empty()) {
                 (Some(meant), _) => format!("did you mean `{meant}`?"),
                 (None, false) => format!("the joints are {}", listed(known)),
                 (None, true) => "there are no joints: load a frame with --wrench".into(),
-            }),
-            Part::Name,
+            },
         ),
         LoadError::Platform {
             name,
@@ -187,21 +181,14 @@ pub fn complaint(mechanism: &Mechanism, error: &LoadError, option: &str) -> (Com
                 Some(3..) => 6,
                 _ => 3,
             };
-            (
+            Complaint::with_help(
                 format!("`{name}` is not a joint: a platform is loaded by a wrench"),
                 "not a joint",
-                Some(format!(
+                format!(
                     "give force and moment on it in ground, e.g. --wrench {platform}={}",
                     example[..given].join(",")
-                )),
-                Part::Name,
+                ),
             )
         }
-    };
-    let complaint = Complaint {
-        title,
-        label: label.into(),
-        help,
-    };
-    (complaint, part)
+    }
 }

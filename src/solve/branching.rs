@@ -36,6 +36,20 @@ impl<P> BranchPoint<P> {
             _ => Contact::Crossing,
         }
     }
+
+    /// The direction of the branch that goes straight on along a tangent, if the point lies ahead:
+    /// `step` leads to it from the place with that tangent.
+    pub fn straight_on(&self, step: &[f64], tangent: &[f64]) -> Option<Vec<f64>> {
+        if dot(step, tangent) < 0.9 * norm(step) {
+            return None;
+        }
+        let along = |d: &Vec<f64>| dot(d, tangent);
+        let best =
+            (self.directions.iter()).max_by(|a, b| along(a).abs().total_cmp(&along(b).abs()));
+        let straight = best.filter(|d| along(d).abs() > 0.9)?;
+        let sign = along(straight).signum();
+        Some(straight.iter().map(|x| sign * x).collect())
+    }
 }
 
 /// Forms below this are rounding of the differences.

@@ -16,7 +16,7 @@
 //! infinite, steps become shorter in geometric progression and the point must be located and left by
 //! name ([`BranchPoint`](super::BranchPoint)).
 
-use crate::linear::{Decomposition, dot, norm, rank};
+use crate::linear::{BESIDE_A_CROSSING, Decomposition, SINGULAR_PLACE, dot, norm, rank};
 
 /// A set of solutions with one freedom, on a manifold of points with tangent coordinates.
 pub trait SolutionCurve {
@@ -63,7 +63,13 @@ impl<P> Place<P> {
 
     /// Whether branches may cross so near that rounding decides which one this is.
     pub fn is_beside_a_crossing(&self) -> bool {
-        self.least() < 1e-5 * self.largest()
+        self.least() < BESIDE_A_CROSSING * self.largest()
+    }
+
+    /// Whether branches cross here: only a [`BranchPoint`](super::BranchPoint) gives such a place,
+    /// located to rounding.
+    pub fn is_singular(&self) -> bool {
+        self.least() <= SINGULAR_PLACE * self.largest()
     }
 
     /// The same place, followed the other way.
@@ -229,10 +235,25 @@ impl Continuation {
     }
 
     /// The place between two where a function of places vanishes, to rounding: `f` must have
-    /// different signs at both. `to` must have been reached from `from` by one step.
+    /// different signs at both. `to` must have been reached from `from` by one step; where `from` is
+    /// singular, steps are made from `to`.
     ///
     /// Regula falsi with the weights of Anderson and Björck 1973, halving when that does not.
     pub fn root<C: SolutionCurve>(
+        &self,
+        curve: &mut C,
+        from: &Place<C::Point>,
+        to: &Place<C::Point>,
+        f: &mut dyn FnMut(&mut C, &Place<C::Point>) -> f64,
+    ) -> Place<C::Point> {
+        if from.is_singular() {
+            let (from, to) = (to.clone().reversed(), from.clone().reversed());
+            return self.bracketed(curve, &from, &to, f).reversed();
+        }
+        self.bracketed(curve, from, to, f)
+    }
+
+    fn bracketed<C: SolutionCurve>(
         &self,
         curve: &mut C,
         from: &Place<C::Point>,

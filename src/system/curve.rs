@@ -6,13 +6,13 @@ mod tracker;
 mod walk;
 
 pub use locus::{LocusCurve, Singular};
-pub use trace::{ConfigurationCurve, LocusEnd, Region, Traced, met_at, passes, settled};
+pub use trace::{ConfigurationCurve, LocusEnd, Region, Traced, met_at, neared, passes, settled};
 pub use tracker::Tracker;
 pub use walk::{Event, Leg, Monitor, Walk};
 
 use super::equations::{System, Work};
 use crate::mechanism::{Configuration, ConfigurationRef, Coordinate, Mechanism, turn_near};
-use crate::solve::{Equations, Place, SolutionCurve};
+use crate::solve::{Continuation, Equations, Place, SolutionCurve, Stray};
 use crate::system::{Held, HeldPlatform, Holdable, Unknown};
 
 /// A coordinate that moves along a segment, in m or rad.
@@ -35,6 +35,17 @@ impl Driven {
             _ => self.from + part * (self.to - self.from),
         }
     }
+}
+
+/// Why a motion cannot begin.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum NoStart {
+    /// The joint of that index is outside its limits.
+    OutsideLimits(usize),
+    /// The closures do not close near the start.
+    NotClosed,
+    /// The start is singular: branches cross there, or so near that rounding decides between them.
+    Singular,
 }
 
 /// The closure equations with one freedom left: nothing but that freedom is to be chosen.
@@ -112,6 +123,44 @@ impl Curve {
             }
             Holdable::Turn(..) => 0.0,
         }
+    }
+
+    /// The place where a motion begins. `start` is brought within limits by whole turns, with driven
+    /// joints where their segment begins.
+    ///
+    /// # Errors
+    /// If no motion can begin there.
+    pub fn begin(
+        &mut self,
+        mechanism: &Mechanism,
+        start: &mut Configuration<f64>,
+        method: &Continuation,
+    ) -> Result<Place<Configuration<f64>>, NoStart> {
+        mechanism.turn_to_limits(&mut start.joints);
+        for input in &self.inputs {
+            if let Holdable::Joint(joint) = input.coordinate {
+                start.joints[joint] = input.from;
+            }
+        }
+        let mut joints = mechanism.joints().iter().zip(&start.joints);
+        if let Some(joint) = joints.position(|(joint, value)| !joint.allows(*value)) {
+            return Err(NoStart::OutsideLimits(joint));
+        }
+        match method.settle(self, start.clone()) {
+            Ok(place) if !place.is_beside_a_crossing() => Ok(place),
+            Err(Stray::NotClosed) => Err(NoStart::NotClosed),
+            _ => Err(NoStart::Singular),
+        }
+    }
+
+    /// A place followed towards the end of the segment, and how fast the part that is gone grows there.
+    pub fn towards_end(
+        &self,
+        place: Place<Configuration<f64>>,
+    ) -> (Place<Configuration<f64>>, f64) {
+        let rate = self.part_rate(&place.at, &place.tangent);
+        let place = if rate < 0.0 { place.reversed() } else { place };
+        (place, rate)
     }
 
     /// How fast the part of the segment that is gone grows along a tangent; 0 without inputs.

@@ -5,6 +5,7 @@ mod error;
 mod error_words;
 mod held;
 mod load;
+mod outputs;
 mod value;
 
 pub use count::{Count, check_angles, check_count};
@@ -12,6 +13,7 @@ pub use demand::{Demand, Verb};
 pub use drive::{Drive, DriveError};
 pub use error::QuestionError;
 pub use load::{Load, LoadError};
+pub use outputs::{Output, actuated, default_outputs, free_outputs, inputs_of, platform_outputs};
 pub use value::{Value, ValueError, number as number_of};
 
 use super::equations::System;

@@ -6,6 +6,7 @@ mod conversion;
 mod formulas;
 mod frames;
 mod mobility;
+mod modes;
 mod reports;
 mod singularities;
 mod statics;

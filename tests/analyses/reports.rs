@@ -215,4 +215,5 @@ fn errors_are_errors_with_words() {
     is_error::<analysis::frames::AxesError>();
     is_error::<analysis::sweep::PointError>();
     is_error::<analysis::workspace::WorkspaceError>();
+    is_error::<linkwork::ask::AskError>();
 }

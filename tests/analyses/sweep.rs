@@ -7,9 +7,10 @@ use std::path::Path;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
 use linkwork::analysis::sweep::{
-    CircuitsReport, CircuitsSettings, Ending, FourBarClass, MetKind, SweepReport, SweepSettings,
-    TracedPoint, circuits, follow, sweep,
+    CircuitsReport, CircuitsSettings, Ending, FourBarClass, MetKind, Row, SweepReport,
+    SweepSettings, TracedPoint, circuits, follow, sweep,
 };
+use linkwork::ask;
 use linkwork::description::Description;
 use linkwork::mechanism::{Configuration, Mechanism};
 use linkwork::solve::Watch;
@@ -101,20 +102,17 @@ fn run(
     guess: &[(&str, f64)],
     settings: &SweepSettings,
 ) -> Swept {
-    let at = start(mechanism, inputs, guess);
+    let question = ask::Question::new(mechanism.clone()).free("actuated");
+    let question = inputs.iter().fold(question, |question, input| {
+        question.input(input.coordinate.name(mechanism), input.from, input.to)
+    });
+    let question = (guess.iter()).fold(question, |q, (name, value)| q.guess(*name, *value));
+    let motions = question.motions(settings, &Watch::none()).unwrap();
     let mut rows = Vec::new();
-    let held = Held::nothing(mechanism);
-    let report = sweep(
-        mechanism,
-        &held,
-        inputs,
-        &at,
-        settings,
-        &mut |row| {
-            rows.push((row.step, row.configuration.clone(), row.points.to_vec()));
-        },
-        &Watch::none(),
-    );
+    let mut sink = |row: &Row| {
+        rows.push((row.step, row.configuration.clone(), row.points.to_vec()));
+    };
+    let report = motions.run(&motions.starts[0].1, &mut sink, &Watch::none());
     assert_eq!(report.rows, rows.len());
     Swept { report, rows }
 }

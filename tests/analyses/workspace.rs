@@ -4,13 +4,11 @@ use std::collections::BTreeMap;
 use std::f64::consts::PI;
 use std::path::Path;
 
-use linkwork::analysis::workspace::{
-    BoundaryKind, Cell, WorkspaceReport, WorkspaceSettings, workspace,
-};
+use linkwork::analysis::workspace::{BoundaryKind, Cell, WorkspaceReport, WorkspaceSettings};
+use linkwork::ask::Question;
 use linkwork::description::Description;
 use linkwork::mechanism::Mechanism;
 use linkwork::solve::Watch;
-use linkwork::system::{Driven, Holdable, Question, check_count};
 use nalgebra::Matrix3;
 
 fn text(name: &str) -> String {
@@ -26,32 +24,27 @@ fn written(text: &str, parameters: &[(&str, &str)]) -> Mechanism {
     Mechanism::new(&description).unwrap_or_else(|problems| panic!("{problems:?}"))
 }
 
-/// With these coordinates mapped and these held; platforms free the actuated joints.
+/// With these coordinates mapped and these held.
+fn asked(
+    mechanism: &Mechanism,
+    mapped: &[(&str, f64, f64)],
+    held: &[(&str, f64)],
+    settings: &WorkspaceSettings,
+) -> WorkspaceReport {
+    let question = Question::new(mechanism.clone());
+    let question = (mapped.iter()).fold(question, |q, (name, from, to)| q.input(*name, *from, *to));
+    let question = (held.iter()).fold(question, |q, (name, value)| q.hold(*name, *value));
+    question.workspace(settings, &Watch::none()).unwrap()
+}
+
+/// The same where every edge of the grid is decided.
 fn map_with(
     mechanism: &Mechanism,
     mapped: &[(&str, f64, f64)],
     held: &[(&str, f64)],
     settings: &WorkspaceSettings,
 ) -> WorkspaceReport {
-    let mut question = Question::new(mechanism);
-    if mapped.iter().any(|(name, ..)| name.contains('.')) {
-        question = question.free("actuated").unwrap();
-    }
-    let middles = mapped
-        .iter()
-        .map(|(name, from, to)| (*name, 0.5 * (from + to)));
-    for (name, value) in held.iter().copied().chain(middles) {
-        question = question.hold(name, &format!("{value:?}")).unwrap();
-    }
-    check_count(&question).unwrap();
-    let axes: Vec<Driven> = (mapped.iter())
-        .map(|(name, from, to)| Driven {
-            coordinate: question.value(name, "home").unwrap().0,
-            from: *from,
-            to: *to,
-        })
-        .collect();
-    let report = workspace(&question, &axes, &[], settings, &Watch::none()).unwrap();
+    let report = asked(mechanism, mapped, held, settings);
     assert_eq!(report.unsure, 0, "{:?}", report.modes);
     report
 }
@@ -530,20 +523,15 @@ fn three_coordinates_are_mapped_in_slices() {
 fn one_coordinate_is_mapped_to_intervals() {
     // the rod l = 3 and the crank r = 1 reach a line beside the hinge of the crank, e = 0.5 away
     let mechanism = written(&text("slider_crank"), &[]);
-    let mut question = Question::new(&mechanism).free("actuated").unwrap();
-    question = question.hold("s", "3").unwrap();
-    let (coordinate, _) = question.value("s", "home").unwrap();
-    let axes = [Driven {
-        coordinate,
-        from: 1.5,
-        to: 4.4,
-    }];
     let settings = WorkspaceSettings {
         nodes: vec![90],
         ..WorkspaceSettings::default()
     };
-    let report = workspace(&question, &axes, &[], &settings, &Watch::none()).unwrap();
-    assert!(matches!(coordinate, Holdable::Joint(_)));
+    // the slide is driven in place of the crank
+    let question = Question::new(mechanism)
+        .free("actuated")
+        .input("s", 1.5, 4.4);
+    let report = question.workspace(&settings, &Watch::none()).unwrap();
     assert_eq!(
         (report.modes.len(), report.unit.to_string()),
         (2, "m".into())
@@ -603,16 +591,7 @@ fn where_two_legs_fold_at_once_modes_are_not_taken_for_one() {
             boundaries: false,
             ..WorkspaceSettings::default()
         };
-        let mut question = Question::new(&mechanism).free("actuated").unwrap();
-        for name in ["hand.x", "hand.y"] {
-            question = question.hold(name, "0.1").unwrap();
-        }
-        let axes = axes.map(|(name, from, to)| Driven {
-            coordinate: question.value(name, "home").unwrap().0,
-            from,
-            to,
-        });
-        let report = workspace(&question, &axes, &[], &settings, &Watch::none()).unwrap();
+        let report = asked(&mechanism, &axes, &[], &settings);
         assert_eq!(report.modes.len(), 4, "{nodes:?}");
         assert!(
             report.modes.iter().all(|mode| mode.repeated == 0),
@@ -628,17 +607,7 @@ fn modes_of(
     held: &[(&str, f64)],
     settings: WorkspaceSettings,
 ) -> WorkspaceReport {
-    let mut question = Question::new(mechanism).free("actuated").unwrap();
-    let middles = axes.map(|(name, from, to)| (name, 0.5 * (from + to)));
-    for (name, value) in held.iter().copied().chain(middles) {
-        question = question.hold(name, &format!("{value:?}")).unwrap();
-    }
-    let axes = axes.map(|(name, from, to)| Driven {
-        coordinate: question.value(name, "home").unwrap().0,
-        from,
-        to,
-    });
-    workspace(&question, &axes, &[], &settings, &Watch::none()).unwrap()
+    asked(mechanism, &axes, held, &settings)
 }
 
 #[test]

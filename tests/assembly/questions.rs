@@ -20,7 +20,7 @@ fn read(text: &str) -> Mechanism {
 fn inverse<'a>(mechanism: &'a Mechanism, held: &[(&str, &str)]) -> Question<'a> {
     let free = Question::new(mechanism).free("actuated").unwrap();
     let hold =
-        |question: Question<'a>, (name, value): &(&str, &str)| question.hold(name, value).unwrap();
+        |question: Question<'a>, (name, value): &(&str, &str)| question.hold(name, *value).unwrap();
     held.iter().fold(free, hold)
 }
 

@@ -33,7 +33,7 @@ fn asked<'a>(mechanism: &'a Mechanism, free: &[&str], held: &[(&str, &str)]) -> 
         question = question.free(name).unwrap();
     }
     for (name, value) in held {
-        question = question.hold(name, value).unwrap();
+        question = question.hold(name, *value).unwrap();
     }
     question
 }

@@ -1,5 +1,7 @@
 //! Every singularity on the way of the inputs along a segment.
 
+use std::ops::ControlFlow;
+
 use serde::{Deserialize, Serialize};
 
 use super::classify::{Classifier, Singularity};
@@ -9,8 +11,8 @@ use super::{SingularitiesSettings, names, output_names};
 use crate::algebra::SiUnit;
 use crate::linear::norm;
 use crate::mechanism::{Configuration, Mechanism, Variable};
-use crate::solve::{Continuation, Place, SolutionCurve, Stage, Stray, Watch};
-use crate::system::{Curve, Driven, Event, Held, Holdable, Leg, Walk};
+use crate::solve::{Continuation, Place, SolutionCurve, Stage, Watch};
+use crate::system::{Curve, Driven, Event, Held, Holdable, Leg, NoStart, Walk};
 
 type At = Place<Configuration<f64>>;
 
@@ -141,37 +143,29 @@ pub fn along(
         interrupted: false,
     };
     let mut start = start.clone();
-    mechanism.turn_to_limits(&mut start.joints);
-    for input in moved {
-        if let Holdable::Joint(joint) = input.coordinate {
-            start.joints[joint] = input.from;
-        }
-    }
-    let joints = mechanism.joints().iter().zip(&start.joints);
-    let outside = joints.filter(|(joint, value)| !joint.allows(**value));
-    if let Some((joint, _)) = outside.into_iter().next() {
-        report.limit = Some(joint.name.clone());
+    let mut curve = Curve::along(mechanism, held, moved.to_vec());
+    let method = &settings.continuation;
+    let begun = curve.begin(mechanism, &mut start, method);
+    if let Err(NoStart::OutsideLimits(joint)) = begun {
+        report.limit = Some(mechanism.joints()[joint].name.clone());
         report.ending = Ending::OutsideLimits;
         return report;
     }
-    let mut curve = Curve::along(mechanism, held, moved.to_vec());
     let mut search = Tests {
         classifier: Classifier::new(mechanism, inputs, &outputs, &start),
         moved: moved.to_vec(),
     };
-    let method = &settings.continuation;
-    let place = match method.settle(&mut curve, start.clone()) {
-        Ok(place) if !place.is_beside_a_crossing() => place,
-        Err(Stray::NotClosed) => return report,
-        _ => {
+    let place = match begun {
+        Ok(place) => place,
+        Err(NoStart::NotClosed) => return report,
+        Err(_) => {
             let found = search.crossing(&curve, &start, false, true);
             report.crossings.extend(found);
             report.ending = Ending::SingularStart;
             return report;
         }
     };
-    let rate = curve.part_rate(&place.at, &place.tangent);
-    let place = if rate < 0.0 { place.reversed() } else { place };
+    let (place, rate) = curve.towards_end(place);
     let first = search.crossing(&curve, &place.at, rate.abs() < 1e-9, false);
     report.crossings.extend(first);
     if rate.abs() < 1e-9 {
@@ -179,19 +173,15 @@ pub fn along(
         return report;
     }
     let mut walk = Walk::new(mechanism, &curve, place, method.clone());
-    report.ending = 'walk: loop {
+    let ending = walk.follow(&mut curve, |curve, leg| {
         let done = report.part.clamp(0.0, 1.0) * f64::from(PARTS);
         if watch.stops(Stage::Motion, done as usize, Some(PARTS as usize)) {
             report.interrupted = true;
-            break Ending::Stopped;
+            return ControlFlow::Break(Ending::Stopped);
         }
-        let Ok(leg) = walk.advance(&mut curve) else {
-            report.part = curve.part(&walk.place().at);
-            break Ending::Lost;
-        };
         report.sure_steps += 1;
         report.part = curve.part(&leg.to.at);
-        for met in search.met(&mut curve, &leg, method) {
+        for met in search.met(curve, leg, method) {
             report.part = curve.part(&met.place.at);
             let known = report.crossings.last().is_some_and(|last| {
                 let apart = (last.joints.iter().zip(&met.place.at.joints))
@@ -200,7 +190,7 @@ pub fn along(
                 apart < 1e-9 && last.part == report.part
             });
             if !known && (met.fold || met.branches || met.vanishes) {
-                let found = search.crossing(&curve, &met.place.at, met.fold, met.branches);
+                let found = search.crossing(curve, &met.place.at, met.fold, met.branches);
                 report.crossings.extend(found);
             }
             let ending = match met.end {
@@ -216,10 +206,15 @@ pub fn along(
                 _ => None,
             };
             if let Some(ending) = ending {
-                break 'walk ending;
+                return ControlFlow::Break(ending);
             }
         }
-    };
+        ControlFlow::Continue(())
+    });
+    report.ending = ending.unwrap_or_else(|_| {
+        report.part = curve.part(&walk.place().at);
+        Ending::Lost
+    });
     report
 }
 
@@ -298,7 +293,7 @@ impl Tests<'_> {
     fn vanishing(&mut self, curve: &mut Curve, leg: &Leg, method: &Continuation) -> Vec<At> {
         let ranks = self.classifier.regular_ranks();
         // steps are made from the regular end
-        let singular = leg.from.least() <= 1e-9 * leg.from.largest();
+        let singular = leg.from.is_singular();
         let (from, to) = match singular {
             true => (leg.to.clone().reversed(), leg.from.clone().reversed()),
             false => (leg.from.clone(), leg.to.clone()),

@@ -4,110 +4,11 @@ use serde::{Deserialize, Serialize};
 
 use super::SingularitiesSettings;
 use super::classify::Classifier;
-use crate::description::Role;
-use crate::geometry::Axis;
 use crate::linear::{norm, orthonormal, remove};
-use crate::mechanism::{Body, Configuration, Coordinate, Frame, Mechanism};
-use crate::system::{Driven, Held, HeldPlatform, Holdable, Lock, Locked, Mobility, Question};
-
-/// What is driven: the held coordinates if all of them are joints, else the actuated joints.
-pub fn inputs_of(question: &Question) -> Vec<Holdable> {
-    let held = question.held_coordinates();
-    if held.iter().all(|h| matches!(h, Holdable::Joint(_))) {
-        let mut held = held;
-        held.sort_by_key(|h| match h {
-            Holdable::Joint(joint) => *joint,
-            Holdable::Coordinate(..) | Holdable::Turn(..) => usize::MAX,
-        });
-        return held;
-    }
-    let joints = question.mechanism().joints().iter().enumerate();
-    let actuated = joints.filter(|(_, joint)| joint.role == Role::Actuated);
-    let actuated: Vec<Holdable> = actuated.map(|(i, _)| Holdable::Joint(i)).collect();
-    match actuated.is_empty() {
-        true => held,
-        false => actuated,
-    }
-}
-
-/// What moves out where nothing else is asked for: the platforms; of an open chain the tips; else
-/// the joints on the ground that are not driven; else the points where the chains are joined.
-pub fn default_outputs(mechanism: &Mechanism, inputs: &[Holdable]) -> Vec<Lock> {
-    let platforms = 0..mechanism.platforms().len();
-    let platforms: Vec<Lock> = platforms
-        .map(|platform| Lock::Frame(Frame::Platform { platform }))
-        .collect();
-    if !platforms.is_empty() {
-        return platforms;
-    }
-    if mechanism.closures().is_empty() {
-        let tips = 0..mechanism.chains().len();
-        return tips
-            .map(|chain| Lock::Frame(Frame::Tip { chain }))
-            .collect();
-    }
-    let mut grounded: Vec<Holdable> = Vec::new();
-    for chain in mechanism.chains() {
-        let first = chain.rows.iter().map(|row| row.joints());
-        let first = first.into_iter().find(|joints| !joints.is_empty());
-        if mechanism.body(chain.on) == Body::Ground {
-            grounded.extend(first.into_iter().flatten().map(Holdable::Joint));
-        }
-    }
-    grounded.retain(|joint| !inputs.contains(joint));
-    grounded.dedup();
-    if !grounded.is_empty() {
-        return grounded.into_iter().map(Lock::Coordinate).collect();
-    }
-    let closures = mechanism.closures().iter();
-    closures
-        .map(|closure| Lock::Point(closure.frames[0]))
-        .collect()
-}
-
-/// The coordinates of platforms that a question is about, where it is about nothing else: those that
-/// are held, and those that move. A whole orientation turns about the axes of ground, and a whole
-/// pose is the platform.
-fn asked_outputs(held: &Held<f64>, moved: &[Driven], inputs: &[Holdable]) -> Option<Vec<Lock>> {
-    let joint = |h: &Holdable| matches!(h, Holdable::Joint(_));
-    let moves_joint = moved.iter().any(|driven| joint(&driven.coordinate));
-    if held.joints.contains(&true) || moves_joint || !inputs.iter().all(joint) {
-        return None;
-    }
-    let mut outputs = Vec::new();
-    for (platform, held) in held.platforms.iter().enumerate() {
-        let asked = |c: Coordinate| {
-            let held = match held {
-                HeldPlatform::Free => false,
-                HeldPlatform::Pose => true,
-                HeldPlatform::Partly {
-                    coordinates,
-                    orientation,
-                } => {
-                    coordinates.iter().any(|(held, _)| *held == c)
-                        || orientation.is_some() && c.is_angle()
-                }
-            };
-            let coordinate = Holdable::Coordinate(platform, c);
-            held || moved.iter().any(|driven| driven.coordinate == coordinate)
-        };
-        let all: Vec<Coordinate> = Coordinate::ALL.into_iter().filter(|c| asked(*c)).collect();
-        if all.len() == Coordinate::ALL.len() {
-            outputs.push(Lock::Frame(Frame::Platform { platform }));
-            continue;
-        }
-        let turned = all.iter().filter(|c| c.is_angle()).count() == 3;
-        outputs.extend(all.into_iter().map(|c| {
-            Lock::Coordinate(match c {
-                Coordinate::Roll if turned => Holdable::Turn(platform, Axis::X),
-                Coordinate::Pitch if turned => Holdable::Turn(platform, Axis::Y),
-                Coordinate::Yaw if turned => Holdable::Turn(platform, Axis::Z),
-                c => Holdable::Coordinate(platform, c),
-            })
-        }));
-    }
-    (!outputs.is_empty()).then_some(outputs)
-}
+use crate::mechanism::{Configuration, Coordinate, Frame, Mechanism};
+use crate::system::{
+    Driven, Held, Holdable, Lock, Locked, Mobility, default_outputs, platform_outputs,
+};
 
 /// The outputs: those of the settings; else the coordinates of platforms that the question is about;
 /// else the [default](default_outputs).
@@ -121,7 +22,8 @@ pub(super) fn outputs_of(
     if !settings.outputs.is_empty() {
         return settings.outputs.clone();
     }
-    asked_outputs(held, moved, inputs).unwrap_or_else(|| default_outputs(mechanism, inputs))
+    let moved: Vec<Holdable> = moved.iter().map(|driven| driven.coordinate).collect();
+    platform_outputs(held, &moved, inputs).unwrap_or_else(|| default_outputs(mechanism, inputs))
 }
 
 /// An output whose turning and shifting depend on one another: it has fewer freedoms than there are

@@ -159,17 +159,9 @@ pub fn circuits(
             break;
         }
         let mut seed = seed.clone();
-        mechanism.turn_to_limits(&mut seed.joints);
-        let within = mechanism.joints().iter().zip(&seed.joints);
-        let within = within
-            .into_iter()
-            .all(|(joint, value)| joint.allows(*value));
-        let place = match method.settle(&mut curve, seed) {
-            Ok(place) if within && !place.is_beside_a_crossing() => place,
-            _ => {
-                unusable += 1;
-                continue;
-            }
+        let Ok(place) = curve.begin(mechanism, &mut seed, method) else {
+            unusable += 1;
+            continue;
         };
         if let Some(known) = holding(&mut curve, method, &mut traced, &place) {
             traced[known].seeds += 1;

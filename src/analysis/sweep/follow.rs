@@ -6,7 +6,7 @@ use super::met::Record;
 use super::points::Paths;
 use super::{Ending, MetKind, Row, Sink, SweepReport, SweepSettings};
 use crate::mechanism::{Configuration, Mechanism};
-use crate::solve::{Place, Stage, Stray, Watch};
+use crate::solve::{Place, Stage, Watch};
 use crate::system::{Curve, Event, Held, Walk};
 
 /// Steps after which a curve without end is given up.
@@ -27,17 +27,10 @@ pub fn follow(
     let mut curve = Curve::new(mechanism, held);
     let mut record = Record::new(mechanism, &[]);
     let mut start = start.clone();
-    mechanism.turn_to_limits(&mut start.joints);
-    if let Some(met) = record.outside(&start) {
-        return record.ended(met, Ending::OutsideLimits);
-    }
     let method = &settings.continuation;
-    let mut place = match method.settle(&mut curve, start.clone()) {
-        Ok(place) if place.is_beside_a_crossing() => {
-            return record.no_start(&mut curve, &start, Stray::Singular, method);
-        }
+    let mut place = match curve.begin(mechanism, &mut start, method) {
         Ok(place) => place,
-        Err(stray) => return record.no_start(&mut curve, &start, stray, method),
+        Err(why) => return record.no_start(&mut curve, &start, why, method),
     };
     place = forwards(mechanism, &curve, place);
     // if it has ends, it is followed from one of them
@@ -65,42 +58,29 @@ pub fn follow(
     };
     let mut flow = send(&place.at, None);
     let mut walk = Walk::new(mechanism, &curve, place, method.clone());
-    let ending = loop {
-        if flow.is_break() {
-            break Ending::Stopped;
-        }
-        let Ok(leg) = walk.advance(&mut curve) else {
-            break Ending::Lost;
-        };
+    let stopped = |()| Ending::Stopped;
+    let ending = walk.follow(&mut curve, |curve, leg| {
+        flow.map_break(stopped)?;
         record.steps += 1;
         if record.steps > MOST_STEPS {
-            break Ending::Stopped;
+            return ControlFlow::Break(Ending::Stopped);
         }
-        let mut ending = None;
         for (place, event) in &leg.events {
-            record.meet(&curve, place, event);
+            record.meet(curve, place, event);
             flow = send(&place.at, record.latest());
-            ending = match event {
-                Event::Closed => Some(Ending::Closed),
-                Event::Limit { .. } => Some(Ending::Limits),
-                _ => None,
-            };
-            if ending.is_some() || flow.is_break() {
-                break;
+            match event {
+                Event::Closed => return ControlFlow::Break(Ending::Closed),
+                Event::Limit { .. } => return ControlFlow::Break(Ending::Limits),
+                _ => flow.map_break(stopped)?,
             }
         }
-        if let Some(ending) = ending {
-            break ending;
-        }
-        if let ControlFlow::Continue(()) = flow
-            && !leg
-                .events
-                .iter()
-                .any(|(_, e)| matches!(e, Event::Branches(_)))
-        {
+        let branches = |(_, event): &(_, Event)| matches!(event, Event::Branches(_));
+        if !leg.events.iter().any(branches) {
             flow = send(&leg.to.at, None);
         }
-    };
+        ControlFlow::Continue(())
+    });
+    let ending = ending.unwrap_or(Ending::Lost);
     SweepReport {
         interrupted: watch.is_stopped(),
         ..record.report(ending, count, walk.gone())
@@ -135,18 +115,20 @@ fn first_end(
     curve: &mut Curve,
     watch: &Watch,
 ) -> Option<Place<Configuration<f64>>> {
-    for step in 0..MOST_STEPS {
-        if watch.stops(Stage::Steps, step, None) {
-            return None;
+    let mut steps = 0;
+    let end = walk.follow(curve, |_, leg| {
+        if watch.stops(Stage::Steps, steps, None) || steps == MOST_STEPS {
+            return ControlFlow::Break(None);
         }
-        let leg = walk.advance(curve).ok()?;
-        for (place, event) in leg.events {
+        steps += 1;
+        for (place, event) in &leg.events {
             match event {
-                Event::Closed => return None,
-                Event::Limit { .. } => return Some(place),
+                Event::Closed => return ControlFlow::Break(None),
+                Event::Limit { .. } => return ControlFlow::Break(Some(place.clone())),
                 _ => {}
             }
         }
-    }
-    None
+        ControlFlow::Continue(())
+    });
+    end.ok().flatten()
 }

@@ -5,8 +5,8 @@ use serde::{Deserialize, Serialize};
 use super::{Ending, InputReport, SweepReport};
 use crate::algebra::SiUnit;
 use crate::mechanism::{Configuration, Mechanism};
-use crate::solve::{Continuation, Place, Stray};
-use crate::system::{Curve, Driven, Event, Unknown};
+use crate::solve::{Continuation, Place};
+use crate::system::{Curve, Driven, Event, NoStart, Unknown};
 
 /// Something special that was met, with where it is.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -205,13 +205,10 @@ impl<'m> Record<'m> {
         self.met.last().map(|met| &met.kind)
     }
 
-    /// The first joint that is outside its limits.
-    pub fn outside(&self, at: &Configuration<f64>) -> Option<Met> {
-        let joints = self.mechanism.joints().iter().zip(&at.joints).enumerate();
-        let mut outside = joints.filter(|(_, (joint, value))| !joint.allows(**value));
-        let (joint, (of, value)) = outside.next()?;
-        let (low, high) = of.limits?;
-        let upper = *value > 0.5 * (low + high);
+    /// A joint that is outside its limits.
+    fn outside(&self, joint: usize, at: &Configuration<f64>) -> Option<Met> {
+        let (low, high) = self.mechanism.joints()[joint].limits?;
+        let upper = at.joints[joint] > 0.5 * (low + high);
         Some(Met {
             kind: self.limit(joint, if upper { high } else { low }, upper),
             part: (!self.inputs.is_empty()).then_some(0.0),
@@ -221,21 +218,21 @@ impl<'m> Record<'m> {
         })
     }
 
-    pub fn ended(mut self, met: Met, ending: Ending) -> SweepReport {
-        self.met.push(met);
-        self.report(ending, 0, 0.0)
-    }
-
     /// Why the motion cannot begin: branches may cross where it starts.
     pub fn no_start(
         mut self,
         curve: &mut Curve,
         start: &Configuration<f64>,
-        stray: Stray,
+        why: NoStart,
         method: &Continuation,
     ) -> SweepReport {
-        if stray == Stray::NotClosed {
-            return self.report(Ending::Lost, 0, 0.0);
+        match why {
+            NoStart::NotClosed => return self.report(Ending::Lost, 0, 0.0),
+            NoStart::OutsideLimits(joint) => {
+                self.met.extend(self.outside(joint, start));
+                return self.report(Ending::OutsideLimits, 0, 0.0);
+            }
+            NoStart::Singular => {}
         }
         if let Some(point) = method.branch_point(curve, start, 1e-3) {
             let place = point.place(curve, &vec![0.0; curve.system().unknowns().len()]);

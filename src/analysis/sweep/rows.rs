@@ -103,15 +103,9 @@ impl Rows {
                 }
                 continue;
             }
-            // exactly, from the places themselves: from the regular one if the other is singular
+            // exactly, from the places themselves
             let mut between = |c: &mut Curve, p: &At| c.part(&p.at) - part;
-            let mut place = match reach.singular_from {
-                true => {
-                    let (from, to) = (to.clone().reversed(), from.clone().reversed());
-                    self.method().root(curve, &from, &to, &mut between)
-                }
-                false => self.method().root(curve, from, to, &mut between),
-            };
+            let mut place = self.method().root(curve, from, to, &mut between);
             for input in &self.inputs {
                 if let Holdable::Joint(joint) = input.coordinate {
                     place.at.joints[joint] = input.at(part);
@@ -139,7 +133,7 @@ impl Rows {
         let Some(tracker) = &mut self.tracker else {
             return false;
         };
-        if reach.singular_from || reach.singular_to {
+        if reach.singular {
             return false;
         }
         for input in &self.inputs {
@@ -197,20 +191,18 @@ impl Sent {
 struct Reach {
     along: f64,
     across: f64,
-    singular_from: bool,
-    singular_to: bool,
+    /// Whether branches cross at one of them.
+    singular: bool,
 }
 
 impl Reach {
     fn of(curve: &Curve, from: &At, to: &At) -> Self {
         let (along, across) = curve.offset(from, &to.at);
-        let singular = |p: &At| p.least() <= 1e-9 * p.largest();
         Reach {
             along,
             // the curve bends, and by the change allowed of the Jacobian no more than this
             across: 2.0 * across + 0.1 * along + 1e-9,
-            singular_from: singular(from),
-            singular_to: singular(to),
+            singular: from.is_singular() || to.is_singular(),
         }
     }
 }

@@ -4,10 +4,9 @@ use serde::{Deserialize, Serialize};
 
 use super::frames::Spins;
 use crate::algebra::SiUnit;
-use crate::geometry;
 use crate::linear::{Decomposition, rank};
-use crate::mechanism::{Configuration, Coordinate, Frame, Mechanism, Role};
-use crate::system::{FrameTwists, Holdable, Motion, without};
+use crate::mechanism::{Configuration, Frame, Mechanism};
+use crate::system::{FrameTwists, Holdable, Motion, Output, without};
 
 /// Rates of outputs for unit rates of the inputs, one at a time.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -39,69 +38,6 @@ pub struct Axis {
     pub name: String,
     /// `rad/s` or `m/s`.
     pub unit: SiUnit,
-}
-
-/// What the inputs drive.
-pub(super) enum Output {
-    /// The twist of a platform.
-    Twist(Frame),
-    /// The velocity of a frame's origin.
-    Point(Frame),
-    /// The rate of a joint.
-    Joint(usize),
-    /// The rate of a coordinate of a platform.
-    Coordinate(usize, Coordinate),
-    /// A component of the angular velocity of a platform.
-    Turn(usize, geometry::Axis),
-}
-
-/// The outputs of a question: what is free of the platforms, and with a platform coordinate held the
-/// driven joints that are free; if there is nothing of that, the free joints that something
-/// determines.
-///
-/// Of a platform that is partly held the angular velocity is free if no angle is held, else the
-/// other angles.
-pub(super) fn outputs(mechanism: &Mechanism, held: &[Holdable], spinning: &[usize]) -> Vec<Output> {
-    let mut outputs = Vec::new();
-    for platform in 0..mechanism.platforms().len() {
-        let is_held = |c: &Coordinate| held.contains(&Holdable::Coordinate(platform, *c));
-        let of_it = |holdable: &Holdable| match holdable {
-            Holdable::Coordinate(of, _) | Holdable::Turn(of, _) => *of == platform,
-            Holdable::Joint(_) => false,
-        };
-        if !held.iter().any(of_it) {
-            outputs.push(Output::Twist(Frame::Platform { platform }));
-        } else if held.iter().filter(|held| of_it(held)).count() < 6 {
-            let (angles, shifts): (Vec<Coordinate>, _) =
-                Coordinate::ALL.into_iter().partition(|c| c.is_angle());
-            let coordinate =
-                |c: Coordinate| (!is_held(&c)).then_some(Output::Coordinate(platform, c));
-            let turned =
-                (held.iter()).any(|held| matches!(held, Holdable::Turn(of, _) if *of == platform));
-            match angles.iter().any(is_held) {
-                _ if turned => {}
-                true => outputs.extend(angles.into_iter().filter_map(coordinate)),
-                false => {
-                    use geometry::Axis::{X, Y, Z};
-                    outputs.extend([X, Y, Z].map(|axis| Output::Turn(platform, axis)));
-                }
-            }
-            outputs.extend(Vec::into_iter(shifts).filter_map(coordinate));
-        }
-    }
-    let inverse = !held.iter().all(|held| matches!(held, Holdable::Joint(_)));
-    let free =
-        |joint: &usize| !held.contains(&Holdable::Joint(*joint)) && !spinning.contains(joint);
-    let joints = 0..mechanism.joints().len();
-    let driven = |joint: &usize| mechanism.joints()[*joint].role == Role::Actuated;
-    if inverse {
-        let driven = joints.clone().filter(|joint| free(joint) && driven(joint));
-        outputs.extend(driven.map(Output::Joint));
-    }
-    if outputs.is_empty() {
-        outputs.extend(joints.filter(free).map(Output::Joint));
-    }
-    outputs
 }
 
 /// The points followed that are no outputs already, each once.

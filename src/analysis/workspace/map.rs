@@ -5,9 +5,9 @@ mod report;
 mod table;
 
 pub(super) use cells::Head;
-pub use cells::{Cell, Cells};
+pub use cells::{AxisReport, Cell, Cells};
 pub use report::{
-    AspectReport, AxisReport, BoundaryPoint, Conditioned, CoordinateReport, HeldReport, ModeReport,
+    AspectReport, BoundaryPoint, Conditioned, CoordinateReport, HeldReport, ModeReport,
     WorkspaceReport,
 };
 

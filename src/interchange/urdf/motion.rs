@@ -4,12 +4,12 @@ use std::collections::HashSet;
 
 use roxmltree::Node;
 
+use super::read::Hanging;
 use crate::geometry::Vector3;
 use crate::interchange::page::{child, children};
 use crate::interchange::problem::ImportProblemKind;
 use crate::interchange::remark::Remark;
 use crate::interchange::tree::{Joint, Motion};
-use crate::interchange::xml::Xml;
 
 /// The unit vector along three numbers, if they give a direction.
 pub(crate) fn direction([x, y, z]: [f64; 3]) -> Option<Vector3<f64>> {
@@ -28,52 +28,9 @@ pub(super) fn least_along(axis: &Vector3<f64>) -> usize {
     (0..3).fold(0, |i, j| if size(j) < size(i) { j } else { i })
 }
 
-/// The same robot without shapes, masses, extensions.
-pub(super) fn reduced(robot: Node, links: &[String], joints: &[(Node, String)]) -> String {
-    let mut xml = Xml::new();
-    let kept = |node: Node, names: &[&'static str]| -> Vec<(&'static str, String)> {
-        let given = names
-            .iter()
-            .filter_map(|name| Some((*name, node.attribute(*name)?.to_owned())));
-        given.collect()
-    };
-    xml.open("robot", &kept(robot, &["name", "version"]));
-    for link in links {
-        xml.leaf("link", &[("name", link.clone())]);
-    }
-    for (joint, _) in joints {
-        xml.open("joint", &kept(*joint, &["name", "type"]));
-        for (element, attributes) in [
-            ("origin", &["xyz", "rpy", "quat_xyzw"][..]),
-            ("parent", &["link"]),
-            ("child", &["link"]),
-            ("axis", &["xyz"]),
-            ("mimic", &["joint", "multiplier", "offset"]),
-        ] {
-            if let Some(part) = child(*joint, element) {
-                let attributes = kept(part, attributes);
-                // an absent axis is the default one
-                if element != "axis" || !attributes.is_empty() {
-                    xml.leaf(element, &attributes);
-                }
-            }
-        }
-        if let Some(limit) = child(*joint, "limit") {
-            let mut attributes = kept(limit, &["lower", "upper"]);
-            attributes.push(("velocity", "0".into()));
-            xml.leaf("limit", &attributes);
-        }
-        xml.close("joint");
-    }
-    xml.close("robot");
-    xml.text()
-}
-
 /// The joints of a link, as turns and slides about axes through its own frame.
-pub(super) fn moving(part: &urdf_rs::Joint, actuated: bool) -> Vec<Joint> {
-    use urdf_rs::JointType;
-    let axis = direction(part.axis.xyz.0).unwrap_or(Vector3::unit(0));
-    let limits = (part.limit.lower, part.limit.upper);
+pub(super) fn moving(part: &Hanging, name: &str, actuated: bool) -> Vec<Joint> {
+    let (axis, limits) = (part.axis, part.limits);
     let finite = limits.0.is_finite() && limits.1.is_finite();
     // two zeros mean absent limits
     let limited = finite && limits.0 <= limits.1 && limits != (0.0, 0.0);
@@ -86,25 +43,24 @@ pub(super) fn moving(part: &urdf_rs::Joint, actuated: bool) -> Vec<Joint> {
             ..Joint::new(name, motion, axis)
         }
     };
-    let name = || part.name.clone();
-    match part.joint_type {
-        JointType::Fixed => Vec::new(),
-        JointType::Revolute => vec![joint(name(), Motion::Turn, axis, limited)],
-        JointType::Continuous => vec![joint(name(), Motion::Turn, axis, false)],
-        JointType::Prismatic => vec![joint(name(), Motion::Slide, axis, limited)],
-        JointType::Floating => vec![joint(name(), Motion::Free, axis, false)],
-        JointType::Spherical => vec![joint(name(), Motion::Ball, axis, false)],
-        JointType::Planar => {
+    let one = |motion, limited| vec![joint(name.to_owned(), motion, axis, limited)];
+    match part.kind {
+        "revolute" => one(Motion::Turn, limited),
+        "continuous" => one(Motion::Turn, false),
+        "prismatic" => one(Motion::Slide, limited),
+        "floating" => one(Motion::Free, false),
+        "spherical" => one(Motion::Ball, false),
+        "planar" => {
             // in the plane that the axis is normal to
             let across = axis.cross(&Vector3::unit(least_along(&axis)));
             let x = across.times(1.0 / across.norm());
-            let name = |suffix: &str| format!("{}_{suffix}", part.name);
             vec![
-                joint(name("x"), Motion::Slide, x, false),
-                joint(name("y"), Motion::Slide, axis.cross(&x), false),
-                joint(name("turn"), Motion::Turn, axis, false),
+                joint(format!("{name}_x"), Motion::Slide, x, false),
+                joint(format!("{name}_y"), Motion::Slide, axis.cross(&x), false),
+                joint(format!("{name}_turn"), Motion::Turn, axis, false),
             ]
         }
+        _ => Vec::new(),
     }
 }
 

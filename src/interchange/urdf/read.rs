@@ -1,17 +1,18 @@
 //! URDF → tree.
 //!
-//! The poses of links and joints are read by urdf-rs, from a text reduced to links and joints: shapes and masses are
-//! not used, and their problems do not matter. Loops, which URDF does not have, are read in the five
-//! ways in which programs have added them; see `loops.rs`.
+//! Only what moves is read: shapes and masses do not matter here, and whatever is wrong with them does not either. Loops,
+//! which URDF does not have, are read in the five ways in which programs have added them; `loops.rs` knows these.
+//! Versions of the format differ in two points: from 1.1 on `quat_xyzw` may turn an origin, and from 1.2 on a limit that
+//! is left out is none (before, it is 0).
 
 use std::collections::{BTreeMap, HashMap, HashSet};
 
 use roxmltree::Node;
 
 use super::loops;
-use super::motion::{direction, driven, moving, no_axis, reduced};
-use crate::geometry::Pose;
-use crate::interchange::page::{Problems, child, children, document, pose_of};
+use super::motion::{direction, driven, moving, no_axis};
+use crate::geometry::{Pose, Vector3};
+use crate::interchange::page::{Problems, child, children, document, turned};
 use crate::interchange::problem::{ImportProblem, ImportProblemKind};
 use crate::interchange::remark::Remark;
 use crate::interchange::tree::{Body, Coupling, Tree};
@@ -37,6 +38,7 @@ pub(crate) fn read(text: &str) -> Read {
     let mut reader = Reader {
         problems: Problems(Vec::new()),
         remarks: Vec::new(),
+        version: version(robot),
         links: Vec::new(),
         joints: Vec::new(),
     };
@@ -44,9 +46,19 @@ pub(crate) fn read(text: &str) -> Read {
     reader.finish(robot)
 }
 
+/// The version of the format that a file says it has; 1.0 if it says none that can be read.
+fn version(robot: Node) -> (u32, u32) {
+    let parse = |text: &str| {
+        let (major, minor) = text.trim().split_once('.')?;
+        Some((major.parse().ok()?, minor.parse().ok()?))
+    };
+    robot.attribute("version").and_then(parse).unwrap_or((1, 0))
+}
+
 struct Reader<'a, 'i> {
     problems: Problems,
     remarks: Vec<Remark>,
+    version: (u32, u32),
     links: Vec<String>,
     joints: Vec<(Node<'a, 'i>, String)>,
 }
@@ -112,13 +124,6 @@ impl<'a, 'i> Reader<'a, 'i> {
             return Err(self.problems.0);
         }
         let hangs: Vec<Hanging> = hangs.into_iter().flatten().collect();
-        let read = match urdf_rs::read_from_string(&reduced(robot, &self.links, &joints)) {
-            Ok(read) => read,
-            Err(error) => {
-                let message = error.to_string();
-                return Err(vec![ImportProblemKind::Reader { message }.anywhere()]);
-            }
-        };
         let driven = driven(robot, &joints, &mut self.remarks);
         let children = hangs.iter().enumerate();
         let joint_of: HashMap<&str, usize> = children.map(|(i, h)| (h.child.as_str(), i)).collect();
@@ -130,16 +135,16 @@ impl<'a, 'i> Reader<'a, 'i> {
             let mut body = Body::new(link.clone(), None, Pose::identity());
             body.frames.push((link.clone(), Pose::identity()));
             if let Some(&i) = joint_of.get(link.as_str()) {
-                let part = &read.joints[i];
-                body.parent = index.get(hangs[i].parent.as_str()).copied();
-                body.pose = pose_of(part.origin.xyz.0, part.origin.rpy.0);
-                body.joints = moving(part, driven[i]);
-                if let Some(mimic) = &part.mimic {
+                let (part, name) = (&hangs[i], &joints[i].1);
+                body.parent = index.get(part.parent.as_str()).copied();
+                body.pose = part.origin;
+                body.joints = moving(part, name, driven[i]);
+                if let Some((leader, factor, offset)) = &part.mimic {
                     couplings.push(Coupling {
-                        joint: part.name.clone(),
-                        leader: mimic.joint.clone(),
-                        factor: mimic.multiplier.unwrap_or(1.0),
-                        offset: mimic.offset.unwrap_or(0.0),
+                        joint: name.clone(),
+                        leader: leader.clone(),
+                        factor: *factor,
+                        offset: *offset,
                     });
                 }
             }
@@ -163,23 +168,61 @@ impl<'a, 'i> Reader<'a, 'i> {
         }
     }
 
-    /// The links of a joint; its numbers are checked too.
+    /// The origin of a joint, turned by `rpy` or `quat_xyzw`.
+    fn origin(&mut self, node: Node) -> Pose<f64> {
+        let mut pose = self.problems.origin(node);
+        if self.version < (1, 1) {
+            return pose;
+        }
+        if let Some([x, y, z, w]) = self.problems.numbers::<4>(node, "quat_xyzw") {
+            if node.has_attribute("rpy") {
+                let problem = ImportProblemKind::Unsupported {
+                    what: "an origin with both `rpy` and `quat_xyzw`".into(),
+                    help: "leave one of them out",
+                };
+                self.problems.say(problem, node);
+            }
+            match direction([x, y, z]).is_some() || w != 0.0 {
+                true => pose.rotation = turned([w, x, y, z]),
+                false => {
+                    let text = node.attribute("quat_xyzw").unwrap_or_default().to_owned();
+                    self.problems
+                        .say(ImportProblemKind::NoOrientation { text }, node);
+                }
+            }
+        }
+        pose
+    }
+
+    /// What a joint joins, where, and how it moves.
     fn hanging(&mut self, node: Node, name: &str) -> Option<Hanging> {
         let kind = self.problems.word(node, "type", TYPES);
+        let mut origin = None;
         for part in children(node, "origin") {
-            self.problems.origin(part);
+            let pose = self.origin(part);
+            origin.get_or_insert(pose);
         }
+        let mut along = Vector3::unit(0);
         if let Some(axis) = child(node, "axis")
-            && let Some(along) = self.problems.numbers::<3>(axis, "xyz")
-            && matches!(
-                kind,
-                Some("revolute" | "continuous" | "prismatic" | "planar")
-            )
-            && direction(along).is_none()
+            && let Some(given) = self.problems.numbers::<3>(axis, "xyz")
         {
-            let joint = name.to_owned();
-            self.problems.say(no_axis(joint), axis);
+            let needs_axis = kind.is_some_and(|kind| {
+                matches!(kind, "revolute" | "continuous" | "prismatic" | "planar")
+            });
+            match direction(given) {
+                Some(unit) => along = unit,
+                None if needs_axis => {
+                    let joint = name.to_owned();
+                    self.problems.say(no_axis(joint), axis);
+                }
+                None => {}
+            }
         }
+        let absent = match self.version < (1, 2) {
+            true => (0.0, 0.0),
+            false => (f64::NEG_INFINITY, f64::INFINITY),
+        };
+        let mut limits = None;
         for part in children(node, "limit") {
             let [low, high] = ["lower", "upper"].map(|name| self.problems.number(part, name));
             if let (Some(low), Some(high)) = (low, high)
@@ -188,12 +231,19 @@ impl<'a, 'i> Reader<'a, 'i> {
                 let what = format!("limits from {low} to {high}, the lower above the upper");
                 self.problems.unsupported::<()>(what, "exchange them", part);
             }
+            limits.get_or_insert((low.unwrap_or(absent.0), high.unwrap_or(absent.1)));
         }
-        if let Some(mimic) = child(node, "mimic") {
-            for name in ["multiplier", "offset"] {
-                self.problems.numbers::<1>(mimic, name);
-            }
-            self.problems.needed(mimic, "joint");
+        let mut mimic = None;
+        if let Some(part) = child(node, "mimic") {
+            let [factor, offset] = ["multiplier", "offset"].map(|name| {
+                let number = self.problems.numbers::<1>(part, name);
+                number.map(|[number]| number)
+            });
+            let leader = self.problems.needed(part, "joint");
+            mimic = leader.map(|leader| {
+                let leader = leader.to_owned();
+                (leader, factor.unwrap_or(1.0), offset.unwrap_or(0.0))
+            });
         }
         let ends = ["parent", "child"].map(|end| {
             let part = self.problems.needed_child(node, end)?;
@@ -209,6 +259,11 @@ impl<'a, 'i> Reader<'a, 'i> {
         Some(Hanging {
             parent: parent?,
             child: child?,
+            kind: kind?,
+            origin: origin.unwrap_or(Pose::identity()),
+            axis: along,
+            limits: limits.unwrap_or((0.0, 0.0)),
+            mimic,
         })
     }
 
@@ -217,7 +272,7 @@ impl<'a, 'i> Reader<'a, 'i> {
         let mut parent_of: HashMap<&str, (usize, &str)> = HashMap::new();
         let mut below: HashMap<&str, Vec<&str>> = HashMap::new();
         for (i, hanging) in hangs.iter().enumerate() {
-            let Some(Hanging { parent, child }) = hanging else {
+            let Some(Hanging { parent, child, .. }) = hanging else {
                 continue;
             };
             if let Some((other, _)) = parent_of.get(child.as_str()) {
@@ -290,8 +345,17 @@ fn is_xacro(node: Node) -> bool {
     namespace.is_some_and(|uri| uri.contains("xacro"))
 }
 
-/// The links that a joint joins.
-struct Hanging {
+/// A joint: the links that it joins, and how the child moves.
+pub(super) struct Hanging {
     parent: String,
     child: String,
+    /// One of [`TYPES`].
+    pub kind: &'static str,
+    origin: Pose<f64>,
+    /// Unit vector in the child's frame.
+    pub axis: Vector3<f64>,
+    /// Radians or metres; two zeros or an infinite one are limits that are not given.
+    pub limits: (f64, f64),
+    /// The joint that is followed, the factor and the offset.
+    mimic: Option<(String, f64, f64)>,
 }

@@ -1,32 +1,20 @@
 //! Tree → URDF, without its loops.
 
-use urdf_rs::{
-    Axis, Geometry, Inertia, Inertial, JointLimit, JointType, Link, LinkName, Mass, Mimic, Robot,
-    Vec3, Visual,
-};
-
 use crate::description::ClosureKind;
 use crate::geometry::{Pose, RollPitchYaw};
 use crate::interchange::remark::Remark;
-use crate::interchange::tree::{Body, Joint, Loop, Motion, Tree};
+use crate::interchange::tree::{Body, Coupling, Joint, Loop, Motion, Tree};
+use crate::interchange::xml::{Xml, number, numbers, vector};
 
 /// The limit of a prismatic joint that has none, in units of the size of the mechanism.
 const FAR: f64 = 1000.0;
 
-/// The text of a URDF file, with remarks on what it cannot express.
-///
-/// # Errors
-/// If the text cannot be written; with the error of the XML writer.
-pub fn write(tree: &Tree) -> Result<(String, Vec<Remark>), String> {
+/// The text of a URDF file, and what it does not say.
+pub fn write(tree: &Tree) -> (String, Vec<Remark>) {
     let mut writer = UrdfWriter {
         tree,
-        robot: Robot {
-            name: tree.name.clone(),
-            version: None,
-            links: Vec::new(),
-            joints: Vec::new(),
-            materials: Vec::new(),
-        },
+        links: Vec::new(),
+        joints: Vec::new(),
         remarks: Vec::new(),
         unlimited: Vec::new(),
         away: Vec::new(),
@@ -39,7 +27,8 @@ pub fn write(tree: &Tree) -> Result<(String, Vec<Remark>), String> {
     }
     let kept = writer.losses();
     let UrdfWriter {
-        robot,
+        links,
+        joints,
         mut remarks,
         unlimited,
         away,
@@ -56,21 +45,31 @@ pub fn write(tree: &Tree) -> Result<(String, Vec<Remark>), String> {
         });
     }
     remarks.push(Remark::MassesInvented);
-    let text = urdf_rs::write_to_string(&robot).map_err(|error| error.to_string())?;
-    Ok((text.trim_end().to_owned() + "\n", remarks))
+    let mut xml = Xml::new();
+    xml.open("robot", &[("name", tree.name.clone())]);
+    for (name, moves) in &links {
+        write_link(&mut xml, name, *moves, tree.size);
+    }
+    for joint in &joints {
+        joint.write(&mut xml);
+    }
+    xml.close("robot");
+    (xml.text(), remarks)
 }
 
 struct UrdfWriter<'a> {
     tree: &'a Tree,
-    robot: Robot,
+    /// The names of links, and which of them move.
+    links: Vec<(String, bool)>,
+    joints: Vec<Written<'a>>,
     remarks: Vec<Remark>,
     unlimited: Vec<String>,
     /// Joints that are not at 0 at home.
     away: Vec<String>,
 }
 
-impl UrdfWriter<'_> {
-    /// The lengths of distances: joints of bodies without children.
+impl<'a> UrdfWriter<'a> {
+    /// The lengths of distances: joints of bodies that nothing else follows.
     fn is_lost(&self, body: &Body) -> bool {
         let [joint] = body.joints.as_slice() else {
             return false;
@@ -118,9 +117,9 @@ impl UrdfWriter<'_> {
         false
     }
 
-    fn body(&mut self, index: usize, body: &Body, home: &[Pose<f64>]) {
+    fn body(&mut self, index: usize, body: &'a Body, home: &[Pose<f64>]) {
         let Some(parent) = body.parent else {
-            self.robot.links.push(link(&body.name, None));
+            self.links.push((body.name.clone(), false));
             self.frames(body);
             return;
         };
@@ -132,29 +131,24 @@ impl UrdfWriter<'_> {
                 true => body.name.clone(),
                 false => format!("{}.{}", body.name, joint.name),
             };
-            let mut written = self.joint(joint, &parent, &child, &origin);
+            let mut written = self.joint(joint, &parent, &child, origin);
             if joint.motion == Motion::Free {
                 self.floating(index, body, home, &mut written);
             }
-            self.robot.joints.push(written);
-            self.robot.links.push(link(&child, Some(self.tree.size)));
+            self.joints.push(written);
+            self.links.push((child.clone(), true));
             (parent, origin) = (child, Pose::identity());
         }
         self.frames(body);
     }
 
-    /// Fixes floating bodies that a rigid closure attaches.
-    fn floating(
-        &mut self,
-        index: usize,
-        body: &Body,
-        home: &[Pose<f64>],
-        written: &mut urdf_rs::Joint,
-    ) {
+    /// A floating body is fixed where a rigid closure says so.
+    fn floating(&mut self, index: usize, body: &Body, home: &[Pose<f64>], written: &mut Written) {
         let Some((of, side)) = self.fixing(index) else {
-            written.origin = placed(&home[index]);
-            let platform = body.name.clone();
-            self.remarks.push(Remark::Floating { platform });
+            written.origin = home[index];
+            self.remarks.push(Remark::Floating {
+                platform: body.name.clone(),
+            });
             return;
         };
         let (own, other) = (&of.sides[side], &of.sides[1 - side]);
@@ -163,69 +157,60 @@ impl UrdfWriter<'_> {
             closure: of.name.clone(),
             frame: other.frame.clone(),
         };
-        written.joint_type = JointType::Fixed;
-        written.parent.link = self.tree.bodies[other.body].name.clone();
-        written.origin = placed(&(other.pose * own.pose.inverse()));
+        written.kind = "fixed";
+        written.parent = self.tree.bodies[other.body].name.clone();
+        written.origin = other.pose * own.pose.inverse();
         self.remarks.push(fixed);
     }
 
-    /// Further frames of the body, as links fixed to it.
-    fn frames(&mut self, body: &Body) {
+    /// Frames that are not the body's own, as links fixed to it.
+    fn frames(&mut self, body: &'a Body) {
         for (name, pose) in &body.frames {
             if *name == body.name && *pose == Pose::identity() {
                 continue;
             }
-            let mut joint = fixed(&body.name, name);
-            joint.origin = placed(pose);
-            self.robot.joints.push(joint);
-            self.robot.links.push(link(name, None));
+            self.joints.push(Written {
+                name: format!("{} to {name}", body.name),
+                kind: "fixed",
+                origin: *pose,
+                parent: body.name.clone(),
+                child: name.clone(),
+                moves: None,
+            });
+            self.links.push((name.clone(), false));
         }
     }
 
     fn joint(
         &mut self,
-        joint: &Joint,
+        joint: &'a Joint,
         parent: &str,
         child: &str,
-        at: &Pose<f64>,
-    ) -> urdf_rs::Joint {
-        let (joint_type, limits) = match (joint.motion, joint.limits) {
-            (Motion::Turn, None) => (JointType::Continuous, None),
-            (Motion::Turn, limits) => (JointType::Revolute, limits),
-            (Motion::Slide, Some(limits)) => (JointType::Prismatic, Some(limits)),
+        origin: Pose<f64>,
+    ) -> Written<'a> {
+        let (kind, limits) = match (joint.motion, joint.limits) {
+            (Motion::Turn, None) => ("continuous", None),
+            (Motion::Turn, limits) => ("revolute", limits),
+            (Motion::Slide, Some(limits)) => ("prismatic", Some(limits)),
             (Motion::Slide, None) => {
                 let far = FAR * self.tree.size;
                 self.unlimited.push(joint.name.clone());
-                (JointType::Prismatic, Some((-far, far)))
+                ("prismatic", Some((-far, far)))
             }
-            (Motion::Ball | Motion::Free, _) => (JointType::Floating, None),
+            (Motion::Ball | Motion::Free, _) => ("floating", None),
         };
         let coupling = self.tree.couplings.iter().find(|c| c.joint == joint.name);
         let moves = matches!(joint.motion, Motion::Turn | Motion::Slide);
         if moves && coupling.is_none() && joint.home != 0.0 {
             self.away.push(joint.name.clone());
         }
-        let (lower, upper) = limits.unwrap_or((f64::NEG_INFINITY, f64::INFINITY));
-        urdf_rs::Joint {
+        Written {
             name: joint.name.clone(),
-            joint_type,
-            origin: placed(at),
-            axis: Axis {
-                xyz: Vec3(joint.axis.0.map(|x| x + 0.0)),
-            },
-            limit: JointLimit {
-                lower,
-                upper,
-                effort: if joint.actuated { FAR } else { 0.0 },
-                velocity: FAR,
-                ..JointLimit::default()
-            },
-            mimic: coupling.map(|coupling| Mimic {
-                joint: coupling.leader.clone(),
-                multiplier: Some(coupling.factor),
-                offset: Some(coupling.offset),
-            }),
-            ..fixed(parent, child)
+            kind,
+            origin,
+            parent: parent.to_owned(),
+            child: child.to_owned(),
+            moves: Some((joint, limits, coupling)),
         }
     }
 
@@ -259,55 +244,94 @@ impl UrdfWriter<'_> {
     }
 }
 
-fn fixed(parent: &str, child: &str) -> urdf_rs::Joint {
-    urdf_rs::Joint {
-        name: format!("{parent} to {child}"),
-        joint_type: JointType::Fixed,
-        origin: urdf_rs::Pose::default(),
-        parent: LinkName {
-            link: parent.into(),
-        },
-        child: LinkName { link: child.into() },
-        axis: Axis::default(),
-        limit: JointLimit::default(),
-        calibration: None,
-        dynamics: None,
-        mimic: None,
-        safety_controller: None,
+/// A joint as it is written.
+struct Written<'a> {
+    name: String,
+    /// The word of its type.
+    kind: &'static str,
+    origin: Pose<f64>,
+    parent: String,
+    child: String,
+    /// What moves, its limits, and what it follows.
+    moves: Option<(&'a Joint, Option<(f64, f64)>, Option<&'a Coupling>)>,
+}
+
+impl Written<'_> {
+    fn write(&self, xml: &mut Xml) {
+        let kind = self.kind.to_owned();
+        xml.open("joint", &[("name", self.name.clone()), ("type", kind)]);
+        write_origin(xml, &self.origin);
+        xml.leaf("parent", &[("link", self.parent.clone())]);
+        xml.leaf("child", &[("link", self.child.clone())]);
+        match self.moves {
+            // readers want an axis and a limit of joints that do not move too
+            None => {
+                xml.leaf("axis", &[("xyz", numbers([1.0, 0.0, 0.0]))]);
+                xml.leaf("limit", &limit(Some((0.0, 0.0)), 0.0, 0.0));
+            }
+            Some((joint, limits, coupling)) => {
+                xml.leaf("axis", &[("xyz", vector(&joint.axis))]);
+                let effort = if joint.actuated { FAR } else { 0.0 };
+                xml.leaf("limit", &limit(limits, effort, FAR));
+                if let Some(coupling) = coupling {
+                    let attributes = [
+                        ("joint", coupling.leader.clone()),
+                        ("multiplier", number(coupling.factor)),
+                        ("offset", number(coupling.offset)),
+                    ];
+                    xml.leaf("mimic", &attributes);
+                }
+            }
+        }
+        xml.close("joint");
     }
 }
 
-fn placed(pose: &Pose<f64>) -> urdf_rs::Pose {
+fn limit(limits: Option<(f64, f64)>, effort: f64, velocity: f64) -> Vec<(&'static str, String)> {
+    let mut attributes = Vec::new();
+    if let Some((low, high)) = limits {
+        attributes.extend([("lower", number(low)), ("upper", number(high))]);
+    }
+    attributes.extend([("effort", number(effort)), ("velocity", number(velocity))]);
+    attributes
+}
+
+fn write_origin(xml: &mut Xml, pose: &Pose<f64>) {
     let RollPitchYaw { roll, pitch, yaw } = RollPitchYaw::from_rotation(&pose.rotation);
-    urdf_rs::Pose {
-        xyz: Vec3(pose.position.0.map(|x| x + 0.0)),
-        rpy: Vec3([roll, pitch, yaw].map(|x| x + 0.0)),
-    }
+    let attributes = [
+        ("xyz", vector(&pose.position)),
+        ("rpy", numbers([roll, pitch, yaw])),
+    ];
+    xml.leaf("origin", &attributes);
 }
 
-/// A link; one that moves, in a mechanism of some size, has a made-up mass and a ball at its joint.
-fn link(name: &str, moves: Option<f64>) -> Link {
-    let mut link = Link {
-        name: name.into(),
-        inertial: Inertial::default(),
-        visual: Vec::new(),
-        collision: Vec::new(),
+/// A link; one that moves has a made-up mass and a ball at its joint.
+fn write_link(xml: &mut Xml, name: &str, moves: bool, size: f64) {
+    let (mass, inertia) = match moves {
+        true => (0.1, 1e-3 * size * size),
+        false => (0.0, 0.0),
     };
-    if let Some(size) = moves {
-        let inertia = 1e-3 * size * size;
-        link.inertial.mass = Mass { value: 0.1 };
-        link.inertial.inertia = Inertia {
-            ixx: inertia,
-            iyy: inertia,
-            izz: inertia,
-            ..Inertia::default()
-        };
-        link.visual.push(Visual {
-            geometry: Geometry::Sphere {
-                radius: 0.02 * size,
-            },
-            ..Visual::default()
-        });
+    xml.open("link", &[("name", name.to_owned())]);
+    xml.open("inertial", &[]);
+    write_origin(xml, &Pose::identity());
+    xml.leaf("mass", &[("value", number(mass))]);
+    let moments = [
+        ("ixx", inertia),
+        ("ixy", 0.0),
+        ("ixz", 0.0),
+        ("iyy", inertia),
+        ("iyz", 0.0),
+        ("izz", inertia),
+    ];
+    xml.leaf("inertia", &moments.map(|(name, x)| (name, number(x))));
+    xml.close("inertial");
+    if moves {
+        xml.open("visual", &[]);
+        write_origin(xml, &Pose::identity());
+        xml.open("geometry", &[]);
+        xml.leaf("sphere", &[("radius", number(0.02 * size))]);
+        xml.close("geometry");
+        xml.close("visual");
     }
-    link
+    xml.close("link");
 }

@@ -25,7 +25,7 @@ pub(super) fn explanation(report: &MobilityReport) -> String {
         (links, "Kutzbach's count includes"),
         (
             rods,
-            "Kutzbach's count leaves out too, for a `Distance` has none",
+            "Kutzbach's count leaves out too, as a `Distance` does not model it",
         ),
     ] {
         match &spins[..] {
@@ -81,8 +81,8 @@ pub(super) fn mobility(report: &MobilityReport) -> String {
         Character::Regular => match report.singular_at {
             None => format!("The mechanism has {}.", freedoms(*mobility)),
             Some(distance) => format!(
-                "The mechanism has {}; the configuration is regular, about {} (rad and lengths \
-                 over {} m) from a singular one.",
+                "The mechanism has {}; the configuration is regular, but only about {} (in rad, and \
+                 lengths over {} m) away from a singular one.",
                 freedoms(*mobility),
                 coarse(distance),
                 number(report.length)
@@ -94,7 +94,8 @@ pub(super) fn mobility(report: &MobilityReport) -> String {
                 None => "no finite step closes".into(),
             };
             format!(
-                "Shaky: it has {} to first order, none of them finite ({gap}), so it cannot move.",
+                "Infinitesimally flexible (shaky): it has {} to first order, none of them finite ({gap}), \
+                 so it cannot move.",
                 freedoms(*infinitesimal)
             )
         }
@@ -144,7 +145,7 @@ fn at_least(report: &MobilityReport) -> &'static str {
     }
 }
 
-fn counted(report: &MobilityReport) -> String {
+pub(super) fn counted(report: &MobilityReport) -> String {
     let MobilityReport {
         kutzbach,
         unknowns,
@@ -153,7 +154,7 @@ fn counted(report: &MobilityReport) -> String {
         ..
     } = report;
     if *equations == 0 {
-        return format!("Nothing is closed: all {unknowns} joint variables are free.");
+        return format!("There are no closures: all {unknowns} joint variables are free.");
     }
     let independent = match report.redundant {
         0 => "all of them independent".into(),

@@ -2,36 +2,28 @@
 
 use crate::description::{count, nearest};
 use crate::mechanism::Mechanism;
-use crate::output::option::{Complaint, Part};
-
-fn complaint(title: String, label: &str, help: String) -> Complaint {
-    Complaint {
-        title,
-        label: label.into(),
-        help: Some(help),
-    }
-}
+use crate::output::complaint::{Complaint, Part};
 
 /// A side of a box without a range.
-pub fn no_side(name: &str) -> (Complaint, Part) {
-    let said = complaint(
+pub fn no_side(name: &str) -> Complaint {
+    let said = Complaint::with_help(
         format!("the side `{name}` of the box has no range"),
         "no range",
         format!("write --locus {name}=FROM..TO, e.g. --locus {name}=0deg..360deg"),
     );
-    (said, Part::WholeValue)
+    said.at(Part::WholeValue)
 }
 
 /// A box without an inside.
-pub fn empty_side(name: &str) -> (Complaint, Part) {
-    let said = complaint(
+pub fn empty_side(name: &str) -> Complaint {
+    let said = Complaint::with_help(
         format!("the box is empty: the range of `{name}` does not end above its beginning"),
         "empty",
         "write the lower end first; for one value hold it with --hold, and for singularities along \
          the other coordinate use --input"
             .into(),
     );
-    (said, Part::WholeValue)
+    said.at(Part::WholeValue)
 }
 
 /// Not two coordinates for a locus.
@@ -40,7 +32,7 @@ pub fn not_two_sides(given: usize) -> Complaint {
         1 => "for singularities along one coordinate use --input NAME=FROM..TO",
         _ => "hold the others with --hold",
     };
-    complaint(
+    Complaint::with_help(
         format!(
             "a locus is a curve in two coordinates, and {} given",
             match given {
@@ -55,7 +47,7 @@ pub fn not_two_sides(given: usize) -> Complaint {
 
 /// Nothing can be driven.
 pub fn nothing_to_drive() -> Complaint {
-    complaint(
+    Complaint::with_help(
         "nothing is driven: singularities are told of inputs".into(),
         "",
         "hold the joints that are driven with --hold; whether a mechanism without freedoms is shaky \
@@ -66,7 +58,7 @@ pub fn nothing_to_drive() -> Complaint {
 
 /// Links spin about their own lines, and no joint tells how far.
 pub fn spinning(spins: usize) -> Complaint {
-    complaint(
+    Complaint::with_help(
         format!(
             "{} of the mechanism stay whatever the inputs do, links that spin about their own lines",
             count(spins, "freedom")
@@ -79,7 +71,7 @@ pub fn spinning(spins: usize) -> Complaint {
 }
 
 /// An output that is neither a joint, a coordinate nor a frame.
-pub fn unknown_output(mechanism: &Mechanism, name: &str) -> (Complaint, Part) {
+pub fn unknown_output(mechanism: &Mechanism, name: &str) -> Complaint {
     let frames = mechanism.frames().into_iter();
     let mut known: Vec<String> = frames.map(|frame| mechanism.frame_name(frame)).collect();
     known.extend(mechanism.joints().iter().map(|joint| joint.name.clone()));
@@ -87,6 +79,6 @@ pub fn unknown_output(mechanism: &Mechanism, name: &str) -> (Complaint, Part) {
         Some(meant) => format!("did you mean `{meant}`?"),
         None => "an output is a joint, a platform coordinate such as `top.x`, or a frame".into(),
     };
-    let said = complaint(format!("`{name}` is not an output"), "not known", help);
-    (said, Part::Name)
+    let said = Complaint::with_help(format!("`{name}` is not an output"), "not known", help);
+    said
 }

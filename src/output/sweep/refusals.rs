@@ -3,23 +3,15 @@
 use crate::analysis::sweep::PointError;
 use crate::description::{count, listed};
 use crate::mechanism::Mechanism;
-use crate::output::option::{Complaint, Part};
+use crate::output::complaint::{Complaint, Part};
 use crate::output::quantity::{number, quantity};
-use crate::output::question::{unknown_frame, value};
+use crate::output::question::{quoted, unknown_frame, value};
 use crate::system::QuestionError;
-
-fn complaint(title: String, label: &str, help: String) -> Complaint {
-    Complaint {
-        title,
-        label: label.into(),
-        help: Some(help),
-    }
-}
 
 /// Nothing is said to move.
 pub fn what_moves(actuated: Option<&str>) -> Complaint {
     let name = actuated.unwrap_or("NAME");
-    complaint(
+    Complaint::with_help(
         "nothing is said to move".into(),
         "",
         format!(
@@ -30,50 +22,43 @@ pub fn what_moves(actuated: Option<&str>) -> Complaint {
 }
 
 /// A value that is no range.
-pub fn no_range(name: &str) -> (Complaint, Part) {
-    let said = complaint(
+pub fn no_range(name: &str) -> Complaint {
+    let said = Complaint::with_help(
         format!("the input `{name}` has no range"),
         "no range",
         format!("write --input {name}=FROM..TO, e.g. --input {name}=0deg..90deg"),
     );
-    (said, Part::WholeValue)
+    said.at(Part::WholeValue)
 }
 
 /// A range of no length.
-pub fn nothing_moves(name: &str, value: &str) -> (Complaint, Part) {
-    let said = complaint(
+pub fn nothing_moves(name: &str, value: &str) -> Complaint {
+    let said = Complaint::with_help(
         format!("`{name}` does not move: its range begins where it ends"),
         "no length",
         format!(
             "for one configuration ask `linkwork solve`, with --hold {name}={}",
-            quoted(value)
+            quoted(value.trim())
         ),
     );
-    (said, Part::WholeValue)
-}
-
-fn quoted(value: &str) -> String {
-    match value.trim().contains(' ') {
-        true => format!("\"{}\"", value.trim()),
-        false => value.trim().into(),
-    }
+    said.at(Part::WholeValue)
 }
 
 /// A number of steps that is none.
 pub fn no_steps(steps: usize, most: usize, rows_kept: bool) -> Complaint {
     match steps {
-        0 => complaint(
+        0 => Complaint::with_help(
             "a motion in no steps has no rows".into(),
             "",
             "give at least one step, e.g. --steps 100; for one configuration ask `linkwork solve`"
                 .into(),
         ),
-        _ if rows_kept => complaint(
+        _ if rows_kept => Complaint::with_help(
             format!("{steps} steps are too many to keep: up to {most} are"),
             "",
             "write rows as they come with --format csv".into(),
         ),
-        _ => complaint(
+        _ => Complaint::with_help(
             format!("{steps} steps are too many: up to {most} are made"),
             "",
             "what happens between them is found without them: dead points and crossings are located \
@@ -84,13 +69,13 @@ pub fn no_steps(steps: usize, most: usize, rows_kept: bool) -> Complaint {
 }
 
 /// An input that begins outside the limits of its joint.
-pub fn outside(name: &str, limits: (f64, f64), is_angle: bool) -> (Complaint, Part) {
+pub fn outside(name: &str, limits: (f64, f64), is_angle: bool) -> Complaint {
     let shown = |x: f64| quantity(x, is_angle);
     let written = |x: f64| match is_angle {
         true => format!("{}deg", number(x.to_degrees())),
         false => number(x),
     };
-    let said = complaint(
+    let said = Complaint::with_help(
         format!(
             "the range of `{name}` begins outside its limits, {} to {}",
             shown(limits.0),
@@ -103,7 +88,7 @@ pub fn outside(name: &str, limits: (f64, f64), is_angle: bool) -> (Complaint, Pa
             written(limits.1)
         ),
     );
-    (said, Part::WholeValue)
+    said.at(Part::WholeValue)
 }
 
 /// Not one freedom is left to follow.
@@ -120,7 +105,7 @@ pub fn not_one_freedom(error: &QuestionError) -> Complaint {
                 .iter()
                 .map(|name| format!("--hold {name}=home"))
                 .collect();
-            complaint(
+            Complaint::with_help(
                 format!("{} are left, and a curve has one", count(left, "freedom")),
                 "",
                 format!(
@@ -130,7 +115,7 @@ pub fn not_one_freedom(error: &QuestionError) -> Complaint {
                 ),
             )
         }
-        other => complaint(other.title(), "", "hold other coordinates".into()),
+        other => Complaint::with_help(other.title(), "", "hold other coordinates".into()),
     }
 }
 
@@ -146,24 +131,21 @@ pub fn nothing_left(held: &[String]) -> Complaint {
             "hold one less".to_owned(),
         ),
     };
-    complaint(title, "", help)
+    Complaint::with_help(title, "", help)
 }
 
 /// What is wrong with a traced point.
-pub fn point_complaint(mechanism: &Mechanism, error: &PointError) -> (Complaint, Part) {
+pub fn point_complaint(mechanism: &Mechanism, error: &PointError) -> Complaint {
     match error {
         PointError::NoFrame(name) => unknown_frame(mechanism, name),
-        PointError::Value { text, error } => {
-            let (said, _) = value(text, error);
-            (said, Part::Name)
-        }
+        PointError::Value { text, error } => value(text, error).at(Part::Name),
         PointError::TooMany(given) => {
-            let said = complaint(
+            let said = Complaint::with_help(
                 format!("a point has three offsets from its frame, and {given} are given"),
                 "too many",
                 "write FRAME+X,Y,Z, e.g. --of left+0.5,0.2,0".into(),
             );
-            (said, Part::Name)
+            said
         }
     }
 }

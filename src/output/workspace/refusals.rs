@@ -2,36 +2,26 @@
 
 use crate::description::{count, listed};
 use crate::mechanism::{Mechanism, Role};
-use crate::output::option::{Complaint, Part};
+use crate::output::complaint::{Complaint, Part};
 use crate::output::quantity::number;
 use crate::system::QuestionError;
 
-fn said(title: String, label: &str, help: String) -> Complaint {
-    Complaint {
-        title,
-        label: label.into(),
-        help: Some(help),
-    }
-}
-
 /// A mapped coordinate without a range.
-pub fn no_range(name: &str) -> (Complaint, Part) {
+pub fn no_range(name: &str) -> Complaint {
     let help = format!(
         "write --map {name}=FROM..TO, e.g. --map {name}=-1..1 or --map {name}=-90deg..90deg"
     );
-    (
-        said(
-            format!("the map of `{name}` has no range"),
-            "no range",
-            help,
-        ),
-        Part::WholeValue,
+    Complaint::with_help(
+        format!("the map of `{name}` has no range"),
+        "no range",
+        help,
     )
+    .at(Part::WholeValue)
 }
 
 /// A range that comes round again.
 pub fn more_than_a_turn(name: &str) -> Complaint {
-    said(
+    Complaint::with_help(
         format!(
             "the map of `{name}` is wider than a full turn, after which everything comes again"
         ),
@@ -41,10 +31,10 @@ pub fn more_than_a_turn(name: &str) -> Complaint {
 }
 
 /// A box without an inside.
-pub fn empty_side(name: &str, _: &str) -> (Complaint, Part) {
+pub fn empty_side(name: &str, _: &str) -> Complaint {
     let title = format!("the map is empty: the range of `{name}` does not end above its beginning");
     let help = "write the lower end first; for one value hold it with --hold".to_owned();
-    (said(title, "empty", help), Part::WholeValue)
+    Complaint::with_help(title, "empty", help).at(Part::WholeValue)
 }
 
 /// Nothing mapped, or too much.
@@ -66,12 +56,12 @@ pub fn too_many_axes(mechanism: &Mechanism, given: usize) -> Complaint {
             .join(" "),
     };
     match given {
-        0 => said(
+        0 => Complaint::with_help(
             "nothing is mapped".into(),
             "",
             format!("say which coordinates, and from where to where, e.g. {example}"),
         ),
-        n => said(
+        n => Complaint::with_help(
             format!("{n} coordinates are mapped, and a map has one, two or three"),
             "",
             "hold the others with --hold".into(),
@@ -80,12 +70,9 @@ pub fn too_many_axes(mechanism: &Mechanism, given: usize) -> Complaint {
 }
 
 /// A coordinate that is mapped and held.
-pub fn also_held(name: &str) -> (Complaint, Part) {
+pub fn also_held(name: &str) -> Complaint {
     let title = format!("`{name}` is both mapped and held");
-    (
-        said(title, "also held", "give only one of them".into()),
-        Part::Name,
-    )
+    Complaint::with_help(title, "also held", "give only one of them".into())
 }
 
 /// A name where there is no platform.
@@ -102,7 +89,7 @@ pub fn no_platform(mechanism: &Mechanism, error: &QuestionError) -> Option<Compl
     }
     let joints = mechanism.joints().iter();
     let joints: Vec<&str> = joints.map(|joint| joint.name.as_str()).collect();
-    Some(said(
+    Some(Complaint::with_help(
         format!("`{name}` is no joint, and the mechanism has no platform"),
         "not known",
         format!(
@@ -134,7 +121,7 @@ pub fn wrong_count(
                 are(*held)
             );
             let help = format!("do not map {}: the others determine it", listed(&away));
-            (!away.is_empty()).then(|| said(title, "", help))
+            (!away.is_empty()).then(|| Complaint::with_help(title, "", help))
         }
         QuestionError::TooFew { mobility, held, .. } => {
             let first = missing.first()?;
@@ -151,7 +138,7 @@ pub fn wrong_count(
                 "map or hold {} too, e.g. --hold {first}=home or --map {first}={range}",
                 listed(missing)
             );
-            Some(said(title, "", help))
+            Some(Complaint::with_help(title, "", help))
         }
         QuestionError::Dependent { free, hold } => {
             let (away, rest): (Vec<String>, Vec<String>) =
@@ -175,7 +162,7 @@ pub fn wrong_count(
                 ways.join(" and "),
                 listed(hold)
             );
-            (!away.is_empty()).then(|| said(title, "", help))
+            (!away.is_empty()).then(|| Complaint::with_help(title, "", help))
         }
         _ => None,
     }
@@ -189,12 +176,12 @@ fn are(held: usize) -> String {
 /// A grid that is none, or not one for these coordinates.
 pub fn wrong_grid(given: &[usize], axes: usize) -> Complaint {
     match given.iter().any(|n| *n < 2) {
-        true => said(
+        true => Complaint::with_help(
             "a grid has at least 2 nodes along each coordinate".into(),
             "",
             "give --grid 50, or a number for each coordinate, e.g. --grid 60,40".into(),
         ),
-        false => said(
+        false => Complaint::with_help(
             format!(
                 "{} numbers of nodes are given for {}",
                 given.len(),
@@ -208,7 +195,7 @@ pub fn wrong_grid(given: &[usize], axes: usize) -> Complaint {
 
 /// A grid that is too fine to be kept.
 pub fn too_fine(nodes: f64, bytes: f64, most: f64) -> Complaint {
-    said(
+    Complaint::with_help(
         format!(
             "the grid has {} nodes, which in one mode alone take some {} GB",
             number(nodes),
@@ -224,7 +211,7 @@ pub fn too_fine(nodes: f64, bytes: f64, most: f64) -> Complaint {
 
 /// More modes than can be kept.
 pub fn too_many_cells(cells: usize, most: f64) -> Complaint {
-    said(
+    Complaint::with_help(
         format!(
             "{cells} nodes in modes were reached, which take the {} GB that may be taken",
             number(most / 1e9)
@@ -236,7 +223,7 @@ pub fn too_many_cells(cells: usize, most: f64) -> Complaint {
 
 /// A boundary of a map with one coordinate is no curve.
 pub fn boundary_flat() -> Complaint {
-    said(
+    Complaint::with_help(
         "the boundary of a map with one coordinate is points, not curves".into(),
         "",
         "--format json has them as `points`".into(),

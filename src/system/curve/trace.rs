@@ -223,15 +223,7 @@ impl Region<'_> {
         let reach = 0.2 * method.longest;
         let point = method.branch_point(curve, &place.at, reach)?;
         let way = curve.difference(&place.at, &point.at);
-        if dot(&way, &place.tangent) < 0.9 * norm(&way) {
-            return None;
-        }
-        let along = |d: &Vec<f64>| dot(d, &place.tangent);
-        let straight = (point.directions.iter())
-            .max_by(|a, b| along(a).abs().total_cmp(&along(b).abs()))
-            .filter(|d| along(d).abs() > 0.9)?;
-        let sign = along(straight).signum();
-        let straight: Vec<f64> = straight.iter().map(|x| sign * x).collect();
+        let straight = point.straight_on(&way, &place.tangent)?;
         let (to, _) = method.leave(curve, &point.at, &straight)?;
         Some([point.place(curve, &straight), to])
     }
@@ -243,9 +235,20 @@ type Half<P> = (Vec<Place<P>>, LocusEnd, Vec<Place<P>>);
 /// The place of a curve that Gauss–Newton steps of bounded length reach from afar, if they do.
 pub fn settled<C: SolutionCurve>(
     curve: &mut C,
-    mut point: C::Point,
+    point: C::Point,
     method: &Continuation,
 ) -> Option<Place<C::Point>> {
+    let near = neared(curve, point, |size, _| size < 1e-3)?;
+    method.settle(curve, near).ok()
+}
+
+/// The point to which Gauss–Newton steps of bounded length lead from afar; `arrived` is asked with the
+/// size of the next step and the residual. `None` if they do not arrive.
+pub fn neared<C: SolutionCurve>(
+    curve: &mut C,
+    mut point: C::Point,
+    arrived: impl Fn(f64, &[f64]) -> bool,
+) -> Option<C::Point> {
     const STEPS: usize = 40;
     const LONGEST: f64 = 0.5;
     let regular = curve.unknowns().saturating_sub(1);
@@ -258,8 +261,8 @@ pub fn settled<C: SolutionCurve>(
             Decomposition::of_rank(residual.len(), curve.unknowns(), &jacobian, regular);
         let mut step = decomposition.solve(&residual);
         let size = norm(&step);
-        if size < 1e-3 {
-            return method.settle(curve, point).ok();
+        if arrived(size, &residual) {
+            return Some(point);
         }
         let factor = (LONGEST / size).min(1.0);
         step.iter_mut().for_each(|x| *x *= -factor);
@@ -321,8 +324,8 @@ pub fn met_at<C: ConfigurationCurve>(
     beside.into_iter().flatten().find_map(|i| foot(curve, i))
 }
 
-/// The place between two where the curve comes back to its start.
-fn closed<C: ConfigurationCurve>(
+/// The place between two where the curve comes back to its start, of which `gone` is the length so far.
+pub(super) fn closed<C: ConfigurationCurve>(
     curve: &mut C,
     start: &Place<C::Point>,
     from: &Place<C::Point>,

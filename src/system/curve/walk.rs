@@ -1,6 +1,9 @@
 //! A walk along a curve of assembled configurations that names everything it meets.
 
+use std::ops::ControlFlow;
+
 use super::Curve;
+use super::trace::closed;
 use crate::linear::{dot, norm};
 use crate::mechanism::{Configuration, Mechanism};
 use crate::solve::{BranchPoint, Continuation, Place, SolutionCurve, Stray};
@@ -102,6 +105,23 @@ impl<'m> Walk<'m> {
         self.gone
     }
 
+    /// Goes on leg by leg until the visitor breaks; its value.
+    ///
+    /// # Errors
+    /// As [`Walk::advance`].
+    pub fn follow<B>(
+        &mut self,
+        curve: &mut Curve,
+        mut visit: impl FnMut(&mut Curve, &Leg) -> ControlFlow<B>,
+    ) -> Result<B, Stray> {
+        loop {
+            let leg = self.advance(curve)?;
+            if let ControlFlow::Break(value) = visit(curve, &leg) {
+                return Ok(value);
+            }
+        }
+    }
+
     /// The next leg. After one that ended where branches meet, the walk goes on straight.
     ///
     /// # Errors
@@ -152,18 +172,7 @@ impl<'m> Walk<'m> {
         let guess = curve.displaced(&self.place.at, &step);
         let point = self.method.branch_point(curve, &guess, 2.0 * ahead)?;
         let way = curve.difference(&self.place.at, &point.at);
-        let straight = dot(&way, &self.place.tangent) > 0.9 * norm(&way);
-        let along = |d: &Vec<f64>| dot(d, &self.place.tangent);
-        let best = point
-            .directions
-            .iter()
-            .max_by(|a, b| along(a).abs().total_cmp(&along(b).abs()));
-        let direction = best.filter(|d| along(d).abs() > 0.9)?;
-        if !straight {
-            return None;
-        }
-        let sign = along(direction).signum();
-        let direction: Vec<f64> = direction.iter().map(|x| sign * x).collect();
+        let direction = point.straight_on(&way, &self.place.tangent)?;
         let to = point.place(curve, &direction);
         let from = self.place.clone();
         let mut leg = self.leg(curve, from, to.clone());
@@ -201,7 +210,7 @@ impl<'m> Walk<'m> {
     fn leg(&mut self, curve: &mut Curve, from: At, to: At) -> Leg {
         /// Rates below this are those of joints that do not move.
         const STILL: f64 = 1e-10;
-        let method = Regular(self.method.clone());
+        let method = &self.method.clone();
         let mut events: Vec<(At, Event)> = Vec::new();
         let changes = |a: f64, b: f64| (a < 0.0) != (b < 0.0) && a.abs().max(b.abs()) > STILL;
         for joint in 0..to.at.joints.len() {
@@ -256,60 +265,12 @@ impl<'m> Walk<'m> {
                 events.push((place, Event::Root(i)));
             }
         }
-        if let Some(place) = self.closed(curve, &from, &to) {
+        if let Some(place) = closed(curve, &self.start, &from, &to, self.gone, method) {
             events.push((place, Event::Closed));
         }
         let along = |p: &At| dot(&curve.difference(&from.at, &p.at), &from.tangent);
         events.sort_by(|(a, _), (b, _)| along(a).total_cmp(&along(b)));
         Leg { from, to, events }
-    }
-
-    /// The place between two that is the start again.
-    fn closed(&self, curve: &mut Curve, from: &At, to: &At) -> Option<At> {
-        /// Two configurations this near are the same.
-        const SAME: f64 = 1e-7;
-        let step = norm(&curve.difference(&from.at, &to.at));
-        let gap = curve.difference_but_turns(&from.at, &self.start.at);
-        // the first legs leave the start, and it lies behind
-        if norm(&gap) > 2.0 * step || self.gone <= 1.5 * step {
-            return None;
-        }
-        let start = &self.start;
-        let ahead = |curve: &Curve, p: &At| {
-            dot(
-                &curve.difference_but_turns(&start.at, &p.at),
-                &start.tangent,
-            )
-        };
-        let (a, b) = (ahead(curve, from), ahead(curve, to));
-        if !(a < 0.0 && b >= 0.0) {
-            return None;
-        }
-        let place = Regular(self.method.clone()).root(curve, from, to, &mut |c, p| ahead(c, p));
-        let apart = norm(&curve.difference_but_turns(&start.at, &place.at));
-        (apart < SAME && dot(&place.tangent, &start.tangent) > 0.5).then_some(place)
-    }
-}
-
-/// Roots between two places, of which the first may be a branch point.
-struct Regular(Continuation);
-
-impl Regular {
-    fn root(
-        &self,
-        curve: &mut Curve,
-        from: &At,
-        to: &At,
-        f: &mut dyn FnMut(&mut Curve, &At) -> f64,
-    ) -> At {
-        match from.least() > 1e-9 * from.largest() {
-            true => self.0.root(curve, from, to, f),
-            // bracketed from the regular end
-            false => {
-                let (from, to) = (to.clone().reversed(), from.clone().reversed());
-                self.0.root(curve, &from, &to, f).reversed()
-            }
-        }
     }
 }
 

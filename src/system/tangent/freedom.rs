@@ -1,6 +1,6 @@
 use super::neighbourhood::Neighbourhood;
 use crate::geometry::{RollPitchYaw, Vector3};
-use crate::linear::{SPECTRUM_LIMIT, Spectrum, rank};
+use crate::linear::{INDEPENDENT, SPECTRUM_LIMIT, Spectrum, rank};
 use crate::mechanism::{Configuration, Coordinate, Dimensions, Mechanism};
 use crate::solve::{Equations, Newton, Stop};
 use crate::system::{Held, Holdable, System, Unknown};
@@ -228,7 +228,7 @@ impl Mobility {
                     .for_each(|(a, b)| *a -= along * b);
             }
             let left = norm(&row);
-            if left > 1e-6 && left > 1e-6 * size {
+            if left > INDEPENDENT && left > INDEPENDENT * size {
                 row.iter_mut().for_each(|a| *a /= left);
                 basis.push(row);
                 chosen.push(candidate);

@@ -8,6 +8,7 @@
 use nalgebra::DMatrix;
 
 use crate::geometry::{Quaternion, Vector3};
+use crate::linear::INDEPENDENT;
 use crate::mechanism::{Configuration, Mechanism, PlatformPose};
 use crate::number::{Interval, Number};
 use crate::solve::Equations;
@@ -261,7 +262,7 @@ pub(crate) fn independent_rows(rows: usize, columns: usize, dense: &[f64]) -> Ve
             }
         }
         let left = row.iter().map(|x| x * x).sum::<f64>().sqrt();
-        if left > 1e-6 * size.max(1e-3) && basis.len() < columns {
+        if left > INDEPENDENT * size.max(1e-3) && basis.len() < columns {
             basis.push(row.iter().map(|x| x / left).collect());
             chosen.push(r);
         }

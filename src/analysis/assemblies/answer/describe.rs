@@ -5,6 +5,7 @@ use super::real::{named_joints, named_poses};
 use super::{Found, Question};
 use crate::analysis::assemblies::family::{C, Coordinates};
 use crate::analysis::assemblies::report::{AssembliesReport, Assembly};
+use crate::linear::ILL_CONDITIONED;
 use crate::number::Number;
 use crate::solve::{Equations, Stage};
 use crate::system::Work;
@@ -46,7 +47,9 @@ impl Question<'_> {
             let stopped = (self.watch).stops(Stage::Certificates, k, Some(found.len()));
             let (first, last) = extremes(rows, columns, dense);
             let condition = match (first, last) {
-                (Some(a), Some(b)) if rows >= columns && b > 1e-12 * a && f.multiplicity == 1 => {
+                (Some(a), Some(b))
+                    if rows >= columns && b > ILL_CONDITIONED * a && f.multiplicity == 1 =>
+                {
                     Some(a / b)
                 }
                 (None, _) => Some(1.0),

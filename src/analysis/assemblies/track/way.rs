@@ -3,6 +3,7 @@
 use super::place::{Course, Place};
 use crate::analysis::assemblies::family::{C, Family, Member};
 use crate::geometry::{Quaternion, Vector3};
+use crate::linear::ILL_CONDITIONED;
 use crate::number::Number;
 use crate::solve::{Equations, Homotopy};
 
@@ -189,7 +190,7 @@ impl Way<'_> {
         }
         let matrix = nalgebra::DMatrix::from_vec(residual.len(), columns, jacobian);
         let values = (residual.len() >= columns).then(|| matrix.singular_values())?;
-        (values.min() > 1e-12 * values.max()).then(|| values.max() / values.min())
+        (values.min() > ILL_CONDITIONED * values.max()).then(|| values.max() / values.min())
     }
 
     /// How many directions are free at a point.

@@ -73,11 +73,10 @@ fn begun(
     if place.is_beside_a_crossing() || !measure.same(place.at.view(), from.view()) {
         return Err(Met::Nothing);
     }
-    let rate = curve.part_rate(&place.at, &place.tangent);
+    let (place, rate) = curve.towards_end(place);
     if rate.abs() < 1e-9 {
         return Err(Met::Fold(place.at, 0.0));
     }
-    let place = if rate < 0.0 { place.reversed() } else { place };
     Ok((curve, place))
 }
 

@@ -4,9 +4,23 @@ use serde::de::Error;
 use serde::ser::SerializeStruct;
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
 
-use super::report::AxisReport;
-
+use crate::algebra::SiUnit;
 use crate::mechanism::Variable;
+
+/// A mapped coordinate.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct AxisReport {
+    /// Its name.
+    pub name: String,
+    /// rad or m.
+    pub unit: SiUnit,
+    /// Its least value.
+    pub from: f64,
+    /// Its greatest value.
+    pub to: f64,
+    /// Nodes along it.
+    pub nodes: usize,
+}
 
 /// A table of nodes in modes, sorted by nodes and modes.
 #[derive(Clone, Debug, Default, PartialEq)]

@@ -3,7 +3,7 @@
 use serde::de::Error;
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
 
-use super::cells::Cells;
+use super::cells::{AxisReport, Cells};
 use crate::algebra::SiUnit;
 use crate::analysis::workspace::boundary::{BoundaryCurve, BoundaryKind};
 use crate::mechanism::Variable;
@@ -85,21 +85,6 @@ impl<'de> Deserialize<'de> for WorkspaceReport {
         report.cells = cells.ok_or_else(|| D::Error::custom("rows do not fit their columns"))?;
         Ok(report)
     }
-}
-
-/// A mapped coordinate.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub struct AxisReport {
-    /// Its name.
-    pub name: String,
-    /// rad or m.
-    pub unit: SiUnit,
-    /// Its least value.
-    pub from: f64,
-    /// Its greatest value.
-    pub to: f64,
-    /// Nodes along it.
-    pub nodes: usize,
 }
 
 /// A coordinate.

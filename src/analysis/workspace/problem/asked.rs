@@ -6,7 +6,7 @@ use crate::mechanism::{Configuration, Coordinate, Mechanism, PlatformPose};
 use crate::number::Packed;
 use crate::solve::Newton;
 use crate::system::{
-    Driven, HeldPlatform, Holdable, Lock, Mobility, Question, System, with_coordinates,
+    Driven, HeldPlatform, Holdable, Lock, Mobility, Question, System, actuated, with_coordinates,
 };
 
 /// A question with some of its held coordinates mapped.
@@ -51,9 +51,6 @@ impl<'m> Asked<'m> {
                 held.push(holdable);
             }
         }
-        let joints = mechanism.joints().iter().enumerate();
-        let actuated = joints.filter(|(_, j)| j.role == crate::mechanism::Role::Actuated);
-        let inputs: Vec<Holdable> = actuated.map(|(i, _)| Holdable::Joint(i)).collect();
         let platforms = 0..mechanism.platforms().len();
         let coordinates: Vec<Holdable> = platforms
             .flat_map(|p| Coordinate::ALL.map(|c| Holdable::Coordinate(p, c)))
@@ -73,7 +70,7 @@ impl<'m> Asked<'m> {
             mechanism,
             question: question.clone(),
             axes: axes.to_vec(),
-            inputs: whole(inputs),
+            inputs: whole(actuated(mechanism)),
             outputs: whole(outputs),
             held,
             newton: newton.clone(),

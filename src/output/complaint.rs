@@ -1,0 +1,71 @@
+//! What is wrong with a question or an option, as data: how it looks is decided where it is shown.
+
+use std::ops::Range;
+
+use serde::{Deserialize, Serialize};
+
+use crate::description::Problem;
+
+/// An option as it was given: `--set l1=2*l0`.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Given<'a> {
+    /// The option with its dashes.
+    pub option: &'a str,
+    /// The name before the equals sign.
+    pub name: &'a str,
+    /// What follows the equals sign, if there is one.
+    pub value: Option<&'a str>,
+}
+
+/// What is wrong with something, in words.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub struct Complaint {
+    /// What is wrong, in one sentence without a full stop.
+    pub title: String,
+    /// A few words to stand under the offending part; may be empty.
+    pub label: String,
+    /// What to do about it.
+    pub help: Option<String>,
+    /// Which part of the option is wrong, if one asked for it.
+    pub part: Part,
+}
+
+/// Which part of an option is wrong.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub enum Part {
+    /// The name.
+    Name,
+    /// Bytes of the value.
+    Value(Range<usize>),
+    /// The whole value.
+    WholeValue,
+}
+
+impl Complaint {
+    /// What is wrong, a few words for the offending part, which may be empty, and what to do.
+    pub fn new(title: String, label: &str, help: Option<String>) -> Self {
+        Complaint {
+            title,
+            label: label.into(),
+            help,
+            part: Part::Name,
+        }
+    }
+
+    /// The same about another part of the option than its name.
+    #[must_use]
+    pub fn at(self, part: Part) -> Self {
+        Complaint { part, ..self }
+    }
+
+    /// The same where there is something to do.
+    pub fn with_help(title: String, label: &str, help: String) -> Self {
+        Complaint::new(title, label, Some(help))
+    }
+
+    /// The words for a problem of a mechanism file.
+    pub fn of(problem: &Problem) -> Self {
+        let kind = &problem.kind;
+        Complaint::new(kind.title(), &kind.label(), kind.help())
+    }
+}

@@ -1,0 +1,182 @@
+//! What is driven and what moves out, where a question does not name it.
+//!
+//! Velocities have rows for all that is free ([`free_outputs`]); singularities ask what stands still
+//! ([`platform_outputs`], [`default_outputs`]); both have the inputs of [`inputs_of`] or [`actuated`].
+
+use super::Question;
+use crate::geometry::Axis;
+use crate::mechanism::{Body, Coordinate, Frame, Mechanism, Role};
+use crate::system::{Held, HeldPlatform, Holdable, Lock};
+
+/// The actuated joints, in the order of the file.
+pub fn actuated(mechanism: &Mechanism) -> Vec<Holdable> {
+    let joints = mechanism.joints().iter().enumerate();
+    let actuated = joints.filter(|(_, joint)| joint.role == Role::Actuated);
+    actuated.map(|(i, _)| Holdable::Joint(i)).collect()
+}
+
+/// What is driven: the held coordinates if all of them are joints, else the actuated joints.
+pub fn inputs_of(question: &Question) -> Vec<Holdable> {
+    let held = question.held_coordinates();
+    if held.iter().all(|h| matches!(h, Holdable::Joint(_))) {
+        let mut held = held;
+        held.sort_by_key(|h| match h {
+            Holdable::Joint(joint) => *joint,
+            Holdable::Coordinate(..) | Holdable::Turn(..) => usize::MAX,
+        });
+        return held;
+    }
+    let actuated = actuated(question.mechanism());
+    match actuated.is_empty() {
+        true => held,
+        false => actuated,
+    }
+}
+
+/// What moves out where nothing else is asked for: the platforms; of an open chain the tips; else
+/// the joints on the ground that are not driven; else the points where the chains are joined.
+pub fn default_outputs(mechanism: &Mechanism, inputs: &[Holdable]) -> Vec<Lock> {
+    let platforms = 0..mechanism.platforms().len();
+    let platforms: Vec<Lock> = platforms
+        .map(|platform| Lock::Frame(Frame::Platform { platform }))
+        .collect();
+    if !platforms.is_empty() {
+        return platforms;
+    }
+    if mechanism.closures().is_empty() {
+        let tips = 0..mechanism.chains().len();
+        return tips
+            .map(|chain| Lock::Frame(Frame::Tip { chain }))
+            .collect();
+    }
+    let mut grounded: Vec<Holdable> = Vec::new();
+    for chain in mechanism.chains() {
+        let first = chain.rows.iter().map(|row| row.joints());
+        let first = first.into_iter().find(|joints| !joints.is_empty());
+        if mechanism.body(chain.on) == Body::Ground {
+            grounded.extend(first.into_iter().flatten().map(Holdable::Joint));
+        }
+    }
+    grounded.retain(|joint| !inputs.contains(joint));
+    grounded.dedup();
+    if !grounded.is_empty() {
+        return grounded.into_iter().map(Lock::Coordinate).collect();
+    }
+    let closures = mechanism.closures().iter();
+    closures
+        .map(|closure| Lock::Point(closure.frames[0]))
+        .collect()
+}
+
+/// The coordinates of platforms that a question is about, where it is about nothing else: those that
+/// are held, and those that move. A whole orientation turns about the axes of ground, and a whole
+/// pose is the platform.
+pub fn platform_outputs(
+    held: &Held<f64>,
+    moved: &[Holdable],
+    inputs: &[Holdable],
+) -> Option<Vec<Lock>> {
+    let joint = |h: &Holdable| matches!(h, Holdable::Joint(_));
+    let moves_joint = moved.iter().any(joint);
+    if held.joints.contains(&true) || moves_joint || !inputs.iter().all(joint) {
+        return None;
+    }
+    let mut outputs = Vec::new();
+    for (platform, held) in held.platforms.iter().enumerate() {
+        let asked = |c: Coordinate| {
+            let held = match held {
+                HeldPlatform::Free => false,
+                HeldPlatform::Pose => true,
+                HeldPlatform::Partly {
+                    coordinates,
+                    orientation,
+                } => {
+                    coordinates.iter().any(|(held, _)| *held == c)
+                        || orientation.is_some() && c.is_angle()
+                }
+            };
+            let coordinate = Holdable::Coordinate(platform, c);
+            held || moved.contains(&coordinate)
+        };
+        let all: Vec<Coordinate> = Coordinate::ALL.into_iter().filter(|c| asked(*c)).collect();
+        if all.len() == Coordinate::ALL.len() {
+            outputs.push(Lock::Frame(Frame::Platform { platform }));
+            continue;
+        }
+        let turned = all.iter().filter(|c| c.is_angle()).count() == 3;
+        outputs.extend(all.into_iter().map(|c| {
+            Lock::Coordinate(match c {
+                Coordinate::Roll if turned => Holdable::Turn(platform, Axis::X),
+                Coordinate::Pitch if turned => Holdable::Turn(platform, Axis::Y),
+                Coordinate::Yaw if turned => Holdable::Turn(platform, Axis::Z),
+                c => Holdable::Coordinate(platform, c),
+            })
+        }));
+    }
+    (!outputs.is_empty()).then_some(outputs)
+}
+
+/// What the inputs drive.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Output {
+    /// The twist of a platform.
+    Twist(Frame),
+    /// The velocity of a frame's origin.
+    Point(Frame),
+    /// The rate of a joint.
+    Joint(usize),
+    /// The rate of a coordinate of a platform.
+    Coordinate(usize, Coordinate),
+    /// A component of the angular velocity of a platform.
+    Turn(usize, Axis),
+}
+
+/// The outputs of a question: what is free of the platforms, and with a platform coordinate held the
+/// driven joints that are free; if there is nothing of that, the free joints that something
+/// determines.
+///
+/// Of a platform that is partly held the angular velocity is free if no angle is held, else the
+/// other angles.
+pub fn free_outputs(mechanism: &Mechanism, held: &[Holdable], spinning: &[usize]) -> Vec<Output> {
+    let mut outputs = Vec::new();
+    for platform in 0..mechanism.platforms().len() {
+        let is_held = |c: &Coordinate| held.contains(&Holdable::Coordinate(platform, *c));
+        let of_it = |holdable: &Holdable| match holdable {
+            Holdable::Coordinate(of, _) | Holdable::Turn(of, _) => *of == platform,
+            Holdable::Joint(_) => false,
+        };
+        if !held.iter().any(of_it) {
+            outputs.push(Output::Twist(Frame::Platform { platform }));
+        } else if held.iter().filter(|held| of_it(held)).count() < 6 {
+            let (angles, shifts): (Vec<Coordinate>, _) =
+                Coordinate::ALL.into_iter().partition(|c| c.is_angle());
+            let coordinate =
+                |c: Coordinate| (!is_held(&c)).then_some(Output::Coordinate(platform, c));
+            let turned =
+                (held.iter()).any(|held| matches!(held, Holdable::Turn(of, _) if *of == platform));
+            match angles.iter().any(is_held) {
+                _ if turned => {}
+                true => outputs.extend(angles.into_iter().filter_map(coordinate)),
+                false => {
+                    outputs.extend(
+                        [Axis::X, Axis::Y, Axis::Z].map(|axis| Output::Turn(platform, axis)),
+                    );
+                }
+            }
+            outputs.extend(Vec::into_iter(shifts).filter_map(coordinate));
+        }
+    }
+    let inverse = !held.iter().all(|held| matches!(held, Holdable::Joint(_)));
+    let free =
+        |joint: &usize| !held.contains(&Holdable::Joint(*joint)) && !spinning.contains(joint);
+    let joints = 0..mechanism.joints().len();
+    let driven = |joint: &usize| mechanism.joints()[*joint].role == Role::Actuated;
+    if inverse {
+        let driven = joints.clone().filter(|joint| free(joint) && driven(joint));
+        outputs.extend(driven.map(Output::Joint));
+    }
+    if outputs.is_empty() {
+        outputs.extend(joints.filter(free).map(Output::Joint));
+    }
+    outputs
+}
