@@ -91,16 +91,15 @@ fn idle(report: &AssemblyReport) -> Option<String> {
 
 /// What is not known of other configurations with the same inputs.
 fn others(report: &AssemblyReport) -> Option<String> {
-    let solved = report.variables.iter().any(|joint| !joint.held);
-    let may_differ = report.is_assembled() && solved && !report.gaps.is_empty();
-    let another = match report.restarts {
-        0 => "other assemblies with the same inputs were not looked for",
-        _ => {
-            "reached from a random start: another --seed may lead to another assembly with the \
-             same inputs"
-        }
+    let start = match report.restarts {
+        0 => "",
+        _ => "reached from a random start, so that another seed may lead to another assembly: ",
     };
-    may_differ.then(|| format!("{another}; `linkwork assemblies` lists all of them"))
+    (report.is_assembled() && !report.only).then(|| {
+        format!(
+            "{start}other assemblies may exist with the same inputs; `linkwork assemblies` lists them"
+        )
+    })
 }
 
 fn found(report: &AssemblyReport) -> String {
