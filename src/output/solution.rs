@@ -91,15 +91,16 @@ fn idle(report: &AssemblyReport) -> Option<String> {
 
 /// What is not known of other configurations with the same inputs.
 fn others(report: &AssemblyReport) -> Option<String> {
-    let start = match report.restarts {
-        0 => "",
-        _ => "reached from a random start, so that another seed may lead to another assembly: ",
+    let solved = report.variables.iter().any(|joint| !joint.held);
+    let may_differ = report.is_assembled() && solved && !report.gaps.is_empty();
+    let another = match report.restarts {
+        0 => "other assemblies with the same inputs were not looked for",
+        _ => {
+            "reached from a random start: another --seed may lead to another assembly with the \
+             same inputs"
+        }
     };
-    (report.is_assembled() && !report.only).then(|| {
-        format!(
-            "{start}other assemblies may exist with the same inputs; `linkwork assemblies` lists them"
-        )
-    })
+    may_differ.then(|| format!("{another}; `linkwork assemblies` lists all of them"))
 }
 
 fn found(report: &AssemblyReport) -> String {
