@@ -24,7 +24,7 @@ use crate::mechanism::{Configuration, Mechanism, PlatformPose, PoseCoordinate};
 use crate::system::{Coordinate, Held, HeldPlatform};
 use demand::Target;
 
-/// What is asked of a mechanism: which coordinates are held at which values, and where to start.
+/// A question about a mechanism: which coordinates are held at which values, and where to start.
 ///
 /// A fresh question holds the actuated joints at home and starts at the home configuration. Joints
 /// are named as in the file, platform coordinates `top.x`, `top.y`, `top.z` (m) and `top.roll`,
@@ -41,7 +41,7 @@ pub struct Question<'a> {
     guessed_platforms: Vec<bool>,
     changed: bool,
     split_changed: bool,
-    /// What was demanded by name so far.
+    /// The demands made by name so far.
     demands: Vec<(Target, Demand)>,
 }
 
@@ -70,8 +70,8 @@ impl<'a> Question<'a> {
     /// `value` is a number in m or rad, or a text as in the file ([`Value`]).
     ///
     /// # Errors
-    /// If there is no such joint or coordinate, the value has none, or something else was demanded of
-    /// it before.
+    /// If there is no such joint or coordinate, the value has none, or something else was demanded
+    /// of it before.
     pub fn hold(mut self, name: &str, value: impl Into<Value>) -> Result<Self, QuestionError> {
         let value = &value.into();
         match self.demand(Verb::Hold, name, Some(value))? {

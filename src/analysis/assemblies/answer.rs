@@ -66,7 +66,7 @@ struct Group {
 pub(super) struct Gathered {
     pub found: Vec<Found>,
     complex: Vec<(Vec<f64>, ComplexAssembly)>,
-    /// Real solutions by themselves to which no path led.
+    /// Simple real solutions to which no path led.
     pub unexpected: usize,
     /// Multiple solutions to which no path led.
     pub multiple: usize,
@@ -218,8 +218,8 @@ impl Question<'_> {
         })
     }
 
-    /// Of real solutions that are one, as two conjugate complex ones are whose real part is assembled,
-    /// one is kept, with the multiplicity of all; how many others there were.
+    /// Of real solutions that are one, as two conjugate complex ones are whose real part is
+    /// assembled, one is kept, with the multiplicity of all; how many others there were.
     fn merge(&self, found: &mut Vec<Found>, homotopy: &mut ParameterHomotopy<'_>) -> usize {
         let flat = |f: &Found| self.coordinates.flatten(&f.point.map(C::from_f64));
         let mut kept: Vec<Found> = Vec::new();

@@ -171,7 +171,7 @@ pub(super) fn follow(
     }))
 }
 
-/// A way that is left where the closures open.
+/// A homotopy that is left where the closures open.
 ///
 /// Beyond a fold nothing closes, but where the Jacobian is singular the least-squares step takes no
 /// notice of the gap that is left: without this, a path may go on through configurations that are

@@ -1,4 +1,4 @@
-//! What moves out: the outputs of a question, and what their choice may hide.
+//! The outputs of a question, and the singularities that their choice may hide.
 
 use serde::{Deserialize, Serialize};
 
@@ -10,8 +10,8 @@ use crate::system::{
     Coordinate, Driven, Held, Lock, Locked, Mobility, default_outputs, platform_outputs,
 };
 
-/// The outputs: those of the settings; else the coordinates of platforms that the question is about;
-/// else the [default](default_outputs).
+/// The outputs: those of the settings; else the coordinates of platforms that the question is
+/// about; else the [default](default_outputs).
 pub(super) fn outputs_of(
     mechanism: &Mechanism,
     held: &Held<f64>,

@@ -1,4 +1,4 @@
-//! From where loci are sought, and what that leads to.
+//! Random starts of the search for loci, and the places they lead to.
 
 use rand::{Rng, SeedableRng};
 use rand_pcg::Pcg64Mcg;
@@ -42,8 +42,9 @@ pub(super) struct Found {
     pub last_new: Option<usize>,
 }
 
-/// Whether more starts are likely to lead to new curves: while some curve was met only once, the chance
-/// that the next arrival is on a new one is about that of such meetings among all (Good 1953).
+/// Whether more starts are likely to lead to new curves: while some curve was met only once, the
+/// chance that the next arrival is on a new one is about that of such meetings among all (Good
+/// 1953).
 ///
 /// Steps lead to an isolated point too seldom for this to say anything of it.
 fn more_is_likely(found: &Found) -> bool {

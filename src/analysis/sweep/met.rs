@@ -1,4 +1,4 @@
-//! What a motion met on its way.
+//! Special points met by a motion.
 
 use serde::{Deserialize, Serialize};
 

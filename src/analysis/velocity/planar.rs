@@ -1,4 +1,4 @@
-//! What only planar mechanisms have: transmission angles and instant centres.
+//! Transmission angles and instant centres of planar mechanisms.
 
 use std::f64::consts::FRAC_PI_2;
 
@@ -123,9 +123,9 @@ struct Known {
 }
 
 impl Known {
-    /// For each part of a loop whether its relative motion follows from what is known: a joint's from
-    /// its variables, a hinge's at a cut also from the sum of all turns around the loop, which is
-    /// zero: where a loop is cut must not matter.
+    /// For each part of a loop whether its relative motion follows from what is known: a joint's
+    /// from its variables, a hinge's at a cut also from the sum of all turns around the loop, which
+    /// is zero: where a loop is cut must not matter.
     fn parts(&self, one: &HingedLoop) -> Vec<bool> {
         let parts = &one.all.parts;
         let is_known = |part: &LoopPart| match part.closure {

@@ -46,8 +46,8 @@ impl Region {
 /// How large a set of nodes is, in the units of the mapped coordinates: a length, an area of
 /// polygons, or the volume between parallel areas (trapezoidal rule).
 ///
-/// `cut` tells how far it reaches from a node of it towards its neighbour in a direction that is
-/// not, as a part of the way.
+/// `cut` gives the fraction of the edge that is inside, from a node of the set towards its
+/// neighbour in a direction that is not in it.
 pub(super) fn size(
     grid: &Grid,
     region: &Region,

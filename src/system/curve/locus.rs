@@ -6,7 +6,7 @@ use crate::mechanism::{Configuration, Mechanism};
 use crate::solve::SolutionCurve;
 use crate::system::{Coordinate, Held, Lock, Locked, Unknown};
 
-/// An assembled configuration with a motion that leaves the locked things at rest.
+/// An assembled configuration with a motion that leaves the locked coordinates and frames at rest.
 #[derive(Clone, Debug)]
 pub struct Singular {
     /// The configuration.
@@ -26,7 +26,7 @@ pub struct Singular {
 pub struct LocusCurve {
     closed: Curve,
     locked: Locked,
-    /// The unknowns that are seen from outside.
+    /// The unknowns of platforms and inputs.
     seen: Vec<bool>,
 }
 
@@ -55,7 +55,7 @@ impl LocusCurve {
         }
     }
 
-    /// The part of a step that is seen from outside: of the platforms and the inputs. Legs that are
+    /// The part of a step that concerns platforms and inputs. Legs that are
     /// folded the other way about their passive joints do not make another locus.
     pub fn seen(&self, step: &[f64]) -> Vec<f64> {
         let parts = step.iter().zip(&self.seen);

@@ -1,4 +1,4 @@
-//! A walk along a curve of assembled configurations that names everything it meets.
+//! Following a curve of assembled configurations and locating its special points.
 
 use std::ops::ControlFlow;
 
@@ -14,7 +14,7 @@ type At = Place<Configuration<f64>>;
 /// A function of places whose zeros are to be located; they are reported by its number.
 pub type Monitor<'m> = Box<dyn FnMut(&mut Curve, &At) -> f64 + 'm>;
 
-/// What a walk meets.
+/// A special point of the curve.
 #[derive(Clone, Debug)]
 pub enum Event {
     /// A joint turns back: it is at the end of its range, and driven there it would lock.
@@ -89,7 +89,7 @@ impl<'m> Walk<'m> {
         }
     }
 
-    /// Also watches these functions.
+    /// Also locates the zeros of these functions.
     pub fn watching(mut self, monitors: Vec<Monitor<'m>>) -> Self {
         self.monitors = monitors;
         self
@@ -189,7 +189,7 @@ impl<'m> Walk<'m> {
         Some(leg)
     }
 
-    /// From a branch point straight on.
+    /// Leaves a branch point straight on.
     fn leave(
         &mut self,
         curve: &mut Curve,
@@ -206,7 +206,7 @@ impl<'m> Walk<'m> {
         Ok(self.leg(curve, from, to))
     }
 
-    /// What is met between two places.
+    /// The special points between two places.
     fn leg(&mut self, curve: &mut Curve, from: At, to: At) -> Segment {
         /// Rates below this are those of joints that do not move.
         const STILL: f64 = 1e-10;
@@ -275,12 +275,12 @@ impl<'m> Walk<'m> {
 }
 
 impl Event {
-    /// Whether the walk cannot or need not go on behind it.
+    /// Whether following ends there.
     pub fn ends(&self) -> bool {
         matches!(self, Event::Limit { .. } | Event::End(_) | Event::Closed)
     }
 
-    /// What turns back, if something does.
+    /// The coordinate that turns back, if one does.
     pub fn turning(&self) -> Option<Coordinate> {
         match self {
             Event::Turning(joint) => Some(Coordinate::Joint(*joint)),

@@ -1,4 +1,4 @@
-//! What is held beside what the mechanism allows.
+//! The number of held coordinates compared with the freedoms of the mechanism.
 
 use serde::{Deserialize, Serialize};
 
@@ -11,7 +11,7 @@ use crate::mechanism::{Configuration, PoseCoordinate};
 use crate::solve::{Newton, Stop};
 use crate::system::{Coordinate, HeldPlatform, Mobility, System};
 
-/// What is held beside what the mechanism allows.
+/// The number of held coordinates compared with the freedoms of the mechanism.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Count {
     /// Freedoms of the mechanism, if it assembles near the start.
@@ -20,7 +20,7 @@ pub struct Count {
     pub held: usize,
 }
 
-/// Compares what is held with what the mechanism allows.
+/// Compares the held coordinates with the freedoms of the mechanism.
 ///
 /// A mechanism may have other freedoms elsewhere, so it is looked at near the start, at the
 /// assembly that Newton's method reaches from there with everything held, and at home. What can be
@@ -103,7 +103,7 @@ fn compared(
         .filter(|c| !held.contains(c))
         .map(name)
         .collect();
-    // what depends on itself at a singular configuration only is for the analysis to tell
+    // a dependence at a singular configuration only is left to the analysis
     if !free.is_empty()
         && !hold.is_empty()
         && Mobility::beside(mechanism, start)

@@ -120,7 +120,8 @@ pub fn moving(mechanism: &Mechanism, unknowns: &[Unknown], motions: &[Vec<f64>])
     shares.into_iter().map(|(name, _)| name).collect()
 }
 
-/// The freedoms of a mechanism with nothing held, at an assembled configuration that is not special.
+/// The freedoms of a mechanism with nothing held, at an assembled configuration that is not
+/// special.
 #[derive(Clone, Debug)]
 pub struct Mobility {
     freedoms: Freedoms,
@@ -197,8 +198,8 @@ impl Mobility {
         self.freedoms.motions.len() - self.idle.min(self.freedoms.motions.len())
     }
 
-    /// Whether the freedoms are finite, tried along one that mixes them all: a shaky structure has
-    /// some that are not.
+    /// Whether the freedoms are finite, tried along one that mixes them all: an infinitesimally
+    /// flexible (shaky) structure has some that are not.
     pub fn is_finite(&self, mechanism: &Mechanism) -> bool {
         let mut near = Neighbourhood::new(mechanism);
         let tangent = near.tangent(self.at.clone());

@@ -1,4 +1,4 @@
-//! Rates and accelerations of everything for those of what is held.
+//! Rates and accelerations of all unknowns for those of the held coordinates.
 
 mod frames;
 mod held;
@@ -17,9 +17,9 @@ type Second = Dual<Dual<f64>>;
 /// Solves the derivatives of the closure equations r(x, h) = 0 for given rates of the held
 /// coordinates h. Built once; nothing allocates afterwards.
 ///
-/// ṙ = J ẋ + H ḣ = 0 gives ẋ = −J⁺ H ḣ, and r̈ = 0 gives ẍ = −J⁺ γ, where γ is r̈ along the path that
-/// has these rates and no acceleration but that of h. H ḣ and γ are the derivatives of the same
-/// residuals over dual numbers.
+/// ṙ = J ẋ + H ḣ = 0 gives ẋ = −J⁺ H ḣ, and r̈ = 0 gives ẍ = −J⁺ γ, where γ is r̈ along the path
+/// that has these rates and no acceleration but that of h. H ḣ and γ are the derivatives of the
+/// same residuals over dual numbers.
 ///
 /// Rates are dimensionless in the order of [`Motion::unknowns`]: rad and characteristic lengths.
 /// At a singular configuration they are one choice of many; see [`Motion::held`] with
@@ -140,8 +140,8 @@ impl Motion {
         }
     }
 
-    /// Rates of everything for rates of the held coordinates in their order, in m and rad per unit
-    /// of time.
+    /// Rates of all unknowns for rates of the held coordinates in their order, in m and rad per
+    /// unit of time.
     pub fn rates(&mut self, given: &[f64]) -> &[f64] {
         for path in &mut self.first_path.joints {
             path.slope = 0.0;
@@ -206,8 +206,8 @@ impl Motion {
         &self.rates
     }
 
-    /// The place of a held coordinate among the unknowns, with the scale of its rate there; none for
-    /// single coordinates of a platform and for its orientation alone, which are equations.
+    /// The place of a held coordinate among the unknowns, with the scale of its rate there; none
+    /// for single coordinates of a platform and for its orientation alone, which are equations.
     fn place(&self, coordinate: Coordinate) -> Option<(usize, f64)> {
         let twist = |platform: usize| self.scales.len() + 6 * platform;
         match coordinate {
@@ -233,9 +233,9 @@ impl Motion {
             .fold(0.0, |most: f64, row| most.max(row.slope.abs()))
     }
 
-    /// The largest acceleration, dimensionless, at which a closure would open with the accelerations
-    /// last computed: more than rounding where no motion has them, at a configuration that is mobile
-    /// to first order only. The accelerations must be the last thing computed.
+    /// The largest acceleration, dimensionless, at which a closure would open with the
+    /// accelerations last computed: more than rounding where no motion has them, at a configuration
+    /// that is mobile to first order only. The accelerations must be the last thing computed.
     pub fn mismatch_of_accelerations(&mut self, at: &Configuration<f64>) -> f64 {
         self.follow_accelerations(at);
         self.second

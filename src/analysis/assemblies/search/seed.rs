@@ -14,7 +14,7 @@ const FAR: f64 = 1e5;
 /// What one seed met.
 pub(crate) enum Seed {
     Nothing,
-    /// A solution by itself.
+    /// A simple isolated solution.
     Isolated(Vec<C>),
     /// Solutions that coincide.
     Multiple,
@@ -30,8 +30,9 @@ pub(crate) fn newton() -> Newton {
     }
 }
 
-/// The solution that Newton's method ended at. Far out, where coordinates are tens of characteristic
-/// lengths, rounding keeps residuals above its tolerance; there the last digits tell.
+/// The solution that Newton's method ended at. Far out, where coordinates are tens of
+/// characteristic lengths, rounding keeps residuals above its tolerance; there the last digits
+/// tell.
 pub(crate) fn solution(
     homotopy: &mut ParameterHomotopy<'_>,
     report: &Report,
@@ -74,8 +75,8 @@ pub(crate) fn newton_seeds(
     if stands_alone(homotopy, zero, &x) {
         return Seed::Isolated(x);
     }
-    // Newton's method from beside a set of solutions ends elsewhere on it, but from beside solutions
-    // that coincide at the same point again
+    // Newton's method from beside a set of solutions ends elsewhere on it, but from beside
+    // solutions that coincide at the same point again
     homotopy.linearise(zero, &homotopy.family.shaken(&x, 0.03, rng));
     let mut beside = homotopy.here.at.clone();
     let report = newton().solve(

@@ -1,11 +1,11 @@
-//! The place on a way where two real solutions meet, to the last digits.
+//! The parameter value where two real solutions meet, to full precision.
 
 use super::homotopy::ParameterHomotopy;
 use crate::analysis::assemblies::family::C;
 use crate::linear::{Decomposition, dot, norm};
 use crate::number::Number;
 
-/// A point of a way where the Jacobian is singular.
+/// A point of a homotopy where the Jacobian is singular.
 pub(crate) struct Meeting {
     pub s: f64,
     pub x: Vec<C>,

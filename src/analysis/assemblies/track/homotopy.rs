@@ -151,8 +151,8 @@ impl ParameterHomotopy<'_> {
         seen.fold(0.0, f64::max) / (1.0 + crate::analysis::assemblies::family::size(x))
     }
 
-    /// A point moved by what an error in every closure of `noise`, beside its slopes and the size of
-    /// the point, does to a solution there. None if the closures leave an unknown undetermined.
+    /// A point moved by what an error in every closure of `noise`, beside its slopes and the size
+    /// of the point, does to a solution there. None if the closures leave an unknown undetermined.
     pub fn jolted(&mut self, s: C, x: &[C], noise: f64, stream: usize) -> Option<Vec<C>> {
         let (residual, jacobian) = self.evaluated(s, x);
         let rows = residual.len();
@@ -171,7 +171,7 @@ impl ParameterHomotopy<'_> {
             })
             .collect();
         self.linearise(s, x);
-        // what Newton's method takes for lost it does not bring back
+        // singular values that Newton's method cuts off it does not recover
         if self.here.system.undetermined(&self.here.work) > 0 {
             return None;
         }

@@ -17,7 +17,8 @@ use crate::number::Number;
 const SUSPECT: f64 = 1e-5;
 /// How far beside a point its neighbours are sought, and beside these theirs.
 const BESIDE: [f64; 2] = [0.03, 2e-3];
-/// What comes back to within this part of the distance it was moved has not stayed where it was put.
+/// What comes back to within this part of the distance it was moved has not stayed where it was
+/// put.
 const BACK: f64 = 0.1;
 /// Points looked at beside the first one.
 const NEIGHBOURS: u64 = 4;
@@ -48,7 +49,8 @@ impl Linear {
         self.values.iter().filter(counts).count()
     }
 
-    /// Of the vectors nearest to a solution of J x = b the shortest, seen by `rank` singular values.
+    /// Of the vectors nearest to a solution of J x = b the shortest, seen by `rank` singular
+    /// values.
     fn solve(&self, b: &DVector<f64>, rank: usize) -> DVector<f64> {
         let mut x = DVector::zeros(self.jacobian.ncols());
         for i in 0..rank {
@@ -133,8 +135,8 @@ impl<'a, 'f> Local<'a, 'f> {
         }
     }
 
-    /// A multiple solution to the last digits: where the equations that the Jacobian sees hold, and
-    /// the others have no slope. `x` itself where that is not within reach.
+    /// A multiple solution to full precision: where the equations in the range of the Jacobian
+    /// hold, and the others have no slope. `x` itself where that is not within reach.
     ///
     /// For null vectors v and what P of the equations no motion changes to first order, a fold has
     /// P J v = 0, which one more derivative makes regular (deflation; Leykin, Verschelde and Zhao

@@ -1,11 +1,11 @@
-//! The equations of the member at one place of a way.
+//! The equations of the member at one parameter value of a homotopy.
 
 use crate::analysis::assemblies::family::{C, Family, Member};
 use crate::geometry::{Quaternion, Vector3};
 use crate::mechanism::{Configuration, PlatformPose};
 use crate::system::{System, Work};
 
-/// From one member straight to another: where it starts, and the difference.
+/// The straight segment from one member to another: its start and the difference.
 #[derive(Clone, Debug)]
 pub(crate) struct Segment {
     pub from: Member,
@@ -113,8 +113,8 @@ mod tests {
     use crate::system::Question;
     use rand::SeedableRng;
 
-    /// A way on which dimensions change gives the same wherever it was before, and factors last made
-    /// serve beside the place ahead that rates are taken from.
+    /// A way on which dimensions change gives the same wherever it was before, and factors last
+    /// made serve beside the place ahead that rates are taken from.
     #[test]
     fn a_place_that_was_left_and_come_back_to_is_the_same() {
         let text = include_str!("../../../../mechanisms/three_rps.ron");

@@ -1,4 +1,4 @@
-//! One path: a solution followed to the end of the way, and what is there.
+//! One path: a solution followed to the end of the homotopy, and what it ends in.
 
 use nalgebra::{DMatrix, DVector};
 
@@ -13,7 +13,7 @@ use crate::solve::{Arrival, Homotopy, Newton, PathEnd, Stages, Tracker, path_end
 /// Where one path ended.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) enum End {
-    /// A solution by itself.
+    /// A simple isolated solution.
     Regular(Vec<C>),
     /// A solution where several meet, or that is not isolated.
     Singular(Vec<C>),
@@ -37,13 +37,14 @@ impl End {
 /// Rounding beside the square of the size of a solution.
 const ROUNDING: f64 = 1e-15;
 /// Solutions larger than this count as infinite: rounding errors of ε in the dimensions bring a
-/// solution that is m-fold at infinity back to ε^(−1/m), some 1e4 for m = 4. Held lengths beyond the
-/// characteristic length reach as much further.
+/// solution that is m-fold at infinity back to ε^(−1/m), some 1e4 for m = 4. Held lengths beyond
+/// the characteristic length reach as much further.
 const FAR: f64 = 1e3;
 /// Where the endgame starts, as distance from the end of the way.
 const NEAR_END: f64 = 0.03;
-/// What is no larger than this so near the end and still seems to go to infinity may be two solutions
-/// that meet just before it: circles round the end look alike until they are too small to hold that.
+/// What is no larger than this so near the end and still seems to go to infinity may be two
+/// solutions that meet just before it: circles round the end look alike until they are too small to
+/// hold that.
 const NEARBY: f64 = 10.0;
 /// Ways longer than this, in rad or characteristic lengths, are gone in parts.
 const LONG: f64 = 10.0;
@@ -77,7 +78,7 @@ pub(crate) fn follow(
         };
     let mut from_here = start;
     let mut arrival = Arrival::There;
-    // a long way is gone in parts, each ten times as long as all before it
+    // a long segment is followed in parts, each ten times as long as all before it
     let decades = (homotopy.length() / LONG).log10().ceil().clamp(0.0, 12.0) as i32;
     let mut corners: Vec<C> = (1..=decades)
         .rev()
@@ -131,20 +132,20 @@ pub(crate) fn follow(
     }
 }
 
-/// The solution by itself at the end of the way that a point is at. `None` if there is none, or it is
-/// too far out.
+/// The solution by itself at the end of the way that a point is at. `None` if there is none, or it
+/// is too far out.
 pub(crate) fn arrived(homotopy: &mut ParameterHomotopy<'_>, x: &[C]) -> Option<End> {
     let mut x = x.to_vec();
     (size(&x) <= FAR * homotopy.reach() && settles(homotopy, &mut x)).then_some(End::Regular(x))
 }
 
-/// Newton's method converges there as it does at a solution by itself.
+/// Newton's method converges there quadratically, as at a simple solution.
 fn settles(homotopy: &mut ParameterHomotopy<'_>, x: &mut [C]) -> bool {
     let end = C::from_f64(1.0);
     polish(homotopy, end, x) && stands_alone(homotopy, end, x)
 }
 
-/// Two solutions by themselves to either side of a point where they seem to meet.
+/// The two simple solutions on either side of a point where they seem to meet.
 ///
 /// With the null vectors v and w that the point has with one singular value fewer, the closures
 /// change along v as w·h + t w·Jv + ½ t² w·(v·∇)Jv, which vanishes at both.

@@ -1,4 +1,4 @@
-//! Whether a solution is one by itself or several that coincide.
+//! Whether a solution is simple, or several that coincide.
 
 use super::homotopy::ParameterHomotopy;
 use crate::analysis::assemblies::family::{C, size};
@@ -13,11 +13,11 @@ const ALIKE: f64 = 4.0 * NOISE;
 /// Two approximations of one solution are not farther apart than this, beside their size.
 const NEAR: f64 = 1e-4;
 
-/// Whether a solution stands by itself as far as double precision can tell.
+/// Whether a solution is simple, as far as double precision can decide.
 ///
-/// Errors of the closures as large as rounding move a solution to somewhere beside it. From there one
-/// step of Newton's method returns, if no other solution is as near as that. To where solutions meet
-/// it goes half the way at most, and in a set of solutions it stays.
+/// Errors of the closures as large as rounding move a solution to somewhere beside it. From there
+/// one step of Newton's method returns, if no other solution is as near as that. To where solutions
+/// meet it goes half the way at most, and in a set of solutions it stays.
 pub(crate) fn stands_alone(homotopy: &mut ParameterHomotopy<'_>, s: C, x: &[C]) -> bool {
     const TRIES: usize = 3;
     const RETURNED: f64 = 0.3;
@@ -41,7 +41,7 @@ pub(crate) fn near(x: &[C]) -> f64 {
     NEAR * (1.0 + size(x))
 }
 
-/// Whether two points, the first of which is a solution by itself, are the same solution.
+/// Whether two points, the first of which is a simple solution, are the same solution.
 pub(crate) fn are_one(homotopy: &mut ParameterHomotopy<'_>, s: C, x: &[C], y: &[C]) -> bool {
     homotopy.family.coordinates.within(near(x), x, y) && homotopy.seen_apart(s, x, y) <= ALIKE
 }

@@ -11,7 +11,7 @@ use crate::analysis::assemblies::family::{
 use crate::number::Number;
 use crate::solve::{Stage, Tracker, Watch};
 
-/// Ends of all paths, and what following them took.
+/// Ends of all paths, and the work of following them.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Ends {
     pub ends: Vec<End>,
@@ -22,13 +22,13 @@ pub(crate) struct Ends {
     pub retries: usize,
 }
 
-/// From the generic member to the target member: one path for each way of the leg that has most of them,
-/// for each pose. Where all of these end well the other solutions are combinations of what they show;
-/// where one does not, every solution with that pose is followed by itself.
+/// From the generic member to the target member: one path for each way of the leg that has most of
+/// them, for each pose. Where all of these end well the other solutions are combinations of what
+/// they show; where one does not, every solution with that pose is followed separately.
 ///
 /// A path that is lost, or two that end at the same regular solution (one has jumped), are followed
-/// again with greater care, and if that does not help all of them another way round. Paths that were
-/// not followed when the work was stopped count as lost.
+/// again with greater care, and if that does not help all of them another way round. Paths that
+/// were not followed when the work was stopped count as lost.
 pub(crate) fn track_to_target(
     family: &Family,
     from: &Member,
@@ -152,8 +152,8 @@ fn combined(
     all
 }
 
-/// All solutions of legwise solutions from the ends of the paths that show every way of its legs. `None` if
-/// one of these ends is not a solution by itself.
+/// All solutions of legwise solutions from the ends of the paths that show every way of its legs.
+/// `None` if one of these ends is not a simple solution.
 fn combinations(
     coordinates: &Coordinates,
     solutions_at_pose: &LegwiseSolutions<C>,
@@ -200,7 +200,7 @@ fn straight(homotopy: &ParameterHomotopy<'_>, solutions: &[Vec<C>], manner: &Man
             if path.unsure && level == 0 {
                 unsure.push(i);
             }
-            // a second look that sees nothing leaves what the first one saw
+            // a second attempt that finds nothing keeps the result of the first
             if path.end != End::Lost || !unsure.contains(&i) || level == 0 {
                 all.ends[i] = path.end;
             }
@@ -218,7 +218,8 @@ fn straight(homotopy: &ParameterHomotopy<'_>, solutions: &[Vec<C>], manner: &Man
     all
 }
 
-/// Tells whether ends of paths are one solution. Most are far apart, and then nothing is evaluated.
+/// Decides whether ends of paths are one solution. Most are far apart, and then nothing is
+/// evaluated.
 struct Teller<'a, 'f> {
     homotopy: &'a ParameterHomotopy<'f>,
     storage: Option<ParameterHomotopy<'f>>,

@@ -1,4 +1,4 @@
-//! What outputs that lost freedoms resist without the inputs.
+//! Wrenches that the closures resist at outputs that lost freedoms.
 
 use super::{Classifier, Resisted};
 use crate::geometry::Vector3;
@@ -6,8 +6,8 @@ use crate::linear::{complement, dot, norm, orthonormal, remove};
 use crate::mechanism::{Configuration, Frame};
 use crate::system::{Coordinate, Lock, wrench_screws};
 
-/// An output, or the coordinates of one platform, with its wrenches (m/L; f) about the origin of the
-/// frame.
+/// An output, or the coordinates of one platform, with its wrenches (m/L; f) about the origin of
+/// the frame.
 struct Part {
     frame: Frame,
     name: String,
@@ -33,8 +33,9 @@ impl Classifier<'_> {
         orthonormal(&images, crate::linear::RANK_TOLERANCE)
     }
 
-    /// Wrenches reciprocal to all that the outputs can do here, but not to all they can do nearby. The
-    /// latter must contain the former: it does if the outputs have all freedoms, or stay in a plane.
+    /// Wrenches reciprocal to all that the outputs can do here, but not to all they can do nearby.
+    /// The latter must contain the former: it does if the outputs have all freedoms, or stay in a
+    /// plane.
     pub(super) fn resisted(&mut self, at: &Configuration<f64>) -> Vec<Resisted> {
         let Some(beside) = self.beside.clone() else {
             return Vec::new();

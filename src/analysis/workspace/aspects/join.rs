@@ -1,4 +1,4 @@
-//! Aspects of few nodes: whether they hang together with others where the grid is too coarse to tell.
+//! Aspects of few nodes: whether a finer grid connects them with others.
 
 use std::collections::BTreeMap;
 
@@ -10,7 +10,7 @@ use crate::number::Packed;
 use crate::solve::{Pool, Watch, each};
 use crate::system::Driven;
 
-/// Aspects of fewer nodes are looked at again.
+/// Aspects of fewer nodes are checked on a finer grid.
 const FEW: usize = 10;
 /// How many are at most.
 const MOST: usize = 500;
@@ -22,8 +22,8 @@ pub(crate) fn parts(dimensions: usize) -> usize {
     if dimensions < 3 { 8 } else { 4 }
 }
 
-/// For each solution the first of its aspect, aspects of few nodes joined with those that a finer grid
-/// around them leads to; and pairs of solutions so joined.
+/// For each solution the first of its aspect, aspects of few nodes joined with those that a finer
+/// grid around them leads to; and pairs of solutions so joined.
 pub(crate) fn joined<T: Factorable + Packed + Send + Sync>(
     fill: &Flood,
     steps: &Pool<Steps<T>>,
@@ -103,7 +103,7 @@ fn reached<T: Factorable + Packed + Send + Sync>(
     let finer = Flood {
         grid: &fine,
         most: MOST_SHEETS,
-        // what lies beyond other signs is of other aspects
+        // nodes with other signs belong to other aspects
         only: signs(reached_set.solution(aspect[0])),
         ..*fill
     };

@@ -31,7 +31,7 @@ impl Tracer<'_> {
         for crossing in crossings {
             let mut at = crossing.at.clone();
             self.problem.mechanism.turn_to_limits(&mut at.joints);
-            // where it stands on no regular curve the point remains by itself
+            // a point that lies on no regular curve is reported as a single point
             let Some(place) = place(curve, &at) else {
                 continue;
             };
@@ -101,7 +101,7 @@ impl Tracer<'_> {
         }
     }
 
-    /// Where along a curve the mode changes: it passes a place where solutions of the mapped problem
+    /// Where along a curve the mode changes: at places where solutions of the mapped problem
     /// meet. On a fold such a place is where the mapped coordinates turn back.
     fn cuts(&self, path: &[Configuration<f64>], points: &[[f64; 2]]) -> Vec<usize> {
         if self.kind == Kind::Fold {

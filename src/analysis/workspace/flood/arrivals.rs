@@ -15,7 +15,7 @@ pub(crate) struct Moving<'a> {
     pub indicators: &'a Indicators,
 }
 
-/// The same by itself.
+/// The same, owned.
 #[derive(Clone, Debug)]
 pub(crate) struct Arrival {
     pub at: Configuration<f64>,

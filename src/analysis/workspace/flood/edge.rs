@@ -18,7 +18,7 @@ pub(crate) enum Met {
     Limit(Configuration<f64>, f64, usize, bool),
     /// A matrix loses rank.
     Singular(Configuration<f64>, f64),
-    /// Nothing for sure: branches cross, or no step is short enough.
+    /// Undecided: branches cross, or no step is short enough.
     Nothing,
 }
 
@@ -88,7 +88,8 @@ pub(crate) fn reach(
     from: &Configuration<f64>,
 ) -> Met {
     const STEPS: usize = 200;
-    /// A fold at less than this part of the way, as its parabola has it, is before the end.
+    /// A fold predicted by the parabola before this fraction of the edge is accepted without
+    /// locating it.
     const SURELY: f64 = 0.7;
     /// Shorter steps are only needed where branches cross.
     const SHORTEST: f64 = 1e-6;

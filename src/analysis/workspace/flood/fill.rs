@@ -16,14 +16,14 @@ use crate::mechanism::Configuration;
 use crate::number::Packed;
 use crate::solve::{Pool, Stage, Watch, each};
 
-/// Parts of the grid that are spread over before more is told.
+/// Parts of the grid spread over between two progress reports.
 const PARTS: usize = 64;
 
 impl Flood<'_> {
     /// Spreads from assembled configurations at nodes: in all parts of the grid at once as far as
-    /// single steps lead, then over their seams; last, where single steps are too long. The order of
-    /// work does not depend on the number of threads: parts are what they are, and what comes of
-    /// several at once is taken in their order.
+    /// single steps lead, then over their seams; last, where single steps are too long. The order
+    /// of work does not depend on the number of threads: parts are what they are, and what comes of
+    /// several at once is merged in their order.
     ///
     /// # Errors
     /// If more is reached than may be kept.
@@ -88,7 +88,7 @@ impl Flood<'_> {
         }
     }
 
-    /// Spreads in each part by itself.
+    /// Spreads within each part independently.
     fn grow<T: Factorable + Packed + Send + Sync>(
         &self,
         spread: &mut Spread,
@@ -113,9 +113,9 @@ impl Flood<'_> {
         Ok(())
     }
 
-    /// Of steps over seams, or that were not sure, first those that lead to known solutions are linked;
-    /// then one step is chosen to each node from each mode known so far. The others wait for what it
-    /// finds.
+    /// Of steps over seams, or that were not sure, first those that lead to known solutions are
+    /// linked; then one step is chosen to each node from each mode known so far. The others wait
+    /// for what it finds.
     fn chosen(&self, spread: &mut Spread, tasks: Vec<Task>) -> (Vec<Task>, Vec<Task>) {
         let jobs: Vec<&[Task]> = tasks.chunks(8 * JOB).collect();
         let found = each(jobs.len(), &Vec::new(), |storage, i| {

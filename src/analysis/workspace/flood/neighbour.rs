@@ -36,12 +36,12 @@ pub(crate) struct Step<'a> {
 }
 
 impl Flood<'_> {
-    /// Whether what is reached from a solution is asked for.
+    /// Whether spreading continues from a solution.
     pub(crate) fn goes_on_from(&self, solution: &NodeSolution) -> bool {
         self.only.is_none() || signs(solution) == self.only
     }
 
-    /// A start beside an assembled configuration at a node.
+    /// A Newton start near an assembled configuration at a node.
     pub(crate) fn here<'s>(&self, node: usize, at: &'s Configuration<f64>) -> Start<'s> {
         Start {
             from: at.view(),
@@ -74,7 +74,7 @@ impl Flood<'_> {
     }
 
     /// The way from a configuration at a node to its neighbour in a direction, if there is one;
-    /// otherwise one that leads nowhere.
+    /// otherwise a step of zero length.
     pub(crate) fn step<'f>(&self, node: usize, from: Moving<'f>, direction: usize) -> Step<'f> {
         let axis = direction / 2;
         let next = self.grid.neighbour(node, direction).unwrap_or(node);
@@ -88,7 +88,7 @@ impl Flood<'_> {
         }
     }
 
-    /// Of the solutions at the neighbour the one that lies where both motions say.
+    /// The solution at the neighbour that both tangent predictions agree on.
     pub(crate) fn near<'s>(
         &self,
         step: &Step,
@@ -98,7 +98,7 @@ impl Flood<'_> {
         let ahead = (self.metric).ahead(step.from, step.axis, step.change);
         let mut near = there.filter(|(_, to)| self.metric.linked(&ahead, *to, storage));
         let (first, _) = near.next()?;
-        // two as near are for surer steps to tell apart
+        // if two are as near, shorter steps must distinguish them
         near.next().is_none().then_some(first)
     }
 

@@ -10,7 +10,7 @@ use crate::linear::{Factorable, norm};
 use crate::number::Packed;
 use crate::solve::Pool;
 
-/// What shorter steps tell of an edge.
+/// What shorter steps find on an edge.
 pub(crate) enum Paced {
     /// The neighbour.
     Arrived(Arrival),
@@ -28,7 +28,7 @@ struct PacedStep {
     end: [f64; MOST_AXES],
     /// The mapped coordinate now.
     x: f64,
-    /// How far it is to change next.
+    /// The next change of the mapped coordinate.
     step: f64,
     /// 1/‖N‖² where the way has been.
     slowness: f64,
@@ -43,11 +43,11 @@ impl PacedStep {
 
     /// A step on, with what is met there; whether the mode folds back before the neighbour.
     ///
-    /// On the way to a fold at x* the configuration goes with √(x* − x), and ‖N‖⁻² falls in proportion
-    /// to x* − x. Towards a place where a leg merely turns fast it falls with the square instead,
-    /// and the straight line through two points leads to another place each time.
+    /// On the way to a fold at x* the configuration goes with √(x* − x), and ‖N‖⁻² falls in
+    /// proportion to x* − x. Towards a place where a leg merely turns fast it falls with the square
+    /// instead, and the straight line through two points leads to another place each time.
     fn on(&mut self, at: Arrival, slowness: f64) -> bool {
-        /// The part of the way to the fold that two guesses of it may differ by.
+        /// Two estimates of the fold may differ by this fraction of the distance to it.
         const AGREED: f64 = 0.05;
         /// The next step as a part of the way to the fold.
         const NEXT: f64 = 0.6;
@@ -68,7 +68,7 @@ impl PacedStep {
 }
 
 impl Flood<'_> {
-    /// Halves steps until they are sure, and goes on so.
+    /// Halves steps until they are certain, then continues.
     pub(crate) fn paced<T: Factorable + Packed + Send + Sync>(
         &self,
         steps: &Pool<Steps<T>>,
@@ -179,7 +179,7 @@ mod tests {
         }
     }
 
-    /// Goes on until a fold is said, or the way is gone.
+    /// Continues until a fold is found or the edge ends.
     fn folds(slowness: impl Fn(f64) -> f64) -> bool {
         let mut way = way(slowness(0.0));
         for _ in 0..30 {

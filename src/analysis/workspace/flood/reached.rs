@@ -36,13 +36,13 @@ pub(crate) struct Name {
 /// How a node goes on in a direction.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum Link {
-    /// Not looked at, or out of the box.
+    /// Not examined yet, or outside the box.
     Open,
     /// To this solution there, by regular motion.
     To(Name),
     /// The mode folds back before the neighbour.
     Fold,
-    /// No sure step leads on.
+    /// No step that is certain not to change branch leads on.
     Stuck,
 }
 
@@ -80,8 +80,9 @@ struct Numbered {
 }
 
 impl ReachedSet {
-    /// The solutions of each part of the grid, and for each of them the first of those connected with it
-    /// in that part; what else is connected; and for each band how many parts and nodes it has.
+    /// The solutions of each part of the grid, and for each of them the first of those connected
+    /// with it in that part; what else is connected; and for each band how many parts and nodes it
+    /// has.
     pub fn new(
         tiles: Vec<(NodeSolutions, Vec<usize>)>,
         seams: &[[Name; 2]],
@@ -191,8 +192,8 @@ impl ReachedSet {
         all.collect()
     }
 
-    /// For each solution of a part of the grid one of its kind connected with it in there, the same for
-    /// all of them; and what of its kind is linked with it elsewhere.
+    /// For each solution of a part of the grid one of its kind connected with it in there, the same
+    /// for all of them; and what of its kind is linked with it elsewhere.
     fn parted_in<K: PartialEq>(
         &self,
         tile: usize,
@@ -375,8 +376,8 @@ pub(crate) fn join(roots: &mut [usize], a: usize, b: usize) {
     roots[a.max(b)] = a.min(b);
 }
 
-/// Whether the determinants of direct and of inverse singularities are negative: what solutions of one
-/// aspect share.
+/// Whether the determinants of direct and of inverse singularities are negative: what solutions of
+/// one aspect share.
 pub(crate) type Signs = [bool; 2];
 
 /// The signs of a solution; none outside limits and on singularities.

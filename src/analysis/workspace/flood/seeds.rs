@@ -41,7 +41,7 @@ struct Storage {
     steps: Steps<f64>,
 }
 
-/// Newton's method from random starts at each of some nodes; and from what is given.
+/// Newton's method from random starts at each of some nodes, and from the given configurations.
 pub(crate) fn search_modes(
     problem: &MapProblem,
     grid: &Grid,
@@ -114,7 +114,7 @@ fn take(
     {
         return;
     }
-    // where the mapped coordinates do not tell how things move there is nothing to go on from
+    // where the mapped coordinates do not determine the motion, spreading cannot start
     if storage.steps.indicators(&at, values).regular {
         found.push(at);
     }
@@ -137,8 +137,8 @@ fn put_in(problem: &MapProblem, values: &[f64], at: &Configuration<f64>) -> Conf
 /// Starts at each node that is probed.
 pub(crate) const PROBES: usize = 8;
 
-/// Plain Newton's method from a few random starts at each of many nodes, side by side: what it finds
-/// that is not reached yet, so that small regions by themselves are not missed.
+/// Plain Newton's method from a few random starts at each of many nodes, side by side: what it
+/// finds that is not reached yet, so that small isolated regions are not missed.
 pub(crate) fn probe<T: Factorable + Packed + Send + Sync>(
     fill: &Flood,
     reached: &Spread,

@@ -82,7 +82,7 @@ impl Spread {
         tiles.flat_map(|tile| std::mem::take(of(tile))).collect()
     }
 
-    /// Puts steps that are not sure by for later.
+    /// Defers steps that are not certain.
     pub fn keep(&mut self, tasks: Vec<Task>) {
         for task in tasks {
             self.tiles[task.0.tile as usize].unsure.push(task);

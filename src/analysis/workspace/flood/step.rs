@@ -12,7 +12,7 @@ use crate::system::{System, Work};
 #[derive(Clone, Debug)]
 pub(crate) struct Start<'a> {
     pub from: ConfigurationRef<'a, f64>,
-    /// A motion and how far along it what is looked for may be near.
+    /// A tangent and how far along it the solution is expected.
     pub along: Option<(&'a [f64], f64)>,
     /// How far that may be, dimensionless; infinite if anything is as good.
     pub reach: f64,
@@ -29,7 +29,7 @@ pub(crate) struct Steps<T: Factorable> {
     work: Work<T>,
     point: Configuration<T>,
     spare: Configuration<T>,
-    /// From where steps begin to near where they are to arrive.
+    /// Starting points and predicted end points of steps.
     ahead: Vec<T>,
     rates: Rates<T>,
 }
@@ -52,7 +52,7 @@ impl<T: Factorable + Packed> Steps<T> {
         }
     }
 
-    /// The configurations that are surely meant; at most as many starts as places.
+    /// The solutions the starts certainly lead to; at most as many starts as lanes.
     pub fn settle(&mut self, starts: &[Start], arrivals: &mut Arrivals) {
         arrivals.begin(starts.len());
         let spoiled = self.together(starts, 0, arrivals);
@@ -110,7 +110,7 @@ impl<T: Factorable + Packed> Steps<T> {
                     continue;
                 }
                 let (size, bound) = (sizes.part(place), &mut bounds[place]);
-                // what is not finite is not sure either
+                // values that are not finite are rejected too
                 sure[place] = size.is_finite() && size <= bound.max(SMALL);
                 if bound.is_finite() {
                     *bound = SURE * size;
@@ -120,7 +120,7 @@ impl<T: Factorable + Packed> Steps<T> {
             if places.clone().any(|place| !moves[place]) {
                 for x in steps.iter_mut() {
                     let old = *x;
-                    // not a product: what is not finite is to stay behind
+                    // a selection and not a product, so that values that are not finite are dropped
                     *x = T::of_parts(|p| if moves[p] { old.part(p) } else { 0.0 });
                 }
             }

@@ -1,4 +1,4 @@
-//! Parts of the grid, over each of which one thread spreads by itself.
+//! Parts of the grid; one thread spreads over each independently.
 
 use rustc_hash::FxHashSet;
 
@@ -97,7 +97,8 @@ pub(crate) struct Tile {
     pub solutions: NodeSolutions,
     /// The motions of its solutions, one after another.
     motions: Vec<f64>,
-    /// For each of its nodes the last solution there, and for each solution the one before it there.
+    /// For each of its nodes the last solution there, and for each solution the one before it
+    /// there.
     last: Vec<Option<u32>>,
     before: Vec<Option<u32>>,
     /// For each solution the first, so far as is known, of those connected with it in here.
@@ -192,7 +193,7 @@ impl Tile {
     pub fn add(&mut self, fill: &Flood, node: usize, arrival: Moving) -> Name {
         let new = self.solutions.len();
         if new == 0 {
-            // where one node is reached most are
+            // if one node of a part is reached, most of its nodes are
             let nodes = self.last.len();
             self.solutions.reserve(nodes, arrival.at);
             self.motions.reserve(nodes * arrival.motions.len());
@@ -237,7 +238,7 @@ impl Tile {
         [now, later]
     }
 
-    /// Spreads as far as single steps surely lead in it.
+    /// Spreads within the part as far as single steps are certain not to change branch.
     pub fn grow<T: Factorable + Packed>(&mut self, fill: &Flood, steps: &mut Steps<T>) {
         let mut storage = Vec::new();
         let mut arrivals = Arrivals::default();
@@ -278,7 +279,8 @@ impl Tile {
         inside
     }
 
-    /// Whether a solution is linked already or now can be, with one that lies where both motions say.
+    /// Whether a solution is linked already, or can now be linked with the one that both tangent
+    /// predictions agree on.
     fn linked(&mut self, fill: &Flood, s: usize, d: usize, storage: &mut Vec<f64>) -> bool {
         let solution = &self.solutions.all[s];
         if solution.links[d] != Link::Open {

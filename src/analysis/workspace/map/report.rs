@@ -1,4 +1,4 @@
-//! What a map of the workspace tells.
+//! The report of a map of the workspace.
 
 use serde::de::Error;
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
@@ -45,7 +45,7 @@ pub struct WorkspaceReport {
     pub curves: Vec<BoundaryCurve>,
     /// Boundary points on edges of the grid.
     pub points: Vec<BoundaryPoint>,
-    /// Edges of the grid at whose end nothing sure was found.
+    /// Edges of the grid whose end could not be decided.
     pub unsure: usize,
     /// Aspects are parts that this fraction of a cell does not join: one over it.
     pub parts: usize,
@@ -140,8 +140,8 @@ pub struct AspectReport {
     /// Sign of the determinant of the derivatives of the inputs by what is mapped and held; zero if
     /// that is not reported.
     pub direct: i8,
-    /// Sign of the determinant of the derivatives of the outputs by what is mapped and held; zero if
-    /// that is not reported.
+    /// Sign of the determinant of the derivatives of the outputs by what is mapped and held; zero
+    /// if that is not reported.
     pub inverse: i8,
     /// The node with the least condition number.
     pub best: Option<Conditioned>,

@@ -1,10 +1,10 @@
-//! What is held for a choice of coordinates.
+//! The held coordinates of a choice, in the form the solver takes.
 
 use crate::geometry::{Pose, Rotation};
 use crate::mechanism::{Mechanism, PoseCoordinate};
 use crate::system::{Coordinate, Held, HeldPlatform};
 
-/// Every coordinate for itself, but poses and orientations held by turns as wholes.
+/// Every coordinate singly, but poses and orientations held by turns as wholes.
 pub(super) fn of(mechanism: &Mechanism, coordinates: &[Coordinate]) -> Held<f64> {
     let mut held = Held::nothing(mechanism);
     for &coordinate in coordinates {
@@ -59,8 +59,8 @@ fn partly(
     }
 }
 
-/// The angular velocity (or acceleration) given to the orientation of a platform, if that is held by
-/// turns.
+/// The angular velocity (or acceleration) given to the orientation of a platform, if that is held
+/// by turns.
 pub(super) fn turning(
     coordinates: &[Coordinate],
     given: &[f64],
