@@ -21,10 +21,10 @@ pub(super) fn gap(distance: f64, angle: f64) -> String {
 pub(super) fn given(given: &WidestGap, kept: bool) -> String {
     let free = match kept {
         true => "",
-        false => ", which moved what the file holds too",
+        false => ", which moved actuated joints too",
     };
     format!(
-        "The pose given was not closed: closure `{}` gaped by {}; it was closed first{free}.",
+        "The pose given was not assembled: closure `{}` was open by {}; it was assembled first{free}.",
         given.closure,
         gap(given.distance, given.angle)
     )
@@ -61,8 +61,8 @@ impl Report for NotClosed {
 
 fn too_large(unknowns: usize) -> String {
     format!(
-        "Not analysed: the mechanism has {unknowns} unknowns, and singular values are computed for \
-         up to {SPECTRUM_LIMIT}. Ask about a part of it."
+        "Not analysed: the mechanism has {unknowns} unknowns, and this analysis is limited to \
+         {SPECTRUM_LIMIT}. Analyse a part of it."
     )
 }
 
@@ -73,7 +73,7 @@ fn sentence(open: &NotClosed) -> String {
     };
     let left = match &open.left {
         Some(left) => format!(
-            ": at the closest approach closure {} gapes by {}",
+            ": at the closest approach closure {} is open by {}",
             left.closure,
             gap(left.distance, left.angle)
         ),
