@@ -20,6 +20,7 @@ mod store;
 mod sweep;
 mod velocity;
 mod watched;
+mod words;
 mod workspace;
 mod written;
 

@@ -28,8 +28,7 @@ pub mod mobility;
 pub mod overview;
 #[cfg(feature = "plot")]
 pub mod plot;
-mod quantity;
-pub mod question;
+pub mod quantity;
 mod screws;
 pub mod singularities;
 pub mod solution;

@@ -3,13 +3,13 @@
 use clap::Args;
 use linkwork::analysis::assemblies::{Fit, Wanted};
 use linkwork::ask::AskError;
-use linkwork::output::question::complaint;
 
 use super::asked::Split;
 use super::format::Written;
 use super::search::Search;
 use super::source::Source;
 use super::watched::watched;
+use super::words::question::complaint;
 use super::{Answer, Refusal, style};
 
 /// List all assembled configurations for held inputs, numbered, each with a certificate.

@@ -11,6 +11,10 @@ use crate::description::{count, listed};
 use tables::{complex, joints, overview, platforms, reasons, times};
 
 impl Report for AssembliesReport {
+    fn is_interrupted(&self) -> bool {
+        self.interrupted
+    }
+
     fn document(&self) -> Document {
         let nearest = self.closest.iter().map(|closest| nearest(self, closest));
         let document = Document::new(&self.mechanism, sentence(self))

@@ -54,6 +54,10 @@ impl<R: Report> Report for Analysed<R> {
 }
 
 impl Report for NotClosed {
+    fn is_interrupted(&self) -> bool {
+        self.interrupted
+    }
+
     fn document(&self) -> Document {
         Document::new(&self.mechanism, sentence(self))
     }

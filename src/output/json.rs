@@ -8,7 +8,7 @@ use super::document::Report;
 /// The report as JSON: its own fields, after the program's version, the mechanism's name and the
 /// answer in words. Numbers are in SI units and rad.
 pub fn render(report: &impl Report) -> String {
-    let document = report.document();
+    let document = report.shown();
     let mut object = Map::new();
     object.insert("linkwork".into(), env!("CARGO_PKG_VERSION").into());
     object.insert("mechanism".into(), document.title.into());

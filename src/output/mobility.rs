@@ -13,6 +13,10 @@ use crate::description::{count, listed};
 const SHOWN: usize = 8;
 
 impl Report for MobilityReport {
+    fn is_interrupted(&self) -> bool {
+        self.interrupted
+    }
+
     fn document(&self) -> Document {
         let idle = self.idle_freedoms.iter();
         let idle = idle.map(|freedom| format!("not counted: {}", words::idle(freedom)));

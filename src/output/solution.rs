@@ -8,6 +8,10 @@ use crate::analysis::assembly::{AssemblyReport, Outcome, PlatformRecord};
 use crate::description::{count, listed};
 
 impl Report for AssemblyReport {
+    fn is_interrupted(&self) -> bool {
+        self.interrupted
+    }
+
     fn document(&self) -> Document {
         let platforms = self.platforms.0.iter();
         let platforms = platforms.map(|(name, platform)| pose(name, platform));

@@ -3,15 +3,10 @@
 mod circuits;
 #[cfg(feature = "plot")]
 mod picture;
-mod refusals;
 mod words;
 
 #[cfg(feature = "plot")]
 pub use picture::Picture;
-pub use refusals::{
-    no_range, no_steps, not_one_freedom, nothing_left, nothing_moves, outside, point_complaint,
-    what_moves,
-};
 pub use words::sentence;
 
 use serde::{Serialize, Serializer};
@@ -23,6 +18,10 @@ use crate::analysis::sweep::{Columns, MetKind, MotionReport, MotionsReport, Row,
 use crate::mechanism::Variable;
 
 impl Report for MotionsReport {
+    fn is_interrupted(&self) -> bool {
+        self.motions.iter().any(|motion| motion.sweep.interrupted)
+    }
+
     fn document(&self) -> Document {
         match &self.motions[..] {
             [one] => {

@@ -6,6 +6,10 @@ use crate::output::document::{Cell, Column, Document, Report, Section, Table, ce
 use crate::output::quantity::{number, quantity};
 
 impl Report for CircuitsReport {
+    fn is_interrupted(&self) -> bool {
+        self.interrupted
+    }
+
     fn document(&self) -> Document {
         let seeds = format!(
             "followed from {} of all assemblies at several values of {}{}",

@@ -1,12 +1,12 @@
 //! Questions about motions that cannot be answered: what to ask instead.
 
-use crate::analysis::sweep::PointError;
-use crate::description::{count, listed};
-use crate::mechanism::Mechanism;
-use crate::output::complaint::{Complaint, Part};
-use crate::output::quantity::{number, quantity};
-use crate::output::question::{quoted, unknown_frame, value};
-use crate::system::QuestionError;
+use super::question::{quoted, unknown_frame, value};
+use linkwork::analysis::sweep::PointError;
+use linkwork::description::{count, listed};
+use linkwork::mechanism::Mechanism;
+use linkwork::output::complaint::{Complaint, Part};
+use linkwork::output::quantity::{number, quantity};
+use linkwork::system::QuestionError;
 
 /// Nothing is said to move.
 pub fn what_moves(actuated: Option<&str>) -> Complaint {

@@ -1,8 +1,8 @@
 //! Questions about singularities that make no sense: what to ask instead.
 
-use crate::description::{count, nearest};
-use crate::mechanism::Mechanism;
-use crate::output::complaint::{Complaint, Part};
+use linkwork::description::{count, nearest};
+use linkwork::mechanism::Mechanism;
+use linkwork::output::complaint::{Complaint, Part};
 
 /// A side of a box without a range.
 pub fn no_side(name: &str) -> Complaint {
