@@ -124,8 +124,8 @@ impl std::fmt::Display for AssembliesError {
             AssembliesError::NoSuchMode(0) => write!(
                 f,
                 "there is no assembly at the home inputs for a mode to be followed from: \
-                 `linkwork assemblies` lists those at the inputs asked for, and \
-                 `linkwork solve --guess` starts near one of them"
+                 `linkwork assemblies` lists those at the inputs in question, and \
+                 a guess starts the search near one of them"
             ),
             AssembliesError::NoSuchMode(n) => {
                 write!(

@@ -84,8 +84,7 @@ fn sentence(open: &NotClosed) -> String {
         None => String::new(),
     };
     format!(
-        "Not assembled{held}{left}. Only an assembled mechanism can be analysed: ask for other \
-         values with --hold, for another start with --guess, or let a joint be found with --free; \
-         `linkwork solve` says more."
+        "Not assembled{held}{left}. Only an assembled mechanism can be analysed: hold other \
+         values, start elsewhere, or free a joint that is held; `linkwork solve` says more."
     )
 }

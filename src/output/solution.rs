@@ -100,7 +100,7 @@ fn others(report: &AssemblyReport) -> Option<String> {
     let another = match report.restarts {
         0 => "other assemblies with the same inputs were not looked for",
         _ => {
-            "reached from a random start: another --seed may lead to another assembly with the \
+            "reached from a random start: another seed may lead to another assembly with the \
              same inputs"
         }
     };

@@ -102,7 +102,7 @@ fn rows(motion: &MotionReport) -> Section {
     }
     let title = match all > table.rows.len() {
         true => format!(
-            "Rows, {} of {all}; --format csv and --format json have all of them",
+            "Rows, {} of {all}; CSV and JSON have all of them",
             table.rows.len()
         ),
         false => "Rows".into(),

@@ -110,7 +110,7 @@ fn modes(report: &WorkspaceReport) -> Section {
 
 fn more(all: usize) -> String {
     match all > MOST {
-        true => format!(", {MOST} of {all}; --format json has all of them"),
+        true => format!(", {MOST} of {all}; JSON has all of them"),
         false => String::new(),
     }
 }

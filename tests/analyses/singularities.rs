@@ -864,7 +864,7 @@ fn nothing_is_noted_of_outputs_with_as_many_freedoms_as_directions() {
     }
     // three freedoms in six directions
     let json = told(&["mechanisms/three_rps.ron"]);
-    assert!(json["note"].as_str().unwrap().contains("--point top"));
+    assert!(json["note"].as_str().unwrap().contains("the point `top`"));
     assert_eq!(json["coupled"][0]["freedoms"], 3);
 }
 

@@ -44,8 +44,8 @@ fn sentence(lost: &LostMode) -> String {
             };
             format!(
                 "At home mode {mode} is {what}, and its number does not tell which of them to \
-                 follow. `linkwork assemblies` lists those at the inputs asked for; \
-                 `linkwork solve --guess` starts near one of them."
+                 follow. `linkwork assemblies` lists those at the inputs in question; \
+                 a guess starts the search near one of them."
             )
         }
     }

@@ -172,16 +172,15 @@ pub fn ending(report: &AlongReport) -> String {
         ),
         AlongEnd::Closed => format!("{way}: the curve closes, {found}."),
         AlongEnd::Fold => format!(
-            "{way}: it locks at {here}, where this branch ends; {found}. With --follow the motion \
-             goes round the fold, back on the other branch."
+            "{way}: it locks at {here}, where this branch ends; {found}. A motion that \
+             follows its curve goes round the fold, back on the other branch."
         ),
         AlongEnd::Branches => format!(
-            "{way}: branches cross at {here}; {found}. With --follow the motion goes straight on."
+            "{way}: branches cross at {here}; {found}. One that follows its curve goes straight on."
         ),
         AlongEnd::Limit => format!("{way}: {joint} reaches its limit at {here}; {found}."),
         AlongEnd::OutsideLimits => format!(
-            "{way}: {joint} is outside its limits at the start. Begin elsewhere, or in another mode with \
-             --mode."
+            "{way}: {joint} is outside its limits at the start. Begin elsewhere, or in another mode."
         ),
         AlongEnd::SingularStart => format!(
             "{way}: the start is singular, so the branch is not unique. Begin slightly away from it."
@@ -279,7 +278,7 @@ pub fn completeness(report: &LocusReport) -> String {
     let mut sure = sure.chars();
     let first = sure.next().map(|c| c.to_uppercase().to_string());
     format!(
-        "{} {}{}; --starts sets their number.",
+        "{} {}{}.",
         sought(report, [direct, inverse], &last),
         first.unwrap_or_default(),
         sure.as_str()

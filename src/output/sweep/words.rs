@@ -92,8 +92,8 @@ pub fn sentence(report: &SweepReport) -> String {
                 _ => place,
             };
             format!(
-                "{} {verb} at {place}: a dead point, where this branch ends{moving}. With --follow \
-                 the motion goes round it, back on the other branch.",
+                "{} {verb} at {place}: a dead point, where this branch ends{moving}. A motion \
+                 that follows its curve goes round it, back on the other branch.",
                 listed(locked)
             )
         }
@@ -116,7 +116,7 @@ pub fn sentence(report: &SweepReport) -> String {
         ),
         (SweepEnd::Crossing, Some(MetKind::Crossing { freedoms, branches })) => format!(
             "Branches cross at {place}: there are {} there and {}. The sweep does not choose \
-             between branches; with --follow it goes straight on.",
+             between branches; one that follows its curve goes straight on.",
             count(*freedoms, "infinitesimal freedom"),
             match branches.len() {
                 0 => "no branch was found".into(),
@@ -147,8 +147,7 @@ pub fn sentence(report: &SweepReport) -> String {
                 upper,
             }),
         ) => format!(
-            "{joint} is outside its {} limit of {} at the start: begin elsewhere, or in another mode \
-             with --mode.",
+            "{joint} is outside its {} limit of {} at the start: begin elsewhere, or in another mode.",
             side(*upper),
             quantity(*limit, unit.is_angle())
         ),
