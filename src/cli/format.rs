@@ -45,11 +45,6 @@ impl Written {
     pub fn shown(&self, report: &impl Report) -> String {
         self.format.shown(report)
     }
-
-    /// Whether people read the answer, and its remarks.
-    pub fn is_for_people(&self) -> bool {
-        self.format != Format::Json
-    }
 }
 
 /// Every format but the one of rows.

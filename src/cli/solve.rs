@@ -58,14 +58,9 @@ impl Solve {
         };
         let warning = report.warning();
         let warning = warning.map(|warning| format!("warning: {warning}\n"));
-        let mut remarks = loaded.warnings() + &warning.unwrap_or_default();
-        let chosen = self.mode.is_some() || report.only;
-        if report.is_assembled() && !chosen && self.format.is_for_people() {
-            remarks += "note: other assemblies may exist; `linkwork assemblies` lists them\n";
-        }
         Ok(Answer {
             data: self.format.shown(&*report),
-            remarks,
+            remarks: loaded.warnings() + &warning.unwrap_or_default(),
             yes: report.outcome == Outcome::Converged,
         })
     }

@@ -24,6 +24,8 @@ pub fn render(report: &impl Report) -> String {
     extended(object, report)
 }
 
+/// The fields of a report after those of the envelope. Numbers keep all their digits; one that is
+/// not finite is written as `null`, a negative zero as zero.
 fn extended(mut object: Map<String, Value>, report: &impl Serialize) -> String {
     let report = serde_json::to_value(report)
         .expect("the keys of every map in a report are texts, which alone could fail");

@@ -1,4 +1,4 @@
-use crate::geometry::{Rotation, Vector3};
+use crate::geometry::Rotation;
 use crate::linear::{Block, DENSE_LIMIT, Factorable, SparseStep};
 use crate::mechanism::{Closure, Mechanism, PoseCoordinate};
 use crate::number::Number;
@@ -39,7 +39,10 @@ impl<T: Number> Held<T> {
                 orientation,
             } => HeldPlatform::Partly {
                 coordinates: coordinates.iter().map(|&(c, x)| (c, f(x))).collect(),
-                orientation: orientation.map(|r| Rotation(r.0.map(|v| Vector3(v.0.map(&mut f))))),
+                orientation: orientation.map(|r| {
+                    let [x, y, z] = r.0;
+                    Rotation([x.map(&mut f), y.map(&mut f), z.map(&mut f)])
+                }),
             },
         });
         Held {
