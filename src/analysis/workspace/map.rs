@@ -265,8 +265,8 @@ impl<'a> Map<'a> {
                 of[place].1.push(s);
             }
         }
-        let told = |s: usize| &self.reached_set.solution(s).indicators;
-        let sign = |x: f64, told: bool| match (told, x < 0.0) {
+        let indicators = |s: usize| &self.reached_set.solution(s).indicators;
+        let sign = |x: f64, known: bool| match (known, x < 0.0) {
             (false, _) => 0,
             (_, true) => -1,
             (_, false) => 1,
@@ -279,11 +279,11 @@ impl<'a> Map<'a> {
                 solutions.iter().map(|s| self.reached_set.node(*s)),
             );
             let finite: Vec<usize> = (solutions.iter().copied())
-                .filter(|s| told(*s).condition.is_finite())
+                .filter(|s| indicators(*s).condition.is_finite())
                 .collect();
             // of nodes that are as good but for rounding the first
             let first_of = |wanted: f64| {
-                let of = |s: usize| told(s).condition;
+                let of = |s: usize| indicators(s).condition;
                 let mut alike = finite
                     .iter()
                     .filter(|s| (of(**s) / wanted - 1.0).abs() < 1e-9);
@@ -292,14 +292,14 @@ impl<'a> Map<'a> {
                     condition: of(*s),
                 })
             };
-            let conditions = finite.iter().map(|s| told(*s).condition);
+            let conditions = finite.iter().map(|s| indicators(*s).condition);
             let report = AspectReport {
                 aspect: 0,
                 mode: self.mode[first].map_or(0, |mode| mode + 1),
                 nodes: solutions.len(),
                 size: self.size(&region, &belongs, cuts),
-                direct: sign(told(first).direct, self.problem.tells_direct()),
-                inverse: sign(told(first).inverse, self.problem.tells_inverse()),
+                direct: sign(indicators(first).direct, self.problem.tells_direct()),
+                inverse: sign(indicators(first).inverse, self.problem.tells_inverse()),
                 best: first_of(conditions.clone().fold(f64::INFINITY, f64::min)),
                 worst: first_of(conditions.fold(0.0, f64::max)),
             };

@@ -13,7 +13,7 @@ impl Map<'_> {
     pub fn cells(&self, numbers: &[Option<usize>]) -> Cells {
         let following: Vec<(usize, PoseCoordinate)> = self.following().collect();
         let (direct, inverse) = (self.problem.tells_direct(), self.problem.tells_inverse());
-        let told = |x: f64, told: bool| told.then_some(x);
+        let known = |x: f64, known: bool| known.then_some(x);
         let axes = self.grid.dimensions();
         let widths = [axes, self.problem.mechanism.joints().len(), following.len()];
         let width: usize = widths.iter().sum();
@@ -40,8 +40,8 @@ impl Map<'_> {
                     mode: mode + 1,
                     aspect: self.aspect[s].and_then(|first| numbers[first]),
                     condition: of.condition.is_finite().then_some(of.condition),
-                    direct: told(of.direct, direct),
-                    inverse: told(of.inverse, inverse),
+                    direct: known(of.direct, direct),
+                    inverse: known(of.inverse, inverse),
                 };
                 let values = &mut part.values[row * width..][..width];
                 let (mapped, values) = values.split_at_mut(axes);
@@ -65,11 +65,11 @@ impl Map<'_> {
             let unit = SiUnit::of_coordinate(of.is_angle(mechanism));
             Variable::new(of.name(mechanism), unit)
         };
-        let told = ["mode", "aspect", "condition", "direct", "inverse"];
+        let indicators = ["mode", "aspect", "condition", "direct", "inverse"];
         let mut columns: Vec<Variable> = (self.problem.axes.iter())
             .map(|axis| variable(&axis.coordinate))
             .collect();
-        columns.extend(told.map(Variable::plain));
+        columns.extend(indicators.map(Variable::plain));
         columns.extend(Variable::joints(mechanism));
         columns.extend((following.iter()).map(|&(p, c)| variable(&Coordinate::Pose(p, c))));
         Cells {

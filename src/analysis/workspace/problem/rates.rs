@@ -173,12 +173,12 @@ impl<T: Factorable + Packed> Rates<T> {
             determinant(&mut self.spare, n)
         };
         let (direct, inverse) = (of(&input), of(&output));
-        let told = |rows: &[Row]| !rows.is_empty();
-        let (of_inputs, of_outputs) = (told(&self.inputs), self.tells_inverse);
+        let any = |rows: &[Row]| !rows.is_empty();
+        let (of_inputs, of_outputs) = (any(&self.inputs), self.tells_inverse);
         let conditions = match of_inputs {
             true => {
                 moved.clone_from(&output);
-                if !told(&self.outputs) {
+                if !any(&self.outputs) {
                     let motions = self.motions.chunks_exact(unknowns.max(1));
                     moved.extend(motions.flat_map(|one| self.moved.iter().map(|&i| one[i])));
                 }
@@ -190,7 +190,7 @@ impl<T: Factorable + Packed> Rates<T> {
             true => condition(&mut output, &mut [], n),
             false => [(false, f64::INFINITY); LANES],
         };
-        let of = |told: bool, lost: bool, determinant: f64| match (told, lost) {
+        let of = |known: bool, lost: bool, determinant: f64| match (known, lost) {
             (false, _) => 1.0,
             (true, true) => 0.0,
             (true, false) => determinant,
@@ -203,7 +203,7 @@ impl<T: Factorable + Packed> Rates<T> {
                 *regular &= (x.part(place) - unit).abs() < 1e-6;
             }
         }
-        let told = std::array::from_fn(|place| match place < T::WIDTH {
+        let indicators = std::array::from_fn(|place| match place < T::WIDTH {
             true => Indicators {
                 regular: regular[place] && gap[place] < 1e-6,
                 direct: of(of_inputs, conditions[place].0, direct.part(place)),
@@ -213,7 +213,7 @@ impl<T: Factorable + Packed> Rates<T> {
             false => Indicators::default(),
         });
         self.rates = [back, input, output, moved];
-        told
+        indicators
     }
 
     /// The motion for a unit rate of held coordinate `i`: what is held moves, and the step −J⁺r for
