@@ -131,7 +131,7 @@ fn what_roots_and_other_dimensions_hide_is_said() {
     let reason = Reason::NotPolynomial;
     assert_eq!(proof, Proof::NotDecided { reason });
     assert!(
-        text.contains("p, px: not proved, for roots or inverse functions stand in it"),
+        text.contains("p, px: not proved, because it contains roots or inverse functions"),
         "{text}"
     );
     // inverse functions whose sines are known, and quotients
