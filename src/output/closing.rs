@@ -21,10 +21,10 @@ pub(super) fn gap(distance: f64, angle: f64) -> String {
 pub(super) fn given(given: &WidestGap, kept: bool) -> String {
     let free = match kept {
         true => "",
-        false => ", which moved what the file holds too",
+        false => "; coordinates that the file holds moved too",
     };
     format!(
-        "The pose given was not closed: closure `{}` gaped by {}; it was closed first{free}.",
+        "The given pose was not closed: closure `{}` was open by {}. It was closed first{free}.",
         given.closure,
         gap(given.distance, given.angle)
     )
@@ -62,7 +62,7 @@ impl Report for NotClosed {
 fn too_large(unknowns: usize) -> String {
     format!(
         "Not analysed: the mechanism has {unknowns} unknowns, and singular values are computed for \
-         up to {SPECTRUM_LIMIT}. Ask about a part of it."
+         at most {SPECTRUM_LIMIT}. Analyse a part of it."
     )
 }
 
@@ -73,15 +73,15 @@ fn sentence(open: &NotClosed) -> String {
     };
     let left = match &open.left {
         Some(left) => format!(
-            ": at the closest approach closure {} gapes by {}",
+            ": at the closest approach closure {} is open by {}",
             left.closure,
             gap(left.distance, left.angle)
         ),
         None => String::new(),
     };
     format!(
-        "Not assembled{held}{left}. Only an assembled mechanism can be analysed: ask for other \
-         values with --hold, for another start with --guess, or let a joint be found with --free; \
-         `linkwork solve` says more."
+        "Not assembled{held}{left}. Only an assembled mechanism can be analysed: give other values \
+         with --hold, another start with --guess, or free a joint with --free; `linkwork solve` shows \
+         more."
     )
 }
