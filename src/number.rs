@@ -44,10 +44,12 @@ pub trait Number:
     /// The constant `x`.
     fn from_f64(x: f64) -> Self;
     /// π.
+    #[inline]
     fn pi() -> Self {
         Self::from_f64(std::f64::consts::PI)
     }
     /// An angle of so many degrees, in radians.
+    #[inline]
     fn degrees(angle: f64) -> Self {
         Self::from_f64(angle.to_radians())
     }
@@ -58,6 +60,7 @@ pub trait Number:
     /// Principal square root.
     fn sqrt(self) -> Self;
     /// Tangent of an angle in radians.
+    #[inline]
     fn tan(self) -> Self {
         let (sin, cos) = self.sin_cos();
         sin / cos
@@ -75,20 +78,24 @@ pub trait Number:
     /// Natural logarithm.
     fn ln(self) -> Self;
     /// `self` or `-self`, whichever has a real part that is not negative.
+    #[inline]
     fn abs(self) -> Self {
         if self.real() < 0.0 { -self } else { self }
     }
     /// The one of two with the lesser real part; the first if they are equal.
+    #[inline]
     fn lesser(self, other: Self) -> Self {
         let less = other.real() < self.real();
         if less { other } else { self }
     }
     /// The one of two with the greater real part; the first if they are equal.
+    #[inline]
     fn greater(self, other: Self) -> Self {
         let greater = other.real() > self.real();
         if greater { other } else { self }
     }
     /// Whole power.
+    #[inline]
     fn powi(self, n: i32) -> Self {
         let (mut base, mut left, mut power) = (self, n.unsigned_abs(), Self::one());
         while left > 0 {
@@ -101,20 +108,24 @@ pub trait Number:
         if n < 0 { Self::one() / power } else { power }
     }
     /// Power with any exponent.
+    #[inline]
     fn powf(self, exponent: Self) -> Self {
         (self.ln() * exponent).exp()
     }
     /// Whether no part of the number is infinite or NaN.
     fn is_finite(self) -> bool;
     /// Zero.
+    #[inline]
     fn zero() -> Self {
         Self::from_f64(0.0)
     }
     /// One.
+    #[inline]
     fn one() -> Self {
         Self::from_f64(1.0)
     }
     /// `self` times a real constant.
+    #[inline]
     fn scale(self, factor: f64) -> Self {
         self * Self::from_f64(factor)
     }
@@ -124,18 +135,21 @@ pub trait Number:
 macro_rules! assigning {
     ($number:ty $(, $t:ident)?) => {
         impl$(<$t: crate::number::Number>)? std::ops::AddAssign for $number {
+            #[inline(always)]
             fn add_assign(&mut self, other: Self) {
                 *self = *self + other;
             }
         }
 
         impl$(<$t: crate::number::Number>)? std::ops::SubAssign for $number {
+            #[inline(always)]
             fn sub_assign(&mut self, other: Self) {
                 *self = *self - other;
             }
         }
 
         impl$(<$t: crate::number::Number>)? std::ops::MulAssign for $number {
+            #[inline(always)]
             fn mul_assign(&mut self, other: Self) {
                 *self = *self * other;
             }

@@ -293,7 +293,7 @@ impl Reporter<'_> {
     fn assembled(&self, attempt: Attempt) -> AssemblyReport {
         let outside = self.search.outside_limits(&attempt.at);
         let freedoms = Freedoms::at(self.mechanism.dimensions(), self.search.held(), &attempt.at);
-        let idle = if freedoms.are_idle(self.mechanism, &attempt.at) {
+        let idle = if freedoms.are_local(self.mechanism, &attempt.at) {
             freedoms.motions.len()
         } else {
             0

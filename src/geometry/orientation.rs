@@ -7,6 +7,7 @@ pub struct Quaternion<T>(pub [T; 4]);
 
 impl<T: Number> Quaternion<T> {
     /// No rotation.
+    #[inline(always)]
     pub fn identity() -> Self {
         Quaternion([T::one(), T::zero(), T::zero(), T::zero()])
     }
@@ -29,7 +30,7 @@ impl<T: Number> Quaternion<T> {
     /// order and needs no trigonometry.
     #[inline(always)]
     pub fn turned_by(&self, omega: &Vector3<T>) -> Self {
-        let [x, y, z] = omega.0.map(|w| w.scale(0.5));
+        let [x, y, z] = omega.scaled(0.5).0;
         Quaternion([T::one(), x, y, z]).then_left(self).normalised()
     }
 
@@ -58,6 +59,7 @@ impl<T: Number> Quaternion<T> {
     }
 
     /// The quaternion of a rotation, by the largest of the four components (Shepperd 1978).
+    #[inline]
     pub fn from_rotation(rotation: &Rotation<T>) -> Self {
         let r = rotation.rows();
         let one = T::one();
@@ -84,7 +86,10 @@ impl<T: Number> Quaternion<T> {
     pub fn canonical(&self) -> Self {
         let first = self.0.iter().map(|x| x.real()).find(|&x| x != 0.0);
         match first {
-            Some(x) if x < 0.0 => Quaternion(self.0.map(|x| -x)),
+            Some(x) if x < 0.0 => {
+                let [w, x, y, z] = self.0;
+                Quaternion([-w, -x, -y, -z])
+            }
             _ => *self,
         }
     }

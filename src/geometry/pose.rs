@@ -14,6 +14,7 @@ pub struct Pose<T> {
 
 impl<T: Number> Pose<T> {
     /// The frame itself.
+    #[inline(always)]
     pub fn identity() -> Self {
         Pose {
             rotation: Rotation::identity(),
@@ -22,6 +23,7 @@ impl<T: Number> Pose<T> {
     }
 
     /// A displacement without rotation.
+    #[inline(always)]
     pub fn translation(position: Vector3<T>) -> Self {
         Pose {
             position,
@@ -30,6 +32,7 @@ impl<T: Number> Pose<T> {
     }
 
     /// A rotation about a coordinate axis by the angle in radians.
+    #[inline]
     pub fn rotation(axis: Axis, angle: T) -> Self {
         Pose {
             rotation: Rotation::about(axis, exact_sin_cos(angle)),
@@ -38,6 +41,7 @@ impl<T: Number> Pose<T> {
     }
 
     /// The inverse displacement: ⁱⱼT⁻¹ = ʲᵢT.
+    #[inline(always)]
     pub fn inverse(&self) -> Self {
         Pose {
             rotation: self.rotation.transpose(),
@@ -47,10 +51,10 @@ impl<T: Number> Pose<T> {
 
     /// The displacement with every constant lifted to another number.
     pub fn map<U>(&self, mut f: impl FnMut(T) -> U) -> Pose<U> {
-        let mut lift = |v: Vector3<T>| Vector3(v.0.map(&mut f));
+        let [x, y, z] = self.rotation.0;
         Pose {
-            rotation: Rotation(self.rotation.0.map(&mut lift)),
-            position: lift(self.position),
+            rotation: Rotation([x.map(&mut f), y.map(&mut f), z.map(&mut f)]),
+            position: self.position.map(&mut f),
         }
     }
 }

@@ -9,11 +9,13 @@ pub struct Rotation<T>(pub [Vector3<T>; 3]);
 
 impl<T: Number> Rotation<T> {
     /// No rotation.
+    #[inline(always)]
     pub fn identity() -> Self {
         Rotation([Vector3::unit(0), Vector3::unit(1), Vector3::unit(2)])
     }
 
     /// Rotation about a coordinate axis by an angle of the given sine and cosine.
+    #[inline]
     pub fn about(axis: Axis, (sin, cos): (T, T)) -> Self {
         let (i, j, k) = axis.cyclic();
         let mut columns = [Vector3::zero(); 3];
@@ -32,9 +34,11 @@ impl<T: Number> Rotation<T> {
     }
 
     /// Rᵀ, the inverse.
+    #[inline(always)]
     pub fn transpose(&self) -> Self {
         let [x, y, z] = &self.0;
-        Rotation([0, 1, 2].map(|i| Vector3([x.0[i], y.0[i], z.0[i]])))
+        let row = |i: usize| Vector3([x.0[i], y.0[i], z.0[i]]);
+        Rotation([row(0), row(1), row(2)])
     }
 
     /// Rᵀ v: the vector seen from the rotated frame.
@@ -51,13 +55,17 @@ impl<T: Number> Rotation<T> {
     }
 
     /// Row-major entries r₁₁ … r₃₃.
+    #[inline]
     pub fn rows(&self) -> [[T; 3]; 3] {
-        self.transpose().0.map(|row| row.0)
+        let [x, y, z] = self.transpose().0;
+        [x.0, y.0, z.0]
     }
 
     /// The rotation with the given rows. No check is made that they are orthonormal.
+    #[inline]
     pub fn from_rows(rows: [[T; 3]; 3]) -> Self {
-        Rotation(rows.map(Vector3)).transpose()
+        let [x, y, z] = rows;
+        Rotation([Vector3(x), Vector3(y), Vector3(z)]).transpose()
     }
 }
 
@@ -74,6 +82,7 @@ impl<T: Number> Mul for Rotation<T> {
     type Output = Self;
     #[inline(always)]
     fn mul(self, other: Self) -> Self {
-        Rotation(other.0.map(|column| self * column))
+        let [x, y, z] = other.0;
+        Rotation([self * x, self * y, self * z])
     }
 }

@@ -8,8 +8,11 @@ pub struct Vector3<T>(pub [T; 3]);
 
 impl<T: Copy> Vector3<T> {
     /// The vector with a function applied to each component.
-    pub fn map<U>(&self, change: impl Fn(T) -> U) -> Vector3<U> {
-        Vector3(self.0.map(change))
+    #[inline(always)]
+    pub fn map<U>(&self, mut change: impl FnMut(T) -> U) -> Vector3<U> {
+        // not by `map` of the array, of which the compiler makes calls
+        let [x, y, z] = self.0;
+        Vector3([change(x), change(y), change(z)])
     }
 }
 
@@ -27,6 +30,7 @@ impl<T: Number> Vector3<T> {
     }
 
     /// The unit vector along x (0), y (1) or z (2).
+    #[inline(always)]
     pub fn unit(axis: usize) -> Self {
         let mut unit = Vector3::zero();
         unit.0[axis] = T::one();
@@ -49,10 +53,17 @@ impl<T: Number> Vector3<T> {
     /// The vector times a number.
     #[inline(always)]
     pub fn times(&self, factor: T) -> Self {
-        Vector3(self.0.map(|x| x * factor))
+        self.map(|x| x * factor)
+    }
+
+    /// The vector times a real constant.
+    #[inline(always)]
+    pub fn scaled(&self, factor: f64) -> Self {
+        self.map(|x| x.scale(factor))
     }
 
     /// √(v·v).
+    #[inline]
     pub fn norm(&self) -> T {
         self.dot(self).sqrt()
     }
@@ -87,6 +98,6 @@ impl<T: Number> Neg for Vector3<T> {
     type Output = Self;
     #[inline(always)]
     fn neg(self) -> Self {
-        Vector3(self.0.map(|x| -x))
+        self.map(|x| -x)
     }
 }

@@ -230,7 +230,7 @@ impl<T: Factorable> Bordered<T> {
             // row by row: there are few of them, often one, and more shared unknowns
             for (k, b) in block.rhs[..block.qr.rank()].iter_mut().enumerate() {
                 for (carried, &place) in block.qr.all_carried().zip(&block.border_places) {
-                    *b -= self.border_x[place] * carried[k];
+                    *b = *b - self.border_x[place] * carried[k];
                 }
             }
             block.qr.back_substitute(&mut block.rhs, &mut block.x);

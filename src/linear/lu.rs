@@ -69,12 +69,12 @@ fn eliminate<T: Field>(n: usize, a: &mut [T], exchanges: &mut [usize]) -> f64 {
         let column = &mut left[k * n..];
         column[k] = reciprocal;
         for entry in &mut column[k + 1..] {
-            *entry *= reciprocal;
+            *entry = *entry * reciprocal;
         }
         for other in right.chunks_exact_mut(n) {
             let factor = other[k];
             for i in k + 1..n {
-                other[i] -= factor * column[i];
+                other[i] = other[i] - factor * column[i];
             }
         }
     }
@@ -91,14 +91,14 @@ fn substitute<T: Field>(n: usize, a: &[T], exchanges: &[usize], b: &mut [T]) {
     for k in 0..n {
         let factor = b[k];
         for i in k + 1..n {
-            b[i] -= factor * a[k * n + i];
+            b[i] = b[i] - factor * a[k * n + i];
         }
     }
     for k in (0..n).rev() {
         let factor = b[k] * a[k * n + k];
         b[k] = factor;
         for i in 0..k {
-            b[i] -= factor * a[k * n + i];
+            b[i] = b[i] - factor * a[k * n + i];
         }
     }
 }

@@ -140,7 +140,7 @@ impl<T: Field> Qr<T> {
             let column = &self.entries[j * rows..(j + 1) * rows];
             let mut norm_squared = T::Size::zero();
             for x in &column[k..] {
-                norm_squared += x.norm_squared();
+                norm_squared = norm_squared + x.norm_squared();
             }
             let least = norm_squared.least();
             if least > most {
@@ -163,7 +163,7 @@ impl<T: Field> Qr<T> {
         let v = &mut left[k * rows + k..];
         let size = v[0].norm_squared().sqrt();
         let diagonal = -v[0].phase().stretched(norm);
-        v[0] -= diagonal;
+        v[0] = v[0] - diagonal;
         let scale = T::Size::one() / (norm * (norm + size));
         for column in right.chunks_exact_mut(rows) {
             reflect_one(v, scale, &mut column[k..]);
@@ -198,12 +198,12 @@ impl<T: Field> Qr<T> {
             let (first, rest) = b[k..].split_first_mut().expect("k < rows");
             let mut sum = heads[k].conjugate() * *first;
             for (v, x) in tail.iter().zip(&*rest) {
-                sum += v.conjugate() * *x;
+                sum = sum + v.conjugate() * *x;
             }
             let sum = sum.stretched(scales[k]);
-            *first -= sum * heads[k];
+            *first = *first - sum * heads[k];
             for (v, x) in tail.iter().zip(rest) {
-                *x -= sum * *v;
+                *x = *x - sum * *v;
             }
         }
     }
@@ -219,7 +219,7 @@ impl<T: Field> Qr<T> {
             let column = self.column(k);
             let value = b[k] / column[k];
             for (b, r) in b[..k].iter_mut().zip(column) {
-                *b -= value * *r;
+                *b = *b - value * *r;
             }
             x[self.order[k]] = value;
         }
@@ -230,11 +230,11 @@ impl<T: Field> Qr<T> {
 fn reflect_one<T: Field>(v: &[T], scale: T::Size, column: &mut [T]) {
     let mut sum = T::zero();
     for (v, x) in v.iter().zip(&*column) {
-        sum += v.conjugate() * *x;
+        sum = sum + v.conjugate() * *x;
     }
     let sum = sum.stretched(scale);
     for (v, x) in v.iter().zip(column) {
-        *x -= sum * *v;
+        *x = *x - sum * *v;
     }
 }
 

@@ -133,11 +133,14 @@ impl<T: Number> Closure<T> {
     }
 
     /// The poses of the two frames: ground from A, ground from B.
+    #[inline(always)]
     pub(crate) fn frames<'a>(&self, placement: &'a Placement<T>) -> [&'a Pose<T>; 2] {
-        self.slots.map(|slot| placement.pose(slot))
+        let [a, b] = self.slots;
+        [placement.pose(a), placement.pose(b)]
     }
 
     /// The length of a `Distance` in m.
+    #[inline]
     pub(crate) fn length(&self, at: &Configuration<T>) -> T {
         self.length + self.extension.at(&at.joints)
     }
@@ -242,8 +245,9 @@ fn misalignment<T: Number>(a: &Pose<T>, b: &Pose<T>) -> ([T; 2], T) {
 fn disorientation<T: Number>(a: &Pose<T>, b: &Pose<T>) -> ([T; 3], T) {
     let (a, b) = (&a.rotation.0, &b.rotation.0);
     let trace = a[0].dot(&b[0]) + a[1].dot(&b[1]) + a[2].dot(&b[2]);
-    let s = CYCLIC.map(|(i, j)| a[j].dot(&b[i]) - a[i].dot(&b[j]));
-    (s, T::one() + trace)
+    let s = |(i, j): (usize, usize)| a[j].dot(&b[i]) - a[i].dot(&b[j]);
+    let [x, y, z] = CYCLIC;
+    ([s(x), s(y), s(z)], T::one() + trace)
 }
 
 const CYCLIC: [(usize, usize); 3] = [(1, 2), (2, 0), (0, 1)];
@@ -368,8 +372,8 @@ impl<T: Number> Rows<T> {
     ) {
         let sign = side.sign();
         let force_row = |force: &Vector3<T>| {
-            let [a, b, c] = arm.cross(force).0.map(|m| m.scale(sign));
-            let [x, y, z] = force.0.map(|f| f.scale(sign * length));
+            let [a, b, c] = arm.cross(force).scaled(sign).0;
+            let [x, y, z] = force.scaled(sign * length).0;
             [a, b, c, x, y, z]
         };
         let mut next = 0..MOST_ROWS;
@@ -380,7 +384,7 @@ impl<T: Number> Rows<T> {
             }
         }
         for (moment, row) in self.moments[..self.moment_count].iter().zip(next.by_ref()) {
-            let [a, b, c] = moment.0.map(|m| m.scale(sign));
+            let [a, b, c] = moment.scaled(sign).0;
             put(row, [a, b, c, T::zero(), T::zero(), T::zero()]);
         }
         for (force, row) in self.forces[..self.force_count].iter().zip(next) {

@@ -114,9 +114,12 @@ impl<T: Number> Configuration<T> {
         Configuration {
             joints: self.joints.iter().map(|&x| f(x)).collect(),
             platforms: (self.platforms.iter())
-                .map(|p| PlatformPose {
-                    orientation: Quaternion(p.orientation.0.map(&mut f)),
-                    position: Vector3(p.position.0.map(&mut f)),
+                .map(|p| {
+                    let [w, x, y, z] = p.orientation.0;
+                    PlatformPose {
+                        orientation: Quaternion([f(w), f(x), f(y), f(z)]),
+                        position: p.position.map(&mut f),
+                    }
                 })
                 .collect(),
         }

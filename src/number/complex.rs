@@ -12,6 +12,7 @@ impl Number for Complex<f64> {
         self.re
     }
     /// sin(x + iy) = sin x cosh y + i cos x sinh y, cos(x + iy) = cos x cosh y − i sin x sinh y.
+    #[inline]
     fn sin_cos(self) -> (Self, Self) {
         let (sin, cos) = trigonometry::sin_cos(self.re);
         let (sinh, cosh) = trigonometry::sinh_cosh(self.im);
@@ -20,29 +21,37 @@ impl Number for Complex<f64> {
             Complex::new(cos * cosh, -sin * sinh),
         )
     }
+    #[inline]
     fn sqrt(self) -> Self {
         Complex::sqrt(self)
     }
+    #[inline]
     fn asin(self) -> Self {
         Complex::asin(self)
     }
+    #[inline]
     fn acos(self) -> Self {
         Complex::acos(self)
     }
+    #[inline]
     fn atan(self) -> Self {
         Complex::atan(self)
     }
     /// −i ln((x + iy)/√(x² + y²)), which is the analytic continuation of the real function.
+    #[inline]
     fn atan2(self, x: Self) -> Self {
         let i = Complex::new(0.0, 1.0);
         -i * ((x + i * self) / (x * x + self * self).sqrt()).ln()
     }
+    #[inline]
     fn exp(self) -> Self {
         Complex::exp(self)
     }
+    #[inline]
     fn ln(self) -> Self {
         Complex::ln(self)
     }
+    #[inline]
     fn is_finite(self) -> bool {
         self.re.is_finite() && self.im.is_finite()
     }

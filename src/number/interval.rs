@@ -21,6 +21,7 @@ const WHOLE: Interval = Interval {
 };
 
 /// The elementary functions of `pxfm` are within half a unit in the last place; two are granted.
+#[inline]
 fn outward(low: f64, high: f64) -> Interval {
     if low.is_nan() || high.is_nan() {
         return WHOLE;
@@ -32,6 +33,7 @@ fn outward(low: f64, high: f64) -> Interval {
 }
 
 /// The correctly rounded ends of a sum, product, quotient or root, moved by one unit.
+#[inline]
 fn rounded(low: f64, high: f64) -> Interval {
     if low.is_nan() || high.is_nan() {
         return WHOLE;
@@ -42,41 +44,49 @@ fn rounded(low: f64, high: f64) -> Interval {
     }
 }
 
+#[inline]
 fn interval(low: f64, high: f64) -> Interval {
     Interval { low, high }
 }
 
 impl Interval {
     /// The single real `x`.
+    #[inline]
     pub fn point(x: f64) -> Self {
         interval(x, x)
     }
 
     /// All reals within `radius` of `centre`.
+    #[inline]
     pub fn around(centre: f64, radius: f64) -> Self {
         rounded(centre - radius, centre + radius)
     }
 
     /// The largest absolute value inside.
+    #[inline]
     pub fn magnitude(self) -> f64 {
         self.low.abs().max(self.high.abs())
     }
 
     /// Whether a real is inside.
+    #[inline]
     pub fn contains(self, x: f64) -> bool {
         self.low <= x && x <= self.high
     }
 
     /// The distance of the ends.
+    #[inline]
     pub fn width(self) -> f64 {
         self.high - self.low
     }
 
+    #[inline]
     fn is(self, x: f64) -> bool {
         self.low == x && self.high == x
     }
 
     /// The hull of a function of the ends of two intervals.
+    #[inline]
     fn of_ends(self, other: Self, f: impl Fn(f64, f64) -> f64) -> Self {
         let ends = [self.low, self.high];
         let values = ends.map(|a| [f(a, other.low), f(a, other.high)]);
@@ -89,11 +99,13 @@ impl Interval {
     }
 
     /// π enclosed: the f64 nearest to it lies below.
+    #[inline]
     fn pi() -> Self {
         interval(PI, PI.next_up())
     }
 
     /// Whether some (k + `phase`)·π with whole k of the wanted parity may be inside.
+    #[inline]
     fn meets(self, phase: f64, odd: bool) -> bool {
         let margin = 1e-12 * (1.0 + self.magnitude());
         let offset = if odd { 1.0 } else { 0.0 };
@@ -106,6 +118,7 @@ impl Interval {
 
 impl Add for Interval {
     type Output = Self;
+    #[inline]
     fn add(self, other: Self) -> Self {
         if self.is(0.0) {
             return other;
@@ -119,6 +132,7 @@ impl Add for Interval {
 
 impl Neg for Interval {
     type Output = Self;
+    #[inline]
     fn neg(self) -> Self {
         interval(-self.high, -self.low)
     }
@@ -126,6 +140,7 @@ impl Neg for Interval {
 
 impl Sub for Interval {
     type Output = Self;
+    #[inline]
     fn sub(self, other: Self) -> Self {
         self + -other
     }
@@ -133,6 +148,7 @@ impl Sub for Interval {
 
 impl Mul for Interval {
     type Output = Self;
+    #[inline]
     fn mul(self, other: Self) -> Self {
         if self.is(0.0) || other.is(0.0) {
             return Interval::point(0.0);
@@ -155,6 +171,7 @@ impl Mul for Interval {
 
 impl Div for Interval {
     type Output = Self;
+    #[inline]
     fn div(self, other: Self) -> Self {
         if other.is(1.0) {
             return self;
@@ -172,10 +189,12 @@ impl Div for Interval {
 assigning!(Interval);
 
 impl Number for Interval {
+    #[inline]
     fn from_f64(x: f64) -> Self {
         Interval::point(x)
     }
     /// The middle.
+    #[inline]
     fn real(self) -> f64 {
         if self.low == self.high {
             self.low
@@ -183,6 +202,7 @@ impl Number for Interval {
             0.5 * self.low + 0.5 * self.high
         }
     }
+    #[inline]
     fn sin_cos(self) -> (Self, Self) {
         if self.is(0.0) {
             return (Interval::point(0.0), Interval::point(1.0));
@@ -203,6 +223,7 @@ impl Number for Interval {
             enclose(low.1, high.1, self.meets(0.0, false), self.meets(0.0, true)),
         )
     }
+    #[inline]
     fn sqrt(self) -> Self {
         if self.is(0.0) || self.is(1.0) {
             return self;
@@ -216,18 +237,22 @@ impl Number for Interval {
             ..root
         }
     }
+    #[inline]
     fn asin(self) -> Self {
         outward(pxfm::f_asin(self.low), pxfm::f_asin(self.high))
     }
+    #[inline]
     fn acos(self) -> Self {
         outward(pxfm::f_acos(self.high), pxfm::f_acos(self.low))
     }
+    #[inline]
     fn atan(self) -> Self {
         if self.is(0.0) {
             return self;
         }
         outward(pxfm::f_atan(self.low), pxfm::f_atan(self.high))
     }
+    #[inline]
     fn atan2(self, x: Self) -> Self {
         let half_pi = interval(FRAC_PI_2, FRAC_PI_2.next_up());
         if x.low > 0.0 {
@@ -241,15 +266,18 @@ impl Number for Interval {
             interval(-pi, pi)
         }
     }
+    #[inline]
     fn exp(self) -> Self {
         outward(pxfm::f_exp(self.low), pxfm::f_exp(self.high))
     }
+    #[inline]
     fn ln(self) -> Self {
         if self.low <= 0.0 {
             return WHOLE;
         }
         outward(pxfm::f_log(self.low), pxfm::f_log(self.high))
     }
+    #[inline]
     fn abs(self) -> Self {
         if self.low >= 0.0 {
             self
@@ -259,6 +287,7 @@ impl Number for Interval {
             interval(0.0, self.magnitude())
         }
     }
+    #[inline]
     fn is_finite(self) -> bool {
         self.low.is_finite() && self.high.is_finite()
     }
@@ -266,20 +295,24 @@ impl Number for Interval {
 
 impl Field for Interval {
     type Size = f64;
+    #[inline]
     fn conjugate(self) -> Self {
         self
     }
     /// The largest square inside, for measuring sizes.
+    #[inline]
     fn norm_squared(self) -> f64 {
         let m = self.magnitude();
         (m * m).next_up()
     }
+    #[inline]
     fn phase(self) -> Self {
         match self.norm_squared() {
             0.0 => Interval::point(1.0),
             size => self / Interval::point(size).sqrt(),
         }
     }
+    #[inline]
     fn stretched(self, factor: f64) -> Self {
         self * Interval::point(factor)
     }

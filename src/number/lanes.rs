@@ -120,6 +120,7 @@ impl Number for Lanes {
         Lanes(wide::f64x8::splat(x))
     }
     /// That of the first lane.
+    #[inline]
     fn real(self) -> f64 {
         self.0.as_array()[0]
     }
@@ -132,21 +133,27 @@ impl Number for Lanes {
     fn sqrt(self) -> Self {
         Lanes(self.0.sqrt())
     }
+    #[inline]
     fn asin(self) -> Self {
         self.each(Number::asin)
     }
+    #[inline]
     fn acos(self) -> Self {
         self.each(Number::acos)
     }
+    #[inline]
     fn atan(self) -> Self {
         self.each(Number::atan)
     }
+    #[inline]
     fn atan2(self, x: Self) -> Self {
         Lanes::new(trigonometry::atan2_of_each(self.lanes(), x.lanes()))
     }
+    #[inline]
     fn exp(self) -> Self {
         self.each(Number::exp)
     }
+    #[inline]
     fn ln(self) -> Self {
         self.each(Number::ln)
     }
@@ -154,9 +161,11 @@ impl Number for Lanes {
     fn abs(self) -> Self {
         Lanes(self.0.abs())
     }
+    #[inline]
     fn powf(self, exponent: Self) -> Self {
         self.with(exponent, Number::powf)
     }
+    #[inline]
     fn is_finite(self) -> bool {
         self.lanes().into_iter().all(f64::is_finite)
     }

@@ -19,27 +19,35 @@ impl Number for f64 {
     fn sqrt(self) -> Self {
         f64::sqrt(self)
     }
+    #[inline]
     fn asin(self) -> Self {
         pxfm::f_asin(self)
     }
+    #[inline]
     fn acos(self) -> Self {
         pxfm::f_acos(self)
     }
+    #[inline]
     fn atan(self) -> Self {
         pxfm::f_atan(self)
     }
+    #[inline]
     fn atan2(self, x: Self) -> Self {
         trigonometry::atan2(self, x)
     }
+    #[inline]
     fn exp(self) -> Self {
         pxfm::f_exp(self)
     }
+    #[inline]
     fn ln(self) -> Self {
         pxfm::f_log(self)
     }
+    #[inline]
     fn powf(self, exponent: Self) -> Self {
         pxfm::f_pow(self, exponent)
     }
+    #[inline]
     fn is_finite(self) -> bool {
         f64::is_finite(self)
     }

@@ -21,10 +21,10 @@ pub(super) fn gap(distance: f64, angle: f64) -> String {
 pub(super) fn given(given: &WidestGap, kept: bool) -> String {
     let free = match kept {
         true => "",
-        false => "; coordinates that the file holds moved too",
+        false => ", which moved actuated joints too",
     };
     format!(
-        "The given pose was not closed: closure `{}` was open by {}. It was closed first{free}.",
+        "The pose given was not assembled: closure `{}` was open by {}; it was assembled first{free}.",
         given.closure,
         gap(given.distance, given.angle)
     )
@@ -61,8 +61,8 @@ impl Report for NotClosed {
 
 fn too_large(unknowns: usize) -> String {
     format!(
-        "Not analysed: the mechanism has {unknowns} unknowns, and singular values are computed for \
-         at most {SPECTRUM_LIMIT}. Analyse a part of it."
+        "Not analysed: the mechanism has {unknowns} unknowns, and this analysis is limited to \
+         {SPECTRUM_LIMIT}. Analyse a part of it."
     )
 }
 

@@ -9,7 +9,7 @@ use super::document::{Column, Document, Report, Section, Table, cells};
 use super::overview;
 use super::quantity::{degrees, number, quantity, short, size};
 use crate::analysis::frames::{
-    AxesError, AxesReport, CutReport, FramesReport, PlacedChain, PlacedNormal, Way,
+    AxesError, AxesReport, CutChoice, CutReport, FramesReport, PlacedChain, PlacedNormal,
 };
 use crate::analysis::overview::overview;
 use crate::description::{
@@ -112,7 +112,7 @@ fn cut_section(cuts: &CutReport) -> Section {
     }
 }
 
-fn simple(way: &Way) -> String {
+fn simple(way: &CutChoice) -> String {
     let entries = match way.entries {
         1 => "1 non-zero constant".into(),
         number => format!("{number} non-zero constants"),

@@ -8,7 +8,7 @@ use super::question::{driven_complaint, unknown_frame};
 use crate::analysis::statics::{Force, Reaction, StaticsReport};
 use crate::description::{count, listed};
 use crate::mechanism::Mechanism;
-use crate::system::LoadError;
+use crate::system::ForceError;
 
 impl Report for StaticsReport {
     fn document(&self) -> Document {
@@ -135,9 +135,9 @@ fn reactions(reactions: &[Reaction], length: f64) -> Table {
 }
 
 /// What is wrong with a load.
-pub fn complaint(mechanism: &Mechanism, error: &LoadError, option: &str) -> Complaint {
+pub fn complaint(mechanism: &Mechanism, error: &ForceError, option: &str) -> Complaint {
     match error {
-        LoadError::Value(error) => {
+        ForceError::Value(error) => {
             let said = driven_complaint(error, option);
             // of several components the wrong one is not known here
             match said.part {
@@ -145,19 +145,19 @@ pub fn complaint(mechanism: &Mechanism, error: &LoadError, option: &str) -> Comp
                 _ => said,
             }
         }
-        LoadError::UnknownFrame { name } => unknown_frame(mechanism, name),
-        LoadError::OnGround { name, instead } => Complaint::with_help(
+        ForceError::UnknownFrame { name } => unknown_frame(mechanism, name),
+        ForceError::OnGround { name, instead } => Complaint::with_help(
             format!("`{name}` does not move: the ground carries any wrench"),
             "on the ground",
             format!("load a body that moves, such as {}", listed(instead)),
         ),
-        LoadError::Components { given } => Complaint::with_help(
+        ForceError::Components { given } => Complaint::with_help(
             format!("a wrench has three or six components, not {given}"),
             "",
             "write Fx,Fy,Fz in N, or Fx,Fy,Fz,Mx,My,Mz with N·m".into(),
         )
         .at(Part::WholeValue),
-        LoadError::UnknownJoint {
+        ForceError::UnknownJoint {
             name,
             suggestion,
             known,
@@ -170,7 +170,7 @@ pub fn complaint(mechanism: &Mechanism, error: &LoadError, option: &str) -> Comp
                 (None, true) => "there are no joints: load a frame with --wrench".into(),
             },
         ),
-        LoadError::Platform {
+        ForceError::Platform {
             name,
             platform,
             component,

@@ -11,7 +11,7 @@ mod wrenches;
 
 pub use approach::approach;
 pub use axes::ClosureAxes;
-pub use coordinate::Holdable;
+pub use coordinate::Coordinate;
 pub use gap::Gap;
 pub use layout::{Held, HeldPlatform, Unknown};
 pub use parts::independent_parts;
@@ -158,7 +158,7 @@ impl<T: Factorable> System<T> {
     pub fn set_target(
         &mut self,
         platform: usize,
-        coordinate: crate::mechanism::Coordinate,
+        coordinate: crate::mechanism::PoseCoordinate,
         value: T,
     ) {
         for hold in &mut self.holds {
@@ -358,9 +358,9 @@ impl<T: Factorable> Equations for System<T> {
                 }
                 Unknown::Twist { platform, .. } => {
                     let twist = &work.step[unknown..unknown + 6];
-                    let omega = Vector3([0, 1, 2].map(|i| twist[i].scale(fraction)));
+                    let omega = Vector3([twist[0], twist[1], twist[2]]).scaled(fraction);
                     let shift = fraction * self.length;
-                    let shift = Vector3([3, 4, 5].map(|i| twist[i].scale(shift)));
+                    let shift = Vector3([twist[3], twist[4], twist[5]]).scaled(shift);
                     to.platforms[platform] = from.platforms[platform].moved_by(&omega, shift);
                     unknown += 6;
                 }

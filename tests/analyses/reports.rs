@@ -207,7 +207,7 @@ fn errors_are_errors_with_words() {
     is_error::<system::QuestionError>();
     is_error::<system::ValueError>();
     is_error::<system::DriveError>();
-    is_error::<system::LoadError>();
+    is_error::<system::ForceError>();
     is_error::<analysis::assemblies::AssembliesError>();
     is_error::<analysis::assemblies::StoredError>();
     is_error::<analysis::convert::ConvertError>();

@@ -2,7 +2,7 @@
 
 use super::tables::times;
 use crate::analysis::assemblies::{Fold, LostMode, LostReason};
-use crate::mechanism::{Coordinate, Variable};
+use crate::mechanism::{PoseCoordinate, Variable};
 use crate::output::document::{Document, Report, Section};
 use crate::output::quantity::{number, quantity};
 
@@ -58,6 +58,6 @@ fn input(variables: &[Variable], name: &str, value: f64) -> String {
     }
     let coordinate = name
         .rsplit_once('.')
-        .and_then(|(_, c)| Coordinate::by_name(c));
+        .and_then(|(_, c)| PoseCoordinate::by_name(c));
     coordinate.map_or(number(value), |c| quantity(value, c.is_angle()))
 }

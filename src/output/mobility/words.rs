@@ -1,7 +1,7 @@
 //! What a mechanism can do, in sentences.
 
 use crate::analysis::mobility::{
-    Character, Elsewhere, IdleFreedom, MobilityReport, Redundancy, Wrench,
+    Character, Elsewhere, LocalFreedom, MobilityReport, Redundancy, Wrench,
 };
 use crate::description::count;
 use crate::description::listed;
@@ -19,8 +19,8 @@ pub(super) fn explanation(report: &MobilityReport) -> String {
         };
         sentences.push(format!("Redundant {verb}: {}.", redundant.join("; ")));
     }
-    let (rods, links): (Vec<&IdleFreedom>, Vec<&IdleFreedom>) =
-        (report.idle_freedoms.iter()).partition(|freedom| matches!(freedom, IdleFreedom::Rod(_)));
+    let (rods, links): (Vec<&LocalFreedom>, Vec<&LocalFreedom>) =
+        (report.idle_freedoms.iter()).partition(|freedom| matches!(freedom, LocalFreedom::Rod(_)));
     for (spins, why) in [
         (links, "Kutzbach's count includes"),
         (
@@ -172,12 +172,12 @@ pub(super) fn counted(report: &MobilityReport) -> String {
 }
 
 /// What an idle freedom is.
-pub(super) fn idle(freedom: &IdleFreedom) -> String {
+pub(super) fn idle(freedom: &LocalFreedom) -> String {
     match freedom {
-        IdleFreedom::Joints(joints) => {
+        LocalFreedom::Joints(joints) => {
             format!("a link spins about its own line in {}", listed(joints))
         }
-        IdleFreedom::Platforms { platforms, joints } => {
+        LocalFreedom::Platforms { platforms, joints } => {
             let (spin, line) = match platforms.len() {
                 1 => ("spins", "its own line"),
                 _ => ("spin", "their line"),
@@ -188,7 +188,7 @@ pub(super) fn idle(freedom: &IdleFreedom) -> String {
             };
             format!("{} {spin} about {line}{joints}", listed(platforms))
         }
-        IdleFreedom::Rod(rod) => format!("rod {rod} spins about its own line"),
+        LocalFreedom::Rod(rod) => format!("rod {rod} spins about its own line"),
     }
 }
 

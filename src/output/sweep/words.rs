@@ -1,6 +1,6 @@
 //! What is said about a motion.
 
-use crate::analysis::sweep::{Ending, InputReport, Met, MetKind, MotionReport, SweepReport};
+use crate::analysis::sweep::{InputReport, Met, MetKind, MotionReport, SweepEnd, SweepReport};
 use crate::description::{count, listed};
 use crate::output::document::{Cell, Column, Section, Table};
 use crate::output::quantity::{number, quantity};
@@ -64,18 +64,18 @@ pub fn sentence(report: &SweepReport) -> String {
     };
     let place = last.map(|met| inputs_at(report, met)).unwrap_or_default();
     match (report.ending, last.map(|met| &met.kind)) {
-        (Ending::Complete, _) if through.is_empty() => {
+        (SweepEnd::Complete, _) if through.is_empty() => {
             format!("{way}: complete, on one branch.")
         }
-        (Ending::Complete, _) => format!("{way}: complete{through}."),
-        (Ending::Returned, _) => format!(
+        (SweepEnd::Complete, _) => format!("{way}: complete{through}."),
+        (SweepEnd::Returned, _) => format!(
             "{way}: the end is not reached. The curve comes back to where the inputs began{through}."
         ),
-        (Ending::Closed, _) => format!("{way} closes{through}."),
-        (Ending::Limits, _) => {
+        (SweepEnd::Closed, _) => format!("{way} closes{through}."),
+        (SweepEnd::Limits, _) => {
             format!("{way} was followed from limit to limit{through}.")
         }
-        (Ending::Fold, Some(MetKind::Fold { locked, moving })) => {
+        (SweepEnd::Fold, Some(MetKind::Fold { locked, moving })) => {
             let verb = if locked.len() == 1 { "locks" } else { "lock" };
             let moving = match moving {
                 Some(moving) => format!(
@@ -98,7 +98,7 @@ pub fn sentence(report: &SweepReport) -> String {
             )
         }
         (
-            Ending::Limit,
+            SweepEnd::Limit,
             Some(MetKind::Limit {
                 joint,
                 limit,
@@ -114,7 +114,7 @@ pub fn sentence(report: &SweepReport) -> String {
                 false => format!(" at {place}"),
             }
         ),
-        (Ending::Crossing, Some(MetKind::Crossing { freedoms, branches })) => format!(
+        (SweepEnd::Crossing, Some(MetKind::Crossing { freedoms, branches })) => format!(
             "Branches cross at {place}: there are {} there and {}. The sweep does not choose \
              between branches; with --follow it goes straight on.",
             count(*freedoms, "infinitesimal freedom"),
@@ -124,7 +124,7 @@ pub fn sentence(report: &SweepReport) -> String {
                 n => format!("{n} branches cross"),
             }
         ),
-        (Ending::SingularStart, Some(MetKind::Crossing { branches, .. })) => format!(
+        (SweepEnd::SingularStart, Some(MetKind::Crossing { branches, .. })) => format!(
             "The start is singular: branches cross there{}. Begin slightly away from it, where \
              the branch is unique.",
             match branches.len() {
@@ -132,14 +132,14 @@ pub fn sentence(report: &SweepReport) -> String {
                 n => format!(" ({n} found)"),
             }
         ),
-        (Ending::SingularStart, _) => {
+        (SweepEnd::SingularStart, _) => {
             "The start is singular: more than one freedom is left there, so the motion is not \
              determined. Hold more coordinates, or begin elsewhere; `linkwork mobility` lists what can \
              move."
                 .into()
         }
         (
-            Ending::OutsideLimits,
+            SweepEnd::OutsideLimits,
             Some(MetKind::Limit {
                 joint,
                 limit,
@@ -152,7 +152,7 @@ pub fn sentence(report: &SweepReport) -> String {
             side(*upper),
             quantity(*limit, unit.is_angle())
         ),
-        (Ending::Stopped, _) => "Stopped before the end.".into(),
+        (SweepEnd::Stopped, _) => "Stopped before the end.".into(),
         _ => format!(
             "The curve could not be followed reliably beyond {}: it ends there in a singularity of \
              higher order, or bends too sharply.",

@@ -26,9 +26,9 @@ impl<T: Factorable> System<T> {
                 } => {
                     let omega = Vector3([step[i], step[i + 1], step[i + 2]]);
                     let length = self.characteristic_length();
-                    let shift = [3, 4, 5].map(|k| step[i + k].scale(length));
+                    let shift = Vector3([step[i + 3], step[i + 4], step[i + 5]]).scaled(length);
                     let pose = &mut at.platforms[platform];
-                    *pose = pose.moved_by(&omega, Vector3(shift));
+                    *pose = pose.moved_by(&omega, shift);
                 }
                 Unknown::Twist { .. } => {}
             }

@@ -1,6 +1,6 @@
-use crate::geometry::{Rotation, Vector3};
+use crate::geometry::Rotation;
 use crate::linear::{Block, DENSE_LIMIT, Factorable, SparseStep};
-use crate::mechanism::{Closure, Coordinate, Mechanism};
+use crate::mechanism::{Closure, Mechanism, PoseCoordinate};
 use crate::number::Number;
 
 /// What is held of a platform.
@@ -13,7 +13,7 @@ pub enum HeldPlatform<T> {
     /// Some coordinates at given values, m and rad, and perhaps the whole orientation.
     Partly {
         /// Single coordinates with their values.
-        coordinates: Vec<(Coordinate, T)>,
+        coordinates: Vec<(PoseCoordinate, T)>,
         /// A wanted orientation: ground from platform.
         orientation: Option<Rotation<T>>,
     },
@@ -39,7 +39,10 @@ impl<T: Number> Held<T> {
                 orientation,
             } => HeldPlatform::Partly {
                 coordinates: coordinates.iter().map(|&(c, x)| (c, f(x))).collect(),
-                orientation: orientation.map(|r| Rotation(r.0.map(|v| Vector3(v.0.map(&mut f))))),
+                orientation: orientation.map(|r| {
+                    let [x, y, z] = r.0;
+                    Rotation([x.map(&mut f), y.map(&mut f), z.map(&mut f)])
+                }),
             },
         });
         Held {
@@ -76,7 +79,7 @@ pub enum Unknown {
 /// A row below the blocks: a platform coordinate held at a value.
 #[derive(Clone, Debug)]
 pub(crate) enum HoldRow<T> {
-    Coordinate(usize, Coordinate, T),
+    Coordinate(usize, PoseCoordinate, T),
     Orientation(usize, Rotation<T>),
 }
 

@@ -66,7 +66,7 @@ pub struct Cell<'a> {
     /// length; none if it is singular or not told.
     pub condition: Option<f64>,
     /// The determinant of the rates of the inputs for those of what is mapped and held: zero at
-    /// direct singularities. Dimensionless; none if it is not told.
+    /// direct singularities. Dimensionless; none if it is not reported.
     pub direct: Option<f64>,
     /// The same for outputs: zero at inverse singularities.
     pub inverse: Option<f64>,
