@@ -79,6 +79,5 @@ pub fn unknown_output(mechanism: &Mechanism, name: &str) -> Complaint {
         Some(meant) => format!("did you mean `{meant}`?"),
         None => "an output is a joint, a platform coordinate such as `top.x`, or a frame".into(),
     };
-    let said = Complaint::with_help(format!("`{name}` is not an output"), "not known", help);
-    said
+    Complaint::with_help(format!("`{name}` is not an output"), "not known", help)
 }

@@ -138,13 +138,10 @@ pub fn point_complaint(mechanism: &Mechanism, error: &PointError) -> Complaint {
     match error {
         PointError::NoFrame(name) => unknown_frame(mechanism, name),
         PointError::Value { text, error } => value(text, error).at(Part::Name),
-        PointError::TooMany(given) => {
-            let said = Complaint::with_help(
-                format!("a point has three offsets from its frame, and {given} are given"),
-                "too many",
-                "write FRAME+X,Y,Z, e.g. --of left+0.5,0.2,0".into(),
-            );
-            said
-        }
+        PointError::TooMany(given) => Complaint::with_help(
+            format!("a point has three offsets from its frame, and {given} are given"),
+            "too many",
+            "write FRAME+X,Y,Z, e.g. --of left+0.5,0.2,0".into(),
+        ),
     }
 }
