@@ -22,7 +22,7 @@ impl Report for StaticsReport {
         let length = self.normalising_length;
         Document::new(&self.mechanism, sentence(self))
             .note(format!(
-                "without weight and friction; condition number {}, forces times {} m beside moments",
+                "without weight and friction; condition number {}, forces times {} m compared with moments",
                 size(self.condition),
                 number(length)
             ))
@@ -38,7 +38,7 @@ fn sentence(report: &StaticsReport) -> String {
     match report.gained {
         0 => balance(report),
         gained => format!(
-            "Singular: {} gained that nothing held resists. {}",
+            "Singular: {} gained that no held coordinate resists. {}",
             count(gained, "freedom"),
             balance(report)
         ),
@@ -48,8 +48,8 @@ fn sentence(report: &StaticsReport) -> String {
 fn balance(report: &StaticsReport) -> String {
     if !report.unbalanced.is_empty() {
         return format!(
-            "Not in equilibrium: nothing held resists the load along a motion of {}; the forces \
-             shown come nearest.",
+            "Not in equilibrium: no held coordinate resists the load along a motion of {}; the forces \
+             shown balance it as nearly as possible.",
             listed(&report.unbalanced)
         );
     }
@@ -59,7 +59,7 @@ fn balance(report: &StaticsReport) -> String {
     match report.self_stresses {
         0 => "In equilibrium; all forces are determined.".into(),
         stresses => format!(
-            "In equilibrium, but not uniquely: {} without load can be added; what is marked * is \
+            "In equilibrium, but not uniquely: {} without load can be added; values marked * are \
              the minimum-norm choice.",
             count(stresses, "state of stress")
         ),

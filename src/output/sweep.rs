@@ -32,7 +32,10 @@ impl Report for MotionsReport {
             }
             several => {
                 let whole = several.iter().filter(|m| m.sweep.ending.is_whole()).count();
-                let answer = format!("{whole} of {} motions go the whole way.", several.len());
+                let answer = format!(
+                    "The motion is complete in {whole} of {} modes.",
+                    several.len()
+                );
                 let sections = several.iter().map(|motion| {
                     let section = Section::new(mode(motion).trim_end_matches(": "));
                     let section = section.text(sentence(&motion.sweep));

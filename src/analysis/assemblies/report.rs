@@ -294,7 +294,7 @@ impl AssembliesReport {
         if self.unexpected > 0 {
             sentence += &format!(
                 "; no path led to {} found from other starts: the list may be incomplete",
-                count(self.unexpected, "assembly").replace("assemblys", "assemblies")
+                count(self.unexpected, "assembly")
             );
         }
         if self.lost > 0 {

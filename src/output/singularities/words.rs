@@ -74,7 +74,7 @@ pub(super) fn sentence(singularity: &Singularity, inputs: &[String], outputs: &[
     }
     if singularity.more_mobility > 0 {
         sentences.push(format!(
-            "The closures themselves lose rank: {} more with nothing held than beside it.",
+            "The closures themselves lose rank, which adds {} when nothing is held.",
             count(singularity.more_mobility, "infinitesimal freedom")
         ));
     }

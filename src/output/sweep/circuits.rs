@@ -12,8 +12,8 @@ impl Report for CircuitsReport {
 
     fn document(&self) -> Document {
         let seeds = format!(
-            "followed from {} of all assemblies at several values of {}{}",
-            count(self.seeds, "seed"),
+            "followed from {}: all assemblies at several values of {}{}",
+            count(self.seeds, "start"),
             self.input,
             match self.unusable {
                 0 => String::new(),
@@ -48,7 +48,7 @@ fn sentence(report: &CircuitsReport) -> String {
     let branches = count(branches, "branch");
     let grashof = match report.class {
         Some(FourBarClass::TripleRocker) => {
-            ": a triple rocker, for no link turns fully beside another".into()
+            ": a triple rocker; no link turns fully relative to another".into()
         }
         Some(of) => format!(": a {}", class(of)),
         None => String::new(),

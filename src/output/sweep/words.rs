@@ -198,7 +198,7 @@ pub(super) fn met(motion: &MotionReport) -> Option<Section> {
         };
         let kind = met.singularity.map(|kind| kind.to_string());
         let values = joints.iter().zip(&met.joints);
-        let values = values.map(|(joint, value)| Cell::quantity(*value, &joint.unit));
+        let values = values.map(|(joint, value)| Cell::quantity(*value, joint.unit));
         let first = [Cell::from(what), Cell::from(kind)];
         table.row(first.into_iter().chain(values).collect());
     }
