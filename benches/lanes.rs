@@ -9,7 +9,7 @@ use std::time::Instant;
 use criterion::{Criterion, Throughput, criterion_group, criterion_main};
 use linkwork::mechanism::{Configuration, Mechanism};
 use linkwork::number::{LANES, Lanes};
-use linkwork::system::{Question, Tracker};
+use linkwork::system::{MotionTracker, Question};
 
 const SOLVES: usize = 1_000;
 
@@ -75,7 +75,7 @@ fn compare(criterion: &mut Criterion, work: &Work) {
     let question = Question::new(&mechanism);
     let (places, home) = (work.places(&mechanism), mechanism.home());
     // each lane is brought to its start along the motion of the first
-    let mut first = Tracker::new(question.system(), question.start());
+    let mut first = MotionTracker::new(question.system(), question.start());
     let mut starts: Vec<Configuration<f64>> = Vec::new();
     for k in 0..SOLVES {
         let report = first.solve(|at| {
@@ -92,7 +92,7 @@ fn compare(criterion: &mut Criterion, work: &Work) {
     }
     let one_by_one = |starts: &[Configuration<f64>]| -> Vec<Configuration<f64>> {
         let follow = |(lane, start): (usize, &Configuration<f64>)| {
-            let mut tracker = Tracker::new(question.system(), start.clone());
+            let mut tracker = MotionTracker::new(question.system(), start.clone());
             for k in 0..SOLVES {
                 let report = tracker.solve(|at| {
                     for (i, &place) in places.iter().enumerate() {
@@ -107,7 +107,7 @@ fn compare(criterion: &mut Criterion, work: &Work) {
     };
     let side_by_side = |starts: &[Configuration<f64>]| -> Configuration<Lanes> {
         let start = Configuration::beside(|lane| &starts[lane]);
-        let mut tracker = Tracker::<Lanes>::new(question.system_over(), start);
+        let mut tracker = MotionTracker::<Lanes>::new(question.system_over(), start);
         for k in 0..SOLVES {
             let report = tracker.solve(|at| {
                 for (i, &place) in places.iter().enumerate() {

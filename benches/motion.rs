@@ -5,11 +5,11 @@ use std::hint::black_box;
 use std::path::Path;
 use std::time::Instant;
 
-use linkwork::analysis::sweep::{Ending, SweepSettings, sweep};
+use linkwork::analysis::sweep::{SweepEnd, SweepSettings, sweep};
 use linkwork::mechanism::{Configuration, Mechanism};
 use linkwork::solve::Watch;
 use linkwork::solve::{Newton, Stop};
-use linkwork::system::{Driven, Held, Holdable, Question, System, Tracker};
+use linkwork::system::{Coordinate, Driven, Held, MotionTracker, Question, System};
 
 const STEPS: usize = 200_000;
 const ROUNDS: usize = 7;
@@ -29,7 +29,7 @@ fn measure(name: &str, moved: &[(&str, f64, f64)]) {
     let mechanism = Mechanism::load(path).expect("it is shipped");
     let inputs: Vec<Driven> = (moved.iter())
         .map(|&(name, from, to)| Driven {
-            coordinate: Holdable::Joint(mechanism.joint(name).expect("it has that joint")),
+            coordinate: Coordinate::Joint(mechanism.joint(name).expect("it has that joint")),
             from,
             to,
         })
@@ -38,7 +38,7 @@ fn measure(name: &str, moved: &[(&str, f64, f64)]) {
     let at = start(&mechanism, &inputs);
     let system = Question::new(&mechanism).system();
     for input in &inputs {
-        let Holdable::Joint(joint) = input.coordinate else {
+        let Coordinate::Joint(joint) = input.coordinate else {
             continue;
         };
         still.joints[joint] = false;
@@ -70,7 +70,7 @@ fn start(mechanism: &Mechanism, inputs: &[Driven]) -> Configuration<f64> {
     let home = at.clone();
     for k in 0..=50 {
         for input in inputs {
-            if let Holdable::Joint(joint) = input.coordinate {
+            if let Coordinate::Joint(joint) = input.coordinate {
                 let from = home.joints[joint];
                 at.joints[joint] = from + (input.from - from) * f64::from(k) / 50.0;
             }
@@ -82,13 +82,13 @@ fn start(mechanism: &Mechanism, inputs: &[Driven]) -> Configuration<f64> {
 }
 
 fn warm(system: &System<f64>, inputs: &[Driven], at: &Configuration<f64>) -> f64 {
-    let mut tracker = Tracker::new(system.clone(), at.clone());
+    let mut tracker = MotionTracker::new(system.clone(), at.clone());
     let begun = Instant::now();
     for step in 0..=STEPS {
         let part = step as f64 / STEPS as f64;
         let report = tracker.solve(|held| {
             for input in inputs {
-                if let Holdable::Joint(joint) = input.coordinate {
+                if let Coordinate::Joint(joint) = input.coordinate {
                     held.joints[joint] = input.at(part);
                 }
             }
@@ -121,7 +121,7 @@ fn whole(
         },
         &Watch::none(),
     );
-    assert_eq!(report.ending, Ending::Complete, "{report:?}");
+    assert_eq!(report.ending, SweepEnd::Complete, "{report:?}");
     (
         begun.elapsed().as_secs_f64() * 1e9 / STEPS as f64,
         report.sure_steps,

@@ -20,13 +20,14 @@ mod store;
 mod sweep;
 mod velocity;
 mod watched;
+mod words;
 mod workspace;
 mod written;
 
 use std::io::{self, IsTerminal, Write};
 use std::process::ExitCode;
 
-use clap::{Parser, Subcommand, ValueEnum};
+use clap::{Parser, Subcommand};
 use linkwork::output::diagnostics::Style;
 
 /// Analyses parallel and closed-chain mechanisms described as Denavit–Hartenberg chains.
@@ -57,15 +58,6 @@ enum Command {
     Sweep(sweep::Sweep),
     Singularities(singularities::Singularities),
     Workspace(workspace::Workspace),
-}
-
-/// How an answer is written.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-enum Format {
-    /// To be read by people.
-    Text,
-    /// To be read by programs: metres and radians with all digits. Where there is no answer, stderr says why as text.
-    Json,
 }
 
 /// What a command has to say.

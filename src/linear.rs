@@ -6,13 +6,22 @@
 
 mod aligned;
 mod block;
-#[expect(clippy::assign_op_pattern, reason = "`+=` of num_complex is a call, `+` is not")]
+#[expect(
+    clippy::assign_op_pattern,
+    reason = "`+=` of num_complex is a call, `+` is not"
+)]
 mod bordered;
 mod decomposition;
 mod factorable;
-#[expect(clippy::assign_op_pattern, reason = "`+=` of num_complex is a call, `+` is not")]
+#[expect(
+    clippy::assign_op_pattern,
+    reason = "`+=` of num_complex is a call, `+` is not"
+)]
 mod lu;
-#[expect(clippy::assign_op_pattern, reason = "`+=` of num_complex is a call, `+` is not")]
+#[expect(
+    clippy::assign_op_pattern,
+    reason = "`+=` of num_complex is a call, `+` is not"
+)]
 mod qr;
 #[cfg(feature = "sparse")]
 mod sparse;

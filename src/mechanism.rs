@@ -18,7 +18,7 @@ mod turns;
 mod variable;
 
 pub use configuration::{Configuration, ConfigurationRef, PlatformPose};
-pub use coordinate::Coordinate;
+pub use coordinate::PoseCoordinate;
 pub use dimensions::{ChainDimensions, ClosureDimensions, Dimensions, LinearForm, RowDimensions};
 pub use frames::Body;
 pub use kinematics::{Kinematics, Placement};

@@ -24,13 +24,11 @@ pub mod formulas;
 pub mod frames;
 #[cfg(feature = "interchange")]
 pub mod import;
-mod layout;
 pub mod mobility;
 pub mod overview;
 #[cfg(feature = "plot")]
 pub mod plot;
-mod quantity;
-pub mod question;
+pub mod quantity;
 mod screws;
 pub mod singularities;
 pub mod solution;

@@ -14,8 +14,8 @@ mod warm;
 mod watch;
 
 pub use branching::{BranchPoint, Contact};
-pub use continuation::{Continuation, Place, SolutionCurve, Stray};
-pub use endgame::{Ending, Turning, ending};
+pub use continuation::{Continuation, Place, SolutionCurve, StepFailure};
+pub use endgame::{PathEnd, Turning, path_end};
 pub use homotopy::{Arrival, Homotopy, Stages, Track, Tracker};
 pub use minimum::walk_down;
 pub use newton::{Newton, Report, Stop};

@@ -14,15 +14,15 @@ mod search;
 mod tangent;
 
 pub use curve::{
-    ConfigurationCurve, Curve, Driven, Event, Leg, LocusCurve, LocusEnd, Monitor, NoStart, Region,
-    Singular, Traced, Tracker, Walk, met_at, neared, passes, settled,
+    ConfigurationCurve, Curve, Driven, Event, LocusCurve, LocusEnd, Monitor, MotionTracker,
+    NoStart, Region, Segment, Singular, Traced, Walk, met_at, neared, passes, settled,
 };
 pub use equations::{
-    ClosureAxes, ClosureWrenches, Gap, Held, HeldPlatform, Holdable, System, Unknown, Work,
+    ClosureAxes, ClosureWrenches, Coordinate, Gap, Held, HeldPlatform, System, Unknown, Work,
     approach, independent_parts,
 };
 pub use question::{
-    Count, Demand, Drive, DriveError, Load, LoadError, Output, Question, QuestionError, Value,
+    Count, Demand, Drive, DriveError, ForceError, Load, Output, Question, QuestionError, Value,
     ValueError, Verb, actuated, check_angles, check_count, default_outputs, free_outputs,
     inputs_of, number_of, platform_outputs, with_coordinates,
 };
@@ -32,7 +32,7 @@ pub use search::{
     random_configuration, sampling_range, too_large,
 };
 pub use tangent::{
-    Followed, FrameMotion, FrameMotions, FrameTwists, Freedoms, Lock, Locked, LoopPart,
+    FiniteStep, FrameMotion, FrameMotions, FrameTwists, Freedoms, Lock, Locked, LoopPart,
     MechanismLoop, Mobility, Motion, Neighbourhood, Screw, Tangent, Twist, TwistSpace, loops,
     moving, spin_lines, without, wrench_screws,
 };

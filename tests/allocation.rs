@@ -15,7 +15,7 @@ use linkwork::mechanism::{
 use linkwork::solve::Watch;
 use linkwork::solve::{Newton, Stop, Warm};
 use linkwork::system::{
-    FrameMotions, Held, HeldPlatform, Holdable, Motion, Question, System, Tracker, close,
+    Coordinate, FrameMotions, Held, HeldPlatform, Motion, MotionTracker, Question, System, close,
 };
 
 struct Counting;
@@ -100,7 +100,7 @@ fn a_solve_allocates_nothing() {
     };
     for extrapolation in [0, 3] {
         let system = System::new(&three_rps(), &held);
-        let mut tracker = Tracker::new(system, start.clone()).with(Warm {
+        let mut tracker = MotionTracker::new(system, start.clone()).with(Warm {
             extrapolation,
             ..Warm::default()
         });
@@ -131,7 +131,7 @@ fn rates_and_accelerations_of_everything_allocate_nothing() {
         let at = close(&question, &Newton::default(), (0, 1), &Watch::none())
             .unwrap()
             .configuration;
-        let held: Vec<Holdable> = question.held_coordinates();
+        let held: Vec<Coordinate> = question.held_coordinates();
         let frames = mechanism.frames();
         let mut motion = Motion::new(&mechanism, &held);
         let mut motions = FrameMotions::new(&mechanism, &motion, &frames);

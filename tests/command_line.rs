@@ -117,7 +117,7 @@ fn what_cannot_be_assembled_is_answered_no() {
     let output = run(&["solve", FOUR_BAR, "--set", "l2=0.5"]);
     assert_eq!(output.status.code(), Some(1), "{}", stderr(&output));
     let text = stdout(&output);
-    let sentence = "Cannot be assembled with these inputs: at the closest approach closure joint3 gapes by 0.08";
+    let sentence = "Cannot be assembled with these inputs: at the closest approach closure joint3 is open by 0.08";
     assert!(text.contains(sentence), "{text}");
     let json = json(&["solve", FOUR_BAR, "--set", "l2=0.5"]);
     assert_eq!(json["outcome"], "cannot_be_assembled");
@@ -301,7 +301,7 @@ fn a_frame_that_stands_on_ground_has_no_velocity() {
 #[test]
 fn the_first_sentence_tells_isolated_assemblies_from_samples() {
     let said = stdout(&run(&["assemblies", "mechanisms/peaucellier.ron"]));
-    let sentence = "4 isolated assemblies and 6 samples of the others.";
+    let sentence = "4 isolated assemblies and 6 samples of the others listed.";
     assert!(said.contains(sentence), "{said}");
     let said = stdout(&run(&["assemblies", "mechanisms/two_rhombi.ron"]));
     let sentence = "a set of dimension 2 in which 4 complex solutions end, with 6 samples";
@@ -649,7 +649,7 @@ fn inputs_out_of_reach_are_a_no_with_a_closest_approach() {
     let output = run(&["assemblies", THREE_RPS, "--hold", "l1=3"]);
     assert_eq!(output.status.code(), Some(1));
     assert!(stdout(&output).contains("0 real of 16 complex"));
-    assert!(stdout(&output).contains("Closest approach: closure S1 gapes most"));
+    assert!(stdout(&output).contains("Closest approach: closure S1 has the widest gap"));
     let folded = run(&["solve", THREE_RPS, "--mode", "1", "--hold", "l1=3"]);
     assert_eq!(folded.status.code(), Some(1));
     assert!(stdout(&folded).contains("Mode 1 ceases to exist"));

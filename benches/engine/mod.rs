@@ -8,14 +8,14 @@ use linkwork::geometry::{Pose, Quaternion, RollPitchYaw, Vector3};
 use linkwork::mechanism::Mechanism;
 use linkwork::solve::Watch;
 use linkwork::solve::{Newton, Stop, Warm};
-use linkwork::system::{Question, Tracker};
+use linkwork::system::{MotionTracker, Question};
 
 use super::limits::{Report, TOLERANCE, Tally, four_bar, stewart_gough, three_rps};
 
 /// A tracker and the joints whose values it is given.
 #[derive(Clone)]
 pub struct Follower<const N: usize> {
-    tracker: Tracker,
+    tracker: MotionTracker,
     held: [usize; N],
 }
 
@@ -31,7 +31,7 @@ impl<const N: usize> Follower<N> {
         assert_eq!(report.outcome, Outcome::Converged);
         let mechanism = question.mechanism();
         Follower {
-            tracker: Tracker::new(question.system(), report.configuration()).with(warm()),
+            tracker: MotionTracker::new(question.system(), report.configuration()).with(warm()),
             held: names.map(|name| mechanism.joint(name).expect("it was held")),
         }
     }

@@ -5,6 +5,7 @@ use std::fmt::{self, Display, Formatter};
 use serde::de::{Error, Visitor};
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
 
+use super::parser::parse_dotted;
 use super::{Expression, Node, Operator};
 
 /// The precedence of the outermost operation of an expression.
@@ -145,7 +146,7 @@ impl<'de> Deserialize<'de> for Expression {
             }
 
             fn visit_str<E: Error>(self, text: &str) -> Result<Expression, E> {
-                Expression::parse(text).map_err(E::custom)
+                parse_dotted(text).map_err(E::custom)
             }
         }
         deserializer.deserialize_any(NumberOrText)
@@ -185,6 +186,14 @@ mod tests {
         let json = |text| serde_json::to_string(&Expression::parse(text).unwrap()).unwrap();
         assert_eq!(json("1.50"), "1.5");
         assert_eq!(json("60deg"), "\"60 deg\"");
+    }
+
+    #[test]
+    fn what_is_serialised_is_read_back() {
+        for text in ["1.5", "\"60 deg\"", "\"hand.px - 2*d3*sin(theta1)\""] {
+            let expression: Expression = serde_json::from_str(text).unwrap();
+            assert_eq!(serde_json::to_string(&expression).unwrap(), text);
+        }
     }
 
     fn any_expression() -> impl Strategy<Value = Expression> {

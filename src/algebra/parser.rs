@@ -72,8 +72,18 @@ impl ParseErrorKind {
 }
 
 pub(super) fn parse(text: &str) -> Result<Expression, ParseError> {
+    read(text, false)
+}
+
+/// The same where names may have dots, as those of the components of a platform's pose have.
+pub(super) fn parse_dotted(text: &str) -> Result<Expression, ParseError> {
+    read(text, true)
+}
+
+fn read(text: &str, dotted: bool) -> Result<Expression, ParseError> {
     let mut parser = Parser {
         text,
+        dotted,
         position: 0,
         nesting: 0,
     };
@@ -98,6 +108,7 @@ const POWER: u8 = 4;
 
 struct Parser<'a> {
     text: &'a str,
+    dotted: bool,
     /// Never at white space between two calls.
     position: usize,
     nesting: usize,
@@ -240,7 +251,8 @@ impl Parser<'_> {
 
     fn word(&self) -> &str {
         let rest = self.rest();
-        &rest[..rest.find(|c| !continues_name(c)).unwrap_or(rest.len())]
+        let ends = |c: char| !continues_name(c) && !(self.dotted && c == '.');
+        &rest[..rest.find(ends).unwrap_or(rest.len())]
     }
 
     fn number(&mut self) -> Result<Tall, ParseError> {

@@ -1,10 +1,10 @@
 //! Every assembled configuration for held inputs, each with a certificate.
 //!
 //! The mechanism's inputs are made complex and generic; there all solutions are found once
-//! ([`GenericSolutions`]) and then carried, as many paths as solutions, to any inputs that are asked
+//! ([`GenericSolutions`]) and then carried, as many paths as solutions, to any target inputs
 //! for ([`AssemblySolver::at`]).
 //!
-//! Assemblies are numbered by their unknown coordinates at the inputs asked: ascending by the first
+//! Assemblies are numbered by their unknown coordinates at the target inputs: ascending by the first
 //! unknown joint of the file, then the second and so on, then by position and quaternion of the
 //! platforms; angles lie in (−π, π]. Nothing random enters. A mode keeps its name when it is
 //! followed from home ([`AssemblySolver::follow`]).
@@ -28,7 +28,7 @@ use crate::number::Number;
 use crate::solve::Watch;
 use crate::system::{Held, HeldPlatform, System};
 use answer::Question;
-use family::{C, Family, KnownBound, Member, Stance};
+use family::{C, Family, KnownBound, LegwiseSolutions, Member};
 use search::question;
 
 /// How hard to search.
@@ -93,7 +93,7 @@ pub enum AssembliesError {
     StoredForAnotherQuestion,
     /// No assembly has that number; there are this many.
     NoSuchMode(usize),
-    /// The mode was followed to the inputs asked for, where double precision does not tell whether
+    /// The mode was followed to the target inputs, where double precision does not tell whether
     /// it is assembled.
     Undecided,
     /// The work was stopped before the mode was found.
@@ -124,8 +124,8 @@ impl std::fmt::Display for AssembliesError {
             AssembliesError::NoSuchMode(0) => write!(
                 f,
                 "there is no assembly at the home inputs for a mode to be followed from: \
-                 `linkwork assemblies` lists those at the inputs asked for, and \
-                 `linkwork solve --guess` starts near one of them"
+                 `linkwork assemblies` lists those at the inputs in question, and \
+                 a guess starts the search near one of them"
             ),
             AssembliesError::NoSuchMode(n) => {
                 write!(
@@ -147,7 +147,7 @@ pub struct AssemblySolver {
     family: Family,
     bound: Option<KnownBound>,
     generic: GenericSolutions,
-    stances: Vec<Stance<C>>,
+    legwise: Vec<LegwiseSolutions<C>>,
     interrupted: bool,
 }
 
@@ -191,7 +191,8 @@ impl AssemblySolver {
         let fits = |count: usize, stored: &[[f64; 2]]| stored.len() == count;
         let sizes = fits(family.parameters.len(), &stored.parameters)
             && fits(family.coordinates.input_count(), &stored.inputs)
-            && (stored.stances.iter()).all(|stance| stance.fits(&family.coordinates));
+            && (stored.legwise.iter())
+                .all(|solutions_at_pose| solutions_at_pose.fits(&family.coordinates));
         let asked = stored.question == question(mechanism, &family);
         match sizes && asked && stored.solves(&family) {
             true => Ok(Self::with(mechanism, held, family, stored)),
@@ -209,7 +210,7 @@ impl AssemblySolver {
             mechanism: mechanism.clone(),
             held: held.clone(),
             bound: family::known_bound(mechanism, &family),
-            stances: generic.stances(),
+            legwise: generic.legwise(),
             family,
             generic,
             interrupted: false,
@@ -263,7 +264,7 @@ impl AssemblySolver {
             watch,
             interrupted: self.interrupted,
         };
-        let fit = match (self.stances.is_empty(), self.generic.freedom) {
+        let fit = match (self.legwise.is_empty(), self.generic.freedom) {
             (false, 0) => Fit::Finite,
             // nothing was found yet, and nothing can be said
             (true, 0) if self.interrupted => Fit::Finite,
@@ -272,13 +273,13 @@ impl AssemblySolver {
             (_, freedom) => Fit::FreedomLeft(freedom),
         };
         let member = self.member(asked, held);
-        let ends = match self.stances.is_empty() {
+        let ends = match self.legwise.is_empty() {
             true => None,
-            false => track::carry(
+            false => track::track_to_target(
                 &self.family,
                 &self.generic.member(),
                 &member,
-                &self.stances,
+                &self.legwise,
                 watch,
             ),
         };
@@ -287,12 +288,12 @@ impl AssemblySolver {
             &self.generic,
             fit,
             &ends.unwrap_or_default(),
-            (self.family.way(&member, &member), &starts),
+            (self.family.homotopy(&member, &member), &starts),
             wanted,
         )
     }
 
-    /// The member with the mechanism's own dimensions and the inputs asked.
+    /// The member with the mechanism's own dimensions and the target inputs.
     fn member(&self, asked: &Configuration<f64>, held: &Held<f64>) -> Member {
         let inputs = self.family.coordinates.inputs(asked, held);
         Member {

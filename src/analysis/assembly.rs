@@ -142,8 +142,6 @@ pub struct AssemblyReport {
     /// Whether the search was stopped before all starts were made.
     #[serde(default, skip_serializing_if = "std::ops::Not::not")]
     pub interrupted: bool,
-    /// Whether no other assembly can exist, because nothing is closed. Others are not searched for.
-    pub only: bool,
 }
 
 impl AssemblyReport {
@@ -272,7 +270,6 @@ impl Reporter<'_> {
                 .map(|problem| problem.kind.title())
                 .collect(),
             interrupted: self.interrupted,
-            only: self.mechanism.closures().is_empty(),
         }
     }
 
@@ -293,7 +290,7 @@ impl Reporter<'_> {
     fn assembled(&self, attempt: Attempt) -> AssemblyReport {
         let outside = self.search.outside_limits(&attempt.at);
         let freedoms = Freedoms::at(self.mechanism.dimensions(), self.search.held(), &attempt.at);
-        let idle = if freedoms.are_idle(self.mechanism, &attempt.at) {
+        let idle = if freedoms.are_local(self.mechanism, &attempt.at) {
             freedoms.motions.len()
         } else {
             0

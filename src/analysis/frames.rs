@@ -162,14 +162,14 @@ pub struct CutReport {
     /// Whether the file named them.
     pub given: bool,
     /// The ways to cut that were compared, simplest first; the first is the one taken.
-    pub ways: Vec<Way>,
+    pub ways: Vec<CutChoice>,
     /// Whether there are more ways than were compared.
     pub more: bool,
 }
 
 /// One way to cut the loops.
 #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
-pub struct Way {
+pub struct CutChoice {
     /// Rows of the longest chain.
     pub longest: usize,
     /// Entries and displacements that are not zero, joint variables left out.

@@ -105,7 +105,7 @@ pub struct MobilityReport {
     /// Closure equations.
     pub equations: usize,
     /// Freedoms that only turn a link about its own line.
-    pub idle_freedoms: Vec<IdleFreedom>,
+    pub idle_freedoms: Vec<LocalFreedom>,
     /// Kutzbach's count loop by loop.
     pub loops: Vec<LoopCount>,
     /// The dependent equations as wrenches.
@@ -157,7 +157,7 @@ pub enum Character {
 /// A freedom that only turns a link about its own line.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
-pub enum IdleFreedom {
+pub enum LocalFreedom {
     /// The link turns in joints of its own, which these are.
     Joints(Vec<String>),
     /// The link is a platform on closures, which turns in joints too if it has some.
@@ -171,14 +171,14 @@ pub enum IdleFreedom {
     Rod(String),
 }
 
-impl IdleFreedom {
+impl LocalFreedom {
     /// Whether the joint turns in it.
     fn moves(&self, joint: &String) -> bool {
         match self {
-            IdleFreedom::Joints(joints) | IdleFreedom::Platforms { joints, .. } => {
+            LocalFreedom::Joints(joints) | LocalFreedom::Platforms { joints, .. } => {
                 joints.contains(joint)
             }
-            IdleFreedom::Rod(_) => false,
+            LocalFreedom::Rod(_) => false,
         }
     }
 }
@@ -353,7 +353,7 @@ fn idle_freedoms(
     mechanism: &Mechanism,
     unknowns: &[Unknown],
     tangent: &Tangent,
-) -> Vec<IdleFreedom> {
+) -> Vec<LocalFreedom> {
     /// Below this a component of a unit motion is rounding.
     const ROUNDING: f64 = 1e-6;
     let spins = axis_aligned(&tangent.idle);
@@ -370,11 +370,11 @@ fn idle_freedoms(
         }
         platforms.dedup();
         match platforms.is_empty() {
-            true => IdleFreedom::Joints(joints),
-            false => IdleFreedom::Platforms { platforms, joints },
+            true => LocalFreedom::Joints(joints),
+            false => LocalFreedom::Platforms { platforms, joints },
         }
     };
     let rods = (mechanism.closures().iter()).filter(|c| c.kind == ClosureKind::Distance);
-    let rods = rods.map(|rod| IdleFreedom::Rod(rod.name.clone()));
+    let rods = rods.map(|rod| LocalFreedom::Rod(rod.name.clone()));
     (spins.iter().map(link)).chain(rods).collect()
 }

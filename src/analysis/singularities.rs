@@ -16,7 +16,7 @@ mod projected;
 mod starts;
 
 pub use crate::system::{LocusEnd, default_outputs, inputs_of};
-pub use along::{AlongReport, Crossing, Ending, along};
+pub use along::{AlongEnd, AlongReport, Crossing, along};
 pub use classify::{Distances, Kind, Movement, Resisted, Singularity, Zlatanov};
 pub use locus::{Bound, Locus, LocusReport, loci};
 pub use outputs::Coupled;
@@ -28,8 +28,8 @@ use crate::linear::RANK_TOLERANCE;
 use crate::mechanism::{Configuration, Mechanism, Variable};
 use crate::solve::{Continuation, Newton, Watch};
 use crate::system::{
-    Analysed, Holdable, Lock, Question, QuestionError, WidestGap, check_angles, check_count, close,
-    too_large,
+    Analysed, Coordinate, Lock, Question, QuestionError, WidestGap, check_angles, check_count,
+    close, too_large,
 };
 use classify::Classifier;
 use outputs::{coupled, outputs_of};
@@ -96,7 +96,7 @@ pub struct SingularitiesReport {
     pub outside_limits: Vec<String>,
 }
 
-fn names(mechanism: &Mechanism, inputs: &[Holdable]) -> Vec<String> {
+fn names(mechanism: &Mechanism, inputs: &[Coordinate]) -> Vec<String> {
     inputs.iter().map(|input| input.name(mechanism)).collect()
 }
 
@@ -139,7 +139,7 @@ pub fn singularities(
     // angles that only say where the platform is are not differentiated
     if inputs
         .iter()
-        .any(|input| matches!(input, Holdable::Coordinate(..)))
+        .any(|input| matches!(input, Coordinate::Pose(..)))
     {
         check_angles(question, at)?;
     }
@@ -168,7 +168,7 @@ fn check_outputs(
     at: &Configuration<f64>,
 ) -> Result<(), QuestionError> {
     for output in outputs {
-        let Lock::Coordinate(coordinate @ Holdable::Coordinate(platform, _)) = *output else {
+        let Lock::Coordinate(coordinate @ Coordinate::Pose(platform, _)) = *output else {
             continue;
         };
         let pose = at.platforms[platform].pose();

@@ -9,7 +9,7 @@ use crate::linear::{Decomposition, RANK_TOLERANCE, add, norm};
 use crate::mechanism::{Configuration, Frame, Mechanism};
 use crate::solve::{Newton, Watch};
 use crate::system::{
-    Analysed, FrameTwists, Holdable, Load, Neighbourhood, Question, QuestionError, Unknown,
+    Analysed, Coordinate, FrameTwists, Load, Neighbourhood, Question, QuestionError, Unknown,
     WidestGap, check_angles, check_count, close, too_large,
 };
 
@@ -165,7 +165,7 @@ pub fn statics(
     }
     let found = reactions::of(&mut near, at, load, &forces[..rows]);
 
-    let scale = |coordinate: Holdable| match coordinate.is_angle(mechanism) {
+    let scale = |coordinate: Coordinate| match coordinate.is_angle(mechanism) {
         true => 1.0,
         false => mechanism.characteristic_length(),
     };
@@ -191,7 +191,7 @@ pub fn statics(
         joint_loads: (load.joints.iter())
             .map(|&(joint, force)| Force {
                 name: mechanism.joints()[joint].name.clone(),
-                unit: Holdable::Joint(joint).force_unit(mechanism),
+                unit: Coordinate::Joint(joint).force_unit(mechanism),
                 force,
                 unique: true,
             })
@@ -215,23 +215,23 @@ fn direction(
     mechanism: &Mechanism,
     at: &Configuration<f64>,
     unknowns: &[Unknown],
-    coordinate: Holdable,
+    coordinate: Coordinate,
 ) -> Vec<f64> {
     let slope = match coordinate {
-        Holdable::Joint(_) => [0.0; 6],
-        Holdable::Coordinate(platform, _) | Holdable::Turn(platform, _) => {
+        Coordinate::Joint(_) => [0.0; 6],
+        Coordinate::Pose(platform, _) | Coordinate::Turn(platform, _) => {
             let pose = at.platforms[platform].pose();
             coordinate.slope(&pose, mechanism.characteristic_length())
         }
     };
     let rate = |unknown: &Unknown| match (*unknown, coordinate) {
-        (Unknown::Joint(joint), Holdable::Joint(held)) if joint == held => 1.0,
+        (Unknown::Joint(joint), Coordinate::Joint(held)) if joint == held => 1.0,
         (
             Unknown::Twist {
                 platform,
                 component,
             },
-            Holdable::Coordinate(held, _) | Holdable::Turn(held, _),
+            Coordinate::Pose(held, _) | Coordinate::Turn(held, _),
         ) if platform == held => slope[component],
         _ => 0.0,
     };

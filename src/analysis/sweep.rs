@@ -92,7 +92,7 @@ pub struct InputReport {
 /// How a motion ended.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
-pub enum Ending {
+pub enum SweepEnd {
     /// The inputs went through their whole segment.
     Complete,
     /// The inputs came back to where they began, on another branch, having gone round a fold.
@@ -117,12 +117,12 @@ pub enum Ending {
     Stopped,
 }
 
-impl Ending {
+impl SweepEnd {
     /// Whether all that was asked for was done.
     pub fn is_whole(self) -> bool {
         matches!(
             self,
-            Ending::Complete | Ending::Returned | Ending::Closed | Ending::Limits
+            SweepEnd::Complete | SweepEnd::Returned | SweepEnd::Closed | SweepEnd::Limits
         )
     }
 }
@@ -133,7 +133,7 @@ pub struct SweepReport {
     /// The inputs; none for a motion that follows its curve.
     pub inputs: Vec<InputReport>,
     /// How it ended.
-    pub ending: Ending,
+    pub ending: SweepEnd,
     /// How many rows there are.
     pub rows: usize,
     /// Turning points, folds, crossings, limits, in the order in which they were met.
@@ -189,20 +189,20 @@ pub fn sweep(
     let (place, rate) = curve.towards_end(place);
     let mut rows = Rows::new(mechanism, held, inputs, &place, settings);
     if rows.first(&place, sink).is_break() {
-        return interrupted(record.report(Ending::Stopped, 1, 0.0));
+        return interrupted(record.report(SweepEnd::Stopped, 1, 0.0));
     }
     if rate.abs() < 1e-9 {
         record.meet(&curve, &place, &Event::Fold);
-        return record.report(Ending::Fold, 1, 0.0);
+        return record.report(SweepEnd::Fold, 1, 0.0);
     }
     let mut walk = Walk::new(mechanism, &curve, place, method.clone());
     let ending = walk.follow(&mut curve, |curve, leg| {
         let done = curve.part(&leg.from.at).clamp(0.0, 1.0) * settings.steps as f64;
         if watch.stops(Stage::Motion, done as usize, steps) {
-            return ControlFlow::Break(Ending::Stopped);
+            return ControlFlow::Break(SweepEnd::Stopped);
         }
         record.steps += 1;
-        let stopped = |()| Ending::Stopped;
+        let stopped = |()| SweepEnd::Stopped;
         let mut from = &leg.from;
         for (place, event) in &leg.events {
             // a turn of the inputs closes the curve and is not the end of the sweep
@@ -222,12 +222,12 @@ pub fn sweep(
                 (rows.special(place, record.latest(), sink)).map_break(stopped)?;
             }
             match event {
-                Event::End(end) if *end => ControlFlow::Break(Ending::Complete),
-                Event::End(_) => ControlFlow::Break(Ending::Returned),
-                Event::Closed => ControlFlow::Break(Ending::Closed),
-                Event::Limit { .. } => ControlFlow::Break(Ending::Limit),
-                Event::Fold if !settings.follow => ControlFlow::Break(Ending::Fold),
-                Event::Branches(_) if !settings.follow => ControlFlow::Break(Ending::Crossing),
+                Event::End(end) if *end => ControlFlow::Break(SweepEnd::Complete),
+                Event::End(_) => ControlFlow::Break(SweepEnd::Returned),
+                Event::Closed => ControlFlow::Break(SweepEnd::Closed),
+                Event::Limit { .. } => ControlFlow::Break(SweepEnd::Limit),
+                Event::Fold if !settings.follow => ControlFlow::Break(SweepEnd::Fold),
+                Event::Branches(_) if !settings.follow => ControlFlow::Break(SweepEnd::Crossing),
                 _ => ControlFlow::Continue(()),
             }?;
         }
@@ -236,9 +236,9 @@ pub fn sweep(
         // an end that was passed unseen is worse than one that was not reached
         match (-1e-6..=1.0 + 1e-6).contains(&curve.part(&leg.to.at)) {
             true => ControlFlow::Continue(()),
-            false => ControlFlow::Break(Ending::Lost),
+            false => ControlFlow::Break(SweepEnd::Lost),
         }
     });
-    let ending = ending.unwrap_or(Ending::Lost);
+    let ending = ending.unwrap_or(SweepEnd::Lost);
     interrupted(record.report(ending, rows.count(), walk.gone()))
 }

@@ -12,7 +12,7 @@ use crate::linear::RANK_TOLERANCE;
 use crate::mechanism::{Frame, Mechanism};
 use crate::solve::{Newton, Watch};
 use crate::system::{
-    Analysed, Drive, Holdable, Motion, Neighbourhood, Question, QuestionError, Tangent, Unknown,
+    Analysed, Coordinate, Drive, Motion, Neighbourhood, Question, QuestionError, Tangent, Unknown,
     WidestGap, check_angles, check_count, close, free_outputs, moving, too_large,
 };
 
@@ -256,7 +256,7 @@ pub fn velocity(
     let scales = &mechanism.dimensions().joint_scales;
     let joints = mechanism.joints().iter().enumerate();
     let joints = joints.map(|(i, joint)| {
-        let is_held = drive.coordinates.contains(&Holdable::Joint(i));
+        let is_held = drive.coordinates.contains(&Coordinate::Joint(i));
         let known = determined && !spinning.contains(&i);
         JointRate {
             name: joint.name.clone(),

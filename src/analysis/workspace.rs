@@ -34,9 +34,9 @@ use crate::number::{Lanes, Packed};
 use crate::solve::{Newton, Pool, Watch};
 use crate::system::{Driven, Question};
 use boundary::Boundary;
-use flood::{Fill, Filled, Measure, Sown, Spread, Steps};
+use flood::{Flood, Metric, ModeSeeds, ReachedSet, Spread, Steps};
 use map::Map;
-use problem::{Asked, Grid};
+use problem::{Grid, MapProblem};
 
 /// How to map a workspace.
 #[derive(Clone, Debug, PartialEq)]
@@ -128,33 +128,33 @@ pub fn workspace(
     settings: &WorkspaceSettings,
     watch: &Watch,
 ) -> Result<WorkspaceReport, WorkspaceError> {
-    let asked = Asked::new(question, axes, &settings.newton);
+    let problem = MapProblem::new(question, axes, &settings.newton);
     let counts: Vec<usize> = (0..axes.len())
         .map(|i| settings.nodes.get(i).copied().unwrap_or(50).max(2))
         .collect();
     let grid = Grid::new(axes, &counts);
-    let measure = Measure::new(&asked);
+    let metric = Metric::new(&problem);
     let nodes = grid.spread(settings.searched);
     let sought = (&nodes[..], settings.starts, settings.seed);
-    let sown = flood::sow(&asked, &grid, &measure, sought, (known, watch));
-    let fill = Fill {
-        asked: &asked,
+    let mode_seeds = flood::search_modes(&problem, &grid, &metric, sought, (known, watch));
+    let fill = Flood {
+        problem: &problem,
         grid: &grid,
-        measure: &measure,
+        metric: &metric,
         most: settings.most,
         only: None,
     };
     let probed = grid.spread(settings.probed);
-    let (filled, aspects, outside) = match settings.side_by_side {
-        true => filled::<Lanes>(&fill, &sown, (&probed, settings.seed), watch),
-        false => filled::<f64>(&fill, &sown, (&probed, settings.seed), watch),
+    let (reached_set, aspects, outside) = match settings.side_by_side {
+        true => reached_set::<Lanes>(&fill, &mode_seeds, (&probed, settings.seed), watch),
+        false => reached_set::<f64>(&fill, &mode_seeds, (&probed, settings.seed), watch),
     }?;
-    let map = Map::new(&asked, &grid, &filled, aspects);
+    let map = Map::new(&problem, &grid, &reached_set, aspects);
     let boundary = Boundary {
-        asked: &asked,
+        problem: &problem,
         grid: &grid,
-        measure: &measure,
-        filled: &filled,
+        metric: &metric,
+        reached_set: &reached_set,
         mode: &map.mode,
     };
     let crossings = match settings.boundaries {
@@ -166,28 +166,28 @@ pub fn workspace(
     report.curves = curves;
     report.searched = [nodes.len(), settings.starts];
     report.probed = [probed.len(), flood::PROBES];
-    report.outside = sown.outside + outside;
+    report.outside = mode_seeds.outside + outside;
     report.seed = settings.seed;
     report.interrupted = watch.is_stopped();
     Ok(report)
 }
 
-/// All that is reached from seeds, and from what is then found in between; for each sheet its
+/// All that is reached from seeds, and from what is then found in between; for each solution its
 /// aspect; and how much of what was found in between is outside limits.
-fn filled<T: Factorable + Packed + Send + Sync>(
-    fill: &Fill,
-    sown: &Sown,
+fn reached_set<T: Factorable + Packed + Send + Sync>(
+    fill: &Flood,
+    mode_seeds: &ModeSeeds,
     (probed, seed): (&[usize], u64),
     watch: &Watch,
-) -> Result<(Filled, Vec<Option<usize>>, usize), WorkspaceError> {
-    let steps: Pool<Steps<T>> = Pool::new(Steps::new(fill.asked));
+) -> Result<(ReachedSet, Vec<Option<usize>>, usize), WorkspaceError> {
+    let steps: Pool<Steps<T>> = Pool::new(Steps::new(fill.problem));
     let mut reached = Spread::new(fill.grid);
-    fill.spread(&mut reached, &steps, &sown.seeds, watch)?;
+    fill.spread(&mut reached, &steps, &mode_seeds.seeds, watch)?;
     let more = flood::probe(fill, &reached, &steps, (probed, seed), watch);
     fill.spread(&mut reached, &steps, &more.seeds, watch)?;
-    let mut filled = reached.filled(fill.grid);
-    let (aspects, together) = aspects::joined(fill, &steps, &filled, watch);
+    let mut reached_set = reached.reached_set(fill.grid);
+    let (aspects, together) = aspects::joined(fill, &steps, &reached_set, watch);
     // what hangs together on a finer grid is of one mode
-    filled.connect(together.into_iter());
-    Ok((filled, aspects, more.outside))
+    reached_set.connect(together.into_iter());
+    Ok((reached_set, aspects, more.outside))
 }

@@ -5,7 +5,7 @@ use std::fmt::{self, Display, Formatter};
 use crate::analysis::assemblies::AssembliesError;
 use crate::analysis::sweep::PointError;
 use crate::description::listed;
-use crate::system::{DriveError, LoadError, QuestionError};
+use crate::system::{DriveError, ForceError, QuestionError};
 
 /// What a name or a value is in a question.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -100,7 +100,7 @@ pub enum AskError {
         /// Which.
         item: Item,
         /// What is wrong with it.
-        error: Box<LoadError>,
+        error: Box<ForceError>,
     },
     /// There is no frame of that name.
     UnknownFrame {

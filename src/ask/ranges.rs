@@ -1,7 +1,7 @@
 //! Coordinates that move or are mapped, with their ranges.
 
 use super::{AskError, Question, Role};
-use crate::system::{self, Driven, Held, Holdable, QuestionError};
+use crate::system::{self, Coordinate, Driven, Held, QuestionError};
 
 impl Question {
     /// The inputs with their ranges; `refuse` tells whether a range is no use.
@@ -71,8 +71,8 @@ pub(super) fn still(held: Held<f64>, moved: &[Driven]) -> Held<f64> {
 }
 
 /// Whether it is a coordinate of a platform.
-pub(super) fn of_platform(coordinate: &Holdable) -> bool {
-    !matches!(coordinate, Holdable::Joint(_))
+pub(super) fn of_platform(coordinate: &Coordinate) -> bool {
+    !matches!(coordinate, Coordinate::Joint(_))
 }
 
 /// Whether more is held than can be.

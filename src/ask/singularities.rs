@@ -7,7 +7,7 @@ use crate::analysis::singularities::{
     singularities,
 };
 use crate::solve::Watch;
-use crate::system::{self, Analysed, Held, Holdable, Lock, TooLarge, check_count, too_large};
+use crate::system::{self, Analysed, Coordinate, Held, Lock, TooLarge, check_count, too_large};
 
 /// Random starts made at most.
 const MOST_STARTS: usize = 1_000_000;
@@ -133,7 +133,7 @@ impl Question {
 }
 
 /// The inputs of a question, of which there must be some.
-fn inputs(question: &system::Question) -> Result<Vec<Holdable>, AskError> {
+fn inputs(question: &system::Question) -> Result<Vec<Coordinate>, AskError> {
     let inputs = inputs_of(question);
     match inputs.is_empty() {
         true => Err(AskError::NothingToDrive),

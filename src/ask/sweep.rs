@@ -11,7 +11,7 @@ use crate::analysis::sweep::{
 };
 use crate::mechanism::{Configuration, Mechanism};
 use crate::solve::{Stage, Watch};
-use crate::system::{self, Driven, Held, Holdable, QuestionError, check_count, sampling_range};
+use crate::system::{self, Coordinate, Driven, Held, QuestionError, check_count, sampling_range};
 
 /// Steps made at most.
 const MOST_STEPS: usize = 1_000_000_000;
@@ -78,7 +78,7 @@ impl Question {
         let begin: Vec<f64> = inputs.iter().map(|input| input.from).collect();
         let question = self.with_inputs(self.resolved()?, &begin)?;
         for (index, input) in inputs.iter().enumerate() {
-            if let Holdable::Joint(joint) = input.coordinate
+            if let Coordinate::Joint(joint) = input.coordinate
                 && let joint = &mechanism.joints()[joint]
                 && let Some(limits) = joint.limits
                 && !joint.allows(input.from)
@@ -124,7 +124,7 @@ impl Question {
         let kept = released.held_coordinates();
         let let_go = question.held_coordinates();
         let mut let_go = let_go.into_iter().filter(|held| !kept.contains(held));
-        let (Some(Holdable::Joint(input)), None) = (let_go.next(), let_go.next()) else {
+        let (Some(Coordinate::Joint(input)), None) = (let_go.next(), let_go.next()) else {
             return Err(AskError::NotOneJoint);
         };
         let solver = self.solver(&question, watch)?;

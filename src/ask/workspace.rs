@@ -7,10 +7,10 @@ use super::{AskError, Mode, Question, Role};
 use crate::analysis::workspace::{
     WorkspaceError, WorkspaceReport, WorkspaceSettings, cell_bytes, workspace,
 };
-use crate::mechanism::Coordinate;
+use crate::mechanism::PoseCoordinate;
 use crate::solve::Watch;
 use crate::system::{
-    self, Driven, Holdable, Mobility, QuestionError, TooLarge, check_count, too_large,
+    self, Coordinate, Driven, Mobility, QuestionError, TooLarge, check_count, too_large,
 };
 
 /// Bytes that a map takes at most.
@@ -79,7 +79,7 @@ impl Question {
         let axes = self.driven(|a, b| a >= b || !(b - a).is_finite())?;
         // what comes round again is mapped once
         let turns = |axis: &Driven| match axis.coordinate {
-            Holdable::Joint(joint) => mechanism.repeats(joint),
+            Coordinate::Joint(joint) => mechanism.repeats(joint),
             of => of.is_angle(mechanism),
         };
         let round = |axis: &&Driven| turns(axis) && axis.to - axis.from > TAU * (1.0 + 1e-9);
@@ -106,8 +106,8 @@ impl Question {
         let demanded = self.hold.iter().map(|(name, _)| name).chain(&self.free);
         for (index, (input, axis)) in self.inputs.iter().zip(axes).enumerate() {
             let platform = match axis.coordinate {
-                Holdable::Coordinate(platform, _) => Some(&mechanism.platforms()[platform].name),
-                Holdable::Joint(_) | Holdable::Turn(..) => None,
+                Coordinate::Pose(platform, _) => Some(&mechanism.platforms()[platform].name),
+                Coordinate::Joint(_) | Coordinate::Turn(..) => None,
             };
             if (demanded.clone()).any(|name| *name == input.name || Some(name) == platform) {
                 return Err(AskError::AlsoHeld {
@@ -122,10 +122,10 @@ impl Question {
         }
         // roll and yaw turn about one axis there, and do not tell a map
         for axis in axes {
-            if let Holdable::Coordinate(platform, c) = axis.coordinate
+            if let Coordinate::Pose(platform, c) = axis.coordinate
                 && c.is_angle()
                 && (question.held_coordinates().iter())
-                    .any(|held| matches!(held, Holdable::Turn(of, _) if *of == platform))
+                    .any(|held| matches!(held, Coordinate::Turn(of, _) if *of == platform))
             {
                 let platform = mechanism.platforms()[platform].name.clone();
                 return Err(AskError::Question(QuestionError::AnglesLocked { platform }));
@@ -172,10 +172,10 @@ fn missing(question: &system::Question) -> Vec<String> {
     let held = question.held_coordinates();
     let platforms = 0..mechanism.platforms().len();
     let coordinates = platforms.flat_map(|platform| {
-        let all = Coordinate::ALL.into_iter();
-        all.map(move |c| Holdable::Coordinate(platform, c))
+        let all = PoseCoordinate::ALL.into_iter();
+        all.map(move |c| Coordinate::Pose(platform, c))
     });
-    let candidates: Vec<Holdable> = held.iter().copied().chain(coordinates).collect();
+    let candidates: Vec<Coordinate> = held.iter().copied().chain(coordinates).collect();
     let Some(mobility) = Mobility::near(mechanism, &question.start()) else {
         return Vec::new();
     };

@@ -6,14 +6,11 @@ use clap::Args;
 use linkwork::ask::{AskError, Question, Role};
 use linkwork::mechanism::{Frame, Mechanism};
 use linkwork::output::complaint::{Complaint, Given, Part};
-use linkwork::output::question::{complaint, driven_complaint, motionless_frame, unknown_frame};
-use linkwork::output::{
-    singularities as of_singularities, statics as of_statics, sweep as of_motion,
-    workspace as of_map,
-};
 use linkwork::system;
 
 use super::source::{Assignment, Loaded, once};
+use super::words::question::{complaint, driven_complaint, motionless_frame, unknown_frame};
+use super::words::{load, loci, map, motion};
 use super::{Refusal, style};
 
 #[derive(Args)]
@@ -132,9 +129,9 @@ impl<'o> Posed<'o> {
                 let said = match known {
                     Err(error) => complaint(&error),
                     Ok(_) => match ranges {
-                        Ranges::Input => of_motion::no_range(name),
-                        Ranges::Locus => of_singularities::no_side(name),
-                        Ranges::Map => of_map::no_range(name),
+                        Ranges::Input => motion::no_range(name),
+                        Ranges::Locus => loci::no_side(name),
+                        Ranges::Map => map::no_range(name),
                     },
                 };
                 return Err(refused(said, Some(&assignment.given(option))));
@@ -175,11 +172,11 @@ impl<'o> Posed<'o> {
                 error,
                 mapped,
                 missing,
-            } => whole(
-                of_map::wrong_count(error, mapped, missing).unwrap_or_else(|| complaint(error)),
-            ),
+            } => {
+                whole(map::wrong_count(error, mapped, missing).unwrap_or_else(|| complaint(error)))
+            }
             AskError::NotMapped { item, error } => {
-                let said = of_map::no_platform(mechanism, error);
+                let said = map::no_platform(mechanism, error);
                 let said = said.unwrap_or_else(|| complaint(error));
                 refused(said, given(item).as_ref())
             }
@@ -191,7 +188,7 @@ impl<'o> Posed<'o> {
             AskError::Load { item, error } => {
                 let given = given(item);
                 let option = given.map_or("--load", |given| given.option);
-                let said = of_statics::complaint(mechanism, error, option);
+                let said = load::complaint(mechanism, error, option);
                 refused(said, given.as_ref())
             }
             AskError::UnknownFrame { item, name } => {
@@ -201,11 +198,11 @@ impl<'o> Posed<'o> {
                 refused(motionless_frame(name), given(item).as_ref())
             }
             AskError::UnknownOutput { item, name } => {
-                let said = of_singularities::unknown_output(mechanism, name);
+                let said = loci::unknown_output(mechanism, name);
                 refused(said, given(item).as_ref())
             }
             AskError::Traced { item, error } => {
-                let said = of_motion::point_complaint(mechanism, error);
+                let said = motion::point_complaint(mechanism, error);
                 refused(said, given(item).as_ref())
             }
             AskError::EmptyRange { item, name } => {
@@ -213,9 +210,9 @@ impl<'o> Posed<'o> {
                 let value = given.and_then(|given| given.value).unwrap_or_default();
                 let from = value.split("..").next().unwrap_or_default();
                 let said = match self.ranges {
-                    Ranges::Input => of_motion::nothing_moves(name, from),
-                    Ranges::Locus => of_singularities::empty_side(name),
-                    Ranges::Map => of_map::empty_side(name, from),
+                    Ranges::Input => motion::nothing_moves(name, from),
+                    Ranges::Locus => loci::empty_side(name),
+                    Ranges::Map => map::empty_side(name, from),
                 };
                 refused(said, given.as_ref())
             }
@@ -225,12 +222,12 @@ impl<'o> Posed<'o> {
                 limits,
                 is_angle,
             } => {
-                let said = of_motion::outside(name, *limits, *is_angle);
+                let said = motion::outside(name, *limits, *is_angle);
                 refused(said, given(item).as_ref())
             }
             AskError::AlsoHeld { item, name } => {
                 let said = match self.ranges {
-                    Ranges::Map => of_map::also_held(name),
+                    Ranges::Map => map::also_held(name),
                     Ranges::Input | Ranges::Locus => Complaint::with_help(
                         format!("`{name}` is both moved and held"),
                         "also held",
@@ -239,26 +236,32 @@ impl<'o> Posed<'o> {
                 };
                 refused(said, given(item).as_ref())
             }
-            AskError::MoreThanATurn { name } => whole(of_map::more_than_a_turn(name)),
-            AskError::NothingMoves { driven } => whole(of_motion::what_moves(driven.as_deref())),
-            AskError::NotOneJoint => whole(of_motion::what_moves(None)),
-            AskError::Steps { given, most } => whole(of_motion::no_steps(*given, *most, false)),
-            AskError::NothingLeft { held } => whole(of_motion::nothing_left(held)),
-            AskError::NotOneFreedom(error) => whole(of_motion::not_one_freedom(error)),
+            AskError::MoreThanATurn { name } => whole(map::more_than_a_turn(name)),
+            AskError::NothingMoves { driven } => whole(motion::what_moves(driven.as_deref())),
+            AskError::NotOneJoint => whole(motion::what_moves(None)),
+            AskError::Steps { given, most } => whole(motion::no_steps(*given, *most, false)),
+            AskError::Starts { given, most } => whole(Complaint::with_help(
+                format!("{given} random starts, or nodes that are searched"),
+                "",
+                match self.ranges {
+                    Ranges::Map => format!("give --starts and --search from 1 to {most}"),
+                    Ranges::Input | Ranges::Locus => format!("give --starts from 1 to {most}"),
+                },
+            )),
+            AskError::NothingLeft { held } => whole(motion::nothing_left(held)),
+            AskError::NotOneFreedom(error) => whole(motion::not_one_freedom(error)),
             AskError::NotAssembled { held } => plain(format!(
                 "the mechanism does not assemble where the motion is to begin\n  \
                  = help: `linkwork solve` says how near it comes: {}",
                 held.join(", ")
             )),
-            AskError::NothingToDrive => whole(of_singularities::nothing_to_drive()),
-            AskError::Sides(given) => whole(of_singularities::not_two_sides(*given)),
-            AskError::Axes(given) => whole(of_map::too_many_axes(mechanism, *given)),
-            AskError::Spinning(spins) => whole(of_singularities::spinning(*spins)),
-            AskError::Grid { nodes, axes } => whole(of_map::wrong_grid(nodes, *axes)),
-            AskError::TooFine { nodes, bytes, most } => {
-                whole(of_map::too_fine(*nodes, *bytes, *most))
-            }
-            AskError::TooMany { cells, most } => whole(of_map::too_many_cells(*cells, *most)),
+            AskError::NothingToDrive => whole(loci::nothing_to_drive()),
+            AskError::Sides(given) => whole(loci::not_two_sides(*given)),
+            AskError::Axes(given) => whole(map::too_many_axes(mechanism, *given)),
+            AskError::Spinning(spins) => whole(loci::spinning(*spins)),
+            AskError::Grid { nodes, axes } => whole(map::wrong_grid(nodes, *axes)),
+            AskError::TooFine { nodes, bytes, most } => whole(map::too_fine(*nodes, *bytes, *most)),
+            AskError::TooMany { cells, most } => whole(map::too_many_cells(*cells, *most)),
             AskError::TooLarge { unknowns } => plain(format!(
                 "the mechanism has {unknowns} unknowns, too many for this analysis: ask about a part of it"
             )),

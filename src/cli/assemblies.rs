@@ -3,14 +3,14 @@
 use clap::Args;
 use linkwork::analysis::assemblies::{Fit, Wanted};
 use linkwork::ask::AskError;
-use linkwork::output::assemblies;
-use linkwork::output::question::complaint;
 
 use super::asked::Split;
+use super::format::Written;
 use super::search::Search;
 use super::source::Source;
 use super::watched::watched;
-use super::{Answer, Format, Refusal, style};
+use super::words::question::complaint;
+use super::{Answer, Refusal, style};
 
 /// List all assembled configurations for held inputs, numbered, each with a certificate.
 ///
@@ -33,9 +33,8 @@ pub struct Assemblies {
     all_complex: bool,
     #[command(flatten)]
     search: Search,
-    /// How to write the answer
-    #[arg(long, value_enum, default_value_t = Format::Text)]
-    format: Format,
+    #[command(flatten)]
+    format: Written,
 }
 
 impl Assemblies {
@@ -55,10 +54,7 @@ impl Assemblies {
         };
         let report = watched(|watch| question.assemblies(wanted, watch)).map_err(refusal)?;
         Ok(Answer {
-            data: match self.format {
-                Format::Text => assemblies::text(&report),
-                Format::Json => assemblies::json(&report),
-            },
+            data: self.format.shown(&report),
             remarks,
             yes: report.real > 0
                 && report.lost == 0

@@ -2,10 +2,10 @@
 
 use clap::Args;
 use linkwork::analysis::overview::overview;
-use linkwork::output::overview;
 
+use super::format::Written;
 use super::source::Source;
-use super::{Answer, Format, Refusal};
+use super::{Answer, Refusal};
 
 /// Say what a mechanism file means, or everything that is wrong with it.
 ///
@@ -16,9 +16,8 @@ use super::{Answer, Format, Refusal};
 pub struct Check {
     #[command(flatten)]
     source: Source,
-    /// How to write the answer
-    #[arg(long, value_enum, default_value_t = Format::Text)]
-    format: Format,
+    #[command(flatten)]
+    format: Written,
 }
 
 impl Check {
@@ -26,10 +25,7 @@ impl Check {
         let loaded = self.source.load()?;
         let report = overview(&loaded.mechanism);
         Ok(Answer {
-            data: match self.format {
-                Format::Text => overview::text(&report),
-                Format::Json => overview::json(&report),
-            },
+            data: self.format.shown(&report),
             remarks: loaded.warnings(),
             yes: true,
         })

@@ -3,12 +3,12 @@
 use clap::Args;
 use linkwork::analysis::compare::CompareSettings;
 use linkwork::ask::Question;
-use linkwork::output::comparison;
 
+use super::format::Written;
 use super::search::seed;
 use super::source::Source;
 use super::watched::watched;
-use super::{Answer, Format, Refusal};
+use super::{Answer, Refusal};
 
 /// Check every closed form of a mechanism file against its chains.
 ///
@@ -26,9 +26,8 @@ pub struct Compare {
     #[arg(long, value_parser = seed, allow_negative_numbers = true)]
     #[arg(default_value_t = CompareSettings::default().seed)]
     seed: u64,
-    /// How to write the answer
-    #[arg(long, value_enum, default_value_t = Format::Text)]
-    format: Format,
+    #[command(flatten)]
+    format: Written,
 }
 
 impl Compare {
@@ -37,10 +36,7 @@ impl Compare {
         let question = Question::new(loaded.mechanism.clone()).seed(self.seed);
         let report = watched(|watch| question.compare(self.samples, watch));
         Ok(Answer {
-            data: match self.format {
-                Format::Text => comparison::text(&report),
-                Format::Json => comparison::json(&report),
-            },
+            data: self.format.shown(&report),
             remarks: loaded.warnings(),
             yes: report.agree,
         })

@@ -5,7 +5,7 @@ use linkwork::analysis::convert::{ConvertSettings, convert, possible_cuts};
 use linkwork::description::Convention;
 use linkwork::output::conversion;
 
-use super::frames::Named;
+use super::frames::{FileFormat, Named};
 use super::source::Source;
 use super::{Answer, Refusal, style};
 
@@ -24,6 +24,9 @@ pub struct Convert {
     /// Break the mechanism at this joint; a closure of its loop becomes rows with variables of its own
     #[arg(long, value_name = "JOINT")]
     cut: Option<String>,
+    /// How to write the answer
+    #[arg(long, value_enum, default_value_t = FileFormat::Ron)]
+    format: FileFormat,
 }
 
 impl Convert {
@@ -44,7 +47,9 @@ impl Convert {
         let unwritten =
             |error| Refusal(format!("error: the mechanism cannot be written: {error}\n"));
         Ok(Answer {
-            data: converted.description.to_ron().map_err(unwritten)?,
+            data: self.format.shown(&converted, || {
+                converted.description.to_ron().map_err(unwritten)
+            })?,
             remarks: loaded.warnings() + &conversion::notes(&converted.notes),
             yes: true,
         })

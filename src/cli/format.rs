@@ -23,10 +23,10 @@ impl Format {
     /// The whole report in this format; nothing in one that consists of rows.
     pub fn shown(self, report: &impl Report) -> String {
         match self {
-            Format::Text => text::render(&report.document()),
+            Format::Text => text::render(&report.shown()),
             Format::Json => json::render(report),
-            Format::Markdown => markdown::render(&report.document()),
-            Format::Html => html::render(&report.document()),
+            Format::Markdown => markdown::render(&report.shown()),
+            Format::Html => html::render(&report.shown()),
             Format::Csv => String::new(),
         }
     }

@@ -6,8 +6,9 @@ use linkwork::description::listed;
 use linkwork::mechanism::Frame;
 use linkwork::output::formulas as output;
 
+use super::format::Written;
 use super::source::Source;
-use super::{Answer, Format, Refusal, asked};
+use super::{Answer, Refusal, asked};
 
 /// Multiply a mechanism out: transforms, closure equations and screw Jacobians as closed forms.
 ///
@@ -27,20 +28,19 @@ pub struct Formulas {
     #[arg(long = "in", value_name = "FRAME")]
     relative_to: Option<String>,
     /// Write LaTeX, displayed equations for amsmath or KaTeX
-    #[arg(long, group = "script")]
+    #[arg(long, group = "script", conflicts_with = "format")]
     latex: bool,
     /// Write for a terminal, which is the default
-    #[arg(long, group = "script")]
+    #[arg(long, group = "script", conflicts_with = "format")]
     unicode: bool,
     /// Write closed forms to be pasted into a mechanism file
-    #[arg(long, group = "script")]
+    #[arg(long, group = "script", conflicts_with = "format")]
     ron: bool,
     /// Write Rust functions
-    #[arg(long, group = "script")]
+    #[arg(long, group = "script", conflicts_with = "format")]
     rust: bool,
-    /// How to write the answer
-    #[arg(long, value_enum, default_value_t = Format::Text, conflicts_with = "script")]
-    format: Format,
+    #[command(flatten)]
+    format: Written,
 }
 
 impl Formulas {
@@ -73,12 +73,11 @@ impl Formulas {
                 "error: `{part}` is too long to be multiplied out in letters\n = help: give it a name among the parameters\n"
             ))
         })?;
-        let data = match (self.format, self.latex, self.ron, self.rust) {
-            (Format::Json, ..) => output::json(&report),
-            (_, true, ..) => output::latex(&report),
-            (_, _, true, _) => output::ron(&report),
-            (_, _, _, true) => output::rust(&report),
-            _ => output::text(&report),
+        let data = match (self.latex, self.ron, self.rust) {
+            (true, ..) => output::latex(&report),
+            (_, true, _) => output::ron(&report),
+            (_, _, true) => output::rust(&report),
+            _ => self.format.shown(&report),
         };
         Ok(Answer {
             data,

@@ -3,16 +3,16 @@
 use std::path::PathBuf;
 
 use clap::{Args, ValueEnum};
-use linkwork::analysis::frames::{FramesSettings, frames, joint_axes};
-use linkwork::analysis::overview::overview;
+use linkwork::analysis::frames::{AxesReport, FramesSettings, frames, joint_axes};
 use linkwork::description::{
     AxesDescription, Convention, FileError, LoadError, Problem, Severity, is_mechanism, load_text,
 };
 use linkwork::mechanism::Mechanism;
-use linkwork::output::{diagnostics, frames as output};
+use linkwork::output::{Report, diagnostics, frames as output};
 use linkwork::solve::Newton;
 use linkwork::system::{Question, close};
 
+use super::format::Format;
 use super::watched::watched;
 use super::{Answer, Refusal, style};
 
@@ -74,6 +74,27 @@ pub enum FileFormat {
     Ron,
     /// To be read by programs: metres and radians with all digits, and the mechanism file.
     Json,
+    /// To be read by people, for a page or a report.
+    Markdown,
+    /// To be read by people, as one page for a browser.
+    Html,
+}
+
+impl FileFormat {
+    /// The report in this format; a file by itself is written by `ron`.
+    pub fn shown(
+        self,
+        report: &impl Report,
+        ron: impl FnOnce() -> Result<String, Refusal>,
+    ) -> Result<String, Refusal> {
+        Ok(match self {
+            FileFormat::Ron => ron()?,
+            FileFormat::Text => Format::Text.shown(report),
+            FileFormat::Json => Format::Json.shown(report),
+            FileFormat::Markdown => Format::Markdown.shown(report),
+            FileFormat::Html => Format::Html.shown(report),
+        })
+    }
 }
 
 impl Frames {
@@ -107,18 +128,15 @@ impl Frames {
         let report = frames(axes, &settings).map_err(|problems| Refusal(wrong(problems)))?;
         let unwritten =
             |error| Refusal(format!("error: the mechanism cannot be written: {error}\n"));
-        let data = match self.format {
-            FileFormat::Text => {
-                let mechanism = Mechanism::new(&report.description)
-                    .map_err(|problems| Refusal(wrong(problems)))?;
-                output::text(&report, &overview(&mechanism), self.steps)
-            }
-            FileFormat::Ron => report.description.to_ron().map_err(unwritten)?,
-            FileFormat::Json => output::json(&report),
-        };
         let remarks = match report.warnings.is_empty() {
             true => String::new(),
             false => wrong(report.warnings.clone()),
+        };
+        let ron = report.description.to_ron();
+        let ron = || ron.map_err(unwritten);
+        let data = match self.steps {
+            true => self.format.shown(&output::WithSteps(report), ron)?,
+            false => self.format.shown(&report, ron)?,
         };
         Ok(Answer {
             data,
@@ -170,10 +188,10 @@ impl Frames {
             return Ok(answer);
         }
         Ok(Answer {
-            data: match self.format {
-                FileFormat::Text => output::axes_text(&axes),
-                FileFormat::Ron => axes.to_ron().map_err(unwritten)?,
-                FileFormat::Json => output::axes_json(&axes.into()),
+            data: {
+                let ron = axes.to_ron();
+                self.format
+                    .shown(&AxesReport::from(axes), || ron.map_err(unwritten))?
             },
             remarks: match gap {
                 true => output::NOT_ASSEMBLED.into(),

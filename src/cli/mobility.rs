@@ -2,13 +2,14 @@
 
 use clap::Args;
 use linkwork::analysis::mobility::MobilitySettings;
-use linkwork::output::{closing as analysed, mobility as output};
+use linkwork::output::closing as analysed;
 
 use super::asked::Asked;
+use super::format::Written;
 use super::search::seed;
 use super::source::Source;
 use super::watched::watched;
-use super::{Answer, Format, Refusal};
+use super::{Answer, Refusal};
 
 /// Count the freedoms of the assembled mechanism, and say which joints move and what is redundant.
 ///
@@ -25,27 +26,22 @@ pub struct Mobility {
     #[arg(long, value_parser = seed, allow_negative_numbers = true)]
     #[arg(default_value_t = MobilitySettings::default().seed)]
     seed: u64,
-    /// How to write the answer
-    #[arg(long, value_enum, default_value_t = Format::Text)]
-    format: Format,
+    #[command(flatten)]
+    format: Written,
 }
 
 impl Mobility {
     pub fn run(&self) -> Result<Answer, Refusal> {
         let loaded = self.source.load()?;
-        let mechanism = &loaded.mechanism;
         let posed = self.asked.pose(&loaded);
         let question = posed.question.clone().seed(self.seed);
-        let answer = watched(|watch| question.mobility(watch));
-        let answer = answer.map_err(|error| posed.refusal(&error))?;
-        let (data, yes) = match self.format {
-            Format::Text => analysed::text(mechanism, &answer, |_, report| output::text(report)),
-            Format::Json => analysed::json(mechanism, &answer, |_, report| output::json(report)),
-        };
+        let report = watched(|watch| question.mobility(watch));
+        let report = report.map_err(|error| posed.refusal(&error))?;
+        let yes = report.report();
         let warning = yes.map(|report| analysed::limits_warning(&report.outside_limits));
         let yes = yes.is_some();
         Ok(Answer {
-            data,
+            data: self.format.shown(&report),
             remarks: loaded.warnings() + &warning.unwrap_or_default(),
             yes,
         })

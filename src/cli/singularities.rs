@@ -3,7 +3,7 @@
 use std::path::PathBuf;
 
 use clap::Args;
-use linkwork::analysis::singularities::{Coupled, Ending, SingularitiesSettings};
+use linkwork::analysis::singularities::{AlongEnd, Coupled, SingularitiesSettings};
 use linkwork::ask::{Mode, Role};
 use linkwork::output::singularities as output;
 
@@ -124,7 +124,7 @@ impl Singularities {
         let report = report.map_err(|error| posed.refusal(&error))?;
         let yes = matches!(
             report.ending,
-            Ending::Complete | Ending::Returned | Ending::Closed
+            AlongEnd::Complete | AlongEnd::Returned | AlongEnd::Closed
         );
         let whole = match self.format {
             Format::Csv => rows(output::along_rows(&report))?,

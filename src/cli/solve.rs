@@ -3,13 +3,13 @@
 use clap::Args;
 use linkwork::analysis::assembly::{AssemblySettings, Outcome};
 use linkwork::ask::{Mode, Solved};
-use linkwork::output::{assemblies, solution};
 
 use super::asked::Asked;
+use super::format::Written;
 use super::search::{Search, mode};
 use super::source::Source;
 use super::watched::watched;
-use super::{Answer, Format, Refusal};
+use super::{Answer, Refusal};
 
 /// Find the assembled configuration near a guess.
 ///
@@ -33,9 +33,8 @@ pub struct Solve {
     mode: Option<usize>,
     #[command(flatten)]
     search: Search,
-    /// How to write the answer
-    #[arg(long, value_enum, default_value_t = Format::Text)]
-    format: Format,
+    #[command(flatten)]
+    format: Written,
 }
 
 impl Solve {
@@ -51,10 +50,7 @@ impl Solve {
             Solved::Ended(report) => report,
             Solved::Lost(lost) => {
                 return Ok(Answer {
-                    data: match self.format {
-                        Format::Text => assemblies::lost_text(&lost),
-                        Format::Json => assemblies::lost_json(&lost),
-                    },
+                    data: self.format.shown(&*lost),
                     remarks: loaded.warnings(),
                     yes: false,
                 });
@@ -62,17 +58,9 @@ impl Solve {
         };
         let warning = report.warning();
         let warning = warning.map(|warning| format!("warning: {warning}\n"));
-        let mut remarks = loaded.warnings() + &warning.unwrap_or_default();
-        let chosen = self.mode.is_some() || report.only;
-        if report.is_assembled() && !chosen && self.format == Format::Text {
-            remarks += "note: other assemblies may exist; `linkwork assemblies` lists them\n";
-        }
         Ok(Answer {
-            data: match self.format {
-                Format::Text => solution::text(&report),
-                Format::Json => solution::json(&report),
-            },
-            remarks,
+            data: self.format.shown(&*report),
+            remarks: loaded.warnings() + &warning.unwrap_or_default(),
             yes: report.outcome == Outcome::Converged,
         })
     }

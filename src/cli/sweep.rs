@@ -17,6 +17,7 @@ use super::format::Format;
 use super::search::{Search, mode};
 use super::source::{Assignment, Loaded, Source};
 use super::watched::watched;
+use super::words::motion;
 #[cfg(feature = "plot")]
 use super::written::save;
 use super::written::{Lines, unwritten};
@@ -130,7 +131,7 @@ impl Sweep {
         let mechanism = &*loaded.mechanism;
         let kept = self.format == Format::Json;
         if kept && self.steps > MOST_KEPT {
-            let said = output::no_steps(self.steps, MOST_KEPT, kept);
+            let said = motion::no_steps(self.steps, MOST_KEPT, kept);
             return Err(Refusal(said.render(style())));
         }
         #[cfg(not(feature = "plot"))]

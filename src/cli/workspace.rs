@@ -12,6 +12,7 @@ use super::format::Format;
 use super::search::Search;
 use super::source::{Assignment, Source};
 use super::watched::watched;
+use super::words::map;
 #[cfg(feature = "plot")]
 use super::written::save;
 use super::written::{INTERRUPTED_REMARK, rows};
@@ -61,32 +62,14 @@ pub struct Workspace {
     svg: Option<PathBuf>,
 }
 
-/// Random starts, and nodes that are searched, at most.
-const MOST_STARTS: usize = 1_000_000;
-
 impl Workspace {
     pub fn run(&self) -> Result<Answer, Refusal> {
         let loaded = self.source.load()?;
         let mut posed = self.split.pose(&loaded);
         self.search.pose(&mut posed)?;
         posed.ranges(Ranges::Map, &self.map)?;
-        let counts = [
-            (
-                self.starts,
-                "--starts",
-                "random starts are made at each node searched",
-            ),
-            (self.searched, "--search", "nodes are searched"),
-        ];
-        for (count, option, what) in counts {
-            if count == 0 || count > MOST_STARTS {
-                return Err(Refusal(format!(
-                    "error: {count} {what}: give {option} from 1 to {MOST_STARTS}\n"
-                )));
-            }
-        }
         if self.boundary && self.map.len() == 1 {
-            return Err(Refusal(output::boundary_flat().render(style())));
+            return Err(Refusal(map::boundary_flat().render(style())));
         }
         if self.boundary && self.format != Format::Csv {
             return Err(Refusal(

@@ -6,7 +6,7 @@ use crate::number::Number;
 
 words! {
     /// One coordinate of a platform's pose in ground, called by its word after the platform's name: `top.z`, `top.yaw`.
-    Coordinate {
+    PoseCoordinate {
         /// Position along ground's x, in m.
         X = "x",
         /// Position along ground's y, in m.
@@ -22,7 +22,7 @@ words! {
     }
 }
 
-impl Coordinate {
+impl PoseCoordinate {
     /// The name used after the platform's: `top.z`, `top.yaw`.
     pub fn name(self) -> &'static str {
         self.word()
@@ -35,19 +35,22 @@ impl Coordinate {
 
     /// Whether it is an angle, in rad; otherwise a length, in m.
     pub fn is_angle(self) -> bool {
-        matches!(self, Coordinate::Roll | Coordinate::Pitch | Coordinate::Yaw)
+        matches!(
+            self,
+            PoseCoordinate::Roll | PoseCoordinate::Pitch | PoseCoordinate::Yaw
+        )
     }
 
     /// Its value at a pose.
     pub fn of<T: Number>(self, pose: &Pose<T>) -> T {
         let angles = || RollPitchYaw::from_rotation(&pose.rotation);
         match self {
-            Coordinate::X => pose.position.0[0],
-            Coordinate::Y => pose.position.0[1],
-            Coordinate::Z => pose.position.0[2],
-            Coordinate::Roll => angles().roll,
-            Coordinate::Pitch => angles().pitch,
-            Coordinate::Yaw => angles().yaw,
+            PoseCoordinate::X => pose.position.0[0],
+            PoseCoordinate::Y => pose.position.0[1],
+            PoseCoordinate::Z => pose.position.0[2],
+            PoseCoordinate::Roll => angles().roll,
+            PoseCoordinate::Pitch => angles().pitch,
+            PoseCoordinate::Yaw => angles().yaw,
         }
     }
 
@@ -63,8 +66,8 @@ impl Coordinate {
     pub(crate) fn along<T: Number>(self, rotation: &Rotation<T>, value: T) -> Option<T> {
         let [n, s, a] = rotation.0;
         let (y, x) = match self {
-            Coordinate::Roll => (s.0[2], a.0[2]),
-            Coordinate::Yaw => (n.0[1], n.0[0]),
+            PoseCoordinate::Roll => (s.0[2], a.0[2]),
+            PoseCoordinate::Yaw => (n.0[1], n.0[0]),
             _ => return None,
         };
         let (sin, cos) = value.sin_cos();
@@ -82,15 +85,15 @@ impl Coordinate {
     /// for both; [`Coordinate::along`] tells them apart.
     pub(crate) fn row<T: Number>(self, pose: &Pose<T>, value: T, length: f64) -> (T, [T; 6]) {
         let gap = match self {
-            Coordinate::X | Coordinate::Y | Coordinate::Z => {
+            PoseCoordinate::X | PoseCoordinate::Y | PoseCoordinate::Z => {
                 (pose.position.0[self as usize] - value).scale(1.0 / length)
             }
-            Coordinate::Roll | Coordinate::Pitch | Coordinate::Yaw => {
+            PoseCoordinate::Roll | PoseCoordinate::Pitch | PoseCoordinate::Yaw => {
                 let ((y, dy), (x, dx)) = self.legs(pose);
                 let (sin, cos) = value.sin_cos();
                 if !T::REAL {
                     let (gap, d) = match self {
-                        Coordinate::Pitch => (y - sin, dy),
+                        PoseCoordinate::Pitch => (y - sin, dy),
                         _ => (y * cos - x * sin, dy.times(cos) - dx.times(sin)),
                     };
                     let mut slope = [T::zero(); 6];
@@ -108,8 +111,10 @@ impl Coordinate {
     pub(crate) fn slope<T: Number>(self, pose: &Pose<T>) -> [T; 6] {
         let mut slope = [T::zero(); 6];
         match self {
-            Coordinate::X | Coordinate::Y | Coordinate::Z => slope[3 + self as usize] = T::one(),
-            Coordinate::Roll | Coordinate::Pitch | Coordinate::Yaw => {
+            PoseCoordinate::X | PoseCoordinate::Y | PoseCoordinate::Z => {
+                slope[3 + self as usize] = T::one()
+            }
+            PoseCoordinate::Roll | PoseCoordinate::Pitch | PoseCoordinate::Yaw => {
                 let ((y, dy), (x, dx)) = self.legs(pose);
                 let d = (dy.times(x) - dx.times(y)).times(T::one() / (x * x + y * y));
                 slope[..3].copy_from_slice(&d.0);
@@ -127,8 +132,8 @@ impl Coordinate {
             (column.dot(&e), column.cross(&e))
         };
         match self {
-            Coordinate::Roll => (entry(&s, Axis::Z), entry(&a, Axis::Z)),
-            Coordinate::Pitch => {
+            PoseCoordinate::Roll => (entry(&s, Axis::Z), entry(&a, Axis::Z)),
+            PoseCoordinate::Pitch => {
                 let (r31, d31) = entry(&n, Axis::Z);
                 let cos = (n.0[0] * n.0[0] + n.0[1] * n.0[1]).sqrt();
                 // cos² = 1 − r31², so d cos = −r31 d r31/cos

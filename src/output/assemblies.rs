@@ -1,49 +1,41 @@
-//! All assemblies of a mechanism, as text and as JSON.
+//! All assemblies of a mechanism as a document.
 
-use std::fmt::Write;
-
+mod lost;
 mod tables;
 
 use super::closing;
-use super::json::document;
-use super::layout::indented;
-use super::quantity::{number, quantity};
-use crate::analysis::assemblies::{
-    AssembliesReport, ClosestApproach, Continuum, Fit, Fold, LostMode, LostReason,
-};
-use crate::description::count;
-use crate::description::listed;
-use crate::mechanism::{Coordinate, Variable};
+use super::document::{Document, Report, Section};
+use super::quantity::quantity;
+use crate::analysis::assemblies::{AssembliesReport, ClosestApproach, Continuum, Fit};
+use crate::description::{count, listed};
 use tables::{complex, joints, overview, platforms, reasons, times};
 
-/// The report as text.
-pub fn text(report: &AssembliesReport) -> String {
-    let mut sections = vec![format!(
-        "{}\n{}\n{}",
-        report.mechanism,
-        sentence(report),
-        indented(&accounting(report))
-    )];
-    if !report.assemblies.is_empty() {
-        sections.push(overview(report));
-        sections.extend(joints(report));
-        sections.extend(platforms(report));
-        sections.extend(reasons(report));
+impl Report for AssembliesReport {
+    fn is_interrupted(&self) -> bool {
+        self.interrupted
     }
-    if !report.complex_assemblies.is_empty() {
-        sections.push(complex(report));
+
+    fn document(&self) -> Document {
+        let nearest = self.closest.iter().map(|closest| nearest(self, closest));
+        let document = Document::new(&self.mechanism, sentence(self))
+            .notes(meeting(self))
+            .section(Section::new("Assemblies").table(overview(self)))
+            .sections(joints(self))
+            .sections(platforms(self))
+            .section(reasons(self))
+            .section(complex(self))
+            .sections(nearest);
+        accounting(self)
+            .into_iter()
+            .fold(document, Document::method)
     }
-    if let Some(closest) = &report.closest {
-        sections.push(nearest(report, closest));
-    }
-    sections.join("\n")
 }
 
 /// The answer in one sentence.
-pub fn sentence(report: &AssembliesReport) -> String {
-    let real = count(report.real, "assembly").replace("assemblys", "assemblies");
+fn sentence(report: &AssembliesReport) -> String {
+    let real = count(report.real, "assembly");
     match (&report.fit, report.real) {
-        (Fit::FreedomLeft(_), 0) => "No assembly found.".into(),
+        (Fit::FreedomLeft(_), 0) => "No assembly was found.".into(),
         (Fit::FreedomLeft(freedom), _) => {
             let left = match freedom {
                 1 => "1 freedom is".into(),
@@ -52,24 +44,19 @@ pub fn sentence(report: &AssembliesReport) -> String {
             let isolated = report.assemblies.iter().filter(|a| a.multiplicity > 0);
             let isolated = isolated.count();
             let listed = match report.real - isolated {
-                _ if isolated == 0 => format!("{real} as samples"),
-                0 => format!("{real}, all isolated"),
-                samples => {
-                    let isolated = count(isolated, "isolated assembly");
-                    format!(
-                        "{} and {} of the others",
-                        isolated.replace("assemblys", "assemblies"),
-                        count(samples, "sample")
-                    )
-                }
+                _ if isolated == 0 => format!("{real} listed as samples"),
+                0 => format!("{real} listed, all isolated"),
+                samples => format!(
+                    "{} and {} of the others listed",
+                    count(isolated, "isolated assembly"),
+                    count(samples, "sample")
+                ),
             };
-            format!(
-                "The assemblies are not finite in number: {left} left with what is held. {listed}."
-            )
+            format!("Infinitely many assemblies: {left} left with what is held. {listed}.")
         }
         (Fit::TooManyHeld | Fit::AlwaysMultiple, _) => format!("{real} found."),
         (Fit::Finite, _) if !report.continua.is_empty() => infinitely_many(report),
-        (Fit::Finite, 0) => format!("0 real of {} complex: no assembly.", report.complex),
+        (Fit::Finite, 0) => format!("No assembly: 0 real of {} complex.", report.complex),
         (Fit::Finite, _) => format!(
             "{real}: {} real of {} complex.",
             report.real, report.complex
@@ -98,168 +85,101 @@ fn infinitely_many(report: &AssembliesReport) -> String {
             ),
         }
     });
-    let isolated = count(isolated.count(), "isolated assembly").replace("assemblys", "assemblies");
     format!(
-        "{isolated} and infinitely many connected ones at these inputs: {}.",
+        "{} and infinitely many connected ones at these inputs: {}.",
+        count(isolated.count(), "isolated assembly"),
         listed(&sets.collect::<Vec<_>>())
     )
 }
 
-fn accounting(report: &AssembliesReport) -> String {
-    let mut text = String::new();
+/// Where solutions meet.
+fn meeting(report: &AssembliesReport) -> Option<String> {
     let mut doubles: Vec<String> = (report.assemblies.iter().filter(|a| a.multiplicity > 1))
-        .map(|a| format!("{} is {}", a.mode, times(a.multiplicity)))
+        .map(|a| format!("mode {} is {}", a.mode, times(a.multiplicity)))
         .collect();
     match report.singular.saturating_sub(doubles.len()) {
         0 => {}
         1 => doubles.push("1 is complex".into()),
         n => doubles.push(format!("{n} are complex")),
     }
-    let _ = write!(
-        text,
-        "{} complex with multiplicity, {} at infinity{}, {} lost; {} where solutions meet",
+    (report.singular > 0).then(|| {
+        format!(
+            "solutions coincide at {}: {}",
+            count(report.singular, "singular point"),
+            listed(&doubles)
+        )
+    })
+}
+
+/// How the list was found and how complete it is.
+fn accounting(report: &AssembliesReport) -> Vec<String> {
+    let mut lines = vec![format!("completeness: {}", report.complete)];
+    lines.extend((report.bound_source.as_ref()).map(|source| format!("bound for {source}")));
+    let mut solutions = format!(
+        "{} complex solutions counted with multiplicity, {} at infinity{}, {} lost",
         report.complex,
         report.at_infinity,
         match report.at_infinity {
             0 => "",
             _ => " or beyond 1000 characteristic lengths",
         },
-        report.lost,
-        report.singular
+        report.lost
     );
-    if !doubles.is_empty() {
-        let _ = write!(text, " ({})", listed(&doubles));
-    }
     if report.half_a_turn_away > 0 {
-        let _ = write!(
-            text,
+        solutions += &format!(
             "; {} with roll or yaw half a turn from what is held",
             report.half_a_turn_away
         );
     }
     if report.not_isolated > 0 {
-        let _ = write!(text, "; {} not isolated", report.not_isolated);
+        solutions += &format!("; {} not isolated", report.not_isolated);
     }
-    text.push('\n');
+    lines.push(solutions);
     if report.paths > 0 {
-        let _ = writeln!(
-            text,
-            "{} in {}, {} followed again",
+        let retried = match report.retried {
+            0 => String::new(),
+            n => format!(", {n} of them repeated with smaller steps"),
+        };
+        lines.push(format!(
+            "{} tracked in {}{retried}",
             count(report.paths, "path"),
-            count(report.steps, "step"),
-            report.retried
-        );
+            count(report.steps, "step")
+        ));
     }
-    let _ = writeln!(
-        text,
-        "{} and {} with random seed {}",
-        count(report.seeds, "seed"),
-        count(report.loops, "loop"),
+    lines.push(format!(
+        "{} and {}, random seed {}",
+        count(report.seeds, "Newton seed"),
+        count(report.loops, "monodromy loop"),
         report.seed
-    );
-    let _ = writeln!(text, "completeness: {}", report.complete);
-    if let Some(source) = &report.bound_source {
-        let _ = writeln!(text, "bound for {source}");
-    }
+    ));
     if report.assemblies.iter().any(|a| a.certified) {
         let length = quantity(report.characteristic_length, false);
-        let _ = writeln!(
-            text,
-            "radii of certificates in rad and, for lengths, in units of {length}"
-        );
+        lines.push(format!(
+            "a certificate proves that exactly one solution lies within its radius, in rad and, for \
+             lengths, in units of {length}"
+        ));
     }
     if let Some((used, all)) = report.independent_rows {
-        let _ = writeln!(
-            text,
-            "certificates use {used} independent ones of {all} closure rows"
-        );
+        lines.push(format!(
+            "certificates use {used} independent equations of {all}"
+        ));
     }
-    text
+    lines
 }
 
-fn nearest(report: &AssembliesReport, closest: &ClosestApproach) -> String {
-    let mut text = match closest.local_minimum {
-        true => format!("Closest approach: closure {} gapes most\n", closest.worst),
+fn nearest(report: &AssembliesReport, closest: &ClosestApproach) -> Section {
+    let worst = &closest.worst;
+    let title = match closest.local_minimum {
+        true => format!("Closest approach: closure {worst} has the widest gap"),
         false => format!(
-            "Closest found, though perhaps not closest of all: closure {} gapes most\n",
-            closest.worst
+            "Closest approach found, perhaps not the closest of all: closure {worst} has the widest gap"
         ),
     };
-    for (name, gap) in &closest.gaps.0 {
-        let _ = writeln!(text, "  {name}: {}", closing::gap(gap.distance, gap.angle));
-    }
-    for ((name, value), joint) in closest.joints.0.iter().zip(&report.variables) {
-        let angle = joint.unit.is_angle();
-        let _ = writeln!(text, "  {name} = {}", quantity(*value, angle));
-    }
-    text
-}
-
-/// The report as JSON: lengths in m, angles in rad, every number with all its digits.
-pub fn json(report: &AssembliesReport) -> String {
-    document(&report.mechanism, report)
-}
-
-/// Why a mode was not followed, as JSON.
-pub fn lost_json(lost: &LostMode) -> String {
-    document(&lost.mechanism, lost)
-}
-
-/// Why a mode was not followed, as text.
-pub fn lost_text(lost: &LostMode) -> String {
-    let LostMode {
-        mechanism,
-        mode,
-        reason,
-        ..
-    } = lost;
-    let percent = |fold: &Fold| number(100.0 * fold.fraction);
-    let what = match reason {
-        LostReason::Ceases(fold) => format!(
-            "Mode {mode} ceases to exist on the way from home, {} % of the way: there it meets another mode.",
-            percent(fold)
-        ),
-        LostReason::MeetsOthers(fold) => format!(
-            "Mode {mode} cannot be followed beyond {} % of the way from home, where it meets other \
-             assemblies: its number does not tell which of them to follow.",
-            percent(fold)
-        ),
-        LostReason::MeetAtHome { multiplicity } => {
-            let what = match multiplicity {
-                0 => "one of infinitely many connected assemblies".into(),
-                n => format!("{}: {n} assemblies meet there", times(*n)),
-            };
-            format!(
-                "At home mode {mode} is {what}, and its number does not tell which of them to follow. \
-                 `assemblies` lists those at the inputs asked; `solve --guess` starts near one of them."
-            )
-        }
-    };
-    let mut text = format!("{mechanism}\n{what}\n");
-    let (LostReason::Ceases(fold) | LostReason::MeetsOthers(fold)) = reason else {
-        return text;
-    };
-    for (name, value) in &fold.inputs.0 {
-        let _ = writeln!(text, "  {name} = {}", input(&lost.variables, name, *value));
-    }
-    text += "\nJoints there\n";
-    for ((name, value), joint) in fold.joints.0.iter().zip(&lost.variables) {
-        let _ = writeln!(
-            text,
-            "  {name} = {}",
-            quantity(*value, joint.unit.is_angle())
-        );
-    }
-    text
-}
-
-/// An input with its unit: joints and platform coordinates by name, parts of quaternions without.
-fn input(variables: &[Variable], name: &str, value: f64) -> String {
-    if let Some(joint) = variables.iter().find(|joint| joint.name == name) {
-        return quantity(value, joint.unit.is_angle());
-    }
-    let coordinate = name
-        .rsplit_once('.')
-        .and_then(|(_, c)| Coordinate::by_name(c));
-    coordinate.map_or(number(value), |c| quantity(value, c.is_angle()))
+    let gaps = (closest.gaps.0.iter())
+        .map(|(name, gap)| format!("{name}: {}", closing::gap(gap.distance, gap.angle)));
+    let joints = closest.joints.0.iter().zip(&report.variables);
+    let joints = joints.map(|((name, value), joint)| {
+        format!("{name} = {}", quantity(*value, joint.unit.is_angle()))
+    });
+    Section::new(title).list(gaps).list(joints)
 }

@@ -1,13 +1,9 @@
 //! Words about closing a mechanism before it is analysed.
 
-use serde::Serialize;
-
 use super::document::{Document, Report};
-use super::json::document;
 use super::quantity::{degrees, quantity};
 use crate::description::listed;
 use crate::linear::SPECTRUM_LIMIT;
-use crate::mechanism::Mechanism;
 use crate::system::{Analysed, NotClosed, WidestGap};
 
 /// `0.213 m and 4.2°`
@@ -25,10 +21,10 @@ pub(super) fn gap(distance: f64, angle: f64) -> String {
 pub(super) fn given(given: &WidestGap, kept: bool) -> String {
     let free = match kept {
         true => "",
-        false => ", which moved what the file holds too",
+        false => ", which moved actuated joints too",
     };
     format!(
-        "The pose given was not closed: closure `{}` gaped by {}; it was closed first{free}.",
+        "The pose given was not assembled: closure `{}` was open by {}; it was assembled first{free}.",
         given.closure,
         gap(given.distance, given.angle)
     )
@@ -58,61 +54,19 @@ impl<R: Report> Report for Analysed<R> {
 }
 
 impl Report for NotClosed {
+    fn is_interrupted(&self) -> bool {
+        self.interrupted
+    }
+
     fn document(&self) -> Document {
         Document::new(&self.mechanism, sentence(self))
     }
 }
 
-/// The report as `show` writes it, or why there is none and what to ask instead.
-pub fn text<'a, R>(
-    mechanism: &Mechanism,
-    answer: &'a Analysed<R>,
-    show: impl Fn(&Mechanism, &R) -> String,
-) -> (String, Option<&'a R>) {
-    let why = match answer {
-        Analysed::Closed(report) => return (show(mechanism, report), Some(report)),
-        Analysed::NotClosed(open) => sentence(open),
-        Analysed::TooLarge(large) => too_large(large.unknowns),
-    };
-    (format!("{}\n{why}\n", mechanism.name()), None)
-}
-
-/// The same as JSON: `closed` and `sentence` where there is no report.
-pub fn json<'a, R>(
-    mechanism: &Mechanism,
-    answer: &'a Analysed<R>,
-    show: impl Fn(&Mechanism, &R) -> String,
-) -> (String, Option<&'a R>) {
-    let json = match answer {
-        Analysed::Closed(report) => return (show(mechanism, report), Some(report)),
-        Analysed::NotClosed(open) => UnansweredJson {
-            closed: Some(false),
-            sentence: sentence(open),
-            left: open.left.as_ref(),
-            held: &open.held,
-        },
-        Analysed::TooLarge(large) => UnansweredJson {
-            closed: None,
-            sentence: too_large(large.unknowns),
-            left: None,
-            held: &[],
-        },
-    };
-    (document(mechanism.name(), &json), None)
-}
-
-#[derive(Serialize)]
-struct UnansweredJson<'a> {
-    closed: Option<bool>,
-    sentence: String,
-    left: Option<&'a WidestGap>,
-    held: &'a [String],
-}
-
 fn too_large(unknowns: usize) -> String {
     format!(
-        "Not analysed: the mechanism has {unknowns} unknowns, and singular values are computed for \
-         up to {SPECTRUM_LIMIT}. Ask about a part of it."
+        "Not analysed: the mechanism has {unknowns} unknowns, and this analysis is limited to \
+         {SPECTRUM_LIMIT}. Analyse a part of it."
     )
 }
 
@@ -123,15 +77,14 @@ fn sentence(open: &NotClosed) -> String {
     };
     let left = match &open.left {
         Some(left) => format!(
-            ": at the closest approach closure {} gapes by {}",
+            ": at the closest approach closure {} is open by {}",
             left.closure,
             gap(left.distance, left.angle)
         ),
         None => String::new(),
     };
     format!(
-        "Not assembled{held}{left}. Only an assembled mechanism can be analysed: ask for other \
-         values with --hold, for another start with --guess, or let a joint be found with --free; \
-         `linkwork solve` says more."
+        "Not assembled{held}{left}. Only an assembled mechanism can be analysed: hold other \
+         values, start elsewhere, or free a joint that is held; `linkwork solve` says more."
     )
 }

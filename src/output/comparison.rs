@@ -1,9 +1,7 @@
-//! A comparison of closed forms with the chains, as text and as JSON.
+//! A comparison of closed forms with the chains as a document.
 
-use comfy_table::{CellAlignment, Table, presets};
-
+use super::document::{Column, Document, Report, Section, Table, cells};
 use super::formulas::{Notation, Script};
-use super::json::document;
 use super::quantity::{number, size};
 use crate::analysis::compare::{
     CompareReport, ComponentReport, Difference, FormReport, Proof, Quantity, Reason, Verdict,
@@ -11,34 +9,37 @@ use crate::analysis::compare::{
 };
 use crate::description::count;
 
-/// The report as a table of forms, what is wrong with each that disagrees, and one sentence.
-pub fn text(report: &CompareReport) -> String {
-    let name = &report.mechanism;
-    if report.closed_forms.is_empty() {
-        return format!("{name}: the file has no closed forms to compare.\n");
+impl Report for CompareReport {
+    fn is_interrupted(&self) -> bool {
+        self.interrupted
     }
-    let mut text = format!(
-        "{name}: closed forms beside the chains\n\n{}\n",
-        table(report)
-    );
-    text += &units(report);
-    let notation = Notation::new(&report.names, Script::Unicode);
-    for form in &report.closed_forms {
-        text += &exact(&notation, form);
-        for component in &form.components {
-            text += &remark(report, form, component);
+
+    fn document(&self) -> Document {
+        if self.closed_forms.is_empty() {
+            return Document::new(&self.mechanism, "The file has no closed forms to compare.");
         }
+        let notation = Notation::new(&self.names, Script::Unicode);
+        let not_assembled = (self.not_assembled > 0).then(|| {
+            format!(
+                "no assembled configuration was found at {}, which were left out",
+                count(self.not_assembled, "random input")
+            )
+        });
+        let home = (!self.home_assembles)
+            .then(|| "the mechanism cannot be assembled from its home configuration".to_owned());
+        let remarks = self.closed_forms.iter().flat_map(|form| {
+            let components = form.components.iter();
+            let remarks = components.flat_map(|component| remark(self, form, component));
+            exact(&notation, form).into_iter().chain(remarks)
+        });
+        let title = "Closed forms compared with the chains";
+        Document::new(&self.mechanism, sentence(self) + &proved(self))
+            .interrupted(self.interrupted, "samples and proofs")
+            .notes(home)
+            .section(Section::new(title).table(table(self)).text(units(self)))
+            .section(Section::new("Differences").list(remarks))
+            .notes(not_assembled)
     }
-    if report.not_assembled > 0 {
-        text += &format!(
-            "\nNo assembled configuration was found at {}; they were left out.\n",
-            count(report.not_assembled, "random input")
-        );
-    }
-    if !report.home_assembles {
-        text += "\nThe mechanism does not assemble from its home configuration.\n";
-    }
-    text + &format!("\n{}\n", sentence(report) + &proved(report))
 }
 
 /// How many forms are proved, if any.
@@ -66,35 +67,28 @@ fn proved(report: &CompareReport) -> String {
     }
 }
 
-fn table(report: &CompareReport) -> String {
-    let mut table = Table::new();
-    table.load_style(presets::NOTHING);
-    table.set_header([
-        "form",
-        "components",
-        "samples",
-        "largest difference",
-        "verdict",
-        "proof",
-        "source",
+fn table(report: &CompareReport) -> Table {
+    let mut table = Table::new([
+        Column::words("form"),
+        Column::numbers("components"),
+        Column::numbers("samples"),
+        Column::words("largest difference"),
+        Column::words("verdict"),
+        Column::words("proof"),
+        Column::words("source"),
     ]);
     for form in &report.closed_forms {
-        table.add_row([
-            form.name.clone(),
-            form.components.len().to_string(),
-            form.samples.to_string(),
+        table.row(cells![
+            &form.name,
+            form.components.len(),
+            form.samples,
             largest(form),
-            verdict(form.verdict).to_owned(),
-            proof(form).to_owned(),
-            form.source.clone().unwrap_or_default(),
+            verdict(form.verdict),
+            proof(form),
+            form.source.as_deref()
         ]);
     }
-    for column in [1, 2] {
-        if let Some(column) = table.column_mut(column) {
-            column.set_cell_alignment(CellAlignment::Right);
-        }
-    }
-    table.trim_fmt()
+    table
 }
 
 const QUANTITIES: [Quantity; 3] = [Quantity::Position, Quantity::Rotation, Quantity::Identity];
@@ -128,14 +122,14 @@ fn units(report: &CompareReport) -> String {
     };
     let mut said = Vec::new();
     if tried(Quantity::Rotation) {
-        said.push("in R, of rotation entries, have no unit");
+        said.push("in R, of entries of rotation matrices, have no unit");
     }
     if tried(Quantity::Identity) {
         said.push("of identities have the unit of their formula");
     }
     match said.is_empty() {
         true => String::new(),
-        false => format!("\nDifferences {}.\n", said.join("; those ")),
+        false => format!("Differences {}.", said.join("; those ")),
     }
 }
 
@@ -175,8 +169,8 @@ fn proof(form: &FormReport) -> &'static str {
 }
 
 /// The exact difference of every component that has one, and why others are not decided.
-fn exact(notation: &Notation, form: &FormReport) -> String {
-    let mut text = String::new();
+fn exact(notation: &Notation, form: &FormReport) -> Vec<String> {
+    let mut lines = Vec::new();
     let mut undecided: Vec<(Reason, Vec<&str>)> = Vec::new();
     for component in &form.components {
         match &component.proof {
@@ -194,20 +188,21 @@ fn exact(notation: &Notation, form: &FormReport) -> String {
                     _ => "the chains give",
                 };
                 let whole = closed_form == difference && component.quantity == Quantity::Identity;
-                text += &match (closed_form.is_zero(), chains.is_zero()) {
+                let mut line = match (closed_form.is_zero(), chains.is_zero()) {
                     (false, true) if whole => {
-                        format!("\n{place}: the form has {own} where the closures give 0")
+                        format!("{place}: the form has {own} where the closures give 0")
                     }
                     (false, true) => {
-                        format!("\n{place}: the form has {own}, which is not in the chains")
+                        format!("{place}: the form has {own}, which is not in the chains")
                     }
-                    (true, false) => format!("\n{place}: the form lacks {theirs}"),
-                    _ => format!("\n{place}: the form has {own} where {given} {theirs}"),
+                    (true, false) => format!("{place}: the form lacks {theirs}"),
+                    _ => format!("{place}: the form has {own} where {given} {theirs}"),
                 };
-                text += &format!("; difference {}.\n", print(difference));
+                line += &format!("; difference {}.", print(difference));
                 if component.agree {
-                    text += "  The difference is below the tolerance of the numbers.\n";
+                    line += " The difference is below the tolerance of the numerical comparison.";
                 }
+                lines.push(line);
             }
             Proof::NotDecided { reason } => {
                 match undecided.iter_mut().find(|(own, _)| own == reason) {
@@ -219,30 +214,30 @@ fn exact(notation: &Notation, form: &FormReport) -> String {
         }
     }
     for (reason, names) in undecided {
-        text += &format!(
-            "\n{}, {}: not proved, for {}; the numbers stand alone.\n",
+        lines.push(format!(
+            "{}, {}: not proved, because {}; it was compared numerically only.",
             form.name,
             names.join(", "),
             why(reason)
-        );
+        ));
     }
-    text
+    lines
 }
 
 fn why(reason: Reason) -> &'static str {
     match reason {
-        Reason::NotPolynomial => "roots or inverse functions stand in it",
+        Reason::NotPolynomial => "it contains roots or inverse functions",
         Reason::NeedsElimination => {
-            "it holds only when assembled and is no sum of multiples of the closure equations"
+            "it holds only when assembled and is not a linear combination of the closure equations"
         }
-        Reason::NeedsPlatform => "it depends on where a platform stands when assembled",
-        Reason::TooLong => "it is too long to be multiplied out",
+        Reason::NeedsPlatform => "it depends on the pose of a platform when assembled",
+        Reason::TooLong => "it is too long to be expanded",
         Reason::Interrupted => "the work was interrupted",
     }
 }
 
 /// What is to be said of a component that does not simply agree; nothing of others.
-fn remark(report: &CompareReport, form: &FormReport, component: &ComponentReport) -> String {
+fn remark(report: &CompareReport, form: &FormReport, component: &ComponentReport) -> Vec<String> {
     let ComponentReport {
         name,
         quantity,
@@ -253,34 +248,34 @@ fn remark(report: &CompareReport, form: &FormReport, component: &ComponentReport
     } = component;
     let form = &form.name;
     if *samples == 0 {
-        return match without_value {
-            0 => {
-                format!("\n{form}, {name}: not tried, for no assembled configuration was found.\n")
-            }
-            _ => format!("\n{form}, {name}: has no value at any of {without_value} samples.\n"),
-        };
+        return vec![match without_value {
+            0 => format!("{form}, {name}: not tried, as no assembled configuration was found."),
+            _ => format!("{form}, {name}: has no value at any of {without_value} samples."),
+        }];
     }
-    let mut text = String::new();
+    let mut lines = Vec::new();
     if let Some(worst) = component.worst.as_ref().filter(|_| !component.agree) {
         let unit = unit(*quantity);
-        text += &format!(
-            "\n{form}, {name}: differs by up to {}{unit}.\n",
-            number(*max_difference)
-        );
-        text += &match quantity {
-            Quantity::Identity => format!("  it is {:.6}, not zero, ", worst.closed_form),
+        let values = match quantity {
+            Quantity::Identity => format!("it is {:.6}, not zero,", worst.closed_form),
             _ => format!(
-                "  the form gives {:.6}{unit}, the chains {:.6}{unit}, ",
+                "the form gives {:.6}{unit}, the chains {:.6}{unit},",
                 worst.closed_form, worst.chains
             ),
         };
-        text += &format!("at {}\n", joint_values(report, worst));
+        lines.push(format!(
+            "{form}, {name}: differs by up to {}{unit}: {values} at {}.",
+            number(*max_difference),
+            joint_values(report, worst)
+        ));
     }
     if *without_value > 0 {
         let of = samples + without_value;
-        text += &format!("\n{form}, {name}: has no value at {without_value} of {of} samples.\n");
+        lines.push(format!(
+            "{form}, {name}: has no value at {without_value} of {of} samples."
+        ));
     }
-    text
+    lines
 }
 
 /// `theta1 = 30 deg, l1 = 0.6 m`
@@ -327,9 +322,4 @@ fn sentence(report: &CompareReport) -> String {
             },
         ),
     }
-}
-
-/// The report as JSON, with the mechanism's name and the program's version.
-pub fn json(report: &CompareReport) -> String {
-    document(&report.mechanism, report)
 }

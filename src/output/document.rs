@@ -22,8 +22,33 @@ pub trait Report: Serialize {
     /// The report in words and tables. It needs nothing but the report.
     fn document(&self) -> Document;
 
+    /// Whether the work was stopped before it was done.
+    fn is_interrupted(&self) -> bool {
+        false
+    }
+
+    /// The document, which says first where the work was stopped.
+    fn shown(&self) -> Document {
+        let document = self.document();
+        match self.is_interrupted() {
+            false => document,
+            true => Document {
+                answer: format!(
+                    "Interrupted: this is what was found until then. {}",
+                    document.answer
+                ),
+                ..document
+            },
+        }
+    }
+
     /// Sentences that JSON has beside the answer, each with the name of its field.
     fn sentences(&self) -> Vec<(&'static str, Option<String>)> {
+        Vec::new()
+    }
+
+    /// The same for lists of sentences.
+    fn lists(&self) -> Vec<(&'static str, Vec<String>)> {
         Vec::new()
     }
 }

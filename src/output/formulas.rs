@@ -9,18 +9,11 @@ mod text;
 pub use code::rust;
 pub use latex::latex;
 pub use ron::ron;
-pub use text::text;
 
 pub(super) use notation::{Notation, Script};
 
-use super::json::document;
 use crate::algebra::Expression;
 use crate::analysis::formulas::{FormulasReport, Meaning};
-
-/// The report as JSON, with the mechanism's name and the program's version. Expressions are written as in a file.
-pub fn json(report: &FormulasReport) -> String {
-    document(&report.mechanism, report)
-}
 
 /// Sentences about what a reader might miss; none for most mechanisms.
 fn notes(report: &FormulasReport) -> Vec<String> {
@@ -31,13 +24,13 @@ fn notes(report: &FormulasReport) -> Vec<String> {
         .filter(|l| l.meaning == Meaning::Screw);
     for screw in screws {
         notes.push(format!(
-            "{} turns and slides at once: as an angle it stands in sines and cosines, times its pitch in lengths.",
+            "{} turns and slides at once: it stands as an angle in sines and cosines, and times its pitch in lengths.",
             screw.name
         ));
     }
     for left_out in &report.left_out {
         notes.push(format!(
-            "Left out, for it is too long to be multiplied out: {left_out}."
+            "Left out, as it is too long to be expanded: {left_out}."
         ));
     }
     if !report.simplified {

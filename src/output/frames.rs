@@ -1,23 +1,23 @@
-//! Words for frames placed on joint axes.
+//! Frames placed on joint axes as a document.
 
 mod steps;
 
-use std::fmt::Write;
+use serde::Serialize;
 
 use super::complaint::Complaint;
-use super::json::document;
-use super::layout::{align_right, indented, plain};
+use super::document::{Column, Document, Report, Section, Table, cells};
 use super::overview;
 use super::quantity::{degrees, number, quantity, short, size};
 use crate::analysis::frames::{
-    AxesError, AxesReport, CutReport, FramesReport, PlacedChain, PlacedNormal, Way,
+    AxesError, AxesReport, CutChoice, CutReport, FramesReport, PlacedChain, PlacedNormal,
 };
-use crate::analysis::overview::Overview;
+use crate::analysis::overview::overview;
 use crate::description::{
-    AxesDescription, AxisDescription, AxisKind, AxisPlace, Convention, Entry, count, listed,
+    AxisDescription, AxisKind, AxisPlace, Convention, Entry, count, listed, quoted,
 };
 use crate::geometry::Relation;
 use crate::linear::RANK_TOLERANCE;
+use crate::mechanism::Mechanism;
 
 /// Axes this near to parallel get a remark though their normal is used.
 const NEARLY_PARALLEL: f64 = 1e-3;
@@ -25,83 +25,97 @@ const NEARLY_PARALLEL: f64 = 1e-3;
 /// Below this a difference is rounding.
 const ROUNDING: f64 = 1e-12;
 
-/// The report as text, with the drawn tables of the mechanism it makes, and with the steps by which
-/// the frames were placed if asked.
-pub fn text(report: &FramesReport, overview: &Overview, steps: bool) -> String {
-    let mut sections = vec![overview::heading(overview)];
-    if let Some(cuts) = &report.cuts {
-        sections.push(cut_section(cuts));
+impl Report for FramesReport {
+    fn document(&self) -> Document {
+        document(self, false)
     }
+}
+
+/// Frames with the steps by which they were placed.
+#[derive(Serialize)]
+#[serde(transparent)]
+pub struct WithSteps(pub FramesReport);
+
+impl Report for WithSteps {
+    fn document(&self) -> Document {
+        document(&self.0, true)
+    }
+}
+
+fn document(report: &FramesReport, steps: bool) -> Document {
+    // the file that was made is a valid mechanism
+    let overview = Mechanism::new(&report.description).map(|mechanism| overview(&mechanism));
+    let mut document = Document::new(&report.mechanism, accuracy(report));
+    let Ok(overview) = overview else {
+        return document;
+    };
+    document = document
+        .notes(overview.source.clone())
+        .sections(report.cuts.as_ref().map(cut_section));
     for chain in &overview.chains {
-        sections.push(overview::chain(chain));
+        document = document.section(overview::chain(chain));
         let placed = report
             .chains
             .iter()
             .find(|placed| placed.name == chain.name);
-        sections.extend(placed.map(normals));
+        document = document.sections(placed.map(normals));
         if let (Some(placed), true) = (placed, steps) {
-            sections.push(steps::steps(
-                placed,
-                report.convention == Convention::Modified,
-            ));
+            let modified = report.convention == Convention::Modified;
+            document = document.section(steps::steps(placed, modified));
         }
     }
-    sections.extend(overview::platforms(overview));
-    if !overview.closures.is_empty() {
-        sections.push(overview::closures(overview));
-    }
-    sections.push(accuracy(report));
-    sections.join("\n")
+    document
+        .sections(overview::platforms(&overview))
+        .sections(overview::closures(&overview))
 }
 
-/// The report as JSON, with the mechanism file as a text.
-pub fn json(report: &FramesReport) -> String {
-    document(&report.mechanism, report)
-}
-
-fn cut_section(cuts: &CutReport) -> String {
-    let quoted: Vec<String> = cuts.cut.iter().map(|name| format!("`{name}`")).collect();
-    let mut text = match cuts.cut.is_empty() {
-        true => String::from("No loops to cut\n"),
-        false => format!("Cut at {}\n", listed(&quoted)),
+fn cut_section(cuts: &CutReport) -> Section {
+    let title = match cuts.cut.is_empty() {
+        true => "No loops to cut".to_owned(),
+        false => format!("Cut at {}", quoted(&cuts.cut)),
     };
     let balls = cuts.cut.len() - cuts.ways.first().map_or(0, |way| way.cut.len());
+    let mut lines = Vec::new();
     if balls > 0 {
-        let _ = writeln!(
-            text,
-            "  {} cut in any case",
+        lines.push(format!(
+            "{} cut in any case",
             count(balls, "spherical joint")
-        );
+        ));
     }
-    let Some((best, others)) = cuts.ways.split_first() else {
-        return text;
-    };
-    if best.cut.is_empty() {
-        return text;
+    match cuts.ways.split_first() {
+        None => {}
+        Some((best, _)) if best.cut.is_empty() => {}
+        Some((best, _)) if cuts.given => {
+            lines.push(format!("as the file asks: {}", simple(best)));
+        }
+        Some((best, others)) => {
+            const SHOWN: usize = 5;
+            lines.push(format!("the simplest tables: {}", simple(best)));
+            let shown = others.iter().take(SHOWN);
+            lines.extend(
+                shown.map(|way| format!("alternatively at {}: {}", listed(&way.cut), simple(way))),
+            );
+            if others.len() > SHOWN {
+                lines.push(format!(
+                    "and {}",
+                    count(others.len() - SHOWN, "other choice")
+                ));
+            }
+            if cuts.more {
+                lines.push("further choices were not compared".into());
+            }
+        }
     }
-    if cuts.given {
-        let _ = writeln!(text, "  as the file asks: {}", simple(best));
-        return text;
+    match lines.is_empty() {
+        true => Section::new("").text(title),
+        false => Section::new(title).list(lines),
     }
-    let _ = writeln!(text, "  the simplest tables: {}", simple(best));
-    const SHOWN: usize = 5;
-    for way in others.iter().take(SHOWN) {
-        let _ = writeln!(text, "  instead at {}: {}", listed(&way.cut), simple(way));
-    }
-    if others.len() > SHOWN {
-        let more = others.len() - SHOWN;
-        let _ = writeln!(text, "  and {}", count(more, "other way"));
-    }
-    if cuts.more {
-        text += "  more ways to cut were not compared\n";
-    }
-    text
 }
 
-fn simple(way: &Way) -> String {
+fn simple(way: &CutChoice) -> String {
     let entries = match way.entries {
-        1 => "1 constant that is not zero".into(),
-        number => format!("{number} constants that are not zero"),
+        1 => "1 non-zero constant".into(),
+        number => format!("{number} non-zero constants"),
     };
     let prismatic = match way.prismatic {
         0 => String::new(),
@@ -176,8 +190,16 @@ fn remark(normal: &PlacedNormal) -> Option<String> {
     None
 }
 
-fn normals(chain: &PlacedChain) -> String {
-    let mut table = plain(["x", "between", "axes", "angle", "distance", "chosen", ""]);
+fn normals(chain: &PlacedChain) -> Section {
+    let mut table = Table::new([
+        Column::words("x"),
+        Column::words("between"),
+        Column::words("axes"),
+        Column::numbers("angle"),
+        Column::numbers("distance"),
+        Column::words("chosen"),
+        Column::words(""),
+    ]);
     let last = chain.normals.len() - 1;
     let name = |k: usize| match k.checked_sub(1) {
         None => match chain.starts_at_base {
@@ -203,36 +225,32 @@ fn normals(chain: &PlacedChain) -> String {
             },
             _ => choice(normal, k),
         };
-        table.add_row([
-            &k.to_string(),
-            &format!("{} – {}", name(k), name(k + 1)),
+        table.row(cells![
+            k,
+            format!("{} – {}", name(k), name(k + 1)),
             relation(normal.relation),
-            &shown(degrees(normal.angle)),
-            &shown(format!("{} m", number(normal.distance))),
-            &chosen,
-            &remark(normal).unwrap_or_default(),
+            shown(degrees(normal.angle)),
+            shown(format!("{} m", number(normal.distance))),
+            chosen,
+            remark(normal)
         ]);
     }
-    align_right(&mut table, [3, 4]);
-    let mut text = format!(
-        "Common normals of {}\n{}",
-        chain.name,
-        indented(&table.to_string())
-    );
     let slides = chain.axes.iter().zip(&chain.joints);
-    for (axis, joint) in slides.filter(|(axis, _)| axis.prismatic) {
+    let slides = slides.filter(|(axis, _)| axis.prismatic);
+    let slides = slides.map(|(axis, joint)| {
         let [x, y, z] = axis.point.map(short);
-        let _ = writeln!(
-            text,
-            "  {joint} slides: its axis has no place and was put through ({x}, {y}, {z}) m"
-        );
-    }
-    text
+        format!(
+            "{joint} slides: the position of its axis is free and was chosen through ({x}, {y}, {z}) m"
+        )
+    });
+    Section::new(format!("Common normals of {}", chain.name))
+        .table(table)
+        .list(slides)
 }
 
 fn accuracy(report: &FramesReport) -> String {
     format!(
-        "The tables reproduce the axes given to {} m and {} rad.\n",
+        "The tables reproduce the axes given to {} m and {} rad.",
         size(report.moved),
         size(report.turned)
     )
@@ -240,46 +258,43 @@ fn accuracy(report: &FramesReport) -> String {
 
 /// What is said where the axes are those of a configuration that is not assembled.
 pub const NOT_ASSEMBLED: &str = "warning: the mechanism could not be assembled near home; these are \
-     the axes at home, and what is made from them will not close\n";
+     the axes at home, and tables made from them will not close\n";
 
-/// The axes that the tables of a mechanism describe.
-pub fn axes_text(axes: &AxesDescription) -> String {
-    let vector = |v: &[Entry; 3]| {
-        let shown = v.each_ref().map(|x| match x.expression.as_number() {
-            Some(value) => number(value),
-            None => x.expression.to_string(),
-        });
-        format!("({})", shown.join(", "))
-    };
-    let mut table = plain(["joint", "kind", "point (m)", "direction", "home", "between"]);
-    for joint in &axes.joints {
-        let axis = &joint.value;
-        let (point, direction) = match &axis.place {
-            AxisPlace::Along(point, direction) => (
-                point.as_ref().map_or("any".into(), vector),
-                vector(direction),
-            ),
-            AxisPlace::Through(first, second) => (vector(first), format!("to {}", vector(second))),
-            AxisPlace::Centre(point) => (vector(point), String::new()),
+impl Report for AxesReport {
+    fn document(&self) -> Document {
+        let vector = |v: &[Entry; 3]| {
+            let shown = v.each_ref().map(|x| match x.expression.as_number() {
+                Some(value) => number(value),
+                None => x.expression.to_string(),
+            });
+            format!("({})", shown.join(", "))
         };
-        let between = axis.between.as_ref();
-        let between = between.map_or(String::new(), |[a, b]| {
-            format!("{} and {}", a.value, b.value)
-        });
-        table.add_row([
-            &joint.name.value,
-            &axis.kind.word().to_lowercase(),
-            &point,
-            &direction,
-            &home(axis),
-            &between,
-        ]);
+        let columns = ["joint", "kind", "point (m)", "direction", "home", "between"];
+        let mut table = Table::new(columns.map(Column::words));
+        for joint in &self.axes.joints {
+            let axis = &joint.value;
+            let (point, direction) = match &axis.place {
+                AxisPlace::Along(point, direction) => (
+                    point.as_ref().map_or("any".into(), vector),
+                    vector(direction),
+                ),
+                AxisPlace::Through(first, second) => {
+                    (vector(first), format!("to {}", vector(second)))
+                }
+                AxisPlace::Centre(point) => (vector(point), String::new()),
+            };
+            let between = axis.between.as_ref();
+            table.row(cells![
+                &joint.name.value,
+                axis.kind.word().to_lowercase(),
+                point,
+                direction,
+                home(axis),
+                between.map(|[a, b]| format!("{} and {}", a.value, b.value))
+            ]);
+        }
+        Document::new(&self.mechanism, "").section(Section::new("Joint axes").table(table))
     }
-    format!(
-        "{}\nJoint axes\n{}",
-        axes.name.value,
-        indented(&table.to_string())
-    )
 }
 
 /// The value of a joint's variable, with its unit.
@@ -290,11 +305,6 @@ fn home(axis: &AxisDescription) -> String {
         (kind, Ok(value)) => quantity(value, kind != AxisKind::Prismatic),
         (_, Err(_)) => axis.home.expression.to_string(),
     }
-}
-
-/// The same as JSON: the file of axes as a text.
-pub fn axes_json(report: &AxesReport) -> String {
-    document(&report.mechanism, report)
 }
 
 /// Why the joints of a mechanism are not given by axes.

@@ -8,7 +8,7 @@ use super::document::Report;
 /// The report as JSON: its own fields, after the program's version, the mechanism's name and the
 /// answer in words. Numbers are in SI units and rad.
 pub fn render(report: &impl Report) -> String {
-    let document = report.document();
+    let document = report.shown();
     let mut object = Map::new();
     object.insert("linkwork".into(), env!("CARGO_PKG_VERSION").into());
     object.insert("mechanism".into(), document.title.into());
@@ -18,19 +18,14 @@ pub fn render(report: &impl Report) -> String {
     for (name, sentence) in report.sentences() {
         object.insert(name.into(), sentence.into());
     }
+    for (name, sentences) in report.lists() {
+        object.insert(name.into(), sentences.into());
+    }
     extended(object, report)
 }
 
-/// A report as a JSON object that begins with the program's version and the mechanism's name.
-///
-/// Numbers keep all their digits; one that is not finite is written as `null`, a negative zero as zero.
-pub(super) fn document(mechanism: &str, report: &impl Serialize) -> String {
-    let mut object = Map::new();
-    object.insert("linkwork".into(), env!("CARGO_PKG_VERSION").into());
-    object.insert("mechanism".into(), mechanism.into());
-    extended(object, report)
-}
-
+/// The fields of a report after those of the envelope. Numbers keep all their digits; one that is
+/// not finite is written as `null`, a negative zero as zero.
 fn extended(mut object: Map<String, Value>, report: &impl Serialize) -> String {
     let report = serde_json::to_value(report)
         .expect("the keys of every map in a report are texts, which alone could fail");
@@ -61,7 +56,7 @@ mod tests {
     #[test]
     fn zeros_have_no_sign_however_deep() {
         let report = serde_json::json!({ "a": [-0.0, [-1.5, { "b": -0.0 }]], "c": -0.0 });
-        let written: Value = serde_json::from_str(&document("x", &report)).unwrap();
+        let written: Value = serde_json::from_str(&extended(Map::new(), &report)).unwrap();
         assert_eq!(written["a"].to_string(), "[0.0,[-1.5,{\"b\":0.0}]]");
         assert_eq!(written["c"].to_string(), "0.0");
     }

@@ -1,132 +1,95 @@
-//! What an assembled mechanism can do, as text and as JSON.
+//! What an assembled mechanism can do, as a document.
 
 mod words;
 
-use std::fmt::Write;
-
-use serde::Serialize;
-
 use super::closing;
-use super::json::document;
-use super::layout::{align_right, indented, plain};
-use super::quantity::{number, signed, size};
-use super::screws::twists;
-use crate::analysis::mobility::{LoopCount, MobilityReport};
-use crate::description::listed;
-
-/// The report as JSON: the fields of [`MobilityReport`] with the answer in sentences.
-pub fn json(report: &MobilityReport) -> String {
-    #[derive(Serialize)]
-    struct MobilityJson<'a> {
-        explanation: String,
-        redundant_constraints: Vec<String>,
-        #[serde(flatten)]
-        report: &'a MobilityReport,
-    }
-    let json = MobilityJson {
-        explanation: words::explanation(report),
-        redundant_constraints: report.redundancies.iter().map(words::redundancy).collect(),
-        report,
-    };
-    document(&report.mechanism, &json)
-}
+use super::document::{Cell, Column, Document, Report, Section, Table, cells};
+use super::quantity::{number, size};
+use super::screws::twist_table;
+use crate::analysis::mobility::{BranchReport, LoopCount, MobilityReport};
+use crate::description::{count, listed};
 
 /// So many branches are shown with their motions.
 const SHOWN: usize = 8;
 
-/// The report as text.
-pub fn text(report: &MobilityReport) -> String {
-    let mut sections = vec![heading(report)];
-    if !report.joints.is_empty() {
-        sections.push(joints(report));
+impl Report for MobilityReport {
+    fn is_interrupted(&self) -> bool {
+        self.interrupted
     }
-    if !report.redundancies.is_empty() {
-        let lines = report.redundancies.iter();
-        let lines: Vec<String> = lines.map(|r| words::redundancy(r) + "\n").collect();
-        let frames = "in the first frame of each closure, moments about its point";
-        let title = format!("Redundant constraints, {frames}");
-        sections.push(format!("{title}\n{}", indented(&lines.concat())));
-    }
-    if !report.loops.is_empty() {
-        sections.push(loops(&report.loops));
-    }
-    if report.branches.is_empty() {
-        sections.push(twists("Infinitesimal motions", &report.twists));
-    }
-    for (i, branch) in report.branches.iter().enumerate().take(SHOWN) {
-        let moving = match branch.moving_joints.as_slice() {
-            [] => String::new(),
-            joints => format!(", moving {}", listed(joints)),
+
+    fn document(&self) -> Document {
+        let idle = self.idle_freedoms.iter();
+        let idle = idle.map(|freedom| format!("not counted: {}", words::idle(freedom)));
+        let elsewhere = self.elsewhere.iter();
+        let elsewhere = elsewhere.map(|other| words::elsewhere(self, other));
+        let given = self.given.as_ref();
+        let redundant = self.redundancies.iter().map(words::redundancy);
+        let motions = match self.branches.is_empty() {
+            true => twist_table(&self.twists),
+            false => twist_table(&[]),
         };
-        let freedoms = crate::description::count(branch.mobility, "freedom");
-        let kind = match (branch.cone, branch.approximate) {
-            (true, _) => ", a cone of motions in the span of",
-            (_, true) => ", motions to about 2 %",
-            _ => "",
-        };
-        let title = format!("Branch {}: {freedoms}{moving}{kind}", i + 1);
-        sections.push(match twists(&title, &branch.twists) {
-            none if none.is_empty() => title + "\n",
-            table => table,
+        let shown = self.branches.iter().enumerate().take(SHOWN);
+        let document = Document::new(&self.mechanism, words::mobility(self))
+            .interrupted(self.interrupted, "branches and other assemblies")
+            .note(words::counted(self))
+            .notes(idle)
+            .notes(elsewhere)
+            .notes(given.map(|gap| closing::given(gap, self.kept)))
+            .section(joints(self))
+            .section(
+                Section::new(
+                    "Redundant constraints, in the first frame of each closure, moments about its point",
+                )
+                .list(redundant),
+            )
+            .section(Section::new("Loops").table(loops(&self.loops)))
+            .section(Section::new("Infinitesimal motions").table(motions));
+        let document = shown.fold(document, |document, (i, of)| {
+            // a branch without motions of platforms or links is named all the same
+            let section = branch(i, of);
+            match section.blocks.is_empty() {
+                true => document.section(section.text("no platform or closure moves")),
+                false => document.section(section),
+            }
         });
+        document.section(more_branches(self)).method(format!(
+            "condition number {} with lengths over {} m",
+            size(self.condition),
+            number(self.length)
+        ))
     }
-    if report.branches.len() > SHOWN {
-        let more = report.branch_count - SHOWN;
-        let listed = match report.branch_count - report.branches.len() {
-            0 => "listed in the JSON",
-            _ => "the first of them listed in the JSON",
-        };
-        sections.push(format!("{more} more branches, {listed}\n"));
+
+    fn sentences(&self) -> Vec<(&'static str, Option<String>)> {
+        vec![("explanation", Some(words::explanation(self)))]
     }
-    sections.retain(|section| !section.is_empty());
-    sections.join("\n")
+
+    fn lists(&self) -> Vec<(&'static str, Vec<String>)> {
+        let redundant = self.redundancies.iter().map(words::redundancy);
+        vec![("redundant_constraints", redundant.collect())]
+    }
 }
 
-fn heading(report: &MobilityReport) -> String {
-    let mut text = format!("{}\n{}\n", report.mechanism, words::mobility(report));
-    let _ = writeln!(
-        text,
-        "  Kutzbach {} − {} = {}, rank {}, infinitesimal {}, redundant {}",
-        report.unknowns,
-        report.equations,
-        signed(report.kutzbach),
-        report.rank,
-        report.infinitesimal,
-        report.redundant
-    );
-    let _ = writeln!(
-        text,
-        "  condition number {} with lengths over {} m",
-        size(report.condition),
-        number(report.length)
-    );
-    for freedom in &report.idle_freedoms {
-        let _ = writeln!(text, "  not counted: {}", words::idle(freedom));
+fn joints(report: &MobilityReport) -> Section {
+    if report.joints.is_empty() {
+        return Section::new("Joints");
     }
-    for other in &report.elsewhere {
-        let _ = writeln!(text, "  {}", words::elsewhere(report, other));
-    }
-    if let Some(gap) = &report.given {
-        let _ = writeln!(text, "  {}", closing::given(gap, report.kept));
-    }
-    text
-}
-
-fn joints(report: &MobilityReport) -> String {
     let said = |names: &[String]| match names {
         [] => "none".to_owned(),
         names => listed(names),
     };
-    let (moving, idle) = (said(&report.moving_joints), said(&words::still(report)));
-    let spinning = match &report.spinning_joints[..] {
-        [] => String::new(),
-        names => format!("  spin    {}\n", listed(names)),
-    };
-    format!("Joints\n  moving  {moving}\n  idle    {idle}\n{spinning}")
+    let mut table = Table::new([Column::words(""), Column::words("")]);
+    table.row(cells!["moving", said(&report.moving_joints)]);
+    table.row(cells!["idle", said(&words::still(report))]);
+    if !report.spinning_joints.is_empty() {
+        table.row(cells!["spinning", listed(&report.spinning_joints)]);
+    }
+    Section::new("Joints").table(table)
 }
 
-fn loops(loops: &[LoopCount]) -> String {
-    let mut table = plain(["closed by", "joints", "Σf", "Σf − 6", "order λ", "Σf − λ"]);
+fn loops(loops: &[LoopCount]) -> Table {
+    let numbers = ["Σf", "Σf − 6", "order λ", "Σf − λ"].map(Column::numbers);
+    let words = ["closed by", "joints"].map(Column::words);
+    let mut table = Table::new(words.into_iter().chain(numbers));
     for LoopCount {
         closure,
         joints,
@@ -137,11 +100,43 @@ fn loops(loops: &[LoopCount]) -> String {
         ..
     } in loops
     {
-        let numbers = [*freedoms as i64, *kutzbach, *order as i64, *by_order];
-        let [freedoms, kutzbach, order, by_order] = numbers.map(signed);
-        let joints = joints.join(" ");
-        table.add_row([closure, &joints, &freedoms, &kutzbach, &order, &by_order]);
+        let [kutzbach, by_order] = [*kutzbach, *by_order].map(Cell::Count);
+        table.row(cells![
+            closure,
+            joints.join(" "),
+            *freedoms,
+            kutzbach,
+            *order,
+            by_order
+        ]);
     }
-    align_right(&mut table, 2..6);
-    format!("Loops\n{}", indented(&table.to_string()))
+    table
+}
+
+fn branch(i: usize, branch: &BranchReport) -> Section {
+    let moving = match branch.moving_joints.as_slice() {
+        [] => String::new(),
+        joints => format!(", moving {}", listed(joints)),
+    };
+    let kind = match (branch.cone, branch.approximate) {
+        (true, _) => "; its motions are a cone in the span of",
+        (_, true) => "; its motions are known to about 2 %",
+        _ => "",
+    };
+    let freedoms = count(branch.mobility, "freedom");
+    let title = format!("Branch {}: {freedoms}{moving}{kind}", i + 1);
+    Section::new(title).table(twist_table(&branch.twists))
+}
+
+fn more_branches(report: &MobilityReport) -> Section {
+    let section = Section::new("");
+    if report.branches.len() <= SHOWN {
+        return section;
+    }
+    let more = report.branch_count - SHOWN;
+    let listed = match report.branch_count - report.branches.len() {
+        0 => "listed in the JSON",
+        _ => "the first of them listed in the JSON",
+    };
+    section.text(format!("{}, {listed}", count(more, "further branch")))
 }

@@ -1,66 +1,52 @@
-//! What a mechanism file means, drawn as a lecture draws it.
+//! What a mechanism file means, drawn as a lecture draws it, as a document.
 
-use std::fmt::Write;
-
-use super::json::document;
-use super::layout::{align_right, indented, plain, ruled};
-use super::quantity::{degrees, number, quantity};
+use super::document::{Column, Document, Report, Section, Table, cells};
+use super::quantity::{degrees, number, quantity, signed};
 use crate::analysis::overview::{
     ChainOverview, ClosureOverview, LoopStep, MobilityCount, Overview, PlatformOverview,
     RowOverview,
 };
 use crate::description::{ClosureKind, Convention, count};
 
-/// The overview as JSON.
-pub fn json(overview: &Overview) -> String {
-    document(&overview.name, overview)
-}
-
-/// The overview as text.
-pub fn text(overview: &Overview) -> String {
-    let mut sections = vec![heading(overview)];
-    if !overview.parameters.is_empty() {
-        sections.push(parameters(overview));
-    }
-    if !overview.joints.is_empty() {
-        sections.push(joints(overview));
-    }
-    sections.extend(overview.chains.iter().map(chain));
-    sections.extend(platforms(overview));
-    if !overview.closures.is_empty() {
-        sections.push(closures(overview));
-        sections.push(loops(overview));
-    }
-    sections.push(mobility(&overview.count));
-    if !overview.closed_forms.is_empty() {
-        sections.push(closed_forms(overview));
-    }
-    sections.join("\n")
-}
-
-pub(super) fn heading(overview: &Overview) -> String {
-    match &overview.source {
-        Some(source) => format!("{}\n  {source}\n", overview.name),
-        None => format!("{}\n", overview.name),
+impl Report for Overview {
+    fn document(&self) -> Document {
+        Document::new(&self.name, "")
+            .notes(self.source.clone())
+            .section(Section::new("Parameters").table(parameters(self)))
+            .section(Section::new("Joints").table(joints(self)))
+            .sections(self.chains.iter().map(chain))
+            .sections(platforms(self))
+            .sections(closures(self))
+            .sections((!self.closures.is_empty()).then(|| loops(self)))
+            .section(mobility(&self.count))
+            .section(Section::new("Closed forms").table(closed_forms(self)))
     }
 }
 
-fn parameters(overview: &Overview) -> String {
-    let mut table = plain(["name", "value", "defined as"]);
+fn parameters(overview: &Overview) -> Table {
+    let mut table = Table::new([
+        Column::words("name"),
+        Column::numbers("value"),
+        Column::words("defined as"),
+    ]);
     for parameter in &overview.parameters {
-        let value = number(parameter.value);
         let definition = match parameter.definition.parse() == Ok(parameter.value) {
             true => "",
             false => &parameter.definition,
         };
-        table.add_row([&parameter.name, &value, definition]);
+        table.row(cells![&parameter.name, parameter.value, definition]);
     }
-    align_right(&mut table, [1]);
-    format!("Parameters\n{}", indented(&table.to_string()))
+    table
 }
 
-fn joints(overview: &Overview) -> String {
-    let mut table = plain(["name", "kind", "role", "home", "limits"]);
+fn joints(overview: &Overview) -> Table {
+    let mut table = Table::new([
+        Column::words("name"),
+        Column::words("kind"),
+        Column::words("role"),
+        Column::numbers("home"),
+        Column::words("limits"),
+    ]);
     for joint in &overview.joints {
         let shown = |value| match joint.unit {
             Some(unit) => quantity(value, unit.is_angle()),
@@ -70,34 +56,27 @@ fn joints(overview: &Overview) -> String {
             format!("{} to {}", shown(low), shown(high))
         });
         let role = joint.role.word().to_lowercase();
-        table.add_row([
+        table.row(cells![
             &joint.name,
             joint.kind.word(),
-            &role,
-            &shown(joint.home),
-            &limits,
+            role,
+            shown(joint.home),
+            limits
         ]);
     }
-    align_right(&mut table, [3]);
-    format!("Joints\n{}", indented(&table.to_string()))
+    table
 }
 
-pub(super) fn chain(chain: &ChainOverview) -> String {
-    let mut text = format!("Chain {} on {}", chain.name, chain.on);
+pub(super) fn chain(chain: &ChainOverview) -> Section {
+    let mut title = format!("Chain {} on {}", chain.name, chain.on);
     if !chain.rows.is_empty() {
         let convention = chain.convention.word().to_lowercase();
-        let _ = write!(text, ", {convention} Denavit–Hartenberg table");
+        title += &format!(", {convention} Denavit–Hartenberg table");
     }
-    text.push('\n');
-    if !chain.base.is_empty() {
-        let _ = writeln!(text, "  base {}", product(&chain.base));
-    }
-    if !chain.rows.is_empty() {
-        text += &indented(&table(chain));
-    }
-    if !chain.tip.is_empty() {
-        let _ = writeln!(text, "  tip {}", product(&chain.tip));
-    }
+    let step = |name: &str, steps: &[String]| match steps.is_empty() {
+        true => String::new(),
+        false => format!("{name} {}", product(steps)),
+    };
     let entries = |row: &RowOverview| {
         let lengths = [row.a.clone(), row.d.clone()].map(|entry| (entry, false));
         let angles = [row.alpha.clone(), row.theta.clone()].map(|entry| (entry, true));
@@ -112,10 +91,19 @@ pub(super) fn chain(chain: &ChainOverview) -> String {
             }
         }
     }
-    if !values.is_empty() {
-        let _ = writeln!(text, "  with {}", values.join(", "));
+    let values = match values.is_empty() {
+        true => String::new(),
+        false => format!("with {}", values.join(", ")),
+    };
+    let section = Section::new(title)
+        .text(step("base", &chain.base))
+        .table(table(chain))
+        .text(step("tip", &chain.tip))
+        .text(values);
+    match section.blocks.is_empty() {
+        true => section.text("no joints"),
+        false => section,
     }
-    text
 }
 
 fn product(steps: &[String]) -> String {
@@ -123,58 +111,54 @@ fn product(steps: &[String]) -> String {
 }
 
 /// The table in the order of its convention, as lectures print it.
-fn table(chain: &ChainOverview) -> String {
+fn table(chain: &ChainOverview) -> Table {
     let modified = chain.convention == Convention::Modified;
-    let mut table = match modified {
-        true => ruled(["i", "αᵢ₋₁", "aᵢ₋₁", "dᵢ", "θᵢ"]),
-        false => ruled(["i", "θᵢ", "dᵢ", "aᵢ", "αᵢ"]),
+    let columns = match modified {
+        true => ["i", "αᵢ₋₁", "aᵢ₋₁", "dᵢ", "θᵢ"],
+        false => ["i", "θᵢ", "dᵢ", "aᵢ", "αᵢ"],
     };
+    let mut table = Table::new(columns.map(Column::words)).ruled();
     for (i, row) in chain.rows.iter().enumerate() {
         let RowOverview { alpha, a, d, theta } = row;
         let entries = match modified {
             true => [alpha, a, d, theta],
             false => [theta, d, a, alpha],
         };
-        let [first, second, third, fourth] = entries.map(|entry| entry.written.clone());
-        table.add_row([(i + 1).to_string(), first, second, third, fourth]);
+        let [first, second, third, fourth] = entries.map(|entry| &entry.written);
+        table.row(cells![i + 1, first, second, third, fourth]);
     }
-    table.to_string()
+    table
 }
 
-pub(super) fn platforms(overview: &Overview) -> Vec<String> {
+pub(super) fn platforms(overview: &Overview) -> Vec<Section> {
     let platform = |platform: &PlatformOverview| {
         let [x, y, z] = platform.position.map(number);
         let [roll, pitch, yaw] = platform.roll_pitch_yaw.map(degrees);
-        let mut text = format!("Platform {}\n", platform.name);
-        let _ = writeln!(
-            text,
-            "  home at ({x}, {y}, {z}) m, roll {roll}, pitch {pitch}, yaw {yaw}"
-        );
-        if !platform.frames.is_empty() {
-            let mut table = plain(["frame", "placed by"]);
-            for frame in &platform.frames {
-                table.add_row([&frame.name, &product(&frame.placed)]);
-            }
-            text += &indented(&table.to_string());
+        let home = format!("home at ({x}, {y}, {z}) m, roll {roll}, pitch {pitch}, yaw {yaw}");
+        let mut table = Table::new(["frame", "placed by"].map(Column::words));
+        for frame in &platform.frames {
+            table.row(cells![&frame.name, product(&frame.placed)]);
         }
-        text
+        Section::new(format!("Platform {}", platform.name))
+            .text(home)
+            .table(table)
     };
     overview.platforms.iter().map(platform).collect()
 }
 
-pub(super) fn closures(overview: &Overview) -> String {
-    let mut table = plain(["name", "kind", "between", "equations"]);
+/// The closures; none if there are none.
+pub(super) fn closures(overview: &Overview) -> Option<Section> {
+    let mut table = Table::new(["name", "kind", "between", "equations"].map(Column::words));
     for closure in &overview.closures {
         let [from, to] = &closure.frames;
-        let kind = closure.kind.word().to_lowercase();
-        table.add_row([
+        table.row(cells![
             &closure.name,
-            &kind,
-            &format!("{from} and {to}"),
-            &format!("{}: {}", closure.equations, equations(closure)),
+            closure.kind.word().to_lowercase(),
+            format!("{from} and {to}"),
+            format!("{}: {}", closure.equations, equations(closure))
         ]);
     }
-    format!("Closures\n{}", indented(&table.to_string()))
+    (!table.rows.is_empty()).then(|| Section::new("Closures").table(table))
 }
 
 /// The equations of a closure in words; the axes are the z axes of the frames.
@@ -192,11 +176,7 @@ fn equations(closure: &ClosureOverview) -> String {
     }
 }
 
-fn loops(overview: &Overview) -> String {
-    let title = match overview.loops.len() {
-        0 => return "Loops\n  none\n".into(),
-        number => format!("Loops: {number}\n"),
-    };
+fn loops(overview: &Overview) -> Section {
     let step = |step: &LoopStep| match step {
         LoopStep::Ground => "ground".to_owned(),
         LoopStep::Platform(name) | LoopStep::Chain(name) => name.clone(),
@@ -204,14 +184,16 @@ fn loops(overview: &Overview) -> String {
     };
     let lines = overview.loops.iter().enumerate().map(|(i, found)| {
         let steps: Vec<String> = found.steps.iter().map(step).collect();
-        format!("  {}: {}\n", i + 1, steps.join(" - "))
+        format!("{}: {}", i + 1, steps.join(" - "))
     });
-    title + &lines.collect::<String>()
+    match overview.loops.len() {
+        0 => Section::new("Loops").text("none"),
+        number => Section::new(format!("Loops: {number}")).list(lines),
+    }
 }
 
 /// The count with its terms.
-fn mobility(count: &MobilityCount) -> String {
-    let mut text = String::from("Kutzbach count\n");
+fn mobility(count: &MobilityCount) -> Section {
     let MobilityCount {
         bodies,
         variables,
@@ -220,17 +202,10 @@ fn mobility(count: &MobilityCount) -> String {
         mobility,
         ..
     } = count;
-    let of_freedom = |f: usize| {
-        count
-            .row_freedoms
-            .iter()
-            .filter(|&&found| found == f)
-            .count()
-    };
     let mut terms = format!("6·({bodies} − 1)");
-    for (number, constraints) in [(of_freedom(1), 5), (of_freedom(2), 4)] {
+    for (number, constraints) in [(of_freedom(count, 1), 5), (of_freedom(count, 2), 4)] {
         if number > 0 {
-            let _ = write!(terms, " − {constraints}·{number}");
+            terms += &format!(" − {constraints}·{number}");
         }
     }
     match count.correction {
@@ -238,47 +213,38 @@ fn mobility(count: &MobilityCount) -> String {
         correction if correction > 0 => terms += &format!(" + {correction}"),
         correction => terms += &format!(" − {}", -correction),
     }
-    let _ = writeln!(
-        text,
-        "  {terms} − {equations} = {mobility}",
-        mobility = signed(*mobility)
-    );
-    let _ = writeln!(text, "  {}", explained(count));
-    let _ = writeln!(
-        text,
-        "  the same as {variables} + 6·{platforms} − {equations}: {}, {}, {}",
-        self::count(*variables, "joint variable"),
-        self::count(*platforms, "platform"),
-        self::count(*equations, "closure equation"),
-    );
-    if let Some(planar) = &count.planar {
-        let _ = writeln!(
-            text,
-            "  planar: {variables} + 3·{platforms} − {} = {}, as all joints move parallel to one \
+    let planar = count.planar.as_ref().map(|planar| {
+        format!(
+            "planar: {variables} + 3·{platforms} − {} = {}, as all joints move parallel to one \
              plane at home",
             planar.equations,
             signed(planar.mobility)
-        );
-    }
-    text
+        )
+    });
+    let lines = [
+        format!("{terms} − {equations} = {}", signed(*mobility)),
+        explained(count),
+        format!(
+            "the same as {variables} + 6·{platforms} − {equations}: {}, {}, {}",
+            self::count(*variables, "joint variable"),
+            self::count(*platforms, "platform"),
+            self::count(*equations, "closure equation"),
+        ),
+    ];
+    Section::new("Kutzbach count").list(lines.into_iter().chain(planar))
 }
 
-fn signed(number: i64) -> String {
-    number.to_string().replace('-', "−")
+/// How many rows have so many freedoms.
+fn of_freedom(count: &MobilityCount, freedoms: usize) -> usize {
+    let rows = count.row_freedoms.iter();
+    rows.filter(|&&found| found == freedoms).count()
 }
 
 fn explained(count: &MobilityCount) -> String {
-    let of_freedom = |f: usize| {
-        count
-            .row_freedoms
-            .iter()
-            .filter(|&&found| found == f)
-            .count()
-    };
-    let mut parts = vec![format!("{} with ground", bodies(count.bodies))];
+    let mut parts = vec![format!("{} with ground", self::count(count.bodies, "body"))];
     for f in [1, 2] {
-        if of_freedom(f) > 0 {
-            let joints = self::count(of_freedom(f), "row");
+        if of_freedom(count, f) > 0 {
+            let joints = self::count(of_freedom(count, f), "row");
             parts.push(format!("{joints} with {}", self::count(f, "freedom")));
         }
     }
@@ -288,31 +254,24 @@ fn explained(count: &MobilityCount) -> String {
             parts.push(self::count(correction as usize, "variable") + " in distances");
         }
         correction => parts.push(
-            self::count(correction.unsigned_abs() as usize, "row") + " driven along with another",
+            self::count(correction.unsigned_abs() as usize, "row")
+                + " driven together with another",
         ),
     }
     parts.push(self::count(count.equations, "closure equation"));
     parts.join(", ")
 }
 
-fn bodies(number: usize) -> String {
-    match number {
-        1 => "1 body".into(),
-        _ => format!("{number} bodies"),
-    }
-}
-
-fn closed_forms(overview: &Overview) -> String {
-    let mut table = plain(["name", "gives", "source"]);
+fn closed_forms(overview: &Overview) -> Table {
+    let mut table = Table::new(["name", "gives", "source"].map(Column::words));
     for form in &overview.closed_forms {
         let gives = match &form.pose_of {
             Some([of, relative_to]) => {
                 format!("{} of {of} in {relative_to}", count(form.formulas, "entry"))
             }
-            None if form.formulas == 1 => "1 identity".into(),
-            None => format!("{} identities", form.formulas),
+            None => count(form.formulas, "identity"),
         };
-        table.add_row([&form.name, &gives, form.source.as_deref().unwrap_or("")]);
+        table.row(cells![&form.name, gives, form.source.as_deref()]);
     }
-    format!("Closed forms\n{}", indented(&table.to_string()))
+    table
 }

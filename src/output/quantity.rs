@@ -11,7 +11,7 @@ pub(super) fn signed(count: i64) -> String {
 }
 
 /// Six decimals without trailing zeros; the exponent form for what these cannot show.
-pub(super) fn number(value: f64) -> String {
+pub fn number(value: f64) -> String {
     let size = value.abs();
     if value.is_nan() || (size != 0.0 && !(1e-4..1e7).contains(&size)) {
         // what is left of a zero after rounding is a zero
@@ -39,7 +39,7 @@ pub(super) fn degrees(radians: f64) -> String {
 }
 
 /// A value of a joint or coordinate with its unit: degrees or metres.
-pub(super) fn quantity(value: f64, is_angle: bool) -> String {
+pub fn quantity(value: f64, is_angle: bool) -> String {
     match is_angle {
         true => degrees(value),
         false => format!("{} m", number(value)),

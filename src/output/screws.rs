@@ -1,7 +1,6 @@
 //! Twists in words and numbers.
 
 use super::document::{Column, Table, cells};
-use super::layout::{indented, plain};
 use super::quantity::{quantity, short};
 use crate::system::{Screw, TwistSpace};
 
@@ -25,33 +24,6 @@ pub(super) fn twist_table(spaces: &[TwistSpace]) -> Table {
         }
     }
     table
-}
-
-/// A table of twists under a title; nothing if there are none.
-pub(super) fn twists(title: &str, spaces: &[TwistSpace]) -> String {
-    let mut table = plain(["body", "motion", "along", "through (m)", "pitch"]);
-    let mut rows = 0;
-    for TwistSpace {
-        body,
-        screws,
-        spins,
-    } in spaces
-    {
-        for screw in screws {
-            let [kind, along, through, pitch] = screw_words(screw);
-            table.add_row([body.as_str(), kind.as_str(), &along, &through, &pitch]);
-            rows += 1;
-        }
-        for spin in spins {
-            let [_, along, through, _] = screw_words(spin);
-            table.add_row([body.as_str(), "idle spin", &along, &through, ""]);
-            rows += 1;
-        }
-    }
-    match rows {
-        0 => String::new(),
-        _ => format!("{title}\n{}", indented(&table.to_string())),
-    }
 }
 
 /// Kind, direction, point and pitch of a screw.

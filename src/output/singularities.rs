@@ -5,7 +5,6 @@ mod coupled;
 mod loci;
 #[cfg(feature = "plot")]
 mod picture;
-mod refusals;
 mod words;
 
 pub use along::along_rows;
@@ -13,9 +12,6 @@ pub use coupled::note;
 pub use loci::locus_rows;
 #[cfg(feature = "plot")]
 pub use picture::svg;
-pub use refusals::{
-    empty_side, no_side, not_two_sides, nothing_to_drive, spinning, unknown_output,
-};
 pub use words::{completeness, ending, pinned};
 
 use super::csv::Value;

@@ -1,60 +1,51 @@
-//! An assembled configuration, or why there is none.
-
-use std::fmt::Write;
-
-use serde::Serialize;
+//! An assembled configuration, or why there is none, as a document.
 
 use super::closing;
-use super::json::document;
-use super::layout::{align_right, indented, plain};
+use super::document::{Cell, Column, Document, Report, Section, Table, cells};
 use super::quantity::{degrees, number, quantity, size};
+use crate::algebra::SiUnit;
 use crate::analysis::assembly::{AssemblyReport, Outcome, PlatformRecord};
 use crate::description::{count, listed};
 
-/// The report as JSON: the fields of [`AssemblyReport`] with the outcome in a sentence.
-pub fn json(report: &AssemblyReport) -> String {
-    #[derive(Serialize)]
-    struct SolutionJson<'a> {
-        sentence: String,
-        #[serde(flatten)]
-        report: &'a AssemblyReport,
+impl Report for AssemblyReport {
+    fn is_interrupted(&self) -> bool {
+        self.interrupted
     }
-    let sentence = sentence(report);
-    document(&report.mechanism, &SolutionJson { sentence, report })
-}
 
-/// The report as text.
-pub fn text(report: &AssemblyReport) -> String {
-    let mut sections = vec![heading(report)];
-    if !report.joints.is_empty() {
-        sections.push(joints(report));
+    fn document(&self) -> Document {
+        let platforms = self.platforms.0.iter();
+        let platforms = platforms.map(|(name, platform)| pose(name, platform));
+        let gaps = (!self.is_assembled()).then(|| Section::new("Gaps").table(gaps(self)));
+        Document::new(&self.mechanism, sentence(self))
+            .interrupted(self.interrupted, "other starts")
+            .notes(idle(self))
+            .notes(others(self))
+            .section(Section::new("Joints").table(joints(self)))
+            .sections(platforms)
+            .section(Section::new("Tips of chains").table(tips(self)))
+            .sections(gaps)
+            .method(found(self))
     }
-    for (name, platform) in &report.platforms.0 {
-        sections.push(format!("Platform {name}\n{}", pose(platform)));
-    }
-    if !report.frames.is_empty() {
-        sections.push(tips(report));
-    }
-    if !report.is_assembled() {
-        sections.push(gaps(report));
-    }
-    sections.join("\n")
 }
 
 /// How the search ended, in one sentence.
-pub fn sentence(report: &AssemblyReport) -> String {
+fn sentence(report: &AssemblyReport) -> String {
     let gap = |closure: &str| match report.gaps.get(closure) {
         Some(gap) => closing::gap(gap.distance, gap.angle),
-        None => "0".into(),
+        None => "0 m".into(),
     };
     match &report.outcome {
         Outcome::Converged => "Assembled.".into(),
         Outcome::ConvergedOutsideLimits { joints } => {
-            format!("Assembled, but outside the limits of {}.", listed(joints))
+            let are = match joints.len() {
+                1 => "is outside its limits",
+                _ => "are outside their limits",
+            };
+            format!("Assembled, but {} {are}.", listed(joints))
         }
         Outcome::Singular {
             moving,
-            closure: dependent,
+            closure,
             powerless,
         } => {
             let mut text = format!(
@@ -62,11 +53,11 @@ pub fn sentence(report: &AssemblyReport) -> String {
                  held",
                 listed(moving)
             );
-            if let Some(name) = dependent {
-                let _ = write!(text, "; equations of closure {name} depend on the others");
+            if let Some(name) = closure {
+                text += &format!("; equations of closure {name} depend on the others");
             }
             if !powerless.is_empty() {
-                let _ = write!(text, "; {} cannot drive it there", listed(powerless));
+                text += &format!("; {} cannot drive the mechanism there", listed(powerless));
             }
             text + "."
         }
@@ -75,114 +66,131 @@ pub fn sentence(report: &AssemblyReport) -> String {
             local_minimum,
         } => {
             let minimum = match local_minimum {
-                true => ", and no small motion comes closer",
+                true => ", and no small motion reduces the gap",
                 false => "",
             };
-            let gap = gap(worst);
             format!(
-                "Cannot be assembled with these inputs: at the closest approach closure {worst} \
-                 gapes by {gap}{minimum}."
+                "Cannot be assembled with these inputs: at the closest approach closure {worst} is \
+                 open by {}{minimum}.",
+                gap(worst)
             )
         }
-        Outcome::GaveUp { worst } => {
-            let gap = gap(worst);
-            format!(
-                "Gave up: no start led to an assembled configuration or to a closest approach; \
-                 the best found leaves closure {worst} open by {gap}."
-            )
-        }
+        Outcome::GaveUp { worst } => format!(
+            "No assembled configuration was found, nor a closest approach; the best attempt leaves \
+             closure {worst} open by {}.",
+            gap(worst)
+        ),
     }
 }
 
-fn heading(report: &AssemblyReport) -> String {
-    let mut text = format!("{}\n{}\n", report.mechanism, sentence(report));
-    let _ = write!(
-        text,
-        "  {}, residual {}, condition number {}",
-        count(report.steps, "step"),
+/// Freedoms that do not matter.
+fn idle(report: &AssemblyReport) -> Option<String> {
+    let turn = match report.idle {
+        0 => return None,
+        1 => "only spins a link about its own line",
+        _ => "only spin links about their own lines",
+    };
+    Some(format!("{} {turn}", count(report.idle, "freedom")))
+}
+
+/// What is not known of other configurations with the same inputs.
+fn others(report: &AssemblyReport) -> Option<String> {
+    let solved = report.variables.iter().any(|joint| !joint.held);
+    let may_differ = report.is_assembled() && solved && !report.gaps.is_empty();
+    let another = match report.restarts {
+        0 => "other assemblies with the same inputs were not looked for",
+        _ => {
+            "reached from a random start: another seed may lead to another assembly with the \
+             same inputs"
+        }
+    };
+    may_differ.then(|| format!("{another}; `linkwork assemblies` lists all of them"))
+}
+
+fn found(report: &AssemblyReport) -> String {
+    let restarts = match report.restarts {
+        0 => String::new(),
+        n => format!(
+            ", after {} with seed {}",
+            count(n, "random start"),
+            report.seed
+        ),
+    };
+    format!(
+        "{}{restarts}; residual {}, condition number {}",
+        count(report.steps, "Newton step"),
         size(report.residual),
         size(report.condition)
-    );
-    if report.restarts > 0 {
-        let restarts = count(report.restarts, "random start");
-        let _ = write!(text, ", {restarts} with seed {}", report.seed);
-    }
-    text.push('\n');
-    if report.idle > 0 {
-        let idle = count(report.idle, "freedom");
-        let turn = if report.idle == 1 { "turns" } else { "turn" };
-        let _ = writeln!(
-            text,
-            "  {idle} that only {turn} links about their own lines"
-        );
-    }
-    text
+    )
 }
 
-fn joints(report: &AssemblyReport) -> String {
-    let mut table = plain(["name", "role", "", "value", "", "limits"]);
+fn joints(report: &AssemblyReport) -> Table {
+    let mut table = Table::new([
+        Column::words("name"),
+        Column::words("role"),
+        Column::words(""),
+        Column::numbers("value"),
+        Column::numbers(""),
+        Column::words("limits"),
+    ]);
     for (joint, &value) in report.variables.iter().zip(report.joints.values()) {
         let is_angle = joint.unit.is_angle();
-        let radians = match is_angle {
-            true => format!("{} rad", number(value)),
-            false => String::new(),
-        };
-        let limits = match joint.limits {
-            None => String::new(),
-            Some((low, high)) => {
-                let [low, high] = [low, high].map(|limit| quantity(limit, is_angle));
-                let outside = if joint.within_limits { "" } else { ", outside" };
-                format!("{low} to {high}{outside}")
-            }
-        };
-        table.add_row([
-            joint.name.as_str(),
-            &joint.role.word().to_lowercase(),
+        let radians = is_angle.then(|| format!("{} rad", number(value)));
+        let limits = joint.limits.map(|(low, high)| {
+            let [low, high] = [low, high].map(|limit| quantity(limit, is_angle));
+            let outside = if joint.within_limits { "" } else { ", outside" };
+            format!("{low} to {high}{outside}")
+        });
+        table.row(cells![
+            &joint.name,
+            joint.role.word().to_lowercase(),
             if joint.held { "held" } else { "solved" },
-            &quantity(value, is_angle),
-            &radians,
-            &limits,
+            Cell::quantity(value, joint.unit),
+            radians,
+            limits
         ]);
     }
-    align_right(&mut table, [3, 4]);
-    format!("Joints\n{}", indented(&table.to_string()))
+    table
 }
 
 /// Position and orientation of a platform in ground.
-fn pose(platform: &PlatformRecord) -> String {
+fn pose(name: &str, platform: &PlatformRecord) -> Section {
     let frame = &platform.frame;
-    let mut table = plain(["", "position", "n", "s", "a"]);
+    let columns = ["position", "n", "s", "a"].map(Column::numbers);
+    let mut table = Table::new([Column::words("")].into_iter().chain(columns));
     for (i, axis) in ["x", "y", "z"].into_iter().enumerate() {
-        let position = format!("{} m", number(frame.position[i]));
-        let [n, s, a] = frame.rotation[i].map(number);
-        table.add_row([axis, &position, &n, &s, &a]);
+        let [n, s, a] = frame.rotation[i];
+        let position = Cell::quantity(frame.position[i], SiUnit::METRE);
+        table.row(cells![axis, position, n, s, a]);
     }
-    align_right(&mut table, 1..5);
     let [w, x, y, z] = frame.quaternion.map(number);
     let [roll, pitch, yaw] = platform.roll_pitch_yaw.map(degrees);
-    let rest = format!(
-        "quaternion w {w}, x {x}, y {y}, z {z}\n\
-         roll {roll}, pitch {pitch}, yaw {yaw}, with R = Rz(yaw) Ry(pitch) Rx(roll)\n"
-    );
-    indented(&format!("{table}\n{rest}"))
+    Section::new(format!("Platform {name}")).table(table).list([
+        format!("quaternion w {w}, x {x}, y {y}, z {z}"),
+        format!("roll {roll}, pitch {pitch}, yaw {yaw}, with R = Rz(yaw) Ry(pitch) Rx(roll)"),
+    ])
 }
 
-fn tips(report: &AssemblyReport) -> String {
-    let mut table = plain(["chain", "x", "y", "z"]);
+fn tips(report: &AssemblyReport) -> Table {
+    let columns = ["x", "y", "z"].map(Column::numbers);
+    let mut table = Table::new([Column::words("chain")].into_iter().chain(columns));
     for (chain, tip) in &report.frames.0 {
-        let [x, y, z] = tip.position.map(|value| quantity(value, false));
-        table.add_row([chain, &x, &y, &z]);
+        let [x, y, z] = tip.position.map(|x| Cell::quantity(x, SiUnit::METRE));
+        table.row(cells![chain, x, y, z]);
     }
-    align_right(&mut table, 1..4);
-    format!("Tips of chains\n{}", indented(&table.to_string()))
+    table
 }
 
-fn gaps(report: &AssemblyReport) -> String {
-    let mut table = plain(["closure", "distance", "angle"]);
+fn gaps(report: &AssemblyReport) -> Table {
+    let mut table = Table::new([
+        Column::words("closure"),
+        Column::numbers("distance"),
+        Column::numbers("angle"),
+    ]);
     for (closure, gap) in &report.gaps.0 {
-        let (distance, angle) = (quantity(gap.distance, false), degrees(gap.angle));
-        table.add_row([closure, &distance, &angle]);
+        let distance = Cell::quantity(gap.distance, SiUnit::METRE);
+        let angle = Cell::quantity(gap.angle, SiUnit::RADIAN);
+        table.row(cells![closure, distance, angle]);
     }
-    align_right(&mut table, [1, 2]);
-    format!("Gaps\n{}", indented(&table.to_string()))
+    table
 }

@@ -1,14 +1,10 @@
 //! The forces in a mechanism as a document.
 
 use super::closing;
-use super::complaint::{Complaint, Part};
 use super::document::{Cell, Column, Digits, Document, Report, Section, Table, cells};
 use super::quantity::{number, size};
-use super::question::{driven_complaint, unknown_frame};
 use crate::analysis::statics::{Force, Reaction, StaticsReport};
 use crate::description::{count, listed};
-use crate::mechanism::Mechanism;
-use crate::system::LoadError;
 
 impl Report for StaticsReport {
     fn document(&self) -> Document {
@@ -26,7 +22,7 @@ impl Report for StaticsReport {
         let length = self.normalising_length;
         Document::new(&self.mechanism, sentence(self))
             .note(format!(
-                "without weight and friction; condition number {}, forces times {} m beside moments",
+                "without weight and friction; condition number {}, forces times {} m compared with moments",
                 size(self.condition),
                 number(length)
             ))
@@ -42,7 +38,7 @@ fn sentence(report: &StaticsReport) -> String {
     match report.gained {
         0 => balance(report),
         gained => format!(
-            "Singular: {} gained that nothing held resists. {}",
+            "Singular: {} gained that no held coordinate resists. {}",
             count(gained, "freedom"),
             balance(report)
         ),
@@ -52,8 +48,8 @@ fn sentence(report: &StaticsReport) -> String {
 fn balance(report: &StaticsReport) -> String {
     if !report.unbalanced.is_empty() {
         return format!(
-            "Not in equilibrium: nothing held resists the load along a motion of {}; the forces \
-             shown come nearest.",
+            "Not in equilibrium: no held coordinate resists the load along a motion of {}; the forces \
+             shown balance it as nearly as possible.",
             listed(&report.unbalanced)
         );
     }
@@ -63,7 +59,7 @@ fn balance(report: &StaticsReport) -> String {
     match report.self_stresses {
         0 => "In equilibrium; all forces are determined.".into(),
         stresses => format!(
-            "In equilibrium, but not uniquely: {} without load can be added; what is marked * is \
+            "In equilibrium, but not uniquely: {} without load can be added; values marked * are \
              the minimum-norm choice.",
             count(stresses, "state of stress")
         ),
@@ -132,63 +128,4 @@ fn reactions(reactions: &[Reaction], length: f64) -> Table {
         table.row(row);
     }
     table
-}
-
-/// What is wrong with a load.
-pub fn complaint(mechanism: &Mechanism, error: &LoadError, option: &str) -> Complaint {
-    match error {
-        LoadError::Value(error) => {
-            let said = driven_complaint(error, option);
-            // of several components the wrong one is not known here
-            match said.part {
-                Part::Value(_) if option == "--wrench" => said.at(Part::WholeValue),
-                _ => said,
-            }
-        }
-        LoadError::UnknownFrame { name } => unknown_frame(mechanism, name),
-        LoadError::OnGround { name, instead } => Complaint::with_help(
-            format!("`{name}` does not move: the ground carries any wrench"),
-            "on the ground",
-            format!("load a body that moves, such as {}", listed(instead)),
-        ),
-        LoadError::Components { given } => Complaint::with_help(
-            format!("a wrench has three or six components, not {given}"),
-            "",
-            "write Fx,Fy,Fz in N, or Fx,Fy,Fz,Mx,My,Mz with N·m".into(),
-        )
-        .at(Part::WholeValue),
-        LoadError::UnknownJoint {
-            name,
-            suggestion,
-            known,
-        } => Complaint::with_help(
-            format!("`{name}` is not a joint"),
-            "not known",
-            match (suggestion, known.is_empty()) {
-                (Some(meant), _) => format!("did you mean `{meant}`?"),
-                (None, false) => format!("the joints are {}", listed(known)),
-                (None, true) => "there are no joints: load a frame with --wrench".into(),
-            },
-        ),
-        LoadError::Platform {
-            name,
-            platform,
-            component,
-        } => {
-            let mut example = ["0"; 6];
-            example[component.unwrap_or(2)] = "1";
-            let given = match component {
-                Some(3..) => 6,
-                _ => 3,
-            };
-            Complaint::with_help(
-                format!("`{name}` is not a joint: a platform is loaded by a wrench"),
-                "not a joint",
-                format!(
-                    "give force and moment on it in ground, e.g. --wrench {platform}={}",
-                    example[..given].join(",")
-                ),
-            )
-        }
-    }
 }

@@ -3,15 +3,10 @@
 mod circuits;
 #[cfg(feature = "plot")]
 mod picture;
-mod refusals;
 mod words;
 
 #[cfg(feature = "plot")]
 pub use picture::Picture;
-pub use refusals::{
-    no_range, no_steps, not_one_freedom, nothing_left, nothing_moves, outside, point_complaint,
-    what_moves,
-};
 pub use words::sentence;
 
 use serde::{Serialize, Serializer};
@@ -23,6 +18,10 @@ use crate::analysis::sweep::{Columns, MetKind, MotionReport, MotionsReport, Row,
 use crate::mechanism::Variable;
 
 impl Report for MotionsReport {
+    fn is_interrupted(&self) -> bool {
+        self.motions.iter().any(|motion| motion.sweep.interrupted)
+    }
+
     fn document(&self) -> Document {
         match &self.motions[..] {
             [one] => {
@@ -33,7 +32,10 @@ impl Report for MotionsReport {
             }
             several => {
                 let whole = several.iter().filter(|m| m.sweep.ending.is_whole()).count();
-                let answer = format!("{whole} of {} motions go the whole way.", several.len());
+                let answer = format!(
+                    "The motion is complete in {whole} of {} modes.",
+                    several.len()
+                );
                 let sections = several.iter().map(|motion| {
                     let section = Section::new(mode(motion).trim_end_matches(": "));
                     let section = section.text(sentence(&motion.sweep));
@@ -103,7 +105,7 @@ fn rows(motion: &MotionReport) -> Section {
     }
     let title = match all > table.rows.len() {
         true => format!(
-            "Rows, {} of {all}; --format csv and --format json have all of them",
+            "Rows, {} of {all}; CSV and JSON have all of them",
             table.rows.len()
         ),
         false => "Rows".into(),

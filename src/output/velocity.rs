@@ -47,13 +47,13 @@ fn sentence(report: &VelocityReport) -> String {
     let lost = match loss {
         0 => String::new(),
         loss => format!(
-            " Singular: {} lost, some motion of the inputs moves no output.",
+            " Singular: {} lost; some motion of the inputs moves no output.",
             count(loss, "freedom")
         ),
     };
     match (moving.is_empty(), &report.first_order_only) {
         (_, Some(only)) => infinitesimal(&moving, only) + &lost,
-        (true, None) => format!("Everything held stands still.{lost}{doubt}"),
+        (true, None) => format!("All inputs stand still.{lost}{doubt}"),
         (false, None) => format!("Driven: {}.{lost}{doubt}", listed(&moving)),
     }
 }
@@ -69,16 +69,16 @@ fn gained(gain: &Gain, nothing_held: bool) -> String {
         ),
         (true, false) => format!(
             "Nothing is held, and {moving} can move to first order: {freedoms}, not all of them \
-             finite. `linkwork mobility` says which are; the rates are not determined."
+             finite. `linkwork mobility` shows which are; the rates are not determined."
         ),
         (false, true) => format!(
-            "Not determined: {moving} can move although everything held stands still, in {freedoms} \
-             more than are held. Motions meet here, which `linkwork mobility` lists; ask beside this \
-             configuration."
+            "Not determined: {moving} can move although all inputs stand still, with {freedoms} more \
+             than are held. Branches of motion meet here; `linkwork mobility` lists them. Begin slightly \
+             away from this configuration."
         ),
         (false, false) => format!(
-            "Singular: {freedoms} gained, {moving} can move to first order although everything held \
-             stands still; the rates are not determined."
+            "Singular: {freedoms} gained; {moving} can move to first order although all inputs stand \
+             still, and the rates are not determined."
         ),
     }
 }
@@ -123,7 +123,7 @@ fn doubt(report: &VelocityReport) -> String {
     );
     let parts = |share: f64| format!("{share:.0e}");
     match (accuracy.tells_rates(), accuracy.tells_accelerations()) {
-        (false, _) => format!("Too near {near}, so that the rates are not determined."),
+        (false, _) => format!("Too near {near}; the rates are not determined."),
         (true, false) => format!(
             " Too near {near}: rates are known to {} of the largest, accelerations are not \
              determined.",

@@ -2,15 +2,10 @@
 
 #[cfg(feature = "plot")]
 mod picture;
-mod refusals;
 mod words;
 
 #[cfg(feature = "plot")]
 pub use picture::{left_out, svg};
-pub use refusals::{
-    also_held, boundary_flat, empty_side, more_than_a_turn, no_platform, no_range, too_fine,
-    too_many_axes, too_many_cells, wrong_count, wrong_grid,
-};
 pub use words::{completeness, sentence};
 
 use super::csv::{Record, Value};
@@ -25,6 +20,10 @@ use crate::mechanism::Variable;
 const MOST: usize = 20;
 
 impl Report for WorkspaceReport {
+    fn is_interrupted(&self) -> bool {
+        self.interrupted
+    }
+
     fn document(&self) -> Document {
         Document::new(&self.mechanism, sentence(self))
             .note(words::question(self))
@@ -111,7 +110,7 @@ fn modes(report: &WorkspaceReport) -> Section {
 
 fn more(all: usize) -> String {
     match all > MOST {
-        true => format!(", {MOST} of {all}; --format json has all of them"),
+        true => format!(", {MOST} of {all}; JSON has all of them"),
         false => String::new(),
     }
 }

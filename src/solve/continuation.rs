@@ -95,7 +95,7 @@ impl<P> Place<P> {
 
 /// Why there is no regular place.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Stray {
+pub enum StepFailure {
     /// Newton's method does not lead to the curve.
     NotClosed,
     /// Branches cross here, or more than one freedom is left.
@@ -138,7 +138,7 @@ impl Continuation {
         &self,
         curve: &mut C,
         mut at: C::Point,
-    ) -> Result<Place<C::Point>, Stray> {
+    ) -> Result<Place<C::Point>, StepFailure> {
         const STEPS: usize = 30;
         let unknowns = curve.unknowns();
         let mut before = f64::INFINITY;
@@ -146,7 +146,7 @@ impl Continuation {
             let (residual, jacobian) = curve.linearise(&at);
             let rows = residual.len();
             if !jacobian.iter().chain(&residual).all(|x| x.is_finite()) {
-                return Err(Stray::NotClosed);
+                return Err(StepFailure::NotClosed);
             }
             let regular = unknowns.saturating_sub(1);
             let decomposition = Decomposition::of_rank(rows, unknowns, &jacobian, regular);
@@ -156,16 +156,16 @@ impl Continuation {
             let closed = largest <= self.tolerance;
             // what the rank tolerance cuts off has no inverse
             if closed && rank(decomposition.singular_values()) < regular {
-                return Err(Stray::Singular);
+                return Err(StepFailure::Singular);
             }
             let settled = size < 1e-14 || (closed && size >= 0.25 * before);
             if !size.is_finite() || size > 1e3 || (settled && !closed) {
-                return Err(Stray::NotClosed);
+                return Err(StepFailure::NotClosed);
             }
             if settled {
                 let free = unknowns - rank(decomposition.singular_values()).min(unknowns);
                 if free != 1 {
-                    return Err(Stray::Singular);
+                    return Err(StepFailure::Singular);
                 }
                 // too short to change the Jacobian, but it takes the last digits in
                 if size < 1e-8 {
@@ -182,24 +182,26 @@ impl Continuation {
             before = size;
             at = curve.displaced(&at, &step);
         }
-        Err(Stray::NotClosed)
+        Err(StepFailure::NotClosed)
     }
 
     /// The place at the distance `length` along the tangent, if the way there is sure.
     ///
     /// # Errors
-    /// [`Stray::TooShort`] if it is not: try half the length.
+    /// [`StepFailure::TooShort`] if it is not: try half the length.
     pub fn step<C: SolutionCurve>(
         &self,
         curve: &mut C,
         from: &Place<C::Point>,
         length: f64,
-    ) -> Result<(Place<C::Point>, f64), Stray> {
-        let to = self.across(curve, from, length).ok_or(Stray::TooShort)?;
+    ) -> Result<(Place<C::Point>, f64), StepFailure> {
+        let to = self
+            .across(curve, from, length)
+            .ok_or(StepFailure::TooShort)?;
         let change = change(from, &to);
         match change <= self.change && dot(&from.tangent, &to.tangent) > 0.5 {
             true => Ok((to, change)),
-            false => Err(Stray::TooShort),
+            false => Err(StepFailure::TooShort),
         }
     }
 

@@ -20,7 +20,7 @@ pub trait Turning: Homotopy {
 
 /// Where a solution goes as s → 1.
 #[derive(Clone, Debug, PartialEq)]
-pub enum Ending {
+pub enum PathEnd {
     /// To a finite point, shared by `winding` solutions that exchange places round it.
     Finite {
         /// The point.
@@ -51,13 +51,13 @@ const IN_A_ROW: usize = 3;
 const SHRINK: f64 = 6.0;
 
 /// Goes round s = 1 on ever smaller circles from a point `x` at s = 1 − `radius`.
-pub fn ending<H: Turning>(
+pub fn path_end<H: Turning>(
     h: &mut H,
     tracker: &Tracker,
     x: &[C],
     mut radius: f64,
     stages: &mut Stages,
-) -> Ending {
+) -> PathEnd {
     let mut at = x.to_vec();
     let mut before: Option<(Vec<C>, f64)> = None;
     let mut growing = 0;
@@ -75,10 +75,10 @@ pub fn ending<H: Turning>(
                 let logarithmic = turned && grows_as_logarithm(&gap, winding);
                 // which no other meeting point looks like
                 if growing == IN_A_ROW || (logarithmic && growing + 1 == IN_A_ROW) {
-                    return Ending::Infinite;
+                    return PathEnd::Infinite;
                 }
                 if !turned && negative < 1e-7 * scale && norm(&gap) < 1e-8 * scale {
-                    return Ending::Finite { x: mean, winding };
+                    return PathEnd::Finite { x: mean, winding };
                 }
             }
             before = Some((mean, negative));
@@ -90,7 +90,7 @@ pub fn ending<H: Turning>(
         }
         radius = smaller;
     }
-    Ending::Undecided { x: at }
+    PathEnd::Undecided { x: at }
 }
 
 /// Whether an angle, k/w times i ln(1 − s) and terms that vanish with 1 − s, goes to infinity: its
@@ -208,23 +208,23 @@ mod tests {
     }
 
     /// e^{ix} (c − s) = 1 gives x = i ln(c − s).
-    fn end(c: f64) -> Ending {
+    fn end(c: f64) -> PathEnd {
         let radius = 0.03;
         let x = [C::new(0.0, f64::ln(c - 1.0 + radius))];
         let (tracker, mut stages) = (Tracker::default(), Stages::new(1));
-        ending(&mut Exponential { c }, &tracker, &x, radius, &mut stages)
+        path_end(&mut Exponential { c }, &tracker, &x, radius, &mut stages)
     }
 
     #[test]
     fn an_angle_that_goes_to_infinity_as_a_logarithm_is_infinite() {
-        assert_eq!(end(1.0), Ending::Infinite);
+        assert_eq!(end(1.0), PathEnd::Infinite);
     }
 
     #[test]
     fn an_angle_that_would_go_to_infinity_later_is_finite() {
         for beyond in [0.5, 0.1, 0.01] {
             match end(1.0 + beyond) {
-                Ending::Finite { x, winding: 1 } => {
+                PathEnd::Finite { x, winding: 1 } => {
                     assert!((x[0] - C::new(0.0, beyond.ln())).norm() < 1e-12, "{x:?}");
                 }
                 other => panic!("{beyond}: {other:?}"),

@@ -7,19 +7,19 @@ mod walk;
 
 pub use locus::{LocusCurve, Singular};
 pub use trace::{ConfigurationCurve, LocusEnd, Region, Traced, met_at, neared, passes, settled};
-pub use tracker::Tracker;
-pub use walk::{Event, Leg, Monitor, Walk};
+pub use tracker::MotionTracker;
+pub use walk::{Event, Monitor, Segment, Walk};
 
 use super::equations::{System, Work};
-use crate::mechanism::{Configuration, ConfigurationRef, Coordinate, Mechanism, turn_near};
-use crate::solve::{Continuation, Equations, Place, SolutionCurve, Stray};
-use crate::system::{Held, HeldPlatform, Holdable, Unknown};
+use crate::mechanism::{Configuration, ConfigurationRef, Mechanism, PoseCoordinate, turn_near};
+use crate::solve::{Continuation, Equations, Place, SolutionCurve, StepFailure};
+use crate::system::{Coordinate, Held, HeldPlatform, Unknown};
 
 /// A coordinate that moves along a segment, in m or rad.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Driven {
     /// The coordinate.
-    pub coordinate: Holdable,
+    pub coordinate: Coordinate,
     /// Its value at the start of the segment.
     pub from: f64,
     /// Its value at the end.
@@ -74,13 +74,13 @@ impl Curve {
         // an angle of a platform jumps, a joint does not
         let length = mechanism.characteristic_length();
         let measures = |input: &Driven| match input.coordinate {
-            Holdable::Joint(joint) => {
+            Coordinate::Joint(joint) => {
                 2.0 * (input.to - input.from).abs() / system.joint_scale(joint)
             }
-            Holdable::Coordinate(_, c) if c.is_angle() => 0.1 * (input.to - input.from).abs(),
-            Holdable::Coordinate(..) => (input.to - input.from).abs() / length,
+            Coordinate::Pose(_, c) if c.is_angle() => 0.1 * (input.to - input.from).abs(),
+            Coordinate::Pose(..) => (input.to - input.from).abs() / length,
             // never an input: it has no value to go to
-            Holdable::Turn(..) => 0.0,
+            Coordinate::Turn(..) => 0.0,
         };
         let measure = (0..inputs.len())
             .max_by(|&i, &j| measures(&inputs[i]).total_cmp(&measures(&inputs[j])))
@@ -113,15 +113,15 @@ impl Curve {
         };
         let change = input.to - input.from;
         match input.coordinate {
-            Holdable::Joint(joint) => (at.joints[joint] - input.from) / change,
-            Holdable::Coordinate(platform, c) => {
+            Coordinate::Joint(joint) => (at.joints[joint] - input.from) / change,
+            Coordinate::Pose(platform, c) => {
                 let middle = 0.5 * (input.from + input.to);
                 let length = self.system.characteristic_length();
                 let unit = if c.is_angle() { 1.0 } else { length };
                 let (gap, _) = c.row(&at.platforms[platform].pose(), middle, length);
                 0.5 + gap * unit / change
             }
-            Holdable::Turn(..) => 0.0,
+            Coordinate::Turn(..) => 0.0,
         }
     }
 
@@ -138,7 +138,7 @@ impl Curve {
     ) -> Result<Place<Configuration<f64>>, NoStart> {
         mechanism.turn_to_limits(&mut start.joints);
         for input in &self.inputs {
-            if let Holdable::Joint(joint) = input.coordinate {
+            if let Coordinate::Joint(joint) = input.coordinate {
                 start.joints[joint] = input.from;
             }
         }
@@ -148,7 +148,7 @@ impl Curve {
         }
         match method.settle(self, start.clone()) {
             Ok(place) if !place.is_beside_a_crossing() => Ok(place),
-            Err(Stray::NotClosed) => Err(NoStart::NotClosed),
+            Err(StepFailure::NotClosed) => Err(NoStart::NotClosed),
             _ => Err(NoStart::Singular),
         }
     }
@@ -173,7 +173,7 @@ impl Curve {
 
     /// How fast a coordinate changes along a tangent, in rad or characteristic lengths; 0 if it is
     /// held.
-    pub fn rate(&self, at: &Configuration<f64>, tangent: &[f64], of: Holdable) -> f64 {
+    pub fn rate(&self, at: &Configuration<f64>, tangent: &[f64], of: Coordinate) -> f64 {
         let slope = of.slope_in(&self.system, at);
         slope
             .iter()
@@ -188,11 +188,11 @@ impl Curve {
     }
 
     /// rad or m in one unit of the scaled coordinate.
-    fn unit(&self, of: Holdable) -> f64 {
+    fn unit(&self, of: Coordinate) -> f64 {
         match of {
-            Holdable::Joint(joint) => self.system.joint_scale(joint),
-            Holdable::Coordinate(_, c) if !c.is_angle() => self.system.characteristic_length(),
-            Holdable::Coordinate(..) | Holdable::Turn(..) => 1.0,
+            Coordinate::Joint(joint) => self.system.joint_scale(joint),
+            Coordinate::Pose(_, c) if !c.is_angle() => self.system.characteristic_length(),
+            Coordinate::Pose(..) | Coordinate::Turn(..) => 1.0,
         }
     }
 
@@ -210,12 +210,12 @@ impl Curve {
                 let unit = self.unit(input.coordinate);
                 let wanted = input.from + part * (input.to - input.from);
                 let gap = match input.coordinate {
-                    Holdable::Joint(joint) => (at.joints[joint] - wanted) / unit,
-                    Holdable::Coordinate(platform, c) => {
+                    Coordinate::Joint(joint) => (at.joints[joint] - wanted) / unit,
+                    Coordinate::Pose(platform, c) => {
                         let length = self.system.characteristic_length();
                         c.row(&at.platforms[platform].pose(), wanted, length).0
                     }
-                    Holdable::Turn(..) => 0.0,
+                    Coordinate::Turn(..) => 0.0,
                 };
                 let mut slope = input.coordinate.slope_in(&self.system, at);
                 if let Some(measure) = measure {
@@ -337,24 +337,24 @@ impl SolutionCurve for Curve {
 
 impl Held<f64> {
     /// The same without one coordinate.
-    pub fn without(mut self, coordinate: Holdable) -> Self {
+    pub fn without(mut self, coordinate: Coordinate) -> Self {
         match coordinate {
-            Holdable::Joint(joint) => self.joints[joint] = false,
-            Holdable::Coordinate(platform, without) => {
+            Coordinate::Joint(joint) => self.joints[joint] = false,
+            Coordinate::Pose(platform, without) => {
                 let part = &mut self.platforms[platform];
                 if let HeldPlatform::Partly {
                     coordinates,
                     orientation,
                 } = part
                 {
-                    coordinates.retain(|(c, _): &(Coordinate, f64)| *c != without);
+                    coordinates.retain(|(c, _): &(PoseCoordinate, f64)| *c != without);
                     if coordinates.is_empty() && orientation.is_none() {
                         *part = HeldPlatform::Free;
                     }
                 }
             }
             // held only with its whole pose
-            Holdable::Turn(platform, _) => self.platforms[platform] = HeldPlatform::Free,
+            Coordinate::Turn(platform, _) => self.platforms[platform] = HeldPlatform::Free,
         }
         self
     }

@@ -11,7 +11,7 @@ mod wrenches;
 
 pub use approach::approach;
 pub use axes::ClosureAxes;
-pub use coordinate::Holdable;
+pub use coordinate::Coordinate;
 pub use gap::Gap;
 pub use layout::{Held, HeldPlatform, Unknown};
 pub use parts::independent_parts;
@@ -158,7 +158,7 @@ impl<T: Factorable> System<T> {
     pub fn set_target(
         &mut self,
         platform: usize,
-        coordinate: crate::mechanism::Coordinate,
+        coordinate: crate::mechanism::PoseCoordinate,
         value: T,
     ) {
         for hold in &mut self.holds {

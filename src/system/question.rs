@@ -12,7 +12,7 @@ pub use count::{Count, check_angles, check_count};
 pub use demand::{Demand, Verb};
 pub use drive::{Drive, DriveError};
 pub use error::QuestionError;
-pub use load::{Load, LoadError};
+pub use load::{ForceError, Load};
 pub use outputs::{Output, actuated, default_outputs, free_outputs, inputs_of, platform_outputs};
 pub use value::{Value, ValueError, number as number_of};
 
@@ -20,11 +20,11 @@ use super::equations::System;
 use crate::description::{Role, nearest};
 use crate::geometry::{Pose, RollPitchYaw};
 use crate::linear::Factorable;
-use crate::mechanism::{Configuration, Coordinate, Mechanism, PlatformPose};
-use crate::system::{Held, HeldPlatform, Holdable};
+use crate::mechanism::{Configuration, Mechanism, PlatformPose, PoseCoordinate};
+use crate::system::{Coordinate, Held, HeldPlatform};
 use demand::Target;
 
-/// What is asked of a mechanism: which coordinates are held at which values, and where to start.
+/// A question about a mechanism: which coordinates are held at which values, and where to start.
 ///
 /// A fresh question holds the actuated joints at home and starts at the home configuration. Joints
 /// are named as in the file, platform coordinates `top.x`, `top.y`, `top.z` (m) and `top.roll`,
@@ -41,7 +41,7 @@ pub struct Question<'a> {
     guessed_platforms: Vec<bool>,
     changed: bool,
     split_changed: bool,
-    /// What was demanded by name so far.
+    /// The demands made by name so far.
     demands: Vec<(Target, Demand)>,
 }
 
@@ -70,26 +70,26 @@ impl<'a> Question<'a> {
     /// `value` is a number in m or rad, or a text as in the file ([`Value`]).
     ///
     /// # Errors
-    /// If there is no such joint or coordinate, the value has none, or something else was demanded of
-    /// it before.
+    /// If there is no such joint or coordinate, the value has none, or something else was demanded
+    /// of it before.
     pub fn hold(mut self, name: &str, value: impl Into<Value>) -> Result<Self, QuestionError> {
         let value = &value.into();
         match self.demand(Verb::Hold, name, Some(value))? {
             Target::Joint(joint) => {
-                let value = self.number(name, value, Holdable::Joint(joint))?;
+                let value = self.number(name, value, Coordinate::Joint(joint))?;
                 self.split_changed |= !self.joints[joint];
                 self.joints[joint] = true;
                 self.asked[joint] = true;
                 self.start.joints[joint] = value;
             }
             Target::Coordinate(platform, coordinate) => {
-                let value = self.number(name, value, Holdable::Coordinate(platform, coordinate))?;
+                let value = self.number(name, value, Coordinate::Pose(platform, coordinate))?;
                 self.coordinates[platform][coordinate as usize] = Some(value);
                 self.split_changed = true;
             }
             Target::Pose(platform) => {
                 let pose = self.pose(name, value, platform)?;
-                for coordinate in Coordinate::ALL {
+                for coordinate in PoseCoordinate::ALL {
                     let value = coordinate.of(&pose);
                     self.coordinates[platform][coordinate as usize] = Some(value);
                 }
@@ -123,7 +123,7 @@ impl<'a> Question<'a> {
         let value = &value.into();
         match self.demand(Verb::Guess, name, Some(value))? {
             Target::Joint(joint) => {
-                let value = self.number(name, value, Holdable::Joint(joint))?;
+                let value = self.number(name, value, Coordinate::Joint(joint))?;
                 if !self.joints[joint] {
                     self.start.joints[joint] = value;
                     self.guessed_joints[joint] = true;
@@ -131,7 +131,7 @@ impl<'a> Question<'a> {
                 }
             }
             Target::Coordinate(platform, coordinate) => {
-                let value = self.number(name, value, Holdable::Coordinate(platform, coordinate))?;
+                let value = self.number(name, value, Coordinate::Pose(platform, coordinate))?;
                 let pose = with_coordinates(
                     &self.start.platforms[platform].pose(),
                     [(coordinate, value)],
@@ -170,46 +170,48 @@ impl<'a> Question<'a> {
         &self,
         name: &str,
         value: impl Into<Value>,
-    ) -> Result<(Holdable, f64), QuestionError> {
+    ) -> Result<(Coordinate, f64), QuestionError> {
         let coordinate = match self.target(name)? {
-            Target::Joint(joint) => Holdable::Joint(joint),
-            Target::Coordinate(platform, c) => Holdable::Coordinate(platform, c),
+            Target::Joint(joint) => Coordinate::Joint(joint),
+            Target::Coordinate(platform, c) => Coordinate::Pose(platform, c),
             Target::Pose(_) => return Err(QuestionError::NotAJoint { name: name.into() }),
         };
         Ok((coordinate, self.number(name, &value.into(), coordinate)?))
     }
 
     /// The same question with some held coordinates at other values, in m or rad.
-    pub fn at_values(mut self, values: impl IntoIterator<Item = (Holdable, f64)>) -> Self {
+    pub fn at_values(mut self, values: impl IntoIterator<Item = (Coordinate, f64)>) -> Self {
         for (holdable, value) in values {
             match holdable {
-                Holdable::Joint(joint) => {
+                Coordinate::Joint(joint) => {
                     self.joints[joint] = true;
                     self.start.joints[joint] = value;
                 }
-                Holdable::Coordinate(platform, c) => {
+                Coordinate::Pose(platform, c) => {
                     self.coordinates[platform][c as usize] = Some(value);
                 }
                 // it has no value
-                Holdable::Turn(..) => {}
+                Coordinate::Turn(..) => {}
             }
         }
         self
     }
 
     /// The same question with one coordinate not held.
-    pub fn without(mut self, holdable: Holdable) -> Self {
+    pub fn without(mut self, holdable: Coordinate) -> Self {
         match holdable {
-            Holdable::Joint(joint) => self.joints[joint] = false,
-            Holdable::Coordinate(platform, c) => self.coordinates[platform][c as usize] = None,
-            Holdable::Turn(platform, _) => self.coordinates[platform] = [None; 6],
+            Coordinate::Joint(joint) => self.joints[joint] = false,
+            Coordinate::Pose(platform, c) => self.coordinates[platform][c as usize] = None,
+            Coordinate::Turn(platform, _) => self.coordinates[platform] = [None; 6],
         }
         self
     }
 
     /// The coordinates of a platform that are held, with their values in m or rad.
-    pub fn held_values(&self, platform: usize) -> Vec<(Coordinate, f64)> {
-        let given = Coordinate::ALL.into_iter().zip(&self.coordinates[platform]);
+    pub fn held_values(&self, platform: usize) -> Vec<(PoseCoordinate, f64)> {
+        let given = PoseCoordinate::ALL
+            .into_iter()
+            .zip(&self.coordinates[platform]);
         given
             .filter_map(|(c, value)| Some((c, (*value)?)))
             .collect()
@@ -262,7 +264,7 @@ impl<'a> Question<'a> {
     pub fn start(&self) -> Configuration<f64> {
         let mut start = self.start.clone();
         for (platform, values) in start.platforms.iter_mut().zip(&self.coordinates) {
-            let given = Coordinate::ALL.into_iter().zip(values);
+            let given = PoseCoordinate::ALL.into_iter().zip(values);
             let given = given.filter_map(|(coordinate, value)| Some((coordinate, (*value)?)));
             if values.iter().any(Option::is_some) {
                 *platform = PlatformPose::from_pose(&with_coordinates(&platform.pose(), given));
@@ -314,7 +316,7 @@ impl<'a> Question<'a> {
         Ok(target)
     }
 
-    fn number(&self, name: &str, value: &Value, of: Holdable) -> Result<f64, QuestionError> {
+    fn number(&self, name: &str, value: &Value, of: Coordinate) -> Result<f64, QuestionError> {
         if value.is_home() {
             return Ok(of.home(self.mechanism));
         }
@@ -340,7 +342,7 @@ impl<'a> Question<'a> {
         if let Some((platform, coordinate)) = name.rsplit_once('.')
             && let (Some(platform), Some(coordinate)) = (
                 self.mechanism.platform(platform),
-                Coordinate::by_name(coordinate),
+                PoseCoordinate::by_name(coordinate),
             )
         {
             return Ok(Target::Coordinate(platform, coordinate));
@@ -351,7 +353,8 @@ impl<'a> Question<'a> {
             .iter()
             .map(|joint| joint.name.clone());
         let platforms = self.mechanism.platforms().iter().flat_map(|platform| {
-            let coordinates = Coordinate::ALL.map(|c| format!("{}.{}", platform.name, c.name()));
+            let coordinates =
+                PoseCoordinate::ALL.map(|c| format!("{}.{}", platform.name, c.name()));
             [platform.name.clone()].into_iter().chain(coordinates)
         });
         let known: Vec<String> = joints.chain(platforms).collect();
@@ -365,7 +368,7 @@ impl<'a> Question<'a> {
 /// The pose with some coordinates exchanged.
 pub fn with_coordinates(
     pose: &Pose<f64>,
-    values: impl IntoIterator<Item = (Coordinate, f64)>,
+    values: impl IntoIterator<Item = (PoseCoordinate, f64)>,
 ) -> Pose<f64> {
     let mut angles = RollPitchYaw::from_rotation(&pose.rotation);
     let mut position = pose.position;
@@ -373,12 +376,12 @@ pub fn with_coordinates(
     for (coordinate, value) in values {
         turned |= coordinate.is_angle();
         match coordinate {
-            Coordinate::X | Coordinate::Y | Coordinate::Z => {
+            PoseCoordinate::X | PoseCoordinate::Y | PoseCoordinate::Z => {
                 position.0[coordinate as usize] = value
             }
-            Coordinate::Roll => angles.roll = value,
-            Coordinate::Pitch => angles.pitch = value,
-            Coordinate::Yaw => angles.yaw = value,
+            PoseCoordinate::Roll => angles.roll = value,
+            PoseCoordinate::Pitch => angles.pitch = value,
+            PoseCoordinate::Yaw => angles.yaw = value,
         }
     }
     let rotation = if turned {

@@ -41,8 +41,8 @@ impl Searched {
     }
 }
 
-/// Looks for the assembled configuration a question asks for. Every analysis that begins with one
-/// looks here, so that all are about the same.
+/// Searches for the assembled configuration of a question. Every analysis that begins with one
+/// uses this search, so that all analyses are about the same configuration.
 pub struct Search<'a> {
     pub(super) question: &'a Question<'a>,
     pub(super) mechanism: &'a Mechanism,
@@ -109,7 +109,7 @@ impl<'a> Search<'a> {
         let mut made = 0;
         for start in 1..=restarts {
             let assembled = best.report.stop == Stop::Solved;
-            // an assembled configuration outside limits is worth a few more starts, not all
+            // an assembled configuration outside limits justifies a few more starts, not all
             if assembled && start > restarts / 4
                 || watch.stops(Stage::Starts, start - 1, Some(restarts))
             {

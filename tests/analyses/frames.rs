@@ -818,7 +818,7 @@ mod files {
 
     #[test]
     fn the_sense_of_the_first_normal_is_told_as_it_is() {
-        use linkwork::analysis::overview::overview;
+        use linkwork::output::Report;
         let sense = |first: &str, second: &str, home: f64| {
             let text = format!(
                 "Axes(version: 1, name: \"p\", joints: {{
@@ -827,8 +827,7 @@ mod files {
             );
             let axes = AxesDescription::read(&text).unwrap();
             let report = frames(&axes, &FramesSettings::default()).unwrap();
-            let mechanism = Mechanism::new(&report.description).unwrap();
-            let said = linkwork::output::frames::text(&report, &overview(&mechanism), false);
+            let said = linkwork::output::text::render(&report.document());
             let x0 = report.chains[0].frames[0].x;
             let line = said.lines().find(|line| line.contains("sense of x1: "));
             let line = line.unwrap().split("sense of x1: ").nth(1).unwrap().trim();

@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 
 use linkwork::analysis::assembly::{AssemblySettings, assemble};
 use linkwork::analysis::mobility::{
-    Character, IdleFreedom, MobilityReport, MobilitySettings, Wrench, mobility,
+    Character, LocalFreedom, MobilityReport, MobilitySettings, Wrench, mobility,
 };
 use linkwork::description::Description;
 use linkwork::geometry::Vector3;
@@ -248,8 +248,8 @@ fn every_twist_of_a_3_rps_is_reciprocal_to_the_forces_of_its_legs() {
 #[test]
 fn rods_between_balls_spin_and_the_spins_are_not_counted() {
     let report = report("stewart_gough_6sps");
-    let rods: Vec<IdleFreedom> = (1..=6)
-        .map(|i| IdleFreedom::Rod(format!("leg{i}")))
+    let rods: Vec<LocalFreedom> = (1..=6)
+        .map(|i| LocalFreedom::Rod(format!("leg{i}")))
         .collect();
     assert_eq!((report.mobility, report.idle_freedoms), (6, rods));
 }
@@ -300,7 +300,7 @@ fn a_6_sps_of_chains_has_twelve_freedoms_by_count_and_six_of_them_idle() {
     assert_eq!((report.kutzbach, report.mobility), (12, 6));
     assert_eq!(report.idle_freedoms.len(), 6);
     for (i, freedom) in report.idle_freedoms.iter().enumerate() {
-        let IdleFreedom::Joints(joints) = freedom else {
+        let LocalFreedom::Joints(joints) = freedom else {
             panic!("{freedom:?}")
         };
         assert!(
@@ -436,7 +436,7 @@ fn a_platform_between_two_balls_is_named_as_what_spins() {
         (report.mobility, report.infinitesimal, report.kutzbach),
         (0, 0, 0)
     );
-    let [IdleFreedom::Platforms { platforms, joints }] = &report.idle_freedoms[..] else {
+    let [LocalFreedom::Platforms { platforms, joints }] = &report.idle_freedoms[..] else {
         panic!("{:?}", report.idle_freedoms)
     };
     assert_eq!(

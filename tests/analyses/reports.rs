@@ -161,7 +161,7 @@ fn assemblies_are_read_back() {
         one::<AssembliesReport>(&format!("assemblies mechanisms/{file}.ron --all-complex"));
     }
     one::<AssembliesReport>("assemblies mechanisms/four_bar.ron --free theta1");
-    one::<AssembliesReport>("assemblies mechanisms/planar_3rpr.ron --hold l1=90");
+    one::<AssembliesReport>("assemblies mechanisms/four_bar.ron --set l2=0.1");
 }
 
 #[test]
@@ -207,7 +207,7 @@ fn errors_are_errors_with_words() {
     is_error::<system::QuestionError>();
     is_error::<system::ValueError>();
     is_error::<system::DriveError>();
-    is_error::<system::LoadError>();
+    is_error::<system::ForceError>();
     is_error::<analysis::assemblies::AssembliesError>();
     is_error::<analysis::assemblies::StoredError>();
     is_error::<analysis::convert::ConvertError>();

@@ -8,7 +8,7 @@ use linkwork::analysis::velocity::{VelocitySettings, velocity};
 use linkwork::geometry::Vector3;
 use linkwork::mechanism::{Body, Configuration, Convention, Frame, Mechanism};
 use linkwork::solve::Watch;
-use linkwork::system::{Drive, Load, LoadError, Question};
+use linkwork::system::{Drive, ForceError, Load, Question};
 
 fn folder() -> std::path::PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("mechanisms")
@@ -397,25 +397,25 @@ fn loads_that_make_no_sense_are_refused() {
         |name: &str, text: &str| Load::default().wrench(&question, name, text).unwrap_err();
     assert!(matches!(
         refused("ground", "0,0,1"),
-        LoadError::OnGround { .. }
+        ForceError::OnGround { .. }
     ));
     assert!(matches!(
         refused("leg1.0", "0,0,1"),
-        LoadError::OnGround { .. }
+        ForceError::OnGround { .. }
     ));
     assert!(matches!(
         refused("tip", "0,0,1"),
-        LoadError::UnknownFrame { .. }
+        ForceError::UnknownFrame { .. }
     ));
-    assert_eq!(refused("top", "1,2"), LoadError::Components { given: 2 });
-    assert!(matches!(refused("top", "1,2,x"), LoadError::Value(_)));
-    assert!(matches!(refused("top", "1,2,0/0"), LoadError::Value(_)));
+    assert_eq!(refused("top", "1,2"), ForceError::Components { given: 2 });
+    assert!(matches!(refused("top", "1,2,x"), ForceError::Value(_)));
+    assert!(matches!(refused("top", "1,2,0/0"), ForceError::Value(_)));
     let joint = Load::default().joint(&question, "phi4", "1");
-    assert!(matches!(joint, Err(LoadError::UnknownJoint { .. })));
+    assert!(matches!(joint, Err(ForceError::UnknownJoint { .. })));
     let platform = Load::default().joint(&question, "top.yaw", "1");
     assert!(matches!(
         platform,
-        Err(LoadError::Platform {
+        Err(ForceError::Platform {
             component: Some(5),
             ..
         })

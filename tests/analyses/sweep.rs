@@ -7,7 +7,7 @@ use std::path::Path;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
 use linkwork::analysis::sweep::{
-    CircuitsReport, CircuitsSettings, Ending, FourBarClass, MetKind, Row, SweepReport,
+    CircuitsReport, CircuitsSettings, FourBarClass, MetKind, Row, SweepEnd, SweepReport,
     SweepSettings, TracedPoint, circuits, follow, sweep,
 };
 use linkwork::ask;
@@ -15,7 +15,7 @@ use linkwork::description::Description;
 use linkwork::mechanism::{Configuration, Mechanism};
 use linkwork::solve::Watch;
 use linkwork::solve::{Equations, Newton, Stop};
-use linkwork::system::{Curve, Driven, Held, Holdable, Question, Search, System, Walk};
+use linkwork::system::{Coordinate, Curve, Driven, Held, Question, Search, System, Walk};
 use serde_json::Value;
 
 /// Rows close to 1e-12 of the characteristic length; times 5 m, the condition number of these linkages, up to 4, and
@@ -44,7 +44,7 @@ fn data(name: &str) -> Value {
 
 fn joint(mechanism: &Mechanism, name: &str, from: f64, to: f64) -> Driven {
     Driven {
-        coordinate: Holdable::Joint(mechanism.joint(name).unwrap()),
+        coordinate: Coordinate::Joint(mechanism.joint(name).unwrap()),
         from,
         to,
     }
@@ -58,7 +58,7 @@ fn start(mechanism: &Mechanism, inputs: &[Driven], guess: &[(&str, f64)]) -> Con
         at.joints[mechanism.joint(name).unwrap()] = *value;
     }
     for input in inputs {
-        let Holdable::Joint(joint) = input.coordinate else {
+        let Coordinate::Joint(joint) = input.coordinate else {
             panic!("joints only")
         };
         held.joints[joint] = true;
@@ -80,7 +80,7 @@ struct Swept {
 }
 
 impl Swept {
-    fn ending(&self) -> Ending {
+    fn ending(&self) -> SweepEnd {
         self.report.ending
     }
 
@@ -178,7 +178,7 @@ fn the_end_of_a_full_turn_is_its_start() {
         let home = mechanism.home().joints[mechanism.joint(input).unwrap()];
         let inputs = [joint(&mechanism, input, home, home + TAU)];
         let swept = run(&mechanism, &inputs, &[], &steps(90));
-        assert_eq!(swept.ending(), Ending::Complete, "{name}");
+        assert_eq!(swept.ending(), SweepEnd::Complete, "{name}");
         assert_eq!(swept.rows.len(), 91);
         let (first, last) = (&swept.rows[0].1, &swept.rows[90].1);
         for (joint, (a, b)) in first.joints.iter().zip(&last.joints).enumerate() {
@@ -211,7 +211,7 @@ fn rows_of_a_four_bar_are_those_of_the_closed_form_in_either_mode() {
             &four_bar_guess(lengths, 0.4, side),
             &steps(7),
         );
-        assert_eq!(swept.ending(), Ending::Complete);
+        assert_eq!(swept.ending(), SweepEnd::Complete);
         for (step, at, _) in &swept.rows {
             let crank = 0.4 - 2.0 * TAU * step.unwrap() as f64 / 7.0;
             assert!((at.joints[0] - crank).abs() < 1e-14);
@@ -227,7 +227,7 @@ fn a_slider_crank_moves_as_its_closed_form_says() {
     let mechanism = mechanism("slider_crank");
     let inputs = [joint(&mechanism, "theta", 0.5, 0.5 + TAU)];
     let swept = run(&mechanism, &inputs, &[], &steps(25));
-    assert_eq!(swept.ending(), Ending::Complete);
+    assert_eq!(swept.ending(), SweepEnd::Complete);
     for (_, at, _) in &swept.rows {
         let (theta, s) = (at.joints[0], at.joints[2]);
         let rise: f64 = theta.sin() - 0.5;
@@ -272,7 +272,7 @@ fn the_input_limits_of_a_four_bar_are_exact() {
                     &four_bar_guess(lengths, from, side),
                     &steps(50),
                 );
-                assert_eq!(swept.ending(), Ending::Fold, "{lengths:?}");
+                assert_eq!(swept.ending(), SweepEnd::Fold, "{lengths:?}");
                 let fold = swept.folds()[0][0];
                 let near = limits(lengths)
                     .iter()
@@ -308,7 +308,7 @@ fn round_a_fold_the_same_inputs_come_again_on_the_other_branch() {
         &four_bar_guess(lengths, 0.6, 1.0),
         &settings,
     );
-    assert_eq!(swept.ending(), Ending::Returned);
+    assert_eq!(swept.ending(), SweepEnd::Returned);
     assert_eq!(swept.folds().len(), 1);
     let there: Vec<usize> = swept.rows.iter().filter_map(|row| row.0).collect();
     let highest = *there.iter().max().unwrap();
@@ -329,7 +329,7 @@ fn a_sweep_stops_where_branches_cross_and_goes_straight_on_when_told_to() {
     let inputs = [joint(&mechanism, "theta1", 0.5, 0.5 + TAU)];
     let guess = [("phi2", -0.5), ("phi1", 0.5)];
     let swept = run(&mechanism, &inputs, &guess, &steps(40));
-    assert_eq!(swept.ending(), Ending::Crossing);
+    assert_eq!(swept.ending(), SweepEnd::Crossing);
     let last = swept.report.met.last().unwrap();
     assert!((last.inputs[0] - PI).abs() < 1e-13);
     let MetKind::Crossing { freedoms, branches } = &last.kind else {
@@ -353,7 +353,7 @@ fn a_sweep_stops_where_branches_cross_and_goes_straight_on_when_told_to() {
         ..steps(40)
     };
     let swept = run(&mechanism, &inputs, &guess, &settings);
-    assert_eq!(swept.ending(), Ending::Complete);
+    assert_eq!(swept.ending(), SweepEnd::Complete);
     for (_, at, _) in &swept.rows {
         assert!(
             (at.joints[2] - at.joints[0]).abs() < 1e-11,
@@ -377,7 +377,7 @@ fn a_sweep_stops_where_branches_cross_and_goes_straight_on_when_told_to() {
         &mut |_| {},
         &Watch::none(),
     );
-    assert_eq!((report.ending, report.rows), (Ending::SingularStart, 0));
+    assert_eq!((report.ending, report.rows), (SweepEnd::SingularStart, 0));
     assert!(
         matches!(&report.met[0].kind, MetKind::Crossing { branches, .. } if branches.len() == 2)
     );
@@ -396,9 +396,9 @@ fn a_kite_four_bar_crosses_where_its_equal_sides_fold_together() {
         &four_bar_guess(lengths, 0.5, 1.0),
         &steps(40),
     );
-    assert_ne!(swept.ending(), Ending::Crossing);
+    assert_ne!(swept.ending(), SweepEnd::Crossing);
     let [wide, _] = limits(lengths);
-    if swept.ending() == Ending::Fold {
+    if swept.ending() == SweepEnd::Fold {
         assert!((swept.folds()[0][0].abs() - wide).abs() < 1e-10);
     }
 }
@@ -416,7 +416,7 @@ fn a_sweep_ends_at_a_limit_with_its_value() {
     at.joints[mechanism.joint("l1").unwrap()] = 0.6;
     let mut all = held.clone();
     for input in &inputs {
-        let Holdable::Joint(joint) = input.coordinate else {
+        let Coordinate::Joint(joint) = input.coordinate else {
             panic!()
         };
         all.joints[joint] = true;
@@ -438,7 +438,7 @@ fn a_sweep_ends_at_a_limit_with_its_value() {
         &Watch::none(),
     );
     match report.ending {
-        Ending::Limit => {
+        SweepEnd::Limit => {
             let Some(MetKind::Limit { joint, limit, .. }) = report.met.last().map(|m| &m.kind)
             else {
                 panic!("{report:?}")
@@ -448,7 +448,7 @@ fn a_sweep_ends_at_a_limit_with_its_value() {
                 (rows.last().unwrap().joints[mechanism.joint("l1").unwrap()] - 1.2).abs() < 1e-12
             );
         }
-        Ending::Fold => {}
+        SweepEnd::Fold => {}
         other => panic!("{other:?}"),
     }
     // both inputs move together, and the rest closes
@@ -473,7 +473,7 @@ fn a_sweep_ends_where_a_passive_joint_reaches_its_limit() {
         (swept.report, last)
     };
     let (report, last) = stopped(2.5);
-    assert_eq!(report.ending, Ending::Limit);
+    assert_eq!(report.ending, SweepEnd::Limit);
     let Some(MetKind::Limit { joint, limit, .. }) = report.met.last().map(|m| &m.kind) else {
         panic!("{report:?}")
     };
@@ -484,7 +484,7 @@ fn a_sweep_ends_where_a_passive_joint_reaches_its_limit() {
     let theta = e.atan2(s) + (right / s.hypot(e)).acos();
     assert!((last[0] - theta).abs() < 1e-12, "{last:?} {theta}");
     // a slider that need not go so far back lets the crank through
-    assert_eq!(stopped(1.5).0.ending, Ending::Complete);
+    assert_eq!(stopped(1.5).0.ending, SweepEnd::Complete);
 }
 
 #[test]
@@ -528,7 +528,7 @@ fn a_platform_coordinate_is_an_input_too() {
         },
         &Watch::none(),
     );
-    assert_eq!((report.ending, rows), (Ending::Complete, 11));
+    assert_eq!((report.ending, rows), (SweepEnd::Complete, 11));
     // legs of at most 1.2 m: at √(1.44 − 0.25) m it ends
     let inputs = [Driven {
         to: 1.3,
@@ -546,7 +546,7 @@ fn a_platform_coordinate_is_an_input_too() {
         },
         &Watch::none(),
     );
-    assert_eq!(report.ending, Ending::Limit);
+    assert_eq!(report.ending, SweepEnd::Limit);
     assert!((last - (1.44f64 - 0.25).sqrt()).abs() < 1e-12, "{last}");
 }
 
@@ -572,7 +572,7 @@ fn whoever_takes_the_rows_can_stop_the_motion() {
         &Watch::new(&enough),
     );
     assert!(report.interrupted);
-    assert_eq!((report.ending, report.rows), (Ending::Stopped, 5));
+    assert_eq!((report.ending, report.rows), (SweepEnd::Stopped, 5));
     assert_eq!(taken.into_inner(), 5);
 }
 
@@ -621,7 +621,7 @@ fn chebyshevs_point_touches_its_line_three_times() {
         &[("phi2", PI), ("phi1", 2.498)],
         &settings,
     );
-    assert_eq!(swept.ending(), Ending::Complete);
+    assert_eq!(swept.ending(), SweepEnd::Complete);
     let heights: Vec<f64> = swept.rows.iter().map(|row| row.2[0][1]).collect();
     // coupler of half length 1 on equal arms: the height of the middle over the two crossed arms
     for (_, at, points) in &swept.rows {
@@ -683,7 +683,7 @@ fn watts_point_lies_on_watts_curve() {
         },
         &Watch::none(),
     );
-    assert_eq!(report.ending, Ending::Closed);
+    assert_eq!(report.ending, SweepEnd::Closed);
     let (arm, coupler): (f64, f64) = (2.0, 1.0);
     let ground = (2.0 * arm).hypot(coupler);
     let (a, b, c) = (0.5 * ground, arm, 0.5 * coupler);
@@ -726,7 +726,7 @@ fn peaucelliers_point_moves_on_an_exact_line() {
         -100.0_f64.to_radians(),
     )];
     let swept = run(&mechanism, &inputs, &[], &settings);
-    assert_eq!(swept.ending(), Ending::Complete);
+    assert_eq!(swept.ending(), SweepEnd::Complete);
     for (_, at, points) in &swept.rows {
         assert!((points[0][0] - 4.2).abs() < CLOSED, "{points:?}");
         let c = (2.5 + 2.5 * at.joints[0].cos(), 2.5 * at.joints[0].sin());
@@ -778,7 +778,7 @@ fn jansens_leg_walks_as_its_table_says() {
     let table = data("jansen_leg");
     let inputs = [joint(&mechanism, "theta", PI / 2.0, PI / 2.0 + TAU)];
     let swept = run(&mechanism, &inputs, &[], &tracing(&mechanism, 3600, "toe"));
-    assert_eq!(swept.ending(), Ending::Complete);
+    assert_eq!(swept.ending(), SweepEnd::Complete);
     for row in table["answer"]["table"].as_array().unwrap() {
         let degrees = row["crank_deg"].as_f64().unwrap();
         let step = ((degrees - 90.0).rem_euclid(360.0) * 10.0) as usize;
@@ -826,7 +826,7 @@ fn klanns_leg_closes_as_its_table_says() {
         ..steps(360)
     };
     let swept = run(&mechanism, &inputs, &[], &settings);
-    assert_eq!(swept.ending(), Ending::Complete);
+    assert_eq!(swept.ending(), SweepEnd::Complete);
     for row in table["answer"]["crank_table"].as_array().unwrap() {
         let degrees = row["crank_deg"].as_f64().unwrap();
         let step = (degrees - 90.0).rem_euclid(360.0) as usize;
@@ -1128,13 +1128,13 @@ fn random_steps(rows: usize, seed: u64) -> usize {
             assert!(
                 matches!(
                     report.ending,
-                    Ending::Complete | Ending::Fold | Ending::Crossing
+                    SweepEnd::Complete | SweepEnd::Fold | SweepEnd::Crossing
                 ),
                 "{lengths:?} from {from} to {to}: {:?}",
                 report.ending
             );
             // it ends before its end only at a true dead point
-            if report.ending == Ending::Fold {
+            if report.ending == SweepEnd::Fold {
                 let fold = report.met.last().unwrap().inputs[0];
                 let near = limits(lengths).iter().any(|limit| {
                     apart(fold, *limit).abs() < 1e-7 || apart(fold, -limit).abs() < 1e-7
@@ -1186,7 +1186,7 @@ fn coarse_and_fine_sweeps_of_the_mechanism_files_agree() {
         let input = CircuitsReport::input_of(&mechanism).unwrap();
         let home = mechanism.home().joints[input];
         let inputs = [Driven {
-            coordinate: Holdable::Joint(input),
+            coordinate: Coordinate::Joint(input),
             from: home,
             to: home + TAU,
         }];
@@ -1229,7 +1229,7 @@ fn the_whole_curve_has_the_dead_points_of_every_joint() {
         .filter(|met| matches!(&met.kind, MetKind::Turning { joint } if joint == "phi1"))
         .map(|met| [met.joints[0], met.joints[2]])
         .collect();
-    assert_eq!((report.ending, dead.len()), (Ending::Closed, 2));
+    assert_eq!((report.ending, dead.len()), (SweepEnd::Closed, 2));
     for [crank, rocker] in dead {
         let known = published.iter().any(|p| {
             let of = |name: &str| p[name].as_f64().unwrap();
@@ -1309,7 +1309,7 @@ fn questions_that_make_no_sense_are_told_what_to_ask_instead() {
         ),
         (
             &[four_bar, "--input", "theta1=0..1", "--hold", "theta1=1"],
-            "contradict",
+            "`theta1` is both moved and held",
         ),
         (
             &[four_bar, "--input", "theta1=0..1", "--of", "rigth"],

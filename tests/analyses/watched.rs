@@ -13,7 +13,7 @@ use linkwork::analysis::sweep::{CircuitsSettings, SweepSettings, circuits, follo
 use linkwork::analysis::workspace::{WorkspaceSettings, workspace};
 use linkwork::mechanism::Mechanism;
 use linkwork::solve::{Progress, Watch};
-use linkwork::system::{Driven, Holdable, Question};
+use linkwork::system::{Coordinate, Driven, Question};
 
 fn mechanism(name: &str) -> Mechanism {
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join(format!("mechanisms/{name}.ron"));
@@ -22,7 +22,7 @@ fn mechanism(name: &str) -> Mechanism {
 
 fn input(mechanism: &Mechanism, name: &str, from: f64, to: f64) -> Driven {
     Driven {
-        coordinate: Holdable::Joint(mechanism.joint(name).unwrap()),
+        coordinate: Coordinate::Joint(mechanism.joint(name).unwrap()),
         from,
         to,
     }

@@ -4,7 +4,7 @@ use std::f64::consts::PI;
 
 use linkwork::analysis::assembly::{AssemblyReport, AssemblySettings, Outcome, assemble};
 use linkwork::description::Description;
-use linkwork::mechanism::{Coordinate, Mechanism};
+use linkwork::mechanism::{Mechanism, PoseCoordinate};
 use linkwork::solve::Watch;
 use linkwork::system::{Question, QuestionError};
 
@@ -102,7 +102,7 @@ fn a_whole_pose_has_no_locked_angles() {
 #[test]
 fn a_unit_that_does_not_fit_is_refused_wherever_a_value_is_given() {
     use linkwork::algebra::MeasureErrorKind;
-    use linkwork::system::{Drive, DriveError, Load, LoadError, ValueError};
+    use linkwork::system::{Drive, DriveError, ForceError, Load, ValueError};
     let mechanism = load("three_rps");
     let unit = |error: &QuestionError| {
         let QuestionError::Value { error, .. } = error else {
@@ -138,7 +138,7 @@ fn a_unit_that_does_not_fit_is_refused_wherever_a_value_is_given() {
         &still().acceleration(&question, "l1", "1 deg").unwrap_err()
     ));
     assert!(still().rate(&question, "l1", "10 mm").is_ok());
-    let loaded = |error: &LoadError| matches!(error, LoadError::Value(error) if driven(error));
+    let loaded = |error: &ForceError| matches!(error, ForceError::Value(error) if driven(error));
     for wrench in ["0,0,2 mm", "0,0,1,0,0,3 deg"] {
         assert!(loaded(
             &Load::default()
@@ -169,8 +169,8 @@ fn the_closest_approach_keeps_what_is_held() {
             report.gaps
         );
         let hand = report.configuration().platforms[0].pose();
-        assert!((Coordinate::X.of(&hand) - x).abs() < 1e-8);
-        assert!(Coordinate::Y.of(&hand).abs() < 1e-8);
+        assert!((PoseCoordinate::X.of(&hand) - x).abs() < 1e-8);
+        assert!(PoseCoordinate::Y.of(&hand).abs() < 1e-8);
     }
 }
 

@@ -5,7 +5,7 @@ use std::f64::consts::{FRAC_PI_2, PI};
 
 use linkwork::description::{ClosureKind, Description};
 use linkwork::geometry::{Axis, Pose, Quaternion, RollPitchYaw, Rotation, Vector3};
-use linkwork::mechanism::{Configuration, Coordinate, Mechanism, PlatformPose};
+use linkwork::mechanism::{Configuration, Mechanism, PlatformPose, PoseCoordinate};
 use linkwork::number::Dual;
 use linkwork::solve::{Equations, Newton, Stop};
 use linkwork::system::{Freedoms, Held, HeldPlatform, System};
@@ -342,8 +342,8 @@ fn rows_of_held_coordinates_are_differentiated_rightly() {
     runner(300)
         .run(&(six(), six(), values), |(actual, wanted, values)| {
             let wanted: Rotation<f64> = pose(wanted).rotation;
-            let mut coordinates: Vec<(Coordinate, f64)> =
-                Coordinate::ALL.into_iter().zip(values).collect();
+            let mut coordinates: Vec<(PoseCoordinate, f64)> =
+                PoseCoordinate::ALL.into_iter().zip(values).collect();
             let mut at = mechanism.home();
             at.platforms[0] = PlatformPose::from_pose(&pose(actual));
             // half a turn away an angle's gap jumps from π to −π

@@ -14,16 +14,16 @@ use super::Wanted;
 use super::family::{C, Coordinates, KnownBound, size};
 use super::report::{AssembliesReport, ComplexAssembly, Continuum, Fit, ListedJoint, Named};
 use super::search::GenericSolutions;
-use super::track::{End, Ends, Local, Way, are_one};
+use super::track::{End, Ends, Local, ParameterHomotopy, are_one};
 use crate::algebra::SiUnit;
 use crate::geometry::Quaternion;
-use crate::mechanism::{Configuration, Coordinate, Mechanism};
+use crate::mechanism::{Configuration, Mechanism, PoseCoordinate};
 use crate::number::Number;
 use crate::solve::Watch;
 use crate::system::{Held, HeldPlatform, System, Work};
 use real::{complex_key, key, order, tidied, tidied_complex};
 
-/// The end of the way, where the asked inputs are.
+/// The end of the homotopy, where the target inputs are.
 pub(super) const END: C = C::new(1.0, 0.0);
 
 /// Points that Newton's method reached from starts with these numbers.
@@ -66,7 +66,7 @@ struct Group {
 pub(super) struct Gathered {
     pub found: Vec<Found>,
     complex: Vec<(Vec<f64>, ComplexAssembly)>,
-    /// Real solutions by themselves to which no path led.
+    /// Simple real solutions to which no path led.
     pub unexpected: usize,
     /// Multiple solutions to which no path led.
     pub multiple: usize,
@@ -76,19 +76,19 @@ pub(super) struct Gathered {
 
 impl Question<'_> {
     /// The report for the ends of all paths, and for points that Newton's method reached from
-    /// starts with the given numbers. `way` stays at the asked inputs.
+    /// starts with the given numbers. `homotopy` stays at the target inputs.
     pub fn answer(
         &self,
         generic: &GenericSolutions,
         fit: Fit,
         ends: &Ends,
-        (mut way, starts): (Option<Way<'_>>, &Starts<'_>),
+        (mut homotopy, starts): (Option<ParameterHomotopy<'_>>, &Starts<'_>),
         wanted: Wanted,
     ) -> AssembliesReport {
         let mut work = self.system.work();
         let (asked, half_a_turn_away): (Vec<&End>, Vec<&End>) =
             (ends.ends.iter()).partition(|end| end.point().is_none_or(|x| self.has_held_angles(x)));
-        let groups = self.grouped(&asked, way.as_mut());
+        let groups = self.grouped(&asked, homotopy.as_mut());
         let mut gathered = Gathered::default();
         for group in groups.iter().filter(|g| g.dimension == 0) {
             match self.real(&group.x, group.singular, &mut work) {
@@ -100,8 +100,8 @@ impl Question<'_> {
                 }),
                 None if wanted.all_complex => {
                     let x = tidied_complex(&group.x, self.coordinates);
-                    let condition = match (&mut way, group.paths) {
-                        (Some(way), 1) => way.condition(END, &x),
+                    let condition = match (&mut homotopy, group.paths) {
+                        (Some(homotopy), 1) => homotopy.condition(END, &x),
                         _ => None,
                     };
                     let solution = self.complex(&x, (group.paths, condition));
@@ -110,19 +110,22 @@ impl Question<'_> {
                 None => {}
             }
         }
-        if let Some(way) = &mut way {
-            gathered.merged = self.merge(&mut gathered.found, way);
+        if let Some(homotopy) = &mut homotopy {
+            gathered.merged = self.merge(&mut gathered.found, homotopy);
         }
         let mut report = self.empty(generic);
         report.interrupted = self.interrupted || self.watch.is_stopped();
         let sets: Vec<&Group> = groups.iter().filter(|g| g.dimension > 0).collect();
-        if let Some(way) = &mut way {
-            self.look_elsewhere(&mut gathered, (&fit, generic, wanted), way, starts);
+        if let Some(homotopy) = &mut homotopy {
+            self.look_elsewhere(&mut gathered, (&fit, generic, wanted), homotopy, starts);
             let sampled = gathered.found.iter().any(|f| f.dimension > 0);
             if !sampled && !sets.is_empty() {
                 // a set that attracts no start: from the ends themselves
-                let points = sets.iter().filter_map(|g| self.beside(&g.x, way)).collect();
-                self.add(&mut gathered, points, way, (&fit, false));
+                let points = sets
+                    .iter()
+                    .filter_map(|g| self.beside(&g.x, homotopy))
+                    .collect();
+                self.add(&mut gathered, points, homotopy, (&fit, false));
             }
         }
         let nearest = match gathered.found.is_empty() && !report.interrupted {
@@ -132,9 +135,9 @@ impl Question<'_> {
             }
             false => None,
         };
-        if let (Some((point, true)), Some(way)) = (&nearest, &mut way) {
+        if let (Some((point, true)), Some(homotopy)) = (&nearest, &mut homotopy) {
             // an assembly after all, to which no path led
-            self.add(&mut gathered, vec![point.clone()], way, (&fit, true));
+            self.add(&mut gathered, vec![point.clone()], homotopy, (&fit, true));
             gathered.unexpected += gathered.found.len();
         }
         let Gathered {
@@ -209,26 +212,27 @@ impl Question<'_> {
                 return true;
             };
             let rotation = Quaternion([x[0], x[1], x[2], x[3]]).rotation();
-            let along = |(c, value): &(Coordinate, f64)| c.along(&rotation, C::from_f64(*value));
+            let along =
+                |(c, value): &(PoseCoordinate, f64)| c.along(&rotation, C::from_f64(*value));
             (coordinates.iter().filter_map(along)).all(|along| along.re > UNDETERMINED)
         })
     }
 
-    /// Of real solutions that are one, as two conjugate complex ones are whose real part is assembled,
-    /// one is kept, with the multiplicity of all; how many others there were.
-    fn merge(&self, found: &mut Vec<Found>, way: &mut Way<'_>) -> usize {
+    /// Of real solutions that are one, as two conjugate complex ones are whose real part is
+    /// assembled, one is kept, with the multiplicity of all; how many others there were.
+    fn merge(&self, found: &mut Vec<Found>, homotopy: &mut ParameterHomotopy<'_>) -> usize {
         let flat = |f: &Found| self.coordinates.flatten(&f.point.map(C::from_f64));
         let mut kept: Vec<Found> = Vec::new();
         let mut points: Vec<Vec<C>> = Vec::new();
         let mut merged = 0;
         for f in found.drain(..) {
             let x = flat(&f);
-            match points.iter().position(|y| are_one(way, END, y, &x)) {
+            match points.iter().position(|y| are_one(homotopy, END, y, &x)) {
                 Some(place) => {
                     let one = &mut kept[place];
                     merged += usize::from(one.multiplicity == 1);
                     one.multiplicity += f.multiplicity;
-                    let x = Local::new(way, true).refined(&x);
+                    let x = Local::new(homotopy, true).refined(&x);
                     let mut at = self.asked.map(C::from_f64);
                     self.coordinates.unflatten(&x, &mut at);
                     one.point = tidied(at.map(|z| z.re), self.coordinates, false);
@@ -297,7 +301,11 @@ impl Question<'_> {
     }
 
     /// Distinct finite ends.
-    fn grouped(&self, ends: &[&End], mut way: Option<&mut Way<'_>>) -> Vec<Group> {
+    fn grouped(
+        &self,
+        ends: &[&End],
+        mut homotopy: Option<&mut ParameterHomotopy<'_>>,
+    ) -> Vec<Group> {
         let mut groups: Vec<Group> = Vec::new();
         for end in ends {
             let (x, singular) = match end {
@@ -311,8 +319,8 @@ impl Question<'_> {
             match (groups.iter_mut()).find(|g| singular && g.singular && near(&g.x)) {
                 Some(group) => group.paths += 1,
                 None => {
-                    let dimension = match (&mut way, singular) {
-                        (Some(way), true) => Local::new(way, false).dimension(x),
+                    let dimension = match (&mut homotopy, singular) {
+                        (Some(homotopy), true) => Local::new(homotopy, false).dimension(x),
                         _ => 0,
                     };
                     groups.push(Group {

@@ -3,11 +3,11 @@
 
 mod bound;
 mod coordinates;
-mod stances;
+mod legwise;
 
 pub(super) use bound::{KnownBound, known_bound};
 pub(super) use coordinates::{C, Coordinates, size};
-pub(super) use stances::{Stance, count, learn};
+pub(super) use legwise::{LegwiseSolutions, count, learn};
 
 use rand::Rng;
 use rand_pcg::Pcg64;

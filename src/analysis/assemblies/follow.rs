@@ -6,7 +6,7 @@ use super::AssembliesError;
 use super::answer::{named_joints, real_solution};
 use super::family::{C, Family, Member};
 use super::report::Named;
-use super::track::{Way, located, polish};
+use super::track::{ParameterHomotopy, located, polish};
 use crate::mechanism::{Configuration, Mechanism, Variable};
 use crate::number::Number;
 use crate::solve::{Arrival, Homotopy, Stages, Tracker};
@@ -15,7 +15,7 @@ use crate::system::{Held, System};
 /// Where a mode went when its inputs changed.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Followed {
-    /// It is assembled at the asked inputs.
+    /// It is assembled at the target inputs.
     Arrived(Configuration<f64>),
     /// It ceased to exist on the way: there it meets another mode, and beyond neither is real.
     Fold(Fold),
@@ -41,7 +41,7 @@ pub struct Fold {
     pub turns_back: bool,
 }
 
-/// A mode that was not followed to the inputs asked for.
+/// A mode that was not followed to the target inputs.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct LostMode {
     /// Name of the mechanism.
@@ -74,7 +74,7 @@ pub enum LostReason {
 }
 
 impl Followed {
-    /// The configuration at the asked inputs, or why there is none.
+    /// The configuration at the target inputs, or why there is none.
     ///
     /// # Errors
     /// If the mode was not followed to the inputs.
@@ -119,8 +119,8 @@ pub(super) fn follow(
         parameters: family.parameters.clone(),
         inputs: inputs.iter().map(|x| C::from_f64(*x)).collect(),
     };
-    let way = family.way(&member(&start), &member(&end));
-    let mut way = way.ok_or(AssembliesError::NoValue)?;
+    let homotopy = family.homotopy(&member(&start), &member(&end));
+    let mut homotopy = homotopy.ok_or(AssembliesError::NoValue)?;
     let mut x = c.flatten(&from.0.map(C::from_f64));
     let whole = (C::from_f64(0.0), C::from_f64(1.0));
     // real inputs keep every number real, so no step can leave the real branch unnoticed
@@ -130,13 +130,13 @@ pub(super) fn follow(
         ..Tracker::default().tightened(0.05)
     };
     let mut stages = Stages::new(c.count());
-    let track = tracker.track(&mut Assembled(&mut way), whole, &mut x, &mut stages);
+    let track = tracker.track(&mut Assembled(&mut homotopy), whole, &mut x, &mut stages);
     let (mut done, mut turns_back) = match track.arrival {
         Arrival::There => (1.0, false),
         Arrival::Stuck(at) | Arrival::Diverged(at) => (at, false),
     };
-    let arrived = track.arrival == Arrival::There && polish(&mut way, whole.1, &mut x);
-    if !arrived && let Some(meeting) = located(&mut way, done, &x) {
+    let arrived = track.arrival == Arrival::There && polish(&mut homotopy, whole.1, &mut x);
+    if !arrived && let Some(meeting) = located(&mut homotopy, done, &x) {
         (done, x, turns_back) = (meeting.s, meeting.x, meeting.turns_back);
     }
     let inputs: Vec<f64> = start
@@ -171,12 +171,12 @@ pub(super) fn follow(
     }))
 }
 
-/// A way that is left where the closures open.
+/// A homotopy that is left where the closures open.
 ///
 /// Beyond a fold nothing closes, but where the Jacobian is singular the least-squares step takes no
 /// notice of the gap that is left: without this, a path may go on through configurations that are
 /// singular instead of assembled.
-struct Assembled<'w, 'f>(&'w mut Way<'f>);
+struct Assembled<'w, 'f>(&'w mut ParameterHomotopy<'f>);
 
 impl Homotopy for Assembled<'_, '_> {
     fn settle(&self, x: &mut [C]) {

@@ -26,8 +26,8 @@ pub struct PoseReport {
 pub struct Assembly {
     /// Its number, from 1.
     pub mode: usize,
-    /// Joint values in rad or m. Angles lie in (−π, π], or are that and whole turns where the limits
-    /// of the joint ask for it.
+    /// Joint values in rad or m. Angles lie in (−π, π], or are that and whole turns where the
+    /// limits of the joint ask for it.
     pub joints: Named<f64>,
     /// Platform poses.
     pub platforms: Named<PoseReport>,
@@ -73,9 +73,9 @@ impl Assembly {
 /// How near the mechanism comes to being assembled, where it cannot be.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct ClosestApproach {
-    /// How far each closure is from being whole.
+    /// The gap of each closure.
     pub gaps: Named<Gap>,
-    /// The closure that gapes most.
+    /// The closure with the largest gap.
     pub worst: String,
     /// Whether no small motion comes closer.
     pub local_minimum: bool,
@@ -101,7 +101,7 @@ pub enum Fit {
     AlwaysMultiple,
 }
 
-/// Assemblies that are connected, infinitely many, at the inputs asked.
+/// Assemblies that are connected, infinitely many, at the target inputs.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Continuum {
     /// How many coordinates can be chosen freely on it.
@@ -126,7 +126,7 @@ pub struct ListedJoint {
     pub periodic: bool,
 }
 
-/// All assemblies for the inputs asked.
+/// All assemblies for the target inputs.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct AssembliesReport {
     /// Name of the mechanism.
@@ -151,16 +151,16 @@ pub struct AssembliesReport {
     pub at_infinity: usize,
     /// Isolated points where solutions meet, real or complex, each once.
     pub singular: usize,
-    /// Paths that end where roll or yaw of a platform is not what is held but half a turn from it, or
-    /// is not determined because its pitch is ±90°: the equations of a single angle cannot leave
+    /// Paths that end where roll or yaw of a platform is not what is held but half a turn from it,
+    /// or is not determined because its pitch is ±90°: the equations of a single angle cannot leave
     /// these out. They are not among the complex solutions.
     pub half_a_turn_away: usize,
     /// Paths that end on a set of infinitely many solutions.
     pub not_isolated: usize,
     /// Those sets by dimension, the largest first; empty if all assemblies are isolated.
     pub continua: Vec<Continuum>,
-    /// Isolated real assemblies that were found from other starts and to which no path led. Anything
-    /// but 0 means that the list may be incomplete.
+    /// Isolated real assemblies that were found from other starts and to which no path led.
+    /// Anything but 0 means that the list may be incomplete.
     pub unexpected: usize,
     /// Seeds that met a solution which is multiple for all inputs. No path follows such a solution;
     /// they are sought from many starts.
@@ -169,8 +169,8 @@ pub struct AssembliesReport {
     pub lost: usize,
     /// Paths that had to be followed again with greater care.
     pub retried: usize,
-    /// Paths followed: as many as generic solutions, or fewer where legs close apart from one another
-    /// and the other solutions are combinations of their ways.
+    /// Paths followed: as many as generic solutions, or fewer where legs close apart from one
+    /// another and the other solutions are combinations of their ways.
     pub paths: usize,
     /// Steps along all paths, the last time each was followed.
     pub steps: usize,
@@ -294,7 +294,7 @@ impl AssembliesReport {
         if self.unexpected > 0 {
             sentence += &format!(
                 "; no path led to {} found from other starts: the list may be incomplete",
-                count(self.unexpected, "assembly").replace("assemblys", "assemblies")
+                count(self.unexpected, "assembly")
             );
         }
         if self.lost > 0 {

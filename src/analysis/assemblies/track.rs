@@ -1,18 +1,18 @@
 //! Following solutions along parameter homotopies between members of the family.
 
 mod along;
-mod carry;
 mod fold;
+mod homotopy;
 mod local;
+mod member;
 mod path;
-mod place;
 mod simple;
-mod way;
+mod target;
 
-pub(super) use along::{carried, polish};
-pub(super) use carry::{Ends, carry};
+pub(super) use along::{polish, tracked};
 pub(super) use fold::located;
+pub(super) use homotopy::ParameterHomotopy;
 pub(super) use local::Local;
 pub(super) use path::End;
 pub(super) use simple::{are_one, stands_alone};
-pub(super) use way::Way;
+pub(super) use target::{Ends, track_to_target};

@@ -6,7 +6,7 @@ use super::build::Build;
 use super::chains::Built;
 use super::graph::{Graph, driven};
 use super::values::Values;
-use super::{CutReport, Way, problem};
+use super::{CutChoice, CutReport, problem};
 use crate::description::{
     AxesDescription, AxesProblem, AxisKind, Convention, Problem, names_of, nearest, place_of,
 };
@@ -30,7 +30,7 @@ pub(super) fn closed(
         true => proposed(axes, &graph, &balls)?,
         false => (vec![given(axes, &graph, &balls)?], false),
     };
-    let mut compared: Vec<(Way, Built)> = (ways.0.into_iter())
+    let mut compared: Vec<(CutChoice, Built)> = (ways.0.into_iter())
         .map(|cuts| {
             let built = Build::new(axes, values, &graph, &cuts, convention).build();
             (way(axes, &cuts, &balls, &built), built)
@@ -62,7 +62,7 @@ fn way(
     cuts: &BTreeSet<usize>,
     balls: &BTreeSet<usize>,
     built: &Built,
-) -> Way {
+) -> CutChoice {
     let named = |j: &usize| axes.joints[*j].name.value.clone();
     let chosen: Vec<usize> = cuts.difference(balls).copied().collect();
     let prismatic = |j: &&usize| axes.joints[**j].value.kind == AxisKind::Prismatic;
@@ -73,7 +73,7 @@ fn way(
     let on_platforms = built.description.platforms.iter();
     let on_platforms = on_platforms.flat_map(|platform| &platform.value.frames);
     let longest = built.chains.iter().map(|chain| chain.rows.len());
-    Way {
+    CutChoice {
         longest: longest.max().unwrap_or(0),
         entries: constants.filter(|x| *x != 0.0).count()
             + steps.sum::<usize>()

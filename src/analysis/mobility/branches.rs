@@ -1,4 +1,4 @@
-//! Which infinitesimal freedoms are finite.
+//! Deciding which infinitesimal freedoms are finite.
 
 mod walk;
 
@@ -280,8 +280,8 @@ struct Limit {
     curved: bool,
 }
 
-/// Whether the tangent of a branch at the meeting point is that of a curved cone there: then not all
-/// of it is on the cone, and steps along it lead elsewhere.
+/// Whether the tangent of a branch at the meeting point is that of a curved cone there: then not
+/// all of it is on the cone, and steps along it lead elsewhere.
 fn is_curved(
     near: &mut Neighbourhood,
     cone: &Cone,

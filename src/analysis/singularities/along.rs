@@ -12,7 +12,7 @@ use crate::algebra::SiUnit;
 use crate::linear::norm;
 use crate::mechanism::{Configuration, Mechanism, Variable};
 use crate::solve::{Continuation, Place, SolutionCurve, Stage, Watch};
-use crate::system::{Curve, Driven, Event, Held, Holdable, Leg, NoStart, Walk};
+use crate::system::{Coordinate, Curve, Driven, Event, Held, NoStart, Segment, Walk};
 
 type At = Place<Configuration<f64>>;
 
@@ -23,7 +23,7 @@ pub struct AlongReport {
     pub mechanism: String,
     /// The joints, in the order of the file.
     pub variables: Vec<Variable>,
-    /// The inputs that singularities are told of.
+    /// The inputs that singularities refer to.
     pub inputs: Vec<String>,
     /// The outputs.
     pub outputs: Vec<String>,
@@ -32,7 +32,7 @@ pub struct AlongReport {
     /// What is moved: name, unit (rad or m), from, to.
     pub moved: Vec<Moved>,
     /// How the motion ended.
-    pub ending: Ending,
+    pub ending: AlongEnd,
     /// The joint whose limit was reached, if one was.
     pub limit: Option<String>,
     /// The part of the segment that was gone at the end.
@@ -81,7 +81,7 @@ pub struct Crossing {
 /// How a motion ended.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
-pub enum Ending {
+pub enum AlongEnd {
     /// The whole segment was gone through.
     Complete,
     /// It came back to where it began, on another branch, round a fold.
@@ -114,7 +114,7 @@ pub fn along(
     mechanism: &Mechanism,
     held: &Held<f64>,
     moved: &[Driven],
-    inputs: &[Holdable],
+    inputs: &[Coordinate],
     start: &Configuration<f64>,
     settings: &SingularitiesSettings,
     watch: &Watch,
@@ -134,7 +134,7 @@ pub fn along(
                 to: input.to,
             })
             .collect(),
-        ending: Ending::Lost,
+        ending: AlongEnd::Lost,
         limit: None,
         part: 0.0,
         crossings: Vec::new(),
@@ -148,7 +148,7 @@ pub fn along(
     let begun = curve.begin(mechanism, &mut start, method);
     if let Err(NoStart::OutsideLimits(joint)) = begun {
         report.limit = Some(mechanism.joints()[joint].name.clone());
-        report.ending = Ending::OutsideLimits;
+        report.ending = AlongEnd::OutsideLimits;
         return report;
     }
     let mut search = Tests {
@@ -161,7 +161,7 @@ pub fn along(
         Err(_) => {
             let found = search.crossing(&curve, &start, false, true);
             report.crossings.extend(found);
-            report.ending = Ending::SingularStart;
+            report.ending = AlongEnd::SingularStart;
             return report;
         }
     };
@@ -169,7 +169,7 @@ pub fn along(
     let first = search.crossing(&curve, &place.at, rate.abs() < 1e-9, false);
     report.crossings.extend(first);
     if rate.abs() < 1e-9 {
-        report.ending = Ending::Fold;
+        report.ending = AlongEnd::Fold;
         return report;
     }
     let mut walk = Walk::new(mechanism, &curve, place, method.clone());
@@ -177,7 +177,7 @@ pub fn along(
         let done = report.part.clamp(0.0, 1.0) * f64::from(PARTS);
         if watch.stops(Stage::Motion, done as usize, Some(PARTS as usize)) {
             report.interrupted = true;
-            return ControlFlow::Break(Ending::Stopped);
+            return ControlFlow::Break(AlongEnd::Stopped);
         }
         report.sure_steps += 1;
         report.part = curve.part(&leg.to.at);
@@ -194,15 +194,15 @@ pub fn along(
                 report.crossings.extend(found);
             }
             let ending = match met.end {
-                Some(Event::End(true)) => Some(Ending::Complete),
-                Some(Event::End(false)) => Some(Ending::Returned),
-                Some(Event::Closed) => Some(Ending::Closed),
+                Some(Event::End(true)) => Some(AlongEnd::Complete),
+                Some(Event::End(false)) => Some(AlongEnd::Returned),
+                Some(Event::Closed) => Some(AlongEnd::Closed),
                 Some(Event::Limit { joint, .. }) => {
                     report.limit = Some(mechanism.joints()[joint].name.clone());
-                    Some(Ending::Limit)
+                    Some(AlongEnd::Limit)
                 }
-                _ if met.fold && !settings.follow => Some(Ending::Fold),
-                _ if met.branches && !settings.follow => Some(Ending::Branches),
+                _ if met.fold && !settings.follow => Some(AlongEnd::Fold),
+                _ if met.branches && !settings.follow => Some(AlongEnd::Branches),
                 _ => None,
             };
             if let Some(ending) = ending {
@@ -213,7 +213,7 @@ pub fn along(
     });
     report.ending = ending.unwrap_or_else(|_| {
         report.part = curve.part(&walk.place().at);
-        Ending::Lost
+        AlongEnd::Lost
     });
     report
 }
@@ -243,7 +243,7 @@ struct Tests<'m> {
 
 impl Tests<'_> {
     /// What is met on a leg, in order; things at the same place are one.
-    fn met(&mut self, curve: &mut Curve, leg: &Leg, method: &Continuation) -> Vec<Met> {
+    fn met(&mut self, curve: &mut Curve, leg: &Segment, method: &Continuation) -> Vec<Met> {
         let mut found: Vec<Met> = Vec::new();
         for (place, event) in &leg.events {
             let ends = match event {
@@ -290,7 +290,7 @@ impl Tests<'_> {
     }
 
     /// Places on a leg where the direct or the inverse matrix loses rank.
-    fn vanishing(&mut self, curve: &mut Curve, leg: &Leg, method: &Continuation) -> Vec<At> {
+    fn vanishing(&mut self, curve: &mut Curve, leg: &Segment, method: &Continuation) -> Vec<At> {
         let ranks = self.classifier.regular_ranks();
         // steps are made from the regular end
         let singular = leg.from.is_singular();

@@ -6,7 +6,9 @@ use serde::{Deserialize, Serialize};
 
 use crate::linear::{orthonormal, remove};
 use crate::mechanism::{Configuration, Mechanism};
-use crate::system::{Holdable, Lock, Locked, Mobility, Neighbourhood, Screw, TwistSpace, Unknown};
+use crate::system::{
+    Coordinate, Lock, Locked, Mobility, Neighbourhood, Screw, TwistSpace, Unknown,
+};
 
 /// The types of D. Zlatanov, R. G. Fenton and B. Benhabib 1994.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
@@ -134,7 +136,7 @@ impl<'m> Classifier<'m> {
     /// Compares with configurations beside the one given.
     pub fn new(
         mechanism: &'m Mechanism,
-        inputs: &[Holdable],
+        inputs: &[Coordinate],
         outputs: &[Lock],
         at: &Configuration<f64>,
     ) -> Self {

@@ -1,4 +1,4 @@
-//! Where along a curve a matrix loses rank: every place, single or several ranks at once.
+//! Locating every place along a curve where a matrix loses one or several ranks.
 
 use crate::linear::{Decomposition, RANK_TOLERANCE};
 use crate::mechanism::Configuration;
@@ -45,8 +45,8 @@ pub(super) struct Drops<'a> {
 }
 
 impl Drops<'_> {
-    /// The places after `from` up to `to`, reached from it by one step, where the last singular value σ
-    /// within the rank vanishes.
+    /// The places after `from` up to `to`, reached from it by one step, where the last singular
+    /// value σ within the rank vanishes.
     ///
     /// Between two places with the matrices A and B it cannot vanish as long as
     /// σ(A) + σ(B) > ‖B − A‖ and the matrix goes straight from one to the other (Weyl: σ changes no
@@ -122,8 +122,8 @@ impl Drops<'_> {
         (sample.least() <= RANK_TOLERANCE * sample.largest()).then_some(sample.place)
     }
 
-    /// The place between two where σ is least, if it falls from both ends. Where two singular values
-    /// vanish at once each does so linearly, and golden sections find the place to rounding.
+    /// The place between two where σ is least, if it falls from both ends. Where two singular
+    /// values vanish at once each does so linearly, and golden sections find the place to rounding.
     fn lowest(&mut self, a: &Sample, b: &Sample, length: f64) -> Option<At> {
         /// (√5 − 1)/2: one evaluation a section (Kiefer 1953).
         const GOLDEN: f64 = 0.618_033_988_749_894_9;

@@ -12,7 +12,9 @@ use super::{SingularitiesSettings, names, output_names};
 use crate::algebra::SiUnit;
 use crate::mechanism::{Configuration, Mechanism, Variable};
 use crate::solve::{Place, Watch};
-use crate::system::{Driven, Held, Holdable, Lock, LocusCurve, LocusEnd, Region, Singular, Traced};
+use crate::system::{
+    Coordinate, Driven, Held, Lock, LocusCurve, LocusEnd, Region, Singular, Traced,
+};
 
 type At = Place<Singular>;
 
@@ -25,7 +27,7 @@ pub struct LocusReport {
     pub variables: Vec<Variable>,
     /// The poses of platforms, in the order of the file: position and quaternion.
     pub pose_variables: Vec<Variable>,
-    /// The inputs that singularities are told of.
+    /// The inputs that singularities refer to.
     pub inputs: Vec<String>,
     /// The outputs.
     pub outputs: Vec<String>,
@@ -104,7 +106,7 @@ pub struct Locus {
 /// Finds the singularity loci in a box of two coordinates.
 ///
 /// `held` holds what stands still and leaves the two coordinates free; `inputs` are those that
-/// singularities are told of. Random configurations are brought onto the augmented system closure and
+/// singularities refer to. Random configurations are brought onto the augmented system closure and
 /// singularity condition by Gauss–Newton steps, and the curve through each that is not on a known one
 /// is followed both ways: to its own beginning, an edge of the box or a limit. Singular points through
 /// which no curve passes are found too. Where inverse loci cross there may be a direct singularity that
@@ -119,7 +121,7 @@ pub fn loci(
     mechanism: &Mechanism,
     held: &Held<f64>,
     sides: [Driven; 2],
-    inputs: &[Holdable],
+    inputs: &[Coordinate],
     start: &Configuration<f64>,
     settings: &SingularitiesSettings,
     watch: &Watch,
@@ -134,7 +136,7 @@ pub fn loci(
         _ => classifier.idle(start),
     };
     let taken = |joint: usize| {
-        let asked = |of: &Holdable| *of == Holdable::Joint(joint);
+        let asked = |of: &Coordinate| *of == Coordinate::Joint(joint);
         held.joints[joint] || inputs.iter().any(asked) || sides.iter().any(|s| asked(&s.coordinate))
     };
     let pinned = match idle.len() == spins {
@@ -189,7 +191,7 @@ pub fn loci(
         normalising_length: mechanism.characteristic_length(),
         interrupted: false,
     };
-    let pinned = pinned.iter().copied().map(Holdable::Joint);
+    let pinned = pinned.iter().copied().map(Coordinate::Joint);
     let pinned: Vec<Lock> = pinned.map(Lock::Coordinate).collect();
     let inputs = inputs.iter().copied().map(Lock::Coordinate);
     let direct: Vec<Lock> = inputs.chain(pinned.iter().copied()).collect();

@@ -1,28 +1,28 @@
-//! What moves out: the outputs of a question, and what their choice may hide.
+//! The outputs of a question, and the singularities that their choice may hide.
 
 use serde::{Deserialize, Serialize};
 
 use super::SingularitiesSettings;
 use super::classify::Classifier;
 use crate::linear::{norm, orthonormal, remove};
-use crate::mechanism::{Configuration, Coordinate, Frame, Mechanism};
+use crate::mechanism::{Configuration, Frame, Mechanism, PoseCoordinate};
 use crate::system::{
-    Driven, Held, Holdable, Lock, Locked, Mobility, default_outputs, platform_outputs,
+    Coordinate, Driven, Held, Lock, Locked, Mobility, default_outputs, platform_outputs,
 };
 
-/// The outputs: those of the settings; else the coordinates of platforms that the question is about;
-/// else the [default](default_outputs).
+/// The outputs: those of the settings; else the coordinates of platforms that the question is
+/// about; else the [default](default_outputs).
 pub(super) fn outputs_of(
     mechanism: &Mechanism,
     held: &Held<f64>,
     moved: &[Driven],
-    inputs: &[Holdable],
+    inputs: &[Coordinate],
     settings: &SingularitiesSettings,
 ) -> Vec<Lock> {
     if !settings.outputs.is_empty() {
         return settings.outputs.clone();
     }
-    let moved: Vec<Holdable> = moved.iter().map(|driven| driven.coordinate).collect();
+    let moved: Vec<Coordinate> = moved.iter().map(|driven| driven.coordinate).collect();
     platform_outputs(held, &moved, inputs).unwrap_or_else(|| default_outputs(mechanism, inputs))
 }
 
@@ -44,7 +44,7 @@ pub struct Coupled {
 /// The outputs that are coupled, where they were not chosen; `here` tells what their origins lose.
 pub(super) fn coupled(
     mechanism: &Mechanism,
-    inputs: &[Holdable],
+    inputs: &[Coordinate],
     outputs: &[Lock],
     at: &Configuration<f64>,
     settings: &SingularitiesSettings,
@@ -79,8 +79,8 @@ pub(super) fn coupled(
             };
             let own = platform
                 .into_iter()
-                .flat_map(|platform| Coordinate::ALL.map(|c| Holdable::Coordinate(platform, c)));
-            let own: Vec<Holdable> = own.collect();
+                .flat_map(|platform| PoseCoordinate::ALL.map(|c| Coordinate::Pose(platform, c)));
+            let own: Vec<Coordinate> = own.collect();
             let independent = first.independent(mechanism, &own).into_iter();
             let origin = here.then(|| {
                 Classifier::new(mechanism, inputs, &[Lock::Point(frame)], at)

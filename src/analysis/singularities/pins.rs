@@ -1,10 +1,10 @@
-//! Joints that stand still so that links do not spin about their own lines while loci are followed.
+//! Passive joints locked so that links do not spin about their own axes while loci are followed.
 
 use crate::mechanism::Mechanism;
 use crate::system::Unknown;
 
-/// For each idle motion a passive joint that moves in it, none of which is `taken`: with these at rest
-/// nothing idle is left. None if some link spins without such a joint.
+/// For each idle motion a passive joint that moves in it, none of which is `taken`: with these at
+/// rest nothing idle is left. None if some link spins without such a joint.
 ///
 /// `idle` are independent motions over `unknowns`. Elimination with the largest pivot first.
 pub(super) fn pins(

@@ -1,4 +1,4 @@
-//! Curves of configurations as they look in the box of two coordinates: which are one there, and
+//! Curves of configurations projected into the box of two coordinates: which coincide there, and
 //! which are but a point.
 
 use serde::{Deserialize, Serialize};
@@ -117,8 +117,8 @@ impl<'t> Projection<'t> {
         false
     }
 
-    /// Whether the curve passes over all of another, as far as points spread over that tell: both are
-    /// pieces of algebraic curves, which share a whole component or only so many points.
+    /// Whether the curve passes over all of another, as far as points spread over that tell: both
+    /// are pieces of algebraic curves, which share a whole component or only so many points.
     ///
     /// Where curves cross in the space of configurations a point may be lost to rounding: a place
     /// is not covered if none of three points there is.
@@ -155,8 +155,8 @@ impl<'t> Projection<'t> {
     }
 }
 
-/// Curves that lie over one another in the box, by their numbers: in each group the first passes over
-/// all the others, and is the shortest that does.
+/// Curves that lie over one another in the box, by their numbers: in each group the first passes
+/// over all the others, and is the shortest that does.
 ///
 /// Where several motions are possible at once they turn into one another while the mechanism stands
 /// still. That is no locus of its own where others cross there.

@@ -1,4 +1,4 @@
-//! From where loci are sought, and what that leads to.
+//! Random starts of the search for loci, and the places they lead to.
 
 use rand::{Rng, SeedableRng};
 use rand_pcg::Pcg64Mcg;
@@ -9,7 +9,7 @@ use super::classify::{Classifier, Kind};
 use crate::mechanism::{Configuration, PlatformPose, turn_near};
 use crate::solve::{Stage, Watch};
 use crate::system::{
-    Driven, Holdable, Lock, LocusCurve, LocusEnd, Region, Singular, System, Traced, passes,
+    Coordinate, Driven, Lock, LocusCurve, LocusEnd, Region, Singular, System, Traced, passes,
     random_configuration, with_coordinates,
 };
 
@@ -21,7 +21,7 @@ pub(super) struct Search<'m> {
     pub region: Region<'m>,
     pub sides: [Driven; 2],
     pub start: Configuration<f64>,
-    pub inputs: Vec<Holdable>,
+    pub inputs: Vec<Coordinate>,
     pub settings: &'m SingularitiesSettings,
     pub watch: &'m Watch<'m>,
     /// Idle freedoms.
@@ -42,8 +42,9 @@ pub(super) struct Found {
     pub last_new: Option<usize>,
 }
 
-/// Whether more starts are likely to lead to new curves: while some curve was met only once, the chance
-/// that the next arrival is on a new one is about that of such meetings among all (Good 1953).
+/// Whether more starts are likely to lead to new curves: while some curve was met only once, the
+/// chance that the next arrival is on a new one is about that of such meetings among all (Good
+/// 1953).
 ///
 /// Steps lead to an isolated point too seldom for this to say anything of it.
 fn more_is_likely(found: &Found) -> bool {
@@ -180,14 +181,14 @@ impl Search<'_> {
         for side in self.region.sides {
             let value = side.from + (side.to - side.from) * rng.random::<f64>();
             match side.coordinate {
-                Holdable::Joint(joint) => at.joints[joint] = value,
-                Holdable::Coordinate(platform, coordinate) => {
+                Coordinate::Joint(joint) => at.joints[joint] = value,
+                Coordinate::Pose(platform, coordinate) => {
                     let pose = at.platforms[platform].pose();
                     let pose = with_coordinates(&pose, [(coordinate, value)]);
                     at.platforms[platform] = PlatformPose::from_pose(&pose);
                 }
                 // never a side: it has no value
-                Holdable::Turn(..) => {}
+                Coordinate::Turn(..) => {}
             }
         }
         at
@@ -198,7 +199,7 @@ impl Search<'_> {
         for (joint, value) in at.joints.iter_mut().enumerate() {
             if self.region.mechanism.repeats(joint) {
                 let side =
-                    (self.region.sides.iter()).find(|s| s.coordinate == Holdable::Joint(joint));
+                    (self.region.sides.iter()).find(|s| s.coordinate == Coordinate::Joint(joint));
                 let middle = side.map_or(0.0, |side| 0.5 * (side.from + side.to));
                 *value = turn_near(*value, middle);
             }

@@ -4,7 +4,7 @@ use std::ops::ControlFlow;
 
 use super::met::Record;
 use super::points::Paths;
-use super::{Ending, MetKind, Row, Sink, SweepReport, SweepSettings};
+use super::{MetKind, Row, Sink, SweepEnd, SweepReport, SweepSettings};
 use crate::mechanism::{Configuration, Mechanism};
 use crate::solve::{Place, Stage, Watch};
 use crate::system::{Curve, Event, Held, Walk};
@@ -58,19 +58,19 @@ pub fn follow(
     };
     let mut flow = send(&place.at, None);
     let mut walk = Walk::new(mechanism, &curve, place, method.clone());
-    let stopped = |()| Ending::Stopped;
+    let stopped = |()| SweepEnd::Stopped;
     let ending = walk.follow(&mut curve, |curve, leg| {
         flow.map_break(stopped)?;
         record.steps += 1;
         if record.steps > MOST_STEPS {
-            return ControlFlow::Break(Ending::Stopped);
+            return ControlFlow::Break(SweepEnd::Stopped);
         }
         for (place, event) in &leg.events {
             record.meet(curve, place, event);
             flow = send(&place.at, record.latest());
             match event {
-                Event::Closed => return ControlFlow::Break(Ending::Closed),
-                Event::Limit { .. } => return ControlFlow::Break(Ending::Limits),
+                Event::Closed => return ControlFlow::Break(SweepEnd::Closed),
+                Event::Limit { .. } => return ControlFlow::Break(SweepEnd::Limits),
                 _ => flow.map_break(stopped)?,
             }
         }
@@ -80,7 +80,7 @@ pub fn follow(
         }
         ControlFlow::Continue(())
     });
-    let ending = ending.unwrap_or(Ending::Lost);
+    let ending = ending.unwrap_or(SweepEnd::Lost);
     SweepReport {
         interrupted: watch.is_stopped(),
         ..record.report(ending, count, walk.gone())

@@ -1,8 +1,8 @@
-//! What a motion met on its way.
+//! Special points met by a motion.
 
 use serde::{Deserialize, Serialize};
 
-use super::{Ending, InputReport, SweepReport};
+use super::{InputReport, SweepEnd, SweepReport};
 use crate::algebra::SiUnit;
 use crate::mechanism::{Configuration, Mechanism};
 use crate::solve::{Continuation, Place};
@@ -104,7 +104,7 @@ impl<'m> Record<'m> {
         let name = |joint: usize| mechanism.joints()[joint].name.clone();
         let driven = |joint: usize| {
             let mut inputs = self.inputs.iter();
-            inputs.any(|input| input.coordinate == crate::system::Holdable::Joint(joint))
+            inputs.any(|input| input.coordinate == crate::system::Coordinate::Joint(joint))
         };
         let (kind, singularity) = match event {
             // told as a fold
@@ -227,10 +227,10 @@ impl<'m> Record<'m> {
         method: &Continuation,
     ) -> SweepReport {
         match why {
-            NoStart::NotClosed => return self.report(Ending::Lost, 0, 0.0),
+            NoStart::NotClosed => return self.report(SweepEnd::Lost, 0, 0.0),
             NoStart::OutsideLimits(joint) => {
                 self.met.extend(self.outside(joint, start));
-                return self.report(Ending::OutsideLimits, 0, 0.0);
+                return self.report(SweepEnd::OutsideLimits, 0, 0.0);
             }
             NoStart::Singular => {}
         }
@@ -247,10 +247,10 @@ impl<'m> Record<'m> {
                     .for_each(|branch| branch.followed = false);
             }
         }
-        self.report(Ending::SingularStart, 0, 0.0)
+        self.report(SweepEnd::SingularStart, 0, 0.0)
     }
 
-    pub fn report(self, ending: Ending, rows: usize, length: f64) -> SweepReport {
+    pub fn report(self, ending: SweepEnd, rows: usize, length: f64) -> SweepReport {
         let mechanism = self.mechanism;
         let inputs = self.inputs.iter().map(|input| InputReport {
             name: input.coordinate.name(mechanism),

@@ -6,14 +6,14 @@ use super::points::Paths;
 use super::{Flow, MetKind, Row, SweepSettings};
 use crate::mechanism::{Configuration, Mechanism};
 use crate::solve::Place;
-use crate::system::{Curve, Driven, Held, HeldPlatform, Holdable, System, Tracker};
+use crate::system::{Coordinate, Curve, Driven, Held, HeldPlatform, MotionTracker, System};
 
 type At = Place<Configuration<f64>>;
 
 /// Produces the rows at equal parts of the segment.
 pub(super) struct Rows {
     /// Solves with the inputs held; none if it cannot hold them by value.
-    tracker: Option<Tracker>,
+    tracker: Option<MotionTracker>,
     inputs: Vec<Driven>,
     steps: usize,
     /// The next row ahead, as a number of steps from the start of the segment.
@@ -32,8 +32,9 @@ impl Rows {
         start: &At,
         settings: &SweepSettings,
     ) -> Self {
-        let tracker = holding(held, inputs)
-            .map(|held| Tracker::new(System::new(mechanism.dimensions(), &held), start.at.clone()));
+        let tracker = holding(held, inputs).map(|held| {
+            MotionTracker::new(System::new(mechanism.dimensions(), &held), start.at.clone())
+        });
         Rows {
             tracker,
             inputs: inputs.to_vec(),
@@ -107,7 +108,7 @@ impl Rows {
             let mut between = |c: &mut Curve, p: &At| c.part(&p.at) - part;
             let mut place = self.method().root(curve, from, to, &mut between);
             for input in &self.inputs {
-                if let Holdable::Joint(joint) = input.coordinate {
+                if let Coordinate::Joint(joint) = input.coordinate {
                     place.at.joints[joint] = input.at(part);
                 }
             }
@@ -137,14 +138,14 @@ impl Rows {
             return false;
         }
         for input in &self.inputs {
-            if let Holdable::Coordinate(platform, coordinate) = input.coordinate {
+            if let Coordinate::Pose(platform, coordinate) = input.coordinate {
                 tracker.set_target(platform, coordinate, input.at(part));
             }
         }
         let inputs = &self.inputs;
         let report = tracker.solve(|at| {
             for input in inputs {
-                if let Holdable::Joint(joint) = input.coordinate {
+                if let Coordinate::Joint(joint) = input.coordinate {
                     at.joints[joint] = input.at(part);
                 }
             }
@@ -212,8 +213,8 @@ fn holding(held: &Held<f64>, inputs: &[Driven]) -> Option<Held<f64>> {
     let mut held = held.clone();
     for input in inputs {
         match input.coordinate {
-            Holdable::Joint(joint) => held.joints[joint] = true,
-            Holdable::Coordinate(platform, coordinate) => {
+            Coordinate::Joint(joint) => held.joints[joint] = true,
+            Coordinate::Pose(platform, coordinate) => {
                 let part = &mut held.platforms[platform];
                 match part {
                     HeldPlatform::Free => {
@@ -232,7 +233,7 @@ fn holding(held: &Held<f64>, inputs: &[Driven]) -> Option<Held<f64>> {
                     _ => return None,
                 }
             }
-            Holdable::Turn(..) => return None,
+            Coordinate::Turn(..) => return None,
         }
     }
     Some(held)

@@ -1,4 +1,4 @@
-//! How frames move, and what of that an idle spin leaves open.
+//! Motion of frames, without the part that a local (idle) spin leaves undetermined.
 
 use super::FrameRate;
 use crate::geometry::Vector3;
@@ -78,8 +78,8 @@ pub(super) fn rates(
         .collect()
 }
 
-/// ω and ω̇ of a link that spins about a line u of its own, without the spin s: u turns with the link,
-/// so that from ω = ω₀ + s u with ω₀·u = 0 follow ω̇ = ω̇₀ + ṡ u + s ω₀ × u and ω̇₀·u = 0.
+/// ω and ω̇ of a link that spins about a line u of its own, without the spin s: u turns with the
+/// link, so that from ω = ω₀ + s u with ω₀·u = 0 follow ω̇ = ω̇₀ + ṡ u + s ω₀ × u and ω̇₀·u = 0.
 fn unspun(
     omega: &Vector3<f64>,
     change: &Vector3<f64>,

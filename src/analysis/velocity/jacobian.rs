@@ -6,7 +6,7 @@ use super::frames::Spins;
 use crate::algebra::SiUnit;
 use crate::linear::{Decomposition, rank};
 use crate::mechanism::{Configuration, Frame, Mechanism};
-use crate::system::{FrameTwists, Holdable, Motion, Output, without};
+use crate::system::{Coordinate, FrameTwists, Motion, Output, without};
 
 /// Rates of outputs for unit rates of the inputs, one at a time.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -91,10 +91,7 @@ pub(super) fn input_output(
                 continue;
             }
             &Output::Coordinate(platform, c) => {
-                row(
-                    Holdable::Coordinate(platform, c).name(mechanism),
-                    c.is_angle(),
-                );
+                row(Coordinate::Pose(platform, c).name(mechanism), c.is_angle());
                 continue;
             }
             &Output::Turn(platform, axis) => {
@@ -140,8 +137,8 @@ pub(super) fn input_output(
                 }
                 &Output::Coordinate(platform, c) => {
                     let twist = twists.twist(frame, &placement, rates);
-                    let slope = Holdable::Coordinate(platform, c)
-                        .slope(&at.platforms[platform].pose(), length);
+                    let slope =
+                        Coordinate::Pose(platform, c).slope(&at.platforms[platform].pose(), length);
                     // the slope is that of the dimensionless coordinate
                     let scale = if c.is_angle() { 1.0 } else { length };
                     let turn = twist.omega.0.into_iter();

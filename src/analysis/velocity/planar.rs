@@ -1,4 +1,4 @@
-//! What only planar mechanisms have: transmission angles and instant centres.
+//! Transmission angles and instant centres of planar mechanisms.
 
 use std::f64::consts::FRAC_PI_2;
 
@@ -8,7 +8,7 @@ use crate::geometry::Vector3;
 use crate::linear::{dot, norm};
 use crate::mechanism::{Body, Configuration, Frame, Mechanism};
 use crate::system::{
-    Drive, FrameTwists, Holdable, LoopPart, MechanismLoop, Motion, Neighbourhood, Twist, loops,
+    Coordinate, Drive, FrameTwists, LoopPart, MechanismLoop, Motion, Neighbourhood, Twist, loops,
 };
 
 /// How well a driven joint moves the output link of a loop in a plane.
@@ -54,14 +54,14 @@ const MANY_BODIES: usize = 12;
 pub(super) fn transmission(
     near: &mut Neighbourhood,
     at: &Configuration<f64>,
-    held: &[Holdable],
+    held: &[Coordinate],
 ) -> Vec<Transmission> {
     let mechanism = near.mechanism();
     let length = mechanism.characteristic_length();
     let found: Vec<HingedLoop> = loops(near, at).into_iter().map(HingedLoop::new).collect();
     let joints = 0..mechanism.joints().len();
     let mut known = Known {
-        joints: (joints.map(|joint| held.contains(&Holdable::Joint(joint)))).collect(),
+        joints: (joints.map(|joint| held.contains(&Coordinate::Joint(joint)))).collect(),
         closures: Vec::new(),
     };
     let mut angles: Vec<Option<Vec<Transmission>>> = vec![None; found.len()];
@@ -123,9 +123,9 @@ struct Known {
 }
 
 impl Known {
-    /// For each part of a loop whether its relative motion follows from what is known: a joint's from
-    /// its variables, a hinge's at a cut also from the sum of all turns around the loop, which is
-    /// zero: where a loop is cut must not matter.
+    /// For each part of a loop whether its relative motion follows from what is known: a joint's
+    /// from its variables, a hinge's at a cut also from the sum of all turns around the loop, which
+    /// is zero: where a loop is cut must not matter.
     fn parts(&self, one: &HingedLoop) -> Vec<bool> {
         let parts = &one.all.parts;
         let is_known = |part: &LoopPart| match part.closure {

@@ -6,13 +6,13 @@ pub(super) use join::{joined, parts};
 
 use std::ops::Range;
 
-use super::flood::{Filled, signs};
+use super::flood::{ReachedSet, signs};
 use super::problem::Grid;
 use crate::solve::each;
 
-/// For each sheet the first of its aspect; none outside limits and on singularities.
-pub(super) fn aspects(filled: &Filled) -> Vec<Option<usize>> {
-    filled.parted(signs)
+/// For each solution the first of its aspect; none outside limits and on singularities.
+pub(super) fn aspects(reached_set: &ReachedSet) -> Vec<Option<usize>> {
+    reached_set.parted(signs)
 }
 
 /// A set of nodes.
@@ -46,8 +46,8 @@ impl Region {
 /// How large a set of nodes is, in the units of the mapped coordinates: a length, an area of
 /// polygons, or the volume between parallel areas (trapezoidal rule).
 ///
-/// `cut` tells how far it reaches from a node of it towards its neighbour in a direction that is
-/// not, as a part of the way.
+/// `cut` gives the fraction of the edge that is inside, from a node of the set towards its
+/// neighbour in a direction that is not in it.
 pub(super) fn size(
     grid: &Grid,
     region: &Region,
@@ -146,13 +146,13 @@ fn slice(
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::system::{Driven, Holdable};
+    use crate::system::{Coordinate, Driven};
 
     #[test]
     fn the_area_of_a_disc_converges_to_second_order() {
         let area = |n: usize| {
             let axis = Driven {
-                coordinate: Holdable::Joint(0),
+                coordinate: Coordinate::Joint(0),
                 from: -1.5,
                 to: 1.5,
             };

@@ -7,45 +7,45 @@ mod kinds;
 pub use kinds::{BoundaryCurve, BoundaryKind, Piece};
 pub(super) use kinds::{Crossing, named};
 
-use super::flood::{Edge, Filled, Link, Measure, Met, Until, walk};
-use super::problem::{Asked, Grid};
+use super::flood::{Edge, Link, Met, Metric, ReachedSet, Until, walk};
+use super::problem::{Grid, MapProblem};
 use crate::mechanism::Configuration;
 use crate::solve::{Continuation, Stage, Watch, each};
-use crate::system::{Curve, Driven, Holdable, Lock, LocusCurve, Region, Singular, settled};
+use crate::system::{Coordinate, Curve, Driven, Lock, LocusCurve, Region, Singular, settled};
 use curves::Tracer;
 use kinds::Kind;
 
 pub(super) struct Boundary<'a> {
-    pub asked: &'a Asked<'a>,
+    pub problem: &'a MapProblem<'a>,
     pub grid: &'a Grid,
-    pub measure: &'a Measure,
-    pub filled: &'a Filled,
-    /// For each sheet the number of its mode, from 0; none if it is not listed.
+    pub metric: &'a Metric,
+    pub reached_set: &'a ReachedSet,
+    /// For each solution the number of its mode, from 0; none if it is not listed.
     pub mode: &'a [Option<usize>],
 }
 
 impl Boundary<'_> {
-    /// Where sheets within limits end on the edges of the grid, and where signs change.
+    /// Where solutions within limits end on the edges of the grid, and where signs change.
     pub fn crossings(&self, watch: &Watch) -> Vec<Crossing> {
-        let inputs = Asked::locks(&self.asked.inputs);
-        let outputs = Asked::locks(&self.asked.outputs);
-        let joints = self.asked.mechanism.joints();
+        let inputs = MapProblem::locks(&self.problem.inputs);
+        let outputs = MapProblem::locks(&self.problem.outputs);
+        let joints = self.problem.mechanism.joints();
         let limited = joints.iter().any(|joint| joint.limits.is_some());
         let mut wanted: Vec<(usize, usize, Until)> = Vec::new();
         let mut found: Vec<Crossing> = Vec::new();
-        let sheets = self.filled.sheets();
-        for (s, sheet) in sheets.filter(|(_, sheet)| sheet.within) {
-            let links = sheet.links[..2 * self.grid.dimensions()].iter();
+        let solutions = self.reached_set.solutions();
+        for (s, solution) in solutions.filter(|(_, solution)| solution.within) {
+            let links = solution.links[..2 * self.grid.dimensions()].iter();
             for (d, link) in links.enumerate() {
                 match *link {
                     Link::Fold if limited => wanted.push((s, d, Until::Limit)),
                     Link::Fold => wanted.push((s, d, Until::End)),
-                    Link::To(t) if !self.filled.named(t).within => {
+                    Link::To(t) if !self.reached_set.named(t).within => {
                         wanted.push((s, d, Until::Limit));
                     }
                     Link::To(t) if d % 2 == 1 => {
-                        let t = self.filled.number(t);
-                        let [a, b] = [s, t].map(|s| &self.filled.sheet(s).told);
+                        let t = self.reached_set.number(t);
+                        let [a, b] = [s, t].map(|s| &self.reached_set.solution(s).indicators);
                         let mut parted = |x: f64, y: f64, kind: Kind, until| match (x, y) {
                             (0.0, 0.0) => {}
                             (0.0, _) => found.push(self.at_node((s, d), s, 0.0, kind)),
@@ -64,14 +64,14 @@ impl Boundary<'_> {
         }
         let mut at_nodes = std::collections::HashSet::new();
         for crossing in &mut found {
-            let links = &self.filled.sheet(crossing.sheet).links;
+            let links = &self.reached_set.solution(crossing.solution).links;
             let Link::To(t) = links[crossing.direction] else {
                 continue;
             };
             let node = if crossing.part > 0.0 {
-                self.filled.number(t)
+                self.reached_set.number(t)
             } else {
-                crossing.sheet
+                crossing.solution
             };
             crossing.again = !at_nodes.insert((node, crossing.kind));
         }
@@ -80,14 +80,17 @@ impl Boundary<'_> {
                 return None;
             }
             let (s, d, until) = wanted[i];
-            let (sheet, at) = (self.filled.sheet(s), self.filled.configuration(s).owned());
-            let node = self.grid.neighbour(sheet.node, d)?;
+            let (solution, at) = (
+                self.reached_set.solution(s),
+                self.reached_set.configuration(s).owned(),
+            );
+            let node = self.grid.neighbour(solution.node, d)?;
             let edge = Edge {
                 axis: d / 2,
-                values: self.grid.values(sheet.node),
+                values: self.grid.values(solution.node),
                 to: self.grid.values(node)[d / 2],
             };
-            let met = walk(self.asked, self.measure, &edge, &at, until);
+            let met = walk(self.problem, self.metric, &edge, &at, until);
             let kind = |locks: &[Lock]| match locks == &inputs[..] {
                 true => Kind::Direct,
                 false => Kind::Inverse,
@@ -99,7 +102,7 @@ impl Boundary<'_> {
                 _ => return None,
             };
             Some(Crossing {
-                sheet: s,
+                solution: s,
                 direction: d,
                 kind,
                 at,
@@ -114,16 +117,16 @@ impl Boundary<'_> {
     /// A singularity at a node, an end of an edge.
     fn at_node(
         &self,
-        (sheet, direction): (usize, usize),
+        (solution, direction): (usize, usize),
         singular: usize,
         part: f64,
         kind: Kind,
     ) -> Crossing {
         Crossing {
-            sheet,
+            solution,
             direction,
             kind,
-            at: self.filled.configuration(singular).owned(),
+            at: self.reached_set.configuration(singular).owned(),
             part,
             again: false,
         }
@@ -147,14 +150,14 @@ impl Boundary<'_> {
         let third = (self.grid.dimensions() == 3).then(|| self.grid.coordinate(2, slice));
         let question = match third {
             Some(value) => {
-                let axis = self.asked.axes[2].coordinate;
-                self.asked.question.clone().at_values([(axis, value)])
+                let axis = self.problem.axes[2].coordinate;
+                self.problem.question.clone().at_values([(axis, value)])
             }
-            None => self.asked.question.clone(),
+            None => self.problem.question.clone(),
         };
-        let asked = Asked::new(&question, &self.asked.axes[..2], &self.asked.newton);
+        let problem = MapProblem::new(&question, &self.problem.axes[..2], &self.problem.newton);
         let here = |crossing: &&Crossing| {
-            let node = self.filled.sheet(crossing.sheet).node;
+            let node = self.reached_set.solution(crossing.solution).node;
             crossing.direction < 4 && (third.is_none() || self.grid.place(node, 2) == slice)
         };
         let here: Vec<&Crossing> = crossings.iter().filter(here).collect();
@@ -172,25 +175,27 @@ impl Boundary<'_> {
             let of: Vec<&Crossing> = (here.iter().copied())
                 .filter(|crossing| crossing.kind == kind)
                 .collect();
-            self.of_kind(&asked, kind, &of, third, &mut curves);
+            self.of_kind(&problem, kind, &of, third, &mut curves);
         }
         curves
     }
 
     fn of_kind(
         &self,
-        asked: &Asked,
+        problem: &MapProblem,
         kind: Kind,
         crossings: &[&Crossing],
         third: Option<f64>,
         curves: &mut Vec<BoundaryCurve>,
     ) {
-        let mechanism = asked.mechanism;
-        let mapped = asked.axes.iter();
-        let still = mapped.fold(asked.question.clone(), |q, axis| q.without(axis.coordinate));
+        let mechanism = problem.mechanism;
+        let mapped = problem.axes.iter();
+        let still = mapped.fold(problem.question.clone(), |q, axis| {
+            q.without(axis.coordinate)
+        });
         let tracer = Tracer {
             mode: self.mode,
-            asked,
+            problem,
             kind,
             third,
         };
@@ -200,10 +205,10 @@ impl Boundary<'_> {
                 let Some(limit) = limits.map(|(low, high)| if upper { high } else { low }) else {
                     return;
                 };
-                let held = still.at_values([(Holdable::Joint(joint), limit)]).held();
+                let held = still.at_values([(Coordinate::Joint(joint), limit)]).held();
                 // a mapped joint at its limit is a side of the box
-                let free: Vec<Driven> = (asked.axes.iter().copied())
-                    .filter(|axis| axis.coordinate != Holdable::Joint(joint))
+                let free: Vec<Driven> = (problem.axes.iter().copied())
+                    .filter(|axis| axis.coordinate != Coordinate::Joint(joint))
                     .collect();
                 let mut curve = Curve::new(mechanism, &held);
                 let method = Continuation::default();
@@ -223,11 +228,11 @@ impl Boundary<'_> {
             _ => {
                 let held = still.held();
                 let locks = match kind {
-                    Kind::Direct => Asked::locks(&asked.inputs),
-                    Kind::Inverse => Asked::locks(&asked.outputs),
-                    _ => Asked::locks(&asked.held),
+                    Kind::Direct => MapProblem::locks(&problem.inputs),
+                    Kind::Inverse => MapProblem::locks(&problem.outputs),
+                    _ => MapProblem::locks(&problem.held),
                 };
-                let mut curve = LocusCurve::new(mechanism, &held, &asked.inputs, &locks);
+                let mut curve = LocusCurve::new(mechanism, &held, &problem.inputs, &locks);
                 let method = Continuation::default();
                 let place = |curve: &mut LocusCurve, at: &Configuration<f64>| {
                     let columns = curve.locked().columns();
@@ -239,7 +244,7 @@ impl Boundary<'_> {
                 let region = Region {
                     mechanism,
                     held: &held,
-                    sides: &asked.axes,
+                    sides: &problem.axes,
                     method: &method,
                 };
                 tracer.all(&mut curve, &region, crossings, place, curves);

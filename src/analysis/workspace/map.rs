@@ -15,42 +15,42 @@ use std::collections::HashMap;
 
 use super::aspects::{self, Region};
 use super::boundary::{Crossing, named};
-use super::flood::{Filled, Link};
-use super::problem::{Asked, Grid};
+use super::flood::{Link, ReachedSet};
+use super::problem::{Grid, MapProblem};
 use crate::algebra::SiUnit;
-use crate::mechanism::{Coordinate, Variable, turn_near};
+use crate::mechanism::{PoseCoordinate, Variable, turn_near};
 use crate::solve::each;
-use crate::system::Holdable;
+use crate::system::Coordinate;
 
-/// Sheets with their modes and aspects.
+/// Solutions with their modes and aspects.
 pub(super) struct Map<'a> {
-    pub asked: &'a Asked<'a>,
+    pub problem: &'a MapProblem<'a>,
     pub grid: &'a Grid,
-    pub filled: &'a Filled,
-    /// For each sheet its mode, from 0; none of modes that are nowhere within limits.
+    pub reached_set: &'a ReachedSet,
+    /// For each solution its mode, from 0; none of modes that are nowhere within limits.
     pub mode: Vec<Option<usize>>,
     modes: usize,
-    /// For each sheet the first sheet of its aspect.
+    /// For each solution the first solution of its aspect.
     pub aspect: Vec<Option<usize>>,
 }
 
-/// How far from a sheet in a direction what it belongs to reaches, as a part of an edge; half if
+/// How far from a solution in a direction what it belongs to reaches, as a part of an edge; half if
 /// nothing is known.
 type Cuts = HashMap<(usize, usize), f64>;
 
 impl<'a> Map<'a> {
     pub fn new(
-        asked: &'a Asked<'a>,
+        problem: &'a MapProblem<'a>,
         grid: &'a Grid,
-        filled: &'a Filled,
+        reached_set: &'a ReachedSet,
         aspect: Vec<Option<usize>>,
     ) -> Self {
-        let mut within = vec![false; filled.len()];
-        // of each mode the sheet at its first node, with the least joints
-        let mut first: Vec<Option<usize>> = vec![None; filled.len()];
+        let mut within = vec![false; reached_set.len()];
+        // of each mode the solution at its first node, with the least joints
+        let mut first: Vec<Option<usize>> = vec![None; reached_set.len()];
         let order = |a: usize, b: usize| {
-            let node = |s: usize| filled.node(s);
-            let joints = |s: usize| brought(asked, filled.configuration(s).joints, true);
+            let node = |s: usize| reached_set.node(s);
+            let joints = |s: usize| brought(problem, reached_set.configuration(s).joints, true);
             let joint_order = || {
                 let (a, b) = (joints(a), joints(b));
                 let pairs = a.iter().zip(&b);
@@ -62,9 +62,9 @@ impl<'a> Map<'a> {
             };
             node(a).cmp(&node(b)).then_with(joint_order)
         };
-        for s in 0..filled.len() {
-            let root = filled.roots[s];
-            within[root] |= filled.within(s);
+        for s in 0..reached_set.len() {
+            let root = reached_set.roots[s];
+            within[root] |= reached_set.within(s);
             match first[root] {
                 Some(known) if order(known, s).is_le() => {}
                 _ => first[root] = Some(s),
@@ -75,32 +75,36 @@ impl<'a> Map<'a> {
             .filter_map(|(root, first)| Some((root, (*first)?)))
             .collect();
         roots.sort_by(|a, b| order(a.1, b.1).then(a.0.cmp(&b.0)));
-        let mut numbers = vec![None; filled.len()];
+        let mut numbers = vec![None; reached_set.len()];
         for (number, (root, _)) in roots.iter().enumerate() {
             numbers[*root] = Some(number);
         }
         Map {
-            mode: filled.roots.iter().map(|root| numbers[*root]).collect(),
+            mode: reached_set
+                .roots
+                .iter()
+                .map(|root| numbers[*root])
+                .collect(),
             modes: roots.len(),
             aspect,
-            asked,
+            problem,
             grid,
-            filled,
+            reached_set,
         }
     }
 
     pub fn report(&self, crossings: &[Crossing]) -> WorkspaceReport {
-        let mechanism = self.asked.mechanism;
-        let unit = |of: Holdable| SiUnit::of_coordinate(of.is_angle(mechanism));
-        let name = |of: &Holdable| of.name(mechanism);
-        let axes = self.asked.axes.iter().enumerate();
+        let mechanism = self.problem.mechanism;
+        let unit = |of: Coordinate| SiUnit::of_coordinate(of.is_angle(mechanism));
+        let name = |of: &Coordinate| of.name(mechanism);
+        let axes = self.problem.axes.iter().enumerate();
         let held = self.held();
         let mut cuts = Cuts::new();
         for crossing in crossings {
-            cuts.insert((crossing.sheet, crossing.direction), crossing.part);
-            let link = self.filled.sheet(crossing.sheet).links[crossing.direction];
+            cuts.insert((crossing.solution, crossing.direction), crossing.part);
+            let link = self.reached_set.solution(crossing.solution).links[crossing.direction];
             if let Link::To(other) = link {
-                let other = (self.filled.number(other), crossing.direction ^ 1);
+                let other = (self.reached_set.number(other), crossing.direction ^ 1);
                 cuts.insert(other, 1.0 - crossing.part);
             }
         }
@@ -110,14 +114,14 @@ impl<'a> Map<'a> {
                 of_modes[*mode].push(s);
             }
         }
-        let node = |s: &usize| self.filled.node(*s);
-        let whole = |s: &usize| self.filled.within(*s);
+        let node = |s: &usize| self.reached_set.node(*s);
+        let whole = |s: &usize| self.reached_set.within(*s);
         let of_mode = |mode: usize| move |s: &usize| self.mode[*s] == Some(mode) && whole(s);
-        let all = (0..self.filled.len()).filter(whole);
+        let all = (0..self.reached_set.len()).filter(whole);
         let reached = Region::new(self.grid, all.map(|s| node(&s)));
-        let unsure = self.filled.count(|sheet| {
-            let stuck = sheet.links.iter().filter(|link| **link == Link::Stuck);
-            if sheet.within { stuck.count() } else { 0 }
+        let unsure = self.reached_set.count(|solution| {
+            let stuck = solution.links.iter().filter(|link| **link == Link::Stuck);
+            if solution.within { stuck.count() } else { 0 }
         });
         let (aspects, numbers) = self.aspects(&cuts);
         WorkspaceReport {
@@ -141,19 +145,19 @@ impl<'a> Map<'a> {
                 .collect(),
             following: self
                 .following()
-                .map(|(p, c)| Holdable::Coordinate(p, c))
+                .map(|(p, c)| Coordinate::Pose(p, c))
                 .map(|of| CoordinateReport {
                     name: name(&of),
                     unit: unit(of),
                 })
                 .collect(),
-            inputs: self.asked.inputs.iter().map(name).collect(),
-            outputs: self.asked.outputs.iter().map(name).collect(),
+            inputs: self.problem.inputs.iter().map(name).collect(),
+            outputs: self.problem.outputs.iter().map(name).collect(),
             nodes: self.grid.len(),
             reached: reached.count(),
-            unit: (self.asked.axes.iter().map(|axis| unit(axis.coordinate)))
+            unit: (self.problem.axes.iter().map(|axis| unit(axis.coordinate)))
                 .fold(SiUnit::ONE, SiUnit::times),
-            size: (self.asked.axes.iter().map(|a| a.to - a.from)).product(),
+            size: (self.problem.axes.iter().map(|a| a.to - a.from)).product(),
             reached_size: self.size(&reached, &whole, &cuts),
             modes: each(self.modes, &(), |(), mode| {
                 let of = &of_modes[mode];
@@ -162,8 +166,13 @@ impl<'a> Map<'a> {
                 let within = Region::new(self.grid, within.map(node));
                 let first = of.first().map(node);
                 let at_first = of.iter().take_while(|s| Some(node(s)) == first);
-                let joints = at_first
-                    .map(|s| brought(self.asked, self.filled.configuration(*s).joints, true));
+                let joints = at_first.map(|s| {
+                    brought(
+                        self.problem,
+                        self.reached_set.configuration(*s).joints,
+                        true,
+                    )
+                });
                 ModeReport {
                     mode: mode + 1,
                     nodes,
@@ -182,18 +191,18 @@ impl<'a> Map<'a> {
                 .iter()
                 .filter(|crossing| !crossing.again)
                 .filter_map(|crossing| {
-                    let node = self.filled.node(crossing.sheet);
+                    let node = self.reached_set.node(crossing.solution);
                     let mut at = self.grid.values(node);
                     let along = crossing.direction / 2;
                     let next = self.grid.neighbour(node, crossing.direction)?;
                     let end = self.grid.values(next)[along];
                     at[along] += crossing.part * (end - at[along]);
                     Some(BoundaryPoint {
-                        kind: named(self.asked, crossing.kind),
+                        kind: named(self.problem, crossing.kind),
                         ends_reach: crossing.kind.ends_reach(),
-                        mode: self.mode[crossing.sheet]? + 1,
+                        mode: self.mode[crossing.solution]? + 1,
                         at,
-                        joints: brought(self.asked, &crossing.at.joints, false),
+                        joints: brought(self.problem, &crossing.at.joints, false),
                     })
                 })
                 .collect(),
@@ -209,44 +218,44 @@ impl<'a> Map<'a> {
     }
 
     /// What is held beside the mapped coordinates, with its values.
-    fn held(&self) -> Vec<(Holdable, f64)> {
-        let question = &self.asked.question;
+    fn held(&self) -> Vec<(Coordinate, f64)> {
+        let question = &self.problem.question;
         let (held, start) = (question.held().joints, question.start());
         let joints = (0..held.len()).filter(|joint| held[*joint]);
-        let joints = joints.map(|joint| (Holdable::Joint(joint), start.joints[joint]));
+        let joints = joints.map(|joint| (Coordinate::Joint(joint), start.joints[joint]));
         let platforms = (0..start.platforms.len()).flat_map(|platform| {
             let values = question.held_values(platform).into_iter();
-            values.map(move |(c, value)| (Holdable::Coordinate(platform, c), value))
+            values.map(move |(c, value)| (Coordinate::Pose(platform, c), value))
         });
-        let mapped = |of: &Holdable| self.asked.axes.iter().any(|axis| axis.coordinate == *of);
+        let mapped = |of: &Coordinate| self.problem.axes.iter().any(|axis| axis.coordinate == *of);
         let all = joints.chain(platforms);
         all.filter(|(of, _)| !mapped(of)).collect()
     }
 
     /// Coordinates of platforms that are neither mapped nor held.
-    pub fn following(&self) -> impl Iterator<Item = (usize, Coordinate)> {
-        let platforms = 0..self.asked.mechanism.platforms().len();
-        let all = platforms.flat_map(|p| Coordinate::ALL.map(|c| (p, c)));
+    pub fn following(&self) -> impl Iterator<Item = (usize, PoseCoordinate)> {
+        let platforms = 0..self.problem.mechanism.platforms().len();
+        let all = platforms.flat_map(|p| PoseCoordinate::ALL.map(|c| (p, c)));
         all.filter(|&(p, c)| {
-            let values = self.asked.question.held_values(p);
+            let values = self.problem.question.held_values(p);
             !values.iter().any(|(held, _)| *held == c)
         })
     }
 
-    /// How large a region is, where these of the sheets at its nodes belong to it.
+    /// How large a region is, where these of the solutions at its nodes belong to it.
     fn size(&self, region: &Region, belongs: &(dyn Fn(&usize) -> bool + Sync), cuts: &Cuts) -> f64 {
         let reach = |node: usize, direction: usize| {
-            let sheets = self.filled.at(node).filter(belongs);
+            let solutions = self.reached_set.at(node).filter(belongs);
             let cut = |s: usize| cuts.get(&(s, direction)).copied().unwrap_or(0.5);
-            sheets.map(cut).fold(0.0, f64::max)
+            solutions.map(cut).fold(0.0, f64::max)
         };
         aspects::size(self.grid, region, &reach)
     }
 
-    /// The aspects, and for the first sheet of each its number.
+    /// The aspects, and for the first solution of each its number.
     fn aspects(&self, cuts: &Cuts) -> (Vec<AspectReport>, Vec<Option<usize>>) {
         let mut of: Vec<(usize, Vec<usize>)> = Vec::new();
-        let mut places = vec![None; self.filled.len()];
+        let mut places = vec![None; self.reached_set.len()];
         for (s, aspect) in self.aspect.iter().enumerate() {
             if let (Some(first), Some(_)) = (*aspect, self.mode[s]) {
                 let place = *places[first].get_or_insert_with(|| {
@@ -256,38 +265,41 @@ impl<'a> Map<'a> {
                 of[place].1.push(s);
             }
         }
-        let told = |s: usize| &self.filled.sheet(s).told;
-        let sign = |x: f64, told: bool| match (told, x < 0.0) {
+        let indicators = |s: usize| &self.reached_set.solution(s).indicators;
+        let sign = |x: f64, known: bool| match (known, x < 0.0) {
             (false, _) => 0,
             (_, true) => -1,
             (_, false) => 1,
         };
         let mut all: Vec<(usize, AspectReport)> = each(of.len(), &(), |(), i| {
-            let (first, ref sheets) = of[i];
+            let (first, ref solutions) = of[i];
             let belongs = |s: &usize| self.aspect[*s] == Some(first);
-            let region = Region::new(self.grid, sheets.iter().map(|s| self.filled.node(*s)));
-            let finite: Vec<usize> = (sheets.iter().copied())
-                .filter(|s| told(*s).condition.is_finite())
+            let region = Region::new(
+                self.grid,
+                solutions.iter().map(|s| self.reached_set.node(*s)),
+            );
+            let finite: Vec<usize> = (solutions.iter().copied())
+                .filter(|s| indicators(*s).condition.is_finite())
                 .collect();
             // of nodes that are as good but for rounding the first
             let first_of = |wanted: f64| {
-                let of = |s: usize| told(s).condition;
+                let of = |s: usize| indicators(s).condition;
                 let mut alike = finite
                     .iter()
                     .filter(|s| (of(**s) / wanted - 1.0).abs() < 1e-9);
                 alike.next().map(|s| Conditioned {
-                    at: self.grid.values(self.filled.node(*s)),
+                    at: self.grid.values(self.reached_set.node(*s)),
                     condition: of(*s),
                 })
             };
-            let conditions = finite.iter().map(|s| told(*s).condition);
+            let conditions = finite.iter().map(|s| indicators(*s).condition);
             let report = AspectReport {
                 aspect: 0,
                 mode: self.mode[first].map_or(0, |mode| mode + 1),
-                nodes: sheets.len(),
+                nodes: solutions.len(),
                 size: self.size(&region, &belongs, cuts),
-                direct: sign(told(first).direct, self.asked.tells_direct()),
-                inverse: sign(told(first).inverse, self.asked.tells_inverse()),
+                direct: sign(indicators(first).direct, self.problem.tells_direct()),
+                inverse: sign(indicators(first).inverse, self.problem.tells_inverse()),
                 best: first_of(conditions.clone().fold(f64::INFINITY, f64::min)),
                 worst: first_of(conditions.fold(0.0, f64::max)),
             };
@@ -296,7 +308,7 @@ impl<'a> Map<'a> {
         all.sort_by(|a, b| {
             let order = a.1.mode.cmp(&b.1.mode).then(b.1.nodes.cmp(&a.1.nodes));
             order.then_with(|| {
-                let node = |first: usize| self.filled.node(first);
+                let node = |first: usize| self.reached_set.node(first);
                 node(a.0).cmp(&node(b.0)).then(a.0.cmp(&b.0))
             })
         });
@@ -316,20 +328,20 @@ impl<'a> Map<'a> {
 }
 
 /// The joints, angles within limits or in (−π, π]; all of the latter kind where modes are compared.
-fn brought(asked: &Asked, joints: &[f64], plain: bool) -> Vec<f64> {
+fn brought(problem: &MapProblem, joints: &[f64], plain: bool) -> Vec<f64> {
     let mut joints = joints.to_vec();
-    bring(asked, &mut joints, plain);
+    bring(problem, &mut joints, plain);
     joints
 }
 
 /// The same in place.
-fn bring(asked: &Asked, joints: &mut [f64], plain: bool) {
+fn bring(problem: &MapProblem, joints: &mut [f64], plain: bool) {
     for (joint, value) in joints.iter_mut().enumerate() {
-        if asked.turns[joint] {
+        if problem.turns[joint] {
             *value = turn_near(*value, 1e-9);
         }
     }
     if !plain {
-        asked.mechanism.turn_to_limits(joints);
+        problem.mechanism.turn_to_limits(joints);
     }
 }

@@ -1,10 +1,10 @@
 //! What a map is of: the mapped coordinates, their grid, and the rates at its nodes.
 
-mod asked;
 mod condition;
 mod grid;
+mod map_problem;
 mod rates;
 
-pub(super) use asked::{Asked, Targets};
 pub(super) use grid::{Grid, MOST_AXES, MOST_DIRECTIONS};
-pub(super) use rates::{Rates, Told};
+pub(super) use map_problem::{MapProblem, Targets};
+pub(super) use rates::{Indicators, Rates};

@@ -4,12 +4,26 @@ use std::collections::HashSet;
 
 use roxmltree::Node;
 
-use super::read::Hanging;
-use crate::geometry::Vector3;
+use crate::geometry::{Pose, Vector3};
 use crate::interchange::page::{child, children};
 use crate::interchange::problem::ImportProblemKind;
 use crate::interchange::remark::Remark;
 use crate::interchange::tree::{Joint, Motion};
+
+/// A joint: the links that it joins, and how the child moves.
+pub(super) struct Hanging {
+    pub parent: String,
+    pub child: String,
+    /// One of [`TYPES`].
+    pub kind: &'static str,
+    pub origin: Pose<f64>,
+    /// Unit vector in the child's frame.
+    pub axis: Vector3<f64>,
+    /// Radians or metres; two zeros or an infinite one are limits that are not given.
+    pub limits: (f64, f64),
+    /// The joint that is followed, the factor and the offset.
+    pub mimic: Option<(String, f64, f64)>,
+}
 
 /// The unit vector along three numbers, if they give a direction.
 pub(crate) fn direction([x, y, z]: [f64; 3]) -> Option<Vector3<f64>> {

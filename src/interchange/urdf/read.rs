@@ -10,7 +10,7 @@ use std::collections::{BTreeMap, HashMap, HashSet};
 use roxmltree::Node;
 
 use super::loops;
-use super::motion::{direction, driven, moving, no_axis};
+use super::motion::{Hanging, direction, driven, moving, no_axis};
 use crate::geometry::{Pose, Vector3};
 use crate::interchange::page::{Problems, child, children, document, turned};
 use crate::interchange::problem::{ImportProblem, ImportProblemKind};
@@ -343,19 +343,4 @@ impl<'a, 'i> Reader<'a, 'i> {
 fn is_xacro(node: Node) -> bool {
     let namespace = node.tag_name().namespace();
     namespace.is_some_and(|uri| uri.contains("xacro"))
-}
-
-/// A joint: the links that it joins, and how the child moves.
-pub(super) struct Hanging {
-    parent: String,
-    child: String,
-    /// One of [`TYPES`].
-    pub kind: &'static str,
-    origin: Pose<f64>,
-    /// Unit vector in the child's frame.
-    pub axis: Vector3<f64>,
-    /// Radians or metres; two zeros or an infinite one are limits that are not given.
-    pub limits: (f64, f64),
-    /// The joint that is followed, the factor and the offset.
-    mimic: Option<(String, f64, f64)>,
 }

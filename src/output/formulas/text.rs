@@ -1,4 +1,4 @@
-//! Formulas for a terminal.
+//! Formulas as a document.
 
 use std::collections::BTreeMap;
 
@@ -7,39 +7,41 @@ use crate::algebra::Expression;
 use crate::analysis::formulas::{
     ClosureFormula, FormulasReport, JacobianFormula, Meaning, TransformFormula,
 };
+use crate::output::document::{Document, Report, Section};
 
 /// Wider matrices are printed entry by entry.
 const WIDEST: usize = 110;
 
-/// The report for people: matrices, equations, and what the letters mean.
-pub fn text(report: &FormulasReport) -> String {
-    let notation = Notation::new(&report.names, Script::Unicode);
-    let mut text = format!("{}\n", report.mechanism);
-    let mut section = |title: &str, blocks: Vec<String>| {
-        if !blocks.is_empty() {
-            text += &format!("\n{title}\n{}", blocks.join("\n"));
-        }
-    };
-    let transforms = |transforms: &[TransformFormula]| -> Vec<String> {
-        transforms.iter().map(|t| transform(&notation, t)).collect()
-    };
-    section("Links", transforms(&report.links));
-    section("Transforms", transforms(&report.transforms));
-    let closures = report.closures.iter().map(|c| closure(&notation, c));
-    section("Closures", closures.collect());
-    let jacobians = report.jacobians.iter().map(|j| jacobian(&notation, j));
-    section(
-        "Screw Jacobians, in each column v of the origin above ω",
-        jacobians.collect(),
-    );
-    let legend = legend(&notation, report);
-    if !legend.is_empty() {
-        text += &format!("\n{legend}\n");
+impl Report for FormulasReport {
+    fn document(&self) -> Document {
+        let notation = Notation::new(&self.names, Script::Unicode);
+        let section = |title: &str, blocks: Vec<String>| match blocks.is_empty() {
+            true => Section::new(title),
+            false => Section::new(title).code("", outdented(&blocks.join("\n"))),
+        };
+        let transforms = |transforms: &[TransformFormula]| -> Vec<String> {
+            transforms.iter().map(|t| transform(&notation, t)).collect()
+        };
+        let closures = self.closures.iter().map(|c| closure(&notation, c));
+        let jacobians = self.jacobians.iter().map(|j| jacobian(&notation, j));
+        Document::new(&self.mechanism, "")
+            .section(section("Links", transforms(&self.links)))
+            .section(section("Transforms", transforms(&self.transforms)))
+            .section(section("Closures", closures.collect()))
+            .section(section(
+                "Screw Jacobians, in each column v of the origin above ω",
+                jacobians.collect(),
+            ))
+            .section(Section::new("Notation").list(legend(&notation, self)))
+            .section(Section::new("Remarks").list(notes(self)))
     }
-    for note in notes(report) {
-        text += &format!("\n{note}\n");
-    }
-    text
+}
+
+/// The text without the two spaces that sections are indented by.
+fn outdented(text: &str) -> String {
+    let lines = text.lines();
+    let lines = lines.map(|line| line.strip_prefix("  ").unwrap_or(line));
+    lines.collect::<Vec<&str>>().join("\n")
 }
 
 fn transform(notation: &Notation, transform: &TransformFormula) -> String {
@@ -189,7 +191,7 @@ fn expressions(report: &FormulasReport) -> impl Iterator<Item = &Expression> {
 }
 
 /// What the shorthands stand for.
-fn legend(notation: &Notation, report: &FormulasReport) -> String {
+fn legend(notation: &Notation, report: &FormulasReport) -> Vec<String> {
     let mut short: BTreeMap<String, String> = BTreeMap::new();
     for expression in expressions(report) {
         for (indices, angle) in notation.shortened(expression) {
@@ -226,5 +228,5 @@ fn legend(notation: &Notation, report: &FormulasReport) -> String {
             false => format!("n, s, a and p: axes and origin of {first} in ground"),
         });
     }
-    lines.join("\n")
+    lines
 }

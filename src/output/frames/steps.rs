@@ -1,11 +1,10 @@
 //! The fourteen steps of the Denavit–Hartenberg algorithm, with what each of them gave.
 
-use std::fmt::Write;
-
 use super::super::quantity::{degrees, number, short};
 use super::{relation, sense_of_first};
 use crate::analysis::frames::{PlacedChain, PlacedRow};
 use crate::geometry::Relation;
+use crate::output::document::Section;
 
 fn vector(v: [f64; 3]) -> String {
     let [x, y, z] = v.map(short);
@@ -58,12 +57,10 @@ fn why_x(found: Option<Relation>, k: usize) -> String {
 
 /// The steps for one chain. In the modified convention z of frame k lies along joint k, in the
 /// standard one, for which the steps are printed, along joint k + 1.
-pub(super) fn steps(chain: &PlacedChain, modified: bool) -> String {
+pub(super) fn steps(chain: &PlacedChain, modified: bool) -> Section {
     let n = chain.joints.len();
-    let mut text = format!("Steps for {}\n", chain.name);
-    let mut say = |step: usize, what: String| {
-        let _ = writeln!(text, "  {step:>2}. {what}");
-    };
+    let mut lines = Vec::new();
+    let mut say = |step: usize, what: String| lines.push(format!("{step:>2}. {what}"));
     let kind = |row: &PlacedRow| {
         if row.turn == 0.0 {
             "prismatic"
@@ -172,5 +169,5 @@ pub(super) fn steps(chain: &PlacedChain, modified: bool) -> String {
         let on = if k < n { "k ≤ n: go on" } else { "stop" };
         say(14, format!("k = {}; {on}", k + 1));
     }
-    text
+    Section::new(format!("Steps for {}", chain.name)).list(lines)
 }

@@ -1,7 +1,7 @@
 //! What a mechanism can do, in sentences.
 
 use crate::analysis::mobility::{
-    Character, Elsewhere, IdleFreedom, MobilityReport, Redundancy, Wrench,
+    Character, Elsewhere, LocalFreedom, MobilityReport, Redundancy, Wrench,
 };
 use crate::description::count;
 use crate::description::listed;
@@ -19,13 +19,13 @@ pub(super) fn explanation(report: &MobilityReport) -> String {
         };
         sentences.push(format!("Redundant {verb}: {}.", redundant.join("; ")));
     }
-    let (rods, links): (Vec<&IdleFreedom>, Vec<&IdleFreedom>) =
-        (report.idle_freedoms.iter()).partition(|freedom| matches!(freedom, IdleFreedom::Rod(_)));
+    let (rods, links): (Vec<&LocalFreedom>, Vec<&LocalFreedom>) =
+        (report.idle_freedoms.iter()).partition(|freedom| matches!(freedom, LocalFreedom::Rod(_)));
     for (spins, why) in [
         (links, "Kutzbach's count includes"),
         (
             rods,
-            "Kutzbach's count leaves out too, for a `Distance` has none",
+            "Kutzbach's count leaves out too, as a `Distance` does not model it",
         ),
     ] {
         match &spins[..] {
@@ -81,8 +81,8 @@ pub(super) fn mobility(report: &MobilityReport) -> String {
         Character::Regular => match report.singular_at {
             None => format!("The mechanism has {}.", freedoms(*mobility)),
             Some(distance) => format!(
-                "The mechanism has {}; the configuration is regular, about {} (rad and lengths \
-                 over {} m) from a singular one.",
+                "The mechanism has {}; the configuration is regular, but only about {} (in rad, and \
+                 lengths over {} m) away from a singular one.",
                 freedoms(*mobility),
                 coarse(distance),
                 number(report.length)
@@ -94,7 +94,8 @@ pub(super) fn mobility(report: &MobilityReport) -> String {
                 None => "no finite step closes".into(),
             };
             format!(
-                "Shaky: it has {} to first order, none of them finite ({gap}), so it cannot move.",
+                "Infinitesimally flexible (shaky): it has {} to first order, none of them finite ({gap}), \
+                 so it cannot move.",
                 freedoms(*infinitesimal)
             )
         }
@@ -144,7 +145,7 @@ fn at_least(report: &MobilityReport) -> &'static str {
     }
 }
 
-fn counted(report: &MobilityReport) -> String {
+pub(super) fn counted(report: &MobilityReport) -> String {
     let MobilityReport {
         kutzbach,
         unknowns,
@@ -153,7 +154,7 @@ fn counted(report: &MobilityReport) -> String {
         ..
     } = report;
     if *equations == 0 {
-        return format!("Nothing is closed: all {unknowns} joint variables are free.");
+        return format!("There are no closures: all {unknowns} joint variables are free.");
     }
     let independent = match report.redundant {
         0 => "all of them independent".into(),
@@ -171,12 +172,12 @@ fn counted(report: &MobilityReport) -> String {
 }
 
 /// What an idle freedom is.
-pub(super) fn idle(freedom: &IdleFreedom) -> String {
+pub(super) fn idle(freedom: &LocalFreedom) -> String {
     match freedom {
-        IdleFreedom::Joints(joints) => {
+        LocalFreedom::Joints(joints) => {
             format!("a link spins about its own line in {}", listed(joints))
         }
-        IdleFreedom::Platforms { platforms, joints } => {
+        LocalFreedom::Platforms { platforms, joints } => {
             let (spin, line) = match platforms.len() {
                 1 => ("spins", "its own line"),
                 _ => ("spin", "their line"),
@@ -187,7 +188,7 @@ pub(super) fn idle(freedom: &IdleFreedom) -> String {
             };
             format!("{} {spin} about {line}{joints}", listed(platforms))
         }
-        IdleFreedom::Rod(rod) => format!("rod {rod} spins about its own line"),
+        LocalFreedom::Rod(rod) => format!("rod {rod} spins about its own line"),
     }
 }
 

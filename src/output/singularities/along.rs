@@ -7,6 +7,10 @@ use crate::output::csv::{Record, Value};
 use crate::output::document::{Document, Report, Section};
 
 impl Report for AlongReport {
+    fn is_interrupted(&self) -> bool {
+        self.interrupted
+    }
+
     fn document(&self) -> Document {
         let crossings = self.crossings.iter().enumerate().map(|(i, crossing)| {
             let title = format!("{}. {}", i + 1, words::place(self, &crossing.moved));

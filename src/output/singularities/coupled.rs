@@ -2,7 +2,7 @@
 
 use super::names;
 use crate::analysis::singularities::Coupled;
-use crate::description::count;
+use crate::description::{count, listed};
 
 /// That outputs are full poses with fewer freedoms than directions, and how to ask about a part.
 pub fn note(coupled: &[Coupled]) -> Option<String> {
@@ -34,18 +34,12 @@ pub fn note(coupled: &[Coupled]) -> Option<String> {
         true => "singularities of its position alone are not reported".to_owned(),
         false => format!("{} here", names(&lost)),
     };
-    let coordinates: Vec<String> = (first.coordinates.iter())
-        .map(|c| format!("--output {c}"))
-        .collect();
-    let coordinates = match coordinates.is_empty() {
+    let coordinates = match first.coordinates.is_empty() {
         true => String::new(),
-        false => format!(
-            ", or for some of its coordinates with {}",
-            coordinates.join(" ")
-        ),
+        false => format!(", or some of {}", listed(&first.coordinates)),
     };
     Some(format!(
-        "{taken}: {hidden}. Ask for its position with --point {}{coordinates}.",
+        "{taken}: {hidden}. For these take the point `{}` as the output{coordinates}.",
         first.output
     ))
 }

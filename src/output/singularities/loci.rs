@@ -9,6 +9,10 @@ use crate::output::document::{Column, Document, Report, Section, Table, cells};
 use crate::output::quantity::quantity;
 
 impl Report for LocusReport {
+    fn is_interrupted(&self) -> bool {
+        self.interrupted
+    }
+
     fn document(&self) -> Document {
         Document::new(&self.mechanism, words::loci(self))
             .note(words::split(&self.inputs, &self.outputs))

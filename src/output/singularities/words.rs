@@ -2,7 +2,8 @@
 
 use super::names;
 use crate::analysis::singularities::{
-    AlongReport, Crossing, Ending, Kind, Locus, LocusEnd, LocusReport, Shape, Singularity, Zlatanov,
+    AlongEnd, AlongReport, Crossing, Kind, Locus, LocusEnd, LocusReport, Shape, Singularity,
+    Zlatanov,
 };
 use crate::description::{count, listed};
 use crate::output::quantity::quantity;
@@ -73,7 +74,7 @@ pub(super) fn sentence(singularity: &Singularity, inputs: &[String], outputs: &[
     }
     if singularity.more_mobility > 0 {
         sentences.push(format!(
-            "The closures themselves lose rank: {} more with nothing held than beside it.",
+            "The closures themselves lose rank, which adds {} when nothing is held.",
             count(singularity.more_mobility, "infinitesimal freedom")
         ));
     }
@@ -165,28 +166,27 @@ pub fn ending(report: &AlongReport) -> String {
     let here = place(report, &here);
     let joint = report.limit.as_deref().unwrap_or_default();
     match report.ending {
-        Ending::Complete => format!("{way}: complete, {found}."),
-        Ending::Returned => format!(
+        AlongEnd::Complete => format!("{way}: complete, {found}."),
+        AlongEnd::Returned => format!(
             "{way}: the end is not reached, the curve comes back to where it began; {found}."
         ),
-        Ending::Closed => format!("{way}: the curve closes, {found}."),
-        Ending::Fold => format!(
-            "{way}: it locks at {here}, where this branch ends; {found}. With --follow the motion \
-             goes round the fold, back on the other branch."
+        AlongEnd::Closed => format!("{way}: the curve closes, {found}."),
+        AlongEnd::Fold => format!(
+            "{way}: it locks at {here}, where this branch ends; {found}. A motion that \
+             follows its curve goes round the fold, back on the other branch."
         ),
-        Ending::Branches => format!(
-            "{way}: branches cross at {here}; {found}. With --follow the motion goes straight on."
+        AlongEnd::Branches => format!(
+            "{way}: branches cross at {here}; {found}. One that follows its curve goes straight on."
         ),
-        Ending::Limit => format!("{way}: {joint} reaches its limit at {here}; {found}."),
-        Ending::OutsideLimits => format!(
-            "{way}: {joint} is outside its limits at the start. Begin elsewhere, or in another mode with \
-             --mode."
+        AlongEnd::Limit => format!("{way}: {joint} reaches its limit at {here}; {found}."),
+        AlongEnd::OutsideLimits => format!(
+            "{way}: {joint} is outside its limits at the start. Begin elsewhere, or in another mode."
         ),
-        Ending::SingularStart => format!(
+        AlongEnd::SingularStart => format!(
             "{way}: the start is singular, so the branch is not unique. Begin slightly away from it."
         ),
-        Ending::Stopped => format!("{way}: interrupted at {here}; {found} before."),
-        Ending::Lost => {
+        AlongEnd::Stopped => format!("{way}: interrupted at {here}; {found} before."),
+        AlongEnd::Lost => {
             format!(
                 "{way}: the curve could not be followed reliably beyond {here}; {found} before."
             )
@@ -278,7 +278,7 @@ pub fn completeness(report: &LocusReport) -> String {
     let mut sure = sure.chars();
     let first = sure.next().map(|c| c.to_uppercase().to_string());
     format!(
-        "{} {}{}; --starts sets their number.",
+        "{} {}{}.",
         sought(report, [direct, inverse], &last),
         first.unwrap_or_default(),
         sure.as_str()

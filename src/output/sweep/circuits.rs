@@ -6,10 +6,14 @@ use crate::output::document::{Cell, Column, Document, Report, Section, Table, ce
 use crate::output::quantity::{number, quantity};
 
 impl Report for CircuitsReport {
+    fn is_interrupted(&self) -> bool {
+        self.interrupted
+    }
+
     fn document(&self) -> Document {
         let seeds = format!(
-            "followed from {} of all assemblies at several values of {}{}",
-            count(self.seeds, "seed"),
+            "followed from {}: all assemblies at several values of {}{}",
+            count(self.seeds, "start"),
             self.input,
             match self.unusable {
                 0 => String::new(),
@@ -44,7 +48,7 @@ fn sentence(report: &CircuitsReport) -> String {
     let branches = count(branches, "branch");
     let grashof = match report.class {
         Some(FourBarClass::TripleRocker) => {
-            ": a triple rocker, for no link turns fully beside another".into()
+            ": a triple rocker; no link turns fully relative to another".into()
         }
         Some(of) => format!(": a {}", class(of)),
         None => String::new(),

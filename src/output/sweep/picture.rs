@@ -3,7 +3,7 @@
 use crate::analysis::sweep::{MetKind, Row, TracedPoint};
 use crate::mechanism::{Configuration, Mechanism};
 use crate::output::plot::{Chart, Marks, Series, svg};
-use crate::system::{Driven, Holdable};
+use crate::system::{Coordinate, Driven};
 
 /// Collects what is to be drawn; of a long motion only as many points as can be told apart.
 #[derive(Clone, Debug)]
@@ -34,13 +34,13 @@ impl Picture {
     /// Of a motion of these inputs; without points, joints are drawn over the first input.
     pub fn new(mechanism: &Mechanism, inputs: &[Driven], points: &[TracedPoint]) -> Self {
         let joint = |joint: usize| Driven {
-            coordinate: Holdable::Joint(joint),
+            coordinate: Coordinate::Joint(joint),
             from: 0.0,
             to: 1.0,
         };
         let driven = crate::analysis::sweep::CircuitsReport::input_of(mechanism).map(joint);
         let input = inputs.first().copied().or(driven);
-        let label = |of: Holdable| {
+        let label = |of: Coordinate| {
             let unit = if of.is_angle(mechanism) { "°" } else { "m" };
             format!("{} ({unit})", of.name(mechanism))
         };
@@ -48,7 +48,7 @@ impl Picture {
             inputs
                 .iter()
                 .chain(&input)
-                .any(|d| d.coordinate == Holdable::Joint(i))
+                .any(|d| d.coordinate == Coordinate::Joint(i))
         };
         let joints = mechanism.joints().iter().enumerate();
         Picture {
@@ -107,7 +107,7 @@ impl Picture {
 
     fn values(&self, mechanism: &Mechanism, row: &Row) -> Vec<f64> {
         let at: &Configuration<f64> = row.configuration;
-        let shown = |of: Holdable| match of.is_angle(mechanism) {
+        let shown = |of: Coordinate| match of.is_angle(mechanism) {
             true => of.of(at).to_degrees(),
             false => of.of(at),
         };
@@ -115,7 +115,7 @@ impl Picture {
         let outputs = self
             .outputs
             .iter()
-            .map(|(joint, _, _)| shown(Holdable::Joint(*joint)));
+            .map(|(joint, _, _)| shown(Coordinate::Joint(*joint)));
         let points = row.points.iter().flatten().copied();
         std::iter::once(input)
             .chain(outputs)

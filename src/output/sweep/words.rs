@@ -1,6 +1,6 @@
 //! What is said about a motion.
 
-use crate::analysis::sweep::{Ending, InputReport, Met, MetKind, MotionReport, SweepReport};
+use crate::analysis::sweep::{InputReport, Met, MetKind, MotionReport, SweepEnd, SweepReport};
 use crate::description::{count, listed};
 use crate::output::document::{Cell, Column, Section, Table};
 use crate::output::quantity::{number, quantity};
@@ -64,18 +64,18 @@ pub fn sentence(report: &SweepReport) -> String {
     };
     let place = last.map(|met| inputs_at(report, met)).unwrap_or_default();
     match (report.ending, last.map(|met| &met.kind)) {
-        (Ending::Complete, _) if through.is_empty() => {
+        (SweepEnd::Complete, _) if through.is_empty() => {
             format!("{way}: complete, on one branch.")
         }
-        (Ending::Complete, _) => format!("{way}: complete{through}."),
-        (Ending::Returned, _) => format!(
+        (SweepEnd::Complete, _) => format!("{way}: complete{through}."),
+        (SweepEnd::Returned, _) => format!(
             "{way}: the end is not reached. The curve comes back to where the inputs began{through}."
         ),
-        (Ending::Closed, _) => format!("{way} closes{through}."),
-        (Ending::Limits, _) => {
+        (SweepEnd::Closed, _) => format!("{way} closes{through}."),
+        (SweepEnd::Limits, _) => {
             format!("{way} was followed from limit to limit{through}.")
         }
-        (Ending::Fold, Some(MetKind::Fold { locked, moving })) => {
+        (SweepEnd::Fold, Some(MetKind::Fold { locked, moving })) => {
             let verb = if locked.len() == 1 { "locks" } else { "lock" };
             let moving = match moving {
                 Some(moving) => format!(
@@ -92,13 +92,13 @@ pub fn sentence(report: &SweepReport) -> String {
                 _ => place,
             };
             format!(
-                "{} {verb} at {place}: a dead point, where this branch ends{moving}. With --follow \
-                 the motion goes round it, back on the other branch.",
+                "{} {verb} at {place}: a dead point, where this branch ends{moving}. A motion \
+                 that follows its curve goes round it, back on the other branch.",
                 listed(locked)
             )
         }
         (
-            Ending::Limit,
+            SweepEnd::Limit,
             Some(MetKind::Limit {
                 joint,
                 limit,
@@ -114,9 +114,9 @@ pub fn sentence(report: &SweepReport) -> String {
                 false => format!(" at {place}"),
             }
         ),
-        (Ending::Crossing, Some(MetKind::Crossing { freedoms, branches })) => format!(
+        (SweepEnd::Crossing, Some(MetKind::Crossing { freedoms, branches })) => format!(
             "Branches cross at {place}: there are {} there and {}. The sweep does not choose \
-             between branches; with --follow it goes straight on.",
+             between branches; one that follows its curve goes straight on.",
             count(*freedoms, "infinitesimal freedom"),
             match branches.len() {
                 0 => "no branch was found".into(),
@@ -124,7 +124,7 @@ pub fn sentence(report: &SweepReport) -> String {
                 n => format!("{n} branches cross"),
             }
         ),
-        (Ending::SingularStart, Some(MetKind::Crossing { branches, .. })) => format!(
+        (SweepEnd::SingularStart, Some(MetKind::Crossing { branches, .. })) => format!(
             "The start is singular: branches cross there{}. Begin slightly away from it, where \
              the branch is unique.",
             match branches.len() {
@@ -132,14 +132,14 @@ pub fn sentence(report: &SweepReport) -> String {
                 n => format!(" ({n} found)"),
             }
         ),
-        (Ending::SingularStart, _) => {
+        (SweepEnd::SingularStart, _) => {
             "The start is singular: more than one freedom is left there, so the motion is not \
              determined. Hold more coordinates, or begin elsewhere; `linkwork mobility` lists what can \
              move."
                 .into()
         }
         (
-            Ending::OutsideLimits,
+            SweepEnd::OutsideLimits,
             Some(MetKind::Limit {
                 joint,
                 limit,
@@ -147,12 +147,11 @@ pub fn sentence(report: &SweepReport) -> String {
                 upper,
             }),
         ) => format!(
-            "{joint} is outside its {} limit of {} at the start: begin elsewhere, or in another mode \
-             with --mode.",
+            "{joint} is outside its {} limit of {} at the start: begin elsewhere, or in another mode.",
             side(*upper),
             quantity(*limit, unit.is_angle())
         ),
-        (Ending::Stopped, _) => "Stopped before the end.".into(),
+        (SweepEnd::Stopped, _) => "Stopped before the end.".into(),
         _ => format!(
             "The curve could not be followed reliably beyond {}: it ends there in a singularity of \
              higher order, or bends too sharply.",
@@ -199,7 +198,7 @@ pub(super) fn met(motion: &MotionReport) -> Option<Section> {
         };
         let kind = met.singularity.map(|kind| kind.to_string());
         let values = joints.iter().zip(&met.joints);
-        let values = values.map(|(joint, value)| Cell::quantity(*value, &joint.unit));
+        let values = values.map(|(joint, value)| Cell::quantity(*value, joint.unit));
         let first = [Cell::from(what), Cell::from(kind)];
         table.row(first.into_iter().chain(values).collect());
     }

@@ -4,9 +4,9 @@ use super::Curve;
 use crate::linear::dot;
 use crate::mechanism::{Configuration, Mechanism};
 use crate::solve::SolutionCurve;
-use crate::system::{Held, Holdable, Lock, Locked, Unknown};
+use crate::system::{Coordinate, Held, Lock, Locked, Unknown};
 
-/// An assembled configuration with a motion that leaves the locked things at rest.
+/// An assembled configuration with a motion that leaves the locked coordinates and frames at rest.
 #[derive(Clone, Debug)]
 pub struct Singular {
     /// The configuration.
@@ -26,7 +26,7 @@ pub struct Singular {
 pub struct LocusCurve {
     closed: Curve,
     locked: Locked,
-    /// The unknowns that are seen from outside.
+    /// The unknowns of platforms and inputs.
     seen: Vec<bool>,
 }
 
@@ -35,7 +35,7 @@ impl LocusCurve {
     pub fn new(
         mechanism: &Mechanism,
         held: &Held<f64>,
-        inputs: &[Holdable],
+        inputs: &[Coordinate],
         locks: &[Lock],
     ) -> Self {
         let closed = Curve::along(mechanism, held, Vec::new());
@@ -45,7 +45,7 @@ impl LocusCurve {
             .unknowns()
             .iter()
             .map(|unknown| match *unknown {
-                Unknown::Joint(joint) => whole || inputs.contains(&Holdable::Joint(joint)),
+                Unknown::Joint(joint) => whole || inputs.contains(&Coordinate::Joint(joint)),
                 Unknown::Twist { .. } => true,
             });
         LocusCurve {
@@ -55,7 +55,7 @@ impl LocusCurve {
         }
     }
 
-    /// The part of a step that is seen from outside: of the platforms and the inputs. Legs that are
+    /// The part of a step that concerns platforms and inputs. Legs that are
     /// folded the other way about their passive joints do not make another locus.
     pub fn seen(&self, step: &[f64]) -> Vec<f64> {
         let parts = step.iter().zip(&self.seen);

@@ -7,7 +7,7 @@ use super::{Curve, Driven};
 use crate::linear::{Decomposition, dot, norm};
 use crate::mechanism::{Configuration, Mechanism, turn_near};
 use crate::solve::{Continuation, Place, SolutionCurve};
-use crate::system::{Held, Holdable};
+use crate::system::{Coordinate, Held};
 
 /// A curve whose points are, or contain, configurations.
 pub trait ConfigurationCurve: SolutionCurve {
@@ -16,7 +16,7 @@ pub trait ConfigurationCurve: SolutionCurve {
     /// The step from one configuration to another, whole turns left out: as the first components of
     /// a tangent.
     fn apart(&self, from: &Self::Point, to: &Self::Point) -> Vec<f64>;
-    /// The part of such a step that tells curves apart.
+    /// The part of such a step that distinguishes curves.
     fn seen(&self, step: &[f64]) -> Vec<f64>;
 }
 
@@ -58,11 +58,11 @@ pub enum LocusEnd {
     Box,
     /// At a limit of a joint.
     Limit,
-    /// In a point that no sure step leads beyond.
+    /// In a point beyond which no step is certain not to change branch.
     Lost,
 }
 
-/// A curve as it was followed.
+/// A followed curve.
 #[derive(Clone, Debug)]
 pub struct Traced<P> {
     /// Places on it, in order.
@@ -86,7 +86,7 @@ pub struct Region<'m> {
     pub method: &'m Continuation,
 }
 
-/// A curve this little beyond a bound, in rad or m, still runs along it.
+/// A curve that exceeds a bound by less than this, in rad or m, counts as running along it.
 const BESIDE: f64 = 1e-9;
 
 impl Region<'_> {
@@ -94,7 +94,7 @@ impl Region<'_> {
     pub fn side(&self, at: &Configuration<f64>, side: &Driven) -> f64 {
         let x = side.coordinate.of(at);
         match side.coordinate {
-            Holdable::Coordinate(_, c) if c.is_angle() => {
+            Coordinate::Pose(_, c) if c.is_angle() => {
                 let middle = 0.5 * (side.from + side.to);
                 turn_near(x, middle)
             }
@@ -242,8 +242,8 @@ pub fn settled<C: SolutionCurve>(
     method.settle(curve, near).ok()
 }
 
-/// The point to which Gauss–Newton steps of bounded length lead from afar; `arrived` is asked with the
-/// size of the next step and the residual. `None` if they do not arrive.
+/// The point to which Gauss–Newton steps of bounded length lead from afar; `arrived` is asked with
+/// the size of the next step and the residual. `None` if they do not arrive.
 pub fn neared<C: SolutionCurve>(
     curve: &mut C,
     mut point: C::Point,
@@ -324,7 +324,8 @@ pub fn met_at<C: ConfigurationCurve>(
     beside.into_iter().flatten().find_map(|i| foot(curve, i))
 }
 
-/// The place between two where the curve comes back to its start, of which `gone` is the length so far.
+/// The place between two where the curve comes back to its start, of which `gone` is the length so
+/// far.
 pub(super) fn closed<C: ConfigurationCurve>(
     curve: &mut C,
     start: &Place<C::Point>,

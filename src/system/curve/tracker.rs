@@ -1,12 +1,12 @@
 use crate::linear::Factorable;
-use crate::mechanism::{Configuration, Coordinate};
+use crate::mechanism::{Configuration, PoseCoordinate};
 use crate::solve::{Newton, Report, Trail, Warm, WarmReport};
 use crate::system::{System, Work};
 
 /// Follows a mechanism while its held coordinates move: one short solve for each change of them.
 ///
 /// ```text
-/// let mut tracker = Tracker::new(question.system(), assembled.configuration);
+/// let mut tracker = MotionTracker::new(question.system(), assembled.configuration);
 /// for angle in crank_angles {
 ///     let report = tracker.solve(|held| held.joints[crank] = angle);
 ///     assert!(report.solved || tracker.recover(&Newton::default()).stop == Stop::Solved);
@@ -14,7 +14,7 @@ use crate::system::{System, Work};
 /// }
 /// ```
 #[derive(Clone, Debug)]
-pub struct Tracker<T: Factorable = f64> {
+pub struct MotionTracker<T: Factorable = f64> {
     system: System<T>,
     warm: Warm,
     configuration: Configuration<T>,
@@ -22,10 +22,10 @@ pub struct Tracker<T: Factorable = f64> {
     trail: Trail<Configuration<T>, T>,
 }
 
-impl<T: Factorable> Tracker<T> {
+impl<T: Factorable> MotionTracker<T> {
     /// Follows from `start`, which ought to be assembled or nearly so.
     pub fn new(system: System<T>, start: Configuration<T>) -> Self {
-        Tracker {
+        MotionTracker {
             work: system.work(),
             trail: Trail::new(&start, system.unknowns().len()),
             warm: Warm::default(),
@@ -36,7 +36,7 @@ impl<T: Factorable> Tracker<T> {
 
     /// The same with other settings of the method.
     pub fn with(self, warm: Warm) -> Self {
-        Tracker { warm, ..self }
+        MotionTracker { warm, ..self }
     }
 
     /// The equations that are solved.
@@ -51,7 +51,7 @@ impl<T: Factorable> Tracker<T> {
     }
 
     /// Asks for another value, in m or rad, of a platform coordinate held alone.
-    pub fn set_target(&mut self, platform: usize, coordinate: Coordinate, value: T) {
+    pub fn set_target(&mut self, platform: usize, coordinate: PoseCoordinate, value: T) {
         self.system.set_target(platform, coordinate, value);
     }
 
@@ -75,7 +75,7 @@ impl<T: Factorable> Tracker<T> {
     }
 
     /// Solves for the held values last asked for by a method that also works from afar, when
-    /// [`solve`](Tracker::solve) has failed. The branch found need not be the one followed so far.
+    /// [`solve`](MotionTracker::solve) has failed. The branch found need not be the one followed so far.
     pub fn recover(&mut self, newton: &Newton) -> Report {
         self.trail.forget();
         let mut trial = self.configuration.clone();
@@ -101,7 +101,7 @@ mod tests {
     use std::f64::consts::TAU;
 
     /// The 4-bar with ground 4.5, crank 2, coupler 4 and rocker 3.5, closed by a revolute joint.
-    fn four_bar() -> Tracker {
+    fn four_bar() -> MotionTracker {
         let along_x = |x| Pose::translation(Vector3([x, 0.0, 0.0]));
         let turn = |joint, before| RowDimensions {
             before,
@@ -140,13 +140,13 @@ mod tests {
             joints: vec![0.0, 1.0, 1.5],
             platforms: vec![],
         };
-        let mut tracker = Tracker::new(System::new(&dimensions, &held), start);
+        let mut tracker = MotionTracker::new(System::new(&dimensions, &held), start);
         assert_eq!(tracker.recover(&Newton::default()).stop, Stop::Solved);
         tracker
     }
 
     /// The gap at the closure in m, from the angles alone.
-    fn gap(tracker: &Tracker) -> f64 {
+    fn gap(tracker: &MotionTracker) -> f64 {
         let [crank, coupler, rocker] = tracker.configuration().joints[..] else {
             panic!("three joints")
         };
@@ -155,7 +155,7 @@ mod tests {
         (a.0 + b.0 - 4.5 - c.0).hypot(a.1 + b.1 - c.1)
     }
 
-    fn steps_of_a_turn(tracker: &mut Tracker, solves: usize) -> usize {
+    fn steps_of_a_turn(tracker: &mut MotionTracker, solves: usize) -> usize {
         let turn = (0..solves).map(|k| TAU * k as f64 / solves as f64);
         turn.map(|angle| {
             let report = tracker.solve(|held| held.joints[0] = angle);

@@ -1,4 +1,4 @@
-//! A walk along a curve of assembled configurations that names everything it meets.
+//! Following a curve of assembled configurations and locating its special points.
 
 use std::ops::ControlFlow;
 
@@ -6,15 +6,15 @@ use super::Curve;
 use super::trace::closed;
 use crate::linear::{dot, norm};
 use crate::mechanism::{Configuration, Mechanism};
-use crate::solve::{BranchPoint, Continuation, Place, SolutionCurve, Stray};
-use crate::system::Holdable;
+use crate::solve::{BranchPoint, Continuation, Place, SolutionCurve, StepFailure};
+use crate::system::Coordinate;
 
 type At = Place<Configuration<f64>>;
 
 /// A function of places whose zeros are to be located; they are reported by its number.
 pub type Monitor<'m> = Box<dyn FnMut(&mut Curve, &At) -> f64 + 'm>;
 
-/// What a walk meets.
+/// A special point of the curve.
 #[derive(Clone, Debug)]
 pub enum Event {
     /// A joint turns back: it is at the end of its range, and driven there it would lock.
@@ -42,7 +42,7 @@ pub enum Event {
 
 /// A piece of a curve without branch points inside, and what was met on it, in order.
 #[derive(Clone, Debug)]
-pub struct Leg {
+pub struct Segment {
     /// Where it begins.
     pub from: At,
     /// Where it ends; its Jacobian is singular if branches meet there.
@@ -89,7 +89,7 @@ impl<'m> Walk<'m> {
         }
     }
 
-    /// Also watches these functions.
+    /// Also locates the zeros of these functions.
     pub fn watching(mut self, monitors: Vec<Monitor<'m>>) -> Self {
         self.monitors = monitors;
         self
@@ -112,8 +112,8 @@ impl<'m> Walk<'m> {
     pub fn follow<B>(
         &mut self,
         curve: &mut Curve,
-        mut visit: impl FnMut(&mut Curve, &Leg) -> ControlFlow<B>,
-    ) -> Result<B, Stray> {
+        mut visit: impl FnMut(&mut Curve, &Segment) -> ControlFlow<B>,
+    ) -> Result<B, StepFailure> {
         loop {
             let leg = self.advance(curve)?;
             if let ControlFlow::Break(value) = visit(curve, &leg) {
@@ -127,7 +127,7 @@ impl<'m> Walk<'m> {
     /// # Errors
     /// If no step is short enough to be sure, which happens where the curve ends in a point of
     /// higher order.
-    pub fn advance(&mut self, curve: &mut Curve) -> Result<Leg, Stray> {
+    pub fn advance(&mut self, curve: &mut Curve) -> Result<Segment, StepFailure> {
         if let Some(point) = self.waiting.take() {
             return self.leave(curve, &point);
         }
@@ -152,7 +152,7 @@ impl<'m> Walk<'m> {
                     }
                     self.length *= 0.5;
                     if self.length < self.method.shortest {
-                        return Err(Stray::TooShort);
+                        return Err(StepFailure::TooShort);
                     }
                 }
             }
@@ -160,7 +160,7 @@ impl<'m> Walk<'m> {
     }
 
     /// The leg to a branch point, if the singular value across the curve falls to zero nearby.
-    fn branches_ahead(&mut self, curve: &mut Curve) -> Option<Leg> {
+    fn branches_ahead(&mut self, curve: &mut Curve) -> Option<Segment> {
         let (before, length) = self.falling?;
         let least = self.place.least();
         let ahead = least * length / (before - least);
@@ -189,15 +189,15 @@ impl<'m> Walk<'m> {
         Some(leg)
     }
 
-    /// From a branch point straight on.
+    /// Leaves a branch point straight on.
     fn leave(
         &mut self,
         curve: &mut Curve,
         point: &BranchPoint<Configuration<f64>>,
-    ) -> Result<Leg, Stray> {
+    ) -> Result<Segment, StepFailure> {
         let from = self.place.clone();
         let (to, length) =
-            (self.method.leave(curve, &point.at, &from.tangent)).ok_or(Stray::Singular)?;
+            (self.method.leave(curve, &point.at, &from.tangent)).ok_or(StepFailure::Singular)?;
         self.gone += length;
         self.falling = None;
         self.tried = f64::INFINITY;
@@ -206,8 +206,8 @@ impl<'m> Walk<'m> {
         Ok(self.leg(curve, from, to))
     }
 
-    /// What is met between two places.
-    fn leg(&mut self, curve: &mut Curve, from: At, to: At) -> Leg {
+    /// The special points between two places.
+    fn leg(&mut self, curve: &mut Curve, from: At, to: At) -> Segment {
         /// Rates below this are those of joints that do not move.
         const STILL: f64 = 1e-10;
         let method = &self.method.clone();
@@ -270,20 +270,20 @@ impl<'m> Walk<'m> {
         }
         let along = |p: &At| dot(&curve.difference(&from.at, &p.at), &from.tangent);
         events.sort_by(|(a, _), (b, _)| along(a).total_cmp(&along(b)));
-        Leg { from, to, events }
+        Segment { from, to, events }
     }
 }
 
 impl Event {
-    /// Whether the walk cannot or need not go on behind it.
+    /// Whether following ends there.
     pub fn ends(&self) -> bool {
         matches!(self, Event::Limit { .. } | Event::End(_) | Event::Closed)
     }
 
-    /// What turns back, if something does.
-    pub fn turning(&self) -> Option<Holdable> {
+    /// The coordinate that turns back, if one does.
+    pub fn turning(&self) -> Option<Coordinate> {
         match self {
-            Event::Turning(joint) => Some(Holdable::Joint(*joint)),
+            Event::Turning(joint) => Some(Coordinate::Joint(*joint)),
             _ => None,
         }
     }

@@ -4,47 +4,47 @@ use super::System;
 use super::layout::Unknown;
 use crate::algebra::Measure;
 use crate::geometry::{Axis, Pose};
-use crate::mechanism::{Configuration, Coordinate, Mechanism};
+use crate::mechanism::{Configuration, Mechanism, PoseCoordinate};
 
 /// A coordinate that can be held.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Holdable {
+pub enum Coordinate {
     /// A joint variable.
     Joint(usize),
     /// A platform coordinate.
-    Coordinate(usize, Coordinate),
+    Pose(usize, PoseCoordinate),
     /// A turn of a platform that is held whole about an axis of ground, where roll, pitch and yaw do
     /// not tell its motion: at a pitch of ±90°. It has a rate, and no value.
     Turn(usize, Axis),
 }
 
-impl Holdable {
+impl Coordinate {
     /// Whether its value is an angle, in rad; otherwise a length, in m.
     pub fn is_angle(self, mechanism: &Mechanism) -> bool {
         match self {
-            Holdable::Joint(joint) => mechanism.joints()[joint].kind.is_angle(),
-            Holdable::Coordinate(_, coordinate) => coordinate.is_angle(),
-            Holdable::Turn(..) => true,
+            Coordinate::Joint(joint) => mechanism.joints()[joint].kind.is_angle(),
+            Coordinate::Pose(_, coordinate) => coordinate.is_angle(),
+            Coordinate::Turn(..) => true,
         }
     }
 
     /// Its value in the home configuration, in m or rad.
     pub fn home(self, mechanism: &Mechanism) -> f64 {
         match self {
-            Holdable::Joint(joint) => mechanism.joints()[joint].home,
-            Holdable::Coordinate(platform, coordinate) => {
+            Coordinate::Joint(joint) => mechanism.joints()[joint].home,
+            Coordinate::Pose(platform, coordinate) => {
                 coordinate.of(&mechanism.platforms()[platform].home)
             }
-            Holdable::Turn(..) => 0.0,
+            Coordinate::Turn(..) => 0.0,
         }
     }
 
     /// Its value in a configuration, in m or rad.
     pub fn of(self, at: &Configuration<f64>) -> f64 {
         match self {
-            Holdable::Joint(joint) => at.joints[joint],
-            Holdable::Coordinate(platform, c) => c.of(&at.platforms[platform].pose()),
-            Holdable::Turn(..) => 0.0,
+            Coordinate::Joint(joint) => at.joints[joint],
+            Coordinate::Pose(platform, c) => c.of(&at.platforms[platform].pose()),
+            Coordinate::Turn(..) => 0.0,
         }
     }
 
@@ -59,9 +59,9 @@ impl Holdable {
     /// How fast it changes with a twist (ω; v/L) of its platform, dimensionless.
     pub fn slope(self, pose: &Pose<f64>, length: f64) -> [f64; 6] {
         match self {
-            Holdable::Joint(_) => [0.0; 6],
-            Holdable::Coordinate(_, c) => c.row(pose, c.of(pose), length).1,
-            Holdable::Turn(_, axis) => {
+            Coordinate::Joint(_) => [0.0; 6],
+            Coordinate::Pose(_, c) => c.row(pose, c.of(pose), length).1,
+            Coordinate::Turn(_, axis) => {
                 std::array::from_fn(|i| f64::from(u8::from(i == axis as usize)))
             }
         }
@@ -71,11 +71,11 @@ impl Holdable {
     pub fn slope_in(self, system: &System<f64>, at: &Configuration<f64>) -> Vec<(usize, f64)> {
         let column = |unknown| system.unknowns().iter().position(|u| *u == unknown);
         match self {
-            Holdable::Joint(joint) => {
+            Coordinate::Joint(joint) => {
                 let column = column(Unknown::Joint(joint));
                 column.map(|c| (c, 1.0)).into_iter().collect()
             }
-            Holdable::Coordinate(platform, _) | Holdable::Turn(platform, _) => {
+            Coordinate::Pose(platform, _) | Coordinate::Turn(platform, _) => {
                 let first = column(Unknown::Twist {
                     platform,
                     component: 0,
@@ -91,12 +91,12 @@ impl Holdable {
     /// Its name in questions.
     pub fn name(self, mechanism: &Mechanism) -> String {
         match self {
-            Holdable::Joint(joint) => mechanism.joints()[joint].name.clone(),
-            Holdable::Coordinate(platform, coordinate) => {
+            Coordinate::Joint(joint) => mechanism.joints()[joint].name.clone(),
+            Coordinate::Pose(platform, coordinate) => {
                 let platform = &mechanism.platforms()[platform].name;
                 format!("{platform}.{}", coordinate.name())
             }
-            Holdable::Turn(platform, axis) => {
+            Coordinate::Turn(platform, axis) => {
                 let axis = ["wx", "wy", "wz"][axis as usize];
                 format!("{}.{axis}", mechanism.platforms()[platform].name)
             }

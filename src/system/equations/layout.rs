@@ -1,6 +1,6 @@
 use crate::geometry::Rotation;
 use crate::linear::{Block, DENSE_LIMIT, Factorable, SparseStep};
-use crate::mechanism::{Closure, Coordinate, Mechanism};
+use crate::mechanism::{Closure, Mechanism, PoseCoordinate};
 use crate::number::Number;
 
 /// What is held of a platform.
@@ -13,7 +13,7 @@ pub enum HeldPlatform<T> {
     /// Some coordinates at given values, m and rad, and perhaps the whole orientation.
     Partly {
         /// Single coordinates with their values.
-        coordinates: Vec<(Coordinate, T)>,
+        coordinates: Vec<(PoseCoordinate, T)>,
         /// A wanted orientation: ground from platform.
         orientation: Option<Rotation<T>>,
     },
@@ -79,7 +79,7 @@ pub enum Unknown {
 /// A row below the blocks: a platform coordinate held at a value.
 #[derive(Clone, Debug)]
 pub(crate) enum HoldRow<T> {
-    Coordinate(usize, Coordinate, T),
+    Coordinate(usize, PoseCoordinate, T),
     Orientation(usize, Rotation<T>),
 }
 

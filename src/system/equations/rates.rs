@@ -4,7 +4,7 @@ use super::layout::HoldRow;
 use super::{System, Work};
 use crate::geometry::Rotation;
 use crate::linear::{Factorable, Qr};
-use crate::mechanism::Coordinate;
+use crate::mechanism::PoseCoordinate;
 use crate::number::Extent;
 use crate::solve::Equations;
 
@@ -56,7 +56,7 @@ impl<T: Factorable> System<T> {
     }
 
     /// The row of a platform coordinate that is held at a value by itself.
-    pub fn coordinate_row(&self, platform: usize, coordinate: Coordinate) -> Option<usize> {
+    pub fn coordinate_row(&self, platform: usize, coordinate: PoseCoordinate) -> Option<usize> {
         self.hold_row(|hold| {
             matches!(hold, HoldRow::Coordinate(p, c, _) if (*p, *c) == (platform, coordinate))
         })

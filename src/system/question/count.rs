@@ -1,4 +1,4 @@
-//! What is held beside what the mechanism allows.
+//! The number of held coordinates compared with the freedoms of the mechanism.
 
 use serde::{Deserialize, Serialize};
 
@@ -7,11 +7,11 @@ use super::error::QuestionError;
 use crate::description::Role;
 use crate::geometry::RollPitchYaw;
 use crate::linear::RANK_TOLERANCE;
-use crate::mechanism::{Configuration, Coordinate};
+use crate::mechanism::{Configuration, PoseCoordinate};
 use crate::solve::{Newton, Stop};
-use crate::system::{HeldPlatform, Holdable, Mobility, System};
+use crate::system::{Coordinate, HeldPlatform, Mobility, System};
 
-/// What is held beside what the mechanism allows.
+/// The number of held coordinates compared with the freedoms of the mechanism.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Count {
     /// Freedoms of the mechanism, if it assembles near the start.
@@ -20,7 +20,7 @@ pub struct Count {
     pub held: usize,
 }
 
-/// Compares what is held with what the mechanism allows.
+/// Compares the held coordinates with the freedoms of the mechanism.
 ///
 /// A mechanism may have other freedoms elsewhere, so it is looked at near the start, at the
 /// assembly that Newton's method reaches from there with everything held, and at home. What can be
@@ -79,20 +79,20 @@ fn compared(
         mobility: Some(mobility.count()),
         held: held.len(),
     };
-    let joints = (0..mechanism.joints().len()).map(Holdable::Joint);
+    let joints = (0..mechanism.joints().len()).map(Coordinate::Joint);
     let coordinates = (0..mechanism.platforms().len())
-        .flat_map(|platform| Coordinate::ALL.map(|c| Holdable::Coordinate(platform, c)));
+        .flat_map(|platform| PoseCoordinate::ALL.map(|c| Coordinate::Pose(platform, c)));
     let (actuated, passive): (Vec<_>, Vec<_>) = joints.partition(|joint| match joint {
-        Holdable::Joint(joint) => mechanism.joints()[*joint].role == Role::Actuated,
-        Holdable::Coordinate(..) | Holdable::Turn(..) => false,
+        Coordinate::Joint(joint) => mechanism.joints()[*joint].role == Role::Actuated,
+        Coordinate::Pose(..) | Coordinate::Turn(..) => false,
     });
-    let candidates: Vec<Holdable> = (held.iter().copied())
+    let candidates: Vec<Coordinate> = (held.iter().copied())
         .chain(actuated)
         .chain(passive)
         .chain(coordinates)
         .collect();
     let chosen = mobility.independent(mechanism, &candidates);
-    let name = |holdable: &Holdable| holdable.name(mechanism);
+    let name = |holdable: &Coordinate| holdable.name(mechanism);
     let free: Vec<String> = held
         .iter()
         .filter(|h| !chosen.contains(h))
@@ -103,7 +103,7 @@ fn compared(
         .filter(|c| !held.contains(c))
         .map(name)
         .collect();
-    // what depends on itself at a singular configuration only is for the analysis to tell
+    // a dependence at a singular configuration only is left to the analysis
     if !free.is_empty()
         && !hold.is_empty()
         && Mobility::beside(mechanism, start)
@@ -143,7 +143,7 @@ fn check_locked(question: &Question, start: &Configuration<f64>) -> Result<(), Q
         let HeldPlatform::Partly { coordinates, .. } = held else {
             continue;
         };
-        let pitched = coordinates.iter().any(|(c, _)| *c == Coordinate::Pitch);
+        let pitched = coordinates.iter().any(|(c, _)| *c == PoseCoordinate::Pitch);
         if pitched && RollPitchYaw::is_locked(&start.platforms[i].pose().rotation) {
             return Err(QuestionError::AnglesLocked {
                 platform: mechanism.platforms()[i].name.clone(),
@@ -160,7 +160,7 @@ fn check_locked(question: &Question, start: &Configuration<f64>) -> Result<(), Q
 pub fn check_angles(question: &Question, at: &Configuration<f64>) -> Result<(), QuestionError> {
     let mechanism = question.mechanism();
     for coordinate in question.held_coordinates() {
-        let Holdable::Coordinate(platform, coordinate) = coordinate else {
+        let Coordinate::Pose(platform, coordinate) = coordinate else {
             continue;
         };
         let pose = at.platforms[platform].pose();

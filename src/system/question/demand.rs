@@ -1,6 +1,6 @@
 //! What a question was asked by name, and which demands contradict one another.
 
-use crate::mechanism::Coordinate;
+use crate::mechanism::PoseCoordinate;
 
 /// What is asked by name of one joint, coordinate or platform.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -30,7 +30,7 @@ pub(crate) enum Target {
     /// The joint of that index.
     Joint(usize),
     /// A coordinate of the platform of that index.
-    Coordinate(usize, Coordinate),
+    Coordinate(usize, PoseCoordinate),
     /// The whole pose of the platform of that index.
     Pose(usize),
 }

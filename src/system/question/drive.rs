@@ -6,14 +6,14 @@ use super::value::Value;
 use crate::algebra::Measure;
 use crate::description::nearest;
 use crate::geometry::Axis;
-use crate::mechanism::Coordinate;
-use crate::system::{Holdable, Mobility};
+use crate::mechanism::PoseCoordinate;
+use crate::system::{Coordinate, Mobility};
 
 /// Rates and accelerations of the held coordinates of a question, in m and rad and seconds.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Drive {
     /// The held coordinates, [as they are driven](Question::driven_coordinates).
-    pub coordinates: Vec<Holdable>,
+    pub coordinates: Vec<Coordinate>,
     /// Their rates.
     pub rates: Vec<f64>,
     /// Their accelerations.
@@ -142,11 +142,11 @@ impl Drive {
             platform: mechanism.platforms()[platform].name.clone(),
         };
         match coordinate {
-            Holdable::Coordinate(platform, c) if !self.coordinates.contains(&coordinate) => {
+            Coordinate::Pose(platform, c) if !self.coordinates.contains(&coordinate) => {
                 if self.turned.contains(&platform) {
                     return Err(mixed(platform));
                 }
-                let angle = c as usize - Coordinate::Roll as usize;
+                let angle = c as usize - PoseCoordinate::Roll as usize;
                 let given = self.angles_of(platform);
                 match order {
                     Order::Rate => given.rates[angle] = value,
@@ -155,13 +155,13 @@ impl Drive {
                 self.turn_by_angles(question, platform);
                 return Ok(self);
             }
-            Holdable::Turn(platform, _) => {
+            Coordinate::Turn(platform, _) => {
                 if self.angles.iter().any(|angles| angles.platform == platform) {
                     return Err(mixed(platform));
                 }
                 self.turned.push(platform);
             }
-            Holdable::Coordinate(..) | Holdable::Joint(_) => {}
+            Coordinate::Pose(..) | Coordinate::Joint(_) => {}
         }
         let place = self.coordinates.iter().position(|c| *c == coordinate);
         let place = place.expect("what is neither driven nor an angle was not found");
@@ -192,7 +192,7 @@ impl Drive {
         let angles = angles.expect("angles have rates where all three are held");
         let [omega, change] = angles.turning(given.rates, given.accelerations);
         for (place, coordinate) in self.coordinates.iter().enumerate() {
-            if let Holdable::Turn(of, axis) = *coordinate
+            if let Coordinate::Turn(of, axis) = *coordinate
                 && of == platform
             {
                 self.rates[place] = omega.0[axis as usize];
@@ -202,28 +202,28 @@ impl Drive {
     }
 
     /// The coordinate of that name, if it is driven or an angle of a platform that turns.
-    fn find(&self, question: &Question, name: &str) -> Result<Holdable, DriveError> {
+    fn find(&self, question: &Question, name: &str) -> Result<Coordinate, DriveError> {
         let mechanism = question.mechanism();
-        let named = |c: &Holdable| c.name(mechanism);
+        let named = |c: &Coordinate| c.name(mechanism);
         let held: Vec<String> = self.coordinates.iter().map(named).collect();
         if let Some(place) = held.iter().position(|held| held == name) {
             return Ok(self.coordinates[place]);
         }
-        let joints = (0..mechanism.joints().len()).map(Holdable::Joint);
+        let joints = (0..mechanism.joints().len()).map(Coordinate::Joint);
         let platforms = 0..mechanism.platforms().len();
         let coordinates = platforms.clone().flat_map(|platform| {
-            let all = Coordinate::ALL;
-            all.map(|c| Holdable::Coordinate(platform, c))
+            let all = PoseCoordinate::ALL;
+            all.map(|c| Coordinate::Pose(platform, c))
         });
         let turns = platforms.flat_map(|platform| {
-            [Axis::X, Axis::Y, Axis::Z].map(|axis| Holdable::Turn(platform, axis))
+            [Axis::X, Axis::Y, Axis::Z].map(|axis| Coordinate::Turn(platform, axis))
         });
-        let all: Vec<Holdable> = joints.chain(coordinates).chain(turns).collect();
+        let all: Vec<Coordinate> = joints.chain(coordinates).chain(turns).collect();
         let known: Vec<String> = all.iter().map(named).collect();
         if let Some(platform) = mechanism.platform(name) {
-            let of_it = |c: &&Holdable| match **c {
-                Holdable::Coordinate(of, _) | Holdable::Turn(of, _) => of == platform,
-                Holdable::Joint(_) => false,
+            let of_it = |c: &&Coordinate| match **c {
+                Coordinate::Pose(of, _) | Coordinate::Turn(of, _) => of == platform,
+                Coordinate::Joint(_) => false,
             };
             return Err(DriveError::Whole {
                 platform: name.into(),
@@ -231,12 +231,12 @@ impl Drive {
             });
         }
         match known.iter().position(|known| known == name).map(|i| all[i]) {
-            Some(Holdable::Coordinate(platform, c))
+            Some(Coordinate::Pose(platform, c))
                 if c.is_angle() && question.held_angles(platform).is_some() =>
             {
-                Ok(Holdable::Coordinate(platform, c))
+                Ok(Coordinate::Pose(platform, c))
             }
-            Some(Holdable::Turn(platform, _)) => Err(DriveError::NotTurned {
+            Some(Coordinate::Turn(platform, _)) => Err(DriveError::NotTurned {
                 platform: mechanism.platforms()[platform].name.clone(),
             }),
             Some(_) if held.is_empty() && is_structure(question) => Err(DriveError::Structure),

@@ -3,7 +3,7 @@
 use std::error::Error;
 use std::fmt::{self, Display, Formatter};
 
-use super::{DriveError, LoadError};
+use super::{DriveError, ForceError};
 use crate::description::listed;
 
 /// `; did you mean …?`, or `; what there is`.
@@ -70,23 +70,23 @@ impl Error for DriveError {
     }
 }
 
-impl Display for LoadError {
+impl Display for ForceError {
     fn fmt(&self, f: &mut Formatter) -> fmt::Result {
         match self {
-            LoadError::Value(error) => error.fmt(f),
-            LoadError::UnknownFrame { name } => write!(f, "there is no frame `{name}`"),
-            LoadError::OnGround { name, instead } => {
+            ForceError::Value(error) => error.fmt(f),
+            ForceError::UnknownFrame { name } => write!(f, "there is no frame `{name}`"),
+            ForceError::OnGround { name, instead } => {
                 write!(f, "`{name}` is fixed to the ground and cannot be loaded")?;
                 match &instead[..] {
                     [] => Ok(()),
                     moving => write!(f, "; load a body that moves, such as {}", listed(moving)),
                 }
             }
-            LoadError::Components { given } => write!(
+            ForceError::Components { given } => write!(
                 f,
                 "a wrench has three components (N) or six (N and N·m), but {given} were given"
             ),
-            LoadError::UnknownJoint {
+            ForceError::UnknownJoint {
                 name,
                 suggestion,
                 known,
@@ -94,7 +94,7 @@ impl Display for LoadError {
                 write!(f, "`{name}` is not a joint")?;
                 instead(f, suggestion, known, "the joints are")
             }
-            LoadError::Platform { name, .. } => {
+            ForceError::Platform { name, .. } => {
                 write!(
                     f,
                     "`{name}` is not a joint: a platform is loaded by a wrench"
@@ -104,10 +104,10 @@ impl Display for LoadError {
     }
 }
 
-impl Error for LoadError {
+impl Error for ForceError {
     fn source(&self) -> Option<&(dyn Error + 'static)> {
         match self {
-            LoadError::Value(error) => error.source(),
+            ForceError::Value(error) => error.source(),
             _ => None,
         }
     }

@@ -5,8 +5,8 @@ use super::drive::{DriveError, number};
 use super::value::Value;
 use crate::algebra::{Measure, SiUnit};
 use crate::description::nearest;
-use crate::mechanism::{Body, Coordinate, Frame};
-use crate::system::Holdable;
+use crate::mechanism::{Body, Frame, PoseCoordinate};
+use crate::system::Coordinate;
 
 /// Wrenches on frames and loads on joints, in N and N·m.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -19,7 +19,7 @@ pub struct Load {
 
 /// Why a load cannot be given.
 #[derive(Clone, Debug, PartialEq)]
-pub enum LoadError {
+pub enum ForceError {
     /// The value is wrong.
     Value(DriveError),
     /// There is no frame of that name.
@@ -65,7 +65,7 @@ impl Load {
     ///
     /// # Errors
     /// If the frame does not exist or does not move, or the components are not three or six values.
-    pub fn wrench(self, question: &Question, name: &str, text: &str) -> Result<Self, LoadError> {
+    pub fn wrench(self, question: &Question, name: &str, text: &str) -> Result<Self, ForceError> {
         // the frame is the first thing to be wrong
         moving_frame(question, name)?;
         let inside = text.trim();
@@ -75,11 +75,11 @@ impl Load {
         let measures = [[Measure::Force; 3], [Measure::Moment; 3]].concat();
         if ![3, 6].contains(&parts.len()) {
             let given = parts.len();
-            return Err(LoadError::Components { given });
+            return Err(ForceError::Components { given });
         }
         let values = (parts.iter().zip(measures))
             .map(|(part, wanted)| {
-                number(question, name, &Value::from(*part), wanted).map_err(LoadError::Value)
+                number(question, name, &Value::from(*part), wanted).map_err(ForceError::Value)
             })
             .collect::<Result<Vec<f64>, _>>()?;
         match values[..] {
@@ -87,7 +87,7 @@ impl Load {
             [x, y, z, a, b, c] => self.forces(question, name, ([x, y, z], [a, b, c])),
             _ => {
                 let given = values.len();
-                Err(LoadError::Components { given })
+                Err(ForceError::Components { given })
             }
         }
     }
@@ -101,7 +101,7 @@ impl Load {
         question: &Question,
         name: &str,
         (force, moment): ([f64; 3], [f64; 3]),
-    ) -> Result<Self, LoadError> {
+    ) -> Result<Self, ForceError> {
         let frame = moving_frame(question, name)?;
         self.wrenches.push((frame, force, moment));
         Ok(self)
@@ -116,15 +116,15 @@ impl Load {
         question: &Question,
         name: &str,
         value: impl Into<Value>,
-    ) -> Result<Self, LoadError> {
+    ) -> Result<Self, ForceError> {
         let mechanism = question.mechanism();
         let Some(joint) = mechanism.joint(name) else {
             let (platform, part) = name.rsplit_once('.').unwrap_or((name, ""));
-            let coordinate = Coordinate::by_name(part);
+            let coordinate = PoseCoordinate::by_name(part);
             if mechanism.platform(name).is_some()
                 || coordinate.is_some() && mechanism.platform(platform).is_some()
             {
-                return Err(LoadError::Platform {
+                return Err(ForceError::Platform {
                     name: name.into(),
                     platform: match coordinate {
                         Some(_) => platform.into(),
@@ -136,7 +136,7 @@ impl Load {
             let known = mechanism.joints().iter().map(|joint| joint.name.clone());
             let known: Vec<String> = known.collect();
             let meant = nearest(name, known.iter().map(String::as_str));
-            return Err(LoadError::UnknownJoint {
+            return Err(ForceError::UnknownJoint {
                 name: name.into(),
                 suggestion: meant.map(str::to_owned),
                 known,
@@ -146,17 +146,17 @@ impl Load {
             true => Measure::Moment,
             false => Measure::Force,
         };
-        let value = number(question, name, &value.into(), wanted).map_err(LoadError::Value)?;
+        let value = number(question, name, &value.into(), wanted).map_err(ForceError::Value)?;
         self.joints.push((joint, value));
         Ok(self)
     }
 }
 
 /// The frame of that name, if something moves it.
-fn moving_frame(question: &Question, name: &str) -> Result<Frame, LoadError> {
+fn moving_frame(question: &Question, name: &str) -> Result<Frame, ForceError> {
     let mechanism = question.mechanism();
     let Some(frame) = mechanism.frame(name) else {
-        return Err(LoadError::UnknownFrame { name: name.into() });
+        return Err(ForceError::UnknownFrame { name: name.into() });
     };
     if mechanism.body(frame) == Body::Ground {
         let platforms = mechanism.platforms().iter().map(|p| p.name.clone());
@@ -167,7 +167,7 @@ fn moving_frame(question: &Question, name: &str) -> Result<Frame, LoadError> {
             let moving = tips.filter(|&tip| mechanism.body(tip) != Body::Ground);
             instead = moving.map(|tip| mechanism.frame_name(tip)).collect();
         }
-        return Err(LoadError::OnGround {
+        return Err(ForceError::OnGround {
             name: name.into(),
             instead,
         });
@@ -175,7 +175,7 @@ fn moving_frame(question: &Question, name: &str) -> Result<Frame, LoadError> {
     Ok(frame)
 }
 
-impl Holdable {
+impl Coordinate {
     /// Unit of the force that holds it: N·m or N.
     pub fn force_unit(self, mechanism: &crate::mechanism::Mechanism) -> SiUnit {
         SiUnit::of_effort(self.is_angle(mechanism))

@@ -5,24 +5,24 @@
 
 use super::Question;
 use crate::geometry::Axis;
-use crate::mechanism::{Body, Coordinate, Frame, Mechanism, Role};
-use crate::system::{Held, HeldPlatform, Holdable, Lock};
+use crate::mechanism::{Body, Frame, Mechanism, PoseCoordinate, Role};
+use crate::system::{Coordinate, Held, HeldPlatform, Lock};
 
 /// The actuated joints, in the order of the file.
-pub fn actuated(mechanism: &Mechanism) -> Vec<Holdable> {
+pub fn actuated(mechanism: &Mechanism) -> Vec<Coordinate> {
     let joints = mechanism.joints().iter().enumerate();
     let actuated = joints.filter(|(_, joint)| joint.role == Role::Actuated);
-    actuated.map(|(i, _)| Holdable::Joint(i)).collect()
+    actuated.map(|(i, _)| Coordinate::Joint(i)).collect()
 }
 
 /// What is driven: the held coordinates if all of them are joints, else the actuated joints.
-pub fn inputs_of(question: &Question) -> Vec<Holdable> {
+pub fn inputs_of(question: &Question) -> Vec<Coordinate> {
     let held = question.held_coordinates();
-    if held.iter().all(|h| matches!(h, Holdable::Joint(_))) {
+    if held.iter().all(|h| matches!(h, Coordinate::Joint(_))) {
         let mut held = held;
         held.sort_by_key(|h| match h {
-            Holdable::Joint(joint) => *joint,
-            Holdable::Coordinate(..) | Holdable::Turn(..) => usize::MAX,
+            Coordinate::Joint(joint) => *joint,
+            Coordinate::Pose(..) | Coordinate::Turn(..) => usize::MAX,
         });
         return held;
     }
@@ -35,7 +35,7 @@ pub fn inputs_of(question: &Question) -> Vec<Holdable> {
 
 /// What moves out where nothing else is asked for: the platforms; of an open chain the tips; else
 /// the joints on the ground that are not driven; else the points where the chains are joined.
-pub fn default_outputs(mechanism: &Mechanism, inputs: &[Holdable]) -> Vec<Lock> {
+pub fn default_outputs(mechanism: &Mechanism, inputs: &[Coordinate]) -> Vec<Lock> {
     let platforms = 0..mechanism.platforms().len();
     let platforms: Vec<Lock> = platforms
         .map(|platform| Lock::Frame(Frame::Platform { platform }))
@@ -49,12 +49,12 @@ pub fn default_outputs(mechanism: &Mechanism, inputs: &[Holdable]) -> Vec<Lock> 
             .map(|chain| Lock::Frame(Frame::Tip { chain }))
             .collect();
     }
-    let mut grounded: Vec<Holdable> = Vec::new();
+    let mut grounded: Vec<Coordinate> = Vec::new();
     for chain in mechanism.chains() {
         let first = chain.rows.iter().map(|row| row.joints());
         let first = first.into_iter().find(|joints| !joints.is_empty());
         if mechanism.body(chain.on) == Body::Ground {
-            grounded.extend(first.into_iter().flatten().map(Holdable::Joint));
+            grounded.extend(first.into_iter().flatten().map(Coordinate::Joint));
         }
     }
     grounded.retain(|joint| !inputs.contains(joint));
@@ -73,17 +73,17 @@ pub fn default_outputs(mechanism: &Mechanism, inputs: &[Holdable]) -> Vec<Lock> 
 /// pose is the platform.
 pub fn platform_outputs(
     held: &Held<f64>,
-    moved: &[Holdable],
-    inputs: &[Holdable],
+    moved: &[Coordinate],
+    inputs: &[Coordinate],
 ) -> Option<Vec<Lock>> {
-    let joint = |h: &Holdable| matches!(h, Holdable::Joint(_));
+    let joint = |h: &Coordinate| matches!(h, Coordinate::Joint(_));
     let moves_joint = moved.iter().any(joint);
     if held.joints.contains(&true) || moves_joint || !inputs.iter().all(joint) {
         return None;
     }
     let mut outputs = Vec::new();
     for (platform, held) in held.platforms.iter().enumerate() {
-        let asked = |c: Coordinate| {
+        let asked = |c: PoseCoordinate| {
             let held = match held {
                 HeldPlatform::Free => false,
                 HeldPlatform::Pose => true,
@@ -95,21 +95,24 @@ pub fn platform_outputs(
                         || orientation.is_some() && c.is_angle()
                 }
             };
-            let coordinate = Holdable::Coordinate(platform, c);
+            let coordinate = Coordinate::Pose(platform, c);
             held || moved.contains(&coordinate)
         };
-        let all: Vec<Coordinate> = Coordinate::ALL.into_iter().filter(|c| asked(*c)).collect();
-        if all.len() == Coordinate::ALL.len() {
+        let all: Vec<PoseCoordinate> = PoseCoordinate::ALL
+            .into_iter()
+            .filter(|c| asked(*c))
+            .collect();
+        if all.len() == PoseCoordinate::ALL.len() {
             outputs.push(Lock::Frame(Frame::Platform { platform }));
             continue;
         }
         let turned = all.iter().filter(|c| c.is_angle()).count() == 3;
         outputs.extend(all.into_iter().map(|c| {
             Lock::Coordinate(match c {
-                Coordinate::Roll if turned => Holdable::Turn(platform, Axis::X),
-                Coordinate::Pitch if turned => Holdable::Turn(platform, Axis::Y),
-                Coordinate::Yaw if turned => Holdable::Turn(platform, Axis::Z),
-                c => Holdable::Coordinate(platform, c),
+                PoseCoordinate::Roll if turned => Coordinate::Turn(platform, Axis::X),
+                PoseCoordinate::Pitch if turned => Coordinate::Turn(platform, Axis::Y),
+                PoseCoordinate::Yaw if turned => Coordinate::Turn(platform, Axis::Z),
+                c => Coordinate::Pose(platform, c),
             })
         }));
     }
@@ -126,7 +129,7 @@ pub enum Output {
     /// The rate of a joint.
     Joint(usize),
     /// The rate of a coordinate of a platform.
-    Coordinate(usize, Coordinate),
+    Coordinate(usize, PoseCoordinate),
     /// A component of the angular velocity of a platform.
     Turn(usize, Axis),
 }
@@ -137,23 +140,23 @@ pub enum Output {
 ///
 /// Of a platform that is partly held the angular velocity is free if no angle is held, else the
 /// other angles.
-pub fn free_outputs(mechanism: &Mechanism, held: &[Holdable], spinning: &[usize]) -> Vec<Output> {
+pub fn free_outputs(mechanism: &Mechanism, held: &[Coordinate], spinning: &[usize]) -> Vec<Output> {
     let mut outputs = Vec::new();
     for platform in 0..mechanism.platforms().len() {
-        let is_held = |c: &Coordinate| held.contains(&Holdable::Coordinate(platform, *c));
-        let of_it = |holdable: &Holdable| match holdable {
-            Holdable::Coordinate(of, _) | Holdable::Turn(of, _) => *of == platform,
-            Holdable::Joint(_) => false,
+        let is_held = |c: &PoseCoordinate| held.contains(&Coordinate::Pose(platform, *c));
+        let of_it = |holdable: &Coordinate| match holdable {
+            Coordinate::Pose(of, _) | Coordinate::Turn(of, _) => *of == platform,
+            Coordinate::Joint(_) => false,
         };
         if !held.iter().any(of_it) {
             outputs.push(Output::Twist(Frame::Platform { platform }));
         } else if held.iter().filter(|held| of_it(held)).count() < 6 {
-            let (angles, shifts): (Vec<Coordinate>, _) =
-                Coordinate::ALL.into_iter().partition(|c| c.is_angle());
+            let (angles, shifts): (Vec<PoseCoordinate>, _) =
+                PoseCoordinate::ALL.into_iter().partition(|c| c.is_angle());
             let coordinate =
-                |c: Coordinate| (!is_held(&c)).then_some(Output::Coordinate(platform, c));
-            let turned =
-                (held.iter()).any(|held| matches!(held, Holdable::Turn(of, _) if *of == platform));
+                |c: PoseCoordinate| (!is_held(&c)).then_some(Output::Coordinate(platform, c));
+            let turned = (held.iter())
+                .any(|held| matches!(held, Coordinate::Turn(of, _) if *of == platform));
             match angles.iter().any(is_held) {
                 _ if turned => {}
                 true => outputs.extend(angles.into_iter().filter_map(coordinate)),
@@ -166,9 +169,9 @@ pub fn free_outputs(mechanism: &Mechanism, held: &[Holdable], spinning: &[usize]
             outputs.extend(Vec::into_iter(shifts).filter_map(coordinate));
         }
     }
-    let inverse = !held.iter().all(|held| matches!(held, Holdable::Joint(_)));
+    let inverse = !held.iter().all(|held| matches!(held, Coordinate::Joint(_)));
     let free =
-        |joint: &usize| !held.contains(&Holdable::Joint(*joint)) && !spinning.contains(joint);
+        |joint: &usize| !held.contains(&Coordinate::Joint(*joint)) && !spinning.contains(joint);
     let joints = 0..mechanism.joints().len();
     let driven = |joint: &usize| mechanism.joints()[*joint].role == Role::Actuated;
     if inverse {

@@ -2,7 +2,7 @@
 
 use super::{Attempt, Search};
 use crate::geometry::Quaternion;
-use crate::mechanism::{Configuration, Coordinate, PlatformPose};
+use crate::mechanism::{Configuration, PlatformPose, PoseCoordinate};
 use crate::solve::{Report, Stop};
 use crate::system::HeldPlatform;
 
@@ -92,7 +92,7 @@ impl Search<'_> {
     }
 }
 
-fn coordinates(held: &HeldPlatform<f64>) -> &[(Coordinate, f64)] {
+fn coordinates(held: &HeldPlatform<f64>) -> &[(PoseCoordinate, f64)] {
     match held {
         HeldPlatform::Partly { coordinates, .. } => coordinates,
         HeldPlatform::Free | HeldPlatform::Pose => &[],

@@ -1,9 +1,9 @@
 use super::neighbourhood::Neighbourhood;
 use crate::geometry::{RollPitchYaw, Vector3};
 use crate::linear::{INDEPENDENT, SPECTRUM_LIMIT, Spectrum, rank};
-use crate::mechanism::{Configuration, Coordinate, Dimensions, Mechanism};
+use crate::mechanism::{Configuration, Dimensions, Mechanism, PoseCoordinate};
 use crate::solve::{Equations, Newton, Stop};
-use crate::system::{Held, Holdable, System, Unknown};
+use crate::system::{Coordinate, Held, System, Unknown};
 
 /// The infinitesimal motions of a mechanism at a configuration, with some coordinates held.
 #[derive(Clone, Debug)]
@@ -84,7 +84,7 @@ impl Freedoms {
 
     /// Whether every motion only turns links about their own lines, as it does a rod between two
     /// balls. (A wrist or a platform that turns about one point goes somewhere else.)
-    pub fn are_idle(&self, mechanism: &Mechanism, at: &Configuration<f64>) -> bool {
+    pub fn are_local(&self, mechanism: &Mechanism, at: &Configuration<f64>) -> bool {
         if self.motions.is_empty() {
             return true;
         }
@@ -97,7 +97,7 @@ impl Freedoms {
             let parts = places.iter().map(|place| place.map_or(0.0, |i| motion[i]));
             parts.collect()
         };
-        near.are_idle(at, &self.motions.iter().map(whole).collect::<Vec<_>>())
+        near.are_local(at, &self.motions.iter().map(whole).collect::<Vec<_>>())
     }
 }
 
@@ -120,7 +120,8 @@ pub fn moving(mechanism: &Mechanism, unknowns: &[Unknown], motions: &[Vec<f64>])
     shares.into_iter().map(|(name, _)| name).collect()
 }
 
-/// The freedoms of a mechanism with nothing held, at an assembled configuration that is not special.
+/// The freedoms of a mechanism with nothing held, at an assembled configuration that is not
+/// special.
 #[derive(Clone, Debug)]
 pub struct Mobility {
     freedoms: Freedoms,
@@ -197,8 +198,8 @@ impl Mobility {
         self.freedoms.motions.len() - self.idle.min(self.freedoms.motions.len())
     }
 
-    /// Whether the freedoms are finite, tried along one that mixes them all: a shaky structure has
-    /// some that are not.
+    /// Whether the freedoms are finite, tried along one that mixes them all: an infinitesimally
+    /// flexible (shaky) structure has some that are not.
     pub fn is_finite(&self, mechanism: &Mechanism) -> bool {
         let mut near = Neighbourhood::new(mechanism);
         let tangent = near.tangent(self.at.clone());
@@ -212,7 +213,7 @@ impl Mobility {
 
     /// The first of the candidates that are independent of one another, as many as there are
     /// freedoms at most: holding them leaves nothing else to choose.
-    pub fn independent(&self, mechanism: &Mechanism, candidates: &[Holdable]) -> Vec<Holdable> {
+    pub fn independent(&self, mechanism: &Mechanism, candidates: &[Coordinate]) -> Vec<Coordinate> {
         let mut chosen = Vec::new();
         let mut basis: Vec<Vec<f64>> = Vec::new();
         for &candidate in candidates {
@@ -238,23 +239,23 @@ impl Mobility {
     }
 
     /// How fast a coordinate changes along each freedom.
-    fn rates(&self, mechanism: &Mechanism, candidate: Holdable) -> Vec<f64> {
+    fn rates(&self, mechanism: &Mechanism, candidate: Coordinate) -> Vec<f64> {
         match candidate {
-            Holdable::Joint(joint) => {
+            Coordinate::Joint(joint) => {
                 let motions = self.freedoms.motions.iter();
                 motions
                     .map(|motion| self.freedoms.joint_rate(motion, joint))
                     .collect()
             }
-            Holdable::Coordinate(platform, _) | Holdable::Turn(platform, _) => {
+            Coordinate::Pose(platform, _) | Coordinate::Turn(platform, _) => {
                 let pose = self.at.platforms[platform].pose();
                 let slope = match candidate {
                     // roll and yaw turn about the same line there: only whole orientations are
                     // held, by three angles as good as any
-                    Holdable::Coordinate(_, c)
+                    Coordinate::Pose(_, c)
                         if c.is_angle() && RollPitchYaw::is_locked(&pose.rotation) =>
                     {
-                        let axis = c as usize - Coordinate::Roll as usize;
+                        let axis = c as usize - PoseCoordinate::Roll as usize;
                         std::array::from_fn(|i| f64::from(u8::from(i == axis)))
                     }
                     _ => candidate.slope(&pose, mechanism.characteristic_length()),

@@ -4,21 +4,22 @@ use super::twists::FrameTwists;
 use crate::linear::Decomposition;
 use crate::mechanism::{Configuration, Frame, Mechanism};
 use crate::solve::Equations;
-use crate::system::{Held, Holdable, System, Work};
+use crate::system::{Coordinate, Held, System, Work};
 
-/// What is kept at rest.
+/// A coordinate or frame that is kept at rest.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Lock {
     /// A joint or a platform coordinate.
-    Coordinate(Holdable),
+    Coordinate(Coordinate),
     /// A frame: it neither turns nor moves.
     Frame(Frame),
     /// The origin of a frame: the frame may turn about it.
     Point(Frame),
 }
 
-/// The closure equations linearised with nothing held, above the rates of what is kept at rest:
-/// M = [J; A]. What M maps to zero are the motions that leave the locked things at rest.
+/// The closure equations linearised with nothing held, with the rates of the locked coordinates and
+/// frames below: M = [J; A]. What M maps to zero are the motions that leave the locked things at
+/// rest.
 ///
 /// Rows and columns are dimensionless; the columns are the unknowns of [`Locked::system`].
 #[derive(Clone, Debug)]
@@ -137,11 +138,11 @@ impl Locked {
         Decomposition::of_rank(self.rows(), self.columns(), &entries, rank)
     }
 
-    /// det(Uᵀ M V Σ⁻¹) with the decomposition U Σ Vᵀ of M at a configuration nearby: 1 there, and it
-    /// changes sign where M loses an odd number of ranks.
+    /// det(Uᵀ M V Σ⁻¹) with the decomposition U Σ Vᵀ of M at a configuration nearby: 1 there, and
+    /// it changes sign where M loses an odd number of ranks.
     ///
-    /// Unlike singular values it is a smooth function of the configuration, and redundant rows do no
-    /// harm to it.
+    /// Unlike singular values it is a smooth function of the configuration, and redundant rows do
+    /// no harm to it.
     pub fn orientation(&mut self, near: &Decomposition, at: &Configuration<f64>) -> f64 {
         let entries = self.jacobian(at);
         near.determinant_beside(&entries)

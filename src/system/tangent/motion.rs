@@ -1,4 +1,4 @@
-//! Rates and accelerations of everything for those of what is held.
+//! Rates and accelerations of all unknowns for those of the held coordinates.
 
 mod frames;
 mod held;
@@ -7,7 +7,7 @@ use crate::geometry::{Quaternion, Vector3};
 use crate::mechanism::{Configuration, Mechanism, PlatformPose};
 use crate::number::{Dual, Number};
 use crate::solve::Equations;
-use crate::system::{Held, HeldPlatform, Holdable, System, Unknown, Work};
+use crate::system::{Coordinate, Held, HeldPlatform, System, Unknown, Work};
 
 pub use frames::{FrameMotion, FrameMotions};
 
@@ -17,16 +17,16 @@ type Second = Dual<Dual<f64>>;
 /// Solves the derivatives of the closure equations r(x, h) = 0 for given rates of the held
 /// coordinates h. Built once; nothing allocates afterwards.
 ///
-/// ṙ = J ẋ + H ḣ = 0 gives ẋ = −J⁺ H ḣ, and r̈ = 0 gives ẍ = −J⁺ γ, where γ is r̈ along the path that
-/// has these rates and no acceleration but that of h. H ḣ and γ are the derivatives of the same
-/// residuals over dual numbers.
+/// ṙ = J ẋ + H ḣ = 0 gives ẋ = −J⁺ H ḣ, and r̈ = 0 gives ẍ = −J⁺ γ, where γ is r̈ along the path
+/// that has these rates and no acceleration but that of h. H ḣ and γ are the derivatives of the
+/// same residuals over dual numbers.
 ///
 /// Rates are dimensionless in the order of [`Motion::unknowns`]: rad and characteristic lengths.
 /// At a singular configuration they are one choice of many; see [`Motion::held`] with
 /// [`Freedoms`](super::Freedoms).
 #[derive(Clone, Debug)]
 pub struct Motion {
-    coordinates: Vec<Holdable>,
+    coordinates: Vec<Coordinate>,
     held: Held<f64>,
     system: System<f64>,
     work: Work<f64>,
@@ -48,7 +48,7 @@ pub struct Motion {
 
 impl Motion {
     /// For a choice of what is held.
-    pub fn new(mechanism: &Mechanism, coordinates: &[Holdable]) -> Self {
+    pub fn new(mechanism: &Mechanism, coordinates: &[Coordinate]) -> Self {
         let dimensions = mechanism.dimensions();
         let held = held::of(mechanism, coordinates);
         let system = System::new(dimensions, &held);
@@ -102,7 +102,7 @@ impl Motion {
     }
 
     /// The held coordinates.
-    pub fn coordinates(&self) -> &[Holdable] {
+    pub fn coordinates(&self) -> &[Coordinate] {
         &self.coordinates
     }
 
@@ -140,8 +140,8 @@ impl Motion {
         }
     }
 
-    /// Rates of everything for rates of the held coordinates in their order, in m and rad per unit
-    /// of time.
+    /// Rates of all unknowns for rates of the held coordinates in their order, in m and rad per
+    /// unit of time.
     pub fn rates(&mut self, given: &[f64]) -> &[f64] {
         for path in &mut self.first_path.joints {
             path.slope = 0.0;
@@ -156,8 +156,8 @@ impl Motion {
                 self.rates[place] = rate / scale;
             }
             match coordinate {
-                Holdable::Joint(joint) => self.first_path.joints[joint].slope = rate,
-                Holdable::Coordinate(platform, c) if self.place(coordinate).is_none() => {
+                Coordinate::Joint(joint) => self.first_path.joints[joint].slope = rate,
+                Coordinate::Pose(platform, c) if self.place(coordinate).is_none() => {
                     let pose = self.first_path.platforms[platform].pose();
                     let target = Dual {
                         value: c.of(&pose).value,
@@ -165,7 +165,7 @@ impl Motion {
                     };
                     self.first.set_target(platform, c, target);
                 }
-                Holdable::Coordinate(..) | Holdable::Turn(..) => {}
+                Coordinate::Pose(..) | Coordinate::Turn(..) => {}
             }
         }
         for platform in 0..self.held.platforms.len() {
@@ -206,17 +206,17 @@ impl Motion {
         &self.rates
     }
 
-    /// The place of a held coordinate among the unknowns, with the scale of its rate there; none for
-    /// single coordinates of a platform and for its orientation alone, which are equations.
-    fn place(&self, coordinate: Holdable) -> Option<(usize, f64)> {
+    /// The place of a held coordinate among the unknowns, with the scale of its rate there; none
+    /// for single coordinates of a platform and for its orientation alone, which are equations.
+    fn place(&self, coordinate: Coordinate) -> Option<(usize, f64)> {
         let twist = |platform: usize| self.scales.len() + 6 * platform;
         match coordinate {
-            Holdable::Joint(joint) => Some((joint, self.scales[joint])),
-            Holdable::Turn(platform, axis) => {
+            Coordinate::Joint(joint) => Some((joint, self.scales[joint])),
+            Coordinate::Turn(platform, axis) => {
                 let whole = self.held.platforms[platform] == HeldPlatform::Pose;
                 whole.then(|| (twist(platform) + axis as usize, 1.0))
             }
-            Holdable::Coordinate(platform, c) => {
+            Coordinate::Pose(platform, c) => {
                 let whole = self.held.platforms[platform] == HeldPlatform::Pose;
                 whole.then(|| (twist(platform) + 3 + c as usize, self.length))
             }
@@ -233,9 +233,9 @@ impl Motion {
             .fold(0.0, |most: f64, row| most.max(row.slope.abs()))
     }
 
-    /// The largest acceleration, dimensionless, at which a closure would open with the accelerations
-    /// last computed: more than rounding where no motion has them, at a configuration that is mobile
-    /// to first order only. The accelerations must be the last thing computed.
+    /// The largest acceleration, dimensionless, at which a closure would open with the
+    /// accelerations last computed: more than rounding where no motion has them, at a configuration
+    /// that is mobile to first order only. The accelerations must be the last thing computed.
     pub fn mismatch_of_accelerations(&mut self, at: &Configuration<f64>) -> f64 {
         self.follow_accelerations(at);
         self.second
@@ -288,8 +288,7 @@ impl Motion {
         self.follow_accelerations(at);
         let asked = self.coordinates.iter().zip(rates).zip(given);
         for ((&coordinate, &rate), &acceleration) in asked {
-            if let (Holdable::Coordinate(platform, c), None) = (coordinate, self.place(coordinate))
-            {
+            if let (Coordinate::Pose(platform, c), None) = (coordinate, self.place(coordinate)) {
                 let mut target = time(rate, acceleration);
                 target.value.value = c.of(&at.platforms[platform].pose());
                 self.second.set_target(platform, c, target);

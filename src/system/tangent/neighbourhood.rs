@@ -1,4 +1,4 @@
-//! What a mechanism with nothing held can do near an assembled configuration.
+//! The motions of a mechanism near an assembled configuration.
 
 mod follow;
 
@@ -9,12 +9,12 @@ use crate::mechanism::{Body, Configuration, Frame, Mechanism};
 use crate::solve::{Equations, Newton, Stop};
 use crate::system::{ClosureWrenches, Held, System, Unknown, Work};
 
-pub use follow::Followed;
+pub use follow::FiniteStep;
 
-/// What is rounding among the rates of motions of unit norm.
+/// Rates of motions of unit norm below this are rounding.
 const ROUNDING: f64 = 1e-6;
 
-/// A mechanism with nothing held, or what a question holds, to be looked at near assembled
+/// A mechanism with nothing held, or with the held coordinates of a question, near assembled
 /// configurations.
 #[derive(Clone, Debug)]
 pub struct Neighbourhood<'a> {
@@ -86,7 +86,7 @@ impl<'a> Neighbourhood<'a> {
             (0..columns).map(along).collect()
         };
         let idle = match split.singular_values().first() {
-            // all of it is rounding beside motions of unit norm
+            // everything is rounding compared with motions of unit norm
             Some(&largest) if largest < ROUNDING => complement(&[], all.len()),
             _ => split.null_space(),
         };
@@ -135,7 +135,7 @@ impl<'a> Neighbourhood<'a> {
     }
 
     /// Whether motions are idle: links turn about their own lines and nothing else moves.
-    pub fn are_idle(&self, at: &Configuration<f64>, motions: &[Vec<f64>]) -> bool {
+    pub fn are_local(&self, at: &Configuration<f64>, motions: &[Vec<f64>]) -> bool {
         let felt = self.felt(at, motions);
         felt.iter().all(|rate| rate.abs() < ROUNDING)
     }
@@ -157,7 +157,8 @@ impl<'a> Neighbourhood<'a> {
             .filter_map(|frame| frames.iter().position(|f| *f == frame))
             .collect();
         let unfelt = mechanism.unfelt_joints();
-        // platforms on balls apart: what leaves the balls at rest turns them about the line of these
+        // platforms on balls apart: what leaves the balls at rest turns them about the line of
+        // these
         let balls = |platform: usize| {
             let closures = mechanism.closures().iter();
             let balls = closures

@@ -14,7 +14,8 @@ pub struct TwistSpace {
     pub body: String,
     /// A basis: principal screws first, translations after them.
     pub screws: Vec<Screw>,
-    /// The lines about which it spins in idle freedoms: what the screws leave open, and have none of.
+    /// The lines about which it spins in idle freedoms: what the screws leave open, and have none
+    /// of.
     pub spins: Vec<Screw>,
 }
 
@@ -30,7 +31,7 @@ pub struct Screw {
     pub pitch: Option<f64>,
 }
 
-/// What counts as zero in a dimensionless twist.
+/// Components of a dimensionless twist below this are zero.
 const ZERO: f64 = 1e-7;
 
 /// The bodies whose motions are of interest: platforms, or else the links that closures join.

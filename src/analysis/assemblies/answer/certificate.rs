@@ -33,7 +33,7 @@ pub(crate) struct Certifier {
 }
 
 impl Certifier {
-    /// For the asked inputs and a choice of as many rows as unknowns. `None` if a dimension has no
+    /// For the target inputs and a choice of as many rows as unknowns. `None` if a dimension has no
     /// enclosure.
     pub fn new(mechanism: &Mechanism, held: &Held<f64>, rows: &[usize]) -> Option<Self> {
         let own = mechanism.independent_parameters().into_iter();

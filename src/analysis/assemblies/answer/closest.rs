@@ -1,4 +1,4 @@
-//! How near a mechanism comes to being assembled, where it cannot be.
+//! The closest approach of a mechanism that cannot be assembled.
 
 use super::Question;
 use super::real::{named_joints, named_poses, tidied};
@@ -10,8 +10,8 @@ use crate::solve::{Newton, Stop};
 use crate::system::{Gap, Work, approach};
 
 impl Question<'_> {
-    /// The smallest gaps that Newton's method leaves from the asked configuration and from the real
-    /// parts of complex solutions; whether nothing is left.
+    /// The smallest gaps that Newton's method leaves from the target configuration and from the
+    /// real parts of complex solutions; whether nothing is left.
     pub(crate) fn nearest(
         &self,
         starts: &[&Vec<C>],

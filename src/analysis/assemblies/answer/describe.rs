@@ -10,7 +10,8 @@ use crate::number::Number;
 use crate::solve::{Equations, Stage};
 use crate::system::Work;
 
-/// Assemblies nearer to each other than this, in rad or characteristic lengths, are barely told apart.
+/// Assemblies nearer to each other than this, in rad or characteristic lengths, are hardly
+/// distinguished.
 const BARELY: f64 = 1e-4;
 
 impl Question<'_> {

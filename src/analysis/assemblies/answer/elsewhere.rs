@@ -1,4 +1,4 @@
-//! Assemblies at the asked inputs to which no path leads, and samples of sets of them.
+//! Assemblies at the target inputs to which no path leads, and samples of sets of them.
 
 use super::super::Wanted;
 use super::real::key;
@@ -6,7 +6,7 @@ use super::{END, Found, Gathered, Question, Starts};
 use crate::analysis::assemblies::family::{C, size};
 use crate::analysis::assemblies::report::Fit;
 use crate::analysis::assemblies::search::GenericSolutions;
-use crate::analysis::assemblies::track::{Local, Way};
+use crate::analysis::assemblies::track::{Local, ParameterHomotopy};
 use crate::mechanism::Configuration;
 use crate::number::Number;
 use crate::solve::{Homotopy, Newton};
@@ -24,19 +24,19 @@ const ROUNDING: f64 = 1e-14;
 impl Question<'_> {
     /// Whether Newton's method may have ended at a point on its way to a known assembly: the closures
     /// see no more between them than it leaves.
-    fn is_at(&self, x: &[C], found: &Found, way: &mut Way<'_>) -> bool {
+    fn is_at(&self, x: &[C], found: &Found, homotopy: &mut ParameterHomotopy<'_>) -> bool {
         const NEAR: f64 = 0.3;
         let y = self.coordinates.flatten(&found.point.map(C::from_f64));
         self.coordinates.within(NEAR, x, &y)
-            && way.seen_apart(END, &y, x) <= 10.0 * Newton::default().tolerance
+            && homotopy.seen_apart(END, &y, x) <= 10.0 * Newton::default().tolerance
     }
 
-    /// Adds what Newton's method finds at the asked inputs itself.
+    /// Adds what Newton's method finds at the target inputs itself.
     pub(crate) fn look_elsewhere(
         &self,
         gathered: &mut Gathered,
         (fit, generic, wanted): (&Fit, &GenericSolutions, Wanted),
-        way: &mut Way<'_>,
+        homotopy: &mut ParameterHomotopy<'_>,
         starts: &Starts<'_>,
     ) {
         let many = matches!(fit, Fit::TooManyHeld | Fit::AlwaysMultiple) || generic.multiple > 0;
@@ -45,17 +45,21 @@ impl Question<'_> {
             return;
         }
         let expected = many || *fit != Fit::Finite;
-        self.add(gathered, starts(0..first), way, (fit, expected));
+        self.add(gathered, starts(0..first), homotopy, (fit, expected));
     }
 
     /// A real solution beside a complex point.
-    pub(crate) fn beside(&self, x: &[C], way: &mut Way<'_>) -> Option<Configuration<f64>> {
+    pub(crate) fn beside(
+        &self,
+        x: &[C],
+        homotopy: &mut ParameterHomotopy<'_>,
+    ) -> Option<Configuration<f64>> {
         let mut start: Vec<C> = x.iter().map(|z| C::from_f64(z.re)).collect();
         self.coordinates.settle(&mut start);
         if start.iter().any(|z| !z.re.is_finite()) {
             return None;
         }
-        let x = Local::new(way, true).settled(start)?;
+        let x = Local::new(homotopy, true).settled(start)?;
         let mut at = self.asked.map(C::from_f64);
         self.coordinates.unflatten(&x, &mut at);
         Some(at.map(|z| z.re))
@@ -66,7 +70,7 @@ impl Question<'_> {
         &self,
         gathered: &mut Gathered,
         points: Vec<Configuration<f64>>,
-        way: &mut Way<'_>,
+        homotopy: &mut ParameterHomotopy<'_>,
         (fit, expected): (&Fit, bool),
     ) {
         let mut work = self.system.work();
@@ -80,13 +84,13 @@ impl Question<'_> {
                 let y = self.coordinates.flatten(&f.point.map(C::from_f64));
                 self.coordinates.difference(x, &y)
             };
-            let is_known = |x: &[C], way: &mut Way<'_>| {
-                (gathered.found.iter()).any(|f| f.dimension == 0 && self.is_at(x, f, way))
+            let is_known = |x: &[C], homotopy: &mut ParameterHomotopy<'_>| {
+                (gathered.found.iter()).any(|f| f.dimension == 0 && self.is_at(x, f, homotopy))
             };
-            if is_known(&x, way) {
+            if is_known(&x, homotopy) {
                 continue;
             }
-            let mut local = Local::new(way, true);
+            let mut local = Local::new(homotopy, true);
             let dimension = local.dimension(&x);
             let order_of = local.order(&x);
             let (x, multiplicity) = match (dimension, order_of) {
@@ -96,7 +100,7 @@ impl Question<'_> {
             };
             // where solutions meet, no more than rounding is left. What Newton's method calls solved may
             // be beside a set of solutions of other inputs, a hair from these
-            let left = way.residual(END, &x);
+            let left = homotopy.residual(END, &x);
             if !expected && multiplicity > 1 && left > ROUNDING * (1.0 + size(&x)) {
                 continue;
             }
@@ -104,7 +108,7 @@ impl Question<'_> {
             let enough = dimension > 0
                 && (alike.clone().count() >= SAMPLES
                     || alike.clone().any(|f| apart(f, &x) < APART));
-            if enough || is_known(&x, way) {
+            if enough || is_known(&x, homotopy) {
                 continue;
             }
             let Some(point) = self.real(&x, multiplicity != 1, &mut work) else {

@@ -2,7 +2,7 @@
 
 use crate::analysis::assemblies::family::{C, Coordinates, size};
 use crate::geometry::RollPitchYaw;
-use crate::mechanism::{Configuration, Coordinate, Mechanism, principal};
+use crate::mechanism::{Configuration, Mechanism, PoseCoordinate, principal};
 use crate::number::Number;
 use crate::solve::{Equations, Newton, Stop};
 use crate::system::{System, Work};
@@ -54,22 +54,23 @@ pub(crate) fn real_solution(
     (report.stop == Stop::Solved && near).then(|| tidied(point, coordinates, true))
 }
 
-/// The least cos(pitch) of platforms with a roll or yaw held: by it these angles, and their rows, are
-/// turned more than the platform is.
+/// The least cos(pitch) of platforms with a roll or yaw held: by it these angles, and their rows,
+/// are turned more than the platform is.
 fn steepness(point: &Configuration<f64>, coordinates: &Coordinates) -> f64 {
-    let turning = |c: &Coordinate| matches!(c, Coordinate::Roll | Coordinate::Yaw);
+    let turning = |c: &PoseCoordinate| matches!(c, PoseCoordinate::Roll | PoseCoordinate::Yaw);
     let targets = coordinates.targets.iter().filter(|(_, c)| turning(c));
-    let steepest = targets.map(|&(p, _)| Coordinate::Pitch.of(&point.platforms[p].pose()).cos());
+    let steepest =
+        targets.map(|&(p, _)| PoseCoordinate::Pitch.of(&point.platforms[p].pose()).cos());
     steepest.fold(1.0, |least, cos| least.min(cos.abs()).max(f64::EPSILON))
 }
 
-/// How near to −π an angle is told as π. Where solutions meet, only half the digits are sure.
+/// How near to −π an angle is reported as π. Where solutions meet, only half the digits are sure.
 fn rounding(sure: bool) -> f64 {
     if sure { 1e-9 } else { 1e-6 }
 }
 
-/// Angles in (−π, π], quaternions with their first component that is not zero positive. `sure` where
-/// solutions do not meet.
+/// Angles in (−π, π], quaternions with their first component that is not zero positive. `sure`
+/// where solutions do not meet.
 pub(crate) fn tidied(
     mut point: Configuration<f64>,
     coordinates: &Coordinates,
@@ -92,8 +93,8 @@ pub(crate) fn tidied(
     point
 }
 
-/// Complex angles with their real part in (−π, π], complex quaternions with the first component that
-/// is not zero on the right half of the complex plane.
+/// Complex angles with their real part in (−π, π], complex quaternions with the first component
+/// that is not zero on the right half of the complex plane.
 pub(crate) fn tidied_complex(x: &[C], coordinates: &Coordinates) -> Vec<C> {
     const ROUNDING: f64 = 1e-7;
     let mut x = x.to_vec();
@@ -115,8 +116,8 @@ pub(crate) fn tidied_complex(x: &[C], coordinates: &Coordinates) -> Vec<C> {
     x
 }
 
-/// What complex solutions are ordered by: real and imaginary part of one unknown after the other, in
-/// the order of [`key`].
+/// What complex solutions are ordered by: real and imaginary part of one unknown after the other,
+/// in the order of [`key`].
 pub(crate) fn complex_key(x: &[C]) -> Vec<f64> {
     x.iter().flat_map(|z| [z.re, z.im]).collect()
 }

@@ -74,7 +74,7 @@ impl<'a> Structure<'a> {
         let mut rng = Pcg64::seed_from_u64(1);
         let member = family.generic_member(&mut rng);
         let dimensions = family.dimensions(&member.parameters)?;
-        let mut way = family.way(&member, &member)?;
+        let mut way = family.homotopy(&member, &member)?;
         way.linearise(C::from_f64(0.0), &family.random_point(&mut rng, 1.0));
         let here = &mut way.here;
         let axes = here.system.axes(&here.at, &mut here.work);

@@ -21,7 +21,7 @@ pub(crate) struct Coordinates {
     pub free_platforms: Vec<usize>,
     pub held_joints: Vec<usize>,
     pub held_poses: Vec<usize>,
-    pub targets: Vec<(usize, crate::mechanism::Coordinate)>,
+    pub targets: Vec<(usize, crate::mechanism::PoseCoordinate)>,
     pub orientations: Vec<usize>,
     pub joint_scales: Vec<f64>,
     pub length: f64,

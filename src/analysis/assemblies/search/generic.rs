@@ -4,8 +4,8 @@
 //! A loop through the family permutes the solutions within each irreducible component (Sommese,
 //! Verschelde and Wampler 2001; Duff et al. 2019). Components are reached by seeds only: the two
 //! operation modes of a 3-RPS never exchange solutions. A solution that few starts of one member lead
-//! to may be what many of another lead to, so seeds are sown at every corner of every loop, and what
-//! they find is carried home by the rest of the loop. Both are repeated until neither finds anything.
+//! to may be what many of another lead to, so seeds are started at every corner of every loop, and what
+//! they find is tracked home by the rest of the loop. Both are repeated until neither finds anything.
 //!
 //! What a quiet loop says: if some solutions of a component are known and others not, a random element
 //! of the component's monodromy group keeps the known ones among themselves with probability ½ at most
@@ -17,10 +17,10 @@ use rand::SeedableRng;
 use rand_pcg::Pcg64;
 
 use super::super::AssembliesSettings;
-use super::seed::{Seed, newton, solution, sow};
+use super::seed::{Seed, newton, newton_seeds, solution};
 use super::solutions::{GenericSolutions, pairs};
-use crate::analysis::assemblies::family::{C, Family, Member, Stance, count, learn};
-use crate::analysis::assemblies::track::{Way, carried, stands_alone};
+use crate::analysis::assemblies::family::{C, Family, LegwiseSolutions, Member, count, learn};
+use crate::analysis::assemblies::track::{ParameterHomotopy, stands_alone, tracked};
 use crate::number::Number;
 use crate::solve::{Progress, Stage, Watch};
 use crate::system::System;
@@ -38,7 +38,7 @@ struct Search<'a> {
     family: &'a Family,
     settings: &'a AssembliesSettings,
     base: Member,
-    stances: Vec<Stance<C>>,
+    legwise: Vec<LegwiseSolutions<C>>,
     freedom: Option<usize>,
     seeds: usize,
     not_isolated: usize,
@@ -59,10 +59,10 @@ pub(crate) fn search(
     watch: &Watch,
 ) -> Option<GenericSolutions> {
     let first = search_one(family, &question, bound, settings, watch)?;
-    if first.stances.is_empty()
+    if first.legwise.is_empty()
         || watch.is_stopped()
         || first.exhausted
-        || bound.is_none_or(|bound| count(&first.stances) >= bound)
+        || bound.is_none_or(|bound| count(&first.legwise) >= bound)
     {
         return Some(first);
     }
@@ -72,7 +72,7 @@ pub(crate) fn search(
     };
     let second = search_one(family, &question, bound, &other, watch)?;
     let (seeds, loops) = (first.seeds + second.seeds, first.loops + second.loops);
-    let better = match count(&second.stances) > count(&first.stances) {
+    let better = match count(&second.legwise) > count(&first.legwise) {
         true => second,
         false => first,
     };
@@ -99,7 +99,7 @@ fn search_one(
         family,
         settings,
         base,
-        stances: Vec::new(),
+        legwise: Vec::new(),
         freedom: None,
         seeds: 0,
         not_isolated: 0,
@@ -113,8 +113,8 @@ fn search_one(
         question: question.to_owned(),
         parameters: pairs(&search.base.parameters),
         inputs: pairs(&search.base.inputs),
-        stances: (search.stances.iter())
-            .map(|stance| stance.map(|z| [z.re, z.im]))
+        legwise: (search.legwise.iter())
+            .map(|solutions_at_pose| solutions_at_pose.map(|z| [z.re, z.im]))
             .collect(),
         freedom: search.freedom.unwrap_or(0),
         seeds: search.seeds,
@@ -128,14 +128,14 @@ fn search_one(
     })
 }
 
-/// Seeds sown at once at the generic member, and at most at a corner of a loop.
+/// Seeds started at once at the generic member, and at most at a corner of a loop.
 const BATCH: usize = 32;
 
 impl Search<'_> {
     /// Until nothing more is found; whether it ended at its limits, or was stopped, before.
     fn run(&mut self) -> Option<bool> {
-        let still = self.family.way(&self.base, &self.base)?;
-        while self.stances.is_empty() {
+        let still = self.family.homotopy(&self.base, &self.base)?;
+        while self.legwise.is_empty() {
             if self.seeds >= self.settings.hopeless_seeds
                 || self.quiet_seeds >= self.settings.quiet_seeds
             {
@@ -144,7 +144,7 @@ impl Search<'_> {
             if self.is_stopped_sowing() {
                 return Some(true);
             }
-            self.sow(&still);
+            self.newton_seeds(&still);
         }
         loop {
             while self.quiet_loops < self.enough_loops() {
@@ -153,14 +153,14 @@ impl Search<'_> {
                 }
                 self.spread();
             }
-            if self.bound == Some(count(&self.stances)) {
+            if self.bound == Some(count(&self.legwise)) {
                 return Some(false);
             }
             while self.quiet_loops > 0 && self.quiet_seeds < self.settings.quiet_seeds {
                 if self.seeds >= self.settings.most_seeds || self.is_stopped_sowing() {
                     return Some(true);
                 }
-                self.sow(&still);
+                self.newton_seeds(&still);
             }
             if self.quiet_loops > 0 && !self.close_legs(&still) {
                 return Some(false);
@@ -170,36 +170,40 @@ impl Search<'_> {
 
     /// Newton iterations for the joints of one leg from random values, with all else as in a known
     /// solution; whether they found another way to close it.
-    fn close_legs(&mut self, still: &Way<'_>) -> bool {
+    fn close_legs(&mut self, still: &ParameterHomotopy<'_>) -> bool {
         const TRIES: u64 = 16;
         let Some(dimensions) = self.family.dimensions(&self.base.parameters) else {
             return false;
         };
         let (coordinates, seed) = (&self.family.coordinates, self.settings.seed);
-        let known: Vec<Vec<C>> = (self.stances.iter())
-            .map(|stance| stance.spanning_points(coordinates).swap_remove(0))
+        let known: Vec<Vec<C>> = (self.legwise.iter())
+            .map(|solutions_at_pose| {
+                solutions_at_pose
+                    .spanning_points(coordinates)
+                    .swap_remove(0)
+            })
             .collect();
         let mut new = false;
         for places in &coordinates.legs {
             let system = System::new(&dimensions, &self.family.held_but(places));
             let storage = (system.work(), still.clone());
             let tries = known.len() as u64 * TRIES;
-            let ends = crate::solve::each(tries as usize, &storage, |(work, way), k| {
+            let ends = crate::solve::each(tries as usize, &storage, |(work, homotopy), k| {
                 // streams beyond those of seeds and loops
                 let stream = (1 << 48) + ((places[0] as u64) << 32) + k as u64;
                 let mut x = known[k / TRIES as usize].clone();
                 let mut rng = generator(seed, stream);
-                let random = way.family.random_point(&mut rng, 1.0);
+                let random = homotopy.family.random_point(&mut rng, 1.0);
                 places.iter().for_each(|&place| x[place] = random[place]);
-                way.linearise(C::from_f64(0.0), &x);
-                let mut point = way.here.at.clone();
+                homotopy.linearise(C::from_f64(0.0), &x);
+                let mut point = homotopy.here.at.clone();
                 let mut trial = point.clone();
                 let report = newton().solve(&system, &mut point, &mut trial, work);
-                let x = solution(way, &report, &point)?;
-                stands_alone(way, C::from_f64(0.0), &x).then_some(x)
+                let x = solution(homotopy, &report, &point)?;
+                stands_alone(homotopy, C::from_f64(0.0), &x).then_some(x)
             });
             for x in ends.into_iter().flatten() {
-                new |= learn(&mut self.stances, coordinates, &x);
+                new |= learn(&mut self.legwise, coordinates, &x);
             }
         }
         if new {
@@ -211,7 +215,7 @@ impl Search<'_> {
     /// Where the known bound is reached, one loop confirms it; below it the end is doubted.
     fn enough_loops(&self) -> usize {
         let quiet = self.settings.quiet_loops.max(1);
-        match self.bound.map(|bound| count(&self.stances).cmp(&bound)) {
+        match self.bound.map(|bound| count(&self.legwise).cmp(&bound)) {
             Some(std::cmp::Ordering::Equal) => 1,
             Some(_) => quiet + quiet / 2,
             None => quiet,
@@ -219,7 +223,7 @@ impl Search<'_> {
     }
 
     fn is_stopped_sowing(&self) -> bool {
-        let found = count(&self.stances);
+        let found = count(&self.legwise);
         (self.watch).stops(Stage::Seeds { found }, self.seeds, None)
     }
 
@@ -230,7 +234,7 @@ impl Search<'_> {
     fn in_loops(&self) -> Progress {
         Progress {
             stage: Stage::Loops {
-                found: count(&self.stances),
+                found: count(&self.legwise),
             },
             done: self.loops,
             of: None,
@@ -240,13 +244,13 @@ impl Search<'_> {
     /// Newton iterations from random complex points at the member where a way starts; the isolated
     /// solutions they ended at. `reach` is that of the member's inputs; only what is multiple with the
     /// mechanism's `own` dimensions counts.
-    fn seeds(&mut self, still: &Way<'_>, reach: f64, own: bool) -> Vec<Vec<C>> {
+    fn seeds(&mut self, still: &ParameterHomotopy<'_>, reach: f64, own: bool) -> Vec<Vec<C>> {
         let (first, seed) = (self.seeds, self.settings.seed);
-        let ends = crate::solve::each(BATCH, still, |way, i| {
+        let ends = crate::solve::each(BATCH, still, |homotopy, i| {
             let mut rng = generator(seed, 1 + (((first + i) as u64) << 1));
             // most solutions are near, some far out
             let further = [1.0, 2.0, 1.0, 4.0][(first + i) % 4];
-            sow(way, reach * further, &mut rng)
+            newton_seeds(homotopy, reach * further, &mut rng)
         });
         self.seeds += BATCH;
         let mut isolated = Vec::new();
@@ -266,9 +270,9 @@ impl Search<'_> {
     }
 
     /// Seeds at the generic member.
-    fn sow(&mut self, still: &Way<'_>) {
+    fn newton_seeds(&mut self, still: &ParameterHomotopy<'_>) {
         for x in self.seeds(still, 1.0, true) {
-            match learn(&mut self.stances, &self.family.coordinates, &x) {
+            match learn(&mut self.legwise, &self.family.coordinates, &x) {
                 true => (self.quiet_seeds, self.quiet_loops) = (0, 0),
                 false => self.quiet_seeds += 1,
             }
@@ -295,28 +299,28 @@ impl Search<'_> {
         };
         let corners = [self.base.clone(), member(), member(), self.base.clone()];
         let coordinates = &self.family.coordinates;
-        let mut points: Vec<Option<Vec<C>>> = (self.stances.iter())
-            .flat_map(|stance| stance.spanning_points(coordinates))
+        let mut points: Vec<Option<Vec<C>>> = (self.legwise.iter())
+            .flat_map(|solutions_at_pose| solutions_at_pose.spanning_points(coordinates))
             .map(Some)
             .collect();
         for pair in corners.windows(2) {
-            let Some(way) = self.family.way(&pair[0], &pair[1]) else {
+            let Some(homotopy) = self.family.homotopy(&pair[0], &pair[1]) else {
                 return;
             };
             if pair[0] != self.base {
                 let own = pair[0].parameters == self.base.parameters;
-                self.sow_beside(&way, (reach, own), &mut points);
+                self.newton_seeds_beside(&homotopy, (reach, own), &mut points);
             }
-            carried(&way, &mut points, (self.watch, self.in_loops()));
+            tracked(&homotopy, &mut points, (self.watch, self.in_loops()));
         }
-        let Some(mut still) = self.family.way(&self.base, &self.base) else {
+        let Some(mut still) = self.family.homotopy(&self.base, &self.base) else {
             return;
         };
         let mut whole = points.iter().all(Option::is_some);
         let mut new = false;
         for x in points.into_iter().flatten() {
             match stands_alone(&mut still, C::from_f64(0.0), &x) {
-                true => new |= learn(&mut self.stances, coordinates, &x),
+                true => new |= learn(&mut self.legwise, coordinates, &x),
                 // other dimensions may have solutions that meet, or go away, at the mechanism's own
                 false => whole &= resize,
             }
@@ -329,9 +333,9 @@ impl Search<'_> {
     }
 
     /// Seeds at a corner of a loop, where these solutions are known already.
-    fn sow_beside(
+    fn newton_seeds_beside(
         &mut self,
-        way: &Way<'_>,
+        homotopy: &ParameterHomotopy<'_>,
         (reach, own): (f64, bool),
         points: &mut Vec<Option<Vec<C>>>,
     ) {
@@ -340,7 +344,7 @@ impl Search<'_> {
         for x in points.iter().flatten() {
             learn(&mut known, coordinates, x);
         }
-        for x in self.seeds(way, reach, own) {
+        for x in self.seeds(homotopy, reach, own) {
             match learn(&mut known, coordinates, &x) {
                 true => {
                     self.quiet_seeds = 0;

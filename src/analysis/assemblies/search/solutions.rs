@@ -2,9 +2,9 @@
 
 use serde::{Deserialize, Serialize};
 
-use crate::analysis::assemblies::family::{C, Member, Stance, count};
+use crate::analysis::assemblies::family::{C, LegwiseSolutions, Member, count};
 
-/// All solutions of a generic member, kept to be carried to any inputs.
+/// All solutions of a generic member, kept to be tracked to any inputs.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct GenericSolutions {
     /// Names of the mechanism and its joints, values of its parameters and what is held: the
@@ -12,7 +12,8 @@ pub struct GenericSolutions {
     pub(crate) question: String,
     pub(crate) parameters: Vec<[f64; 2]>,
     pub(crate) inputs: Vec<[f64; 2]>,
-    pub(crate) stances: Vec<Stance<[f64; 2]>>,
+    #[serde(rename = "stances")]
+    pub(crate) legwise: Vec<LegwiseSolutions<[f64; 2]>>,
     /// Freedom left when the inputs are held: the least dimension of a set of solutions that was
     /// met, 0 if there was none. There may be isolated solutions beside it.
     pub freedom: usize,
@@ -46,12 +47,12 @@ fn numbers(x: &[[f64; 2]]) -> Vec<C> {
 impl GenericSolutions {
     /// How many isolated complex solutions a generic member has.
     pub fn count(&self) -> usize {
-        count(&self.stances)
+        count(&self.legwise)
     }
 
-    pub(crate) fn stances(&self) -> Vec<Stance<C>> {
+    pub(crate) fn legwise(&self) -> Vec<LegwiseSolutions<C>> {
         let number = |z: [f64; 2]| C::new(z[0], z[1]);
-        self.stances.iter().map(|s| s.map(number)).collect()
+        self.legwise.iter().map(|s| s.map(number)).collect()
     }
 
     pub(crate) fn member(&self) -> Member {

@@ -1,4 +1,4 @@
-//! Assembled configurations at the asked inputs themselves, without any path.
+//! Assembled configurations at the target inputs themselves, without any path.
 
 use std::ops::Range;
 
@@ -12,7 +12,7 @@ use crate::number::Number;
 use crate::solve::{Newton, Stage, Stop, Watch};
 use crate::system::System;
 
-/// Assembled configurations reached by Newton's method from the asked configuration, start 0, and
+/// Assembled configurations reached by Newton's method from the target configuration, start 0, and
 /// from random ones. Each start is the same in every run.
 pub(crate) fn solved(
     family: &Family,

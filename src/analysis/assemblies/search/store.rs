@@ -20,7 +20,7 @@ pub enum StoredError {
     SomethingElse,
     /// The text was written by a linkwork that stores solutions in another form.
     OtherVersion,
-    /// The text is not as it was written: cut short, or changed.
+    /// The text was changed or cut short after it was written.
     Damaged,
 }
 
@@ -37,7 +37,7 @@ impl std::fmt::Display for StoredError {
 impl std::error::Error for StoredError {}
 
 impl GenericSolutions {
-    /// From what [`GenericSolutions::to_text`] wrote.
+    /// Reads the text written by [`GenericSolutions::to_text`].
     ///
     /// # Errors
     /// If it is something else, or not as it was written.
@@ -55,7 +55,7 @@ impl GenericSolutions {
         }
     }
 
-    /// All digits, as RON under a line that tells changes.
+    /// All digits, as RON below a line with a checksum.
     pub fn to_text(&self) -> String {
         let body = ron::to_string(self).expect("lists of numbers have a RON form") + "\n";
         format!("{}\n{body}", title(self, &body))
@@ -66,13 +66,13 @@ impl GenericSolutions {
     /// Whether the generic member is assembled at every solution.
     pub(crate) fn solves(&self, family: &Family) -> bool {
         let member = self.member();
-        let Some(mut way) = family.way(&member, &member) else {
+        let Some(mut homotopy) = family.homotopy(&member, &member) else {
             return false;
         };
         // the others are combinations of these
-        let shown = self.stances();
+        let shown = self.legwise();
         let mut shown = (shown.iter()).flat_map(|s| s.spanning_points(&family.coordinates));
-        shown.all(|x| way.linearise(C::from_f64(0.0), &x) <= 1e-9 * (1.0 + size(&x).powi(2)))
+        shown.all(|x| homotopy.linearise(C::from_f64(0.0), &x) <= 1e-9 * (1.0 + size(&x).powi(2)))
     }
 }
 

@@ -1,6 +1,6 @@
-//! Solutions carried along a way through the family.
+//! Solutions tracked along a path through the family.
 
-use super::way::Way;
+use super::homotopy::ParameterHomotopy;
 use crate::analysis::assemblies::family::{C, size};
 use crate::number::Number;
 use crate::solve::{Arrival, Homotopy, Progress, Stages, Tracker, Watch};
@@ -12,12 +12,12 @@ const FARTHEST: f64 = 1e6;
 /// Carries solutions along a way. Those that are lost and those that share an end, of which all but
 /// one have jumped, are followed again with greater care; what cannot be told is `None`, as are
 /// those that were not followed when the work was stopped.
-pub(crate) fn carried(
-    way: &Way<'_>,
+pub(crate) fn tracked(
+    homotopy: &ParameterHomotopy<'_>,
     points: &mut [Option<Vec<C>>],
     (watch, now): (&Watch, Progress),
 ) {
-    let coordinates = &way.family.coordinates;
+    let coordinates = &homotopy.family.coordinates;
     let starts: Vec<Option<Vec<C>>> = points.to_vec();
     let mut waiting: Vec<usize> = (0..starts.len()).filter(|&i| starts[i].is_some()).collect();
     for care in [1.0, 0.1, 0.01] {
@@ -29,10 +29,10 @@ pub(crate) fn carried(
             1.0 => tracker,
             _ => tracker.tightened(care),
         };
-        let ends = crate::solve::each(waiting.len(), way, |way, k| {
+        let ends = crate::solve::each(waiting.len(), homotopy, |homotopy, k| {
             match watch.at(now).is_break() {
                 true => None,
-                false => follow(way, &tracker, starts[waiting[k]].as_ref()?),
+                false => follow(homotopy, &tracker, starts[waiting[k]].as_ref()?),
             }
         });
         for (i, end) in waiting.into_iter().zip(ends) {
@@ -53,18 +53,18 @@ pub(crate) fn carried(
     }
 }
 
-fn follow(way: &mut Way<'_>, tracker: &Tracker, from: &[C]) -> Option<Vec<C>> {
+fn follow(homotopy: &mut ParameterHomotopy<'_>, tracker: &Tracker, from: &[C]) -> Option<Vec<C>> {
     let mut x = from.to_vec();
     let whole = (C::from_f64(0.0), C::from_f64(1.0));
-    let track = tracker.track(way, whole, &mut x, &mut Stages::new(from.len()));
+    let track = tracker.track(homotopy, whole, &mut x, &mut Stages::new(from.len()));
     let end = whole.1;
-    (track.arrival == Arrival::There && polish(way, end, &mut x)).then_some(x)
+    (track.arrival == Arrival::There && polish(homotopy, end, &mut x)).then_some(x)
 }
 
 /// Newton steps until the last digits; whether the point is a solution then.
-pub(crate) fn polish(way: &mut Way<'_>, s: C, x: &mut [C]) -> bool {
+pub(crate) fn polish(homotopy: &mut ParameterHomotopy<'_>, s: C, x: &mut [C]) -> bool {
     for _ in 0..4 {
-        let step = way.correct(s, x);
+        let step = homotopy.correct(s, x);
         if !step.is_finite() {
             return false;
         }
@@ -72,5 +72,5 @@ pub(crate) fn polish(way: &mut Way<'_>, s: C, x: &mut [C]) -> bool {
             break;
         }
     }
-    way.residual(s, x) <= 1e-10 * (1.0 + size(x).powi(2))
+    homotopy.residual(s, x) <= 1e-10 * (1.0 + size(x).powi(2))
 }

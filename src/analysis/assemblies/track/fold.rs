@@ -1,11 +1,11 @@
-//! The place on a way where two real solutions meet, to the last digits.
+//! The parameter value where two real solutions meet, to full precision.
 
-use super::way::Way;
+use super::homotopy::ParameterHomotopy;
 use crate::analysis::assemblies::family::C;
 use crate::linear::{Decomposition, dot, norm};
 use crate::number::Number;
 
-/// A point of a way where the Jacobian is singular.
+/// A point of a homotopy where the Jacobian is singular.
 pub(crate) struct Meeting {
     pub s: f64,
     pub x: Vec<C>,
@@ -14,8 +14,8 @@ pub(crate) struct Meeting {
 }
 
 /// Residual and Jacobian J of a real point, column-major.
-fn linear(way: &mut Way<'_>, s: f64, x: &[C]) -> (Vec<f64>, Vec<f64>) {
-    let (residual, jacobian) = way.evaluated(C::from_f64(s), x);
+fn linear(homotopy: &mut ParameterHomotopy<'_>, s: f64, x: &[C]) -> (Vec<f64>, Vec<f64>) {
+    let (residual, jacobian) = homotopy.evaluated(C::from_f64(s), x);
     let real = |all: Vec<C>| all.into_iter().map(|z| z.re).collect();
     (real(residual), real(jacobian))
 }
@@ -33,15 +33,19 @@ fn slope(after: &[f64], before: &[f64]) -> Vec<f64> {
 ///
 /// with the null vectors v and w that J has with one singular value fewer, renewed in every step
 /// (Griewank and Reddien 1984). `None` if there is none nearby.
-pub(crate) fn located(way: &mut Way<'_>, mut s: f64, x: &[C]) -> Option<Meeting> {
+pub(crate) fn located(
+    homotopy: &mut ParameterHomotopy<'_>,
+    mut s: f64,
+    x: &[C],
+) -> Option<Meeting> {
     const STEPS: usize = 25;
     const REACH: f64 = 0.05;
-    let unknowns = way.unknowns();
+    let unknowns = homotopy.unknowns();
     let regular = unknowns.checked_sub(1)?;
     let mut x = x.to_vec();
     let mut before = f64::INFINITY;
     for _ in 0..STEPS {
-        let (residual, jacobian) = linear(way, s, &x);
+        let (residual, jacobian) = linear(homotopy, s, &x);
         let rows = residual.len();
         if rows == 0 {
             return None;
@@ -49,15 +53,15 @@ pub(crate) fn located(way: &mut Way<'_>, mut s: f64, x: &[C]) -> Option<Meeting>
         let here = Decomposition::of_rank(rows, unknowns, &jacobian, regular);
         let v = here.null_space().pop()?;
         let left = here.left_null_space();
-        let later = linear(way, s + STEP, &x);
-        let earlier = linear(way, s - STEP, &x);
+        let later = linear(homotopy, s + STEP, &x);
+        let earlier = linear(homotopy, s - STEP, &x);
         let rate = slope(&later.0, &earlier.0);
-        let ahead = |way: &mut Way<'_>, length: f64, x: &[C]| {
+        let ahead = |homotopy: &mut ParameterHomotopy<'_>, length: f64, x: &[C]| {
             let step: Vec<C> = v.iter().map(|v| C::from_f64(v * length)).collect();
-            let at = way.moved(C::from_f64(s), x, &step);
-            linear(way, s, &at).1
+            let at = homotopy.moved(C::from_f64(s), x, &step);
+            linear(homotopy, s, &at).1
         };
-        let bent = slope(&ahead(way, STEP, &x), &ahead(way, -STEP, &x));
+        let bent = slope(&ahead(homotopy, STEP, &x), &ahead(homotopy, -STEP, &x));
         let swept = slope(&later.1, &earlier.1);
         let times = |matrix: &[f64]| -> Vec<f64> {
             let columns = || matrix.chunks_exact(rows);
@@ -91,7 +95,7 @@ pub(crate) fn located(way: &mut Way<'_>, mut s: f64, x: &[C]) -> Option<Meeting>
         }
         before = length;
         let shift: Vec<C> = (step[..unknowns].iter()).map(|d| C::from_f64(-d)).collect();
-        x = way.moved(C::from_f64(s), &x, &shift);
+        x = homotopy.moved(C::from_f64(s), &x, &shift);
         s -= step[unknowns];
     }
     None

@@ -8,7 +8,7 @@
 
 use nalgebra::{DMatrix, DVector};
 
-use super::way::Way;
+use super::homotopy::ParameterHomotopy;
 use crate::analysis::assemblies::family::{C, size};
 use crate::linear::Svd;
 use crate::number::Number;
@@ -17,17 +17,18 @@ use crate::number::Number;
 const SUSPECT: f64 = 1e-5;
 /// How far beside a point its neighbours are sought, and beside these theirs.
 const BESIDE: [f64; 2] = [0.03, 2e-3];
-/// What comes back to within this part of the distance it was moved has not stayed where it was put.
+/// What comes back to within this part of the distance it was moved has not stayed where it was
+/// put.
 const BACK: f64 = 0.1;
 /// Points looked at beside the first one.
 const NEIGHBOURS: u64 = 4;
-/// The end of the way, where the asked inputs are.
+/// The end of the homotopy, where the target inputs are.
 const END: f64 = 1.0;
 
-/// The equations at the asked inputs, looked at as real ones: at real points the complex ones with
+/// The equations at the target inputs, looked at as real ones: at real points the complex ones with
 /// their imaginary halves left out, elsewhere real and imaginary parts one after the other.
 pub(crate) struct Local<'a, 'f> {
-    way: &'a mut Way<'f>,
+    homotopy: &'a mut ParameterHomotopy<'f>,
     real: bool,
 }
 
@@ -48,7 +49,8 @@ impl Linear {
         self.values.iter().filter(counts).count()
     }
 
-    /// Of the vectors nearest to a solution of J x = b the shortest, seen by `rank` singular values.
+    /// Of the vectors nearest to a solution of J x = b the shortest, seen by `rank` singular
+    /// values.
     fn solve(&self, b: &DVector<f64>, rank: usize) -> DVector<f64> {
         let mut x = DVector::zeros(self.jacobian.ncols());
         for i in 0..rank {
@@ -81,8 +83,8 @@ fn shake(stream: u64, i: usize) -> f64 {
 
 impl<'a, 'f> Local<'a, 'f> {
     /// About points with real coordinates only, or about any.
-    pub fn new(way: &'a mut Way<'f>, real: bool) -> Self {
-        Local { way, real }
+    pub fn new(homotopy: &'a mut ParameterHomotopy<'f>, real: bool) -> Self {
+        Local { homotopy, real }
     }
 
     /// The dimension of the set of solutions through a solution: 0 if it is isolated.
@@ -133,8 +135,8 @@ impl<'a, 'f> Local<'a, 'f> {
         }
     }
 
-    /// A multiple solution to the last digits: where the equations that the Jacobian sees hold, and
-    /// the others have no slope. `x` itself where that is not within reach.
+    /// A multiple solution to full precision: where the equations in the range of the Jacobian
+    /// hold, and the others have no slope. `x` itself where that is not within reach.
     ///
     /// For null vectors v and what P of the equations no motion changes to first order, a fold has
     /// P J v = 0, which one more derivative makes regular (deflation; Leykin, Verschelde and Zhao
@@ -271,26 +273,26 @@ impl<'a, 'f> Local<'a, 'f> {
     }
 
     fn gap(&self, x: &[C], y: &[C]) -> f64 {
-        self.way.family.coordinates.difference(x, y)
+        self.homotopy.family.coordinates.difference(x, y)
     }
 
     fn linear_columns(&self, _: &[C]) -> usize {
-        let unknowns = self.way.unknowns();
+        let unknowns = self.homotopy.unknowns();
         if self.real { unknowns } else { 2 * unknowns }
     }
 
     fn moved(&mut self, x: &[C], step: &DVector<f64>) -> Vec<C> {
-        let n = self.way.unknowns();
+        let n = self.homotopy.unknowns();
         let part = |i: usize| match self.real {
             true => C::from_f64(step[i]),
             false => C::new(step[i], step[n + i]),
         };
         let step: Vec<C> = (0..n).map(part).collect();
-        self.way.moved(C::from_f64(END), x, &step)
+        self.homotopy.moved(C::from_f64(END), x, &step)
     }
 
     fn step_between(&mut self, x: &[C], y: &[C]) -> DVector<f64> {
-        let step = self.way.step_between(C::from_f64(END), x, y);
+        let step = self.homotopy.step_between(C::from_f64(END), x, y);
         let (n, columns) = (step.len(), self.linear_columns(x));
         DVector::from_fn(
             columns,
@@ -300,8 +302,8 @@ impl<'a, 'f> Local<'a, 'f> {
 
     /// Residual and Jacobian as real numbers.
     fn evaluated(&mut self, x: &[C]) -> (DVector<f64>, DMatrix<f64>) {
-        let (r, j) = self.way.evaluated(C::from_f64(END), x);
-        let (m, n) = (r.len(), self.way.unknowns());
+        let (r, j) = self.homotopy.evaluated(C::from_f64(END), x);
+        let (m, n) = (r.len(), self.homotopy.unknowns());
         if self.real {
             let residual = DVector::from_fn(m, |i, _| r[i].re);
             return (residual, DMatrix::from_fn(m, n, |i, k| j[k * m + i].re));

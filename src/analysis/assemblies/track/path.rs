@@ -1,19 +1,19 @@
-//! One path: a solution followed to the end of the way, and what is there.
+//! One path: a solution followed to the end of the homotopy, and what it ends in.
 
 use nalgebra::{DMatrix, DVector};
 
 use super::along::polish;
+use super::homotopy::ParameterHomotopy;
 use super::local::Local;
 use super::simple::{are_one, stands_alone};
-use super::way::Way;
 use crate::analysis::assemblies::family::{C, size};
 use crate::number::Number;
-use crate::solve::{Arrival, Ending, Homotopy, Newton, Stages, Tracker, ending};
+use crate::solve::{Arrival, Homotopy, Newton, PathEnd, Stages, Tracker, path_end};
 
 /// Where one path ended.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) enum End {
-    /// A solution by itself.
+    /// A simple isolated solution.
     Regular(Vec<C>),
     /// A solution where several meet, or that is not isolated.
     Singular(Vec<C>),
@@ -37,13 +37,14 @@ impl End {
 /// Rounding beside the square of the size of a solution.
 const ROUNDING: f64 = 1e-15;
 /// Solutions larger than this count as infinite: rounding errors of ε in the dimensions bring a
-/// solution that is m-fold at infinity back to ε^(−1/m), some 1e4 for m = 4. Held lengths beyond the
-/// characteristic length reach as much further.
+/// solution that is m-fold at infinity back to ε^(−1/m), some 1e4 for m = 4. Held lengths beyond
+/// the characteristic length reach as much further.
 const FAR: f64 = 1e3;
 /// Where the endgame starts, as distance from the end of the way.
 const NEAR_END: f64 = 0.03;
-/// What is no larger than this so near the end and still seems to go to infinity may be two solutions
-/// that meet just before it: circles round the end look alike until they are too small to hold that.
+/// What is no larger than this so near the end and still seems to go to infinity may be two
+/// solutions that meet just before it: circles round the end look alike until they are too small to
+/// hold that.
 const NEARBY: f64 = 10.0;
 /// Ways longer than this, in rad or characteristic lengths, are gone in parts.
 const LONG: f64 = 10.0;
@@ -58,21 +59,27 @@ pub(crate) struct Path {
 }
 
 /// Follows one path along a way that is bent to the side by `bend`, through complex s.
-pub(crate) fn follow(way: &mut Way<'_>, tracker: &Tracker, bend: f64, from: &[C]) -> Path {
+pub(crate) fn follow(
+    homotopy: &mut ParameterHomotopy<'_>,
+    tracker: &Tracker,
+    bend: f64,
+    from: &[C],
+) -> Path {
     let (start, end) = (C::from_f64(0.0), C::from_f64(1.0));
     let mut stages = Stages::new(from.len());
     let (mut steps, mut evaluations) = (0, 0);
     let mut x = from.to_vec();
-    let mut leg = |way: &mut Way<'_>, x: &mut Vec<C>, stages: &mut Stages, a: C, b: C| {
-        let track = tracker.track(way, (a, b), x, stages);
-        steps += track.steps;
-        evaluations += track.evaluations;
-        track.arrival
-    };
+    let mut leg =
+        |homotopy: &mut ParameterHomotopy<'_>, x: &mut Vec<C>, stages: &mut Stages, a: C, b: C| {
+            let track = tracker.track(homotopy, (a, b), x, stages);
+            steps += track.steps;
+            evaluations += track.evaluations;
+            track.arrival
+        };
     let mut from_here = start;
     let mut arrival = Arrival::There;
-    // a long way is gone in parts, each ten times as long as all before it
-    let decades = (way.length() / LONG).log10().ceil().clamp(0.0, 12.0) as i32;
+    // a long segment is followed in parts, each ten times as long as all before it
+    let decades = (homotopy.length() / LONG).log10().ceil().clamp(0.0, 12.0) as i32;
     let mut corners: Vec<C> = (1..=decades)
         .rev()
         .map(|k| C::new(1.0, bend) * 0.1f64.powi(k))
@@ -82,17 +89,17 @@ pub(crate) fn follow(way: &mut Way<'_>, tracker: &Tracker, bend: f64, from: &[C]
     }
     for corner in corners {
         if arrival == Arrival::There {
-            arrival = leg(way, &mut x, &mut stages, from_here, corner);
+            arrival = leg(homotopy, &mut x, &mut stages, from_here, corner);
             from_here = corner;
         }
     }
-    let far = FAR * way.reach();
+    let far = FAR * homotopy.reach();
     let corner = x.clone();
     let found = match arrival {
         Arrival::There => {
-            arrival = leg(way, &mut x, &mut stages, from_here, end);
+            arrival = leg(homotopy, &mut x, &mut stages, from_here, end);
             (arrival == Arrival::There)
-                .then(|| arrived(way, &x))
+                .then(|| arrived(homotopy, &x))
                 .flatten()
         }
         // a corner of the way is no special place: only what is far out cannot get there, and does
@@ -106,10 +113,10 @@ pub(crate) fn follow(way: &mut Way<'_>, tracker: &Tracker, bend: f64, from: &[C]
         // an end that is not regular: stop short of it and go round
         let mut x = corner;
         let short = C::from_f64(1.0 - NEAR_END);
-        match leg(way, &mut x, &mut stages, from_here, short) {
+        match leg(homotopy, &mut x, &mut stages, from_here, short) {
             Arrival::There => {
-                let end = go_round(way, tracker, far, &x, &mut stages);
-                unsure = end == End::Infinite && size(&x) <= NEARBY * way.reach();
+                let end = go_round(homotopy, tracker, far, &x, &mut stages);
+                unsure = end == End::Infinite && size(&x) <= NEARBY * homotopy.reach();
                 end
             }
             Arrival::Diverged(_) => End::Infinite,
@@ -125,29 +132,29 @@ pub(crate) fn follow(way: &mut Way<'_>, tracker: &Tracker, bend: f64, from: &[C]
     }
 }
 
-/// The solution by itself at the end of the way that a point is at. `None` if there is none, or it is
-/// too far out.
-pub(crate) fn arrived(way: &mut Way<'_>, x: &[C]) -> Option<End> {
+/// The solution by itself at the end of the way that a point is at. `None` if there is none, or it
+/// is too far out.
+pub(crate) fn arrived(homotopy: &mut ParameterHomotopy<'_>, x: &[C]) -> Option<End> {
     let mut x = x.to_vec();
-    (size(&x) <= FAR * way.reach() && settles(way, &mut x)).then_some(End::Regular(x))
+    (size(&x) <= FAR * homotopy.reach() && settles(homotopy, &mut x)).then_some(End::Regular(x))
 }
 
-/// Newton's method converges there as it does at a solution by itself.
-fn settles(way: &mut Way<'_>, x: &mut [C]) -> bool {
+/// Newton's method converges there quadratically, as at a simple solution.
+fn settles(homotopy: &mut ParameterHomotopy<'_>, x: &mut [C]) -> bool {
     let end = C::from_f64(1.0);
-    polish(way, end, x) && stands_alone(way, end, x)
+    polish(homotopy, end, x) && stands_alone(homotopy, end, x)
 }
 
-/// Two solutions by themselves to either side of a point where they seem to meet.
+/// The two simple solutions on either side of a point where they seem to meet.
 ///
 /// With the null vectors v and w that the point has with one singular value fewer, the closures
 /// change along v as w·h + t w·Jv + ½ t² w·(v·∇)Jv, which vanishes at both.
-fn parted(way: &mut Way<'_>, x: &[C]) -> Option<[Vec<C>; 2]> {
+fn parted(homotopy: &mut ParameterHomotopy<'_>, x: &[C]) -> Option<[Vec<C>; 2]> {
     const STEP: f64 = 1e-4;
     const REACH: f64 = 1e-3;
     let end = C::from_f64(1.0);
-    let (residual, jacobian) = way.evaluated(end, x);
-    let (rows, columns) = (residual.len(), way.unknowns());
+    let (residual, jacobian) = homotopy.evaluated(end, x);
+    let (rows, columns) = (residual.len(), homotopy.unknowns());
     if columns == 0 || rows < columns {
         return None;
     }
@@ -159,8 +166,8 @@ fn parted(way: &mut Way<'_>, x: &[C]) -> Option<[Vec<C>; 2]> {
     let v: Vec<C> = right.row(last).iter().map(|z| z.conj()).collect();
     let ahead = |length: C| v.iter().map(|v| v * length).collect::<Vec<C>>();
     let mut slope = |length: f64| {
-        let at = way.moved(end, x, &ahead(C::from_f64(length)));
-        let (_, jacobian) = way.evaluated(end, &at);
+        let at = homotopy.moved(end, x, &ahead(C::from_f64(length)));
+        let (_, jacobian) = homotopy.evaluated(end, &at);
         w.dot(&(matrix(jacobian) * DVector::from_column_slice(&v)))
     };
     let (after, before) = (slope(STEP), slope(-STEP));
@@ -171,28 +178,34 @@ fn parted(way: &mut Way<'_>, x: &[C]) -> Option<[Vec<C>; 2]> {
     let mut both = [1.0, -1.0].map(|sign| {
         let length = (root * sign - along) / bent;
         let near = length.is_finite() && length.norm() < REACH;
-        near.then(|| way.moved(end, x, &ahead(length)))
+        near.then(|| homotopy.moved(end, x, &ahead(length)))
     });
     let [Some(a), Some(b)] = &mut both else {
         return None;
     };
-    let apart = settles(way, a) && settles(way, b) && !are_one(way, end, a, b);
-    let near = |y: &[C]| way.family.coordinates.difference(x, y) < 2.0 * REACH;
+    let apart = settles(homotopy, a) && settles(homotopy, b) && !are_one(homotopy, end, a, b);
+    let near = |y: &[C]| homotopy.family.coordinates.difference(x, y) < 2.0 * REACH;
     (apart && near(a) && near(b)).then(|| [a.clone(), b.clone()])
 }
 
-fn go_round(way: &mut Way<'_>, tracker: &Tracker, far: f64, x: &[C], stages: &mut Stages) -> End {
-    match ending(way, tracker, x, NEAR_END, stages) {
-        Ending::Finite { mut x, winding } => {
-            way.family.coordinates.settle(&mut x);
+fn go_round(
+    homotopy: &mut ParameterHomotopy<'_>,
+    tracker: &Tracker,
+    far: f64,
+    x: &[C],
+    stages: &mut Stages,
+) -> End {
+    match path_end(homotopy, tracker, x, NEAR_END, stages) {
+        PathEnd::Finite { mut x, winding } => {
+            homotopy.family.coordinates.settle(&mut x);
             let end = C::from_f64(1.0);
             let mut refined = x.clone();
-            let near = |way: &Way<'_>, y: &[C]| {
-                way.family.coordinates.difference(&x, y) < 1e-6 * size(y).max(1.0)
+            let near = |homotopy: &ParameterHomotopy<'_>, y: &[C]| {
+                homotopy.family.coordinates.difference(&x, y) < 1e-6 * size(y).max(1.0)
             };
             if winding == 1
-                && settles(way, &mut refined)
-                && near(way, &refined)
+                && settles(homotopy, &mut refined)
+                && near(homotopy, &refined)
                 && size(&refined) <= far
             {
                 return End::Regular(refined);
@@ -200,19 +213,19 @@ fn go_round(way: &mut Way<'_>, tracker: &Tracker, far: f64, x: &[C], stages: &mu
             if size(&x) > far {
                 return End::Infinite;
             }
-            if let Some(both) = parted(way, &x) {
+            if let Some(both) = parted(homotopy, &x) {
                 return End::Either(both);
             }
             // what Newton's method calls solved; where more is left solutions pass each other
             let meeting = Newton::default().tolerance.max(ROUNDING * size(&x).powi(2));
-            let x = Local::new(way, false).refined(&x);
-            match way.residual(end, &x) <= meeting {
+            let x = Local::new(homotopy, false).refined(&x);
+            match homotopy.residual(end, &x) <= meeting {
                 true => End::Singular(x),
                 false => End::Lost,
             }
         }
-        Ending::Infinite => End::Infinite,
-        Ending::Undecided { x } if size(&x) > far => End::Infinite,
-        Ending::Undecided { .. } => End::Lost,
+        PathEnd::Infinite => End::Infinite,
+        PathEnd::Undecided { x } if size(&x) > far => End::Infinite,
+        PathEnd::Undecided { .. } => End::Lost,
     }
 }

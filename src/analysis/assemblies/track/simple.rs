@@ -1,6 +1,6 @@
-//! Whether a solution is one by itself or several that coincide.
+//! Whether a solution is simple, or several that coincide.
 
-use super::way::Way;
+use super::homotopy::ParameterHomotopy;
 use crate::analysis::assemblies::family::{C, size};
 use crate::solve::Homotopy;
 
@@ -13,25 +13,26 @@ const ALIKE: f64 = 4.0 * NOISE;
 /// Two approximations of one solution are not farther apart than this, beside their size.
 const NEAR: f64 = 1e-4;
 
-/// Whether a solution stands by itself as far as double precision can tell.
+/// Whether a solution is simple, as far as double precision can decide.
 ///
-/// Errors of the closures as large as rounding move a solution to somewhere beside it. From there one
-/// step of Newton's method returns, if no other solution is as near as that. To where solutions meet
-/// it goes half the way at most, and in a set of solutions it stays.
-pub(crate) fn stands_alone(way: &mut Way<'_>, s: C, x: &[C]) -> bool {
+/// Errors of the closures as large as rounding move a solution to somewhere beside it. From there
+/// one step of Newton's method returns, if no other solution is as near as that. To where solutions
+/// meet it goes half the way at most, and in a set of solutions it stays.
+pub(crate) fn stands_alone(homotopy: &mut ParameterHomotopy<'_>, s: C, x: &[C]) -> bool {
     const TRIES: usize = 3;
     const RETURNED: f64 = 0.3;
-    if way.regularity(s, x) > PLAIN {
+    if homotopy.regularity(s, x) > PLAIN {
         return true;
     }
     (0..TRIES).all(|k| {
-        let Some(beside) = way.jolted(s, x, NOISE, k) else {
+        let Some(beside) = homotopy.jolted(s, x, NOISE, k) else {
             return false;
         };
-        let coordinates = &way.family.coordinates;
+        let coordinates = &homotopy.family.coordinates;
         let gone = coordinates.difference(x, &beside);
         let mut back = beside;
-        way.correct(s, &mut back).is_finite() && coordinates.difference(x, &back) <= RETURNED * gone
+        homotopy.correct(s, &mut back).is_finite()
+            && coordinates.difference(x, &back) <= RETURNED * gone
     })
 }
 
@@ -40,7 +41,7 @@ pub(crate) fn near(x: &[C]) -> f64 {
     NEAR * (1.0 + size(x))
 }
 
-/// Whether two points, the first of which is a solution by itself, are the same solution.
-pub(crate) fn are_one(way: &mut Way<'_>, s: C, x: &[C], y: &[C]) -> bool {
-    way.family.coordinates.within(near(x), x, y) && way.seen_apart(s, x, y) <= ALIKE
+/// Whether two points, the first of which is a simple solution, are the same solution.
+pub(crate) fn are_one(homotopy: &mut ParameterHomotopy<'_>, s: C, x: &[C], y: &[C]) -> bool {
+    homotopy.family.coordinates.within(near(x), x, y) && homotopy.seen_apart(s, x, y) <= ALIKE
 }

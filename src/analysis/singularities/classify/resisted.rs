@@ -1,13 +1,13 @@
-//! What outputs that lost freedoms resist without the inputs.
+//! Wrenches that the closures resist at outputs that lost freedoms.
 
 use super::{Classifier, Resisted};
 use crate::geometry::Vector3;
 use crate::linear::{complement, dot, norm, orthonormal, remove};
 use crate::mechanism::{Configuration, Frame};
-use crate::system::{Holdable, Lock, wrench_screws};
+use crate::system::{Coordinate, Lock, wrench_screws};
 
-/// An output, or the coordinates of one platform, with its wrenches (m/L; f) about the origin of the
-/// frame.
+/// An output, or the coordinates of one platform, with its wrenches (m/L; f) about the origin of
+/// the frame.
 struct Part {
     frame: Frame,
     name: String,
@@ -33,8 +33,9 @@ impl Classifier<'_> {
         orthonormal(&images, crate::linear::RANK_TOLERANCE)
     }
 
-    /// Wrenches reciprocal to all that the outputs can do here, but not to all they can do nearby. The
-    /// latter must contain the former: it does if the outputs have all freedoms, or stay in a plane.
+    /// Wrenches reciprocal to all that the outputs can do here, but not to all they can do nearby.
+    /// The latter must contain the former: it does if the outputs have all freedoms, or stay in a
+    /// plane.
     pub(super) fn resisted(&mut self, at: &Configuration<f64>) -> Vec<Resisted> {
         let Some(beside) = self.beside.clone() else {
             return Vec::new();
@@ -86,7 +87,7 @@ impl Classifier<'_> {
                     row += size;
                 }
                 Lock::Coordinate(
-                    coordinate @ (Holdable::Coordinate(platform, _) | Holdable::Turn(platform, _)),
+                    coordinate @ (Coordinate::Pose(platform, _) | Coordinate::Turn(platform, _)),
                 ) => {
                     let slope = coordinate.slope(&at.platforms[platform].pose(), length);
                     let frame = Frame::Platform { platform };
@@ -104,7 +105,7 @@ impl Classifier<'_> {
                     }
                     row += 1;
                 }
-                Lock::Coordinate(Holdable::Joint(_)) => row += 1,
+                Lock::Coordinate(Coordinate::Joint(_)) => row += 1,
             }
         }
         let resisted = parts.into_iter().map(|part| {

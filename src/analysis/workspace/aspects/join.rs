@@ -1,20 +1,20 @@
-//! Aspects of few nodes: whether they hang together with others where the grid is too coarse to tell.
+//! Aspects of few nodes: whether a finer grid connects them with others.
 
 use std::collections::BTreeMap;
 
 use super::aspects;
-use crate::analysis::workspace::flood::{Fill, Filled, Spread, Steps, join, root, signs};
+use crate::analysis::workspace::flood::{Flood, ReachedSet, Spread, Steps, join, root, signs};
 use crate::analysis::workspace::problem::Grid;
 use crate::linear::Factorable;
 use crate::number::Packed;
 use crate::solve::{Pool, Watch, each};
 use crate::system::Driven;
 
-/// Aspects of fewer nodes are looked at again.
+/// Aspects of fewer nodes are checked on a finer grid.
 const FEW: usize = 10;
 /// How many are at most.
 const MOST: usize = 500;
-/// Sheets of a finer grid at most.
+/// Solutions of a finer grid at most.
 const MOST_SHEETS: usize = 50_000;
 
 /// Parts of a cell of the finer grids, by the number of mapped coordinates.
@@ -22,15 +22,15 @@ pub(crate) fn parts(dimensions: usize) -> usize {
     if dimensions < 3 { 8 } else { 4 }
 }
 
-/// For each sheet the first of its aspect, aspects of few nodes joined with those that a finer grid
-/// around them leads to; and pairs of sheets so joined.
+/// For each solution the first of its aspect, aspects of few nodes joined with those that a finer
+/// grid around them leads to; and pairs of solutions so joined.
 pub(crate) fn joined<T: Factorable + Packed + Send + Sync>(
-    fill: &Fill,
+    fill: &Flood,
     steps: &Pool<Steps<T>>,
-    filled: &Filled,
+    reached_set: &ReachedSet,
     watch: &Watch,
 ) -> (Vec<Option<usize>>, Vec<[usize; 2]>) {
-    let found = aspects(filled);
+    let found = aspects(reached_set);
     let mut roots: Vec<usize> = (0..found.len()).collect();
     let mut counts = vec![0; found.len()];
     for first in found.iter().flatten() {
@@ -41,18 +41,18 @@ pub(crate) fn joined<T: Factorable + Packed + Send + Sync>(
     if few.is_empty() {
         return (found, Vec::new());
     }
-    let mut sheets: BTreeMap<usize, Vec<usize>> = few.iter().map(|f| (*f, Vec::new())).collect();
+    let mut solutions: BTreeMap<usize, Vec<usize>> = few.iter().map(|f| (*f, Vec::new())).collect();
     for (s, aspect) in found.iter().enumerate() {
         if let Some(first) = aspect.filter(|first| counts[*first] < FEW)
-            && let Some(sheets) = sheets.get_mut(&first)
+            && let Some(solutions) = solutions.get_mut(&first)
         {
-            sheets.push(s);
+            solutions.push(s);
         }
     }
-    let few: Vec<Vec<usize>> = sheets.into_values().collect();
+    let few: Vec<Vec<usize>> = solutions.into_values().collect();
     let others = each(few.len(), &(), |(), i| match watch.is_stopped() {
         true => Vec::new(),
-        false => reached(fill, steps, filled, &few[i]),
+        false => reached(fill, steps, reached_set, &few[i]),
     });
     let mut pairs = Vec::new();
     for (small, others) in few.iter().zip(others) {
@@ -66,11 +66,11 @@ pub(crate) fn joined<T: Factorable + Packed + Send + Sync>(
     (all.collect(), pairs)
 }
 
-/// The sheets at nodes that a finer grid around an aspect leads to within it.
+/// The solutions at nodes that a finer grid around an aspect leads to within it.
 fn reached<T: Factorable + Packed + Send + Sync>(
-    fill: &Fill,
+    fill: &Flood,
     steps: &Pool<Steps<T>>,
-    filled: &Filled,
+    reached_set: &ReachedSet,
     aspect: &[usize],
 ) -> Vec<usize> {
     let grid = fill.grid;
@@ -81,7 +81,7 @@ fn reached<T: Factorable + Packed + Send + Sync>(
         .map(|axis| {
             let places = aspect
                 .iter()
-                .map(|s| grid.place(filled.sheet(*s).node, axis));
+                .map(|s| grid.place(reached_set.solution(*s).node, axis));
             let (low, high) = places.fold((usize::MAX, 0), |(a, b), p| (a.min(p), b.max(p)));
             (
                 low.saturating_sub(margin),
@@ -89,7 +89,7 @@ fn reached<T: Factorable + Packed + Send + Sync>(
             )
         })
         .collect();
-    let axes = fill.asked.axes.iter().zip(&sides).enumerate();
+    let axes = fill.problem.axes.iter().zip(&sides).enumerate();
     let axes = axes.map(|(i, (axis, &(low, high)))| Driven {
         coordinate: axis.coordinate,
         from: grid.coordinate(i, low),
@@ -100,11 +100,11 @@ fn reached<T: Factorable + Packed + Send + Sync>(
         &axes.collect::<Vec<Driven>>(),
         &counts.collect::<Vec<usize>>(),
     );
-    let finer = Fill {
+    let finer = Flood {
         grid: &fine,
         most: MOST_SHEETS,
-        // what lies beyond other signs is of other aspects
-        only: signs(filled.sheet(aspect[0])),
+        // nodes with other signs belong to other aspects
+        only: signs(reached_set.solution(aspect[0])),
         ..*fill
     };
     // a node of the grid among those of the finer one
@@ -117,23 +117,28 @@ fn reached<T: Factorable + Packed + Send + Sync>(
         there
     };
     let seeds: Vec<_> = (aspect.iter())
-        .map(|s| (same(filled.node(*s)), filled.configuration(*s).owned()))
+        .map(|s| {
+            (
+                same(reached_set.node(*s)),
+                reached_set.configuration(*s).owned(),
+            )
+        })
         .collect();
     let mut found = Spread::new(&fine);
     if (finer.spread(&mut found, steps, &seeds, &Watch::none())).is_err() {
         return Vec::new();
     }
-    let found = found.filled(&fine);
+    let found = found.reached_set(&fine);
     let parts_of = aspects(&found);
     let own: Vec<usize> = (seeds.iter())
-        .filter_map(|(node, at)| parts_of[found.known(fill.measure, *node, at.view())?])
+        .filter_map(|(node, at)| parts_of[found.known(fill.metric, *node, at.view())?])
         .collect();
     let mut matching = Vec::new();
     for node in grid.nodes_within(&sides) {
         let there = found.at(same(node));
         let inside = there.filter(|t| parts_of[*t].is_some_and(|aspect| own.contains(&aspect)));
         let at = inside.map(|t| found.configuration(t));
-        matching.extend(at.filter_map(|at| filled.known(fill.measure, node, at)));
+        matching.extend(at.filter_map(|at| reached_set.known(fill.metric, node, at)));
     }
     matching
 }

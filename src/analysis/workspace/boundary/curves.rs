@@ -1,7 +1,7 @@
 //! Boundary curves through the points found on edges, cut where the mode changes.
 
 use super::kinds::{BoundaryCurve, Crossing, Kind, Piece, named};
-use crate::analysis::workspace::problem::Asked;
+use crate::analysis::workspace::problem::MapProblem;
 use crate::mechanism::Configuration;
 use crate::solve::Place;
 use crate::system::{ConfigurationCurve, Locked, LocusEnd, Region, Traced, met_at};
@@ -11,9 +11,9 @@ type Known<P> = (Traced<P>, Vec<(f64, usize)>);
 
 /// Curves of one kind.
 pub(crate) struct Tracer<'a> {
-    /// For each sheet the number of its mode, from 0; none if it is not listed.
+    /// For each solution the number of its mode, from 0; none if it is not listed.
     pub mode: &'a [Option<usize>],
-    pub asked: &'a Asked<'a>,
+    pub problem: &'a MapProblem<'a>,
     pub kind: Kind,
     pub third: Option<f64>,
 }
@@ -30,15 +30,15 @@ impl Tracer<'_> {
         let mut known: Vec<Known<C::Point>> = Vec::new();
         for crossing in crossings {
             let mut at = crossing.at.clone();
-            self.asked.mechanism.turn_to_limits(&mut at.joints);
-            // where it stands on no regular curve the point remains by itself
+            self.problem.mechanism.turn_to_limits(&mut at.joints);
+            // a point that lies on no regular curve is reported as a single point
             let Some(place) = place(curve, &at) else {
                 continue;
             };
             if !region.inside(C::configuration(&place.at)) {
                 continue;
             }
-            let Some(mode) = self.mode[crossing.sheet] else {
+            let Some(mode) = self.mode[crossing.solution] else {
                 continue;
             };
             let mut met = known.iter_mut();
@@ -70,9 +70,9 @@ impl Tracer<'_> {
         ends: [LocusEnd; 2],
         mut met: Vec<(f64, usize)>,
     ) -> BoundaryCurve {
-        let asked = self.asked;
+        let problem = self.problem;
         let point = |at: &Configuration<f64>| -> [f64; 2] {
-            [0, 1].map(|i| region.side(at, &asked.axes[i]))
+            [0, 1].map(|i| region.side(at, &problem.axes[i]))
         };
         let points: Vec<[f64; 2]> = path.iter().map(point).collect();
         met.sort_by(|a, b| a.0.total_cmp(&b.0));
@@ -91,7 +91,7 @@ impl Tracer<'_> {
             }));
         }
         BoundaryCurve {
-            kind: named(self.asked, self.kind),
+            kind: named(self.problem, self.kind),
             ends_reach: self.kind.ends_reach(),
             slice: self.third,
             ends,
@@ -101,7 +101,7 @@ impl Tracer<'_> {
         }
     }
 
-    /// Where along a curve the mode changes: it passes a place where solutions of the mapped problem
+    /// Where along a curve the mode changes: at places where solutions of the mapped problem
     /// meet. On a fold such a place is where the mapped coordinates turn back.
     fn cuts(&self, path: &[Configuration<f64>], points: &[[f64; 2]]) -> Vec<usize> {
         if self.kind == Kind::Fold {
@@ -112,7 +112,10 @@ impl Tracer<'_> {
             });
             return turns.collect();
         }
-        let mut locked = Locked::new(self.asked.mechanism, &Asked::locks(&self.asked.held));
+        let mut locked = Locked::new(
+            self.problem.mechanism,
+            &MapProblem::locks(&self.problem.held),
+        );
         let changes = (1..path.len()).filter(|&i| {
             let near = locked.decomposition(&path[i - 1]);
             locked.orientation(&near, &path[i]) < 0.0

@@ -2,9 +2,9 @@
 
 use serde::{Deserialize, Serialize};
 
-use crate::analysis::workspace::problem::Asked;
+use crate::analysis::workspace::problem::MapProblem;
 use crate::mechanism::Configuration;
-use crate::system::{Holdable, LocusEnd};
+use crate::system::{Coordinate, LocusEnd};
 
 /// What a boundary is.
 #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
@@ -28,11 +28,11 @@ pub enum BoundaryKind {
 /// A boundary point on an edge of the grid, located to rounding.
 #[derive(Clone, Debug)]
 pub(crate) struct Crossing {
-    pub sheet: usize,
+    pub solution: usize,
     pub direction: usize,
     pub kind: Kind,
     pub at: Configuration<f64>,
-    /// The part of the way from the sheet to its neighbour.
+    /// The part of the way from the solution to its neighbour.
     pub part: f64,
     /// Whether the same point was met on another edge, at a node that they share.
     pub again: bool,
@@ -83,16 +83,19 @@ pub struct Piece {
 }
 
 /// A kind by name.
-pub(crate) fn named(asked: &Asked, kind: Kind) -> BoundaryKind {
-    let of_platforms = asked.held.iter().all(|h| !matches!(h, Holdable::Joint(_)));
+pub(crate) fn named(problem: &MapProblem, kind: Kind) -> BoundaryKind {
+    let of_platforms = problem
+        .held
+        .iter()
+        .all(|h| !matches!(h, Coordinate::Joint(_)));
     match kind {
         Kind::Direct => BoundaryKind::Direct,
         Kind::Inverse => BoundaryKind::Inverse,
         Kind::Fold if of_platforms => BoundaryKind::Inverse,
-        Kind::Fold if asked.holds(&asked.inputs) => BoundaryKind::Direct,
+        Kind::Fold if problem.holds(&problem.inputs) => BoundaryKind::Direct,
         Kind::Fold => BoundaryKind::Fold,
         Kind::Limit(joint, upper) => BoundaryKind::Limit {
-            joint: asked.mechanism.joints()[joint].name.clone(),
+            joint: problem.mechanism.joints()[joint].name.clone(),
             upper,
         },
     }

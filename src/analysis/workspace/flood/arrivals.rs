@@ -1,7 +1,7 @@
 //! What steps arrive at.
 
 use super::configurations::Configurations;
-use crate::analysis::workspace::problem::Told;
+use crate::analysis::workspace::problem::Indicators;
 use crate::mechanism::{Configuration, ConfigurationRef};
 use crate::number::Packed;
 
@@ -12,15 +12,15 @@ pub(crate) struct Moving<'a> {
     /// The motions for unit rates of the held coordinates one after another, the mapped ones first,
     /// dimensionless.
     pub motions: &'a [f64],
-    pub told: &'a Told,
+    pub indicators: &'a Indicators,
 }
 
-/// The same by itself.
+/// The same, owned.
 #[derive(Clone, Debug)]
 pub(crate) struct Arrival {
     pub at: Configuration<f64>,
     pub motions: Vec<f64>,
-    pub told: Told,
+    pub indicators: Indicators,
 }
 
 impl Arrival {
@@ -28,7 +28,7 @@ impl Arrival {
         Moving {
             at: self.at.view(),
             motions: &self.motions,
-            told: &self.told,
+            indicators: &self.indicators,
         }
     }
 }
@@ -38,7 +38,7 @@ impl Moving<'_> {
         Arrival {
             at: self.at.owned(),
             motions: self.motions.to_vec(),
-            told: self.told.clone(),
+            indicators: self.indicators.clone(),
         }
     }
 }
@@ -49,7 +49,7 @@ pub(crate) struct Arrivals {
     /// For each step whether it does.
     arrived: Vec<bool>,
     at: Configurations,
-    told: Vec<Told>,
+    indicators: Vec<Indicators>,
     motions: Vec<f64>,
 }
 
@@ -58,8 +58,8 @@ impl Arrivals {
     pub fn begin(&mut self, steps: usize) {
         self.arrived.clear();
         self.arrived.resize(steps, false);
-        self.told.clear();
-        self.told.resize(steps, Told::default());
+        self.indicators.clear();
+        self.indicators.resize(steps, Indicators::default());
     }
 
     /// Takes places over for steps from `first` on, and that these of them arrive.
@@ -68,18 +68,18 @@ impl Arrivals {
         first: usize,
         at: &Configuration<T>,
         motions: &[T],
-        told: &[Option<Told>],
+        indicators: &[Option<Indicators>],
     ) {
         let steps = self.arrived.len();
         self.at.fill(steps, &at.map(|x| x.part(0)));
         self.motions.resize(steps * motions.len(), 0.0);
-        for (i, told) in (first..).zip(told) {
-            if let Some(told) = told {
+        for (i, indicators) in (first..).zip(indicators) {
+            if let Some(indicators) = indicators {
                 self.arrived[i] = true;
-                self.told[i].clone_from(told);
+                self.indicators[i].clone_from(indicators);
             }
         }
-        let places = || (first..).zip(0..told.len());
+        let places = || (first..).zip(0..indicators.len());
         for (joint, x) in at.joints.iter().enumerate() {
             for (i, place) in places() {
                 *self.at.joint_mut(i, joint) = x.part(place);
@@ -110,7 +110,7 @@ impl Arrivals {
         self.arrived[step].then(|| Moving {
             at: self.at.get(step),
             motions: &self.motions[step * length..][..length],
-            told: &self.told[step],
+            indicators: &self.indicators[step],
         })
     }
 

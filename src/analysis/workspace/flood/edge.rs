@@ -1,11 +1,11 @@
 //! The way from a node to its neighbour, in steps that cannot change branch unnoticed.
 
-use super::measure::Measure;
-use crate::analysis::workspace::problem::Asked;
+use super::metric::Metric;
+use crate::analysis::workspace::problem::MapProblem;
 use crate::linear::Decomposition;
 use crate::mechanism::Configuration;
 use crate::solve::{Continuation, Place};
-use crate::system::{Curve, Driven, Event, Holdable, Lock, Locked, Monitor, Walk};
+use crate::system::{Coordinate, Curve, Driven, Event, Lock, Locked, Monitor, Walk};
 
 /// What is met on the way.
 #[derive(Clone, Debug)]
@@ -18,7 +18,7 @@ pub(crate) enum Met {
     Limit(Configuration<f64>, f64, usize, bool),
     /// A matrix loses rank.
     Singular(Configuration<f64>, f64),
-    /// Nothing for sure: branches cross, or no step is short enough.
+    /// Undecided: branches cross, or no step is short enough.
     Nothing,
 }
 
@@ -33,9 +33,9 @@ pub(crate) struct Edge {
 }
 
 impl Edge {
-    fn moved(&self, asked: &Asked) -> Driven {
+    fn moved(&self, problem: &MapProblem) -> Driven {
         Driven {
-            coordinate: asked.axes[self.axis].coordinate,
+            coordinate: problem.axes[self.axis].coordinate,
             from: self.values[self.axis],
             to: self.to,
         }
@@ -53,24 +53,24 @@ pub(crate) enum Until<'l> {
 
 /// A curve along an edge with the place where it begins, towards the end.
 fn begun(
-    asked: &Asked,
-    measure: &Measure,
+    problem: &MapProblem,
+    metric: &Metric,
     edge: &Edge,
     from: &Configuration<f64>,
     method: &Continuation,
     within: bool,
 ) -> Result<(Curve, Place<Configuration<f64>>), Met> {
-    let moved = edge.moved(asked);
-    let held = asked.at(&edge.values).without(moved.coordinate).held();
-    let mut curve = Curve::along(asked.mechanism, &held, vec![moved]);
-    let mut start = asked.put(from, &edge.values);
+    let moved = edge.moved(problem);
+    let held = problem.at(&edge.values).without(moved.coordinate).held();
+    let mut curve = Curve::along(problem.mechanism, &held, vec![moved]);
+    let mut start = problem.put(from, &edge.values);
     if within {
-        asked.mechanism.turn_to_limits(&mut start.joints);
+        problem.mechanism.turn_to_limits(&mut start.joints);
     }
     let Ok(place) = method.settle(&mut curve, start) else {
         return Err(Met::Nothing);
     };
-    if place.is_beside_a_crossing() || !measure.same(place.at.view(), from.view()) {
+    if place.is_beside_a_crossing() || !metric.same(place.at.view(), from.view()) {
         return Err(Met::Nothing);
     }
     let (place, rate) = curve.towards_end(place);
@@ -82,18 +82,19 @@ fn begun(
 
 /// Whether the neighbour is reached or the mode folds back before it, which is not located.
 pub(crate) fn reach(
-    asked: &Asked,
-    measure: &Measure,
+    problem: &MapProblem,
+    metric: &Metric,
     edge: &Edge,
     from: &Configuration<f64>,
 ) -> Met {
     const STEPS: usize = 200;
-    /// A fold at less than this part of the way, as its parabola has it, is before the end.
+    /// A fold predicted by the parabola before this fraction of the edge is accepted without
+    /// locating it.
     const SURELY: f64 = 0.7;
     /// Shorter steps are only needed where branches cross.
     const SHORTEST: f64 = 1e-6;
     let method = Continuation::default();
-    let (mut curve, mut place) = match begun(asked, measure, edge, from, &method, false) {
+    let (mut curve, mut place) = match begun(problem, metric, edge, from, &method, false) {
         Ok(begun) => begun,
         Err(met) => return met,
     };
@@ -116,7 +117,7 @@ pub(crate) fn reach(
             let top = part + 0.5 * rate * length * rate / (rate - next_rate);
             return match top < SURELY {
                 true => Met::Fold(to.at, top),
-                false => walk(asked, measure, edge, from, Until::End),
+                false => walk(problem, metric, edge, from, Until::End),
             };
         }
         if next >= 1.0 {
@@ -136,18 +137,18 @@ pub(crate) fn reach(
 
 /// What is met first on an edge, located to rounding.
 pub(crate) fn walk(
-    asked: &Asked,
-    measure: &Measure,
+    problem: &MapProblem,
+    metric: &Metric,
     edge: &Edge,
     from: &Configuration<f64>,
     until: Until,
 ) -> Met {
     const LEGS: usize = 500;
-    let mechanism = asked.mechanism;
-    let moved = edge.moved(asked);
+    let mechanism = problem.mechanism;
+    let moved = edge.moved(problem);
     let method = Continuation::default();
     let within = until == Until::Limit;
-    let (mut curve, place) = match begun(asked, measure, edge, from, &method, within) {
+    let (mut curve, place) = match begun(problem, metric, edge, from, &method, within) {
         Ok(begun) => begun,
         Err(met) => return met,
     };
@@ -172,7 +173,7 @@ pub(crate) fn walk(
             match event {
                 Event::End(true) => {
                     let mut at = place.at;
-                    if let Holdable::Joint(joint) = moved.coordinate {
+                    if let Coordinate::Joint(joint) = moved.coordinate {
                         at.joints[joint] = moved.to;
                     }
                     return Met::Neighbour(at);

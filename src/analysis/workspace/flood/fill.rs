@@ -5,9 +5,9 @@ use rustc_hash::FxHashSet;
 use super::super::WorkspaceError;
 use super::arrivals::{Arrival, Arrivals, Moving};
 use super::edge::{Edge, Met, reach};
-use super::filled::{Link, Name};
-use super::neighbour::{Fill, JOB, Step, in_packs};
+use super::neighbour::{Flood, JOB, Step, in_packs};
 use super::pace::Paced;
+use super::reached::{Link, Name};
 use super::spread::Spread;
 use super::step::{Start, Steps};
 use super::tile::{Task, Tile};
@@ -16,14 +16,14 @@ use crate::mechanism::Configuration;
 use crate::number::Packed;
 use crate::solve::{Pool, Stage, Watch, each};
 
-/// Parts of the grid that are spread over before more is told.
+/// Parts of the grid spread over between two progress reports.
 const PARTS: usize = 64;
 
-impl Fill<'_> {
+impl Flood<'_> {
     /// Spreads from assembled configurations at nodes: in all parts of the grid at once as far as
-    /// single steps lead, then over their seams; last, where single steps are too long. The order of
-    /// work does not depend on the number of threads: parts are what they are, and what comes of
-    /// several at once is taken in their order.
+    /// single steps lead, then over their seams; last, where single steps are too long. The order
+    /// of work does not depend on the number of threads: parts are what they are, and what comes of
+    /// several at once is merged in their order.
     ///
     /// # Errors
     /// If more is reached than may be kept.
@@ -88,7 +88,7 @@ impl Fill<'_> {
         }
     }
 
-    /// Spreads in each part by itself.
+    /// Spreads within each part independently.
     fn grow<T: Factorable + Packed + Send + Sync>(
         &self,
         spread: &mut Spread,
@@ -113,14 +113,14 @@ impl Fill<'_> {
         Ok(())
     }
 
-    /// Of steps over seams, or that were not sure, first those that lead to known sheets are linked;
-    /// then one step is chosen to each node from each mode known so far. The others wait for what it
-    /// finds.
+    /// Of steps over seams, or that were not sure, first those that lead to known solutions are
+    /// linked; then one step is chosen to each node from each mode known so far. The others wait
+    /// for what it finds.
     fn chosen(&self, spread: &mut Spread, tasks: Vec<Task>) -> (Vec<Task>, Vec<Task>) {
         let jobs: Vec<&[Task]> = tasks.chunks(8 * JOB).collect();
         let found = each(jobs.len(), &Vec::new(), |storage, i| {
             let near = jobs[i].iter().map(|&(from, d)| {
-                let node = self.grid.neighbour(spread.sheet(from).node, d)?;
+                let node = self.grid.neighbour(spread.solution(from).node, d)?;
                 let tile = &spread.tiles[spread.tiling.of(self.grid, node)];
                 let there = tile.moving_at(self.grid, node);
                 self.near(&spread.step(self, (from, d)), there, storage)
@@ -130,15 +130,15 @@ impl Fill<'_> {
         let mut left = Vec::new();
         for (&(from, d), found) in tasks.iter().zip(found.into_iter().flatten()) {
             match found {
-                _ if spread.sheet(from).links[d] != Link::Open => {}
+                _ if spread.solution(from).links[d] != Link::Open => {}
                 Some(to) => spread.link(from, d, to),
                 None => left.push((from, d)),
             }
         }
         let mut taken = FxHashSet::with_capacity_and_hasher(left.len(), Default::default());
         left.into_iter().partition(|&(from, d)| {
-            let node = self.grid.neighbour(spread.sheet(from).node, d);
-            let root = spread.tiles[from.tile as usize].root(from.sheet as usize);
+            let node = self.grid.neighbour(spread.solution(from).node, d);
+            let root = spread.tiles[from.tile as usize].root(from.solution as usize);
             taken.insert((node, root))
         })
     }
@@ -190,15 +190,15 @@ impl Fill<'_> {
             let step = spread.step(self, unsure[i]);
             let edge = Edge {
                 axis: step.axis,
-                values: self.grid.values(spread.sheet(unsure[i].0).node),
+                values: self.grid.values(spread.solution(unsure[i].0).node),
                 to: step.to[step.axis],
             };
-            reach(self.asked, self.measure, &edge, &step.from.at.owned())
+            reach(self.problem, self.metric, &edge, &step.from.at.owned())
         });
         let again: Vec<Start> = (unsure.iter().zip(&met))
             .filter_map(|(&(from, d), met)| match met {
                 Met::Neighbour(at) => {
-                    let node = spread.sheet(from).node;
+                    let node = spread.solution(from).node;
                     Some(self.here(self.grid.neighbour(node, d).unwrap_or(node), at))
                 }
                 _ => None,
@@ -220,7 +220,7 @@ impl Fill<'_> {
     }
 
     fn arrive(&self, spread: &mut Spread, (from, d): Task, arrival: Moving) {
-        let Some(node) = self.grid.neighbour(spread.sheet(from).node, d) else {
+        let Some(node) = self.grid.neighbour(spread.solution(from).node, d) else {
             return;
         };
         let known = spread.known(self, node, arrival.at);

@@ -1,21 +1,21 @@
 //! Steps from the nodes of a grid to their neighbours, and which of them are sure.
 
 use super::arrivals::{Arrivals, Moving};
-use super::filled::{Name, Sheet, Signs, signs};
-use super::measure::Measure;
+use super::metric::Metric;
+use super::reached::{Name, NodeSolution, Signs, signs};
 use super::step::{SURE, Start, Steps};
-use crate::analysis::workspace::problem::{Asked, Grid, MOST_AXES};
+use crate::analysis::workspace::problem::{Grid, MOST_AXES, MapProblem};
 use crate::linear::{Factorable, norm};
 use crate::mechanism::{Configuration, ConfigurationRef};
 use crate::number::Packed;
 use crate::solve::Pool;
 
 #[derive(Clone, Copy)]
-pub(crate) struct Fill<'a> {
-    pub asked: &'a Asked<'a>,
+pub(crate) struct Flood<'a> {
+    pub problem: &'a MapProblem<'a>,
     pub grid: &'a Grid,
-    pub measure: &'a Measure,
-    /// Sheets kept at most.
+    pub metric: &'a Metric,
+    /// Solutions kept at most.
     pub most: usize,
     /// The signs of the one aspect that is to be spread over, if not all are.
     pub only: Option<Signs>,
@@ -35,13 +35,13 @@ pub(crate) struct Step<'a> {
     pub change: f64,
 }
 
-impl Fill<'_> {
-    /// Whether what is reached from a sheet is asked for.
-    pub(crate) fn goes_on_from(&self, sheet: &Sheet) -> bool {
-        self.only.is_none() || signs(sheet) == self.only
+impl Flood<'_> {
+    /// Whether spreading continues from a solution.
+    pub(crate) fn goes_on_from(&self, solution: &NodeSolution) -> bool {
+        self.only.is_none() || signs(solution) == self.only
     }
 
-    /// A start beside an assembled configuration at a node.
+    /// A Newton start near an assembled configuration at a node.
     pub(crate) fn here<'s>(&self, node: usize, at: &'s Configuration<f64>) -> Start<'s> {
         Start {
             from: at.view(),
@@ -63,18 +63,18 @@ impl Fill<'_> {
         })
     }
 
-    /// Which of the sheets of a node has this configuration.
+    /// Which of the solutions of a node has this configuration.
     pub(crate) fn known<'s>(
         &self,
-        mut sheets: impl Iterator<Item = (Name, ConfigurationRef<'s, f64>)>,
+        mut solutions: impl Iterator<Item = (Name, ConfigurationRef<'s, f64>)>,
         at: ConfigurationRef<f64>,
     ) -> Option<Name> {
-        let known = sheets.find(|(_, known)| self.measure.same(*known, at));
+        let known = solutions.find(|(_, known)| self.metric.same(*known, at));
         known.map(|(name, _)| name)
     }
 
     /// The way from a configuration at a node to its neighbour in a direction, if there is one;
-    /// otherwise one that leads nowhere.
+    /// otherwise a step of zero length.
     pub(crate) fn step<'f>(&self, node: usize, from: Moving<'f>, direction: usize) -> Step<'f> {
         let axis = direction / 2;
         let next = self.grid.neighbour(node, direction).unwrap_or(node);
@@ -88,17 +88,17 @@ impl Fill<'_> {
         }
     }
 
-    /// Of the sheets at the neighbour the one that lies where both motions say.
+    /// The solution at the neighbour that both tangent predictions agree on.
     pub(crate) fn near<'s>(
         &self,
         step: &Step,
         there: impl Iterator<Item = (Name, Moving<'s>)>,
         storage: &mut Vec<f64>,
     ) -> Option<Name> {
-        let ahead = (self.measure).ahead(step.from, step.axis, step.change);
-        let mut near = there.filter(|(_, to)| self.measure.linked(&ahead, *to, storage));
+        let ahead = (self.metric).ahead(step.from, step.axis, step.change);
+        let mut near = there.filter(|(_, to)| self.metric.linked(&ahead, *to, storage));
         let (first, _) = near.next()?;
-        // two as near are for surer steps to tell apart
+        // if two are as near, shorter steps must distinguish them
         near.next().is_none().then_some(first)
     }
 
@@ -115,8 +115,8 @@ impl Fill<'_> {
             .collect();
         steps.settle(&starts, arrivals);
         for (i, step) in planned.iter().enumerate() {
-            let (_, length) = self.measure.motion(step.from, step.axis, step.change);
-            let alike = |to| self.measure.alike(step.from, to, length, storage);
+            let (_, length) = self.metric.motion(step.from, step.axis, step.change);
+            let alike = |to| self.metric.alike(step.from, to, length, storage);
             if !arrivals.get(i).is_some_and(alike) {
                 arrivals.reject(i);
             }
@@ -131,7 +131,7 @@ impl Fill<'_> {
         change: f64,
         values: [f64; MOST_AXES],
     ) -> Start<'f> {
-        let (motion, factor) = self.measure.motion(from, axis, change);
+        let (motion, factor) = self.metric.motion(from, axis, change);
         Start {
             from: from.at,
             along: Some((motion, factor)),

@@ -1,7 +1,7 @@
 //! The way from a node to its neighbour in shorter steps, many ways side by side.
 
 use super::arrivals::{Arrival, Arrivals, Moving};
-use super::neighbour::Fill;
+use super::neighbour::Flood;
 use super::spread::Spread;
 use super::step::{Start, Steps};
 use super::tile::Task;
@@ -10,7 +10,7 @@ use crate::linear::{Factorable, norm};
 use crate::number::Packed;
 use crate::solve::Pool;
 
-/// What shorter steps tell of an edge.
+/// What shorter steps find on an edge.
 pub(crate) enum Paced {
     /// The neighbour.
     Arrived(Arrival),
@@ -21,14 +21,14 @@ pub(crate) enum Paced {
 }
 
 /// How far an edge has been gone.
-struct Way {
+struct PacedStep {
     at: Arrival,
     axis: usize,
     /// The mapped coordinates at the neighbour.
     end: [f64; MOST_AXES],
     /// The mapped coordinate now.
     x: f64,
-    /// How far it is to change next.
+    /// The next change of the mapped coordinate.
     step: f64,
     /// 1/‖N‖² where the way has been.
     slowness: f64,
@@ -36,18 +36,18 @@ struct Way {
     fold: f64,
 }
 
-impl Way {
+impl PacedStep {
     fn rest(&self) -> f64 {
         self.end[self.axis] - self.x
     }
 
     /// A step on, with what is met there; whether the mode folds back before the neighbour.
     ///
-    /// On the way to a fold at x* the configuration goes with √(x* − x), and ‖N‖⁻² falls in proportion
-    /// to x* − x. Towards a place where a leg merely turns fast it falls with the square instead,
-    /// and the straight line through two points leads to another place each time.
+    /// On the way to a fold at x* the configuration goes with √(x* − x), and ‖N‖⁻² falls in
+    /// proportion to x* − x. Towards a place where a leg merely turns fast it falls with the square
+    /// instead, and the straight line through two points leads to another place each time.
     fn on(&mut self, at: Arrival, slowness: f64) -> bool {
-        /// The part of the way to the fold that two guesses of it may differ by.
+        /// Two estimates of the fold may differ by this fraction of the distance to it.
         const AGREED: f64 = 0.05;
         /// The next step as a part of the way to the fold.
         const NEXT: f64 = 0.6;
@@ -67,8 +67,8 @@ impl Way {
     }
 }
 
-impl Fill<'_> {
-    /// Halves steps until they are sure, and goes on so.
+impl Flood<'_> {
+    /// Halves steps until they are certain, then continues.
     pub(crate) fn paced<T: Factorable + Packed + Send + Sync>(
         &self,
         steps: &Pool<Steps<T>>,
@@ -79,14 +79,14 @@ impl Fill<'_> {
         /// The shortest step as a part of an edge.
         const SHORTEST: f64 = 1.0 / 256.0;
         let slowness = |at: Moving, axis: usize| {
-            let (motion, _) = self.measure.motion(at, axis, 1.0);
+            let (motion, _) = self.metric.motion(at, axis, 1.0);
             norm(motion).powi(-2)
         };
         let mut ends: Vec<Paced> = tasks.iter().map(|_| Paced::Open).collect();
-        let mut ways: Vec<(usize, Way)> = (tasks.iter().enumerate())
+        let mut ways: Vec<(usize, PacedStep)> = (tasks.iter().enumerate())
             .map(|(i, task)| {
                 let edge = spread.step(self, *task);
-                let way = Way {
+                let way = PacedStep {
                     axis: edge.axis,
                     end: edge.to,
                     x: edge.to[edge.axis] - edge.change,
@@ -109,8 +109,8 @@ impl Fill<'_> {
             let mut left = Vec::new();
             for ((i, mut way), arrival) in ways.into_iter().zip(arrivals) {
                 let from = way.at.moving();
-                let (_, length) = self.measure.motion(from, way.axis, way.step);
-                let sure = arrival.filter(|to| self.measure.alike(from, *to, length, &mut storage));
+                let (_, length) = self.metric.motion(from, way.axis, way.step);
+                let sure = arrival.filter(|to| self.metric.alike(from, *to, length, &mut storage));
                 match sure {
                     Some(arrival) if way.step == way.rest() => {
                         ends[i] = Paced::Arrived(arrival.arrival());
@@ -136,7 +136,7 @@ impl Fill<'_> {
         ends
     }
 
-    fn start_of<'w>(&self, way: &'w Way) -> Start<'w> {
+    fn start_of<'w>(&self, way: &'w PacedStep) -> Start<'w> {
         let mut values = way.end;
         if way.step != way.rest() {
             values[way.axis] = way.x + way.step;
@@ -148,11 +148,11 @@ impl Fill<'_> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::analysis::workspace::problem::Told;
+    use crate::analysis::workspace::problem::Indicators;
     use crate::mechanism::Configuration;
 
-    fn way(slowness: f64) -> Way {
-        Way {
+    fn way(slowness: f64) -> PacedStep {
+        PacedStep {
             at: arrival(),
             axis: 0,
             end: [1.0, 0.0, 0.0],
@@ -170,7 +170,7 @@ mod tests {
                 platforms: Vec::new(),
             },
             motions: Vec::new(),
-            told: Told {
+            indicators: Indicators {
                 regular: true,
                 direct: 1.0,
                 inverse: 1.0,
@@ -179,7 +179,7 @@ mod tests {
         }
     }
 
-    /// Goes on until a fold is said, or the way is gone.
+    /// Continues until a fold is found or the edge ends.
     fn folds(slowness: impl Fn(f64) -> f64) -> bool {
         let mut way = way(slowness(0.0));
         for _ in 0..30 {

@@ -4,11 +4,11 @@ use rand::SeedableRng;
 use rand_pcg::Pcg64Mcg;
 
 use super::arrivals::Arrivals;
-use super::measure::Measure;
-use super::neighbour::Fill;
+use super::metric::Metric;
+use super::neighbour::Flood;
 use super::spread::Spread;
 use super::step::{Start, Steps};
-use crate::analysis::workspace::problem::{Asked, Grid, Targets};
+use crate::analysis::workspace::problem::{Grid, MapProblem, Targets};
 use crate::linear::Factorable;
 use crate::mechanism::{Configuration, PlatformPose};
 use crate::number::Packed;
@@ -17,16 +17,16 @@ use crate::system::{System, Work, random_configuration, with_coordinates};
 
 /// What was found at the nodes that were searched.
 #[derive(Default)]
-pub(crate) struct Sown {
+pub(crate) struct ModeSeeds {
     pub seeds: Vec<(usize, Configuration<f64>)>,
     /// Assembled configurations with a joint outside its limits, which are no seeds.
     pub outside: usize,
 }
 
-impl Sown {
-    fn add(&mut self, asked: &Asked, node: usize, mut at: Configuration<f64>) {
-        asked.mechanism.turn_to_limits(&mut at.joints);
-        match asked.allows(&at.joints) {
+impl ModeSeeds {
+    fn add(&mut self, problem: &MapProblem, node: usize, mut at: Configuration<f64>) {
+        problem.mechanism.turn_to_limits(&mut at.joints);
+        match problem.allows(&at.joints) {
             true => self.seeds.push((node, at)),
             false => self.outside += 1,
         }
@@ -41,20 +41,20 @@ struct Storage {
     steps: Steps<f64>,
 }
 
-/// Newton's method from random starts at each of some nodes; and from what is given.
-pub(crate) fn sow(
-    asked: &Asked,
+/// Newton's method from random starts at each of some nodes, and from the given configurations.
+pub(crate) fn search_modes(
+    problem: &MapProblem,
     grid: &Grid,
-    measure: &Measure,
+    metric: &Metric,
     (nodes, starts, seed): (&[usize], usize, u64),
     (given, watch): (&[Configuration<f64>], &Watch),
-) -> Sown {
-    let system = asked.question.system();
+) -> ModeSeeds {
+    let system = problem.question.system();
     let storage = Storage {
-        targets: Targets::new(asked),
+        targets: Targets::new(problem),
         work: system.work(),
         system,
-        steps: Steps::new(asked),
+        steps: Steps::new(problem),
     };
     let found = each(nodes.len(), &storage, |storage, i| {
         let node = nodes[i];
@@ -64,39 +64,41 @@ pub(crate) fn sow(
         // each node draws for itself, so that threads do not matter
         let mut rng = Pcg64Mcg::seed_from_u64(seed.wrapping_add(node as u64));
         let values = grid.values(node);
-        let around = asked.at(&values).start();
+        let around = problem.at(&values).start();
         let mut found: Vec<Configuration<f64>> = Vec::new();
         for k in 0..starts {
             let at = match k {
                 0 => around.clone(),
-                _ => random_configuration(asked.mechanism, &around, &mut rng),
+                _ => random_configuration(problem.mechanism, &around, &mut rng),
             };
-            let at = put_in(asked, &values, &at);
-            take(asked, measure, storage, &values, at, &mut found);
+            let at = put_in(problem, &values, &at);
+            take(problem, metric, storage, &values, at, &mut found);
         }
         (node, found)
     });
-    let mut sown = Sown::default();
+    let mut mode_seeds = ModeSeeds::default();
     let mut last = storage.clone();
     let here = given.iter().filter_map(|at| {
-        let node = nearest(asked, grid, at)?;
+        let node = nearest(problem, grid, at)?;
         let mut found = Vec::new();
         let values = grid.values(node);
-        let at = put_in(asked, &values, at);
-        take(asked, measure, &mut last, &values, at, &mut found);
+        let at = put_in(problem, &values, at);
+        take(problem, metric, &mut last, &values, at, &mut found);
         Some((node, found))
     });
     let all: Vec<_> = found.into_iter().chain(here.collect::<Vec<_>>()).collect();
     for (node, found) in all {
-        found.into_iter().for_each(|at| sown.add(asked, node, at));
+        found
+            .into_iter()
+            .for_each(|at| mode_seeds.add(problem, node, at));
     }
-    sown
+    mode_seeds
 }
 
 /// Adds what Newton's method finds from a start, if it is new.
 fn take(
-    asked: &Asked,
-    measure: &Measure,
+    problem: &MapProblem,
+    metric: &Metric,
     storage: &mut Storage,
     values: &[f64],
     mut at: Configuration<f64>,
@@ -104,23 +106,23 @@ fn take(
 ) {
     (storage.targets).ask(&mut storage.system, &mut at, |_| values);
     let mut trial = at.clone();
-    let report = (asked.newton).solve(&storage.system, &mut at, &mut trial, &mut storage.work);
+    let report = (problem.newton).solve(&storage.system, &mut at, &mut trial, &mut storage.work);
     if report.stop != Stop::Solved
         || found
             .iter()
-            .any(|known| measure.same(known.view(), at.view()))
+            .any(|known| metric.same(known.view(), at.view()))
     {
         return;
     }
-    // where the mapped coordinates do not tell how things move there is nothing to go on from
-    if storage.steps.told(&at, values).regular {
+    // where the mapped coordinates do not determine the motion, spreading cannot start
+    if storage.steps.indicators(&at, values).regular {
         found.push(at);
     }
 }
 
 /// A configuration with the held values of a node put in.
-fn put_in(asked: &Asked, values: &[f64], at: &Configuration<f64>) -> Configuration<f64> {
-    let held = asked.at(values);
+fn put_in(problem: &MapProblem, values: &[f64], at: &Configuration<f64>) -> Configuration<f64> {
+    let held = problem.at(values);
     let mut at = at.clone();
     for (platform, pose) in at.platforms.iter_mut().enumerate() {
         let coordinates = held.held_values(platform);
@@ -129,22 +131,22 @@ fn put_in(asked: &Asked, values: &[f64], at: &Configuration<f64>) -> Configurati
             *pose = PlatformPose::from_pose(&with);
         }
     }
-    asked.put(&at, values)
+    problem.put(&at, values)
 }
 
 /// Starts at each node that is probed.
 pub(crate) const PROBES: usize = 8;
 
-/// Plain Newton's method from a few random starts at each of many nodes, side by side: what it finds
-/// that is not reached yet, so that small regions by themselves are not missed.
+/// Plain Newton's method from a few random starts at each of many nodes, side by side: what it
+/// finds that is not reached yet, so that small isolated regions are not missed.
 pub(crate) fn probe<T: Factorable + Packed + Send + Sync>(
-    fill: &Fill,
+    fill: &Flood,
     reached: &Spread,
     steps: &Pool<Steps<T>>,
     (nodes, seed): (&[usize], u64),
     watch: &Watch,
-) -> Sown {
-    let asked = fill.asked;
+) -> ModeSeeds {
+    let problem = fill.problem;
     let found = steps.each(nodes.len(), |steps, i| {
         let node = nodes[i];
         if watch.stops(Stage::Nodes, i, Some(nodes.len())) {
@@ -153,11 +155,11 @@ pub(crate) fn probe<T: Factorable + Packed + Send + Sync>(
         // other numbers than those drawn by `sow`
         let mut rng = Pcg64Mcg::seed_from_u64(!seed.wrapping_add(node as u64));
         let values = fill.grid.values(node);
-        let around = asked.at(&values).start();
+        let around = problem.at(&values).start();
         let drawn: Vec<Configuration<f64>> = (0..PROBES)
             .map(|_| {
-                let at = random_configuration(asked.mechanism, &around, &mut rng);
-                put_in(asked, &values, &at)
+                let at = random_configuration(problem.mechanism, &around, &mut rng);
+                put_in(problem, &values, &at)
             })
             .collect();
         let starts: Vec<Start> = (drawn.iter())
@@ -173,7 +175,7 @@ pub(crate) fn probe<T: Factorable + Packed + Send + Sync>(
         for pack in starts.chunks(T::WIDTH) {
             steps.settle(pack, &mut arrivals);
             for arrival in arrivals.iter().flatten() {
-                let known = |of: &Configuration<f64>| fill.measure.same(of.view(), arrival.at);
+                let known = |of: &Configuration<f64>| fill.metric.same(of.view(), arrival.at);
                 if reached.known(fill, node, arrival.at).is_none() && !new.iter().any(known) {
                     new.push(arrival.at.owned());
                 }
@@ -181,17 +183,19 @@ pub(crate) fn probe<T: Factorable + Packed + Send + Sync>(
         }
         (node, new)
     });
-    let mut sown = Sown::default();
+    let mut mode_seeds = ModeSeeds::default();
     for (node, found) in found {
-        found.into_iter().for_each(|at| sown.add(asked, node, at));
+        found
+            .into_iter()
+            .for_each(|at| mode_seeds.add(problem, node, at));
     }
-    sown
+    mode_seeds
 }
 
 /// The node nearest to a configuration, if it is in the box.
-fn nearest(asked: &Asked, grid: &Grid, at: &Configuration<f64>) -> Option<usize> {
+fn nearest(problem: &MapProblem, grid: &Grid, at: &Configuration<f64>) -> Option<usize> {
     let (mut node, mut stride) = (0, 1);
-    for (i, axis) in asked.axes.iter().enumerate() {
+    for (i, axis) in problem.axes.iter().enumerate() {
         let place = ((axis.coordinate.of(at) - axis.from) / grid.spacing(i)).round();
         if !(place >= 0.0 && place < grid.count(i) as f64) {
             return None;

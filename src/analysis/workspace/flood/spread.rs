@@ -1,8 +1,8 @@
 //! What was reached so far, in the parts of the grid.
 
 use super::arrivals::Moving;
-use super::filled::{Filled, Link, Name, Sheet};
-use super::neighbour::{Fill, Step};
+use super::neighbour::{Flood, Step};
+use super::reached::{Link, Name, NodeSolution, ReachedSet};
 use super::tile::{Task, Tile, Tiling};
 use crate::analysis::workspace::problem::Grid;
 use crate::mechanism::ConfigurationRef;
@@ -11,7 +11,7 @@ use crate::mechanism::ConfigurationRef;
 pub(crate) struct Spread {
     pub tiling: Tiling,
     pub tiles: Vec<Tile>,
-    /// Sheets of different parts that are linked.
+    /// Solutions of different parts that are linked.
     seams: Vec<[Name; 2]>,
 }
 
@@ -26,19 +26,19 @@ impl Spread {
         }
     }
 
-    pub fn sheet(&self, name: Name) -> &Sheet {
-        &self.tiles[name.tile as usize].sheets.all[name.sheet as usize]
+    pub fn solution(&self, name: Name) -> &NodeSolution {
+        &self.tiles[name.tile as usize].solutions.all[name.solution as usize]
     }
 
     pub fn link_mut(&mut self, name: Name, direction: usize) -> &mut Link {
-        &mut self.tiles[name.tile as usize].sheets.all[name.sheet as usize].links[direction]
+        &mut self.tiles[name.tile as usize].solutions.all[name.solution as usize].links[direction]
     }
 
-    /// Links two sheets.
+    /// Links two solutions.
     pub fn link(&mut self, from: Name, direction: usize, to: Name) {
         if from.tile == to.tile {
             let tile = &mut self.tiles[from.tile as usize];
-            return tile.link(from.sheet as usize, direction, to.sheet as usize);
+            return tile.link(from.solution as usize, direction, to.solution as usize);
         }
         self.seams.push([from, to]);
         *self.link_mut(from, direction) = Link::To(to);
@@ -48,30 +48,30 @@ impl Spread {
         }
     }
 
-    /// The sheet of a node with this configuration.
-    pub fn known(&self, fill: &Fill, node: usize, at: ConfigurationRef<f64>) -> Option<Name> {
+    /// The solution of a node with this configuration.
+    pub fn known(&self, fill: &Flood, node: usize, at: ConfigurationRef<f64>) -> Option<Name> {
         let tile = &self.tiles[self.tiling.of(fill.grid, node)];
         fill.known(tile.at(fill.grid, node), at)
     }
 
     pub fn len(&self) -> usize {
-        self.tiles.iter().map(|tile| tile.sheets.len()).sum()
+        self.tiles.iter().map(|tile| tile.solutions.len()).sum()
     }
 
-    /// The way from a sheet to its neighbour.
-    pub fn step(&self, fill: &Fill, (from, direction): Task) -> Step<'_> {
-        self.tiles[from.tile as usize].step(fill, from.sheet as usize, direction)
+    /// The way from a solution to its neighbour.
+    pub fn step(&self, fill: &Flood, (from, direction): Task) -> Step<'_> {
+        self.tiles[from.tile as usize].step(fill, from.solution as usize, direction)
     }
 
     /// All of it.
-    pub fn filled(self, grid: &Grid) -> Filled {
+    pub fn reached_set(self, grid: &Grid) -> ReachedSet {
         let tiles = self.tiles.into_iter().map(Tile::finished);
         let bands = self.tiling.bands(grid);
-        Filled::new(tiles.collect(), &self.seams, &bands)
+        ReachedSet::new(tiles.collect(), &self.seams, &bands)
     }
 
     /// Adds what was not reached before.
-    pub fn add(&mut self, fill: &Fill, node: usize, arrival: Moving) -> Name {
+    pub fn add(&mut self, fill: &Flood, node: usize, arrival: Moving) -> Name {
         let tile = self.tiling.of(fill.grid, node);
         self.tiles[tile].add(fill, node, arrival)
     }
@@ -82,7 +82,7 @@ impl Spread {
         tiles.flat_map(|tile| std::mem::take(of(tile))).collect()
     }
 
-    /// Puts steps that are not sure by for later.
+    /// Defers steps that are not certain.
     pub fn keep(&mut self, tasks: Vec<Task>) {
         for task in tasks {
             self.tiles[task.0.tile as usize].unsure.push(task);

@@ -1,7 +1,7 @@
 //! From a node to its neighbour: several such steps side by side.
 
 use super::arrivals::Arrivals;
-use crate::analysis::workspace::problem::{Asked, MOST_AXES, Rates, Targets, Told};
+use crate::analysis::workspace::problem::{Indicators, MOST_AXES, MapProblem, Rates, Targets};
 use crate::linear::Factorable;
 use crate::mechanism::{Configuration, ConfigurationRef};
 use crate::number::{LANES, Packed};
@@ -12,7 +12,7 @@ use crate::system::{System, Work};
 #[derive(Clone, Debug)]
 pub(crate) struct Start<'a> {
     pub from: ConfigurationRef<'a, f64>,
-    /// A motion and how far along it what is looked for may be near.
+    /// A tangent and how far along it the solution is expected.
     pub along: Option<(&'a [f64], f64)>,
     /// How far that may be, dimensionless; infinite if anything is as good.
     pub reach: f64,
@@ -29,7 +29,7 @@ pub(crate) struct Steps<T: Factorable> {
     work: Work<T>,
     point: Configuration<T>,
     spare: Configuration<T>,
-    /// From where steps begin to near where they are to arrive.
+    /// Starting points and predicted end points of steps.
     ahead: Vec<T>,
     rates: Rates<T>,
 }
@@ -39,20 +39,20 @@ pub(crate) struct Steps<T: Factorable> {
 pub(crate) const SURE: f64 = 0.3;
 
 impl<T: Factorable + Packed> Steps<T> {
-    pub fn new(asked: &Asked) -> Self {
-        let system: System<T> = asked.question.system_over();
+    pub fn new(problem: &MapProblem) -> Self {
+        let system: System<T> = problem.question.system_over();
         Steps {
-            targets: Targets::new(asked),
+            targets: Targets::new(problem),
             work: system.work(),
-            point: asked.question.start().map(T::from_f64),
-            spare: asked.question.start().map(T::from_f64),
+            point: problem.question.start().map(T::from_f64),
+            spare: problem.question.start().map(T::from_f64),
             ahead: Vec::new(),
-            rates: Rates::new(asked, &system),
+            rates: Rates::new(problem, &system),
             system,
         }
     }
 
-    /// The configurations that are surely meant; at most as many starts as places.
+    /// The solutions the starts certainly lead to; at most as many starts as lanes.
     pub fn settle(&mut self, starts: &[Start], arrivals: &mut Arrivals) {
         arrivals.begin(starts.len());
         let spoiled = self.together(starts, 0, arrivals);
@@ -110,7 +110,7 @@ impl<T: Factorable + Packed> Steps<T> {
                     continue;
                 }
                 let (size, bound) = (sizes.part(place), &mut bounds[place]);
-                // what is not finite is not sure either
+                // values that are not finite are rejected too
                 sure[place] = size.is_finite() && size <= bound.max(SMALL);
                 if bound.is_finite() {
                     *bound = SURE * size;
@@ -120,7 +120,7 @@ impl<T: Factorable + Packed> Steps<T> {
             if places.clone().any(|place| !moves[place]) {
                 for x in steps.iter_mut() {
                     let old = *x;
-                    // not a product: what is not finite is to stay behind
+                    // a selection and not a product, so that values that are not finite are dropped
                     *x = T::of_parts(|p| if moves[p] { old.part(p) } else { 0.0 });
                 }
             }
@@ -131,26 +131,26 @@ impl<T: Factorable + Packed> Steps<T> {
         if !places.clone().any(|place| solved[place] && sure[place]) {
             return false;
         }
-        let told = (self.rates).at(&self.point, &self.system, &mut self.work);
+        let indicators = (self.rates).at(&self.point, &self.system, &mut self.work);
         let mut spoiled = false;
-        let mut arrived: [Option<Told>; LANES] = Default::default();
+        let mut arrived: [Option<Indicators>; LANES] = Default::default();
         let places = places.take(starts.len());
         for place in places.clone().filter(|p| solved[*p] && sure[*p]) {
-            spoiled |= !told[place].regular;
-            arrived[place] = told[place].regular.then(|| told[place].clone());
+            spoiled |= !indicators[place].regular;
+            arrived[place] = indicators[place].regular.then(|| indicators[place].clone());
         }
         let motions = self.rates.motions();
         arrivals.put(first, &self.point, motions, &arrived[..places.len()]);
         spoiled
     }
 
-    /// What is told of a configuration that solves the equations for its mapped coordinates.
-    pub fn told(&mut self, at: &Configuration<f64>, values: &[f64]) -> Told {
+    /// The indicators of a configuration that solves the equations for its mapped coordinates.
+    pub fn indicators(&mut self, at: &Configuration<f64>, values: &[f64]) -> Indicators {
         let mut point = at.map(T::from_f64);
         (self.targets).ask(&mut self.system, &mut point, |_| values);
         self.system.linearise(&point, &mut self.work);
-        let [told, ..] = self.rates.at(&point, &self.system, &mut self.work);
-        told
+        let [indicators, ..] = self.rates.at(&point, &self.system, &mut self.work);
+        indicators
     }
 
     /// Puts the point near where each place is to arrive.

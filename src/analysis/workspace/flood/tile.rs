@@ -1,10 +1,10 @@
-//! Parts of the grid, over each of which one thread spreads by itself.
+//! Parts of the grid; one thread spreads over each independently.
 
 use rustc_hash::FxHashSet;
 
 use super::arrivals::{Arrivals, Moving};
-use super::filled::{Link, Name, Sheet, Sheets, join, root};
-use super::neighbour::{Fill, Step};
+use super::neighbour::{Flood, Step};
+use super::reached::{Link, Name, NodeSolution, NodeSolutions, join, root};
 use super::step::Steps;
 use crate::analysis::workspace::problem::{Grid, MOST_AXES, MOST_DIRECTIONS};
 use crate::linear::Factorable;
@@ -72,7 +72,7 @@ impl Tiling {
                     number,
                     low,
                     sides,
-                    sheets: Sheets::default(),
+                    solutions: NodeSolutions::default(),
                     motions: Vec::new(),
                     last: vec![None; sides.iter().product()],
                     before: Vec::new(),
@@ -86,7 +86,7 @@ impl Tiling {
     }
 }
 
-/// A step to be taken: from a sheet in a direction.
+/// A step to be taken: from a solution in a direction.
 pub(crate) type Task = (Name, usize);
 
 /// A part of the grid with what was reached in it, in the order in which it was.
@@ -94,15 +94,16 @@ pub(crate) struct Tile {
     number: usize,
     low: [usize; MOST_AXES],
     sides: [usize; MOST_AXES],
-    pub sheets: Sheets,
-    /// The motions of its sheets, one after another.
+    pub solutions: NodeSolutions,
+    /// The motions of its solutions, one after another.
     motions: Vec<f64>,
-    /// For each of its nodes the last sheet there, and for each sheet the one before it there.
+    /// For each of its nodes the last solution there, and for each solution the one before it
+    /// there.
     last: Vec<Option<u32>>,
     before: Vec<Option<u32>>,
-    /// For each sheet the first, so far as is known, of those connected with it in here.
+    /// For each solution the first, so far as is known, of those connected with it in here.
     roots: Vec<usize>,
-    /// Sheets that no steps were made from yet.
+    /// Solutions that no steps were made from yet.
     front: Vec<usize>,
     /// Steps that lead out of it.
     pub seams: Vec<Task>,
@@ -129,94 +130,98 @@ impl Tile {
         Some(place)
     }
 
-    /// The sheets at a node.
-    fn sheets_at(&self, grid: &Grid, node: usize) -> impl Iterator<Item = usize> {
+    /// The solutions at a node.
+    fn solutions_at(&self, grid: &Grid, node: usize) -> impl Iterator<Item = usize> {
         let last = self.place(grid, node).and_then(|place| self.last[place]);
-        let sheets = std::iter::successors(last, |sheet| self.before[*sheet as usize]);
-        sheets.map(|sheet| sheet as usize)
+        let solutions = std::iter::successors(last, |solution| self.before[*solution as usize]);
+        solutions.map(|solution| solution as usize)
     }
 
-    /// The sheets at a node with their configurations.
+    /// The solutions at a node with their configurations.
     pub fn at(
         &self,
         grid: &Grid,
         node: usize,
     ) -> impl Iterator<Item = (Name, ConfigurationRef<'_, f64>)> {
-        let sheets = self.sheets_at(grid, node);
-        sheets.map(|sheet| (self.name(sheet), self.sheets.at(sheet)))
+        let solutions = self.solutions_at(grid, node);
+        solutions.map(|solution| (self.name(solution), self.solutions.at(solution)))
     }
 
     /// The same with their motions.
     pub fn moving_at(&self, grid: &Grid, node: usize) -> impl Iterator<Item = (Name, Moving<'_>)> {
-        let sheets = self.sheets_at(grid, node);
-        sheets.map(|sheet| (self.name(sheet), self.moving(sheet)))
+        let solutions = self.solutions_at(grid, node);
+        solutions.map(|solution| (self.name(solution), self.moving(solution)))
     }
 
-    /// The way from a sheet to its neighbour.
-    pub fn step(&self, fill: &Fill, sheet: usize, direction: usize) -> Step<'_> {
-        fill.step(self.sheets.all[sheet].node, self.moving(sheet), direction)
+    /// The way from a solution to its neighbour.
+    pub fn step(&self, fill: &Flood, solution: usize, direction: usize) -> Step<'_> {
+        fill.step(
+            self.solutions.all[solution].node,
+            self.moving(solution),
+            direction,
+        )
     }
 
-    fn name(&self, sheet: usize) -> Name {
-        Name::new(self.number, sheet)
+    fn name(&self, solution: usize) -> Name {
+        Name::new(self.number, solution)
     }
 
-    /// A sheet with its motions.
-    pub fn moving(&self, sheet: usize) -> Moving<'_> {
-        let length = self.motions.len() / self.sheets.len();
+    /// A solution with its motions.
+    pub fn moving(&self, solution: usize) -> Moving<'_> {
+        let length = self.motions.len() / self.solutions.len();
         Moving {
-            at: self.sheets.at(sheet),
-            motions: &self.motions[sheet * length..][..length],
-            told: &self.sheets.all[sheet].told,
+            at: self.solutions.at(solution),
+            motions: &self.motions[solution * length..][..length],
+            indicators: &self.solutions.all[solution].indicators,
         }
     }
 
-    /// Its sheets, and for each the first of those connected with it in here.
-    pub fn finished(mut self) -> (Sheets, Vec<usize>) {
-        let roots = (0..self.sheets.len()).map(|sheet| root(&mut self.roots, sheet));
+    /// Its solutions, and for each the first of those connected with it in here.
+    pub fn finished(mut self) -> (NodeSolutions, Vec<usize>) {
+        let roots = (0..self.solutions.len()).map(|solution| root(&mut self.roots, solution));
         let roots = roots.collect();
-        (self.sheets, roots)
+        (self.solutions, roots)
     }
 
-    /// A name for what a sheet is connected with, so far as is known.
-    pub fn root(&mut self, sheet: usize) -> Name {
-        let root = root(&mut self.roots, sheet);
+    /// A name for what a solution is connected with, so far as is known.
+    pub fn root(&mut self, solution: usize) -> Name {
+        let root = root(&mut self.roots, solution);
         self.name(root)
     }
 
     /// Adds what was not reached before, at one of its nodes.
-    pub fn add(&mut self, fill: &Fill, node: usize, arrival: Moving) -> Name {
-        let new = self.sheets.len();
+    pub fn add(&mut self, fill: &Flood, node: usize, arrival: Moving) -> Name {
+        let new = self.solutions.len();
         if new == 0 {
-            // where one node is reached most are
+            // if one node of a part is reached, most of its nodes are
             let nodes = self.last.len();
-            self.sheets.reserve(nodes, arrival.at);
+            self.solutions.reserve(nodes, arrival.at);
             self.motions.reserve(nodes * arrival.motions.len());
         }
-        let sheet = Sheet {
+        let solution = NodeSolution {
             node,
-            within: fill.asked.allows(arrival.at.joints),
-            told: arrival.told.clone(),
+            within: fill.problem.allows(arrival.at.joints),
+            indicators: arrival.indicators.clone(),
             links: [Link::Open; MOST_DIRECTIONS],
         };
-        if fill.goes_on_from(&sheet) {
+        if fill.goes_on_from(&solution) {
             self.front.push(new);
         }
-        self.sheets.push(sheet, arrival.at);
+        self.solutions.push(solution, arrival.at);
         self.motions.extend(arrival.motions);
         let place = self.place(fill.grid, node);
         let place = place.expect("a node of this part");
         let name = self.name(new);
-        self.before.push(self.last[place].replace(name.sheet));
+        self.before.push(self.last[place].replace(name.solution));
         self.roots.push(new);
         name
     }
 
-    /// Links two of its sheets.
+    /// Links two of its solutions.
     pub fn link(&mut self, from: usize, direction: usize, to: usize) {
         let (from_name, to_name) = (self.name(from), self.name(to));
-        self.sheets.all[from].links[direction] = Link::To(to_name);
-        let back = &mut self.sheets.all[to].links[direction ^ 1];
+        self.solutions.all[from].links[direction] = Link::To(to_name);
+        let back = &mut self.solutions.all[to].links[direction ^ 1];
         if *back == Link::Open {
             *back = Link::To(from_name);
         }
@@ -227,17 +232,17 @@ impl Tile {
     fn chosen(&mut self, grid: &Grid, waiting: Vec<(usize, usize)>) -> [Vec<(usize, usize)>; 2] {
         let mut taken = FxHashSet::with_capacity_and_hasher(waiting.len(), Default::default());
         let (now, later) = waiting.into_iter().partition(|&(s, d)| {
-            let node = grid.neighbour(self.sheets.all[s].node, d);
+            let node = grid.neighbour(self.solutions.all[s].node, d);
             taken.insert((node, root(&mut self.roots, s)))
         });
         [now, later]
     }
 
-    /// Spreads as far as single steps surely lead in it.
-    pub fn grow<T: Factorable + Packed>(&mut self, fill: &Fill, steps: &mut Steps<T>) {
+    /// Spreads within the part as far as single steps are certain not to change branch.
+    pub fn grow<T: Factorable + Packed>(&mut self, fill: &Flood, steps: &mut Steps<T>) {
         let mut storage = Vec::new();
         let mut arrivals = Arrivals::default();
-        while self.grows() && self.sheets.len() <= fill.most {
+        while self.grows() && self.solutions.len() <= fill.most {
             let front = std::mem::take(&mut self.front);
             let mut waiting = self.ahead(fill.grid, &front);
             while !waiting.is_empty() {
@@ -259,12 +264,12 @@ impl Tile {
         }
     }
 
-    /// The steps from sheets to neighbours in here; those that lead out are kept.
+    /// The steps from solutions to neighbours in here; those that lead out are kept.
     fn ahead(&mut self, grid: &Grid, front: &[usize]) -> Vec<(usize, usize)> {
         let mut inside = Vec::new();
         for &s in front {
             for d in 0..2 * grid.dimensions() {
-                match grid.neighbour(self.sheets.all[s].node, d) {
+                match grid.neighbour(self.solutions.all[s].node, d) {
                     None => {}
                     Some(node) if self.place(grid, node).is_some() => inside.push((s, d)),
                     Some(_) => self.seams.push((self.name(s), d)),
@@ -274,13 +279,14 @@ impl Tile {
         inside
     }
 
-    /// Whether a sheet is linked already or now can be, with one that lies where both motions say.
-    fn linked(&mut self, fill: &Fill, s: usize, d: usize, storage: &mut Vec<f64>) -> bool {
-        let sheet = &self.sheets.all[s];
-        if sheet.links[d] != Link::Open {
+    /// Whether a solution is linked already, or can now be linked with the one that both tangent
+    /// predictions agree on.
+    fn linked(&mut self, fill: &Flood, s: usize, d: usize, storage: &mut Vec<f64>) -> bool {
+        let solution = &self.solutions.all[s];
+        if solution.links[d] != Link::Open {
             return true;
         }
-        let Some(node) = fill.grid.neighbour(sheet.node, d) else {
+        let Some(node) = fill.grid.neighbour(solution.node, d) else {
             return true;
         };
         let near = fill.near(
@@ -289,17 +295,17 @@ impl Tile {
             storage,
         );
         if let Some(near) = near {
-            self.link(s, d, near.sheet as usize);
+            self.link(s, d, near.solution as usize);
         }
         near.is_some()
     }
 
-    fn arrive(&mut self, fill: &Fill, s: usize, d: usize, arrival: Moving) {
-        let Some(node) = fill.grid.neighbour(self.sheets.all[s].node, d) else {
+    fn arrive(&mut self, fill: &Flood, s: usize, d: usize, arrival: Moving) {
+        let Some(node) = fill.grid.neighbour(self.solutions.all[s].node, d) else {
             return;
         };
         let known = fill.known(self.at(fill.grid, node), arrival.at);
         let to = known.unwrap_or_else(|| self.add(fill, node, arrival));
-        self.link(s, d, to.sheet as usize);
+        self.link(s, d, to.solution as usize);
     }
 }

@@ -40,7 +40,7 @@ pub(crate) struct Part {
     pub values: Vec<f64>,
 }
 
-/// What is told of a node in a mode, as in a [`Cell`].
+/// The indicators of a node in a mode, as in a [`Cell`].
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(crate) struct Head {
     pub node: usize,
@@ -63,10 +63,10 @@ pub struct Cell<'a> {
     /// The aspect; none outside limits and on singularities.
     pub aspect: Option<usize>,
     /// The condition number of the Jacobian from inputs to outputs, lengths over the normalising
-    /// length; none if it is singular or not told.
+    /// length; none if it is singular or not computed.
     pub condition: Option<f64>,
     /// The determinant of the rates of the inputs for those of what is mapped and held: zero at
-    /// direct singularities. Dimensionless; none if it is not told.
+    /// direct singularities. Dimensionless; none if it is not reported.
     pub direct: Option<f64>,
     /// The same for outputs: zero at inverse singularities.
     pub inverse: Option<f64>,
@@ -81,7 +81,7 @@ impl Cell<'_> {
     /// determinants of direct and inverse singularities, joints, coordinates that follow. An aspect
     /// is missing outside limits and on singularities.
     pub fn values(&self) -> impl Iterator<Item = Option<f64>> {
-        let told = [
+        let indicators = [
             Some(self.mode as f64),
             self.aspect.map(|aspect| aspect as f64),
             self.condition,
@@ -90,7 +90,7 @@ impl Cell<'_> {
         ];
         let values = self.joints.iter().chain(self.following);
         let mapped = self.at.iter().copied().map(Some);
-        mapped.chain(told).chain(values.copied().map(Some))
+        mapped.chain(indicators).chain(values.copied().map(Some))
     }
 }
 
@@ -105,8 +105,8 @@ impl Serialize for Cells {
     }
 }
 
-/// What is told of a node stands in so many numbers of a row.
-const TOLD: usize = 5;
+/// Mode, aspect, condition and the two determinants: numbers of a row.
+const INDICATORS: usize = 5;
 
 /// The values one after another: what they are is not known before they are
 /// [`arranged`](Cells::arranged).
@@ -136,14 +136,14 @@ impl Cells {
     /// Cells that were just deserialised, with what their values are; `None` if they cannot be that.
     pub(crate) fn arranged(self, widths: [usize; 3], axes: &[AxisReport]) -> Option<Self> {
         let Cells { columns, parts, .. } = self;
-        if widths.iter().sum::<usize>() + TOLD != columns.len() {
+        if widths.iter().sum::<usize>() + INDICATORS != columns.len() {
             return None;
         }
         let mut part = Part::default();
         let rows = parts.iter();
         for row in rows.flat_map(|part| part.values.chunks_exact(columns.len())) {
             let (at, rest) = row.split_at(widths[0]);
-            let (told, rest) = rest.split_at(TOLD);
+            let (indicators, rest) = rest.split_at(INDICATORS);
             let count = |x: f64| (x.is_finite() && x >= 0.0).then_some(x as usize);
             let known = |x: f64| (!x.is_nan()).then_some(x);
             // the first coordinate runs fastest
@@ -155,11 +155,11 @@ impl Cells {
             }
             part.heads.push(Head {
                 node,
-                mode: count(told[0])?,
-                aspect: count(told[1]),
-                condition: known(told[2]),
-                direct: known(told[3]),
-                inverse: known(told[4]),
+                mode: count(indicators[0])?,
+                aspect: count(indicators[1]),
+                condition: known(indicators[2]),
+                direct: known(indicators[3]),
+                inverse: known(indicators[4]),
             });
             part.values.extend(at.iter().chain(rest));
         }

@@ -1,4 +1,4 @@
-//! What a map of the workspace tells.
+//! The report of a map of the workspace.
 
 use serde::de::Error;
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
@@ -22,10 +22,10 @@ pub struct WorkspaceReport {
     pub held: Vec<HeldReport>,
     /// Coordinates of platforms that are neither mapped nor held.
     pub following: Vec<CoordinateReport>,
-    /// The joints that direct singularities are told of; none if not as many joints are actuated as
+    /// The joints that direct singularities refer to; none if not as many joints are actuated as
     /// there are freedoms.
     pub inputs: Vec<String>,
-    /// The coordinates that inverse singularities are told of; none if platforms have too few.
+    /// The coordinates that inverse singularities refer to; none if platforms have too few.
     pub outputs: Vec<String>,
     /// Nodes of the grid.
     pub nodes: usize,
@@ -45,7 +45,7 @@ pub struct WorkspaceReport {
     pub curves: Vec<BoundaryCurve>,
     /// Boundary points on edges of the grid.
     pub points: Vec<BoundaryPoint>,
-    /// Edges of the grid at whose end nothing sure was found.
+    /// Edges of the grid whose end could not be decided.
     pub unsure: usize,
     /// Aspects are parts that this fraction of a cell does not join: one over it.
     pub parts: usize,
@@ -138,10 +138,10 @@ pub struct AspectReport {
     /// Its size.
     pub size: f64,
     /// Sign of the determinant of the derivatives of the inputs by what is mapped and held; zero if
-    /// that is not told.
+    /// that is not reported.
     pub direct: i8,
-    /// Sign of the determinant of the derivatives of the outputs by what is mapped and held; zero if
-    /// that is not told.
+    /// Sign of the determinant of the derivatives of the outputs by what is mapped and held; zero
+    /// if that is not reported.
     pub inverse: i8,
     /// The node with the least condition number.
     pub best: Option<Conditioned>,

@@ -4,20 +4,20 @@ use super::cells::{Cells, Head, Part};
 use super::{Map, bring};
 use crate::algebra::SiUnit;
 use crate::analysis::workspace::flood::Band;
-use crate::mechanism::{Coordinate, Variable};
+use crate::mechanism::{PoseCoordinate, Variable};
 use crate::solve::each;
-use crate::system::Holdable;
+use crate::system::Coordinate;
 
 impl Map<'_> {
-    /// The table, given for the first sheet of each aspect its number.
+    /// The table, given for the first solution of each aspect its number.
     pub fn cells(&self, numbers: &[Option<usize>]) -> Cells {
-        let following: Vec<(usize, Coordinate)> = self.following().collect();
-        let (direct, inverse) = (self.asked.tells_direct(), self.asked.tells_inverse());
-        let told = |x: f64, told: bool| told.then_some(x);
+        let following: Vec<(usize, PoseCoordinate)> = self.following().collect();
+        let (direct, inverse) = (self.problem.tells_direct(), self.problem.tells_inverse());
+        let known = |x: f64, known: bool| known.then_some(x);
         let axes = self.grid.dimensions();
-        let widths = [axes, self.asked.mechanism.joints().len(), following.len()];
+        let widths = [axes, self.problem.mechanism.joints().len(), following.len()];
         let width: usize = widths.iter().sum();
-        let bands = self.filled.bands();
+        let bands = self.reached_set.bands();
         let parts = each(bands.len(), &(), |(), i| {
             let first = bands[i].numbers.start;
             let rows = self.rows(&bands[i]);
@@ -30,29 +30,29 @@ impl Map<'_> {
                 values: vec![0.0; rows.len() * width],
             };
             // in the order in which they are kept: reading from everywhere takes longer than writing
-            for (s, sheet, at) in self.filled.kept(&bands[i]) {
+            for (s, solution, at) in self.reached_set.kept(&bands[i]) {
                 let Some((row, mode)) = places[s - first] else {
                     continue;
                 };
-                let of = &sheet.told;
+                let of = &solution.indicators;
                 part.heads[row] = Head {
-                    node: sheet.node,
+                    node: solution.node,
                     mode: mode + 1,
                     aspect: self.aspect[s].and_then(|first| numbers[first]),
                     condition: of.condition.is_finite().then_some(of.condition),
-                    direct: told(of.direct, direct),
-                    inverse: told(of.inverse, inverse),
+                    direct: known(of.direct, direct),
+                    inverse: known(of.inverse, inverse),
                 };
                 let values = &mut part.values[row * width..][..width];
                 let (mapped, values) = values.split_at_mut(axes);
                 let (joints, values) = values.split_at_mut(widths[1]);
-                mapped.copy_from_slice(&self.grid.point(sheet.node)[..axes]);
+                mapped.copy_from_slice(&self.grid.point(solution.node)[..axes]);
                 joints.copy_from_slice(at.joints);
-                bring(self.asked, joints, false);
+                bring(self.problem, joints, false);
                 let mut values = values.iter_mut();
                 for of_platform in following.chunk_by(|(a, _), (b, _)| a == b) {
                     let pose = at.platforms[of_platform[0].0].pose();
-                    let all = Coordinate::all_of(&pose);
+                    let all = PoseCoordinate::all_of(&pose);
                     for ((_, c), value) in of_platform.iter().zip(&mut values) {
                         *value = all[*c as usize];
                     }
@@ -60,18 +60,18 @@ impl Map<'_> {
             }
             part
         });
-        let mechanism = self.asked.mechanism;
-        let variable = |of: &Holdable| {
+        let mechanism = self.problem.mechanism;
+        let variable = |of: &Coordinate| {
             let unit = SiUnit::of_coordinate(of.is_angle(mechanism));
             Variable::new(of.name(mechanism), unit)
         };
-        let told = ["mode", "aspect", "condition", "direct", "inverse"];
-        let mut columns: Vec<Variable> = (self.asked.axes.iter())
+        let indicators = ["mode", "aspect", "condition", "direct", "inverse"];
+        let mut columns: Vec<Variable> = (self.problem.axes.iter())
             .map(|axis| variable(&axis.coordinate))
             .collect();
-        columns.extend(told.map(Variable::plain));
+        columns.extend(indicators.map(Variable::plain));
         columns.extend(Variable::joints(mechanism));
-        columns.extend((following.iter()).map(|&(p, c)| variable(&Holdable::Coordinate(p, c))));
+        columns.extend((following.iter()).map(|&(p, c)| variable(&Coordinate::Pose(p, c))));
         Cells {
             columns,
             widths,
@@ -79,11 +79,11 @@ impl Map<'_> {
         }
     }
 
-    /// The sheets of a band that are in modes, in the order of their nodes and then of modes.
+    /// The solutions of a band that are in modes, in the order of their nodes and then of modes.
     fn rows(&self, band: &Band) -> Vec<(usize, usize)> {
         let all = band.numbers.clone();
         let mut rows: Vec<(usize, usize)> = all.filter_map(|s| Some((s, self.mode[s]?))).collect();
-        let node = |s: usize| self.filled.node(s);
+        let node = |s: usize| self.reached_set.node(s);
         for of_node in rows.chunk_by_mut(|(a, _), (b, _)| node(*a) == node(*b)) {
             of_node.sort_by_key(|(s, mode)| (*mode, *s));
         }

@@ -144,12 +144,12 @@ impl Grid {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::system::Holdable;
+    use crate::system::Coordinate;
 
     #[test]
     fn neighbours_are_one_step_along_one_axis() {
         let axis = |to| Driven {
-            coordinate: Holdable::Joint(0),
+            coordinate: Coordinate::Joint(0),
             from: 0.0,
             to,
         };

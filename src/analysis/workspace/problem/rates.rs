@@ -1,19 +1,19 @@
 //! What moves how fast when the mapped and held coordinates do.
 
-use super::asked::Asked;
 use super::condition::{condition, determinant};
+use super::map_problem::MapProblem;
 use crate::geometry::Vector3;
 use crate::linear::Factorable;
-use crate::mechanism::{Configuration, Coordinate, Role, orientation_rows};
+use crate::mechanism::{Configuration, PoseCoordinate, Role, orientation_rows};
 use crate::number::{LANES, Packed};
 use crate::solve::Equations;
-use crate::system::{Held, HeldPlatform, Holdable, System, Unknown, Work};
+use crate::system::{Coordinate, Held, HeldPlatform, System, Unknown, Work};
 
 /// The motions for unit rates of the held coordinates one by one, the columns of N, dimensionless:
 /// J N = 0 for the closures linearised with nothing held, and H N = 1 for the rates of what is held.
 ///
 /// With the rates A N of the inputs, det(A N) is the determinant of the derivative of the inputs by
-/// what is mapped and held; it is defined for redundant rows as well, smooth on a sheet, and changes
+/// what is mapped and held; it is defined for redundant rows as well, smooth on a solution, and changes
 /// sign at direct singularities only. With those of outputs it tells the inverse ones.
 #[derive(Clone, Debug)]
 pub(crate) struct Rates<T: Factorable> {
@@ -25,7 +25,7 @@ pub(crate) struct Rates<T: Factorable> {
     /// For each unknown at a node its place among all.
     places: Vec<usize>,
     held: Vec<Row>,
-    ways: Vec<Way>,
+    ways: Vec<RateSource>,
     inputs: Vec<Row>,
     outputs: Vec<Row>,
     /// Whether outputs are other than what is held.
@@ -44,29 +44,29 @@ pub(crate) struct Rates<T: Factorable> {
 /// A coordinate and the first of the unknowns it depends on.
 #[derive(Clone, Copy, Debug)]
 struct Row {
-    of: Holdable,
+    of: Coordinate,
     first: usize,
 }
 
 /// How the rate of a held coordinate enters the equations at a node.
 #[derive(Clone, Copy, Debug)]
-enum Way {
+enum RateSource {
     /// A joint or displacement that is no unknown there: by its column.
     Unknown(usize),
     /// An angle of a platform whose pose is no unknown: by the columns of its turning.
-    Turned(usize, Coordinate),
+    Turned(usize, PoseCoordinate),
     /// A coordinate that is one of the equations.
     Row(usize),
     /// An angle of an orientation that three of the equations hold.
-    Turning(usize, Coordinate),
+    Turning(usize, PoseCoordinate),
 }
 
-/// What is told of a configuration in one place.
+/// The indicators of a configuration in one place.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub(crate) struct Told {
+pub(crate) struct Indicators {
     /// Whether the held coordinates can have any rates.
     pub regular: bool,
-    /// det(A N): zero where A N has lost rank, at direct singularities; 1 where it is not told.
+    /// det(A N): zero where A N has lost rank, at direct singularities; 1 where it is not reported.
     pub direct: f64,
     /// The same for outputs: zero at inverse singularities.
     pub inverse: f64,
@@ -77,19 +77,19 @@ pub(crate) struct Told {
 
 impl<T: Factorable + Packed> Rates<T> {
     /// `system` is that of the question.
-    pub fn new(asked: &Asked, system: &System<T>) -> Self {
-        let mechanism = asked.mechanism;
+    pub fn new(problem: &MapProblem, system: &System<T>) -> Self {
+        let mechanism = problem.mechanism;
         let dimensions = mechanism.dimensions().map(&mut T::from_f64);
         let free = System::new(&dimensions, &Held::nothing(mechanism).map(T::from_f64));
         let place = |unknown: Unknown| {
             let place = free.unknowns().iter().position(|u| *u == unknown);
             place.expect("nothing is held")
         };
-        let row = |of: &Holdable| Row {
+        let row = |of: &Coordinate| Row {
             of: *of,
             first: match *of {
-                Holdable::Joint(joint) => place(Unknown::Joint(joint)),
-                Holdable::Coordinate(platform, _) | Holdable::Turn(platform, _) => {
+                Coordinate::Joint(joint) => place(Unknown::Joint(joint)),
+                Coordinate::Pose(platform, _) | Coordinate::Turn(platform, _) => {
                     place(Unknown::Twist {
                         platform,
                         component: 0,
@@ -97,7 +97,7 @@ impl<T: Factorable + Packed> Rates<T> {
                 }
             },
         };
-        let rows = |of: &[Holdable]| of.iter().map(row).collect::<Vec<Row>>();
+        let rows = |of: &[Coordinate]| of.iter().map(row).collect::<Vec<Row>>();
         let mut matching = vec![0; system.hold_rows().start];
         for (here, there) in system.closure_rows().zip(free.closure_rows()) {
             here.zip(there).for_each(|(h, t)| matching[h] = t);
@@ -112,15 +112,15 @@ impl<T: Factorable + Packed> Rates<T> {
         Rates {
             rows: matching,
             places: system.unknowns().iter().map(|u| place(*u)).collect(),
-            held: rows(&asked.held),
-            ways: ways(asked, system, &place),
-            inputs: rows(&asked.inputs),
-            outputs: rows(&asked.outputs),
-            tells_inverse: asked.tells_inverse(),
+            held: rows(&problem.held),
+            ways: ways(problem, system, &place),
+            inputs: rows(&problem.inputs),
+            outputs: rows(&problem.outputs),
+            tells_inverse: problem.tells_inverse(),
             moved: moved.map(|(i, _)| i).collect(),
             right: vec![T::zero(); system.rows()],
             column: vec![T::zero(); free.rows()],
-            motions: vec![T::zero(); unknowns * asked.held.len()],
+            motions: vec![T::zero(); unknowns * problem.held.len()],
             rates: Default::default(),
             spare: Vec::new(),
             work: free.work(),
@@ -144,7 +144,7 @@ impl<T: Factorable + Packed> Rates<T> {
         at: &Configuration<T>,
         system: &System<T>,
         work: &mut Work<T>,
-    ) -> [Told; LANES] {
+    ) -> [Indicators; LANES] {
         self.free.linearise(at, &mut self.work);
         system.factorise(0.0, work);
         let (n, unknowns) = (self.held.len(), self.unknowns());
@@ -173,12 +173,12 @@ impl<T: Factorable + Packed> Rates<T> {
             determinant(&mut self.spare, n)
         };
         let (direct, inverse) = (of(&input), of(&output));
-        let told = |rows: &[Row]| !rows.is_empty();
-        let (of_inputs, of_outputs) = (told(&self.inputs), self.tells_inverse);
+        let any = |rows: &[Row]| !rows.is_empty();
+        let (of_inputs, of_outputs) = (any(&self.inputs), self.tells_inverse);
         let conditions = match of_inputs {
             true => {
                 moved.clone_from(&output);
-                if !told(&self.outputs) {
+                if !any(&self.outputs) {
                     let motions = self.motions.chunks_exact(unknowns.max(1));
                     moved.extend(motions.flat_map(|one| self.moved.iter().map(|&i| one[i])));
                 }
@@ -190,7 +190,7 @@ impl<T: Factorable + Packed> Rates<T> {
             true => condition(&mut output, &mut [], n),
             false => [(false, f64::INFINITY); LANES],
         };
-        let of = |told: bool, lost: bool, determinant: f64| match (told, lost) {
+        let of = |known: bool, lost: bool, determinant: f64| match (known, lost) {
             (false, _) => 1.0,
             (true, true) => 0.0,
             (true, false) => determinant,
@@ -203,17 +203,17 @@ impl<T: Factorable + Packed> Rates<T> {
                 *regular &= (x.part(place) - unit).abs() < 1e-6;
             }
         }
-        let told = std::array::from_fn(|place| match place < T::WIDTH {
-            true => Told {
+        let indicators = std::array::from_fn(|place| match place < T::WIDTH {
+            true => Indicators {
                 regular: regular[place] && gap[place] < 1e-6,
                 direct: of(of_inputs, conditions[place].0, direct.part(place)),
                 inverse: of(of_outputs, lost[place].0, inverse.part(place)),
                 condition: conditions[place].1,
             },
-            false => Told::default(),
+            false => Indicators::default(),
         });
         self.rates = [back, input, output, moved];
-        told
+        indicators
     }
 
     /// The motion for a unit rate of held coordinate `i`: what is held moves, and the step −J⁺r for
@@ -229,20 +229,20 @@ impl<T: Factorable + Packed> Rates<T> {
         motion.fill(T::zero());
         self.right.fill(T::zero());
         match self.ways[i] {
-            Way::Unknown(unknown) => motion[unknown] = T::one(),
-            Way::Turned(first, c) => {
-                let Holdable::Coordinate(platform, _) = self.held[i].of else {
+            RateSource::Unknown(unknown) => motion[unknown] = T::one(),
+            RateSource::Turned(first, c) => {
+                let Coordinate::Pose(platform, _) = self.held[i].of else {
                     return;
                 };
                 let omega = turning(at, platform, c);
                 motion[first..first + 3].copy_from_slice(&omega.0);
             }
-            Way::Row(row) => self.right[row] = -T::one(),
-            Way::Turning(row, c) => {
+            RateSource::Row(row) => self.right[row] = -T::one(),
+            RateSource::Turning(row, c) => {
                 let (omega, platform) = match self.held[i].of {
-                    Holdable::Coordinate(platform, _) => (turning(at, platform, c), platform),
-                    Holdable::Turn(platform, axis) => (Vector3::unit(axis as usize), platform),
-                    Holdable::Joint(_) => return,
+                    Coordinate::Pose(platform, _) => (turning(at, platform, c), platform),
+                    Coordinate::Turn(platform, axis) => (Vector3::unit(axis as usize), platform),
+                    Coordinate::Joint(_) => return,
                 };
                 let actual = at.platforms[platform].orientation.rotation();
                 let (_, slopes) = orientation_rows(&actual, &actual);
@@ -280,9 +280,9 @@ impl<T: Factorable + Packed> Rates<T> {
         let motions = self.motions.chunks_exact(self.unknowns().max(1));
         for (i, row) in rows.iter().enumerate() {
             let slope = match row.of {
-                Holdable::Joint(_) => None,
-                Holdable::Coordinate(platform, c) => Some(c.slope(&at.platforms[platform].pose())),
-                Holdable::Turn(_, axis) => {
+                Coordinate::Joint(_) => None,
+                Coordinate::Pose(platform, c) => Some(c.slope(&at.platforms[platform].pose())),
+                Coordinate::Turn(_, axis) => {
                     let mut slope = [T::zero(); 6];
                     slope[axis as usize] = T::one();
                     Some(slope)
@@ -315,35 +315,35 @@ fn largest<T: Packed>(of: &[T]) -> [f64; LANES] {
 
 /// How the rate of each held coordinate enters the equations of the question.
 fn ways<T: Factorable>(
-    asked: &Asked,
+    problem: &MapProblem,
     system: &System<T>,
     place: &impl Fn(Unknown) -> usize,
-) -> Vec<Way> {
-    let held = asked.question.held();
+) -> Vec<RateSource> {
+    let held = problem.question.held();
     let twist = |platform, component| {
         place(Unknown::Twist {
             platform,
             component,
         })
     };
-    let way = |of: &Holdable| match *of {
-        Holdable::Joint(joint) => Way::Unknown(place(Unknown::Joint(joint))),
-        Holdable::Coordinate(platform, c) => {
+    let way = |of: &Coordinate| match *of {
+        Coordinate::Joint(joint) => RateSource::Unknown(place(Unknown::Joint(joint))),
+        Coordinate::Pose(platform, c) => {
             let known = held.platforms[platform] == HeldPlatform::Pose;
             let row = system.coordinate_row(platform, c);
             match (known, c.is_angle(), row) {
-                (true, true, _) => Way::Turned(twist(platform, 0), c),
-                (true, false, _) => Way::Unknown(twist(platform, 3 + c as usize)),
-                (false, _, Some(row)) => Way::Row(row),
-                (false, _, None) => Way::Turning(orientation(system, platform), c),
+                (true, true, _) => RateSource::Turned(twist(platform, 0), c),
+                (true, false, _) => RateSource::Unknown(twist(platform, 3 + c as usize)),
+                (false, _, Some(row)) => RateSource::Row(row),
+                (false, _, None) => RateSource::Turning(orientation(system, platform), c),
             }
         }
-        Holdable::Turn(platform, axis) => match held.platforms[platform] {
-            HeldPlatform::Pose => Way::Unknown(twist(platform, axis as usize)),
-            _ => Way::Turning(orientation(system, platform), Coordinate::Yaw),
+        Coordinate::Turn(platform, axis) => match held.platforms[platform] {
+            HeldPlatform::Pose => RateSource::Unknown(twist(platform, axis as usize)),
+            _ => RateSource::Turning(orientation(system, platform), PoseCoordinate::Yaw),
         },
     };
-    asked.held.iter().map(way).collect()
+    problem.held.iter().map(way).collect()
 }
 
 fn orientation<T: Factorable>(system: &System<T>, platform: usize) -> usize {
@@ -352,16 +352,16 @@ fn orientation<T: Factorable>(system: &System<T>, platform: usize) -> usize {
 }
 
 /// The angular velocity for a unit rate of one angle of a platform, the other two at rest.
-fn turning<T: Packed>(at: &Configuration<T>, platform: usize, c: Coordinate) -> Vector3<T> {
+fn turning<T: Packed>(at: &Configuration<T>, platform: usize, c: PoseCoordinate) -> Vector3<T> {
     let pose = at.platforms[platform].pose();
-    let slope = |c: Coordinate| {
+    let slope = |c: PoseCoordinate| {
         let slope = c.slope(&pose);
         Vector3([slope[0], slope[1], slope[2]])
     };
     let [next, last] = match c {
-        Coordinate::Roll => [Coordinate::Pitch, Coordinate::Yaw],
-        Coordinate::Pitch => [Coordinate::Yaw, Coordinate::Roll],
-        _ => [Coordinate::Roll, Coordinate::Pitch],
+        PoseCoordinate::Roll => [PoseCoordinate::Pitch, PoseCoordinate::Yaw],
+        PoseCoordinate::Pitch => [PoseCoordinate::Yaw, PoseCoordinate::Roll],
+        _ => [PoseCoordinate::Roll, PoseCoordinate::Pitch],
     };
     let across = slope(next).cross(&slope(last));
     across.times(T::one() / slope(c).dot(&across))

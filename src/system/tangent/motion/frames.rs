@@ -1,4 +1,4 @@
-//! How frames move for the rates and accelerations of everything.
+//! Motion of frames for the rates and accelerations of all unknowns.
 
 use super::super::twists::{FrameTwists, Twist};
 use super::Motion;

@@ -1,27 +1,27 @@
-//! What is held for a choice of coordinates.
+//! The held coordinates of a choice, in the form the solver takes.
 
 use crate::geometry::{Pose, Rotation};
-use crate::mechanism::{Coordinate, Mechanism};
-use crate::system::{Held, HeldPlatform, Holdable};
+use crate::mechanism::{Mechanism, PoseCoordinate};
+use crate::system::{Coordinate, Held, HeldPlatform};
 
-/// Every coordinate for itself, but poses and orientations held by turns as wholes.
-pub(super) fn of(mechanism: &Mechanism, coordinates: &[Holdable]) -> Held<f64> {
+/// Every coordinate singly, but poses and orientations held by turns as wholes.
+pub(super) fn of(mechanism: &Mechanism, coordinates: &[Coordinate]) -> Held<f64> {
     let mut held = Held::nothing(mechanism);
     for &coordinate in coordinates {
         match coordinate {
-            Holdable::Joint(joint) => held.joints[joint] = true,
-            Holdable::Coordinate(platform, _) | Holdable::Turn(platform, _)
+            Coordinate::Joint(joint) => held.joints[joint] = true,
+            Coordinate::Pose(platform, _) | Coordinate::Turn(platform, _)
                 if whole(coordinates, platform) =>
             {
                 held.platforms[platform] = HeldPlatform::Pose;
             }
-            Holdable::Coordinate(platform, coordinate) => {
+            Coordinate::Pose(platform, coordinate) => {
                 partly(&mut held.platforms[platform])
                     .0
                     .push((coordinate, 0.0));
             }
             // the three turns of an orientation
-            Holdable::Turn(platform, _) => {
+            Coordinate::Turn(platform, _) => {
                 *partly(&mut held.platforms[platform]).1 = Some(Pose::<f64>::identity().rotation);
             }
         }
@@ -30,12 +30,12 @@ pub(super) fn of(mechanism: &Mechanism, coordinates: &[Holdable]) -> Held<f64> {
 }
 
 /// Whether a pose is held whole, with turns about the axes of ground.
-fn whole(coordinates: &[Holdable], platform: usize) -> bool {
+fn whole(coordinates: &[Coordinate], platform: usize) -> bool {
     let all = coordinates.iter();
     let of_it = all.filter(|held| match held {
-        Holdable::Turn(of, _) => *of == platform,
-        Holdable::Coordinate(of, c) => *of == platform && !c.is_angle(),
-        Holdable::Joint(_) => false,
+        Coordinate::Turn(of, _) => *of == platform,
+        Coordinate::Pose(of, c) => *of == platform && !c.is_angle(),
+        Coordinate::Joint(_) => false,
     });
     of_it.count() == 6
 }
@@ -43,7 +43,7 @@ fn whole(coordinates: &[Holdable], platform: usize) -> bool {
 /// The coordinates and the orientation of a platform held in part.
 fn partly(
     held: &mut HeldPlatform<f64>,
-) -> (&mut Vec<(Coordinate, f64)>, &mut Option<Rotation<f64>>) {
+) -> (&mut Vec<(PoseCoordinate, f64)>, &mut Option<Rotation<f64>>) {
     if !matches!(held, HeldPlatform::Partly { .. }) {
         *held = HeldPlatform::Partly {
             coordinates: Vec::new(),
@@ -59,16 +59,16 @@ fn partly(
     }
 }
 
-/// The angular velocity (or acceleration) given to the orientation of a platform, if that is held by
-/// turns.
+/// The angular velocity (or acceleration) given to the orientation of a platform, if that is held
+/// by turns.
 pub(super) fn turning(
-    coordinates: &[Holdable],
+    coordinates: &[Coordinate],
     given: &[f64],
     platform: usize,
 ) -> Option<[f64; 3]> {
     let mut turns = None;
     for (coordinate, &value) in coordinates.iter().zip(given) {
-        if let Holdable::Turn(of, axis) = *coordinate
+        if let Coordinate::Turn(of, axis) = *coordinate
             && of == platform
         {
             turns.get_or_insert([0.0; 3])[axis as usize] = value;

@@ -7,22 +7,27 @@ use crate::solve::Equations;
 
 /// Where a finite step along an infinitesimal motion leads.
 #[derive(Clone, Debug)]
-pub struct Followed {
-    /// The configuration at which every equation is met that the Jacobian sees.
+pub struct FiniteStep {
+    /// The configuration at which every equation in the range of the Jacobian holds.
     pub at: Configuration<f64>,
-    /// What is left of the others, dimensionless: zero if the motion is finite.
+    /// The residual of the others, dimensionless: zero if the motion is finite.
     pub gap: f64,
 }
 
 impl Neighbourhood<'_> {
-    /// Moves a distance along a motion and back onto the equations that the Jacobian sees.
+    /// Moves a distance along a motion and back onto the equations in the range of the Jacobian.
     ///
     /// With P = J⁺ fixed, x ← x ⊖ P r(x) solves the part of r in the range of J for given motion
     /// components: the reduction of Lyapunov and Schmidt. What is left of r is a function of the
     /// motion components alone, and a freedom is finite where it vanishes identically. `None` if
     /// the iteration does not settle.
     /// Source: Golubitsky and Schaeffer, Singularities and Groups in Bifurcation Theory I, 1985.
-    pub fn follow(&mut self, from: &Tangent, direction: &[f64], distance: f64) -> Option<Followed> {
+    pub fn follow(
+        &mut self,
+        from: &Tangent,
+        direction: &[f64],
+        distance: f64,
+    ) -> Option<FiniteStep> {
         const STEPS: usize = 60;
         /// What rounding leaves of a dimensionless residual.
         const CLOSED: f64 = 4e-15;
@@ -39,13 +44,13 @@ impl Neighbourhood<'_> {
             let residual = self.system.residual_of(&self.work);
             let correction = from.decomposition.solve(residual);
             let size = norm(&correction);
-            // not even within the distance: the linear picture does not hold so far out
+            // not within the distance: the linearisation does not hold so far out
             if size.is_nan() || size >= 10.0 * distance {
                 return None;
             }
             if size < 1e-14 || (size < noise && size >= 0.5 * before) {
                 let gap = norm(residual);
-                return Some(Followed { at, gap });
+                return Some(FiniteStep { at, gap });
             }
             before = size;
             let back: Vec<f64> = correction.iter().map(|x| -x).collect();
@@ -55,18 +60,19 @@ impl Neighbourhood<'_> {
     }
 
     /// The finite step along a motion if there is one: no longer than `distance`, shortened as far
-    /// as needed for it to settle, which near a singular configuration is about the distance to that.
-    /// `Err` has the gap of one that leaves the closures open.
+    /// as needed for it to settle, which near a singular configuration is about the distance to
+    /// that. `Err` has the gap of one that leaves the closures open.
     pub fn free_step(
         &mut self,
         from: &Tangent,
         direction: &[f64],
         distance: f64,
-    ) -> Result<Followed, Option<f64>> {
+    ) -> Result<FiniteStep, Option<f64>> {
         /// This gap may be left and the motion still counts as free: rounding. A freedom that is
         /// infinitesimal to order five only leaves 0.05⁶ = 1.6e-8 times its curvature.
         const FREE: f64 = 1e-11;
-        /// The same for a step so short that a freedom of second order would leave no more than that.
+        /// The same for a step so short that a freedom of second order would leave no more than
+        /// that.
         const FREE_IF_SHORT: f64 = 1e-13;
         const SHORT: f64 = 1e-3;
         let mut length = distance;
@@ -83,8 +89,8 @@ impl Neighbourhood<'_> {
         Err(None)
     }
 
-    /// Whether all motions are finite, tried along one that mixes them all: a shaky structure has some
-    /// that are not.
+    /// Whether all motions are finite, tried along one that mixes them all: an infinitesimally
+    /// flexible (shaky) structure has some that are not.
     pub fn is_mobile(&mut self, at: &Tangent) -> bool {
         const STEP: f64 = 0.05;
         let mut mixed = vec![0.0; self.system.unknowns().len()];
@@ -159,7 +165,7 @@ impl Neighbourhood<'_> {
     pub fn settle(&mut self, mut at: Configuration<f64>, reach: f64) -> Option<Configuration<f64>> {
         const STEPS: usize = 60;
         const TOLERANCE: f64 = 1e-12;
-        /// No further step pays once this is reached.
+        /// No further step improves the result once this is reached.
         const CLOSED: f64 = 1e-15;
         let start = at.clone();
         let mut best: Option<(f64, Configuration<f64>)> = None;

@@ -1,10 +1,10 @@
 //! Words for questions that cannot be put, with the options that would put them right.
 
-use super::complaint::{Complaint, Part};
-use crate::algebra::Expression;
-use crate::description::{ProblemKind, Scope, listed, nearest};
-use crate::mechanism::Mechanism;
-use crate::system::{Demand, DriveError, QuestionError, ValueError};
+use linkwork::algebra::Expression;
+use linkwork::description::{ProblemKind, Scope, listed, nearest};
+use linkwork::mechanism::Mechanism;
+use linkwork::output::complaint::{Complaint, Part};
+use linkwork::system::{Demand, DriveError, QuestionError, ValueError};
 
 /// What is wrong with a question, and with which part of the option that asked it, if one did.
 pub fn complaint(error: &QuestionError) -> Complaint {
@@ -197,7 +197,7 @@ fn options(option: &str, names: &[String], value: &str) -> String {
 }
 
 /// The word as a shell takes it.
-pub(super) fn quoted(word: &str) -> String {
+pub fn quoted(word: &str) -> String {
     let safe = |c: char| c.is_alphanumeric() || "._=-".contains(c);
     match word.chars().all(safe) {
         true => word.into(),
@@ -205,7 +205,7 @@ pub(super) fn quoted(word: &str) -> String {
     }
 }
 
-pub(super) fn value(text: &str, error: &ValueError) -> Complaint {
+pub fn value(text: &str, error: &ValueError) -> Complaint {
     // a value that is one expression tells where it is wrong
     let parsed = Expression::parse(text);
     let (kind, part) = match error {

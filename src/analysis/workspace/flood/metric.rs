@@ -1,21 +1,22 @@
-//! How far configurations and their motions are apart, and what is surely one mode.
+//! Distances between configurations and between their tangents, and which of them belong to one
+//! mode.
 
 use std::f64::consts::PI;
 
 use super::arrivals::Moving;
 use super::step::SURE;
-use crate::analysis::workspace::problem::Asked;
+use crate::analysis::workspace::problem::MapProblem;
 use crate::mechanism::{ConfigurationRef, Role, turn_near};
 use crate::solve::SolutionCurve;
-use crate::system::{Curve, Held, Holdable, Unknown};
+use crate::system::{Coordinate, Curve, Held, Unknown};
 
 /// How far configurations are apart.
 #[derive(Clone, Debug)]
-pub(crate) struct Measure {
+pub(crate) struct Metric {
     free: Curve,
-    /// Unknowns that tell modes apart: of platforms, actuated joints and joints with limits; without
-    /// platforms of all joints. Legs that are folded the other way about their passive joints, or
-    /// spin, do not make another mode. 1 for those that do, 0 for the others.
+    /// Unknowns that distinguish modes: of platforms, actuated joints and joints with limits;
+    /// without platforms of all joints. Legs that are folded the other way about their passive
+    /// joints, or spin, do not make another mode. 1 for those that do, 0 for the others.
     seen: Vec<f64>,
     /// Joints among them.
     joints: Vec<SeenJoint>,
@@ -23,7 +24,7 @@ pub(crate) struct Measure {
     units: Vec<f64>,
 }
 
-/// A joint that tells modes apart.
+/// A joint that distinguishes modes.
 #[derive(Clone, Copy, Debug)]
 struct SeenJoint {
     joint: usize,
@@ -49,9 +50,9 @@ pub(crate) struct Ahead<'a> {
 /// Configurations this near are the same.
 const SAME: f64 = 1e-6;
 
-impl Measure {
-    pub fn new(asked: &Asked) -> Self {
-        let mechanism = asked.mechanism;
+impl Metric {
+    pub fn new(problem: &MapProblem) -> Self {
+        let mechanism = problem.mechanism;
         let free = Curve::new(mechanism, &Held::nothing(mechanism));
         let whole = mechanism.platforms().is_empty();
         let seen = (free.system().unknowns().iter()).map(|unknown| match *unknown {
@@ -73,19 +74,17 @@ impl Measure {
             }),
             Unknown::Twist { .. } => None,
         });
-        Measure {
+        Metric {
             joints: joints.collect(),
             seen: seen
                 .into_iter()
                 .map(|seen| f64::from(u8::from(seen)))
                 .collect(),
-            units: (asked.axes.iter())
+            units: (problem.axes.iter())
                 .map(|axis| match axis.coordinate {
-                    Holdable::Joint(joint) => free.system().joint_scale(joint),
-                    Holdable::Coordinate(_, c) if !c.is_angle() => {
-                        mechanism.characteristic_length()
-                    }
-                    Holdable::Coordinate(..) | Holdable::Turn(..) => 1.0,
+                    Coordinate::Joint(joint) => free.system().joint_scale(joint),
+                    Coordinate::Pose(_, c) if !c.is_angle() => mechanism.characteristic_length(),
+                    Coordinate::Pose(..) | Coordinate::Turn(..) => 1.0,
                 })
                 .collect(),
             free,
@@ -94,7 +93,7 @@ impl Measure {
 
     /// Whether two configurations are the same, so far as modes are concerned.
     pub fn same(&self, a: ConfigurationRef<f64>, b: ConfigurationRef<f64>) -> bool {
-        // most that are not are told by one joint
+        // most that are not are recognised by one joint
         let mut joints = self.joints.iter();
         if joints.any(|joint| joint.change(a, b).abs() >= SAME) {
             return false;
@@ -117,7 +116,7 @@ impl Measure {
         (motion, change / self.units[axis])
     }
 
-    /// What the motion says for a change of a mapped coordinate.
+    /// The tangent prediction for a change of a mapped coordinate.
     pub fn ahead<'a>(&self, from: Moving<'a>, axis: usize, change: f64) -> Ahead<'a> {
         let (motion, factor) = self.motion(from, axis, change);
         let length = self.seen_length(motion.iter().map(|x| x * factor));
@@ -131,11 +130,11 @@ impl Measure {
         }
     }
 
-    /// Whether a configuration lies where the motion of another says, this one where its own says
+    /// Whether each of two configurations lies where the tangent of the other predicts it
     /// of that, and the motions are [alike](Self::alike).
     pub fn linked(&self, ahead: &Ahead, to: Moving, storage: &mut Vec<f64>) -> bool {
         let from = ahead.from;
-        // most that lie elsewhere are told by one joint
+        // most that lie elsewhere are recognised by one joint
         let mut joints = self.joints.iter();
         let elsewhere = joints.any(|joint| {
             let wanted = ahead.motion[joint.place] * ahead.factor;
@@ -157,14 +156,14 @@ impl Measure {
     }
 
     /// Whether the motions at two configurations, a step of the given length of the mapped
-    /// coordinates apart, are near enough for these to be on one sheet.
+    /// coordinates apart, are near enough for these to be on one solution.
     ///
     /// With M as in [`Rates`](super::rates::Rates), N₁ − N₀ = −M₁⁺(M₁ − M₀) N₀ is short beside N
-    /// wherever Newton's theorem makes a step sure. Across a point where legs fold the configuration
-    /// may go on smoothly, and only motions to the side tell: they turn round. Where one leg folds, as
-    /// one of length ρ = 0, that may be seen in one passive joint only: it turns by dθ = ds/ρ to
-    /// one side before and to the other after, so that over a step s from −ρ₀ to ρ₁ the difference
-    /// of both is s/ρ₀ + s/ρ₁ ≥ 4 rad. No joint is to differ by so much.
+    /// wherever Newton's theorem makes a step sure. Across a point where legs fold the
+    /// configuration may go on smoothly, and only motions to the side tell: they turn round. Where
+    /// one leg folds, as one of length ρ = 0, that may be seen in one passive joint only: it turns
+    /// by dθ = ds/ρ to one side before and to the other after, so that over a step s from −ρ₀ to ρ₁
+    /// the difference of both is s/ρ₀ + s/ρ₁ ≥ 4 rad. No joint is to differ by so much.
     pub fn alike(&self, a: Moving, b: Moving, length: f64, storage: &mut Vec<f64>) -> bool {
         const CHANGE: f64 = 0.6;
         const SWING: f64 = 1.0;
@@ -192,8 +191,8 @@ impl Measure {
 }
 
 impl SeenJoint {
-    /// How far it is from one configuration to another, dimensionless, turns that change nothing left
-    /// out.
+    /// How far it is from one configuration to another, dimensionless, turns that change nothing
+    /// left out.
     fn change(&self, from: ConfigurationRef<f64>, to: ConfigurationRef<f64>) -> f64 {
         let change = (to.joints[self.joint] - from.joints[self.joint]) / self.scale;
         match self.repeats && change.abs() > PI {

@@ -1,8 +1,8 @@
 //! Questions about singularities that make no sense: what to ask instead.
 
-use crate::description::{count, nearest};
-use crate::mechanism::Mechanism;
-use crate::output::complaint::{Complaint, Part};
+use linkwork::description::{count, nearest};
+use linkwork::mechanism::Mechanism;
+use linkwork::output::complaint::{Complaint, Part};
 
 /// A side of a box without a range.
 pub fn no_side(name: &str) -> Complaint {
@@ -48,10 +48,10 @@ pub fn not_two_sides(given: usize) -> Complaint {
 /// Nothing can be driven.
 pub fn nothing_to_drive() -> Complaint {
     Complaint::with_help(
-        "nothing is driven: singularities are told of inputs".into(),
+        "nothing is driven: singularities are defined with respect to inputs".into(),
         "",
-        "hold the joints that are driven with --hold; whether a mechanism without freedoms is shaky \
-         says `linkwork mobility`"
+        "hold the driven joints with --hold; `linkwork mobility` shows whether a mechanism without \
+         freedoms is infinitesimally flexible"
             .into(),
     )
 }
@@ -60,12 +60,12 @@ pub fn nothing_to_drive() -> Complaint {
 pub fn spinning(spins: usize) -> Complaint {
     Complaint::with_help(
         format!(
-            "{} of the mechanism stay whatever the inputs do, links that spin about their own lines",
+            "{} of the mechanism remain whatever the inputs do: links that spin about their own axes",
             count(spins, "freedom")
         ),
         "",
-        "a locus needs a motion that is unique, and these links have no joint of their own that could \
-         be held: write legs between two balls as `Distance` closures"
+        "a locus needs a unique motion, and these links have no joint of their own that could be held: \
+         write legs between two ball joints as `Distance` closures"
             .into(),
     )
 }
@@ -79,6 +79,5 @@ pub fn unknown_output(mechanism: &Mechanism, name: &str) -> Complaint {
         Some(meant) => format!("did you mean `{meant}`?"),
         None => "an output is a joint, a platform coordinate such as `top.x`, or a frame".into(),
     };
-    let said = Complaint::with_help(format!("`{name}` is not an output"), "not known", help);
-    said
+    Complaint::with_help(format!("`{name}` is not an output"), "not known", help)
 }

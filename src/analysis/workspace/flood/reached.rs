@@ -3,65 +3,65 @@
 use std::ops::Range;
 
 use super::configurations::Configurations;
-use super::measure::Measure;
-use crate::analysis::workspace::problem::{MOST_DIRECTIONS, Told};
+use super::metric::Metric;
+use crate::analysis::workspace::problem::{Indicators, MOST_DIRECTIONS};
 use crate::mechanism::ConfigurationRef;
 use crate::solve::each;
 
 /// An assembled configuration at a node.
 #[derive(Clone, Debug)]
-pub(crate) struct Sheet {
+pub(crate) struct NodeSolution {
     pub node: usize,
-    pub told: Told,
+    pub indicators: Indicators,
     /// Whether all joints are within their limits.
     pub within: bool,
     /// For each direction of the grid.
     pub links: [Link; MOST_DIRECTIONS],
 }
 
-/// Sheets of one part of the grid.
+/// Solutions of one part of the grid.
 #[derive(Clone, Debug, Default)]
-pub(crate) struct Sheets {
-    pub all: Vec<Sheet>,
+pub(crate) struct NodeSolutions {
+    pub all: Vec<NodeSolution>,
     at: Configurations,
 }
 
-/// Which sheet of which part of the grid.
+/// Which solution of which part of the grid.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub(crate) struct Name {
     pub tile: u32,
-    pub sheet: u32,
+    pub solution: u32,
 }
 
 /// How a node goes on in a direction.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum Link {
-    /// Not looked at, or out of the box.
+    /// Not examined yet, or outside the box.
     Open,
-    /// To this sheet there, by regular motion.
+    /// To this solution there, by regular motion.
     To(Name),
     /// The mode folds back before the neighbour.
     Fold,
-    /// No sure step leads on.
+    /// No step that is certain not to change branch leads on.
     Stuck,
 }
 
 /// All that was reached, numbered in the order of the nodes.
-pub(crate) struct Filled {
-    tiles: Vec<Sheets>,
+pub(crate) struct ReachedSet {
+    tiles: Vec<NodeSolutions>,
     names: Vec<Name>,
     /// The numbers by name.
     numbers: Vec<Vec<usize>>,
-    /// For each node its first sheet, and their number at the end.
+    /// For each node its first solution, and their number at the end.
     firsts: Vec<usize>,
     nodes: Vec<usize>,
     within: Vec<bool>,
-    /// For each sheet one of those connected with it, the same for all of them.
+    /// For each solution one of those connected with it, the same for all of them.
     pub roots: Vec<usize>,
     bands: Vec<Band>,
 }
 
-/// Parts of the grid whose nodes follow one another, and so do the numbers of their sheets.
+/// Parts of the grid whose nodes follow one another, and so do the numbers of their solutions.
 #[derive(Clone, Debug)]
 pub(crate) struct Band {
     tiles: Range<usize>,
@@ -70,7 +70,7 @@ pub(crate) struct Band {
 
 /// What is numbered of a band, from zero.
 struct Numbered {
-    /// For each node how many sheets it has.
+    /// For each node how many solutions it has.
     counts: Vec<usize>,
     names: Vec<Name>,
     nodes: Vec<usize>,
@@ -79,11 +79,12 @@ struct Numbered {
     numbers: Vec<Vec<usize>>,
 }
 
-impl Filled {
-    /// The sheets of each part of the grid, and for each of them the first of those connected with it
-    /// in that part; what else is connected; and for each band how many parts and nodes it has.
+impl ReachedSet {
+    /// The solutions of each part of the grid, and for each of them the first of those connected
+    /// with it in that part; what else is connected; and for each band how many parts and nodes it
+    /// has.
     pub fn new(
-        tiles: Vec<(Sheets, Vec<usize>)>,
+        tiles: Vec<(NodeSolutions, Vec<usize>)>,
         seams: &[[Name; 2]],
         bands: &[(usize, usize)],
     ) -> Self {
@@ -96,8 +97,8 @@ impl Filled {
             let ((first, node), (end, beyond)) = (starts[band], starts[band + 1]);
             Numbered::of(first, &tiles[first..end], node..beyond)
         });
-        let mut filled = Filled {
-            tiles: tiles.into_iter().map(|(sheets, _)| sheets).collect(),
+        let mut reached_set = ReachedSet {
+            tiles: tiles.into_iter().map(|(solutions, _)| solutions).collect(),
             names: Vec::new(),
             numbers: Vec::new(),
             firsts: Vec::new(),
@@ -107,33 +108,35 @@ impl Filled {
             bands: Vec::new(),
         };
         for (band, own) in numbered.into_iter().enumerate() {
-            let before = filled.names.len();
+            let before = reached_set.names.len();
             let mut first = before;
-            filled.firsts.extend(own.counts.iter().map(|count| {
+            reached_set.firsts.extend(own.counts.iter().map(|count| {
                 first += count;
                 first - count
             }));
-            filled.names.extend(own.names);
-            filled.nodes.extend(own.nodes);
-            filled.within.extend(own.within);
-            filled
+            reached_set.names.extend(own.names);
+            reached_set.nodes.extend(own.nodes);
+            reached_set.within.extend(own.within);
+            reached_set
                 .roots
                 .extend(own.roots.iter().map(|root| before + root));
-            filled.bands.push(Band {
+            reached_set.bands.push(Band {
                 tiles: starts[band].0..starts[band + 1].0,
-                numbers: before..filled.names.len(),
+                numbers: before..reached_set.names.len(),
             });
             let numbers = own.numbers.into_iter().map(|mut numbers| {
                 numbers.iter_mut().for_each(|number| *number += before);
                 numbers
             });
-            filled.numbers.extend(numbers);
+            reached_set.numbers.extend(numbers);
         }
-        filled.firsts.push(filled.names.len());
+        reached_set.firsts.push(reached_set.names.len());
         let seams = seams.iter();
-        let seams: Vec<[usize; 2]> = seams.map(|ends| ends.map(|s| filled.number(s))).collect();
-        filled.connect(seams.into_iter());
-        filled
+        let seams: Vec<[usize; 2]> = seams
+            .map(|ends| ends.map(|s| reached_set.number(s)))
+            .collect();
+        reached_set.connect(seams.into_iter());
+        reached_set
     }
 
     /// All bands in their order.
@@ -141,19 +144,19 @@ impl Filled {
         &self.bands
     }
 
-    /// The sheets of a band with their numbers, in the order in which they are kept.
+    /// The solutions of a band with their numbers, in the order in which they are kept.
     pub fn kept(
         &self,
         band: &Band,
-    ) -> impl Iterator<Item = (usize, &Sheet, ConfigurationRef<'_, f64>)> {
+    ) -> impl Iterator<Item = (usize, &NodeSolution, ConfigurationRef<'_, f64>)> {
         band.tiles.clone().flat_map(|tile| {
-            let (sheets, numbers) = (&self.tiles[tile], &self.numbers[tile]);
-            let all = numbers.iter().zip(&sheets.all).enumerate();
-            all.map(|(i, (number, sheet))| (*number, sheet, sheets.at(i)))
+            let (solutions, numbers) = (&self.tiles[tile], &self.numbers[tile]);
+            let all = numbers.iter().zip(&solutions.all).enumerate();
+            all.map(|(i, (number, solution))| (*number, solution, solutions.at(i)))
         })
     }
 
-    /// Takes sheets to be connected.
+    /// Takes solutions to be connected.
     pub fn connect(&mut self, pairs: impl Iterator<Item = [usize; 2]>) {
         pairs.for_each(|[a, b]| join(&mut self.roots, a, b));
         for s in 0..self.roots.len() {
@@ -161,10 +164,10 @@ impl Filled {
         }
     }
 
-    /// For each sheet of some kind the first of those of its kind that links connect with it.
+    /// For each solution of some kind the first of those of its kind that links connect with it.
     pub fn parted<K: PartialEq + Send + Sync>(
         &self,
-        kind: impl Fn(&Sheet) -> Option<K> + Sync,
+        kind: impl Fn(&NodeSolution) -> Option<K> + Sync,
     ) -> Vec<Option<usize>> {
         let parts = each(self.tiles.len(), &(), |(), tile| {
             self.parted_in(tile, &kind)
@@ -189,29 +192,29 @@ impl Filled {
         all.collect()
     }
 
-    /// For each sheet of a part of the grid one of its kind connected with it in there, the same for
-    /// all of them; and what of its kind is linked with it elsewhere.
+    /// For each solution of a part of the grid one of its kind connected with it in there, the same
+    /// for all of them; and what of its kind is linked with it elsewhere.
     fn parted_in<K: PartialEq>(
         &self,
         tile: usize,
-        kind: &impl Fn(&Sheet) -> Option<K>,
+        kind: &impl Fn(&NodeSolution) -> Option<K>,
     ) -> (Vec<Option<usize>>, Vec<[Name; 2]>) {
-        let sheets = &self.tiles[tile].all;
-        let kinds: Vec<Option<K>> = sheets.iter().map(kind).collect();
-        let mut roots: Vec<usize> = (0..sheets.len()).collect();
+        let solutions = &self.tiles[tile].all;
+        let kinds: Vec<Option<K>> = solutions.iter().map(kind).collect();
+        let mut roots: Vec<usize> = (0..solutions.len()).collect();
         let mut across = Vec::new();
-        for (s, sheet) in sheets
+        for (s, solution) in solutions
             .iter()
             .enumerate()
             .filter(|(s, _)| kinds[*s].is_some())
         {
-            for link in &sheet.links {
+            for link in &solution.links {
                 let Link::To(other) = *link else {
                     continue;
                 };
                 match other.tile as usize == tile {
-                    true if kinds[s] == kinds[other.sheet as usize] => {
-                        join(&mut roots, s, other.sheet as usize);
+                    true if kinds[s] == kinds[other.solution as usize] => {
+                        join(&mut roots, s, other.solution as usize);
                     }
                     false if kinds[s] == kind(self.named(other)) => {
                         across.push([Name::new(tile, s), other]);
@@ -229,35 +232,35 @@ impl Filled {
         self.names.len()
     }
 
-    pub fn sheet(&self, number: usize) -> &Sheet {
+    pub fn solution(&self, number: usize) -> &NodeSolution {
         self.named(self.names[number])
     }
 
     pub fn configuration(&self, number: usize) -> ConfigurationRef<'_, f64> {
         let name = self.names[number];
-        self.tiles[name.tile as usize].at(name.sheet as usize)
+        self.tiles[name.tile as usize].at(name.solution as usize)
     }
 
-    pub fn named(&self, name: Name) -> &Sheet {
-        &self.tiles[name.tile as usize].all[name.sheet as usize]
+    pub fn named(&self, name: Name) -> &NodeSolution {
+        &self.tiles[name.tile as usize].all[name.solution as usize]
     }
 
     pub fn node(&self, number: usize) -> usize {
         self.nodes[number]
     }
 
-    /// Whether all joints of a sheet are within their limits.
+    /// Whether all joints of a solution are within their limits.
     pub fn within(&self, number: usize) -> bool {
         self.within[number]
     }
 
-    /// All sheets by their numbers.
-    pub fn sheets(&self) -> impl Iterator<Item = (usize, &Sheet)> + Clone {
-        (0..self.len()).map(|s| (s, self.sheet(s)))
+    /// All solutions by their numbers.
+    pub fn solutions(&self) -> impl Iterator<Item = (usize, &NodeSolution)> + Clone {
+        (0..self.len()).map(|s| (s, self.solution(s)))
     }
 
-    /// How many of something all sheets together have.
-    pub fn count(&self, of: impl Fn(&Sheet) -> usize + Sync) -> usize {
+    /// How many of something all solutions together have.
+    pub fn count(&self, of: impl Fn(&NodeSolution) -> usize + Sync) -> usize {
         let counts = each(self.tiles.len(), &(), |(), tile| {
             self.tiles[tile].all.iter().map(&of).sum::<usize>()
         });
@@ -265,32 +268,27 @@ impl Filled {
     }
 
     pub fn number(&self, name: Name) -> usize {
-        self.numbers[name.tile as usize][name.sheet as usize]
+        self.numbers[name.tile as usize][name.solution as usize]
     }
 
-    /// The sheets of a node.
+    /// The solutions of a node.
     pub fn at(&self, node: usize) -> Range<usize> {
         self.firsts[node]..self.firsts[node + 1]
     }
 
-    /// The sheet of a node with this configuration.
-    pub fn known(
-        &self,
-        measure: &Measure,
-        node: usize,
-        at: ConfigurationRef<f64>,
-    ) -> Option<usize> {
-        let mut sheets = self.at(node);
-        sheets.find(|s| measure.same(self.configuration(*s), at))
+    /// The solution of a node with this configuration.
+    pub fn known(&self, metric: &Metric, node: usize, at: ConfigurationRef<f64>) -> Option<usize> {
+        let mut solutions = self.at(node);
+        solutions.find(|s| metric.same(self.configuration(*s), at))
     }
 }
 
 impl Numbered {
     /// Of the parts from `first` on that have these nodes.
-    fn of(first: usize, tiles: &[(Sheets, Vec<usize>)], nodes: Range<usize>) -> Self {
+    fn of(first: usize, tiles: &[(NodeSolutions, Vec<usize>)], nodes: Range<usize>) -> Self {
         let mut counts = vec![0; nodes.len()];
-        for sheet in tiles.iter().flat_map(|(sheets, _)| &sheets.all) {
-            counts[sheet.node - nodes.start] += 1;
+        for solution in tiles.iter().flat_map(|(solutions, _)| &solutions.all) {
+            counts[solution.node - nodes.start] += 1;
         }
         let mut sum = 0;
         let next = counts.iter().map(|count| {
@@ -299,19 +297,25 @@ impl Numbered {
         });
         let mut next: Vec<usize> = next.collect();
         let mut numbered = Numbered {
-            names: vec![Name { tile: 0, sheet: 0 }; sum],
+            names: vec![
+                Name {
+                    tile: 0,
+                    solution: 0
+                };
+                sum
+            ],
             nodes: vec![0; sum],
             within: vec![false; sum],
             roots: vec![0; sum],
             numbers: Vec::with_capacity(tiles.len()),
             counts,
         };
-        for (tile, (sheets, roots)) in (first..).zip(tiles) {
-            let numbers = sheets.all.iter().enumerate().map(|(sheet, at)| {
+        for (tile, (solutions, roots)) in (first..).zip(tiles) {
+            let numbers = solutions.all.iter().enumerate().map(|(solution, at)| {
                 let place = &mut next[at.node - nodes.start];
                 let number = *place;
                 *place += 1;
-                numbered.names[number] = Name::new(tile, sheet);
+                numbered.names[number] = Name::new(tile, solution);
                 (numbered.nodes[number], numbered.within[number]) = (at.node, at.within);
                 number
             });
@@ -325,14 +329,14 @@ impl Numbered {
     }
 }
 
-impl Sheets {
+impl NodeSolutions {
     pub fn len(&self) -> usize {
         self.all.len()
     }
 
     /// The configuration of one.
-    pub fn at(&self, sheet: usize) -> ConfigurationRef<'_, f64> {
-        self.at.get(sheet)
+    pub fn at(&self, solution: usize) -> ConfigurationRef<'_, f64> {
+        self.at.get(solution)
     }
 
     /// Room for so many more with configurations like this one.
@@ -341,18 +345,18 @@ impl Sheets {
         self.at.reserve(more, like);
     }
 
-    pub fn push(&mut self, sheet: Sheet, at: ConfigurationRef<f64>) {
-        self.all.push(sheet);
+    pub fn push(&mut self, solution: NodeSolution, at: ConfigurationRef<f64>) {
+        self.all.push(solution);
         self.at.push(at);
     }
 }
 
 impl Name {
-    pub fn new(tile: usize, sheet: usize) -> Self {
+    pub fn new(tile: usize, solution: usize) -> Self {
         let short = |number: usize| u32::try_from(number).expect("as many do not fit in memory");
         Name {
             tile: short(tile),
-            sheet: short(sheet),
+            solution: short(solution),
         }
     }
 }
@@ -372,13 +376,13 @@ pub(crate) fn join(roots: &mut [usize], a: usize, b: usize) {
     roots[a.max(b)] = a.min(b);
 }
 
-/// Whether the determinants of direct and of inverse singularities are negative: what sheets of one
-/// aspect share.
+/// Whether the determinants of direct and of inverse singularities are negative: what solutions of
+/// one aspect share.
 pub(crate) type Signs = [bool; 2];
 
-/// The signs of a sheet; none outside limits and on singularities.
-pub(crate) fn signs(sheet: &Sheet) -> Option<Signs> {
-    let told = &sheet.told;
-    let inside = sheet.within && told.direct != 0.0 && told.inverse != 0.0;
-    inside.then_some([told.direct < 0.0, told.inverse < 0.0])
+/// The signs of a solution; none outside limits and on singularities.
+pub(crate) fn signs(solution: &NodeSolution) -> Option<Signs> {
+    let indicators = &solution.indicators;
+    let inside = solution.within && indicators.direct != 0.0 && indicators.inverse != 0.0;
+    inside.then_some([indicators.direct < 0.0, indicators.inverse < 0.0])
 }

@@ -1,18 +1,18 @@
 //! Questions about motions that cannot be answered: what to ask instead.
 
-use crate::analysis::sweep::PointError;
-use crate::description::{count, listed};
-use crate::mechanism::Mechanism;
-use crate::output::complaint::{Complaint, Part};
-use crate::output::quantity::{number, quantity};
-use crate::output::question::{quoted, unknown_frame, value};
-use crate::system::QuestionError;
+use super::question::{quoted, unknown_frame, value};
+use linkwork::analysis::sweep::PointError;
+use linkwork::description::{count, listed};
+use linkwork::mechanism::Mechanism;
+use linkwork::output::complaint::{Complaint, Part};
+use linkwork::output::quantity::{number, quantity};
+use linkwork::system::QuestionError;
 
 /// Nothing is said to move.
 pub fn what_moves(actuated: Option<&str>) -> Complaint {
     let name = actuated.unwrap_or("NAME");
     Complaint::with_help(
-        "nothing is said to move".into(),
+        "no input moves".into(),
         "",
         format!(
             "give the inputs their ranges, e.g. --input {name}=0deg..360deg; follow the whole curve \
@@ -61,8 +61,7 @@ pub fn no_steps(steps: usize, most: usize, rows_kept: bool) -> Complaint {
         _ => Complaint::with_help(
             format!("{steps} steps are too many: up to {most} are made"),
             "",
-            "what happens between them is found without them: dead points and crossings are located \
-             exactly"
+            "dead points and crossings between the rows are located exactly, however long the steps are"
                 .into(),
         ),
     }
@@ -106,7 +105,7 @@ pub fn not_one_freedom(error: &QuestionError) -> Complaint {
                 .map(|name| format!("--hold {name}=home"))
                 .collect();
             Complaint::with_help(
-                format!("{} are left, and a curve has one", count(left, "freedom")),
+                format!("{} remain, but a curve has one", count(left, "freedom")),
                 "",
                 format!(
                     "hold {}, e.g. {}; or prescribe the inputs with --input",
@@ -123,12 +122,12 @@ pub fn not_one_freedom(error: &QuestionError) -> Complaint {
 pub fn nothing_left(held: &[String]) -> Complaint {
     let (title, help) = match held.is_empty() {
         true => (
-            "the mechanism has no freedom, so that there is no motion to follow".to_owned(),
-            "ask `linkwork mobility` why it cannot move".to_owned(),
+            "the mechanism has no freedom, so there is no motion to follow".to_owned(),
+            "`linkwork mobility` shows why it cannot move".to_owned(),
         ),
         false => (
-            format!("with {} held no freedom is left to follow", listed(held)),
-            "hold one less".to_owned(),
+            format!("with {} held no freedom remains", listed(held)),
+            "hold one coordinate less".to_owned(),
         ),
     };
     Complaint::with_help(title, "", help)
@@ -139,13 +138,10 @@ pub fn point_complaint(mechanism: &Mechanism, error: &PointError) -> Complaint {
     match error {
         PointError::NoFrame(name) => unknown_frame(mechanism, name),
         PointError::Value { text, error } => value(text, error).at(Part::Name),
-        PointError::TooMany(given) => {
-            let said = Complaint::with_help(
-                format!("a point has three offsets from its frame, and {given} are given"),
-                "too many",
-                "write FRAME+X,Y,Z, e.g. --of left+0.5,0.2,0".into(),
-            );
-            said
-        }
+        PointError::TooMany(given) => Complaint::with_help(
+            format!("a point has three offsets from its frame, and {given} are given"),
+            "too many",
+            "write FRAME+X,Y,Z, e.g. --of left+0.5,0.2,0".into(),
+        ),
     }
 }

@@ -13,17 +13,17 @@ use super::coordinates::{C, Coordinates};
 /// One placement of the platforms and the ways in which the legs close for it. Without platforms to
 /// be found there is one placement.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub(crate) struct Stance<T> {
+pub(crate) struct LegwiseSolutions<T> {
     /// Seven coordinates for each platform.
     pub pose: Vec<T>,
     /// For each leg its ways, each a value for every joint of the leg.
     pub legs: Vec<Vec<Vec<T>>>,
 }
 
-impl<T: Copy> Stance<T> {
-    pub fn map<U>(&self, f: impl Fn(T) -> U + Copy) -> Stance<U> {
+impl<T: Copy> LegwiseSolutions<T> {
+    pub fn map<U>(&self, f: impl Fn(T) -> U + Copy) -> LegwiseSolutions<U> {
         let all = |x: &Vec<T>| x.iter().map(|x| f(*x)).collect();
-        Stance {
+        LegwiseSolutions {
             pose: all(&self.pose),
             legs: (self.legs.iter())
                 .map(|ways| ways.iter().map(all).collect())
@@ -52,10 +52,10 @@ impl<T: Copy> Stance<T> {
     }
 }
 
-impl Stance<C> {
+impl LegwiseSolutions<C> {
     pub fn of(coordinates: &Coordinates, x: &[C]) -> Self {
         let legs = coordinates.legs.iter();
-        Stance {
+        LegwiseSolutions {
             pose: coordinates.pose_of(x).to_vec(),
             legs: legs.map(|joints| vec![at(joints, x)]).collect(),
         }
@@ -112,20 +112,26 @@ fn at(joints: &[usize], x: &[C]) -> Vec<C> {
     joints.iter().map(|&joint| x[joint]).collect()
 }
 
-/// What a set of stances learns from a solution; whether anything was new.
-pub(crate) fn learn(stances: &mut Vec<Stance<C>>, coordinates: &Coordinates, x: &[C]) -> bool {
+/// What a set of legwise solutions learns from a solution; whether anything was new.
+pub(crate) fn learn(
+    legwise: &mut Vec<LegwiseSolutions<C>>,
+    coordinates: &Coordinates,
+    x: &[C],
+) -> bool {
     let pose = coordinates.pose_of(x);
-    let known = |stance: &&mut Stance<C>| coordinates.same_pose(&stance.pose, pose);
-    match stances.iter_mut().find(known) {
-        Some(stance) => stance.learn(coordinates, x),
+    let known = |solutions_at_pose: &&mut LegwiseSolutions<C>| {
+        coordinates.same_pose(&solutions_at_pose.pose, pose)
+    };
+    match legwise.iter_mut().find(known) {
+        Some(solutions_at_pose) => solutions_at_pose.learn(coordinates, x),
         None => {
-            stances.push(Stance::of(coordinates, x));
+            legwise.push(LegwiseSolutions::of(coordinates, x));
             true
         }
     }
 }
 
-/// How many solutions stances stand for.
-pub(crate) fn count<T: Copy>(stances: &[Stance<T>]) -> usize {
-    stances.iter().map(Stance::count).sum()
+/// How many solutions legwise solutions stand for.
+pub(crate) fn count<T: Copy>(legwise: &[LegwiseSolutions<T>]) -> usize {
+    legwise.iter().map(LegwiseSolutions::count).sum()
 }

@@ -1,6 +1,6 @@
 //! The straight way between two members of a family.
 
-use super::place::{Course, Place};
+use super::member::{MemberEquations, Segment};
 use crate::analysis::assemblies::family::{C, Family, Member};
 use crate::geometry::{Quaternion, Vector3};
 use crate::linear::ILL_CONDITIONED;
@@ -9,11 +9,11 @@ use crate::solve::{Equations, Homotopy};
 
 impl Family {
     /// The way from one member to another. `None` if an expression has no value at the start.
-    pub fn way(&self, from: &Member, to: &Member) -> Option<Way<'_>> {
-        let course = Course::new(from, to);
-        let here = Place::start(self, &course)?;
+    pub fn homotopy(&self, from: &Member, to: &Member) -> Option<ParameterHomotopy<'_>> {
+        let course = Segment::new(from, to);
+        let here = MemberEquations::start(self, &course)?;
         let rows = vec![C::from_f64(0.0); here.system.rows()];
-        Some(Way {
+        Some(ParameterHomotopy {
             family: self,
             rates: rows.clone(),
             residual: rows,
@@ -26,18 +26,18 @@ impl Family {
 
 /// A straight way between two members, s from 0 to 1, with storage for following it.
 #[derive(Clone, Debug)]
-pub(crate) struct Way<'f> {
+pub(crate) struct ParameterHomotopy<'f> {
     pub family: &'f Family,
     /// Where the equations were last evaluated.
-    pub here: Place,
+    pub here: MemberEquations,
     /// A little ahead of it, for the rate at which the residual changes on the way.
-    ahead: Option<Box<Place>>,
+    ahead: Option<Box<MemberEquations>>,
     rates: Vec<C>,
     residual: Vec<C>,
-    course: Course,
+    course: Segment,
 }
 
-impl Way<'_> {
+impl ParameterHomotopy<'_> {
     fn load(&mut self, s: C, x: &[C]) {
         self.here.go(self.family, &self.course, s);
         self.family.coordinates.unflatten(x, &mut self.here.at);
@@ -151,8 +151,8 @@ impl Way<'_> {
         seen.fold(0.0, f64::max) / (1.0 + crate::analysis::assemblies::family::size(x))
     }
 
-    /// A point moved by what an error in every closure of `noise`, beside its slopes and the size of
-    /// the point, does to a solution there. None if the closures leave an unknown undetermined.
+    /// A point moved by what an error in every closure of `noise`, beside its slopes and the size
+    /// of the point, does to a solution there. None if the closures leave an unknown undetermined.
     pub fn jolted(&mut self, s: C, x: &[C], noise: f64, stream: usize) -> Option<Vec<C>> {
         let (residual, jacobian) = self.evaluated(s, x);
         let rows = residual.len();
@@ -171,7 +171,7 @@ impl Way<'_> {
             })
             .collect();
         self.linearise(s, x);
-        // what Newton's method takes for lost it does not bring back
+        // singular values that Newton's method cuts off it does not recover
         if self.here.system.undetermined(&self.here.work) > 0 {
             return None;
         }
@@ -247,7 +247,7 @@ impl Way<'_> {
     }
 }
 
-impl Homotopy for Way<'_> {
+impl Homotopy for ParameterHomotopy<'_> {
     fn settle(&self, x: &mut [C]) {
         self.family.coordinates.settle(x);
     }
@@ -314,7 +314,7 @@ impl Homotopy for Way<'_> {
     }
 }
 
-impl crate::solve::Turning for Way<'_> {
+impl crate::solve::Turning for ParameterHomotopy<'_> {
     fn apart(&self, x: &[C], y: &[C]) -> (f64, bool) {
         let c = &self.family.coordinates;
         let mut turned = false;

@@ -2,49 +2,53 @@
 
 use crate::geometry::{Axis, Pose, Rotation, Vector3};
 use crate::linear::Factorable;
-use crate::mechanism::{Configuration, Coordinate, Mechanism, PlatformPose};
+use crate::mechanism::{Configuration, Mechanism, PlatformPose, PoseCoordinate};
 use crate::number::Packed;
 use crate::solve::Newton;
 use crate::system::{
-    Driven, HeldPlatform, Holdable, Lock, Mobility, Question, System, actuated, with_coordinates,
+    Coordinate, Driven, HeldPlatform, Lock, Mobility, Question, System, actuated, with_coordinates,
 };
 
 /// A question with some of its held coordinates mapped.
-pub(crate) struct Asked<'m> {
+pub(crate) struct MapProblem<'m> {
     pub mechanism: &'m Mechanism,
     pub question: Question<'m>,
     pub axes: Vec<Driven>,
     /// All held coordinates, the mapped ones first. A whole orientation that is not mapped turns
     /// about the axes of ground.
-    pub held: Vec<Holdable>,
+    pub held: Vec<Coordinate>,
     /// The actuated joints, if there are as many as freedoms.
-    pub inputs: Vec<Holdable>,
+    pub inputs: Vec<Coordinate>,
     /// As many coordinates of platforms, if there are so many that are independent.
-    pub outputs: Vec<Holdable>,
+    pub outputs: Vec<Coordinate>,
     pub newton: Newton,
     /// For each joint whether whole turns of it change nothing that is held.
     pub turns: Vec<bool>,
 }
 
-impl<'m> Asked<'m> {
+impl<'m> MapProblem<'m> {
     /// `question` holds the mapped coordinates too.
     pub fn new(question: &Question<'m>, axes: &[Driven], newton: &Newton) -> Self {
         let mechanism = question.mechanism();
-        let mapped = |holdable: &Holdable| axes.iter().any(|axis| axis.coordinate == *holdable);
-        let mut held: Vec<Holdable> = axes.iter().map(|axis| axis.coordinate).collect();
+        let mapped = |holdable: &Coordinate| axes.iter().any(|axis| axis.coordinate == *holdable);
+        let mut held: Vec<Coordinate> = axes.iter().map(|axis| axis.coordinate).collect();
         for mut holdable in question.held_coordinates() {
             let angle = match holdable {
-                Holdable::Coordinate(platform, c) => c.is_angle().then_some((platform, c)),
-                Holdable::Joint(_) | Holdable::Turn(..) => None,
+                Coordinate::Pose(platform, c) => c.is_angle().then_some((platform, c)),
+                Coordinate::Joint(_) | Coordinate::Turn(..) => None,
             };
             if let Some((platform, c)) = angle {
-                let all = [Coordinate::Roll, Coordinate::Pitch, Coordinate::Yaw]
-                    .map(|c| Holdable::Coordinate(platform, c));
-                let is_held = |c: &Holdable| question.held_coordinates().contains(c);
+                let all = [
+                    PoseCoordinate::Roll,
+                    PoseCoordinate::Pitch,
+                    PoseCoordinate::Yaw,
+                ]
+                .map(|c| Coordinate::Pose(platform, c));
+                let is_held = |c: &Coordinate| question.held_coordinates().contains(c);
                 if all.iter().all(is_held) && !all.iter().any(mapped) {
                     let turns = [Axis::X, Axis::Y, Axis::Z];
-                    let turn = turns[c as usize - Coordinate::Roll as usize];
-                    holdable = Holdable::Turn(platform, turn);
+                    let turn = turns[c as usize - PoseCoordinate::Roll as usize];
+                    holdable = Coordinate::Turn(platform, turn);
                 }
             }
             if !mapped(&holdable) {
@@ -52,21 +56,21 @@ impl<'m> Asked<'m> {
             }
         }
         let platforms = 0..mechanism.platforms().len();
-        let coordinates: Vec<Holdable> = platforms
-            .flat_map(|p| Coordinate::ALL.map(|c| Holdable::Coordinate(p, c)))
+        let coordinates: Vec<Coordinate> = platforms
+            .flat_map(|p| PoseCoordinate::ALL.map(|c| Coordinate::Pose(p, c)))
             .collect();
-        let of_platforms = held.iter().all(|h| !matches!(h, Holdable::Joint(_)));
+        let of_platforms = held.iter().all(|h| !matches!(h, Coordinate::Joint(_)));
         let outputs = match of_platforms {
             true => held.clone(),
             false => Mobility::near(mechanism, &mechanism.home())
                 .map(|mobility| mobility.independent(mechanism, &coordinates))
                 .unwrap_or_default(),
         };
-        let whole = |set: Vec<Holdable>| match set.len() == held.len() {
+        let whole = |set: Vec<Coordinate>| match set.len() == held.len() {
             true => set,
             false => Vec::new(),
         };
-        Asked {
+        MapProblem {
             mechanism,
             question: question.clone(),
             axes: axes.to_vec(),
@@ -105,12 +109,12 @@ impl<'m> Asked<'m> {
     }
 
     /// What stands still in a motion within the map.
-    pub fn locks(of: &[Holdable]) -> Vec<Lock> {
+    pub fn locks(of: &[Coordinate]) -> Vec<Lock> {
         of.iter().copied().map(Lock::Coordinate).collect()
     }
 
     /// Whether exactly these are held.
-    pub fn holds(&self, set: &[Holdable]) -> bool {
+    pub fn holds(&self, set: &[Coordinate]) -> bool {
         set.len() == self.held.len() && self.held.iter().all(|held| set.contains(held))
     }
 
@@ -138,7 +142,7 @@ pub(crate) struct Targets {
     /// Mapped joints with the number of their axis.
     joints: Vec<(usize, usize)>,
     /// Mapped coordinates of platforms that are not held whole.
-    single: Vec<(usize, Coordinate, usize)>,
+    single: Vec<(usize, PoseCoordinate, usize)>,
     /// Platforms with a mapped angle or pose, their angles and positions: the number of an axis, or
     /// a value.
     whole: Vec<Whole>,
@@ -148,7 +152,7 @@ pub(crate) struct Targets {
 struct Whole {
     platform: usize,
     pose: bool,
-    sources: Vec<(Coordinate, Source)>,
+    sources: Vec<(PoseCoordinate, Source)>,
 }
 
 #[derive(Clone, Copy, Debug)]
@@ -158,18 +162,18 @@ enum Source {
 }
 
 impl Targets {
-    pub fn new(asked: &Asked) -> Self {
-        let held = asked.question.held();
-        let start = asked.question.start();
+    pub fn new(problem: &MapProblem) -> Self {
+        let held = problem.question.held();
+        let start = problem.question.start();
         let mut targets = Targets {
             joints: Vec::new(),
             single: Vec::new(),
             whole: Vec::new(),
         };
-        for (i, axis) in asked.axes.iter().enumerate() {
+        for (i, axis) in problem.axes.iter().enumerate() {
             match axis.coordinate {
-                Holdable::Joint(joint) => targets.joints.push((joint, i)),
-                Holdable::Coordinate(platform, c) => {
+                Coordinate::Joint(joint) => targets.joints.push((joint, i)),
+                Coordinate::Pose(platform, c) => {
                     let (pose, turned) = match &held.platforms[platform] {
                         HeldPlatform::Pose => (true, true),
                         HeldPlatform::Partly { orientation, .. } => {
@@ -181,10 +185,11 @@ impl Targets {
                         targets.single.push((platform, c, i));
                     } else if targets.whole.iter().all(|w| w.platform != platform) {
                         let at = start.platforms[platform].pose();
-                        let source = |c: Coordinate| {
-                            let mapped = asked.axes.iter().position(|axis| {
-                                axis.coordinate == Holdable::Coordinate(platform, c)
-                            });
+                        let source = |c: PoseCoordinate| {
+                            let mapped = problem
+                                .axes
+                                .iter()
+                                .position(|axis| axis.coordinate == Coordinate::Pose(platform, c));
                             match mapped {
                                 Some(axis) => (c, Source::Axis(axis)),
                                 None => (c, Source::Value(c.of(&at))),
@@ -193,11 +198,11 @@ impl Targets {
                         targets.whole.push(Whole {
                             platform,
                             pose,
-                            sources: Coordinate::ALL.map(source).to_vec(),
+                            sources: PoseCoordinate::ALL.map(source).to_vec(),
                         });
                     }
                 }
-                Holdable::Turn(..) => {}
+                Coordinate::Turn(..) => {}
             }
         }
         targets

@@ -1,10 +1,10 @@
 //! Maps that cannot be made: what to ask instead.
 
-use crate::description::{count, listed};
-use crate::mechanism::{Mechanism, Role};
-use crate::output::complaint::{Complaint, Part};
-use crate::output::quantity::number;
-use crate::system::QuestionError;
+use linkwork::description::{count, listed};
+use linkwork::mechanism::{Mechanism, Role};
+use linkwork::output::complaint::{Complaint, Part};
+use linkwork::output::quantity::number;
+use linkwork::system::QuestionError;
 
 /// A mapped coordinate without a range.
 pub fn no_range(name: &str) -> Complaint {

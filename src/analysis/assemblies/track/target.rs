@@ -1,15 +1,17 @@
-//! Carrying the generic solutions to the inputs that are asked for.
+//! Tracking the generic solutions to the target inputs.
 
 use std::sync::atomic::{AtomicUsize, Ordering};
 
+use super::homotopy::ParameterHomotopy;
 use super::path::{End, Path, arrived, follow};
 use super::simple::{are_one, near};
-use super::way::Way;
-use crate::analysis::assemblies::family::{C, Coordinates, Family, Member, Stance, learn};
+use crate::analysis::assemblies::family::{
+    C, Coordinates, Family, LegwiseSolutions, Member, learn,
+};
 use crate::number::Number;
 use crate::solve::{Stage, Tracker, Watch};
 
-/// Ends of all paths, and what following them took.
+/// Ends of all paths, and the work of following them.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Ends {
     pub ends: Vec<End>,
@@ -20,21 +22,21 @@ pub(crate) struct Ends {
     pub retries: usize,
 }
 
-/// From the generic member to the asked one: one path for each way of the leg that has most of them,
-/// for each pose. Where all of these end well the other solutions are combinations of what they show;
-/// where one does not, every solution with that pose is followed by itself.
+/// From the generic member to the target member: one path for each way of the leg that has most of
+/// them, for each pose. Where all of these end well the other solutions are combinations of what
+/// they show; where one does not, every solution with that pose is followed separately.
 ///
 /// A path that is lost, or two that end at the same regular solution (one has jumped), are followed
-/// again with greater care, and if that does not help all of them another way round. Paths that were
-/// not followed when the work was stopped count as lost.
-pub(crate) fn carry(
+/// again with greater care, and if that does not help all of them another way round. Paths that
+/// were not followed when the work was stopped count as lost.
+pub(crate) fn track_to_target(
     family: &Family,
     from: &Member,
     to: &Member,
-    stances: &[Stance<C>],
+    legwise: &[LegwiseSolutions<C>],
     watch: &Watch,
 ) -> Option<Ends> {
-    let way = family.way(from, to)?;
+    let homotopy = family.homotopy(from, to)?;
     let mut best: Option<Ends> = None;
     let mut retries = 0;
     let followed = AtomicUsize::new(0);
@@ -45,7 +47,7 @@ pub(crate) fn carry(
             care: if detour == 0 { 1.0 } else { 0.1 },
             followed: (&followed, watch),
         };
-        let ends = combined(&way, stances, &manner);
+        let ends = combined(&homotopy, legwise, &manner);
         retries += ends.retries;
         let lost = |ends: &Ends| ends.ends.iter().filter(|e| **e == End::Lost).count();
         let fewer = best.as_ref().is_none_or(|b| lost(&ends) < lost(b));
@@ -81,9 +83,9 @@ impl Manner<'_> {
     }
 
     /// For paths followed again at a higher level.
-    fn tracker(&self, way: &Way<'_>, level: i32) -> Tracker {
+    fn tracker(&self, homotopy: &ParameterHomotopy<'_>, level: i32) -> Tracker {
         let tracker = Tracker {
-            largest: Tracker::default().largest * way.reach(),
+            largest: Tracker::default().largest * homotopy.reach(),
             ..Tracker::default()
         };
         match self.care * 0.1f64.powi(level) {
@@ -98,73 +100,85 @@ impl Manner<'_> {
     }
 }
 
-fn combined(way: &Way<'_>, stances: &[Stance<C>], manner: &Manner<'_>) -> Ends {
-    let coordinates = &way.family.coordinates;
-    let spanning = stances.iter().flat_map(|s| s.spanning_points(coordinates));
-    let mut all = straight(way, &spanning.collect::<Vec<_>>(), manner);
+fn combined(
+    homotopy: &ParameterHomotopy<'_>,
+    legwise: &[LegwiseSolutions<C>],
+    manner: &Manner<'_>,
+) -> Ends {
+    let coordinates = &homotopy.family.coordinates;
+    let spanning = legwise.iter().flat_map(|s| s.spanning_points(coordinates));
+    let mut all = straight(homotopy, &spanning.collect::<Vec<_>>(), manner);
     let shown = std::mem::take(&mut all.ends);
     let mut shown = shown.as_slice();
     let mut points: Vec<Vec<C>> = Vec::new();
-    let mut combined: Vec<(&Stance<C>, usize)> = Vec::new();
+    let mut combined: Vec<(&LegwiseSolutions<C>, usize)> = Vec::new();
     let mut apart: Vec<Vec<C>> = Vec::new();
-    for stance in stances {
-        let (of_stance, rest) = shown.split_at(stance.spanning());
+    for solutions_at_pose in legwise {
+        let (of_stance, rest) = shown.split_at(solutions_at_pose.spanning());
         shown = rest;
-        if stance.count() == stance.spanning() {
+        if solutions_at_pose.count() == solutions_at_pose.spanning() {
             all.ends.extend_from_slice(of_stance);
             continue;
         }
-        match combinations(coordinates, stance, of_stance) {
+        match combinations(coordinates, solutions_at_pose, of_stance) {
             Some(mut combinations) => {
-                combined.push((stance, combinations.len()));
+                combined.push((solutions_at_pose, combinations.len()));
                 points.append(&mut combinations);
             }
-            None => apart.append(&mut stance.points(coordinates)),
+            None => apart.append(&mut solutions_at_pose.points(coordinates)),
         }
     }
-    let arrivals = crate::solve::each(points.len(), way, |way, i| arrived(way, &points[i]));
+    let arrivals = crate::solve::each(points.len(), homotopy, |homotopy, i| {
+        arrived(homotopy, &points[i])
+    });
     let mut arrivals = arrivals.into_iter();
-    for (stance, count) in combined {
+    for (solutions_at_pose, count) in combined {
         // all of them are taken, whatever the first ones are
         let of_stance: Vec<Option<End>> = arrivals.by_ref().take(count).collect();
         match of_stance.into_iter().collect::<Option<Vec<End>>>() {
             Some(ends) => all.ends.extend(ends),
-            None => apart.append(&mut stance.points(coordinates)),
+            None => apart.append(&mut solutions_at_pose.points(coordinates)),
         }
     }
     if !apart.is_empty() {
-        let more = straight(way, &apart, manner);
+        let more = straight(homotopy, &apart, manner);
         all.ends.extend(more.ends);
         all.paths += more.paths;
         all.steps += more.steps;
         all.evaluations += more.evaluations;
         all.retries += more.retries;
     }
-    told_apart(way, &mut all.ends);
+    told_apart(homotopy, &mut all.ends);
     all
 }
 
-/// All solutions of a stance from the ends of the paths that show every way of its legs. `None` if
-/// one of these ends is not a solution by itself.
+/// All solutions of legwise solutions from the ends of the paths that show every way of its legs.
+/// `None` if one of these ends is not a simple solution.
 fn combinations(
     coordinates: &Coordinates,
-    stance: &Stance<C>,
+    solutions_at_pose: &LegwiseSolutions<C>,
     ends: &[End],
 ) -> Option<Vec<Vec<C>>> {
-    let mut carried: Vec<Stance<C>> = Vec::new();
+    let mut tracked: Vec<LegwiseSolutions<C>> = Vec::new();
     for end in ends {
         let End::Regular(x) = end else { return None };
-        learn(&mut carried, coordinates, x);
+        learn(&mut tracked, coordinates, x);
     }
-    let [carried] = carried.as_slice() else {
+    let [tracked] = tracked.as_slice() else {
         return None;
     };
-    let ways = |stance: &Stance<C>| stance.legs.iter().map(Vec::len).collect::<Vec<_>>();
-    (ways(carried) == ways(stance)).then(|| carried.points(coordinates))
+    let ways = |solutions_at_pose: &LegwiseSolutions<C>| {
+        solutions_at_pose
+            .legs
+            .iter()
+            .map(Vec::len)
+            .collect::<Vec<_>>()
+    };
+    (ways(tracked) == ways(solutions_at_pose)).then(|| tracked.points(coordinates))
 }
 
 /// Follows every solution, those that are lost or share an end again.
-fn straight(way: &Way<'_>, solutions: &[Vec<C>], manner: &Manner<'_>) -> Ends {
+fn straight(homotopy: &ParameterHomotopy<'_>, solutions: &[Vec<C>], manner: &Manner<'_>) -> Ends {
     let mut all = Ends {
         ends: vec![End::Lost; solutions.len()],
         paths: solutions.len(),
@@ -173,11 +187,12 @@ fn straight(way: &Way<'_>, solutions: &[Vec<C>], manner: &Manner<'_>) -> Ends {
     let mut waiting: Vec<usize> = (0..solutions.len()).collect();
     let mut unsure: Vec<usize> = Vec::new();
     for level in 0..=2 {
-        let (tracker, bend) = (manner.tracker(way, level), manner.bend);
-        let followed: Vec<Option<Path>> = crate::solve::each(waiting.len(), way, |way, k| {
-            let goes_on = manner.goes_on();
-            goes_on.then(|| follow(way, &tracker, bend, &solutions[waiting[k]]))
-        });
+        let (tracker, bend) = (manner.tracker(homotopy, level), manner.bend);
+        let followed: Vec<Option<Path>> =
+            crate::solve::each(waiting.len(), homotopy, |homotopy, k| {
+                let goes_on = manner.goes_on();
+                goes_on.then(|| follow(homotopy, &tracker, bend, &solutions[waiting[k]]))
+            });
         for (&i, path) in waiting.iter().zip(followed) {
             let Some(path) = path else { continue };
             all.steps += path.steps;
@@ -185,16 +200,16 @@ fn straight(way: &Way<'_>, solutions: &[Vec<C>], manner: &Manner<'_>) -> Ends {
             if path.unsure && level == 0 {
                 unsure.push(i);
             }
-            // a second look that sees nothing leaves what the first one saw
+            // a second attempt that finds nothing keeps the result of the first
             if path.end != End::Lost || !unsure.contains(&i) || level == 0 {
                 all.ends[i] = path.end;
             }
         }
-        shared_out(way, &mut all.ends);
+        shared_out(homotopy, &mut all.ends);
         if level == 2 || manner.followed.1.is_stopped() {
             break;
         }
-        waiting = doubtful(way, &all.ends);
+        waiting = doubtful(homotopy, &all.ends);
         if level == 0 {
             waiting.extend(&unsure);
         }
@@ -203,29 +218,33 @@ fn straight(way: &Way<'_>, solutions: &[Vec<C>], manner: &Manner<'_>) -> Ends {
     all
 }
 
-/// Tells whether ends of paths are one solution. Most are far apart, and then nothing is evaluated.
+/// Decides whether ends of paths are one solution. Most are far apart, and then nothing is
+/// evaluated.
 struct Teller<'a, 'f> {
-    way: &'a Way<'f>,
-    storage: Option<Way<'f>>,
+    homotopy: &'a ParameterHomotopy<'f>,
+    storage: Option<ParameterHomotopy<'f>>,
 }
 
 impl<'a, 'f> Teller<'a, 'f> {
-    fn new(way: &'a Way<'f>) -> Self {
-        Teller { way, storage: None }
+    fn new(homotopy: &'a ParameterHomotopy<'f>) -> Self {
+        Teller {
+            homotopy,
+            storage: None,
+        }
     }
 
     /// `near` is how far apart they may be, from the first one's size.
     fn one(&mut self, near: f64, x: &[C], y: &[C]) -> bool {
-        self.way.family.coordinates.within(near, x, y) && {
-            let way = self.storage.get_or_insert_with(|| self.way.clone());
-            are_one(way, C::from_f64(1.0), x, y)
+        self.homotopy.family.coordinates.within(near, x, y) && {
+            let homotopy = self.storage.get_or_insert_with(|| self.homotopy.clone());
+            are_one(homotopy, C::from_f64(1.0), x, y)
         }
     }
 }
 
 /// Gives each path that ends at either of two solutions one that no other path ends at.
-fn shared_out(way: &Way<'_>, ends: &mut [End]) {
-    let mut teller = Teller::new(way);
+fn shared_out(homotopy: &ParameterHomotopy<'_>, ends: &mut [End]) {
+    let mut teller = Teller::new(homotopy);
     for i in 0..ends.len() {
         let End::Either(both) = ends[i].clone() else {
             continue;
@@ -241,8 +260,8 @@ fn shared_out(way: &Way<'_>, ends: &mut [End]) {
 }
 
 /// Paths that were lost, and those that share a regular end.
-fn doubtful(way: &Way<'_>, ends: &[End]) -> Vec<usize> {
-    let mut teller = Teller::new(way);
+fn doubtful(homotopy: &ParameterHomotopy<'_>, ends: &[End]) -> Vec<usize> {
+    let mut teller = Teller::new(homotopy);
     let mut doubtful: Vec<bool> = ends.iter().map(|end| *end == End::Lost).collect();
     for (i, end) in ends.iter().enumerate() {
         let End::Regular(x) = end else { continue };
@@ -257,8 +276,8 @@ fn doubtful(way: &Way<'_>, ends: &[End]) -> Vec<usize> {
 }
 
 /// Of paths that still end at one regular solution only one can be right.
-fn told_apart(way: &Way<'_>, ends: &mut [End]) {
-    let mut teller = Teller::new(way);
+fn told_apart(homotopy: &ParameterHomotopy<'_>, ends: &mut [End]) {
+    let mut teller = Teller::new(homotopy);
     for i in 0..ends.len() {
         let (before, rest) = ends.split_at_mut(i);
         let End::Regular(x) = &rest[0] else { continue };

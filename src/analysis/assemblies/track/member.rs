@@ -1,27 +1,27 @@
-//! The equations of the member at one place of a way.
+//! The equations of the member at one parameter value of a homotopy.
 
 use crate::analysis::assemblies::family::{C, Family, Member};
 use crate::geometry::{Quaternion, Vector3};
 use crate::mechanism::{Configuration, PlatformPose};
 use crate::system::{System, Work};
 
-/// From one member straight to another: where it starts, and the difference.
+/// The straight segment from one member to another: its start and the difference.
 #[derive(Clone, Debug)]
-pub(crate) struct Course {
+pub(crate) struct Segment {
     pub from: Member,
     pub change: Member,
     /// Whether dimensions change on the way; otherwise only inputs do.
     pub resized: bool,
 }
 
-impl Course {
+impl Segment {
     pub fn new(from: &Member, to: &Member) -> Self {
         let difference = |a: &[C], b: &[C]| a.iter().zip(b).map(|(a, b)| b - a).collect::<Vec<C>>();
         let change = Member {
             parameters: difference(&from.parameters, &to.parameters),
             inputs: difference(&from.inputs, &to.inputs),
         };
-        Course {
+        Segment {
             resized: change.parameters.iter().any(|x| x.norm_sqr() > 0.0),
             from: from.clone(),
             change,
@@ -36,7 +36,7 @@ impl Course {
 
 /// A member's equations, with storage for evaluating them.
 #[derive(Clone, Debug)]
-pub(crate) struct Place {
+pub(crate) struct MemberEquations {
     pub system: System<C>,
     pub work: Work<C>,
     /// The configuration last evaluated.
@@ -47,11 +47,11 @@ pub(crate) struct Place {
     s: Option<C>,
 }
 
-impl Place {
+impl MemberEquations {
     /// Where a course starts. `None` if an expression has no value there.
-    pub fn start(family: &Family, course: &Course) -> Option<Self> {
+    pub fn start(family: &Family, course: &Segment) -> Option<Self> {
         let system = family.system(&course.from.parameters)?;
-        let mut place = Place {
+        let mut place = MemberEquations {
             work: system.work(),
             system,
             at: family.home.map(|x| C::new(x, 0.0)),
@@ -64,7 +64,7 @@ impl Place {
     }
 
     /// On to another place of the course.
-    pub fn go(&mut self, family: &Family, course: &Course, s: C) {
+    pub fn go(&mut self, family: &Family, course: &Segment, s: C) {
         if self.s == Some(s) {
             return;
         }
@@ -113,8 +113,8 @@ mod tests {
     use crate::system::Question;
     use rand::SeedableRng;
 
-    /// A way on which dimensions change gives the same wherever it was before, and factors last made
-    /// serve beside the place ahead that rates are taken from.
+    /// A way on which dimensions change gives the same wherever it was before, and factors last
+    /// made serve beside the place ahead that rates are taken from.
     #[test]
     fn a_place_that_was_left_and_come_back_to_is_the_same() {
         let text = include_str!("../../../../mechanisms/three_rps.ron");
@@ -128,19 +128,19 @@ mod tests {
         };
         let x = family.random_point(&mut rng, 1.0);
         let s = C::new(0.3, 0.1);
-        let mut fresh = family.way(&from, &to).unwrap();
+        let mut fresh = family.homotopy(&from, &to).unwrap();
         let expected = fresh.evaluated(s, &x);
         let (mut rate, mut again) = (x.clone(), x.clone());
         assert!(fresh.velocity(s, &x, &mut rate));
-        let mut way = family.way(&from, &to).unwrap();
+        let mut homotopy = family.homotopy(&from, &to).unwrap();
         for elsewhere in [C::new(0.7, 0.0), C::new(1.0, -0.2)] {
-            assert!(way.velocity(elsewhere, &x, &mut again));
+            assert!(homotopy.velocity(elsewhere, &x, &mut again));
             assert_ne!(again, rate);
         }
-        assert_eq!(way.evaluated(s, &x), expected);
-        way.linearise(s, &x);
+        assert_eq!(homotopy.evaluated(s, &x), expected);
+        homotopy.linearise(s, &x);
         for _ in 0..2 {
-            assert!(way.velocity_again(s, &x, &mut again));
+            assert!(homotopy.velocity_again(s, &x, &mut again));
             assert_eq!(again, rate);
         }
         // the rate is that of the residual: J dx/ds + ∂h/∂s = 0
@@ -152,8 +152,12 @@ mod tests {
             y
         };
         let mut at = |length: f64| {
-            way.residual(s + length, &moved(length));
-            way.here.system.residual_of(&way.here.work).to_vec()
+            homotopy.residual(s + length, &moved(length));
+            homotopy
+                .here
+                .system
+                .residual_of(&homotopy.here.work)
+                .to_vec()
         };
         let (after, before) = (at(APART), at(-APART));
         for (after, before) in after.iter().zip(&before) {
