@@ -251,7 +251,7 @@ impl Parser<'_> {
 
     fn word(&self) -> &str {
         let rest = self.rest();
-        let ends = |c: char| !continues_name(c) && !(self.dotted && c == '.');
+        let ends = |c: char| !(continues_name(c) || self.dotted && c == '.');
         &rest[..rest.find(ends).unwrap_or(rest.len())]
     }
 

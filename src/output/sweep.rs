@@ -33,7 +33,7 @@ impl Report for MotionsReport {
             several => {
                 let whole = several.iter().filter(|m| m.sweep.ending.is_whole()).count();
                 let answer = format!(
-                    "The motion is complete in {whole} of {} modes.",
+                    "The curve was followed to its end in {whole} of {} modes.",
                     several.len()
                 );
                 let sections = several.iter().map(|motion| {

@@ -31,11 +31,15 @@ where
         .collect()
 }
 
+/// The number of the next piece of work, until none is left.
+#[cfg(feature = "parallel")]
+type Next<'a> = dyn Fn() -> Option<usize> + 'a;
+
 /// Runs `work` on every thread; each asks for the next piece until none of `count` is left.
 ///
 /// Not generic: with rayon's parallel iterators in each of some sixty places, they were a twentieth of the code to compile.
 #[cfg(feature = "parallel")]
-fn share(count: usize, work: &(dyn Fn(&dyn Fn() -> Option<usize>) + Sync)) {
+fn share(count: usize, work: &(dyn Fn(&Next) + Sync)) {
     let taken = AtomicUsize::new(0);
     let next = || {
         let i = taken.fetch_add(1, Ordering::Relaxed);

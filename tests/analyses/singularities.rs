@@ -821,8 +821,8 @@ fn a_stretched_arm_loses_a_direction_of_its_hand_though_not_of_its_twist() {
         assert_eq!(coupled["freedoms"], 2);
         assert_eq!(coupled["origin_loses"], lost, "{coupled}");
         let note = whole["note"].as_str().unwrap();
-        for question in ["--point hand", "--output hand.x --output hand.y"] {
-            assert!(note.contains(question), "{note}");
+        for outputs in ["the point `hand` as the output", "hand.x and hand.y"] {
+            assert!(note.contains(outputs), "{note}");
         }
         for asked in [
             &["--point", "hand"][..],
@@ -977,7 +977,7 @@ fn few_starts_promise_no_more_than_they_can() {
     assert!(loci.iter().all(|locus| locus["met"] != 1));
     assert_eq!(json["starts"], serde_json::json!([30, 30]));
     let words = json["completeness"].as_str().unwrap();
-    let honest = "one that fewer than 1 in 10 starts lead to may be missing (95 %)";
+    let honest = "a locus reached by fewer than 1 in 10 starts may be missing (95 % confidence)";
     assert!(
         words.contains(honest) && !words.contains("likely"),
         "{words}"

@@ -1416,7 +1416,7 @@ fn a_motion_that_does_not_reach_its_end_answers_no_and_says_why() {
     let (code, text, _) = linkwork(&[&asked[..], &["--follow", "--all-modes"]].concat());
     assert_eq!(code, 0, "{text}");
     assert!(
-        text.contains("Mode 1: ") && text.contains("Mode 2: ") && text.contains("round 1 fold")
+        text.contains("Mode 1\n") && text.contains("Mode 2\n") && text.contains("round 1 fold")
     );
 }
 

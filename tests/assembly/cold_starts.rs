@@ -66,10 +66,10 @@ fn the_three_rps_assembles_from_random_leg_angles() {
             let length = between(&mut rng, 0.7, 0.9);
             let angle = between(&mut rng, -PI, PI);
             question = question
-                .hold(&format!("l{leg}"), &length.to_string())
+                .hold(&format!("l{leg}"), length.to_string())
                 .expect("a joint");
             question = question
-                .guess(&format!("phi{leg}"), &angle.to_string())
+                .guess(&format!("phi{leg}"), angle.to_string())
                 .expect("a joint");
         }
         tally.ask(&question);
@@ -114,7 +114,7 @@ fn stewart_gough(from_home: bool) -> Tally {
         let mut question = Question::new(&mechanism);
         for (i, length) in lengths.iter().enumerate() {
             question = question
-                .hold(&format!("l{}", i + 1), &length.to_string())
+                .hold(&format!("l{}", i + 1), length.to_string())
                 .expect("a joint");
         }
         if !from_home {

@@ -56,7 +56,7 @@ fn without_a_guess_the_assembly_mode_of_home_is_kept() {
         let mechanism = load(name);
         for degrees in (0..360).step_by(10) {
             let question = Question::new(&mechanism);
-            let question = question.hold("theta1", &format!("{degrees} deg")).unwrap();
+            let question = question.hold("theta1", format!("{degrees} deg")).unwrap();
             let report = answer(&question);
             assert_eq!(report.outcome, Outcome::Converged);
             let found = report.configuration();

@@ -309,7 +309,7 @@ fn run(arguments: &[&str], threads: &str) -> Output {
     command.output().unwrap()
 }
 
-/// From the table on: what stands above it tells how the search went.
+/// The tables: the section below them says how the search went.
 fn tables(name: &str, seed: &str, threads: &str) -> String {
     let path = path_of(name);
     let path = path.to_str().unwrap();
@@ -323,7 +323,8 @@ fn tables(name: &str, seed: &str, threads: &str) -> String {
         .find("\nAssemblies")
         .or(text.find("\nComplex"))
         .unwrap();
-    text[start..].to_string()
+    let end = text.find("\nHow it was found").unwrap();
+    text[start..end].to_string()
 }
 
 /// Chance and threads decide the way; what is printed is the same.

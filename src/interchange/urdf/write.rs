@@ -252,9 +252,11 @@ struct Written<'a> {
     origin: Pose<f64>,
     parent: String,
     child: String,
-    /// What moves, its limits, and what it follows.
-    moves: Option<(&'a Joint, Option<(f64, f64)>, Option<&'a Coupling>)>,
+    moves: Option<Moving<'a>>,
 }
+
+/// A joint that moves, its limits, and what it follows.
+type Moving<'a> = (&'a Joint, Option<(f64, f64)>, Option<&'a Coupling>);
 
 impl Written<'_> {
     fn write(&self, xml: &mut Xml) {
