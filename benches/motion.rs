@@ -1,6 +1,9 @@
 //! What a row of a sweep costs beside a warm solve of the kernel: the same inputs, once by a bare tracker, which says
 //! nothing of branches, and once by a sweep, which keeps to one. The limit is 1.3.
 
+// a bench prints its ratios
+#![allow(clippy::print_stdout)]
+
 use std::hint::black_box;
 use std::path::Path;
 use std::time::Instant;

@@ -4,6 +4,8 @@
 //! successes, the largest residual (recomputed here from the geometry) and the median and best time of
 //! eleven whole sweeps.
 
+// a bench prints its ratios
+#![allow(clippy::print_stdout)]
 // the yardstick uses intrinsics of the processor
 #![allow(unsafe_code)]
 

@@ -3,6 +3,9 @@
 //! Criterion times the former; the lines beside it give the median quotient of pairs of maps made in
 //! turn. Registers are half as wide without AVX2: `RUSTFLAGS="-C target-cpu=x86-64-v3"` builds with it.
 
+// a bench prints its ratios
+#![allow(clippy::print_stdout)]
+
 use std::time::Instant;
 
 use criterion::{Criterion, criterion_group, criterion_main};

@@ -24,7 +24,7 @@ impl<const N: usize> Follower<N> {
     fn new(question: Question, names: [&str; N], values: [f64; N]) -> Self {
         let mut question = question;
         for (name, value) in names.into_iter().zip(values) {
-            question = (question.hold(name, &value.to_string())).expect("a joint of the file");
+            question = (question.hold(name, value.to_string())).expect("a joint of the file");
         }
         let report = assemble(&question, &AssemblySettings::default(), &Watch::none())
             .expect("a right count");
@@ -135,7 +135,7 @@ const RODS: [&str; 6] = ["l1", "l2", "l3", "l4", "l5", "l6"];
 
 pub fn follow_stewart_gough(mechanism: &Mechanism, near: stewart_gough::Pose) -> Follower<6> {
     let question = Question::new(mechanism);
-    let question = (question.guess("top", &written(&near))).expect("a platform");
+    let question = (question.guess("top", written(&near))).expect("a platform");
     Follower::new(question, RODS, near.legs())
 }
 
@@ -184,8 +184,8 @@ pub fn three_rps_cold(mechanism: &Mechanism, starts: &[three_rps::Cold]) -> Tall
         let mut question = Question::new(mechanism);
         for i in 0..3 {
             let phi = FRAC_PI_2 - angles[i];
-            question = (question.hold(LEGS[i], &legs[i].to_string())).expect("a joint");
-            question = (question.guess(PHI[i], &phi.to_string())).expect("a joint");
+            question = (question.hold(LEGS[i], legs[i].to_string())).expect("a joint");
+            question = (question.guess(PHI[i], phi.to_string())).expect("a joint");
         }
         answer(&question)
     };
@@ -196,9 +196,9 @@ pub fn stewart_gough_cold(mechanism: &Mechanism, starts: &[stewart_gough::Cold])
     let ask = |(_, legs, start): &stewart_gough::Cold| {
         let mut question = Question::new(mechanism);
         for i in 0..6 {
-            question = (question.hold(RODS[i], &legs[i].to_string())).expect("a joint");
+            question = (question.hold(RODS[i], legs[i].to_string())).expect("a joint");
         }
-        answer(&question.guess("top", &written(start)).expect("a platform"))
+        answer(&question.guess("top", written(start)).expect("a platform"))
     };
     Tally::of(starts.iter().map(ask))
 }

@@ -523,7 +523,7 @@ mod files {
                 for (joint, value) in mechanism.joints().iter().zip(&at.joints) {
                     if joint.role == linkwork::mechanism::Role::Actuated {
                         question = question
-                            .hold(&joint.name, &format!("{} + 0.02", value))
+                            .hold(&joint.name, format!("{} + 0.02", value))
                             .unwrap();
                     }
                 }

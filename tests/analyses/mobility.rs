@@ -403,9 +403,7 @@ fn near_singular_is_not_singular() {
     let mechanism = load("parallelogram");
     let at = |degrees: f64| {
         let question = Question::new(&mechanism);
-        let question = question
-            .hold("theta1", &format!("{degrees:?} deg"))
-            .unwrap();
+        let question = question.hold("theta1", format!("{degrees:?} deg")).unwrap();
         mobility(&question, &MobilitySettings::default(), &Watch::none())
             .closed()
             .unwrap()

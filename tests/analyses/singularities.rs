@@ -38,7 +38,7 @@ fn data(name: &str) -> serde_json::Value {
 fn holding<'a>(mechanism: &'a Mechanism, held: &[(&str, f64)]) -> Question<'a> {
     let mut question = Question::new(mechanism).free("actuated").unwrap();
     for (name, value) in held {
-        question = question.hold(name, &format!("{value:?}")).unwrap();
+        question = question.hold(name, format!("{value:?}")).unwrap();
     }
     question
 }
@@ -69,7 +69,7 @@ fn moved(
     settings: &SingularitiesSettings,
 ) -> AlongReport {
     let question = Question::new(mechanism)
-        .hold(name, &format!("{from:?}"))
+        .hold(name, format!("{from:?}"))
         .unwrap();
     let (coordinate, _) = question.value(name, "0").unwrap();
     let start = assembled(&question);
@@ -255,7 +255,7 @@ fn cranks(from: [f64; 2], to: [f64; 2]) -> AlongReport {
     let mechanism = mechanism("five_bar", &[]);
     let mut question = Question::new(&mechanism);
     for (name, value) in ["theta1", "theta2"].into_iter().zip(from) {
-        question = question.hold(name, &format!("{value:?}")).unwrap();
+        question = question.hold(name, format!("{value:?}")).unwrap();
     }
     let moved = [0, 1].map(|i| Driven {
         coordinate: question.value(["theta1", "theta2"][i], "0").unwrap().0,
@@ -726,7 +726,7 @@ fn an_orthogonal_3r_arm_is_regular_at_its_published_solutions_and_singular_betwe
     let at = |q: [f64; 3]| {
         let mut question = Question::new(&mechanism);
         for (name, value) in ["q1", "q2", "q3"].into_iter().zip(q) {
-            question = question.hold(name, &format!("{value:?}")).unwrap();
+            question = question.hold(name, format!("{value:?}")).unwrap();
         }
         report(&question, &settings).singularity
     };

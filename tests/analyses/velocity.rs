@@ -52,10 +52,10 @@ fn solved<'a>(
 ) -> Option<(Question<'a>, AssemblyReport)> {
     let mut question = Question::new(mechanism).free("actuated").unwrap();
     for (joint, value) in mechanism.joints().iter().zip(&guess.configuration().joints) {
-        question = question.guess(&joint.name, &format!("{value:?}")).unwrap();
+        question = question.guess(&joint.name, format!("{value:?}")).unwrap();
     }
     for (name, value) in held {
-        question = question.hold(name, &format!("{value:?}")).unwrap();
+        question = question.hold(name, format!("{value:?}")).unwrap();
     }
     let report = assemble(&question, &AssemblySettings::default(), &Watch::none()).ok()?;
     (report.outcome == Outcome::Converged).then_some((question, report))
@@ -238,7 +238,7 @@ fn a_slider_crank_has_the_pressure_angle_of_its_rod() {
     let mechanism = load("slider_crank");
     for theta in [30.0, 100.0, 250.0f64] {
         let question = Question::new(&mechanism);
-        let question = question.hold("theta", &format!("{theta} deg")).unwrap();
+        let question = question.hold("theta", format!("{theta} deg")).unwrap();
         let found = report(&question, &Drive::still(&question));
         let [angle] = &found.transmission[..] else {
             panic!("{:?}", found.transmission)
@@ -270,7 +270,7 @@ fn a_four_bar_has_the_transmission_angle_of_the_cosine_rule() {
     let [d, a, b, c] = ["l0", "l1", "l2", "l3"].map(length);
     for theta in [20.0, 60.0, 110.0, 250.0f64] {
         let question = Question::new(&mechanism);
-        let question = question.hold("theta1", &format!("{theta} deg")).unwrap();
+        let question = question.hold("theta1", format!("{theta} deg")).unwrap();
         let found = report(&question, &Drive::still(&question));
         let [angle] = &found.transmission[..] else {
             panic!("{:?}", found.transmission)
@@ -361,7 +361,7 @@ fn a_pose_held_whole_has_rates_where_roll_and_yaw_are_one() {
     let at = |turn: f64| format!("[T(0.4, 0.3, 0.2), Rz({turn}), Ry(90 deg)]");
     let hold = |turn: f64| {
         let question = Question::new(&mechanism).free("actuated").unwrap();
-        question.hold("hand", &at(turn)).unwrap()
+        question.hold("hand", at(turn)).unwrap()
     };
     let question = hold(0.0);
     let drive = Drive::still(&question)
@@ -455,9 +455,9 @@ fn angles_of_a_platform_have_rates_and_accelerations_with_all_three_held() {
         let (question, now) = solved(&mechanism, &at(0.0), &start).unwrap();
         let mut drive = Drive::still(&question);
         for (name, _, rate, change) in &all {
-            drive = drive.rate(&question, name, &format!("{rate:?}")).unwrap();
+            drive = drive.rate(&question, name, format!("{rate:?}")).unwrap();
             drive = drive
-                .acceleration(&question, name, &format!("{change:?}"))
+                .acceleration(&question, name, format!("{change:?}"))
                 .unwrap();
         }
         let found = report(&question, &drive);
@@ -484,9 +484,7 @@ fn beside_a_change_point_rates_are_known_as_well_as_is_said() {
     let mut told = [0, 0];
     for degrees in [3e-5, 1e-4, 3e-4, 1e-3, 1e-2, 0.1, 1.0, 30.0] {
         let question = Question::new(&mechanism);
-        let question = question
-            .hold("theta1", &format!("{degrees:?} deg"))
-            .unwrap();
+        let question = question.hold("theta1", format!("{degrees:?} deg")).unwrap();
         let drive = Drive::still(&question)
             .rate(&question, "theta1", "1")
             .unwrap();
@@ -844,14 +842,14 @@ fn fichters_platform_gains_a_freedom_when_turned_by_ninety_degrees() {
     let gain_at = |yaw: f64| {
         let inverse = Question::new(&mechanism).free("actuated").unwrap();
         let inverse = inverse
-            .hold("top", &format!("[Tz(0.9), Rz({yaw} deg)]"))
+            .hold("top", format!("[Tz(0.9), Rz({yaw} deg)]"))
             .unwrap();
         let legs = assemble(&inverse, &AssemblySettings::default(), &Watch::none()).unwrap();
         let mut direct = Question::new(&mechanism);
         let pose = format!("[Tz(0.9), Rz({yaw} deg)]");
         direct = direct.guess("top", &pose).unwrap();
         for (joint, value) in mechanism.joints().iter().zip(&legs.configuration().joints) {
-            direct = direct.hold(&joint.name, &format!("{value:?}")).unwrap();
+            direct = direct.hold(&joint.name, format!("{value:?}")).unwrap();
         }
         match velocity(
             &direct,

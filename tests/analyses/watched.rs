@@ -148,7 +148,14 @@ fn a_motion_ends_where_it_was_stopped() {
     });
     stopped("circuits", &|watch| {
         let settings = CircuitsSettings::default();
-        let report = circuits(&mechanism, &still, 0, &[start.clone()], &settings, watch);
+        let report = circuits(
+            &mechanism,
+            &still,
+            0,
+            std::slice::from_ref(&start),
+            &settings,
+            watch,
+        );
         let whole = report.circuits.iter().filter(|circuit| circuit.whole);
         (report.interrupted, whole.count())
     });

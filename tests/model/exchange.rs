@@ -425,7 +425,7 @@ fn a_four_bar_read_from_urdf_has_the_assemblies_of_the_one_in_the_shipped_file()
     let shipped = Mechanism::load(root().join("mechanisms/four_bar.ron")).unwrap();
     let at = |mechanism: &Mechanism, guess: f64| {
         let question = Question::new(mechanism).hold("theta1", "80 deg").unwrap();
-        let question = question.guess("phi1", &guess.to_string()).unwrap();
+        let question = question.guess("phi1", guess.to_string()).unwrap();
         let report = assemble(&question, &AssemblySettings::default(), &Watch::none()).unwrap();
         assert!(report.residual < 1e-9);
         ["phi1", "phi2"].map(|joint| report.configuration().joints[mechanism.joint(joint).unwrap()])

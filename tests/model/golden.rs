@@ -228,7 +228,7 @@ fn the_eight_assemblies_of_the_3_rps() {
         );
         let mut question = Question::new(&mechanism).guess("top", &guess).unwrap();
         for (name, value) in values {
-            question = question.guess(name, &rough(value).to_string()).unwrap();
+            question = question.guess(name, rough(value).to_string()).unwrap();
         }
         let report = assemble(&question, &AssemblySettings::default(), &Watch::none()).unwrap();
         assert_eq!(report.restarts, 0);

@@ -109,7 +109,7 @@ impl Serialize for Cells {
 const INDICATORS: usize = 5;
 
 /// The values one after another: what they are is not known before they are
-/// [`arranged`](Cells::arranged).
+/// `arranged`.
 impl<'de> Deserialize<'de> for Cells {
     fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
         #[derive(Deserialize)]
