@@ -51,6 +51,10 @@ impl<R: Report> Report for Analysed<R> {
     fn sentences(&self) -> Vec<(&'static str, Option<String>)> {
         self.report().map_or(Vec::new(), Report::sentences)
     }
+
+    fn lists(&self) -> Vec<(&'static str, Vec<String>)> {
+        self.report().map_or(Vec::new(), Report::lists)
+    }
 }
 
 impl Report for NotClosed {
