@@ -35,6 +35,8 @@ impl Report for AssembliesReport {
 fn sentence(report: &AssembliesReport) -> String {
     let real = count(report.real, "assembly");
     match (&report.fit, report.real) {
+        (_, 0) if report.interrupted => "No assembly was found.".into(),
+        _ if report.interrupted => format!("{real} found."),
         (Fit::FreedomLeft(_), 0) => "No assembly was found.".into(),
         (Fit::FreedomLeft(freedom), _) => {
             let left = match freedom {
