@@ -10,9 +10,10 @@
 //! Equal formulas have equal handles, so that what is structurally zero is found to be zero.
 
 use std::cell::RefCell;
-use std::collections::HashMap;
 use std::ops::{Add, Div, Mul, Neg, Sub};
 use std::sync::Arc;
+
+use rustc_hash::FxHashMap;
 
 use super::Function;
 use super::trigonometric::{Budget, Trigonometric};
@@ -35,7 +36,7 @@ const UNDEFINED: Symbolic = Symbolic {
 struct Arena {
     number: u32,
     formulas: Vec<Arc<Trigonometric>>,
-    places: HashMap<Arc<Trigonometric>, u32>,
+    places: FxHashMap<Arc<Trigonometric>, u32>,
     budget: Budget,
     values: Vec<f64>,
 }
@@ -64,7 +65,7 @@ pub fn with_letters<R>(values: Vec<f64>, budget: Budget, work: impl FnOnce() -> 
     let mut arena = Arena {
         number,
         formulas: Vec::new(),
-        places: HashMap::new(),
+        places: FxHashMap::default(),
         budget,
         values,
     };

@@ -1,9 +1,10 @@
 //! Whether a formula vanishes because others do.
 
-use std::collections::{BTreeMap, BTreeSet, HashMap};
+use std::collections::{BTreeMap, BTreeSet};
 
 use num_rational::BigRational;
 use num_traits::Zero;
+use rustc_hash::FxHashMap;
 
 use crate::algebra::{Atom, Budget, Key, Powers, Trigonometric};
 
@@ -16,7 +17,7 @@ const MOST_FACTORS: usize = 48;
 
 /// Linear combinations of formulas, brought to echelon form term by term.
 pub(super) struct Span {
-    columns: HashMap<Key, usize>,
+    columns: FxHashMap<Key, usize>,
     /// By the column of the first entry, which is 1.
     rows: BTreeMap<usize, BTreeMap<usize, BigRational>>,
 }
@@ -30,7 +31,7 @@ impl Span {
     /// The combinations of the formulas with coefficients that are sums of multiples of roots.
     pub fn over(formulas: &[Trigonometric], roots: &[u64]) -> Self {
         let mut span = Span {
-            columns: HashMap::new(),
+            columns: FxHashMap::default(),
             rows: BTreeMap::new(),
         };
         formulas.iter().for_each(|formula| span.add(formula, roots));
