@@ -18,8 +18,8 @@ use crate::linear::axis_aligned;
 use crate::mechanism::{ClosureKind, Mechanism, Variable};
 use crate::solve::{Newton, Stage, Watch};
 use crate::system::{
-    Analysed, Named, Neighbourhood, Question, Tangent, TwistSpace, Unknown, WidestGap, close,
-    random_configuration, too_large,
+    Analysed, Closing, Named, Neighbourhood, Question, Tangent, TwistSpace, Unknown, WidestGap,
+    random_configuration,
 };
 
 pub use loops::LoopCount;
@@ -28,10 +28,6 @@ pub use redundancy::{Redundancy, Wrench};
 /// How to look for freedoms.
 #[derive(Clone, Debug, PartialEq)]
 pub struct MobilitySettings {
-    /// The iteration that closes the mechanism.
-    pub newton: Newton,
-    /// Random starts within limits after the guess has failed.
-    pub restarts: usize,
     /// Length of the finite step along a candidate motion, in rad and characteristic lengths. A
     /// motion that is only infinitesimal to second order leaves a gap of about its square.
     pub step: f64,
@@ -50,8 +46,6 @@ pub struct MobilitySettings {
 impl Default for MobilitySettings {
     fn default() -> Self {
         MobilitySettings {
-            newton: Newton::default(),
-            restarts: 40,
             step: 0.05,
             directions: 3,
             branch_step: 0.02,
@@ -219,17 +213,9 @@ pub fn mobility(
     watch: &Watch,
 ) -> Analysed<MobilityReport> {
     let mechanism = question.mechanism();
-    if let Some(large) = too_large(mechanism) {
-        return Analysed::TooLarge(large);
-    }
-    let closed = match close(
-        question,
-        &settings.newton,
-        (settings.restarts, settings.seed),
-        watch,
-    ) {
+    let closed = match Closing::seeded(settings.seed).start(question, watch) {
         Ok(closed) => closed,
-        Err(open) => return Analysed::NotClosed(open),
+        Err(answer) => return answer,
     };
     let mut near = Neighbourhood::new(mechanism);
     let tangent = near.tangent(closed.configuration.clone());
@@ -325,7 +311,7 @@ fn elsewhere(
             break;
         }
         let start = random_configuration(mechanism, &mechanism.home(), rng);
-        let Some(at) = near.solve(&settings.newton, start) else {
+        let Some(at) = near.solve(&Newton::default(), start) else {
             continue;
         };
         if here.character == Character::Regular && near.rank(&at) == here.rank {

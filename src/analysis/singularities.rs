@@ -26,10 +26,9 @@ use serde::{Deserialize, Serialize};
 
 use crate::linear::RANK_TOLERANCE;
 use crate::mechanism::{Configuration, Mechanism, Variable};
-use crate::solve::{Continuation, Newton, Watch};
+use crate::solve::{Continuation, Watch};
 use crate::system::{
-    Analysed, Coordinate, Lock, Question, QuestionError, WidestGap, check_angles, check_count,
-    close, too_large,
+    Analysed, Closing, Coordinate, Lock, Question, QuestionError, WidestGap, check_angles,
 };
 use classify::Classifier;
 use outputs::{coupled, outputs_of};
@@ -37,10 +36,6 @@ use outputs::{coupled, outputs_of};
 /// How to look for singularities.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SingularitiesSettings {
-    /// The iteration that closes the mechanism.
-    pub newton: Newton,
-    /// Random starts within limits after the guess has failed.
-    pub restarts: usize,
     /// Seed of all random starts.
     pub seed: u64,
     /// The outputs; where there are none, the coordinates of platforms that are held or move, or
@@ -58,8 +53,6 @@ pub struct SingularitiesSettings {
 impl Default for SingularitiesSettings {
     fn default() -> Self {
         SingularitiesSettings {
-            newton: Newton::default(),
-            restarts: 40,
             seed: 1,
             outputs: Vec::new(),
             follow: false,
@@ -121,26 +114,14 @@ pub fn singularities(
     watch: &Watch,
 ) -> Result<Analysed<SingularitiesReport>, QuestionError> {
     let mechanism = question.mechanism();
-    if let Some(large) = too_large(mechanism) {
-        return Ok(Analysed::TooLarge(large));
-    }
-    check_count(question)?;
-    let closed = match close(
-        question,
-        &settings.newton,
-        (settings.restarts, settings.seed),
-        watch,
-    ) {
+    let closed = match Closing::seeded(settings.seed).determined(question, watch)? {
         Ok(closed) => closed,
-        Err(open) => return Ok(Analysed::NotClosed(open)),
+        Err(answer) => return Ok(answer),
     };
     let at = &closed.configuration;
     let inputs = inputs_of(question);
     // angles that only say where the platform is are not differentiated
-    if inputs
-        .iter()
-        .any(|input| matches!(input, Coordinate::Pose(..)))
-    {
+    if (inputs.iter()).any(|input| matches!(input, Coordinate::Pose(..))) {
         check_angles(question, at)?;
     }
     let outputs = outputs_of(mechanism, &question.held(), &[], &inputs, settings);

@@ -10,10 +10,10 @@ use serde::{Deserialize, Serialize};
 use crate::algebra::SiUnit;
 use crate::linear::RANK_TOLERANCE;
 use crate::mechanism::{Frame, Mechanism};
-use crate::solve::{Newton, Watch};
+use crate::solve::Watch;
 use crate::system::{
-    Analysed, Coordinate, Drive, Motion, Neighbourhood, Question, QuestionError, Tangent, Unknown,
-    WidestGap, check_angles, check_count, close, free_outputs, moving, too_large,
+    Analysed, Closing, Coordinate, Drive, Motion, Neighbourhood, Question, QuestionError, Tangent,
+    Unknown, WidestGap, check_angles, free_outputs, moving,
 };
 
 use frames::Spins;
@@ -21,27 +21,12 @@ pub use jacobian::{Axis, InputOutput};
 pub use planar::{InstantCentre, Transmission};
 
 /// How to look for the assembled configuration, and which points to follow.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct VelocitySettings {
-    /// The iteration that closes the mechanism.
-    pub newton: Newton,
-    /// Random starts within limits after the guess has failed.
-    pub restarts: usize,
-    /// Seed of the random starts.
-    pub seed: u64,
+    /// How to close the mechanism.
+    pub closing: Closing,
     /// Frames beside the platforms whose origins are followed.
     pub points: Vec<Frame>,
-}
-
-impl Default for VelocitySettings {
-    fn default() -> Self {
-        VelocitySettings {
-            newton: Newton::default(),
-            restarts: 40,
-            seed: 1,
-            points: Vec::new(),
-        }
-    }
 }
 
 /// How an assembled mechanism moves. All vectors are in ground; angles in rad, lengths in m, time
@@ -210,18 +195,9 @@ pub fn velocity(
     watch: &Watch,
 ) -> Result<Analysed<VelocityReport>, QuestionError> {
     let mechanism = question.mechanism();
-    if let Some(large) = too_large(mechanism) {
-        return Ok(Analysed::TooLarge(large));
-    }
-    check_count(question)?;
-    let closed = match close(
-        question,
-        &settings.newton,
-        (settings.restarts, settings.seed),
-        watch,
-    ) {
+    let closed = match settings.closing.determined(question, watch)? {
         Ok(closed) => closed,
-        Err(open) => return Ok(Analysed::NotClosed(open)),
+        Err(answer) => return Ok(answer),
     };
     let at = &closed.configuration;
     check_angles(question, at)?;

@@ -8,11 +8,8 @@ use crate::analysis::mobility::{MobilityReport, MobilitySettings, mobility};
 use crate::analysis::statics::{StaticsReport, StaticsSettings, statics};
 use crate::analysis::velocity::{VelocityReport, VelocitySettings, velocity};
 use crate::mechanism::{Body, Frame};
-use crate::solve::{Newton, Watch};
-use crate::system::{self, Analysed, Closed, Drive, Load, NotClosed, close};
-
-/// Random starts where a mechanism is closed.
-const RESTARTS: usize = 40;
+use crate::solve::Watch;
+use crate::system::{self, Analysed, Closed, Closing, Drive, Load, NotClosed, close};
 
 impl Question {
     /// The mechanism closed near the start, as all analyses of one configuration close it.
@@ -21,8 +18,9 @@ impl Question {
     /// If a name or a value is wrong.
     pub fn closed(&self, watch: &Watch) -> Result<Result<Closed, NotClosed>, AskError> {
         let question = self.resolved()?;
-        let newton = Newton::default();
-        Ok(close(&question, &newton, (RESTARTS, self.seed), watch))
+        let closing = Closing::seeded(self.seed);
+        let starts = (closing.restarts, closing.seed);
+        Ok(close(&question, &closing.newton, starts, watch))
     }
 
     /// The freedoms of the assembled mechanism.

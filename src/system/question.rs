@@ -2,7 +2,6 @@ mod count;
 mod demand;
 mod drive;
 mod error;
-mod error_words;
 mod held;
 mod load;
 mod outputs;
@@ -13,7 +12,7 @@ pub use demand::{Demand, Verb};
 pub use drive::{Drive, DriveError};
 pub use error::QuestionError;
 pub use load::{ForceError, Load};
-pub use outputs::{Output, actuated, default_outputs, free_outputs, inputs_of, platform_outputs};
+pub use outputs::{actuated, default_outputs, free_outputs, inputs_of, platform_outputs};
 pub use value::{Value, ValueError, number as number_of};
 
 use super::equations::System;

@@ -7,7 +7,7 @@ use super::SingularitiesSettings;
 use super::arrival::Arrival;
 use super::classify::{Classifier, Kind};
 use crate::mechanism::{Configuration, PlatformPose, turn_near};
-use crate::solve::{Stage, Watch};
+use crate::solve::{Newton, Stage, Watch};
 use crate::system::{
     Coordinate, Driven, Lock, LocusCurve, LocusEnd, Region, Singular, System, Traced, passes,
     random_configuration, with_coordinates,
@@ -94,7 +94,7 @@ impl Search<'_> {
             let mut trial = at.clone();
             let mut work = system.work();
             // where it cannot close the gap it ends in a singular point as well
-            (self.settings.newton).solve(&system, &mut at, &mut trial, &mut work);
+            Newton::default().solve(&system, &mut at, &mut trial, &mut work);
             let Some(arrival) = self.arrival(&mut found.curve, at) else {
                 continue;
             };

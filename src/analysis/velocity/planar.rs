@@ -8,7 +8,7 @@ use crate::geometry::Vector3;
 use crate::linear::{dot, norm};
 use crate::mechanism::{Body, Configuration, Frame, Mechanism};
 use crate::system::{
-    Coordinate, Drive, FrameTwists, LoopPart, MechanismLoop, Motion, Neighbourhood, Twist, loops,
+    Coordinate, Drive, FrameTwists, LoopPart, MechanismLoop, Motion, Neighbourhood, loops,
 };
 
 /// How well a driven joint moves the output link of a loop in a plane.
@@ -255,8 +255,7 @@ fn split(twist: &[f64; 6]) -> (Vector3<f64>, Vector3<f64>) {
 
 /// The unit normal of the plane in which all twists (ω; v/L) move; `None` if there is none.
 fn normal<'a>(twists: impl Iterator<Item = &'a [f64; 6]> + Clone) -> Option<Vector3<f64>> {
-    let size = |twist: &[f64; 6]| twist.iter().map(|x| x * x).sum::<f64>().sqrt();
-    let largest = twists.clone().map(size).fold(0.0, f64::max);
+    let largest = twists.clone().map(|twist| norm(twist)).fold(0.0, f64::max);
     let turning = twists.clone().map(|twist| split(twist).0);
     let most = turning.max_by(|a, b| a.norm().total_cmp(&b.norm()))?;
     if most.norm() <= ZERO * largest {
@@ -294,14 +293,11 @@ pub(super) fn centres(
         .map(|&body| mechanism.body_frame(body))
         .collect();
     let twists = FrameTwists::new(mechanism.dimensions(), motion.unknowns(), &frames);
-    let mut placement = twists.placement();
-    twists.place(at, &mut placement);
+    let placement = twists.placed(at);
     let length = mechanism.characteristic_length();
     let at_origin = |i: usize, rates: &[f64]| {
-        let Twist { omega, velocity } = twists.twist(i, &placement, rates);
-        let velocity = velocity - omega.cross(&twists.origin(i, &placement));
-        let ([a, b, c], [x, y, z]) = (omega.0, velocity.times(1.0 / length).0);
-        [a, b, c, x, y, z]
+        let twist = twists.twist(i, &placement, rates);
+        twist.at_ground(&twists.origin(i, &placement), length)
     };
     let at_input: Vec<[f64; 6]> = (0..frames.len()).map(|i| at_origin(i, &rates)).collect();
     // planar for a moment only is not enough: every joint and every input must keep the plane

@@ -28,6 +28,14 @@ impl Coordinate {
         }
     }
 
+    /// What makes it dimensionless: 1 for an angle, the characteristic length in m for a length.
+    pub fn scale(self, mechanism: &Mechanism) -> f64 {
+        match self.is_angle(mechanism) {
+            true => 1.0,
+            false => mechanism.characteristic_length(),
+        }
+    }
+
     /// Its value in the home configuration, in m or rad.
     pub fn home(self, mechanism: &Mechanism) -> f64 {
         match self {

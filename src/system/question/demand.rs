@@ -63,14 +63,18 @@ mod tests {
     use crate::mechanism::Mechanism;
     use crate::system::{Question, QuestionError};
 
-    #[test]
-    fn demands_that_contradict_one_another_are_refused() {
+    fn mechanism() -> Mechanism {
         let text = r#"Mechanism(version: 1, name: "x", convention: Modified,
             joints: { "q": Actuated(), "p": Passive() },
             chains: { "c": Chain(rows: [(theta: "q"), (d: "p")]) },
             platforms: { "top": Platform(), "low": Platform() },
             closures: { "k": Spherical("c", "top"), "l": Rigid("top", "low") })"#;
-        let mechanism = Mechanism::new(&Description::read(text).unwrap()).unwrap();
+        Mechanism::new(&Description::read(text).unwrap()).unwrap()
+    }
+
+    #[test]
+    fn demands_that_contradict_one_another_are_refused() {
+        let mechanism = mechanism();
         let question = || Question::new(&mechanism);
         let refused = |result: Result<Question, QuestionError>| match result {
             Err(QuestionError::Contradiction { first, second }) => format!("{first} {second}"),
@@ -97,21 +101,16 @@ mod tests {
 
     #[test]
     fn demands_of_different_things_are_not() {
-        let text = r#"Mechanism(version: 1, name: "x", convention: Modified,
-            joints: { "q": Actuated(), "p": Passive() },
-            chains: { "c": Chain(rows: [(theta: "q"), (d: "p")]) },
-            platforms: { "top": Platform(), "low": Platform() },
-            closures: { "k": Spherical("c", "top"), "l": Rigid("top", "low") })"#;
-        let mechanism = Mechanism::new(&Description::read(text).unwrap()).unwrap();
+        let mechanism = mechanism();
         let question = Question::new(&mechanism);
-        let asked = question.free("actuated").and_then(|q| q.hold("q", "1"));
-        let asked = asked
+        let asked = question
+            .free("actuated")
+            .and_then(|q| q.hold("q", "1"))
             .and_then(|q| q.guess("q", "1"))
-            .and_then(|q| q.guess("p", "1"));
-        let asked = asked
+            .and_then(|q| q.guess("p", "1"))
             .and_then(|q| q.hold("top.x", "1"))
-            .and_then(|q| q.hold("top.y", "1"));
-        let asked = asked.and_then(|q| q.hold("low", "home"));
+            .and_then(|q| q.hold("top.y", "1"))
+            .and_then(|q| q.hold("low", "home"));
         assert!(asked.is_ok(), "{asked:?}");
     }
 }

@@ -119,28 +119,13 @@ pub fn platform_outputs(
     (!outputs.is_empty()).then_some(outputs)
 }
 
-/// What the inputs drive.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Output {
-    /// The twist of a platform.
-    Twist(Frame),
-    /// The velocity of a frame's origin.
-    Point(Frame),
-    /// The rate of a joint.
-    Joint(usize),
-    /// The rate of a coordinate of a platform.
-    Coordinate(usize, PoseCoordinate),
-    /// A component of the angular velocity of a platform.
-    Turn(usize, Axis),
-}
-
 /// The outputs of a question: what is free of the platforms, and with a platform coordinate held the
 /// driven joints that are free; if there is nothing of that, the free joints that something
 /// determines.
 ///
 /// Of a platform that is partly held the angular velocity is free if no angle is held, else the
 /// other angles.
-pub fn free_outputs(mechanism: &Mechanism, held: &[Coordinate], spinning: &[usize]) -> Vec<Output> {
+pub fn free_outputs(mechanism: &Mechanism, held: &[Coordinate], spinning: &[usize]) -> Vec<Lock> {
     let mut outputs = Vec::new();
     for platform in 0..mechanism.platforms().len() {
         let is_held = |c: &PoseCoordinate| held.contains(&Coordinate::Pose(platform, *c));
@@ -149,26 +134,27 @@ pub fn free_outputs(mechanism: &Mechanism, held: &[Coordinate], spinning: &[usiz
             Coordinate::Joint(_) => false,
         };
         if !held.iter().any(of_it) {
-            outputs.push(Output::Twist(Frame::Platform { platform }));
+            outputs.push(Lock::Frame(Frame::Platform { platform }));
         } else if held.iter().filter(|held| of_it(held)).count() < 6 {
             let (angles, shifts): (Vec<PoseCoordinate>, _) =
                 PoseCoordinate::ALL.into_iter().partition(|c| c.is_angle());
-            let coordinate =
-                |c: PoseCoordinate| (!is_held(&c)).then_some(Output::Coordinate(platform, c));
+            let coordinate = |c: PoseCoordinate| {
+                (!is_held(&c)).then_some(Lock::Coordinate(Coordinate::Pose(platform, c)))
+            };
             let turned = (held.iter())
                 .any(|held| matches!(held, Coordinate::Turn(of, _) if *of == platform));
             match angles.iter().any(is_held) {
                 _ if turned => {}
                 true => outputs.extend(angles.into_iter().filter_map(coordinate)),
-                false => {
-                    outputs.extend(
-                        [Axis::X, Axis::Y, Axis::Z].map(|axis| Output::Turn(platform, axis)),
-                    );
-                }
+                false => outputs.extend(
+                    [Axis::X, Axis::Y, Axis::Z]
+                        .map(|axis| Lock::Coordinate(Coordinate::Turn(platform, axis))),
+                ),
             }
             outputs.extend(Vec::into_iter(shifts).filter_map(coordinate));
         }
     }
+    let joint_output = |joint: usize| Lock::Coordinate(Coordinate::Joint(joint));
     let inverse = !held.iter().all(|held| matches!(held, Coordinate::Joint(_)));
     let free =
         |joint: &usize| !held.contains(&Coordinate::Joint(*joint)) && !spinning.contains(joint);
@@ -176,10 +162,10 @@ pub fn free_outputs(mechanism: &Mechanism, held: &[Coordinate], spinning: &[usiz
     let driven = |joint: &usize| mechanism.joints()[*joint].role == Role::Actuated;
     if inverse {
         let driven = joints.clone().filter(|joint| free(joint) && driven(joint));
-        outputs.extend(driven.map(Output::Joint));
+        outputs.extend(driven.map(joint_output));
     }
     if outputs.is_empty() {
-        outputs.extend(joints.filter(free).map(Output::Joint));
+        outputs.extend(joints.filter(free).map(joint_output));
     }
     outputs
 }

@@ -1,6 +1,6 @@
 use super::neighbourhood::Neighbourhood;
 use crate::geometry::{RollPitchYaw, Vector3};
-use crate::linear::{INDEPENDENT, SPECTRUM_LIMIT, Spectrum, rank};
+use crate::linear::{INDEPENDENT, SPECTRUM_LIMIT, Spectrum, norm, rank, remove};
 use crate::mechanism::{Configuration, Dimensions, Mechanism, PoseCoordinate};
 use crate::solve::{Equations, Newton, Stop};
 use crate::system::{Coordinate, Held, System, Unknown};
@@ -106,13 +106,10 @@ pub fn moving(mechanism: &Mechanism, unknowns: &[Unknown], motions: &[Vec<f64>])
     let mut shares: Vec<(String, f64)> = Vec::new();
     for (i, unknown) in unknowns.iter().enumerate() {
         let share: f64 = motions.iter().map(|motion| motion[i] * motion[i]).sum();
-        let name = match *unknown {
-            Unknown::Joint(joint) => &mechanism.joints()[joint].name,
-            Unknown::Twist { platform, .. } => &mechanism.platforms()[platform].name,
-        };
+        let name = unknown.owner(mechanism);
         match shares.iter_mut().find(|(known, _)| known == name) {
             Some((_, sum)) => *sum += share,
-            None => shares.push((name.clone(), share)),
+            None => shares.push((name.to_owned(), share)),
         }
     }
     shares.retain(|(_, share)| *share > 1e-6);
@@ -222,12 +219,7 @@ impl Mobility {
             }
             let mut row = self.rates(mechanism, candidate);
             let size = norm(&row);
-            for direction in &basis {
-                let along: f64 = row.iter().zip(direction).map(|(a, b)| a * b).sum();
-                row.iter_mut()
-                    .zip(direction)
-                    .for_each(|(a, b)| *a -= along * b);
-            }
+            remove(&mut row, &basis);
             let left = norm(&row);
             if left > INDEPENDENT && left > INDEPENDENT * size {
                 row.iter_mut().for_each(|a| *a /= left);
@@ -273,8 +265,4 @@ impl Mobility {
             }
         }
     }
-}
-
-fn norm(row: &[f64]) -> f64 {
-    row.iter().map(|a| a * a).sum::<f64>().sqrt()
 }

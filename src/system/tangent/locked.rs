@@ -6,7 +6,7 @@ use crate::mechanism::{Configuration, Frame, Mechanism};
 use crate::solve::Equations;
 use crate::system::{Coordinate, Held, System, Work};
 
-/// A coordinate or frame that is kept at rest.
+/// A coordinate or frame whose rate is an input or an output.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Lock {
     /// A joint or a platform coordinate.
@@ -38,6 +38,17 @@ impl Lock {
             Lock::Coordinate(_) => 1,
             Lock::Frame(_) => 6,
             Lock::Point(_) => 3,
+        }
+    }
+
+    /// The frame on whose twist its rate depends; none for a joint.
+    pub fn frame(self) -> Option<Frame> {
+        match self {
+            Lock::Frame(frame) | Lock::Point(frame) => Some(frame),
+            Lock::Coordinate(Coordinate::Pose(platform, _) | Coordinate::Turn(platform, _)) => {
+                Some(Frame::Platform { platform })
+            }
+            Lock::Coordinate(Coordinate::Joint(_)) => None,
         }
     }
 
@@ -95,8 +106,7 @@ impl Locked {
         {
             to[..first].copy_from_slice(from);
         }
-        let mut placement = self.twists.placement();
-        self.twists.place(at, &mut placement);
+        let placement = self.twists.placed(at);
         let (mut row, mut frame) = (first, 0);
         let mut rates = vec![0.0; self.columns()];
         for lock in &self.locks {

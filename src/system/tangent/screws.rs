@@ -3,6 +3,7 @@
 use serde::{Deserialize, Serialize};
 
 use super::neighbourhood::Neighbourhood;
+use super::twists::Twist;
 use crate::geometry::Vector3;
 use crate::linear::{axis_aligned, norm, remove};
 use crate::mechanism::{Body, Configuration, Frame, Mechanism};
@@ -70,8 +71,7 @@ impl Neighbourhood<'_> {
         let mechanism = self.mechanism();
         let length = mechanism.characteristic_length();
         let frames = self.frames();
-        let mut placement = frames.placement();
-        frames.place(at, &mut placement);
+        let placement = frames.placed(at);
         let spaces = carriers(mechanism).into_iter().map(|(body, frame)| {
             let place = frames
                 .frames()
@@ -79,8 +79,9 @@ impl Neighbourhood<'_> {
                 .expect("every frame is planned");
             let origin = frames.origin(place, &placement);
             let at_ground = |omega: Vector3<f64>, velocity: Vector3<f64>| {
-                let velocity = (velocity - omega.cross(&origin)).times(1.0 / length);
-                [omega.0, velocity.0].concat()
+                Twist { omega, velocity }
+                    .at_ground(&origin, length)
+                    .to_vec()
             };
             let lines = spin_lines(
                 idle.iter()
