@@ -4,7 +4,7 @@ use std::ops::ControlFlow;
 
 use serde::{Deserialize, Serialize};
 
-use super::classify::{Classifier, Singularity};
+use super::classify::{Classifier, DIRECT, INVERSE, Singularity};
 use super::drops::Drops;
 use super::outputs::{Coupled, coupled, outputs_of};
 use super::{SingularitiesSettings, names, output_names};
@@ -298,9 +298,9 @@ impl Tests<'_> {
             true => (leg.to.clone().reversed(), leg.from.clone().reversed()),
             false => (leg.from.clone(), leg.to.clone()),
         };
-        let locked = [&mut self.classifier.direct, &mut self.classifier.inverse];
         let mut places = Vec::new();
-        for (locked, rank) in locked.into_iter().zip(ranks) {
+        for (k, rank) in [DIRECT, INVERSE].into_iter().zip(ranks) {
+            let locked = &mut self.classifier.matrices[k];
             let mut drops = Drops {
                 curve,
                 locked,

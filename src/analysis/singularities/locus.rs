@@ -128,7 +128,7 @@ pub fn loci(
 ) -> Result<LocusReport, usize> {
     let outputs = outputs_of(mechanism, held, &sides, inputs, settings);
     let mut classifier = Classifier::new(mechanism, inputs, &outputs, start);
-    let columns = classifier.direct.columns();
+    let columns = classifier.unknowns().len();
     let regular = classifier.regular_ranks();
     let spins = columns - regular[0];
     let idle = match spins {
@@ -140,12 +140,7 @@ pub fn loci(
         held.joints[joint] || inputs.iter().any(asked) || sides.iter().any(|s| asked(&s.coordinate))
     };
     let pinned = match idle.len() == spins {
-        true => pins(
-            mechanism,
-            classifier.direct.system().unknowns(),
-            idle,
-            taken,
-        ),
+        true => pins(mechanism, classifier.unknowns(), idle, taken),
         false => None,
     };
     let pinned = pinned.ok_or(spins)?;
