@@ -24,11 +24,11 @@ pub use projected::Shape;
 
 use serde::{Deserialize, Serialize};
 
-use crate::linear::RANK_TOLERANCE;
-use crate::mechanism::{Configuration, Mechanism, Variable};
+use crate::mechanism::{Mechanism, Variable};
 use crate::solve::{Continuation, Watch};
 use crate::system::{
-    Analysed, Closing, Coordinate, Lock, Question, QuestionError, WidestGap, check_angles,
+    Analysed, Closing, Coordinate, Lock, Question, QuestionError, WidestGap, check_angle,
+    check_angles,
 };
 use classify::Classifier;
 use outputs::{coupled, outputs_of};
@@ -94,10 +94,7 @@ fn names(mechanism: &Mechanism, inputs: &[Coordinate]) -> Vec<String> {
 }
 
 fn output_names(mechanism: &Mechanism, outputs: &[Lock]) -> Vec<String> {
-    outputs
-        .iter()
-        .map(|output| output.name(mechanism))
-        .collect()
+    (outputs.iter().map(|output| output.name(mechanism))).collect()
 }
 
 /// Tells whether and how the assembled configuration near the start of a question is singular.
@@ -125,7 +122,11 @@ pub fn singularities(
         check_angles(question, at)?;
     }
     let outputs = outputs_of(mechanism, &question.held(), &[], &inputs, settings);
-    check_outputs(mechanism, &outputs, at)?;
+    for output in &outputs {
+        if let Lock::Coordinate(coordinate) = *output {
+            check_angle(mechanism, at, coordinate)?;
+        }
+    }
     let mut classifier = Classifier::new(mechanism, &inputs, &outputs, at);
     Ok(Analysed::Closed(SingularitiesReport {
         mechanism: mechanism.name().to_owned(),
@@ -140,25 +141,4 @@ pub fn singularities(
         given_gap: closed.given.filter(|gap| gap.size(mechanism) > 1e-9),
         kept: closed.kept,
     }))
-}
-
-/// Angles of a platform pitched by ±90° do not tell its motion.
-fn check_outputs(
-    mechanism: &Mechanism,
-    outputs: &[Lock],
-    at: &Configuration<f64>,
-) -> Result<(), QuestionError> {
-    for output in outputs {
-        let Lock::Coordinate(coordinate @ Coordinate::Pose(platform, _)) = *output else {
-            continue;
-        };
-        let pose = at.platforms[platform].pose();
-        let slope = coordinate.slope(&pose, mechanism.characteristic_length());
-        if !slope.iter().all(|x| x.abs() < 1.0 / RANK_TOLERANCE) {
-            return Err(QuestionError::AnglesLocked {
-                platform: mechanism.platforms()[platform].name.clone(),
-            });
-        }
-    }
-    Ok(())
 }

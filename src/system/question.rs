@@ -7,7 +7,7 @@ mod load;
 mod outputs;
 mod value;
 
-pub use count::{Count, check_angles, check_count};
+pub use count::{Count, check_angle, check_angles, check_count};
 pub use demand::{Demand, Verb};
 pub use drive::{Drive, DriveError};
 pub use error::QuestionError;
@@ -208,9 +208,8 @@ impl<'a> Question<'a> {
 
     /// The coordinates of a platform that are held, with their values in m or rad.
     pub fn held_values(&self, platform: usize) -> Vec<(PoseCoordinate, f64)> {
-        let given = PoseCoordinate::ALL
-            .into_iter()
-            .zip(&self.coordinates[platform]);
+        let given = PoseCoordinate::ALL.into_iter();
+        let given = given.zip(&self.coordinates[platform]);
         given
             .filter_map(|(c, value)| Some((c, (*value)?)))
             .collect()
@@ -262,11 +261,10 @@ impl<'a> Question<'a> {
     /// Where the search starts: guesses, held values and for the rest the home configuration.
     pub fn start(&self) -> Configuration<f64> {
         let mut start = self.start.clone();
-        for (platform, values) in start.platforms.iter_mut().zip(&self.coordinates) {
-            let given = PoseCoordinate::ALL.into_iter().zip(values);
-            let given = given.filter_map(|(coordinate, value)| Some((coordinate, (*value)?)));
-            if values.iter().any(Option::is_some) {
-                *platform = PlatformPose::from_pose(&with_coordinates(&platform.pose(), given));
+        for (platform, pose) in start.platforms.iter_mut().enumerate() {
+            let given = self.held_values(platform);
+            if !given.is_empty() {
+                *pose = PlatformPose::from_pose(&with_coordinates(&pose.pose(), given));
             }
         }
         start
@@ -346,17 +344,11 @@ impl<'a> Question<'a> {
         {
             return Ok(Target::Coordinate(platform, coordinate));
         }
-        let joints = self
-            .mechanism
-            .joints()
-            .iter()
-            .map(|joint| joint.name.clone());
-        let platforms = self.mechanism.platforms().iter().flat_map(|platform| {
-            let coordinates =
-                PoseCoordinate::ALL.map(|c| format!("{}.{}", platform.name, c.name()));
-            [platform.name.clone()].into_iter().chain(coordinates)
-        });
-        let known: Vec<String> = joints.chain(platforms).collect();
+        let platforms = self.mechanism.platforms().iter();
+        let coordinates = Coordinate::all(self.mechanism).map(|of| of.name(self.mechanism));
+        let known: Vec<String> = coordinates
+            .chain(platforms.map(|platform| platform.name.clone()))
+            .collect();
         Err(QuestionError::UnknownName {
             name: name.into(),
             suggestion: nearest(name, known.iter().map(String::as_str)).map(str::to_owned),

@@ -225,22 +225,13 @@ impl Drive {
         if let Some(place) = held.iter().position(|held| held == name) {
             return Ok(self.coordinates[place]);
         }
-        let joints = (0..mechanism.joints().len()).map(Coordinate::Joint);
-        let platforms = 0..mechanism.platforms().len();
-        let coordinates = platforms.clone().flat_map(|platform| {
-            let all = PoseCoordinate::ALL;
-            all.map(|c| Coordinate::Pose(platform, c))
-        });
-        let turns = platforms.flat_map(|platform| {
+        let turns = (0..mechanism.platforms().len()).flat_map(|platform| {
             [Axis::X, Axis::Y, Axis::Z].map(|axis| Coordinate::Turn(platform, axis))
         });
-        let all: Vec<Coordinate> = joints.chain(coordinates).chain(turns).collect();
+        let all: Vec<Coordinate> = Coordinate::all(mechanism).chain(turns).collect();
         let known: Vec<String> = all.iter().map(named).collect();
         if let Some(platform) = mechanism.platform(name) {
-            let of_it = |c: &&Coordinate| match **c {
-                Coordinate::Pose(of, _) | Coordinate::Turn(of, _) => of == platform,
-                Coordinate::Joint(_) => false,
-            };
+            let of_it = |c: &&Coordinate| c.platform() == Some(platform);
             return Err(DriveError::Whole {
                 platform: name.into(),
                 held: (self.coordinates.iter().filter(of_it)).map(named).collect(),

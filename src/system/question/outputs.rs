@@ -108,11 +108,9 @@ pub fn platform_outputs(
         }
         let turned = all.iter().filter(|c| c.is_angle()).count() == 3;
         outputs.extend(all.into_iter().map(|c| {
-            Lock::Coordinate(match c {
-                PoseCoordinate::Roll if turned => Coordinate::Turn(platform, Axis::X),
-                PoseCoordinate::Pitch if turned => Coordinate::Turn(platform, Axis::Y),
-                PoseCoordinate::Yaw if turned => Coordinate::Turn(platform, Axis::Z),
-                c => Coordinate::Pose(platform, c),
+            Lock::Coordinate(match turned {
+                true => Coordinate::turn_for(platform, c),
+                false => Coordinate::Pose(platform, c),
             })
         }));
     }
@@ -129,10 +127,7 @@ pub fn free_outputs(mechanism: &Mechanism, held: &[Coordinate], spinning: &[usiz
     let mut outputs = Vec::new();
     for platform in 0..mechanism.platforms().len() {
         let is_held = |c: &PoseCoordinate| held.contains(&Coordinate::Pose(platform, *c));
-        let of_it = |holdable: &Coordinate| match holdable {
-            Coordinate::Pose(of, _) | Coordinate::Turn(of, _) => *of == platform,
-            Coordinate::Joint(_) => false,
-        };
+        let of_it = |held: &Coordinate| held.platform() == Some(platform);
         if !held.iter().any(of_it) {
             outputs.push(Lock::Frame(Frame::Platform { platform }));
         } else if held.iter().filter(|held| of_it(held)).count() < 6 {
