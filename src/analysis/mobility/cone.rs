@@ -2,7 +2,7 @@
 
 use rand::Rng;
 
-use crate::linear::{dot, norm, orthonormal};
+use crate::linear::{add, dot, norm, orthonormal};
 use crate::system::{Neighbourhood, Tangent};
 
 /// The quadratic tangent cone: the motions ξ = Σ vᵢ mᵢ with wₖᵀ H(ξ, ξ) = 0 for all wₖ with
@@ -157,10 +157,7 @@ pub(super) fn combination(basis: &[Vec<f64>], rng: &mut impl Rng) -> Vec<f64> {
         direction.fill(0.0);
         for motion in basis {
             let weight = 2.0 * rng.random::<f64>() - 1.0;
-            direction
-                .iter_mut()
-                .zip(motion)
-                .for_each(|(d, m)| *d += weight * m);
+            add(&mut direction, weight, motion);
         }
     }
     let length = norm(&direction);

@@ -4,7 +4,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::description::ClosureKind;
 use crate::geometry::Vector3;
-use crate::linear::{axis_aligned, complement, orthonormal};
+use crate::linear::{add, axis_aligned, complement, orthonormal};
 use crate::system::{Neighbourhood, Tangent};
 
 /// The equations of a closure that follow from those of the closures before it in the file and from
@@ -68,9 +68,7 @@ pub(super) fn find(near: &mut Neighbourhood, tangent: &Tangent) -> Vec<Redundanc
                 let mut sum = [0.0; 6];
                 for (weight, part) in weights.iter().zip(&parts) {
                     for (row, factor) in wrenches.rows.iter().zip(part) {
-                        sum.iter_mut()
-                            .zip(row)
-                            .for_each(|(s, r)| *s += weight * factor * r);
+                        add(&mut sum, weight * factor, row);
                     }
                 }
                 let (moment, force) = (turn(&sum[..3]), turn(&sum[3..]));
@@ -93,9 +91,7 @@ pub(super) fn find(near: &mut Neighbourhood, tangent: &Tangent) -> Vec<Redundanc
             .map(|weights| {
                 let mut sum = vec![0.0; dependencies[0].len()];
                 for (weight, dependency) in weights.iter().zip(&dependencies) {
-                    sum.iter_mut()
-                        .zip(dependency)
-                        .for_each(|(s, d)| *s += weight * d);
+                    add(&mut sum, *weight, dependency);
                 }
                 sum
             })
