@@ -5,7 +5,6 @@
 //! zero beyond what they do at a configuration nearby that is not special is what is gained or lost.
 
 mod along;
-mod arrival;
 mod classify;
 mod drops;
 mod extents;

@@ -233,6 +233,19 @@ struct Met {
     end: Option<Event>,
 }
 
+impl Met {
+    fn at(place: At) -> Self {
+        Met {
+            place,
+            along: 0.0,
+            fold: false,
+            branches: false,
+            vanishes: false,
+            end: None,
+        }
+    }
+}
+
 /// Places this near are the same.
 const SAME: f64 = 1e-7;
 
@@ -257,12 +270,10 @@ impl Tests<'_> {
             );
             if ends || fold || branches {
                 found.push(Met {
-                    place: place.clone(),
-                    along: 0.0,
                     fold,
                     branches,
-                    vanishes: false,
                     end: ends.then(|| event.clone()),
+                    ..Met::at(place.clone())
                 });
             }
         }
@@ -273,12 +284,8 @@ impl Tests<'_> {
             match found.iter_mut().find(near) {
                 Some(met) => met.vanishes = true,
                 None => found.push(Met {
-                    place,
-                    along: 0.0,
-                    fold: false,
-                    branches: false,
                     vanishes: true,
-                    end: None,
+                    ..Met::at(place)
                 }),
             }
         }
