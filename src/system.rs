@@ -33,6 +33,6 @@ pub use search::{
 };
 pub use tangent::{
     FiniteStep, FrameMotion, FrameMotions, FrameTwists, Freedoms, Lock, Locked, LoopPart,
-    MechanismLoop, Mobility, Motion, Neighbourhood, Screw, Tangent, Twist, TwistSpace, loops,
-    moving, spin_lines, without, wrench_screws,
+    MechanismLoop, Mobility, Motion, Neighbourhood, STILL, Screw, Tangent, Twist, TwistSpace,
+    loops, moving, spin_lines, without, wrench_screws,
 };

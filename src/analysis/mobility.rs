@@ -18,8 +18,8 @@ use crate::linear::axis_aligned;
 use crate::mechanism::{ClosureKind, Mechanism, Variable};
 use crate::solve::{Newton, Stage, Watch};
 use crate::system::{
-    Analysed, Closing, Named, Neighbourhood, Question, Tangent, TwistSpace, Unknown, WidestGap,
-    random_configuration,
+    Analysed, Closing, Named, Neighbourhood, Question, STILL, Tangent, TwistSpace, Unknown,
+    WidestGap, random_configuration,
 };
 
 pub use loops::LoopCount;
@@ -226,7 +226,7 @@ pub fn mobility(
         let unknowns = near.system().unknowns().iter().zip(moved);
         unknowns
             .filter_map(|(unknown, &moved)| match *unknown {
-                Unknown::Joint(joint) if moved => Some(mechanism.joints()[joint].name.clone()),
+                Unknown::Joint(_) if moved => Some(unknown.owner(mechanism).to_owned()),
                 _ => None,
             })
             .collect()
@@ -266,10 +266,9 @@ pub fn mobility(
         branch_count: found.count,
         branches_complete: found.complete,
         elsewhere: Vec::new(),
-        elsewhere_starts: if unknowns > ELSEWHERE_LIMIT {
-            0
-        } else {
-            settings.elsewhere
+        elsewhere_starts: match unknowns > ELSEWHERE_LIMIT {
+            true => 0,
+            false => settings.elsewhere,
         },
         unknowns,
         equations: rows,
@@ -340,19 +339,16 @@ fn idle_freedoms(
     unknowns: &[Unknown],
     tangent: &Tangent,
 ) -> Vec<LocalFreedom> {
-    /// Below this a component of a unit motion is rounding.
-    const ROUNDING: f64 = 1e-6;
     let spins = axis_aligned(&tangent.idle);
     let link = |motion: &Vec<f64>| {
         let (mut platforms, mut joints): (Vec<String>, Vec<String>) = (vec![], vec![]);
-        let turning = (unknowns.iter().zip(motion)).filter(|(_, rate)| rate.abs() > ROUNDING);
+        let turning = (unknowns.iter().zip(motion)).filter(|(_, rate)| rate.abs() > STILL);
         for (unknown, _) in turning {
-            match *unknown {
-                Unknown::Joint(joint) => joints.push(mechanism.joints()[joint].name.clone()),
-                Unknown::Twist { platform, .. } => {
-                    platforms.push(mechanism.platforms()[platform].name.clone());
-                }
-            }
+            let names = match unknown {
+                Unknown::Joint(_) => &mut joints,
+                Unknown::Twist { .. } => &mut platforms,
+            };
+            names.push(unknown.owner(mechanism).to_owned());
         }
         platforms.dedup();
         match platforms.is_empty() {

@@ -62,16 +62,10 @@ impl Question {
                 Wrench::Numbers(force, moment) => load.forces(&question, frame, (*force, *moment)),
                 Wrench::Text(text) => load.wrench(&question, frame, text),
             };
-            load = loaded.map_err(|error| AskError::Load {
-                item: Role::Wrench.item(index),
-                error: Box::new(error),
-            })?;
+            load = loaded.map_err(Role::Wrench.loaded(index))?;
         }
         for (index, (joint, value)) in self.loads.iter().enumerate() {
-            load = (load.joint(&question, joint, value)).map_err(|error| AskError::Load {
-                item: Role::Load.item(index),
-                error: Box::new(error),
-            })?;
+            load = (load.joint(&question, joint, value)).map_err(Role::Load.loaded(index))?;
         }
         let settings = StaticsSettings::default();
         statics(&question, &load, &settings, watch).map_err(AskError::Question)
@@ -98,17 +92,11 @@ impl Question {
     fn drive(&self, question: &system::Question) -> Result<Drive, AskError> {
         let mut drive = Drive::still(question);
         for (index, (name, value)) in self.rates.iter().enumerate() {
-            drive = (drive.rate(question, name, value)).map_err(|error| AskError::Drive {
-                item: Role::Rate.item(index),
-                error: Box::new(error),
-            })?;
+            drive = (drive.rate(question, name, value)).map_err(Role::Rate.driven(index))?;
         }
         for (index, (name, value)) in self.accelerations.iter().enumerate() {
             let driven = drive.acceleration(question, name, value);
-            drive = driven.map_err(|error| AskError::Drive {
-                item: Role::Acceleration.item(index),
-                error: Box::new(error),
-            })?;
+            drive = driven.map_err(Role::Acceleration.driven(index))?;
         }
         Ok(drive)
     }

@@ -50,6 +50,22 @@ impl Role {
         Item { role: self, index }
     }
 
+    /// The error for the rate or acceleration of this index.
+    pub(super) fn driven(self, index: usize) -> impl Fn(DriveError) -> AskError {
+        move |error| AskError::Drive {
+            item: self.item(index),
+            error: Box::new(error),
+        }
+    }
+
+    /// The error for the wrench or load of this index.
+    pub(super) fn loaded(self, index: usize) -> impl Fn(ForceError) -> AskError {
+        move |error| AskError::Load {
+            item: self.item(index),
+            error: Box::new(error),
+        }
+    }
+
     /// The error for the part of this index.
     pub(super) fn named(self, index: usize) -> impl Fn(QuestionError) -> AskError {
         move |error| AskError::Named {

@@ -7,7 +7,7 @@ use serde::{Deserialize, Serialize};
 use crate::linear::{Decomposition, orthonormal, remove};
 use crate::mechanism::{Configuration, Mechanism};
 use crate::system::{
-    Coordinate, Lock, Locked, Mobility, Neighbourhood, Screw, TwistSpace, Unknown,
+    Coordinate, Lock, Locked, Mobility, Neighbourhood, STILL, Screw, TwistSpace, Unknown,
 };
 
 /// The types of D. Zlatanov, R. G. Fenton and B. Benhabib 1994.
@@ -260,8 +260,6 @@ impl<'m> Classifier<'m> {
         mut motions: Vec<Vec<f64>>,
         without: &[Vec<f64>],
     ) -> Movement {
-        /// Below this a component of a unit motion is rounding.
-        const ROUNDING: f64 = 1e-6;
         (motions.iter_mut()).for_each(|motion| remove(motion, without));
         let mut motions = orthonormal(&motions, 1e-3);
         let mechanism = self.near.mechanism();
@@ -278,7 +276,7 @@ impl<'m> Classifier<'m> {
             let Unknown::Joint(joint) = *unknown else {
                 return None;
             };
-            let moves = motions.iter().any(|motion| motion[i].abs() > ROUNDING);
+            let moves = motions.iter().any(|motion| motion[i].abs() > STILL);
             moves.then(|| Moving {
                 joint: mechanism.joints()[joint].name.clone(),
                 rate: match &motions[..] {

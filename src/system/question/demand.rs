@@ -1,6 +1,6 @@
 //! What a question was asked by name, and which demands contradict one another.
 
-use crate::mechanism::PoseCoordinate;
+use crate::system::Coordinate;
 
 /// What is asked by name of one joint, coordinate or platform.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -27,10 +27,8 @@ pub enum Verb {
 /// What the name in a demand stands for.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum Target {
-    /// The joint of that index.
-    Joint(usize),
-    /// A coordinate of the platform of that index.
-    Coordinate(usize, PoseCoordinate),
+    /// A joint or a coordinate of a platform.
+    Coordinate(Coordinate),
     /// The whole pose of the platform of that index.
     Pose(usize),
 }
@@ -38,9 +36,9 @@ pub(crate) enum Target {
 impl Target {
     /// Whether both are the same, or one is part of the other.
     pub(crate) fn meets(self, other: Target) -> bool {
-        use Target::{Coordinate, Pose};
         match (self, other) {
-            (Pose(a), Pose(b) | Coordinate(b, _)) | (Coordinate(a, _), Pose(b)) => a == b,
+            (Target::Pose(whole), Target::Coordinate(part))
+            | (Target::Coordinate(part), Target::Pose(whole)) => part.platform() == Some(whole),
             _ => self == other,
         }
     }

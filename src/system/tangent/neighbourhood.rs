@@ -2,6 +2,7 @@
 
 mod follow;
 
+use super::STILL;
 use super::twists::FrameTwists;
 use crate::description::{ClosureKind, Role};
 use crate::linear::{Decomposition, complement, dot, orthonormal, rank_of};
@@ -10,9 +11,6 @@ use crate::solve::{Equations, Newton, Stop};
 use crate::system::{ClosureWrenches, Held, System, Unknown, Work};
 
 pub use follow::FiniteStep;
-
-/// Rates of motions of unit norm below this are rounding.
-const ROUNDING: f64 = 1e-6;
 
 /// A mechanism with nothing held, or with the held coordinates of a question, near assembled
 /// configurations.
@@ -87,7 +85,7 @@ impl<'a> Neighbourhood<'a> {
         };
         let idle = match split.singular_values().first() {
             // everything is rounding compared with motions of unit norm
-            Some(&largest) if largest < ROUNDING => complement(&[], all.len()),
+            Some(&largest) if largest < STILL => complement(&[], all.len()),
             _ => split.null_space(),
         };
         let motions = complement(&idle, all.len());
@@ -137,7 +135,7 @@ impl<'a> Neighbourhood<'a> {
     /// Whether motions are idle: links turn about their own lines and nothing else moves.
     pub fn are_local(&self, at: &Configuration<f64>, motions: &[Vec<f64>]) -> bool {
         let felt = self.felt(at, motions);
-        felt.iter().all(|rate| rate.abs() < ROUNDING)
+        felt.iter().all(|rate| rate.abs() < STILL)
     }
 
     /// For each motion a column of all that idle freedoms leave at rest: origins of frames,
@@ -209,7 +207,7 @@ impl Tangent {
                 let all = motion.iter().zip(own);
                 all.map(|(x, own)| if *own { *x } else { 0.0 }).collect()
             };
-            orthonormal(&motions.iter().map(part).collect::<Vec<_>>(), 1e-6)
+            orthonormal(&motions.iter().map(part).collect::<Vec<_>>(), STILL)
         };
         Tangent {
             motions: parts(&self.motions),

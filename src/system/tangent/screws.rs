@@ -2,6 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
+use super::STILL;
 use super::neighbourhood::Neighbourhood;
 use super::twists::Twist;
 use crate::geometry::Vector3;
@@ -106,10 +107,8 @@ impl Neighbourhood<'_> {
 
 /// Orthonormal directions of the lines about which a frame spins at the given angular velocities.
 pub fn spin_lines(omegas: impl Iterator<Item = Vector3<f64>>) -> Vec<Vector3<f64>> {
-    /// Beside idle motions of unit norm this is rounding.
-    const ROUNDING: f64 = 1e-6;
     let omegas: Vec<Vec<f64>> = omegas.map(|omega| omega.0.to_vec()).collect();
-    let lines = crate::linear::orthonormal(&omegas, ROUNDING).into_iter();
+    let lines = crate::linear::orthonormal(&omegas, STILL).into_iter();
     lines.map(|w| Vector3([w[0], w[1], w[2]])).collect()
 }
 
