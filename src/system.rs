@@ -23,8 +23,8 @@ pub use equations::{
 };
 pub use question::{
     Count, Demand, Drive, DriveError, ForceError, Load, Question, QuestionError, Value, ValueError,
-    Verb, actuated, check_angle, check_angles, check_count, default_outputs, free_outputs,
-    inputs_of, number_of, platform_outputs, with_coordinates,
+    Verb, actuated, check_angle, check_angles, check_count, coordinate_outputs, default_outputs,
+    free_outputs, inputs_of, number_of, platform_outputs, with_coordinates,
 };
 pub use record::{FormulaNames, FrameRecord, Named, PlatformRecord, infinite_if_null};
 pub use search::{

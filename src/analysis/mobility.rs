@@ -63,19 +63,19 @@ pub struct MobilityReport {
     pub mechanism: String,
     /// The joint variables with their units, in the order of the file.
     pub variables: Vec<Variable>,
-    /// Finite freedoms at the configuration, without idle ones: the largest dimension of a branch.
+    /// Finite freedoms at the configuration without local ones: the largest dimension of a branch.
     pub mobility: usize,
     /// Kutzbach's count: joint variables and 6 for each platform less closure equations.
     pub kutzbach: i64,
     /// Rank of the closure Jacobian with nothing held.
     pub rank: usize,
-    /// Infinitesimal freedoms, without idle ones.
+    /// Infinitesimal freedoms without local ones.
     pub infinitesimal: usize,
     /// Closure equations that depend on the others.
     pub redundant: usize,
-    /// Joints that stand still in every finite motion, or move in idle freedoms only.
+    /// Joints that stand still in every finite motion, or move in local freedoms only.
     pub idle_joints: Vec<String>,
-    /// Those of the idle joints that spin a link about its own line.
+    /// Those of the idle joints that spin a link about its own axis.
     pub spinning_joints: Vec<String>,
     /// Joints that move.
     pub moving_joints: Vec<String>,
@@ -83,8 +83,7 @@ pub struct MobilityReport {
     pub joints: Named<f64>,
     /// What kind of point of the configuration space this is.
     pub character: Character,
-    /// The branches through the configuration, if more than the one regular motion; of very many
-    /// the first.
+    /// The branches through a singular configuration, the first of very many.
     pub branches: Vec<BranchReport>,
     /// How many there are, found by steps in many directions.
     pub branch_count: usize,
@@ -98,7 +97,7 @@ pub struct MobilityReport {
     pub unknowns: usize,
     /// Closure equations.
     pub equations: usize,
-    /// Freedoms that only turn a link about its own line.
+    /// Local (passive) freedoms: a link turns about its own axis and nothing else moves.
     pub idle_freedoms: Vec<LocalFreedom>,
     /// Kutzbach's count loop by loop.
     pub loops: Vec<LoopCount>,
@@ -106,8 +105,7 @@ pub struct MobilityReport {
     pub redundancies: Vec<Redundancy>,
     /// Infinitesimal motions of the platforms, or of the links at the closures if there are none.
     pub twists: Vec<TwistSpace>,
-    /// Ratio of the largest to the smallest singular value that counts, of the dimensionless
-    /// Jacobian.
+    /// Condition number of the dimensionless Jacobian over its rank.
     pub condition: f64,
     /// About how far a singular configuration is where a regular one is nearer to it than the
     /// length of a step, in rad and normalising lengths: to first order, along the motions.
@@ -148,7 +146,7 @@ pub enum Character {
     Kinematotropic,
 }
 
-/// A freedom that only turns a link about its own line.
+/// A local (passive) freedom: a link turns about its own axis and nothing else moves.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum LocalFreedom {
@@ -292,8 +290,7 @@ pub fn mobility(
     Analysed::Closed(report)
 }
 
-/// Beyond so many unknowns no assemblies of another mobility are sought: each start would take long
-/// and hardly one would close.
+/// Unknowns beyond which no assemblies of another mobility are sought: hardly a start would close.
 const ELSEWHERE_LIMIT: usize = 100;
 
 /// Regular assemblies of another mobility than `here`, one for each.
@@ -333,7 +330,7 @@ fn elsewhere(
     found
 }
 
-/// The idle freedoms of the model, then one for each rod between two balls.
+/// The local freedoms of the model, then one for each rod between two balls.
 fn idle_freedoms(
     mechanism: &Mechanism,
     unknowns: &[Unknown],

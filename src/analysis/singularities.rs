@@ -42,8 +42,7 @@ pub struct SingularitiesSettings {
     pub outputs: Vec<Lock>,
     /// Whether a motion along inputs goes round folds and straight through crossings.
     pub follow: bool,
-    /// Random starts from which loci are sought; up to ten times as many while some curve was met
-    /// only once, or hardly any start arrives.
+    /// Random starts for loci; up to ten times as many while new curves are likely.
     pub starts: usize,
     /// How carefully curves are followed.
     pub continuation: Continuation,
@@ -61,7 +60,7 @@ impl Default for SingularitiesSettings {
     }
 }
 
-/// What is special about an assembled configuration.
+/// Whether and how an assembled configuration is singular.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct SingularitiesReport {
     /// The mechanism's name.

@@ -12,7 +12,9 @@ pub use demand::{Demand, Verb};
 pub use drive::{Drive, DriveError};
 pub use error::QuestionError;
 pub use load::{ForceError, Load};
-pub use outputs::{actuated, default_outputs, free_outputs, inputs_of, platform_outputs};
+pub use outputs::{
+    actuated, coordinate_outputs, default_outputs, free_outputs, inputs_of, platform_outputs,
+};
 pub use value::{Value, ValueError, number as number_of};
 
 use super::equations::System;

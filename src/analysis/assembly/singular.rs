@@ -1,4 +1,4 @@
-//! Who is to blame for a singular configuration.
+//! What makes a configuration singular for the held inputs.
 
 use super::Outcome;
 use crate::linear::Spectrum;

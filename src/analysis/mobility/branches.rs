@@ -206,8 +206,7 @@ fn singular(
     (settings, watch): (&MobilitySettings, &Watch),
     rng: &mut impl Rng,
 ) -> Part {
-    /// Steps per infinitesimal freedom and [`MobilitySettings::branch_trials`] after which no more
-    /// branches are sought.
+    /// Most steps, per infinitesimal freedom and [`MobilitySettings::branch_trials`].
     const LONGEST: usize = 12;
     let n = tangent.motions.len();
     let cone = Cone::of(near, tangent);
@@ -271,7 +270,7 @@ fn singular(
     let (branches, share) = branches(&cone, n, &walk.seen, &limits);
     Part {
         regular: false,
-        // a function of one variable that does not vanish on the way has no zero there
+        // a function of one variable that vanishes nowhere nearby has no zero there
         complete: share >= 1.0 || (n == 1 && branches.is_empty() && !watch.is_stopped()),
         branches,
     }

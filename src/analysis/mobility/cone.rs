@@ -85,8 +85,7 @@ impl Cone {
         self.forms.is_empty()
     }
 
-    /// A direction on the cone, by Gauss–Newton steps from a random one; `None` if they do not
-    /// settle.
+    /// A direction on the cone, by Gauss–Newton steps from a random one, if they converge.
     pub fn direction(&self, motions: &[Vec<f64>], rng: &mut impl Rng) -> Option<Vec<f64>> {
         const STEPS: usize = 40;
         /// Double solutions are neared linearly only: what is left is left to the finite step.

@@ -7,8 +7,7 @@ use crate::geometry::Vector3;
 use crate::linear::{add, axis_aligned, complement, orthonormal};
 use crate::system::{Neighbourhood, Tangent};
 
-/// The equations of a closure that follow from those of the closures before it in the file and from
-/// one another.
+/// Equations of a closure that follow from those of earlier closures and from one another.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Redundancy {
     /// The closure.
@@ -17,8 +16,7 @@ pub struct Redundancy {
     pub equations: usize,
     /// All the equations it has.
     pub of: usize,
-    /// A basis of the wrenches they resist, in the closure's first frame at the closure's point:
-    /// along axes as far as possible.
+    /// A basis of the wrenches they resist, at the closure's point in its first frame.
     pub wrenches: Vec<Wrench>,
     /// The closure is a rod between two balls.
     pub rod: bool,

@@ -1,4 +1,4 @@
-//! Every singularity on the way of the inputs along a segment.
+//! Singularities met by a motion of the inputs along a segment.
 
 use std::ops::ControlFlow;
 
@@ -104,12 +104,9 @@ pub enum AlongEnd {
     Stopped,
 }
 
-/// Moves the inputs from `start`, assembled where their segment begins, to its end, and locates every
-/// singularity on the way to rounding.
+/// Moves the inputs along their segment from `start` and locates every singularity to rounding.
 ///
-/// `held` holds what stands still, none of what is moved; `inputs` are those that singularities are
-/// told of. Where the direct or inverse matrix loses rank along the curve, one or several ranks at
-/// once, the place is found to rounding, and what vanishes there is classified.
+/// `held` holds what stands still, none of what is moved; singularities refer to `inputs`.
 pub fn along(
     mechanism: &Mechanism,
     held: &Held<f64>,
@@ -218,7 +215,7 @@ pub fn along(
     report
 }
 
-/// Into how many parts the segment is divided to tell how far the motion is.
+/// Parts of the segment in reports of progress.
 const PARTS: u16 = 1000;
 
 /// Something on a leg.

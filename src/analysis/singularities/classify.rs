@@ -36,8 +36,7 @@ pub enum Zlatanov {
 /// What is singular about a configuration; nothing may be.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Singularity {
-    /// The type of C. Gosselin and J. Angeles 1990: 1 inverse, 2 direct, 3 both; `None` if neither
-    /// Jacobian loses rank.
+    /// The type of Gosselin and Angeles 1990: 1 inverse, 2 direct, 3 both; `None` if neither.
     pub gosselin_angeles: Option<u8>,
     /// The types of Zlatanov, Fenton and Benhabib.
     pub zlatanov: Vec<Zlatanov>,
@@ -47,16 +46,16 @@ pub struct Singularity {
     pub loss: usize,
     /// Infinitesimal freedoms with nothing held, beyond those of configurations nearby.
     pub more_mobility: usize,
-    /// What moves while the inputs stand still.
+    /// Motions with the inputs at rest.
     pub gained: Option<Movement>,
-    /// What moves while the outputs stand still.
+    /// Motions with the outputs at rest.
     pub idle_inputs: Option<Movement>,
-    /// What outputs that lost freedoms resist whatever the inputs do, where that is determined.
+    /// Wrenches that outputs resist in the freedoms they lost, whatever the inputs do.
     pub resisted: Vec<Resisted>,
     /// How far the nearest singularity is.
     pub distances: Distances,
-    /// Whether a configuration nearby was found to compare with; if not, what is singular everywhere
-    /// cannot be told from what is singular here only.
+    /// Whether a regular configuration nearby was found. Without it, ranks that are lost everywhere are
+    /// not told from those lost here only.
     pub compared: bool,
 }
 
@@ -81,7 +80,7 @@ pub struct Moving {
     pub rate: Option<f64>,
 }
 
-/// Wrenches that an output takes without help of the inputs.
+/// Wrenches that an output resists without actuation.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Resisted {
     /// The output; the platform, where outputs are coordinates of one.
@@ -130,7 +129,7 @@ pub(super) struct Classifier<'m> {
 }
 
 impl<'m> Classifier<'m> {
-    /// Compares with configurations beside the one given.
+    /// Ranks are compared with those at a regular configuration nearby.
     pub fn new(
         mechanism: &'m Mechanism,
         inputs: &[Coordinate],

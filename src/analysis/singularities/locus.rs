@@ -1,4 +1,4 @@
-//! Singularities in two inputs: loci as curves.
+//! Singularity loci in a box of two coordinates.
 
 use serde::{Deserialize, Serialize};
 
@@ -31,14 +31,12 @@ pub struct LocusReport {
     pub outputs: Vec<String>,
     /// Outputs that may hide what their positions lose.
     pub coupled: Vec<Coupled>,
-    /// Passive joints of links that spin about their own lines, which stood still: what their values
-    /// are changes nothing else.
+    /// Passive joints held to suppress the spin of links about their own axes.
     pub pinned: Vec<String>,
     /// The box.
     pub bounds: [Bound; 2],
-    /// The loci, those of direct singularities first, sorted by where they begin. Curves of
-    /// configurations that look alike in the box, such as those with a leg folded the other way, are
-    /// one.
+    /// The loci, direct ones first, sorted by their beginnings. Curves of configurations that coincide in
+    /// the box, as with a leg folded the other way, are one.
     pub loci: Vec<Locus>,
     /// Random starts that were made, direct and inverse.
     pub starts: [usize; 2],
@@ -85,13 +83,11 @@ pub struct Locus {
     pub closed: bool,
     /// How its first and its last configuration end it; the same if it closes.
     pub ends: [LocusEnd; 2],
-    /// The lowest and the highest value of each of the two coordinates on it, rad or m: located as
-    /// such, not taken from its points.
+    /// Least and greatest value of the two coordinates on it, rad or m, located to rounding.
     pub extents: [[f64; 2]; 2],
     /// Its points: the two coordinates, rad or m; one if it is a point.
     pub points: Vec<[f64; 2]>,
-    /// The joints at its points on one of its curves of configurations, rad or m, in the order of
-    /// the file.
+    /// The joints at its points, rad or m, in the order of the file.
     pub joints: Vec<Vec<f64>>,
     /// Positions (m) and quaternions (w, x, y, z) of the platforms at its points.
     pub poses: Vec<Vec<[f64; 7]>>,
@@ -229,7 +225,7 @@ impl Search<'_> {
                 self.classifier.at(&middle.at.at)
             })
             .collect();
-        // a joint that stands still may not determine the spin of its link everywhere
+        // a held joint may not fix the spin of its link everywhere
         let (known, kinds): (Vec<_>, Vec<Singularity>) = (found.known.into_iter().zip(kinds))
             .filter(|(_, singularity)| self.spins == 0 || kind.is_of(singularity))
             .unzip();

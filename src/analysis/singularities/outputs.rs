@@ -32,15 +32,15 @@ pub(super) fn outputs_of(
 pub struct Coupled {
     /// The frame.
     pub output: String,
-    /// Its freedoms where nothing is special.
+    /// Its freedoms at a regular configuration.
     pub freedoms: usize,
     /// As many of its coordinates that are independent, if it is a platform.
     pub coordinates: Vec<String>,
-    /// Freedoms that its origin alone loses, where a configuration is told of.
+    /// Freedoms that its origin alone loses at the configuration, if there is one.
     pub origin_loses: Option<usize>,
 }
 
-/// The outputs that are coupled, where they were not chosen; `here` tells what their origins lose.
+/// The coupled outputs, unless outputs were chosen; `here` asks what their origins lose.
 pub(super) fn coupled(
     mechanism: &Mechanism,
     inputs: &[Coordinate],

@@ -120,7 +120,7 @@ impl Search<'_> {
         found
     }
 
-    /// Begins where loci of the other kind cross, if it is singular in this way too.
+    /// Starts where loci of the other kind cross, if the configuration is singular of this kind too.
     pub fn at_crossing(&mut self, found: &mut Found, at: &Configuration<f64>) {
         if !found.kind.is_of(&self.classifier.at(at)) {
             return;
@@ -225,7 +225,7 @@ impl Search<'_> {
         self.region.mechanism.turn_to_limits(&mut at.joints);
     }
 
-    /// Whether a configuration lies in the box or a little beside it.
+    /// Whether a configuration lies in the box or near it.
     fn near_box(&self, at: &Configuration<f64>) -> bool {
         /// Part of the box.
         const BESIDE: f64 = 0.1;

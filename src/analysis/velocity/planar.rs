@@ -32,7 +32,7 @@ pub struct Transmission {
     pub pressure_angle: f64,
 }
 
-/// The point about which a body turns beside another, at the instant.
+/// The instant centre of the motion of a body relative to another.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct InstantCentre {
     /// The two bodies.
@@ -46,7 +46,7 @@ pub struct InstantCentre {
 /// What counts as zero beside one, dimensionless.
 const ZERO: f64 = 1e-9;
 
-/// Beyond so many bodies only the centres beside the ground are listed.
+/// Beyond so many bodies only centres relative to the ground are listed.
 const MANY_BODIES: usize = 12;
 
 /// Of each loop in which three joints are left when the held ones, and those that other such loops

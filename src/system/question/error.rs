@@ -56,7 +56,7 @@ pub enum QuestionError {
         /// Coordinates which, held too, leave a question that has an answer.
         hold: Vec<String>,
     },
-    /// Roll, pitch and yaw of a platform do not tell its motion where it is pitched by ±90°.
+    /// Roll and yaw of a platform turn about one axis where it is pitched by ±90°.
     AnglesLocked {
         /// The platform.
         platform: String,

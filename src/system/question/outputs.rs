@@ -1,12 +1,13 @@
 //! What is driven and what moves out, where a question does not name it.
 //!
 //! Velocities have rows for all that is free ([`free_outputs`]); singularities ask what stands still
-//! ([`platform_outputs`], [`default_outputs`]); both have the inputs of [`inputs_of`] or [`actuated`].
+//! ([`platform_outputs`], [`default_outputs`]); maps need as many coordinates as are held
+//! ([`coordinate_outputs`]). Inputs are those of [`inputs_of`] or [`actuated`].
 
 use super::Question;
 use crate::geometry::Axis;
 use crate::mechanism::{Body, Frame, Mechanism, PoseCoordinate, Role};
-use crate::system::{Coordinate, Held, HeldPlatform, Lock};
+use crate::system::{Coordinate, Held, HeldPlatform, Lock, Mobility};
 
 /// The actuated joints, in the order of the file.
 pub fn actuated(mechanism: &Mechanism) -> Vec<Coordinate> {
@@ -115,6 +116,20 @@ pub fn platform_outputs(
         }));
     }
     (!outputs.is_empty()).then_some(outputs)
+}
+
+/// As many coordinates of platforms as can be outputs of an inverse problem: those that are held where
+/// all of these belong to platforms, else independent ones at home.
+pub fn coordinate_outputs(mechanism: &Mechanism, held: &[Coordinate]) -> Vec<Coordinate> {
+    if held.iter().all(|held| held.platform().is_some()) {
+        return held.to_vec();
+    }
+    let all = Coordinate::all(mechanism);
+    let candidates: Vec<Coordinate> = all.filter(|c| c.platform().is_some()).collect();
+    let mobility = Mobility::near(mechanism, &mechanism.home());
+    mobility.map_or_else(Vec::new, |mobility| {
+        mobility.independent(mechanism, &candidates)
+    })
 }
 
 /// The outputs of a question: what is free of the platforms, and with a platform coordinate held the

@@ -9,12 +9,12 @@ use crate::linear::Decomposition;
 use crate::mechanism::{Body, Configuration, Frame, Symbol};
 use crate::system::Unknown;
 
-/// A loop: a closure and the two ways from it to the body they part at.
+/// A loop: a closure and the two chains from it to the body where they part.
 #[derive(Clone, Debug)]
 pub struct MechanismLoop {
     /// Name of the closure that completes it.
     pub closure: String,
-    /// Its bodies in order, from the one the two ways part at.
+    /// Its bodies in order, from the one where its two chains part.
     pub bodies: Vec<Body>,
     /// What joins each body to the next, and the last to the first.
     pub parts: Vec<LoopPart>,

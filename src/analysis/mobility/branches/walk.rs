@@ -189,8 +189,7 @@ impl<R: Rng> Walk<'_, '_, R> {
         }
     }
 
-    /// Whether steps in the span of the motions arrive where they aim: where branches meet they fall
-    /// to one or the other.
+    /// Whether steps in the span of the motions arrive where they aim: not where branches meet.
     pub fn fills(&mut self, at: &Tangent, step: f64) -> bool {
         const TRIALS: usize = 6;
         const ALONG: f64 = 0.95;
@@ -278,8 +277,7 @@ impl<R: Rng> Walk<'_, '_, R> {
     }
 }
 
-/// An assembled configuration that a small step settles on, with the unit direction to it; `None`
-/// if it comes back or runs away.
+/// The assembled configuration that a small step leads to, with the unit direction to it, if it converges.
 fn arrive(
     near: &mut Neighbourhood,
     from: &Tangent,
