@@ -278,12 +278,9 @@ pub(super) fn centres(
     at: &Configuration<f64>,
     drive: &Drive,
 ) -> Vec<InstantCentre> {
-    let rates = match (
-        drive.rates.iter().any(|rate| *rate != 0.0),
-        drive.rates.len(),
-    ) {
-        (true, _) => drive.rates.clone(),
-        (false, 1) => vec![1.0],
+    let rates = match drive.rates[..] {
+        _ if drive.rates.iter().any(|rate| *rate != 0.0) => drive.rates.clone(),
+        [_] => vec![1.0],
         _ => return vec![],
     };
     let rates = motion.rates(&rates).to_vec();
@@ -302,27 +299,19 @@ pub(super) fn centres(
     let at_input: Vec<[f64; 6]> = (0..frames.len()).map(|i| at_origin(i, &rates)).collect();
     // planar for a moment only is not enough: every joint and every input must keep the plane
     let mut all = at_input.clone();
-    let joints = (0..mechanism.joints().len()).map(|joint| {
-        let mut rates = vec![0.0; rates.len()];
-        rates[joint] = 1.0;
-        rates
-    });
-    let alone: Vec<Vec<f64>> = joints.collect();
-    let inputs = (0..drive.rates.len()).map(|input| {
-        let mut given = vec![0.0; drive.rates.len()];
-        given[input] = 1.0;
-        motion.rates(&given).to_vec()
-    });
+    let unit = |size: usize, i: usize| -> Vec<f64> {
+        (0..size).map(|k| f64::from(u8::from(k == i))).collect()
+    };
+    let alone = (0..mechanism.joints().len()).map(|joint| unit(rates.len(), joint));
+    let inputs = 0..drive.rates.len();
+    let inputs = inputs.map(|input| motion.rates(&unit(drive.rates.len(), input)).to_vec());
     for rates in inputs.chain(alone) {
         all.extend((0..frames.len()).map(|i| at_origin(i, &rates)));
     }
     if normal(all.iter()).is_none() {
         return vec![];
     }
-    let largest = at_input
-        .iter()
-        .flatten()
-        .fold(0.0, |m: f64, x| m.max(x.abs()));
+    let largest = (at_input.iter().flatten()).fold(0.0, |m: f64, x| m.max(x.abs()));
     let mut centres = Vec::new();
     for i in 0..bodies.len() {
         for j in i + 1..bodies.len() {
