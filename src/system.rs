@@ -22,17 +22,17 @@ pub use equations::{
     approach, independent_parts,
 };
 pub use question::{
-    Count, Demand, Drive, DriveError, ForceError, Load, Output, Question, QuestionError, Value,
-    ValueError, Verb, actuated, check_angles, check_count, default_outputs, free_outputs,
-    inputs_of, number_of, platform_outputs, with_coordinates,
+    Count, Demand, Drive, DriveError, ForceError, Load, Question, QuestionError, Value, ValueError,
+    Verb, actuated, check_angle, check_angles, check_count, coordinate_outputs, default_outputs,
+    free_outputs, inputs_of, number_of, platform_outputs, with_coordinates,
 };
 pub use record::{FormulaNames, FrameRecord, Named, PlatformRecord, infinite_if_null};
 pub use search::{
-    Analysed, Attempt, Closed, NotClosed, Search, Searched, TooLarge, WidestGap, close, fit,
-    random_configuration, sampling_range, too_large,
+    Analysed, Attempt, Closed, Closing, NotClosed, Search, Searched, TooLarge, WidestGap, close,
+    fit, random_configuration, sampling_range, too_large,
 };
 pub use tangent::{
     FiniteStep, FrameMotion, FrameMotions, FrameTwists, Freedoms, Lock, Locked, LoopPart,
-    MechanismLoop, Mobility, Motion, Neighbourhood, Screw, Tangent, Twist, TwistSpace, loops,
-    moving, spin_lines, without, wrench_screws,
+    MechanismLoop, Mobility, Motion, Neighbourhood, STILL, Screw, Tangent, Twist, TwistSpace,
+    loops, moving, spin_lines, without, wrench_screws,
 };

@@ -38,7 +38,7 @@ impl Default for AssemblySettings {
     }
 }
 
-/// How the search ended. Joints, platforms and closures are told by name.
+/// How the search ended. Joints, platforms and closures are given by name.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(tag = "outcome", rename_all = "snake_case")]
 pub enum Outcome {
@@ -69,8 +69,7 @@ pub enum Outcome {
     CannotBeAssembled {
         /// The closure with the widest gap at the closest approach.
         worst: String,
-        /// Whether the closest approach is a true local minimum of the gaps: no small motion comes
-        /// closer.
+        /// Whether the closest approach is a true local minimum of the gaps.
         local_minimum: bool,
     },
     /// No start assembles, and none settled either.
@@ -111,8 +110,7 @@ pub struct AssemblyReport {
     pub restarts: usize,
     /// Seed of the random starts.
     pub seed: u64,
-    /// The largest closure row, dimensionless: lengths over the characteristic length, angles in
-    /// rad.
+    /// The largest closure residual, dimensionless (characteristic lengths and rad).
     pub residual: f64,
     /// Ratio of the largest to the smallest singular value of the dimensionless Jacobian; infinite
     /// at a singular configuration, NaN where there are too many unknowns to compute it
@@ -123,7 +121,7 @@ pub struct AssemblyReport {
     pub near_singular: bool,
     /// Freedoms of the mechanism, if it assembles near the start.
     pub mobility: Option<usize>,
-    /// Freedoms that only turn a link about its own line and do not matter.
+    /// Local (passive) freedoms: a link turns about its own axis.
     pub idle: usize,
     /// Names of what is held.
     pub held: Vec<String>,

@@ -18,8 +18,8 @@ use crate::linear::axis_aligned;
 use crate::mechanism::{ClosureKind, Mechanism, Variable};
 use crate::solve::{Newton, Stage, Watch};
 use crate::system::{
-    Analysed, Named, Neighbourhood, Question, Tangent, TwistSpace, Unknown, WidestGap, close,
-    random_configuration, too_large,
+    Analysed, Closing, Named, Neighbourhood, Question, STILL, Tangent, TwistSpace, Unknown,
+    WidestGap, random_configuration,
 };
 
 pub use loops::LoopCount;
@@ -28,10 +28,6 @@ pub use redundancy::{Redundancy, Wrench};
 /// How to look for freedoms.
 #[derive(Clone, Debug, PartialEq)]
 pub struct MobilitySettings {
-    /// The iteration that closes the mechanism.
-    pub newton: Newton,
-    /// Random starts within limits after the guess has failed.
-    pub restarts: usize,
     /// Length of the finite step along a candidate motion, in rad and characteristic lengths. A
     /// motion that is only infinitesimal to second order leaves a gap of about its square.
     pub step: f64,
@@ -50,8 +46,6 @@ pub struct MobilitySettings {
 impl Default for MobilitySettings {
     fn default() -> Self {
         MobilitySettings {
-            newton: Newton::default(),
-            restarts: 40,
             step: 0.05,
             directions: 3,
             branch_step: 0.02,
@@ -69,19 +63,19 @@ pub struct MobilityReport {
     pub mechanism: String,
     /// The joint variables with their units, in the order of the file.
     pub variables: Vec<Variable>,
-    /// Finite freedoms at the configuration, without idle ones: the largest dimension of a branch.
+    /// Finite freedoms at the configuration without local ones: the largest dimension of a branch.
     pub mobility: usize,
     /// Kutzbach's count: joint variables and 6 for each platform less closure equations.
     pub kutzbach: i64,
     /// Rank of the closure Jacobian with nothing held.
     pub rank: usize,
-    /// Infinitesimal freedoms, without idle ones.
+    /// Infinitesimal freedoms without local ones.
     pub infinitesimal: usize,
     /// Closure equations that depend on the others.
     pub redundant: usize,
-    /// Joints that stand still in every finite motion, or move in idle freedoms only.
+    /// Joints that stand still in every finite motion, or move in local freedoms only.
     pub idle_joints: Vec<String>,
-    /// Those of the idle joints that spin a link about its own line.
+    /// Those of the idle joints that spin a link about its own axis.
     pub spinning_joints: Vec<String>,
     /// Joints that move.
     pub moving_joints: Vec<String>,
@@ -89,8 +83,7 @@ pub struct MobilityReport {
     pub joints: Named<f64>,
     /// What kind of point of the configuration space this is.
     pub character: Character,
-    /// The branches through the configuration, if more than the one regular motion; of very many
-    /// the first.
+    /// The branches through a singular configuration, the first of very many.
     pub branches: Vec<BranchReport>,
     /// How many there are, found by steps in many directions.
     pub branch_count: usize,
@@ -104,7 +97,7 @@ pub struct MobilityReport {
     pub unknowns: usize,
     /// Closure equations.
     pub equations: usize,
-    /// Freedoms that only turn a link about its own line.
+    /// Local (passive) freedoms: a link turns about its own axis and nothing else moves.
     pub idle_freedoms: Vec<LocalFreedom>,
     /// Kutzbach's count loop by loop.
     pub loops: Vec<LoopCount>,
@@ -112,8 +105,7 @@ pub struct MobilityReport {
     pub redundancies: Vec<Redundancy>,
     /// Infinitesimal motions of the platforms, or of the links at the closures if there are none.
     pub twists: Vec<TwistSpace>,
-    /// Ratio of the largest to the smallest singular value that counts, of the dimensionless
-    /// Jacobian.
+    /// Condition number of the dimensionless Jacobian over its rank.
     pub condition: f64,
     /// About how far a singular configuration is where a regular one is nearer to it than the
     /// length of a step, in rad and normalising lengths: to first order, along the motions.
@@ -154,7 +146,7 @@ pub enum Character {
     Kinematotropic,
 }
 
-/// A freedom that only turns a link about its own line.
+/// A local (passive) freedom: a link turns about its own axis and nothing else moves.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum LocalFreedom {
@@ -219,17 +211,9 @@ pub fn mobility(
     watch: &Watch,
 ) -> Analysed<MobilityReport> {
     let mechanism = question.mechanism();
-    if let Some(large) = too_large(mechanism) {
-        return Analysed::TooLarge(large);
-    }
-    let closed = match close(
-        question,
-        &settings.newton,
-        (settings.restarts, settings.seed),
-        watch,
-    ) {
+    let closed = match Closing::seeded(settings.seed).start(question, watch) {
         Ok(closed) => closed,
-        Err(open) => return Analysed::NotClosed(open),
+        Err(answer) => return answer,
     };
     let mut near = Neighbourhood::new(mechanism);
     let tangent = near.tangent(closed.configuration.clone());
@@ -240,7 +224,7 @@ pub fn mobility(
         let unknowns = near.system().unknowns().iter().zip(moved);
         unknowns
             .filter_map(|(unknown, &moved)| match *unknown {
-                Unknown::Joint(joint) if moved => Some(mechanism.joints()[joint].name.clone()),
+                Unknown::Joint(_) if moved => Some(unknown.owner(mechanism).to_owned()),
                 _ => None,
             })
             .collect()
@@ -280,10 +264,9 @@ pub fn mobility(
         branch_count: found.count,
         branches_complete: found.complete,
         elsewhere: Vec::new(),
-        elsewhere_starts: if unknowns > ELSEWHERE_LIMIT {
-            0
-        } else {
-            settings.elsewhere
+        elsewhere_starts: match unknowns > ELSEWHERE_LIMIT {
+            true => 0,
+            false => settings.elsewhere,
         },
         unknowns,
         equations: rows,
@@ -307,8 +290,7 @@ pub fn mobility(
     Analysed::Closed(report)
 }
 
-/// Beyond so many unknowns no assemblies of another mobility are sought: each start would take long
-/// and hardly one would close.
+/// Unknowns beyond which no assemblies of another mobility are sought: hardly a start would close.
 const ELSEWHERE_LIMIT: usize = 100;
 
 /// Regular assemblies of another mobility than `here`, one for each.
@@ -325,7 +307,7 @@ fn elsewhere(
             break;
         }
         let start = random_configuration(mechanism, &mechanism.home(), rng);
-        let Some(at) = near.solve(&settings.newton, start) else {
+        let Some(at) = near.solve(&Newton::default(), start) else {
             continue;
         };
         if here.character == Character::Regular && near.rank(&at) == here.rank {
@@ -348,25 +330,22 @@ fn elsewhere(
     found
 }
 
-/// The idle freedoms of the model, then one for each rod between two balls.
+/// The local freedoms of the model, then one for each rod between two balls.
 fn idle_freedoms(
     mechanism: &Mechanism,
     unknowns: &[Unknown],
     tangent: &Tangent,
 ) -> Vec<LocalFreedom> {
-    /// Below this a component of a unit motion is rounding.
-    const ROUNDING: f64 = 1e-6;
     let spins = axis_aligned(&tangent.idle);
     let link = |motion: &Vec<f64>| {
         let (mut platforms, mut joints): (Vec<String>, Vec<String>) = (vec![], vec![]);
-        let turning = (unknowns.iter().zip(motion)).filter(|(_, rate)| rate.abs() > ROUNDING);
+        let turning = (unknowns.iter().zip(motion)).filter(|(_, rate)| rate.abs() > STILL);
         for (unknown, _) in turning {
-            match *unknown {
-                Unknown::Joint(joint) => joints.push(mechanism.joints()[joint].name.clone()),
-                Unknown::Twist { platform, .. } => {
-                    platforms.push(mechanism.platforms()[platform].name.clone());
-                }
-            }
+            let names = match unknown {
+                Unknown::Joint(_) => &mut joints,
+                Unknown::Twist { .. } => &mut platforms,
+            };
+            names.push(unknown.owner(mechanism).to_owned());
         }
         platforms.dedup();
         match platforms.is_empty() {

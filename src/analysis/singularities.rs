@@ -5,7 +5,6 @@
 //! zero beyond what they do at a configuration nearby that is not special is what is gained or lost.
 
 mod along;
-mod arrival;
 mod classify;
 mod drops;
 mod extents;
@@ -24,12 +23,11 @@ pub use projected::Shape;
 
 use serde::{Deserialize, Serialize};
 
-use crate::linear::RANK_TOLERANCE;
-use crate::mechanism::{Configuration, Mechanism, Variable};
-use crate::solve::{Continuation, Newton, Watch};
+use crate::mechanism::{Mechanism, Variable};
+use crate::solve::{Continuation, Watch};
 use crate::system::{
-    Analysed, Coordinate, Lock, Question, QuestionError, WidestGap, check_angles, check_count,
-    close, too_large,
+    Analysed, Closing, Coordinate, Lock, Question, QuestionError, WidestGap, check_angle,
+    check_angles,
 };
 use classify::Classifier;
 use outputs::{coupled, outputs_of};
@@ -37,10 +35,6 @@ use outputs::{coupled, outputs_of};
 /// How to look for singularities.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SingularitiesSettings {
-    /// The iteration that closes the mechanism.
-    pub newton: Newton,
-    /// Random starts within limits after the guess has failed.
-    pub restarts: usize,
     /// Seed of all random starts.
     pub seed: u64,
     /// The outputs; where there are none, the coordinates of platforms that are held or move, or
@@ -48,8 +42,7 @@ pub struct SingularitiesSettings {
     pub outputs: Vec<Lock>,
     /// Whether a motion along inputs goes round folds and straight through crossings.
     pub follow: bool,
-    /// Random starts from which loci are sought; up to ten times as many while some curve was met
-    /// only once, or hardly any start arrives.
+    /// Random starts for loci; up to ten times as many while new curves are likely.
     pub starts: usize,
     /// How carefully curves are followed.
     pub continuation: Continuation,
@@ -58,8 +51,6 @@ pub struct SingularitiesSettings {
 impl Default for SingularitiesSettings {
     fn default() -> Self {
         SingularitiesSettings {
-            newton: Newton::default(),
-            restarts: 40,
             seed: 1,
             outputs: Vec::new(),
             follow: false,
@@ -69,7 +60,7 @@ impl Default for SingularitiesSettings {
     }
 }
 
-/// What is special about an assembled configuration.
+/// Whether and how an assembled configuration is singular.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct SingularitiesReport {
     /// The mechanism's name.
@@ -101,10 +92,7 @@ fn names(mechanism: &Mechanism, inputs: &[Coordinate]) -> Vec<String> {
 }
 
 fn output_names(mechanism: &Mechanism, outputs: &[Lock]) -> Vec<String> {
-    outputs
-        .iter()
-        .map(|output| output.name(mechanism))
-        .collect()
+    (outputs.iter().map(|output| output.name(mechanism))).collect()
 }
 
 /// Tells whether and how the assembled configuration near the start of a question is singular.
@@ -121,30 +109,22 @@ pub fn singularities(
     watch: &Watch,
 ) -> Result<Analysed<SingularitiesReport>, QuestionError> {
     let mechanism = question.mechanism();
-    if let Some(large) = too_large(mechanism) {
-        return Ok(Analysed::TooLarge(large));
-    }
-    check_count(question)?;
-    let closed = match close(
-        question,
-        &settings.newton,
-        (settings.restarts, settings.seed),
-        watch,
-    ) {
+    let closed = match Closing::seeded(settings.seed).determined(question, watch)? {
         Ok(closed) => closed,
-        Err(open) => return Ok(Analysed::NotClosed(open)),
+        Err(answer) => return Ok(answer),
     };
     let at = &closed.configuration;
     let inputs = inputs_of(question);
     // angles that only say where the platform is are not differentiated
-    if inputs
-        .iter()
-        .any(|input| matches!(input, Coordinate::Pose(..)))
-    {
+    if (inputs.iter()).any(|input| matches!(input, Coordinate::Pose(..))) {
         check_angles(question, at)?;
     }
     let outputs = outputs_of(mechanism, &question.held(), &[], &inputs, settings);
-    check_outputs(mechanism, &outputs, at)?;
+    for output in &outputs {
+        if let Lock::Coordinate(coordinate) = *output {
+            check_angle(mechanism, at, coordinate)?;
+        }
+    }
     let mut classifier = Classifier::new(mechanism, &inputs, &outputs, at);
     Ok(Analysed::Closed(SingularitiesReport {
         mechanism: mechanism.name().to_owned(),
@@ -159,25 +139,4 @@ pub fn singularities(
         given_gap: closed.given.filter(|gap| gap.size(mechanism) > 1e-9),
         kept: closed.kept,
     }))
-}
-
-/// Angles of a platform pitched by ±90° do not tell its motion.
-fn check_outputs(
-    mechanism: &Mechanism,
-    outputs: &[Lock],
-    at: &Configuration<f64>,
-) -> Result<(), QuestionError> {
-    for output in outputs {
-        let Lock::Coordinate(coordinate @ Coordinate::Pose(platform, _)) = *output else {
-            continue;
-        };
-        let pose = at.platforms[platform].pose();
-        let slope = coordinate.slope(&pose, mechanism.characteristic_length());
-        if !slope.iter().all(|x| x.abs() < 1.0 / RANK_TOLERANCE) {
-            return Err(QuestionError::AnglesLocked {
-                platform: mechanism.platforms()[platform].name.clone(),
-            });
-        }
-    }
-    Ok(())
 }

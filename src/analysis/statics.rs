@@ -5,36 +5,18 @@ mod reactions;
 use serde::{Deserialize, Serialize};
 
 use crate::algebra::SiUnit;
-use crate::linear::{Decomposition, RANK_TOLERANCE, add, norm};
+use crate::linear::{Decomposition, RANK_TOLERANCE, add, dot, norm};
 use crate::mechanism::{Configuration, Frame, Mechanism};
-use crate::solve::{Newton, Watch};
+use crate::solve::Watch;
 use crate::system::{
-    Analysed, Coordinate, FrameTwists, Load, Neighbourhood, Question, QuestionError, Unknown,
-    WidestGap, check_angles, check_count, close, too_large,
+    Analysed, Closing, Coordinate, FrameTwists, Load, Neighbourhood, Question, QuestionError,
+    Unknown, WidestGap, check_angles,
 };
 
 pub use reactions::Reaction;
 
 /// How to look for the assembled configuration.
-#[derive(Clone, Debug, PartialEq)]
-pub struct StaticsSettings {
-    /// The iteration that closes the mechanism.
-    pub newton: Newton,
-    /// Random starts within limits after the guess has failed.
-    pub restarts: usize,
-    /// Seed of the random starts.
-    pub seed: u64,
-}
-
-impl Default for StaticsSettings {
-    fn default() -> Self {
-        StaticsSettings {
-            newton: Newton::default(),
-            restarts: 40,
-            seed: 1,
-        }
-    }
-}
+pub type StaticsSettings = Closing;
 
 /// The forces in an assembled mechanism at rest without weight or friction. Vectors are in ground,
 /// forces in N, moments in N·m, points in m.
@@ -102,8 +84,9 @@ pub struct Force {
 /// Finds the forces that balance a load at the assembled configuration near the start of a question.
 ///
 /// By virtual work g + Jᵀλ + Sᵀτ = 0: g are the generalised forces of the load, J the closure
-/// Jacobian with nothing held, S picks the held coordinates. Of many solutions the one is
-/// taken that loads closures and joints least, by the sum of squares. Source: Ghosal, Robotics, 2006, §5.9; Hunt, Kinematic Geometry, 1978 on wrenches.
+/// Jacobian with nothing held, S picks the held coordinates. Of many solutions the one is taken that
+/// loads closures and joints least, by the sum of squares.
+/// Source: Ghosal, Robotics, 2006, §5.9; Hunt, Kinematic Geometry, 1978 on wrenches.
 ///
 /// # Errors
 /// If more or less is held than the mechanism has freedoms, if what is held depends on itself, or if
@@ -115,18 +98,9 @@ pub fn statics(
     watch: &Watch,
 ) -> Result<Analysed<StaticsReport>, QuestionError> {
     let mechanism = question.mechanism();
-    if let Some(large) = too_large(mechanism) {
-        return Ok(Analysed::TooLarge(large));
-    }
-    check_count(question)?;
-    let closed = match close(
-        question,
-        &settings.newton,
-        (settings.restarts, settings.seed),
-        watch,
-    ) {
+    let closed = match settings.determined(question, watch)? {
         Ok(closed) => closed,
-        Err(open) => return Ok(Analysed::NotClosed(open)),
+        Err(answer) => return Ok(answer),
     };
     let at = &closed.configuration;
     check_angles(question, at)?;
@@ -142,8 +116,12 @@ pub fn statics(
         let columns = tangent.jacobian.chunks_exact(rows);
         entries.extend(columns.map(|column| column[row]));
     }
-    for &coordinate in &held {
-        entries.extend(direction(mechanism, at, &unknowns, coordinate));
+    for coordinate in &held {
+        let first = entries.len();
+        entries.resize(first + unknowns.len(), 0.0);
+        for (place, slope) in coordinate.slope_in(near.system(), at) {
+            entries[first + place] = slope;
+        }
     }
     let equations = Decomposition::of(unknowns.len(), rows + held.len(), &entries);
     let generalised = generalised(mechanism, &near, at, &unknowns, load);
@@ -165,14 +143,10 @@ pub fn statics(
     }
     let found = reactions::of(&mut near, at, load, &forces[..rows]);
 
-    let scale = |coordinate: Coordinate| match coordinate.is_angle(mechanism) {
-        true => 1.0,
-        false => mechanism.characteristic_length(),
-    };
     let actuators = held.iter().enumerate().map(|(i, &coordinate)| Force {
         name: coordinate.name(mechanism),
         unit: coordinate.force_unit(mechanism),
-        force: forces[rows + i] / scale(coordinate),
+        force: forces[rows + i] / coordinate.scale(mechanism),
         unique: (stresses.iter()).all(|stress| stress[rows + i].abs() <= RANK_TOLERANCE),
     });
     let actuators = actuators.collect();
@@ -210,34 +184,6 @@ pub fn statics(
     }))
 }
 
-/// The rate of a held coordinate for each unknown, dimensionless.
-fn direction(
-    mechanism: &Mechanism,
-    at: &Configuration<f64>,
-    unknowns: &[Unknown],
-    coordinate: Coordinate,
-) -> Vec<f64> {
-    let slope = match coordinate {
-        Coordinate::Joint(_) => [0.0; 6],
-        Coordinate::Pose(platform, _) | Coordinate::Turn(platform, _) => {
-            let pose = at.platforms[platform].pose();
-            coordinate.slope(&pose, mechanism.characteristic_length())
-        }
-    };
-    let rate = |unknown: &Unknown| match (*unknown, coordinate) {
-        (Unknown::Joint(joint), Coordinate::Joint(held)) if joint == held => 1.0,
-        (
-            Unknown::Twist {
-                platform,
-                component,
-            },
-            Coordinate::Pose(held, _) | Coordinate::Turn(held, _),
-        ) if platform == held => slope[component],
-        _ => 0.0,
-    };
-    unknowns.iter().map(rate).collect()
-}
-
 /// The work of a load for a unit of each unknown, in N·m.
 fn generalised(
     mechanism: &Mechanism,
@@ -248,15 +194,13 @@ fn generalised(
 ) -> Vec<f64> {
     let frames: Vec<Frame> = load.wrenches.iter().map(|(frame, ..)| *frame).collect();
     let twists = FrameTwists::new(mechanism.dimensions(), near.system().unknowns(), &frames);
-    let mut placement = twists.placement();
-    twists.place(at, &mut placement);
+    let placement = twists.placed(at);
     let mut rates = vec![0.0; unknowns.len()];
     let mut work = vec![0.0; unknowns.len()];
     for (k, unknown) in unknowns.iter().enumerate() {
         rates[k] = 1.0;
         for (i, (_, force, moment)) in load.wrenches.iter().enumerate() {
             let twist = twists.twist(i, &placement, &rates);
-            let dot = |a: &[f64; 3], b: &[f64; 3]| a.iter().zip(b).map(|(a, b)| a * b).sum::<f64>();
             work[k] += dot(force, &twist.velocity.0) + dot(moment, &twist.omega.0);
         }
         rates[k] = 0.0;
@@ -276,12 +220,9 @@ fn unbalanced(mechanism: &Mechanism, unknowns: &[Unknown], left: &[f64], all: f6
         if force.abs() <= RANK_TOLERANCE * all {
             continue;
         }
-        let name = match *unknown {
-            Unknown::Joint(joint) => &mechanism.joints()[joint].name,
-            Unknown::Twist { platform, .. } => &mechanism.platforms()[platform].name,
-        };
-        if !names.contains(name) {
-            names.push(name.clone());
+        let name = unknown.owner(mechanism).to_owned();
+        if !names.contains(&name) {
+            names.push(name);
         }
     }
     names

@@ -10,10 +10,10 @@ use serde::{Deserialize, Serialize};
 use crate::algebra::SiUnit;
 use crate::linear::RANK_TOLERANCE;
 use crate::mechanism::{Frame, Mechanism};
-use crate::solve::{Newton, Watch};
+use crate::solve::Watch;
 use crate::system::{
-    Analysed, Coordinate, Drive, Motion, Neighbourhood, Question, QuestionError, Tangent, Unknown,
-    WidestGap, check_angles, check_count, close, free_outputs, moving, too_large,
+    Analysed, Closing, Coordinate, Drive, Motion, Neighbourhood, Question, QuestionError, Tangent,
+    Unknown, WidestGap, check_angles, free_outputs, moving,
 };
 
 use frames::Spins;
@@ -21,27 +21,12 @@ pub use jacobian::{Axis, InputOutput};
 pub use planar::{InstantCentre, Transmission};
 
 /// How to look for the assembled configuration, and which points to follow.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct VelocitySettings {
-    /// The iteration that closes the mechanism.
-    pub newton: Newton,
-    /// Random starts within limits after the guess has failed.
-    pub restarts: usize,
-    /// Seed of the random starts.
-    pub seed: u64,
+    /// How to close the mechanism.
+    pub closing: Closing,
     /// Frames beside the platforms whose origins are followed.
     pub points: Vec<Frame>,
-}
-
-impl Default for VelocitySettings {
-    fn default() -> Self {
-        VelocitySettings {
-            newton: Newton::default(),
-            restarts: 40,
-            seed: 1,
-            points: Vec::new(),
-        }
-    }
 }
 
 /// How an assembled mechanism moves. All vectors are in ground; angles in rad, lengths in m, time
@@ -64,8 +49,7 @@ pub struct VelocityReport {
     pub first_order_only: Option<FirstOrderOnly>,
     /// How well rates and accelerations are known.
     pub accuracy: Accuracy,
-    /// Transmission angles of the planar loops that are closed one dyad after the other. Loops that
-    /// must be solved together have none.
+    /// Transmission angles of the planar loops that are closed as dyads, one after the other.
     pub transmission: Vec<Transmission>,
     /// Instant centres, if all links move in one plane.
     pub centres: Vec<InstantCentre>,
@@ -135,8 +119,7 @@ pub struct FrameRate {
     pub angular_acceleration: Option<[f64; 3]>,
     /// Acceleration of the origin in m/s².
     pub acceleration: Option<[f64; 3]>,
-    /// Unit vectors of the lines about which its link spins in idle freedoms, at any rate: ω and ω̇
-    /// are those without such a spin.
+    /// Unit vectors of the axes about which its link spins in local freedoms: ω and ω̇ leave the spin out.
     pub spins: Vec<[f64; 3]>,
 }
 
@@ -171,23 +154,23 @@ pub struct Accuracy {
     pub smallest_singular_value: Option<f64>,
     /// How far the configuration may be off in that direction, in rad and normalising lengths.
     pub configuration: f64,
-    /// Change of the rates for that, beside the largest of them. Above 0.01 none are given.
+    /// Change of the rates for that, relative to the largest. Above 0.01 none are given.
     pub rates: f64,
-    /// Change of the accelerations, beside the largest of them or of the squared rates, whichever is
-    /// larger. Above 0.01 none are given.
+    /// Change of the accelerations relative to the largest of them or of the squared rates. Above 0.01
+    /// none are given.
     pub accelerations: f64,
 }
 
 impl Accuracy {
-    /// What is uncertain by more than this is not told.
+    /// What is more uncertain than this is not reported.
     const LOST: f64 = 0.01;
 
-    /// Whether rates can be told.
+    /// Whether rates are certain enough to report.
     pub fn tells_rates(&self) -> bool {
         self.rates <= Accuracy::LOST
     }
 
-    /// Whether accelerations can be told.
+    /// Whether accelerations are certain enough to report.
     pub fn tells_accelerations(&self) -> bool {
         self.tells_rates() && self.accelerations <= Accuracy::LOST
     }
@@ -210,18 +193,9 @@ pub fn velocity(
     watch: &Watch,
 ) -> Result<Analysed<VelocityReport>, QuestionError> {
     let mechanism = question.mechanism();
-    if let Some(large) = too_large(mechanism) {
-        return Ok(Analysed::TooLarge(large));
-    }
-    check_count(question)?;
-    let closed = match close(
-        question,
-        &settings.newton,
-        (settings.restarts, settings.seed),
-        watch,
-    ) {
+    let closed = match settings.closing.determined(question, watch)? {
         Ok(closed) => closed,
-        Err(open) => return Ok(Analysed::NotClosed(open)),
+        Err(answer) => return Ok(answer),
     };
     let at = &closed.configuration;
     check_angles(question, at)?;
@@ -307,7 +281,7 @@ fn gain(mechanism: &Mechanism, held: &mut Neighbourhood, rest: &Tangent) -> Opti
     })
 }
 
-/// The joints that move only because their link spins about its own line.
+/// The joints that move only in local freedoms.
 fn spinning(held: &Neighbourhood, rest: &Tangent) -> Vec<usize> {
     let unknowns = held.system().unknowns().iter().enumerate();
     let spins = |i: usize| rest.idle.iter().any(|m| m[i].abs() > RANK_TOLERANCE);

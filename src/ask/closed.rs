@@ -8,11 +8,8 @@ use crate::analysis::mobility::{MobilityReport, MobilitySettings, mobility};
 use crate::analysis::statics::{StaticsReport, StaticsSettings, statics};
 use crate::analysis::velocity::{VelocityReport, VelocitySettings, velocity};
 use crate::mechanism::{Body, Frame};
-use crate::solve::{Newton, Watch};
-use crate::system::{self, Analysed, Closed, Drive, Load, NotClosed, close};
-
-/// Random starts where a mechanism is closed.
-const RESTARTS: usize = 40;
+use crate::solve::Watch;
+use crate::system::{self, Analysed, Closed, Closing, Drive, Load, NotClosed, close};
 
 impl Question {
     /// The mechanism closed near the start, as all analyses of one configuration close it.
@@ -21,8 +18,9 @@ impl Question {
     /// If a name or a value is wrong.
     pub fn closed(&self, watch: &Watch) -> Result<Result<Closed, NotClosed>, AskError> {
         let question = self.resolved()?;
-        let newton = Newton::default();
-        Ok(close(&question, &newton, (RESTARTS, self.seed), watch))
+        let closing = Closing::seeded(self.seed);
+        let starts = (closing.restarts, closing.seed);
+        Ok(close(&question, &closing.newton, starts, watch))
     }
 
     /// The freedoms of the assembled mechanism.
@@ -64,16 +62,10 @@ impl Question {
                 Wrench::Numbers(force, moment) => load.forces(&question, frame, (*force, *moment)),
                 Wrench::Text(text) => load.wrench(&question, frame, text),
             };
-            load = loaded.map_err(|error| AskError::Load {
-                item: Role::Wrench.item(index),
-                error: Box::new(error),
-            })?;
+            load = loaded.map_err(Role::Wrench.loaded(index))?;
         }
         for (index, (joint, value)) in self.loads.iter().enumerate() {
-            load = (load.joint(&question, joint, value)).map_err(|error| AskError::Load {
-                item: Role::Load.item(index),
-                error: Box::new(error),
-            })?;
+            load = (load.joint(&question, joint, value)).map_err(Role::Load.loaded(index))?;
         }
         let settings = StaticsSettings::default();
         statics(&question, &load, &settings, watch).map_err(AskError::Question)
@@ -100,17 +92,11 @@ impl Question {
     fn drive(&self, question: &system::Question) -> Result<Drive, AskError> {
         let mut drive = Drive::still(question);
         for (index, (name, value)) in self.rates.iter().enumerate() {
-            drive = (drive.rate(question, name, value)).map_err(|error| AskError::Drive {
-                item: Role::Rate.item(index),
-                error: Box::new(error),
-            })?;
+            drive = (drive.rate(question, name, value)).map_err(Role::Rate.driven(index))?;
         }
         for (index, (name, value)) in self.accelerations.iter().enumerate() {
             let driven = drive.acceleration(question, name, value);
-            drive = driven.map_err(|error| AskError::Drive {
-                item: Role::Acceleration.item(index),
-                error: Box::new(error),
-            })?;
+            drive = driven.map_err(Role::Acceleration.driven(index))?;
         }
         Ok(drive)
     }

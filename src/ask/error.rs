@@ -1,6 +1,6 @@
 //! Questions that cannot be answered as they are posed.
 
-use std::fmt::{self, Display, Formatter};
+use thiserror::Error;
 
 use crate::analysis::assemblies::AssembliesError;
 use crate::analysis::sweep::PointError;
@@ -50,6 +50,22 @@ impl Role {
         Item { role: self, index }
     }
 
+    /// The error for the rate or acceleration of this index.
+    pub(super) fn driven(self, index: usize) -> impl Fn(DriveError) -> AskError {
+        move |error| AskError::Drive {
+            item: self.item(index),
+            error: Box::new(error),
+        }
+    }
+
+    /// The error for the wrench or load of this index.
+    pub(super) fn loaded(self, index: usize) -> impl Fn(ForceError) -> AskError {
+        move |error| AskError::Load {
+            item: self.item(index),
+            error: Box::new(error),
+        }
+    }
+
     /// The error for the part of this index.
     pub(super) fn named(self, index: usize) -> impl Fn(QuestionError) -> AskError {
         move |error| AskError::Named {
@@ -60,10 +76,11 @@ impl Role {
 }
 
 /// Why a question has no answer as it is posed. Who asks puts it right.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Error)]
 #[non_exhaustive]
 pub enum AskError {
     /// A name or a value is wrong.
+    #[error("{error}")]
     Named {
         /// Which.
         item: Item,
@@ -71,8 +88,10 @@ pub enum AskError {
         error: Box<QuestionError>,
     },
     /// The question as a whole holds too much or too little.
+    #[error("{0}")]
     Question(QuestionError),
     /// The same for a map.
+    #[error("{error}")]
     Mapped {
         /// What is wrong.
         error: Box<QuestionError>,
@@ -82,6 +101,7 @@ pub enum AskError {
         missing: Vec<String>,
     },
     /// A whole platform is mapped, or a coordinate of what is no platform.
+    #[error("{error}")]
     NotMapped {
         /// Which.
         item: Item,
@@ -89,6 +109,7 @@ pub enum AskError {
         error: Box<QuestionError>,
     },
     /// A rate or an acceleration is wrong.
+    #[error("{error}")]
     Drive {
         /// Which.
         item: Item,
@@ -96,6 +117,7 @@ pub enum AskError {
         error: Box<DriveError>,
     },
     /// A load is wrong.
+    #[error("{error}")]
     Load {
         /// Which.
         item: Item,
@@ -103,6 +125,7 @@ pub enum AskError {
         error: Box<ForceError>,
     },
     /// There is no frame of that name.
+    #[error("`{name}` is not a frame")]
     UnknownFrame {
         /// Which point.
         item: Item,
@@ -110,6 +133,7 @@ pub enum AskError {
         name: String,
     },
     /// The frame stands still.
+    #[error("`{name}` does not move")]
     Motionless {
         /// Which point.
         item: Item,
@@ -117,6 +141,7 @@ pub enum AskError {
         name: String,
     },
     /// There is no coordinate and no frame of that name.
+    #[error("`{name}` is neither a coordinate nor a frame")]
     UnknownOutput {
         /// Which output.
         item: Item,
@@ -124,6 +149,7 @@ pub enum AskError {
         name: String,
     },
     /// A traced point is wrong.
+    #[error("{error}")]
     Traced {
         /// Which point.
         item: Item,
@@ -131,6 +157,7 @@ pub enum AskError {
         error: PointError,
     },
     /// A range is given to one coordinate twice.
+    #[error("`{name}` has two ranges")]
     Twice {
         /// The second of them.
         item: Item,
@@ -140,6 +167,7 @@ pub enum AskError {
         name: String,
     },
     /// A range has no length, or its end comes before its beginning where that matters.
+    #[error("the range of `{name}` is empty")]
     EmptyRange {
         /// Which.
         item: Item,
@@ -147,6 +175,7 @@ pub enum AskError {
         name: String,
     },
     /// A motion begins outside the limits of a joint.
+    #[error("the motion begins outside the limits of `{name}`")]
     OutsideLimits {
         /// Which input.
         item: Item,
@@ -158,6 +187,7 @@ pub enum AskError {
         is_angle: bool,
     },
     /// A mapped coordinate is held or freed too.
+    #[error("`{name}` is mapped and also held or freed")]
     AlsoHeld {
         /// Which.
         item: Item,
@@ -165,16 +195,19 @@ pub enum AskError {
         name: String,
     },
     /// A mapped coordinate that comes round again covers more than a turn.
+    #[error("`{name}` is mapped over more than a turn")]
     MoreThanATurn {
         /// The coordinate.
         name: String,
     },
     /// Nothing moves.
+    #[error("no input is given")]
     NothingMoves {
         /// The driven joint, if there is one.
         driven: Option<String>,
     },
     /// A motion of so many steps.
+    #[error("{given} steps; there are 1 to {most}")]
     Steps {
         /// How many were given.
         given: usize,
@@ -182,6 +215,7 @@ pub enum AskError {
         most: usize,
     },
     /// Random starts, or nodes that are searched.
+    #[error("{given} starts or nodes; there are 1 to {most}")]
     Starts {
         /// How many were given.
         given: usize,
@@ -189,20 +223,25 @@ pub enum AskError {
         most: usize,
     },
     /// Nothing is left to move: as much is held as the mechanism has freedoms.
+    #[error("nothing is left to move: {} are held", listed(held))]
     NothingLeft {
         /// What is held.
         held: Vec<String>,
     },
     /// More than one freedom is left.
+    #[error("{0}")]
     NotOneFreedom(QuestionError),
     /// The freedom is not that of one joint.
+    #[error("the freedom that is left is not that of one joint")]
     NotOneJoint,
     /// The mechanism does not assemble where the work is to begin.
+    #[error("the mechanism does not assemble where the motion begins: {}", held.join(", "))]
     NotAssembled {
         /// What is held there.
         held: Vec<String>,
     },
     /// There is no mode of that number.
+    #[error("{}", no_such_mode(*mode, *modes))]
     NoSuchMode {
         /// The number.
         mode: usize,
@@ -210,19 +249,25 @@ pub enum AskError {
         modes: usize,
     },
     /// No input can be driven.
+    #[error("there is no input")]
     NothingToDrive,
     /// Loci need a box of two sides.
+    #[error("loci have a box of two coordinates, not {0}")]
     Sides(usize),
     /// A map has one to three coordinates.
+    #[error("one to three coordinates are mapped, not {0}")]
     Axes(usize),
     /// Some link spins without a joint that could stand still; so many such freedoms.
+    #[error("{0} links spin about their own lines")]
     Spinning(usize),
     /// The mechanism has too many unknowns.
+    #[error("the mechanism has {unknowns} unknowns, too many for this analysis")]
     TooLarge {
         /// How many it has.
         unknowns: usize,
     },
     /// The nodes of a map are not one number or one for each coordinate, or too few.
+    #[error("{nodes:?} nodes for {axes} coordinates: at least 2 each")]
     Grid {
         /// What was given.
         nodes: Vec<usize>,
@@ -230,6 +275,7 @@ pub enum AskError {
         axes: usize,
     },
     /// A map would take too much memory.
+    #[error("the map would take {bytes:e} of {most:e} bytes")]
     TooFine {
         /// Its nodes.
         nodes: f64,
@@ -239,6 +285,7 @@ pub enum AskError {
         most: f64,
     },
     /// More was reached than memory allows.
+    #[error("more than {cells} nodes are reached")]
     TooMany {
         /// The nodes in modes that may be kept.
         cells: usize,
@@ -246,84 +293,19 @@ pub enum AskError {
         most: f64,
     },
     /// The search for assemblies cannot be made.
+    #[error("{0}")]
     Assemblies(AssembliesError),
     /// The store cannot be used.
+    #[error("{0}")]
     Store(String),
     /// The work was stopped before its first result.
+    #[error("interrupted before the first result")]
     Interrupted,
 }
 
-impl Display for AskError {
-    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
-        match self {
-            AskError::Named { error, .. }
-            | AskError::Mapped { error, .. }
-            | AskError::NotMapped { error, .. } => write!(f, "{error}"),
-            AskError::Question(error) | AskError::NotOneFreedom(error) => write!(f, "{error}"),
-            AskError::Drive { error, .. } => write!(f, "{error}"),
-            AskError::Load { error, .. } => write!(f, "{error}"),
-            AskError::Traced { error, .. } => write!(f, "{error}"),
-            AskError::UnknownFrame { name, .. } => write!(f, "`{name}` is not a frame"),
-            AskError::Motionless { name, .. } => write!(f, "`{name}` does not move"),
-            AskError::UnknownOutput { name, .. } => {
-                write!(f, "`{name}` is neither a coordinate nor a frame")
-            }
-            AskError::Twice { name, .. } => write!(f, "`{name}` has two ranges"),
-            AskError::EmptyRange { name, .. } => write!(f, "the range of `{name}` is empty"),
-            AskError::OutsideLimits { name, .. } => {
-                write!(f, "the motion begins outside the limits of `{name}`")
-            }
-            AskError::AlsoHeld { name, .. } => {
-                write!(f, "`{name}` is mapped and also held or freed")
-            }
-            AskError::MoreThanATurn { name } => {
-                write!(f, "`{name}` is mapped over more than a turn")
-            }
-            AskError::NothingMoves { .. } => write!(f, "no input is given"),
-            AskError::Steps { given, most } => {
-                write!(f, "{given} steps; there are 1 to {most}")
-            }
-            AskError::Starts { given, most } => {
-                write!(f, "{given} starts or nodes; there are 1 to {most}")
-            }
-            AskError::NothingLeft { held } => {
-                write!(f, "nothing is left to move: {} are held", listed(held))
-            }
-            AskError::NotOneJoint => write!(f, "the freedom that is left is not that of one joint"),
-            AskError::NotAssembled { held } => write!(
-                f,
-                "the mechanism does not assemble where the motion begins: {}",
-                held.join(", ")
-            ),
-            AskError::NoSuchMode { modes: 0, .. } => {
-                write!(f, "there is no assembly with these inputs")
-            }
-            AskError::NoSuchMode { mode, modes } => write!(
-                f,
-                "there is no mode {mode}: with these inputs there are modes 1 to {modes}"
-            ),
-            AskError::NothingToDrive => write!(f, "there is no input"),
-            AskError::Sides(given) => write!(f, "loci have a box of two coordinates, not {given}"),
-            AskError::Axes(given) => write!(f, "one to three coordinates are mapped, not {given}"),
-            AskError::Spinning(spins) => write!(f, "{spins} links spin about their own lines"),
-            AskError::TooLarge { unknowns } => {
-                write!(
-                    f,
-                    "the mechanism has {unknowns} unknowns, too many for this analysis"
-                )
-            }
-            AskError::Grid { nodes, axes } => {
-                write!(f, "{nodes:?} nodes for {axes} coordinates: at least 2 each")
-            }
-            AskError::TooFine { bytes, most, .. } => {
-                write!(f, "the map would take {bytes:e} of {most:e} bytes")
-            }
-            AskError::TooMany { cells, .. } => write!(f, "more than {cells} nodes are reached"),
-            AskError::Assemblies(error) => write!(f, "{error}"),
-            AskError::Store(error) => write!(f, "{error}"),
-            AskError::Interrupted => write!(f, "interrupted before the first result"),
-        }
+fn no_such_mode(mode: usize, modes: usize) -> String {
+    match modes {
+        0 => "there is no assembly with these inputs".into(),
+        _ => format!("there is no mode {mode}: with these inputs there are modes 1 to {modes}"),
     }
 }
-
-impl std::error::Error for AskError {}

@@ -72,7 +72,7 @@ pub(super) fn still(held: Held<f64>, moved: &[Driven]) -> Held<f64> {
 
 /// Whether it is a coordinate of a platform.
 pub(super) fn of_platform(coordinate: &Coordinate) -> bool {
-    !matches!(coordinate, Coordinate::Joint(_))
+    coordinate.platform().is_some()
 }
 
 /// Whether more is held than can be.

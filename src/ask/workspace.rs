@@ -7,7 +7,6 @@ use super::{AskError, Mode, Question, Role};
 use crate::analysis::workspace::{
     WorkspaceError, WorkspaceReport, WorkspaceSettings, cell_bytes, workspace,
 };
-use crate::mechanism::PoseCoordinate;
 use crate::solve::Watch;
 use crate::system::{
     self, Coordinate, Driven, Mobility, QuestionError, TooLarge, check_count, too_large,
@@ -170,11 +169,7 @@ fn nodes(given: &[usize], axes: usize, bytes: f64) -> Result<Vec<usize>, AskErro
 fn missing(question: &system::Question) -> Vec<String> {
     let mechanism = question.mechanism();
     let held = question.held_coordinates();
-    let platforms = 0..mechanism.platforms().len();
-    let coordinates = platforms.flat_map(|platform| {
-        let all = PoseCoordinate::ALL.into_iter();
-        all.map(move |c| Coordinate::Pose(platform, c))
-    });
+    let coordinates = Coordinate::all(mechanism).filter(of_platform);
     let candidates: Vec<Coordinate> = held.iter().copied().chain(coordinates).collect();
     let Some(mobility) = Mobility::near(mechanism, &question.start()) else {
         return Vec::new();

@@ -2,18 +2,19 @@ mod count;
 mod demand;
 mod drive;
 mod error;
-mod error_words;
 mod held;
 mod load;
 mod outputs;
 mod value;
 
-pub use count::{Count, check_angles, check_count};
+pub use count::{Count, check_angle, check_angles, check_count};
 pub use demand::{Demand, Verb};
 pub use drive::{Drive, DriveError};
 pub use error::QuestionError;
 pub use load::{ForceError, Load};
-pub use outputs::{Output, actuated, default_outputs, free_outputs, inputs_of, platform_outputs};
+pub use outputs::{
+    actuated, coordinate_outputs, default_outputs, free_outputs, inputs_of, platform_outputs,
+};
 pub use value::{Value, ValueError, number as number_of};
 
 use super::equations::System;
@@ -75,26 +76,20 @@ impl<'a> Question<'a> {
     pub fn hold(mut self, name: &str, value: impl Into<Value>) -> Result<Self, QuestionError> {
         let value = &value.into();
         match self.demand(Verb::Hold, name, Some(value))? {
-            Target::Joint(joint) => {
-                let value = self.number(name, value, Coordinate::Joint(joint))?;
-                self.split_changed |= !self.joints[joint];
-                self.joints[joint] = true;
-                self.asked[joint] = true;
-                self.start.joints[joint] = value;
-            }
-            Target::Coordinate(platform, coordinate) => {
-                let value = self.number(name, value, Coordinate::Pose(platform, coordinate))?;
-                self.coordinates[platform][coordinate as usize] = Some(value);
-                self.split_changed = true;
+            Target::Coordinate(of) => {
+                let number = self.number(name, value, of)?;
+                self.split_changed |= match of {
+                    Coordinate::Joint(joint) => {
+                        self.asked[joint] = true;
+                        !self.joints[joint]
+                    }
+                    Coordinate::Pose(..) | Coordinate::Turn(..) => true,
+                };
+                self = self.at_values([(of, number)]);
             }
             Target::Pose(platform) => {
-                let pose = self.pose(name, value, platform)?;
-                for coordinate in PoseCoordinate::ALL {
-                    let value = coordinate.of(&pose);
-                    self.coordinates[platform][coordinate as usize] = Some(value);
-                }
-                self.start.platforms[platform] = PlatformPose::from_pose(&pose);
-                self.guessed_platforms[platform] = true;
+                let pose = self.guess_pose(name, value, platform)?;
+                self.coordinates[platform] = PoseCoordinate::ALL.map(|c| Some(c.of(&pose)));
                 self.split_changed = true;
             }
         }
@@ -110,7 +105,7 @@ impl<'a> Question<'a> {
             }
         } else {
             match self.demand(Verb::Free, name, None)? {
-                Target::Joint(joint) => self.joints[joint] = false,
+                Target::Coordinate(Coordinate::Joint(joint)) => self.joints[joint] = false,
                 _ => return Err(QuestionError::NotAJoint { name: name.into() }),
             }
         }
@@ -122,27 +117,23 @@ impl<'a> Question<'a> {
     pub fn guess(mut self, name: &str, value: impl Into<Value>) -> Result<Self, QuestionError> {
         let value = &value.into();
         match self.demand(Verb::Guess, name, Some(value))? {
-            Target::Joint(joint) => {
-                let value = self.number(name, value, Coordinate::Joint(joint))?;
-                if !self.joints[joint] {
-                    self.start.joints[joint] = value;
-                    self.guessed_joints[joint] = true;
-                    self.changed = true;
+            Target::Coordinate(of) => {
+                let number = self.number(name, value, of)?;
+                match of {
+                    Coordinate::Joint(joint) if !self.joints[joint] => {
+                        self.start.joints[joint] = number;
+                        self.guessed_joints[joint] = true;
+                        self.changed = true;
+                    }
+                    Coordinate::Pose(platform, c) => {
+                        let pose = self.start.platforms[platform].pose();
+                        self.start_at(platform, &with_coordinates(&pose, [(c, number)]));
+                    }
+                    Coordinate::Joint(_) | Coordinate::Turn(..) => {}
                 }
             }
-            Target::Coordinate(platform, coordinate) => {
-                let value = self.number(name, value, Coordinate::Pose(platform, coordinate))?;
-                let pose = with_coordinates(
-                    &self.start.platforms[platform].pose(),
-                    [(coordinate, value)],
-                );
-                self.start.platforms[platform] = PlatformPose::from_pose(&pose);
-                self.guessed_platforms[platform] = true;
-            }
             Target::Pose(platform) => {
-                let pose = self.pose(name, value, platform)?;
-                self.start.platforms[platform] = PlatformPose::from_pose(&pose);
-                self.guessed_platforms[platform] = true;
+                self.guess_pose(name, value, platform)?;
             }
         }
         Ok(self)
@@ -171,18 +162,16 @@ impl<'a> Question<'a> {
         name: &str,
         value: impl Into<Value>,
     ) -> Result<(Coordinate, f64), QuestionError> {
-        let coordinate = match self.target(name)? {
-            Target::Joint(joint) => Coordinate::Joint(joint),
-            Target::Coordinate(platform, c) => Coordinate::Pose(platform, c),
-            Target::Pose(_) => return Err(QuestionError::NotAJoint { name: name.into() }),
+        let Target::Coordinate(coordinate) = self.target(name)? else {
+            return Err(QuestionError::NotAJoint { name: name.into() });
         };
         Ok((coordinate, self.number(name, &value.into(), coordinate)?))
     }
 
     /// The same question with some held coordinates at other values, in m or rad.
     pub fn at_values(mut self, values: impl IntoIterator<Item = (Coordinate, f64)>) -> Self {
-        for (holdable, value) in values {
-            match holdable {
+        for (coordinate, value) in values {
+            match coordinate {
                 Coordinate::Joint(joint) => {
                     self.joints[joint] = true;
                     self.start.joints[joint] = value;
@@ -198,8 +187,8 @@ impl<'a> Question<'a> {
     }
 
     /// The same question with one coordinate not held.
-    pub fn without(mut self, holdable: Coordinate) -> Self {
-        match holdable {
+    pub fn without(mut self, coordinate: Coordinate) -> Self {
+        match coordinate {
             Coordinate::Joint(joint) => self.joints[joint] = false,
             Coordinate::Pose(platform, c) => self.coordinates[platform][c as usize] = None,
             Coordinate::Turn(platform, _) => self.coordinates[platform] = [None; 6],
@@ -209,9 +198,8 @@ impl<'a> Question<'a> {
 
     /// The coordinates of a platform that are held, with their values in m or rad.
     pub fn held_values(&self, platform: usize) -> Vec<(PoseCoordinate, f64)> {
-        let given = PoseCoordinate::ALL
-            .into_iter()
-            .zip(&self.coordinates[platform]);
+        let given = PoseCoordinate::ALL.into_iter();
+        let given = given.zip(&self.coordinates[platform]);
         given
             .filter_map(|(c, value)| Some((c, (*value)?)))
             .collect()
@@ -263,11 +251,10 @@ impl<'a> Question<'a> {
     /// Where the search starts: guesses, held values and for the rest the home configuration.
     pub fn start(&self) -> Configuration<f64> {
         let mut start = self.start.clone();
-        for (platform, values) in start.platforms.iter_mut().zip(&self.coordinates) {
-            let given = PoseCoordinate::ALL.into_iter().zip(values);
-            let given = given.filter_map(|(coordinate, value)| Some((coordinate, (*value)?)));
-            if values.iter().any(Option::is_some) {
-                *platform = PlatformPose::from_pose(&with_coordinates(&platform.pose(), given));
+        for (platform, pose) in start.platforms.iter_mut().enumerate() {
+            let given = self.held_values(platform);
+            if !given.is_empty() {
+                *pose = PlatformPose::from_pose(&with_coordinates(&pose.pose(), given));
             }
         }
         start
@@ -324,17 +311,30 @@ impl<'a> Question<'a> {
         number.map_err(|error| QuestionError::value(name, value, error))
     }
 
-    fn pose(&self, name: &str, value: &Value, platform: usize) -> Result<Pose<f64>, QuestionError> {
-        if value.is_home() {
-            return Ok(self.mechanism.platforms()[platform].home);
-        }
-        let pose = value.pose(self.mechanism);
-        pose.map_err(|error| QuestionError::value(name, value, error))
+    /// Starts at the pose that a value stands for.
+    fn guess_pose(
+        &mut self,
+        name: &str,
+        value: &Value,
+        platform: usize,
+    ) -> Result<Pose<f64>, QuestionError> {
+        let pose = match value.is_home() {
+            true => Ok(self.mechanism.platforms()[platform].home),
+            false => value.pose(self.mechanism),
+        };
+        let pose = pose.map_err(|error| QuestionError::value(name, value, error))?;
+        self.start_at(platform, &pose);
+        Ok(pose)
+    }
+
+    fn start_at(&mut self, platform: usize, pose: &Pose<f64>) {
+        self.start.platforms[platform] = PlatformPose::from_pose(pose);
+        self.guessed_platforms[platform] = true;
     }
 
     fn target(&self, name: &str) -> Result<Target, QuestionError> {
         if let Some(joint) = self.mechanism.joint(name) {
-            return Ok(Target::Joint(joint));
+            return Ok(Target::Coordinate(Coordinate::Joint(joint)));
         }
         if let Some(platform) = self.mechanism.platform(name) {
             return Ok(Target::Pose(platform));
@@ -345,19 +345,13 @@ impl<'a> Question<'a> {
                 PoseCoordinate::by_name(coordinate),
             )
         {
-            return Ok(Target::Coordinate(platform, coordinate));
+            return Ok(Target::Coordinate(Coordinate::Pose(platform, coordinate)));
         }
-        let joints = self
-            .mechanism
-            .joints()
-            .iter()
-            .map(|joint| joint.name.clone());
-        let platforms = self.mechanism.platforms().iter().flat_map(|platform| {
-            let coordinates =
-                PoseCoordinate::ALL.map(|c| format!("{}.{}", platform.name, c.name()));
-            [platform.name.clone()].into_iter().chain(coordinates)
-        });
-        let known: Vec<String> = joints.chain(platforms).collect();
+        let platforms = self.mechanism.platforms().iter();
+        let coordinates = Coordinate::all(self.mechanism).map(|of| of.name(self.mechanism));
+        let known: Vec<String> = coordinates
+            .chain(platforms.map(|platform| platform.name.clone()))
+            .collect();
         Err(QuestionError::UnknownName {
             name: name.into(),
             suggestion: nearest(name, known.iter().map(String::as_str)).map(str::to_owned),

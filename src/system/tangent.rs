@@ -14,4 +14,8 @@ pub use loops::{LoopPart, MechanismLoop, loops};
 pub use motion::{FrameMotion, FrameMotions, Motion};
 pub use neighbourhood::{FiniteStep, Neighbourhood, Tangent};
 pub use screws::{Screw, TwistSpace, spin_lines, without, wrench_screws};
+/// Components of a motion of unit norm, in rad and characteristic lengths, below this are rounding: a
+/// null space is known to about [`RANK_TOLERANCE`](crate::linear::RANK_TOLERANCE), with a digit to spare.
+pub const STILL: f64 = 1e-6;
+
 pub use twists::{FrameTwists, Twist};

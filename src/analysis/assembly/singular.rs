@@ -1,10 +1,10 @@
-//! Who is to blame for a singular configuration.
+//! What makes a configuration singular for the held inputs.
 
 use super::Outcome;
-use crate::linear::Spectrum;
+use crate::linear::{Spectrum, dot};
 use crate::mechanism::{Configuration, Mechanism};
 use crate::solve::Equations;
-use crate::system::{Freedoms, Held, HeldPlatform, System, Unknown};
+use crate::system::{Freedoms, Held, HeldPlatform, STILL, System, Unknown};
 
 /// Names what moves though the inputs are held, the closure whose equations depend on the others
 /// there, and the held joints that cannot drive the mechanism.
@@ -18,22 +18,14 @@ pub(super) fn blame(
     at: &Configuration<f64>,
     freedoms: &Freedoms,
 ) -> Outcome {
-    let dimensions = mechanism.dimensions();
-    let all_free = Held {
-        joints: vec![false; held.joints.len()],
-        platforms: vec![HeldPlatform::Free; held.platforms.len()],
-    };
-    let system = System::new(dimensions, &all_free);
+    let system = System::new(mechanism.dimensions(), &Held::nothing(mechanism));
     let mut work = system.work();
     system.linearise(at, &mut work);
     let jacobian = system.dense_jacobian(&mut work);
     let rows = system.rows();
     let (mut free, mut inputs) = (Vec::new(), Vec::new());
-    for (unknown, column) in system
-        .unknowns()
-        .iter()
-        .zip(jacobian.chunks_exact(rows.max(1)))
-    {
+    let columns = jacobian.chunks_exact(rows.max(1));
+    for (unknown, column) in system.unknowns().iter().zip(columns) {
         let is_held = match *unknown {
             Unknown::Joint(joint) => held.joints[joint],
             Unknown::Twist { platform, .. } => held.platforms[platform] == HeldPlatform::Pose,
@@ -49,18 +41,19 @@ pub(super) fn blame(
         .collect();
     let mut strongest = (0.0, 0, Vec::new());
     for w in Spectrum::of(free.len(), rows, &transposed).null_space {
-        let drive = |column: &[f64]| -> f64 { column.iter().zip(&w).map(|(a, b)| a * b).sum() };
-        let drives: Vec<(usize, f64)> = inputs.iter().map(|(j, c)| (*j, drive(c).abs())).collect();
+        let drives = inputs
+            .iter()
+            .map(|(joint, column)| (*joint, dot(column, &w).abs()));
+        let drives: Vec<(usize, f64)> = drives.collect();
         let most = drives.iter().fold(0.0, |m: f64, (_, d)| m.max(*d));
         if most >= strongest.0 {
-            let share =
-                |range: std::ops::Range<usize>| -> f64 { w[range].iter().map(|x| x * x).sum() };
-            let shares: Vec<f64> = system.closure_rows().map(share).collect();
-            let closure =
-                (0..shares.len()).fold(0, |b, i| if shares[i] > shares[b] { i } else { b });
-            let powerless = drives
-                .iter()
-                .filter(|(_, d)| most > 1e-6 && *d > 0.1 * most);
+            let shares = system
+                .closure_rows()
+                .map(|range| dot(&w[range.clone()], &w[range]));
+            let shares: Vec<f64> = shares.collect();
+            let more = |best, i| if shares[i] > shares[best] { i } else { best };
+            let closure = (0..shares.len()).fold(0, more);
+            let powerless = (drives.iter()).filter(|(_, d)| most > STILL && *d > 0.1 * most);
             strongest = (most, closure, powerless.map(|(joint, _)| *joint).collect());
         }
     }

@@ -9,7 +9,7 @@ use super::{Character, MobilitySettings};
 use crate::linear::orthonormal;
 use crate::solve::{Stage, Watch};
 use crate::system::{Neighbourhood, Tangent, independent_parts};
-use walk::{Directions, Seen, contains, explore, fills, same, there};
+use walk::{Directions, Seen, Walk, contains, same};
 
 /// A joint that a finite step along free motions moves by more than this moves: at a dead point its
 /// rate is zero, and a step of 0.05 moves it to second order.
@@ -145,11 +145,8 @@ fn free(
         let direction = combination(&tangent.motions, rng);
         let step = near.free_step(tangent, &direction, settings.step)?;
         gap = gap.max(step.gap);
-        see(
-            &mut moved,
-            &near.system().difference(&tangent.at, &step.at),
-            MOVED,
-        );
+        let way = near.system().difference(&tangent.at, &step.at);
+        see(&mut moved, &way, MOVED);
     }
     Ok((moved, gap))
 }
@@ -209,12 +206,18 @@ fn singular(
     (settings, watch): (&MobilitySettings, &Watch),
     rng: &mut impl Rng,
 ) -> Part {
-    /// Steps per infinitesimal freedom and [`MobilitySettings::branch_trials`] after which no more
-    /// branches are sought.
+    /// Most steps, per infinitesimal freedom and [`MobilitySettings::branch_trials`].
     const LONGEST: usize = 12;
     let n = tangent.motions.len();
     let cone = Cone::of(near, tangent);
-    let mut seen: Vec<Seen> = Vec::new();
+    let mut walk = Walk {
+        near,
+        own,
+        from: tangent,
+        settings,
+        rng,
+        seen: Vec::new(),
+    };
     let mut limits: Vec<Limit> = Vec::new();
     let mut share = 0.0;
     let (mut tried, mut fruitless) = (0, 0);
@@ -224,7 +227,7 @@ fn singular(
             false => Directions::on_cone(&cone, tangent, settings.branch_trials),
         };
         let before = tried;
-        while let Some(direction) = ahead.next(&cone, tangent, rng) {
+        while let Some(direction) = ahead.next(&cone, tangent, walk.rng) {
             if watch.stops(Stage::Branches, tried, None) {
                 break 'rounds;
             }
@@ -238,15 +241,15 @@ fn singular(
             if !cone.is_all() && limits.iter().any(known) {
                 continue;
             }
-            explore(near, own, tangent, &direction, settings, &mut seen, rng);
-            if seen.len() > limits.len() {
+            walk.explore(&direction);
+            if walk.seen.len() > limits.len() {
                 fruitless = 0;
-                for seen in &seen[limits.len()..] {
-                    let motions = there(near, own, tangent, seen);
-                    let curved = seen.regular && is_curved(near, &cone, tangent, &motions, rng);
+                for number in limits.len()..walk.seen.len() {
+                    let motions = walk.limit(number);
+                    let curved = walk.seen[number].regular && is_curved(&mut walk, &cone, &motions);
                     limits.push(Limit { motions, curved });
                 }
-                share = branches(&cone, n, &seen, &limits).1;
+                share = branches(&cone, n, &walk.seen, &limits).1;
                 if share >= 1.0 {
                     break;
                 }
@@ -258,16 +261,16 @@ fn singular(
         // where most of what is possible was found, the rest is probably real too
         let patience = if share >= 0.5 { 4 } else { 1 };
         let rounds = if cone.is_all() { 2 } else { 1 };
-        let enough = patience * (rounds * settings.branch_trials * n).max(4 * seen.len());
+        let enough = patience * (rounds * settings.branch_trials * n).max(4 * walk.seen.len());
         if n < 2 || fruitless >= enough || tried >= LONGEST * settings.branch_trials * n {
             break;
         }
     }
     // joints that were seen to move since
-    let (branches, share) = branches(&cone, n, &seen, &limits);
+    let (branches, share) = branches(&cone, n, &walk.seen, &limits);
     Part {
         regular: false,
-        // a function of one variable that does not vanish on the way has no zero there
+        // a function of one variable that vanishes nowhere nearby has no zero there
         complete: share >= 1.0 || (n == 1 && branches.is_empty() && !watch.is_stopped()),
         branches,
     }
@@ -282,13 +285,7 @@ struct Limit {
 
 /// Whether the tangent of a branch at the meeting point is that of a curved cone there: then not
 /// all of it is on the cone, and steps along it lead elsewhere.
-fn is_curved(
-    near: &mut Neighbourhood,
-    cone: &Cone,
-    tangent: &Tangent,
-    motions: &[Vec<f64>],
-    rng: &mut impl Rng,
-) -> bool {
+fn is_curved<R: Rng>(walk: &mut Walk<R>, cone: &Cone, motions: &[Vec<f64>]) -> bool {
     /// Length of the steps.
     const STEP: f64 = 0.02;
     if !cone.is_all() {
@@ -296,9 +293,9 @@ fn is_curved(
     }
     let along = Tangent {
         motions: motions.to_vec(),
-        ..tangent.clone()
+        ..walk.from.clone()
     };
-    !fills(near, &along, STEP, rng)
+    !walk.fills(&along, STEP)
 }
 
 /// The branches that were seen, and which share of all that there can be they are: 1 if there are
@@ -334,7 +331,7 @@ fn branches(cone: &Cone, n: usize, seen: &[Seen], limits: &[Limit]) -> (Vec<Bran
         branches.push((seen.regular, branch));
     }
     branches.sort_by_key(|(_, branch)| std::cmp::Reverse(branch.freedoms));
-    // what was seen from a special point of a larger branch is part of that
+    // what was seen from a singular point of a larger branch is part of that
     let within = |i: usize| {
         let (regular, branch) = &branches[i];
         !regular
@@ -353,14 +350,12 @@ fn branches(cone: &Cone, n: usize, seen: &[Seen], limits: &[Limit]) -> (Vec<Bran
     let single = forms == 1 || branches.iter().all(|branch| !branch.cone);
     let most = 1usize.checked_shl(forms as u32).unwrap_or(usize::MAX);
     let known = (1..16).contains(&forms) && even && single;
-    (
-        branches,
-        if known {
-            degrees as f64 / most as f64
-        } else {
-            0.0
-        },
-    )
+    let share = if known {
+        degrees as f64 / most as f64
+    } else {
+        0.0
+    };
+    (branches, share)
 }
 
 /// The branches of the whole: each part is on one of its own. The first of them.

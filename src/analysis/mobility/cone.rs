@@ -2,7 +2,7 @@
 
 use rand::Rng;
 
-use crate::linear::{dot, norm, orthonormal};
+use crate::linear::{add, dot, norm, orthonormal};
 use crate::system::{Neighbourhood, Tangent};
 
 /// The quadratic tangent cone: the motions ξ = Σ vᵢ mᵢ with wₖᵀ H(ξ, ξ) = 0 for all wₖ with
@@ -85,8 +85,7 @@ impl Cone {
         self.forms.is_empty()
     }
 
-    /// A direction on the cone, by Gauss–Newton steps from a random one; `None` if they do not
-    /// settle.
+    /// A direction on the cone, by Gauss–Newton steps from a random one, if they converge.
     pub fn direction(&self, motions: &[Vec<f64>], rng: &mut impl Rng) -> Option<Vec<f64>> {
         const STEPS: usize = 40;
         /// Double solutions are neared linearly only: what is left is left to the finite step.
@@ -157,10 +156,7 @@ pub(super) fn combination(basis: &[Vec<f64>], rng: &mut impl Rng) -> Vec<f64> {
         direction.fill(0.0);
         for motion in basis {
             let weight = 2.0 * rng.random::<f64>() - 1.0;
-            direction
-                .iter_mut()
-                .zip(motion)
-                .for_each(|(d, m)| *d += weight * m);
+            add(&mut direction, weight, motion);
         }
     }
     let length = norm(&direction);

@@ -14,7 +14,7 @@ use crate::system::{MechanismLoop, Neighbourhood, loops};
 pub struct LoopCount {
     /// The closure that completes the loop.
     pub closure: String,
-    /// Its bodies in order, from the one the two ways part at.
+    /// Its bodies in order, from the one where its two chains part.
     pub bodies: Vec<String>,
     /// The joint variables and closures in it, in order, each once.
     pub joints: Vec<String>,

@@ -4,11 +4,10 @@ use serde::{Deserialize, Serialize};
 
 use crate::description::ClosureKind;
 use crate::geometry::Vector3;
-use crate::linear::{axis_aligned, complement, orthonormal};
+use crate::linear::{add, axis_aligned, complement, orthonormal};
 use crate::system::{Neighbourhood, Tangent};
 
-/// The equations of a closure that follow from those of the closures before it in the file and from
-/// one another.
+/// Equations of a closure that follow from those of earlier closures and from one another.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Redundancy {
     /// The closure.
@@ -17,8 +16,7 @@ pub struct Redundancy {
     pub equations: usize,
     /// All the equations it has.
     pub of: usize,
-    /// A basis of the wrenches they resist, in the closure's first frame at the closure's point:
-    /// along axes as far as possible.
+    /// A basis of the wrenches they resist, at the closure's point in its first frame.
     pub wrenches: Vec<Wrench>,
     /// The closure is a rod between two balls.
     pub rod: bool,
@@ -68,9 +66,7 @@ pub(super) fn find(near: &mut Neighbourhood, tangent: &Tangent) -> Vec<Redundanc
                 let mut sum = [0.0; 6];
                 for (weight, part) in weights.iter().zip(&parts) {
                     for (row, factor) in wrenches.rows.iter().zip(part) {
-                        sum.iter_mut()
-                            .zip(row)
-                            .for_each(|(s, r)| *s += weight * factor * r);
+                        add(&mut sum, weight * factor, row);
                     }
                 }
                 let (moment, force) = (turn(&sum[..3]), turn(&sum[3..]));
@@ -93,9 +89,7 @@ pub(super) fn find(near: &mut Neighbourhood, tangent: &Tangent) -> Vec<Redundanc
             .map(|weights| {
                 let mut sum = vec![0.0; dependencies[0].len()];
                 for (weight, dependency) in weights.iter().zip(&dependencies) {
-                    sum.iter_mut()
-                        .zip(dependency)
-                        .for_each(|(s, d)| *s += weight * d);
+                    add(&mut sum, *weight, dependency);
                 }
                 sum
             })

@@ -1,10 +1,10 @@
-//! Every singularity on the way of the inputs along a segment.
+//! Singularities met by a motion of the inputs along a segment.
 
 use std::ops::ControlFlow;
 
 use serde::{Deserialize, Serialize};
 
-use super::classify::{Classifier, Singularity};
+use super::classify::{Classifier, DIRECT, INVERSE, Singularity};
 use super::drops::Drops;
 use super::outputs::{Coupled, coupled, outputs_of};
 use super::{SingularitiesSettings, names, output_names};
@@ -104,12 +104,9 @@ pub enum AlongEnd {
     Stopped,
 }
 
-/// Moves the inputs from `start`, assembled where their segment begins, to its end, and locates every
-/// singularity on the way to rounding.
+/// Moves the inputs along their segment from `start` and locates every singularity to rounding.
 ///
-/// `held` holds what stands still, none of what is moved; `inputs` are those that singularities are
-/// told of. Where the direct or inverse matrix loses rank along the curve, one or several ranks at
-/// once, the place is found to rounding, and what vanishes there is classified.
+/// `held` holds what stands still, none of what is moved; singularities refer to `inputs`.
 pub fn along(
     mechanism: &Mechanism,
     held: &Held<f64>,
@@ -218,7 +215,7 @@ pub fn along(
     report
 }
 
-/// Into how many parts the segment is divided to tell how far the motion is.
+/// Parts of the segment in reports of progress.
 const PARTS: u16 = 1000;
 
 /// Something on a leg.
@@ -231,6 +228,19 @@ struct Met {
     vanishes: bool,
     /// What ends the motion.
     end: Option<Event>,
+}
+
+impl Met {
+    fn at(place: At) -> Self {
+        Met {
+            place,
+            along: 0.0,
+            fold: false,
+            branches: false,
+            vanishes: false,
+            end: None,
+        }
+    }
 }
 
 /// Places this near are the same.
@@ -257,12 +267,10 @@ impl Tests<'_> {
             );
             if ends || fold || branches {
                 found.push(Met {
-                    place: place.clone(),
-                    along: 0.0,
                     fold,
                     branches,
-                    vanishes: false,
                     end: ends.then(|| event.clone()),
+                    ..Met::at(place.clone())
                 });
             }
         }
@@ -273,12 +281,8 @@ impl Tests<'_> {
             match found.iter_mut().find(near) {
                 Some(met) => met.vanishes = true,
                 None => found.push(Met {
-                    place,
-                    along: 0.0,
-                    fold: false,
-                    branches: false,
                     vanishes: true,
-                    end: None,
+                    ..Met::at(place)
                 }),
             }
         }
@@ -298,9 +302,9 @@ impl Tests<'_> {
             true => (leg.to.clone().reversed(), leg.from.clone().reversed()),
             false => (leg.from.clone(), leg.to.clone()),
         };
-        let locked = [&mut self.classifier.direct, &mut self.classifier.inverse];
         let mut places = Vec::new();
-        for (locked, rank) in locked.into_iter().zip(ranks) {
+        for (k, rank) in [DIRECT, INVERSE].into_iter().zip(ranks) {
+            let locked = &mut self.classifier.matrices[k];
             let mut drops = Drops {
                 curve,
                 locked,

@@ -4,10 +4,10 @@ mod resisted;
 
 use serde::{Deserialize, Serialize};
 
-use crate::linear::{orthonormal, remove};
+use crate::linear::{Decomposition, orthonormal, remove};
 use crate::mechanism::{Configuration, Mechanism};
 use crate::system::{
-    Coordinate, Lock, Locked, Mobility, Neighbourhood, Screw, TwistSpace, Unknown,
+    Coordinate, Lock, Locked, Mobility, Neighbourhood, STILL, Screw, TwistSpace, Unknown,
 };
 
 /// The types of D. Zlatanov, R. G. Fenton and B. Benhabib 1994.
@@ -36,8 +36,7 @@ pub enum Zlatanov {
 /// What is singular about a configuration; nothing may be.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Singularity {
-    /// The type of C. Gosselin and J. Angeles 1990: 1 inverse, 2 direct, 3 both; `None` if neither
-    /// Jacobian loses rank.
+    /// The type of Gosselin and Angeles 1990: 1 inverse, 2 direct, 3 both; `None` if neither.
     pub gosselin_angeles: Option<u8>,
     /// The types of Zlatanov, Fenton and Benhabib.
     pub zlatanov: Vec<Zlatanov>,
@@ -47,16 +46,16 @@ pub struct Singularity {
     pub loss: usize,
     /// Infinitesimal freedoms with nothing held, beyond those of configurations nearby.
     pub more_mobility: usize,
-    /// What moves while the inputs stand still.
+    /// Motions with the inputs at rest.
     pub gained: Option<Movement>,
-    /// What moves while the outputs stand still.
+    /// Motions with the outputs at rest.
     pub idle_inputs: Option<Movement>,
-    /// What outputs that lost freedoms resist whatever the inputs do, where that is determined.
+    /// Wrenches that outputs resist in the freedoms they lost, whatever the inputs do.
     pub resisted: Vec<Resisted>,
     /// How far the nearest singularity is.
     pub distances: Distances,
-    /// Whether a configuration nearby was found to compare with; if not, what is singular everywhere
-    /// cannot be told from what is singular here only.
+    /// Whether a regular configuration nearby was found. Without it, ranks that are lost everywhere are
+    /// not told from those lost here only.
     pub compared: bool,
 }
 
@@ -81,7 +80,7 @@ pub struct Moving {
     pub rate: Option<f64>,
 }
 
-/// Wrenches that an output takes without help of the inputs.
+/// Wrenches that an output resists without actuation.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Resisted {
     /// The output; the platform, where outputs are coordinates of one.
@@ -109,31 +108,28 @@ impl Singularity {
     }
 }
 
-/// Dimensions of what the four matrices map to zero.
-#[derive(Clone, Copy, Debug)]
-struct Nullities {
-    closures: usize,
-    direct: usize,
-    inverse: usize,
-    both: usize,
-}
+/// The dimensions of the null spaces of the four matrices.
+type Nullities = [usize; 4];
 
-/// Tells singularities of one split into inputs and outputs.
+/// The matrices by their places: J, [J; H], [J; O] and [J; H; O].
+const CLOSURES: usize = 0;
+pub(super) const DIRECT: usize = 1;
+pub(super) const INVERSE: usize = 2;
+const BOTH: usize = 3;
+
+/// Classifies singularities for one choice of inputs and outputs.
 pub(super) struct Classifier<'m> {
     near: Neighbourhood<'m>,
-    closures: Locked,
-    pub direct: Locked,
-    pub inverse: Locked,
-    both: Locked,
-    /// Rates of the outputs: rows at the end of `inverse`.
+    pub matrices: [Locked; 4],
+    /// The outputs, rows at the end of [J; O].
     outputs: Vec<Lock>,
     generic: Nullities,
-    /// A configuration that is not special.
+    /// A configuration nearby that is not singular.
     beside: Option<Configuration<f64>>,
 }
 
 impl<'m> Classifier<'m> {
-    /// Compares with configurations beside the one given.
+    /// Ranks are compared with those at a regular configuration nearby.
     pub fn new(
         mechanism: &'m Mechanism,
         inputs: &[Coordinate],
@@ -141,71 +137,66 @@ impl<'m> Classifier<'m> {
         at: &Configuration<f64>,
     ) -> Self {
         let inputs: Vec<Lock> = inputs.iter().copied().map(Lock::Coordinate).collect();
-        let all: Vec<Lock> = inputs.iter().chain(outputs).copied().collect();
+        let both = [&inputs[..], outputs].concat();
         let mut classifier = Classifier {
             near: Neighbourhood::new(mechanism),
-            closures: Locked::new(mechanism, &[]),
-            direct: Locked::new(mechanism, &inputs),
-            inverse: Locked::new(mechanism, outputs),
-            both: Locked::new(mechanism, &all),
+            matrices: [&[], &inputs[..], outputs, &both].map(|rows| Locked::new(mechanism, rows)),
             outputs: outputs.to_vec(),
-            generic: Nullities {
-                closures: 0,
-                direct: 0,
-                inverse: 0,
-                both: 0,
-            },
+            generic: [0; 4],
             beside: Mobility::beside(mechanism, at).map(|mobility| mobility.at().clone()),
         };
         let here = classifier.nullities(at);
         classifier.generic = match classifier.beside.clone() {
-            Some(beside) => here.least(classifier.nullities(&beside)),
+            Some(beside) => {
+                let there = classifier.nullities(&beside);
+                std::array::from_fn(|k| here[k].min(there[k]))
+            }
             None => here,
         };
         classifier
     }
 
-    /// The rank of the direct and the inverse matrix where nothing is special.
-    pub fn regular_ranks(&self) -> [usize; 2] {
-        let columns = self.direct.columns();
-        [self.generic.direct, self.generic.inverse].map(|nullity| columns - nullity)
+    /// The unknowns with nothing held: the columns of the matrices.
+    pub fn unknowns(&self) -> &[Unknown] {
+        self.matrices[CLOSURES].system().unknowns()
     }
 
-    /// The idle motions where nothing is special, over the unknowns with nothing held: links turn
-    /// about their own lines and nothing else moves.
+    /// The ranks of the direct and the inverse matrix at a regular configuration.
+    pub fn regular_ranks(&self) -> [usize; 2] {
+        [DIRECT, INVERSE].map(|k| self.unknowns().len() - self.generic[k])
+    }
+
+    /// The local freedoms at a regular configuration.
     pub fn idle(&mut self, at: &Configuration<f64>) -> Vec<Vec<f64>> {
         let at = self.beside.as_ref().unwrap_or(at).clone();
         self.near.tangent(at).idle
     }
 
+    fn decompositions(&mut self, at: &Configuration<f64>) -> [Decomposition; 4] {
+        self.matrices
+            .each_mut()
+            .map(|matrix| matrix.decomposition(at))
+    }
+
     fn nullities(&mut self, at: &Configuration<f64>) -> Nullities {
-        let nullity = |locked: &mut Locked| {
-            let rank = locked.decomposition(at).rank();
-            locked.columns() - rank
-        };
-        Nullities {
-            closures: nullity(&mut self.closures),
-            direct: nullity(&mut self.direct),
-            inverse: nullity(&mut self.inverse),
-            both: nullity(&mut self.both),
-        }
+        let columns = self.unknowns().len();
+        self.decompositions(at).map(|found| columns - found.rank())
     }
 
     /// What is singular at an assembled configuration.
     pub fn at(&mut self, at: &Configuration<f64>) -> Singularity {
         let generic = self.generic;
-        let here = self.nullities(at);
-        let more = |here: usize, generic: usize| here.saturating_sub(generic);
-        let more_mobility = more(here.closures, generic.closures);
-        let gain = more(here.direct, generic.direct);
-        let passive = more(here.both, generic.both);
-        // ranks of the maps from motions to inputs and to outputs
-        let input_rank = |n: Nullities| n.closures - n.direct.min(n.closures);
-        let output_rank = |n: Nullities| n.closures - n.inverse.min(n.closures);
-        let lost_inputs = more(input_rank(generic), input_rank(here));
-        let loss = more(output_rank(generic), output_rank(here));
-        let idle = |n: Nullities| n.inverse - n.both.min(n.inverse);
-        let idle_inputs = more(idle(here), idle(generic));
+        let matrices = self.decompositions(at);
+        let columns = self.unknowns().len();
+        let here: Nullities = matrices.each_ref().map(|found| columns - found.rank());
+        let gained = |k: usize| here[k].saturating_sub(generic[k]);
+        let (more_mobility, gain, passive) = (gained(CLOSURES), gained(DIRECT), gained(BOTH));
+        // ranks of the maps from motions to the rates of inputs or outputs
+        let rank = |n: Nullities, k: usize| n[CLOSURES].saturating_sub(n[k]);
+        let lost = |k: usize| rank(generic, k).saturating_sub(rank(here, k));
+        let (lost_inputs, loss) = (lost(DIRECT), lost(INVERSE));
+        let idle = |n: Nullities| n[INVERSE].saturating_sub(n[BOTH]);
+        let idle_inputs = idle(here).saturating_sub(idle(generic));
         let types = [
             (Zlatanov::RedundantInput, idle_inputs > 0),
             (Zlatanov::RedundantOutput, gain > passive),
@@ -216,6 +207,17 @@ impl<'m> Classifier<'m> {
         ];
         let inverse = idle_inputs > 0 || loss > 0;
         let direct = gain > 0 || lost_inputs > 0;
+        // the smallest singular value that does not vanish everywhere
+        let least = |k: usize| {
+            let last = (columns - generic[k]).checked_sub(1)?;
+            Some(
+                matrices[k]
+                    .singular_values()
+                    .get(last)
+                    .copied()
+                    .unwrap_or(0.0),
+            )
+        };
         Singularity {
             gosselin_angeles: match (inverse, direct) {
                 (true, true) => Some(3),
@@ -230,53 +232,34 @@ impl<'m> Classifier<'m> {
             loss,
             more_mobility,
             gained: (gain > 0).then(|| {
-                let motions = self.direct.decomposition(at).null_space();
                 let idle = self.near.tangent(at.clone()).idle;
-                self.movement(at, motions, &idle)
+                self.movement(at, matrices[DIRECT].null_space(), &idle)
             }),
             idle_inputs: (idle_inputs > 0).then(|| {
-                let motions = self.inverse.decomposition(at).null_space();
-                let passive = self.both.decomposition(at).null_space();
-                self.movement(at, motions, &passive)
+                let passive = matrices[BOTH].null_space();
+                self.movement(at, matrices[INVERSE].null_space(), &passive)
             }),
             resisted: match loss {
                 0 => Vec::new(),
                 _ => self.resisted(at),
             },
-            distances: self.distances(at),
+            distances: Distances {
+                constraint: least(CLOSURES),
+                direct: least(DIRECT),
+                inverse: least(INVERSE),
+            },
             compared: self.beside.is_some(),
         }
     }
 
-    /// The smallest singular values that are not zero everywhere.
-    pub fn distances(&mut self, at: &Configuration<f64>) -> Distances {
-        let generic = self.generic;
-        let least = |locked: &mut Locked, nullity: usize| {
-            let rank = locked.columns() - nullity;
-            let decomposition = locked.decomposition(at);
-            let values = decomposition.singular_values();
-            let last = rank.checked_sub(1)?;
-            Some(values.get(last).copied().unwrap_or(0.0))
-        };
-        Distances {
-            constraint: least(&mut self.closures, generic.closures),
-            direct: least(&mut self.direct, generic.direct),
-            inverse: least(&mut self.inverse, generic.inverse),
-        }
-    }
-
-    /// Motions without those that are of no interest.
+    /// Motions as a report, less those of a subspace of no interest.
     fn movement(
         &self,
         at: &Configuration<f64>,
         mut motions: Vec<Vec<f64>>,
         without: &[Vec<f64>],
     ) -> Movement {
-        /// Below this a component of a unit motion is rounding.
-        const ROUNDING: f64 = 1e-6;
-        motions
-            .iter_mut()
-            .for_each(|motion| remove(motion, without));
+        (motions.iter_mut()).for_each(|motion| remove(motion, without));
         let mut motions = orthonormal(&motions, 1e-3);
         let mechanism = self.near.mechanism();
         // one sense of two, the same on every machine
@@ -287,12 +270,12 @@ impl<'m> Classifier<'m> {
                 motion.iter_mut().for_each(|x| *x = -*x);
             }
         }
-        let unknowns = self.direct.system().unknowns().iter().enumerate();
+        let unknowns = self.unknowns().iter().enumerate();
         let joints = unknowns.filter_map(|(i, unknown)| {
             let Unknown::Joint(joint) = *unknown else {
                 return None;
             };
-            let moves = motions.iter().any(|motion| motion[i].abs() > ROUNDING);
+            let moves = motions.iter().any(|motion| motion[i].abs() > STILL);
             moves.then(|| Moving {
                 joint: mechanism.joints()[joint].name.clone(),
                 rate: match &motions[..] {
@@ -305,17 +288,6 @@ impl<'m> Classifier<'m> {
             freedoms: motions.len(),
             joints: joints.collect(),
             twists: self.near.twist_spaces(at, &motions, &[]),
-        }
-    }
-}
-
-impl Nullities {
-    fn least(self, other: Nullities) -> Nullities {
-        Nullities {
-            closures: self.closures.min(other.closures),
-            direct: self.direct.min(other.direct),
-            inverse: self.inverse.min(other.inverse),
-            both: self.both.min(other.both),
         }
     }
 }

@@ -39,7 +39,7 @@ impl Sample {
 pub(super) struct Drops<'a> {
     pub curve: &'a mut Curve,
     pub locked: &'a mut Locked,
-    /// The rank of the matrix where nothing is special.
+    /// The rank of the matrix at a regular configuration.
     pub rank: usize,
     pub method: &'a Continuation,
 }
@@ -100,7 +100,7 @@ impl Drops<'_> {
     /// The place on a short stretch.
     fn last(&mut self, a: &Sample, b: &Sample, length: f64) -> Option<At> {
         match (a.vanishes(), b.vanishes()) {
-            // the stretch before has told it, or the start itself
+            // found on the stretch before, or at the start
             (true, _) => return None,
             (false, true) => return Some(b.place.clone()),
             (false, false) => {}

@@ -1,14 +1,12 @@
-//! How far a curve of configurations reaches in the coordinates of the box.
+//! The extents of a locus in the coordinates of the box.
 
 use crate::solve::Place;
 use crate::system::{Driven, LocusCurve, Region, Singular, Traced};
 
 type At = Place<Singular>;
 
-/// The lowest and the highest value of each coordinate on a curve, rad or m: at its ends, where other
-/// curves cross it, and where it turns back in that coordinate. There its unit tangent has no part
-/// along the coordinate, and the place is found as a root of that part, not among the places that
-/// happened to be followed.
+/// Least and greatest value of each coordinate on a curve, rad or m: at its ends, at crossings, and where
+/// its unit tangent has no component along the coordinate, a root that is located to rounding.
 pub(super) fn extents(
     curve: &mut LocusCurve,
     region: &Region,
@@ -30,7 +28,7 @@ pub(super) fn extents(
     })
 }
 
-/// The place between two followed ones where the curve turns back in a coordinate, if it does.
+/// The place between two others where the curve turns back in a coordinate, if it does.
 fn turning(
     curve: &mut LocusCurve,
     region: &Region,
@@ -40,7 +38,7 @@ fn turning(
 ) -> Option<At> {
     /// Rates below this are those of a coordinate that stands still.
     const STILL: f64 = 1e-8;
-    /// Off the turn by this much, the coordinate is off by its square.
+    /// Within this of the turn the coordinate is off by its square.
     const THERE: f64 = 1e-6;
     let mut rate = |curve: &mut LocusCurve, place: &At| {
         curve

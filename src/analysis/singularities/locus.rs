@@ -1,4 +1,4 @@
-//! Singularities in two inputs: loci as curves.
+//! Singularity loci in a box of two coordinates.
 
 use serde::{Deserialize, Serialize};
 
@@ -12,9 +12,7 @@ use super::{SingularitiesSettings, names, output_names};
 use crate::algebra::SiUnit;
 use crate::mechanism::{Configuration, Mechanism, Variable};
 use crate::solve::{Place, Watch};
-use crate::system::{
-    Coordinate, Driven, Held, Lock, LocusCurve, LocusEnd, Region, Singular, Traced,
-};
+use crate::system::{Coordinate, Driven, Held, Lock, LocusEnd, Region, Singular};
 
 type At = Place<Singular>;
 
@@ -33,14 +31,12 @@ pub struct LocusReport {
     pub outputs: Vec<String>,
     /// Outputs that may hide what their positions lose.
     pub coupled: Vec<Coupled>,
-    /// Passive joints of links that spin about their own lines, which stood still: what their values
-    /// are changes nothing else.
+    /// Passive joints held to suppress the spin of links about their own axes.
     pub pinned: Vec<String>,
     /// The box.
     pub bounds: [Bound; 2],
-    /// The loci, those of direct singularities first, sorted by where they begin. Curves of
-    /// configurations that look alike in the box, such as those with a leg folded the other way, are
-    /// one.
+    /// The loci, direct ones first, sorted by their beginnings. Curves of configurations that coincide in
+    /// the box, as with a leg folded the other way, are one.
     pub loci: Vec<Locus>,
     /// Random starts that were made, direct and inverse.
     pub starts: [usize; 2],
@@ -87,13 +83,11 @@ pub struct Locus {
     pub closed: bool,
     /// How its first and its last configuration end it; the same if it closes.
     pub ends: [LocusEnd; 2],
-    /// The lowest and the highest value of each of the two coordinates on it, rad or m: located as
-    /// such, not taken from its points.
+    /// Least and greatest value of the two coordinates on it, rad or m, located to rounding.
     pub extents: [[f64; 2]; 2],
     /// Its points: the two coordinates, rad or m; one if it is a point.
     pub points: Vec<[f64; 2]>,
-    /// The joints at its points on one of its curves of configurations, rad or m, in the order of
-    /// the file.
+    /// The joints at its points, rad or m, in the order of the file.
     pub joints: Vec<Vec<f64>>,
     /// Positions (m) and quaternions (w, x, y, z) of the platforms at its points.
     pub poses: Vec<Vec<[f64; 7]>>,
@@ -128,7 +122,7 @@ pub fn loci(
 ) -> Result<LocusReport, usize> {
     let outputs = outputs_of(mechanism, held, &sides, inputs, settings);
     let mut classifier = Classifier::new(mechanism, inputs, &outputs, start);
-    let columns = classifier.direct.columns();
+    let columns = classifier.unknowns().len();
     let regular = classifier.regular_ranks();
     let spins = columns - regular[0];
     let idle = match spins {
@@ -140,12 +134,7 @@ pub fn loci(
         held.joints[joint] || inputs.iter().any(asked) || sides.iter().any(|s| asked(&s.coordinate))
     };
     let pinned = match idle.len() == spins {
-        true => pins(
-            mechanism,
-            classifier.direct.system().unknowns(),
-            idle,
-            taken,
-        ),
+        true => pins(mechanism, classifier.unknowns(), idle, taken),
         false => None,
     };
     let pinned = pinned.ok_or(spins)?;
@@ -197,10 +186,8 @@ pub fn loci(
     let direct: Vec<Lock> = inputs.chain(pinned.iter().copied()).collect();
     let inverse = [&outputs[..], &pinned].concat();
     let mut found: Vec<(usize, Found)> = Vec::new();
-    for (i, (kind, locks)) in [(Kind::Direct, &direct), (Kind::Inverse, &inverse)]
-        .into_iter()
-        .enumerate()
-    {
+    let kinds = [(Kind::Direct, &direct), (Kind::Inverse, &inverse)];
+    for (i, (kind, locks)) in kinds.into_iter().enumerate() {
         // outputs that leave some motion undetermined everywhere have no such locus
         if regular[i] + spins < columns {
             continue;
@@ -229,108 +216,81 @@ pub fn loci(
 }
 
 impl Search<'_> {
-    /// The loci, sorted by where they begin.
+    /// The loci that curves of configurations are in the box, sorted by where they begin.
     fn told(&mut self, found: Found) -> Vec<Locus> {
-        let Found {
-            kind,
-            mut curve,
-            known,
-            ..
-        } = found;
-        let mut loci = self.folded(kind, &mut curve, known);
-        let order = |locus: &Locus| {
-            locus
-                .points
-                .iter()
-                .copied()
-                .fold([f64::INFINITY; 2], |a, b| if b < a { b } else { a })
-        };
-        loci.sort_by(|a, b| {
-            order(a)
-                .partial_cmp(&order(b))
-                .unwrap_or(std::cmp::Ordering::Equal)
-        });
-        loci
-    }
-
-    /// The loci that curves of configurations are in the box.
-    fn folded(
-        &mut self,
-        kind: Kind,
-        curve: &mut LocusCurve,
-        known: Vec<(Traced<Singular>, usize)>,
-    ) -> Vec<Locus> {
-        let kinds: Vec<Singularity> = (known.iter())
+        let (kind, mut curve) = (found.kind, found.curve);
+        let kinds: Vec<Singularity> = (found.known.iter())
             .map(|(traced, _)| {
                 let middle = &traced.places[traced.places.len() / 2];
                 self.classifier.at(&middle.at.at)
             })
             .collect();
-        // where a joint that stands still does not tell the spin of its link any more
-        let (known, kinds): (Vec<_>, Vec<Singularity>) = (known.into_iter().zip(kinds))
+        // a held joint may not fix the spin of its link everywhere
+        let (known, kinds): (Vec<_>, Vec<Singularity>) = (found.known.into_iter().zip(kinds))
             .filter(|(_, singularity)| self.spins == 0 || kind.is_of(singularity))
             .unzip();
         let projections: Vec<Projection> = (known.iter().zip(&kinds))
             .map(|((traced, _), kind)| Projection::new(&self.region, traced, kind))
             .collect();
-        let groups = groups(curve, &self.region, &projections);
+        let groups = groups(&mut curve, &self.region, &projections);
         let loci = groups.into_iter().map(|group| {
             let chosen = group[0];
-            let mut locus = self.locus(kind, &known[chosen].0, kinds[chosen].clone());
-            locus.shape = projections[chosen].shape();
-            locus.configurations = group.len();
-            locus.met = group.iter().map(|member| known[*member].1).sum();
-            match locus.shape {
+            let traced = &known[chosen].0;
+            let shape = projections[chosen].shape();
+            let (places, extents, crossings) = match shape {
                 Shape::Point => {
-                    locus.extents = self.coordinates(&known[chosen].0.places[0]).map(|x| [x; 2]);
-                    locus.points.truncate(1);
-                    locus.joints.truncate(1);
-                    locus.poses.truncate(1);
-                    locus.crossings.clear();
+                    let extents = self.coordinates(&traced.places[0]).map(|x| [x; 2]);
+                    (&traced.places[..1], extents, Vec::new())
                 }
                 Shape::Curve => {
-                    locus.extents = extents(curve, &self.region, &known[chosen].0);
                     let crossings = group.iter().flat_map(|member| &known[*member].0.crossings);
                     let crossings = crossings.map(|place| self.coordinates(place));
-                    locus.crossings = projections[chosen].distinct(crossings);
+                    let extents = extents(&mut curve, &self.region, traced);
+                    (
+                        &traced.places[..],
+                        extents,
+                        projections[chosen].distinct(crossings),
+                    )
                 }
+            };
+            Locus {
+                kind,
+                shape,
+                configurations: group.len(),
+                met: group.iter().map(|member| known[*member].1).sum(),
+                closed: traced.ends[1] == LocusEnd::Closed,
+                ends: traced.ends,
+                extents,
+                points: places.iter().map(|place| self.coordinates(place)).collect(),
+                joints: places
+                    .iter()
+                    .map(|place| place.at.at.joints.clone())
+                    .collect(),
+                poses: places.iter().map(poses).collect(),
+                singularity: kinds[chosen].clone(),
+                crossings,
             }
-            locus
         });
-        loci.collect()
+        let mut loci: Vec<Locus> = loci.collect();
+        let order = |locus: &Locus| {
+            let points = locus.points.iter().copied();
+            points.fold([f64::INFINITY; 2], |a, b| if b < a { b } else { a })
+        };
+        loci.sort_by(|a, b| (order(a).partial_cmp(&order(b))).unwrap_or(std::cmp::Ordering::Equal));
+        loci
     }
 
     fn coordinates(&self, place: &At) -> [f64; 2] {
         self.sides.map(|side| self.region.side(&place.at.at, &side))
     }
+}
 
-    fn locus(&self, kind: Kind, traced: &Traced<Singular>, singularity: Singularity) -> Locus {
-        let poses = |place: &At| {
-            let platforms = place.at.at.platforms.iter();
-            platforms
-                .map(|pose| {
-                    let ([x, y, z], [w, i, j, k]) = (pose.position.0, pose.orientation.0);
-                    [x, y, z, w, i, j, k]
-                })
-                .collect()
-        };
-        Locus {
-            kind,
-            shape: Shape::Curve,
-            configurations: 1,
-            met: 0,
-            closed: traced.ends[1] == LocusEnd::Closed,
-            ends: traced.ends,
-            extents: [[0.0; 2]; 2],
-            points: (traced.places.iter())
-                .map(|p| self.coordinates(p))
-                .collect(),
-            joints: (traced.places.iter())
-                .map(|p| p.at.at.joints.clone())
-                .collect(),
-            poses: traced.places.iter().map(poses).collect(),
-            singularity,
-            crossings: Vec::new(),
-        }
-    }
+/// Positions and quaternions of the platforms.
+fn poses(place: &At) -> Vec<[f64; 7]> {
+    let platforms = place.at.at.platforms.iter();
+    let poses = platforms.map(|pose| {
+        let ([x, y, z], [w, i, j, k]) = (pose.position.0, pose.orientation.0);
+        [x, y, z, w, i, j, k]
+    });
+    poses.collect()
 }

@@ -26,22 +26,21 @@ pub(super) fn outputs_of(
     platform_outputs(held, &moved, inputs).unwrap_or_else(|| default_outputs(mechanism, inputs))
 }
 
-/// An output whose turning and shifting depend on one another: it has fewer freedoms than there are
-/// directions in which it moves somewhere. What its position loses, its twist as a whole need not
-/// lose: a stretched 2R arm still turns.
+/// A full pose as an output whose rotation and translation depend on one another. What its position
+/// loses, its twist need not lose: a stretched 2R arm still turns.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Coupled {
     /// The frame.
     pub output: String,
-    /// Its freedoms where nothing is special.
+    /// Its freedoms at a regular configuration.
     pub freedoms: usize,
     /// As many of its coordinates that are independent, if it is a platform.
     pub coordinates: Vec<String>,
-    /// Freedoms that its origin alone loses, where a configuration is told of.
+    /// Freedoms that its origin alone loses at the configuration, if there is one.
     pub origin_loses: Option<usize>,
 }
 
-/// The outputs that are coupled, where they were not chosen; `here` tells what their origins lose.
+/// The coupled outputs, unless outputs were chosen; `here` asks what their origins lose.
 pub(super) fn coupled(
     mechanism: &Mechanism,
     inputs: &[Coordinate],
@@ -53,18 +52,16 @@ pub(super) fn coupled(
     if !settings.outputs.is_empty() {
         return Vec::new();
     }
-    // two places that are not special
-    let Some(first) = Mobility::beside(mechanism, at) else {
+    // two regular configurations
+    let first = Mobility::beside(mechanism, at);
+    let second = (first.as_ref()).and_then(|first| Mobility::beside(mechanism, first.at()));
+    let (Some(first), Some(second)) = (first, second) else {
         return Vec::new();
     };
-    let Some(second) = Mobility::beside(mechanism, first.at()) else {
-        return Vec::new();
-    };
-    let frames = outputs.iter().filter_map(|output| match output {
-        Lock::Frame(frame) => Some(*frame),
-        Lock::Point(_) | Lock::Coordinate(_) => None,
-    });
-    let coupled = frames.filter_map(|frame| {
+    let coupled = outputs.iter().filter_map(|output| {
+        let Lock::Frame(frame) = *output else {
+            return None;
+        };
         /// Directions of unit twists this near are the same.
         const SAME: f64 = 1e-6;
         let [near, far] = [&first, &second].map(|place| twists(mechanism, frame, place.at()));
@@ -73,25 +70,20 @@ pub(super) fn coupled(
             norm(&twist) > SAME
         });
         beyond.then(|| {
-            let platform = match frame {
-                Frame::Platform { platform } => Some(platform),
-                _ => None,
+            let own = match frame {
+                Frame::Platform { platform } => PoseCoordinate::ALL
+                    .map(|c| Coordinate::Pose(platform, c))
+                    .to_vec(),
+                _ => Vec::new(),
             };
-            let own = platform
-                .into_iter()
-                .flat_map(|platform| PoseCoordinate::ALL.map(|c| Coordinate::Pose(platform, c)));
-            let own: Vec<Coordinate> = own.collect();
             let independent = first.independent(mechanism, &own).into_iter();
-            let origin = here.then(|| {
-                Classifier::new(mechanism, inputs, &[Lock::Point(frame)], at)
-                    .at(at)
-                    .loss
-            });
+            let origin = [Lock::Point(frame)];
+            let origin = || Classifier::new(mechanism, inputs, &origin, at).at(at).loss;
             Coupled {
                 output: mechanism.frame_name(frame),
                 freedoms: near.len(),
                 coordinates: independent.map(|c| c.name(mechanism)).collect(),
-                origin_loses: origin,
+                origin_loses: here.then(origin),
             }
         })
     });
@@ -102,17 +94,5 @@ pub(super) fn coupled(
 fn twists(mechanism: &Mechanism, frame: Frame, at: &Configuration<f64>) -> Vec<Vec<f64>> {
     let motions = Locked::new(mechanism, &[]).decomposition(at).null_space();
     let mut locked = Locked::new(mechanism, &[Lock::Frame(frame)]);
-    let entries = locked.jacobian(at);
-    let rows = locked.rows();
-    let twists: Vec<Vec<f64>> = (motions.iter())
-        .map(|motion| {
-            let mut twist = vec![0.0; 6];
-            for (column, rate) in entries.chunks_exact(rows).zip(motion) {
-                let own = column[rows - 6..].iter();
-                (twist.iter_mut().zip(own)).for_each(|(sum, x)| *sum += rate * x);
-            }
-            twist
-        })
-        .collect();
-    orthonormal(&twists, 1e-6)
+    orthonormal(&locked.rates(at, &motions), 1e-6)
 }

@@ -1,19 +1,19 @@
-//! Passive joints locked so that links do not spin about their own axes while loci are followed.
+//! Passive joints locked so that no link spins about its own axis while loci are followed.
 
 use crate::mechanism::Mechanism;
 use crate::system::Unknown;
 
-/// For each idle motion a passive joint that moves in it, none of which is `taken`: with these at
-/// rest nothing idle is left. None if some link spins without such a joint.
+/// A passive joint, not `taken`, for each local freedom: with these held none is left. `None` if some
+/// link spins without such a joint. `idle` are independent motions over `unknowns`.
 ///
-/// `idle` are independent motions over `unknowns`. Elimination with the largest pivot first.
+/// Gaussian elimination with full pivoting.
 pub(super) fn pins(
     mechanism: &Mechanism,
     unknowns: &[Unknown],
     mut idle: Vec<Vec<f64>>,
     taken: impl Fn(usize) -> bool,
 ) -> Option<Vec<usize>> {
-    /// Joints that move less in an idle motion of unit norm do not tell it.
+    /// Joints that move less in a local freedom of unit norm do not fix it.
     const LEAST: f64 = 1e-3;
     let joints = unknowns.iter().enumerate();
     let joints = joints.filter_map(|(column, unknown)| match *unknown {

@@ -1,5 +1,4 @@
-//! Curves of configurations projected into the box of two coordinates: which coincide there, and
-//! which are but a point.
+//! The loci as they appear in the box: which coincide there, and which are points.
 
 use serde::{Deserialize, Serialize};
 
@@ -90,8 +89,7 @@ impl<'t> Projection<'t> {
         distinct
     }
 
-    /// Whether the curve passes over a point of the box: the foot of the point on the pieces of the
-    /// curve near it, found to rounding.
+    /// Whether the curve passes over a point of the box, which is located on it to rounding.
     fn passes(&self, curve: &mut LocusCurve, region: &Region, point: [f64; 2]) -> bool {
         if self.points.iter().any(|own| apart(*own, point) < SAME) {
             return true;
@@ -123,7 +121,7 @@ impl<'t> Projection<'t> {
     /// Where curves cross in the space of configurations a point may be lost to rounding: a place
     /// is not covered if none of three points there is.
     fn covers(&self, other: &Projection, curve: &mut LocusCurve, region: &Region) -> bool {
-        /// Places that are tried, the ends among them, and parts of the way between two.
+        /// Points that are tested, and parts of the distance between two of them.
         const TRIED: usize = 12;
         const PARTS: f64 = 10.0;
         if self.kind != other.kind || self.shape() != other.shape() {
@@ -142,7 +140,7 @@ impl<'t> Projection<'t> {
         })
     }
 
-    /// The point after a way along the curve.
+    /// The point at this arc length of the curve.
     fn point(&self, way: f64) -> [f64; 2] {
         let mut gone = 0.0;
         for pair in self.points.windows(2) {
@@ -179,7 +177,7 @@ pub(super) fn groups(
         }
     }
     for group in &mut groups {
-        // one that goes round twice is told by one that goes round once
+        // a curve that goes round once stands for one that goes round twice
         let whole = (1..group.len()).rev().find(|member| {
             projections[group[*member]].covers(&projections[group[0]], curve, region)
         });

@@ -4,13 +4,12 @@ use rand::{Rng, SeedableRng};
 use rand_pcg::Pcg64Mcg;
 
 use super::SingularitiesSettings;
-use super::arrival::Arrival;
 use super::classify::{Classifier, Kind};
 use crate::mechanism::{Configuration, PlatformPose, turn_near};
-use crate::solve::{Stage, Watch};
+use crate::solve::{Newton, Place, SolutionCurve, Stage, Watch};
 use crate::system::{
-    Coordinate, Driven, Lock, LocusCurve, LocusEnd, Region, Singular, System, Traced, passes,
-    random_configuration, with_coordinates,
+    Coordinate, Driven, Lock, LocusCurve, LocusEnd, Region, Singular, System, Traced, neared,
+    passes, random_configuration, with_coordinates,
 };
 
 /// So many times the starts that are asked for are made while more curves are likely.
@@ -40,6 +39,17 @@ pub(super) struct Found {
     pub arrived: usize,
     /// The start that led to the locus found last.
     pub last_new: Option<usize>,
+}
+
+/// The singular configuration that Gauss–Newton steps lead to from a start.
+///
+/// Where the determinant of the matrix is least or greatest and just vanishes, as for a 5-bar whose
+/// cranks part as far as its couplers reach, the locus is an isolated point: there the augmented system
+/// loses rank, and the steps come nearer by half each time.
+struct Arrival {
+    /// On a curve; of an isolated point the tangent has no meaning.
+    place: Place<Singular>,
+    isolated: bool,
 }
 
 /// Whether more starts are likely to lead to new curves: while some curve was met only once, the
@@ -94,7 +104,7 @@ impl Search<'_> {
             let mut trial = at.clone();
             let mut work = system.work();
             // where it cannot close the gap it ends in a singular point as well
-            (self.settings.newton).solve(&system, &mut at, &mut trial, &mut work);
+            Newton::default().solve(&system, &mut at, &mut trial, &mut work);
             let Some(arrival) = self.arrival(&mut found.curve, at) else {
                 continue;
             };
@@ -110,7 +120,7 @@ impl Search<'_> {
         found
     }
 
-    /// Begins where loci of the other kind cross, if it is singular in this way too.
+    /// Starts where loci of the other kind cross, if the configuration is singular of this kind too.
     pub fn at_crossing(&mut self, found: &mut Found, at: &Configuration<f64>) {
         if !found.kind.is_of(&self.classifier.at(at)) {
             return;
@@ -122,6 +132,9 @@ impl Search<'_> {
 
     /// The singular configuration in the box that steps lead to.
     fn arrival(&self, curve: &mut LocusCurve, at: Configuration<f64>) -> Option<Arrival> {
+        /// The last step, and about as far an isolated point.
+        const NEAR: f64 = 1e-3;
+        let method = &self.settings.continuation;
         let poses = at.platforms.iter();
         let mut parts =
             poses.flat_map(|pose| pose.position.0.into_iter().chain(pose.orientation.0));
@@ -132,39 +145,44 @@ impl Search<'_> {
         let decomposition = curve.locked().of_rank(&at, columns);
         let (_, motion) = decomposition.weakest()?;
         let motion = motion.to_vec();
-        let point = Singular { at, motion };
-        let near = |point: &Singular| self.near_box(&point.at);
-        let mut arrival = Arrival::from(curve, point, &self.settings.continuation, near)?;
-        let (Arrival::Curve(place) | Arrival::Point(place)) = &mut arrival;
+        // at an isolated point the steps are rounding, and have any length
+        let point = neared(curve, Singular { at, motion }, |size, residual| {
+            size < NEAR || residual.iter().all(|r| r.abs() <= method.tolerance)
+        })?;
+        let (mut place, isolated) = match method.settle(curve, point.clone()) {
+            Ok(place) => (place, false),
+            // isolated points take longer to locate: only those near the box are
+            Err(_) if self.near_box(&point.at) => {
+                let found = method.branch_point(curve, &point, 50.0 * NEAR)?;
+                let place = found.place(curve, &vec![0.0; curve.unknowns()]);
+                (found.isolated.then_some(place)?, true)
+            }
+            Err(_) => return None,
+        };
         self.bring_home(&mut place.at.at);
-        let inside = self.region.inside(&place.at.at);
-        inside.then_some(arrival)
+        (self.region.inside(&place.at.at)).then_some(Arrival { place, isolated })
     }
 
     /// The number of the known locus through a place, which is known from now on.
     fn locus_through(&self, found: &mut Found, arrival: Arrival) -> Option<usize> {
         let method = &self.settings.continuation;
-        let (Arrival::Curve(place) | Arrival::Point(place)) = &arrival;
+        let Arrival { place, isolated } = arrival;
         let curve = &mut found.curve;
         let mut curves = found.known.iter();
-        let known = curves.position(|(traced, _)| passes(curve, traced, place, method));
+        let known = curves.position(|(traced, _)| passes(curve, traced, &place, method));
         if known.is_some() {
             return known;
         }
-        let traced = match arrival {
-            Arrival::Curve(place) => self.region.traced(curve, place),
-            Arrival::Point(place) => {
-                let point = Traced {
-                    places: vec![place],
-                    ends: [LocusEnd::Closed; 2],
-                    crossings: Vec::new(),
-                };
-                found.known.push((point, 0));
-                return Some(found.known.len() - 1);
-            }
+        let traced = match isolated {
+            false => self.region.traced(curve, place),
+            true => Traced {
+                places: vec![place],
+                ends: [LocusEnd::Closed; 2],
+                crossings: Vec::new(),
+            },
         };
-        // where no step leads on there is no curve to tell of
-        (traced.places.len() > 1).then(|| {
+        // where no step leads on there is no curve to report
+        (isolated || traced.places.len() > 1).then(|| {
             found.known.push((traced, 0));
             found.known.len() - 1
         })
@@ -198,8 +216,8 @@ impl Search<'_> {
     fn bring_home(&self, at: &mut Configuration<f64>) {
         for (joint, value) in at.joints.iter_mut().enumerate() {
             if self.region.mechanism.repeats(joint) {
-                let side =
-                    (self.region.sides.iter()).find(|s| s.coordinate == Coordinate::Joint(joint));
+                let mut sides = self.region.sides.iter();
+                let side = sides.find(|side| side.coordinate == Coordinate::Joint(joint));
                 let middle = side.map_or(0.0, |side| 0.5 * (side.from + side.to));
                 *value = turn_near(*value, middle);
             }
@@ -207,7 +225,7 @@ impl Search<'_> {
         self.region.mechanism.turn_to_limits(&mut at.joints);
     }
 
-    /// Whether a configuration lies in the box or a little beside it.
+    /// Whether a configuration lies in the box or near it.
     fn near_box(&self, at: &Configuration<f64>) -> bool {
         /// Part of the box.
         const BESIDE: f64 = 0.1;

@@ -9,7 +9,7 @@ fn is_still(values: &[f64]) -> bool {
     values.iter().all(|x| *x == 0.0)
 }
 
-/// The rates given, or if there are none every input at once: the Jacobian tells of that.
+/// The rates given, or if there are none, of every input at once, as for the Jacobian.
 fn rates_or_all(drive: &Drive) -> Vec<f64> {
     match is_still(&drive.rates) {
         true => vec![1.0; drive.rates.len()],
@@ -85,7 +85,7 @@ pub(super) fn first_order_only(
 ) -> Option<FirstOrderOnly> {
     /// Length of the finite step, in rad and characteristic lengths.
     const STEP: f64 = 0.05;
-    /// Accelerations that open a closure by less than this beside the largest do so by rounding.
+    /// Accelerations that open a closure by less than this part of the largest do so by rounding.
     const ROUNDING: f64 = 1e-6;
     // from rest the accelerations are what a motion begins with
     let given = match is_still(&drive.rates) && !is_still(&drive.accelerations) {

@@ -7,7 +7,7 @@ use crate::system::{
     FrameMotion, FrameMotions, Motion, Neighbourhood, Tangent, spin_lines, without,
 };
 
-/// For each frame of a mechanism the lines about which its link spins in idle freedoms.
+/// For each frame of a mechanism the axes about which its link spins in local freedoms.
 pub(super) struct Spins {
     lines: Vec<(Frame, Vec<Vector3<f64>>)>,
 }

@@ -6,7 +6,7 @@ use super::frames::Spins;
 use crate::algebra::SiUnit;
 use crate::linear::{Decomposition, rank};
 use crate::mechanism::{Configuration, Frame, Mechanism};
-use crate::system::{Coordinate, FrameTwists, Motion, Output, without};
+use crate::system::{Coordinate, FrameTwists, Lock, Motion, Twist, without};
 
 /// Rates of outputs for unit rates of the inputs, one at a time.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -17,8 +17,8 @@ pub struct InputOutput {
     pub columns: Vec<Axis>,
     /// Row by row; an entry has the unit of its row over that of its column.
     pub entries: Vec<Vec<f64>>,
-    /// How many rows at the end are points followed: what is said of the matrix leaves them out,
-    /// unless there are no others.
+    /// How many rows at the end belong to points followed. Rank, condition and manipulability leave
+    /// them out, unless there are no other rows.
     pub followed: usize,
     /// Its rank, once lengths are divided by the normalising length.
     pub rank: usize,
@@ -40,128 +40,106 @@ pub struct Axis {
     pub unit: SiUnit,
 }
 
+impl Axis {
+    fn new(name: String, is_angle: bool) -> Self {
+        let unit = SiUnit::of_coordinate(is_angle).per_second();
+        Axis { name, unit }
+    }
+}
+
 /// The points followed that are no outputs already, each once.
-pub(super) fn followed(outputs: &[Output], points: &[Frame]) -> Vec<Output> {
-    let mut frames: Vec<Frame> = Vec::new();
+pub(super) fn followed(outputs: &[Lock], points: &[Frame]) -> Vec<Lock> {
+    let mut followed: Vec<Lock> = Vec::new();
     for &point in points {
-        let is_output = |output: &Output| matches!(output, Output::Twist(frame) if *frame == point);
-        if !frames.contains(&point) && !outputs.iter().any(is_output) {
-            frames.push(point);
+        if !followed.contains(&Lock::Point(point)) && !outputs.contains(&Lock::Frame(point)) {
+            followed.push(Lock::Point(point));
         }
     }
-    frames.into_iter().map(Output::Point).collect()
+    followed
+}
+
+/// Names of the rows of an output, and whether they are rates of angles.
+fn rows_of(mechanism: &Mechanism, output: Lock) -> Vec<(String, bool)> {
+    let components = |frame, kind: &str| {
+        ["x", "y", "z"].map(|axis| {
+            let name = format!("{} {kind}{axis}", mechanism.frame_name(frame));
+            (name, kind == "ω")
+        })
+    };
+    match output {
+        Lock::Frame(frame) => [components(frame, "ω"), components(frame, "v")].concat(),
+        Lock::Point(frame) => components(frame, "v").to_vec(),
+        Lock::Coordinate(Coordinate::Turn(platform, axis)) => {
+            let name = &mechanism.platforms()[platform].name;
+            vec![(format!("{name} ω{}", axis.letter()), true)]
+        }
+        Lock::Coordinate(of) => vec![(of.name(mechanism), of.is_angle(mechanism))],
+    }
 }
 
 pub(super) fn input_output(
     mechanism: &Mechanism,
     motion: &mut Motion,
     at: &Configuration<f64>,
-    outputs: &[Output],
+    outputs: &[Lock],
     spins: &Spins,
 ) -> InputOutput {
-    let frames = outputs.iter().filter_map(|output| match output {
-        Output::Twist(frame) | Output::Point(frame) => Some(*frame),
-        Output::Joint(_) => None,
-        &(Output::Coordinate(platform, _) | Output::Turn(platform, _)) => {
-            Some(Frame::Platform { platform })
-        }
-    });
-    let frames: Vec<Frame> = frames.collect();
+    let frames: Vec<Frame> = outputs.iter().filter_map(|output| output.frame()).collect();
     let twists = FrameTwists::new(mechanism.dimensions(), motion.unknowns(), &frames);
-    let mut placement = twists.placement();
-    twists.place(at, &mut placement);
-    let scales = &mechanism.dimensions().joint_scales;
+    let placement = twists.placed(at);
     let length = mechanism.characteristic_length();
+    let scale = |is_angle: bool| if is_angle { 1.0 } else { length };
 
-    let mut rows = Vec::new();
-    // what a row is divided by to have no length in it
-    let mut row_scales = Vec::new();
-    let mut row = |name: String, is_angle: bool| {
-        let unit = SiUnit::of_coordinate(is_angle).per_second();
-        rows.push(Axis { name, unit });
-        row_scales.push(if is_angle { 1.0 } else { length });
-    };
-    for output in outputs {
-        let (kinds, name): (&[&str], String) = match output {
-            Output::Twist(frame) => (&["ω", "v"], mechanism.frame_name(*frame)),
-            Output::Point(frame) => (&["v"], mechanism.frame_name(*frame)),
-            Output::Joint(joint) => {
-                let joint = &mechanism.joints()[*joint];
-                row(joint.name.clone(), joint.kind.is_angle());
-                continue;
-            }
-            &Output::Coordinate(platform, c) => {
-                row(Coordinate::Pose(platform, c).name(mechanism), c.is_angle());
-                continue;
-            }
-            &Output::Turn(platform, axis) => {
-                let axis = axis.letter();
-                row(
-                    format!("{} ω{axis}", mechanism.platforms()[platform].name),
-                    true,
-                );
-                continue;
-            }
-        };
-        for &kind in kinds {
-            for axis in ["x", "y", "z"] {
-                row(format!("{name} {kind}{axis}"), kind == "ω");
-            }
-        }
-    }
+    let rows = outputs
+        .iter()
+        .flat_map(|&output| rows_of(mechanism, output));
+    let (rows, row_scales): (Vec<Axis>, Vec<f64>) = rows
+        .map(|(name, is_angle)| (Axis::new(name, is_angle), scale(is_angle)))
+        .unzip();
     let inputs = motion.coordinates().to_vec();
     let mut columns = Vec::new();
     let mut entries = vec![Vec::new(); rows.len()];
     let mut normalised = Vec::new();
     for (i, input) in inputs.iter().enumerate() {
-        let angle = input.is_angle(mechanism);
-        columns.push(Axis {
-            name: input.name(mechanism),
-            unit: SiUnit::of_coordinate(angle).per_second(),
-        });
+        let is_angle = input.is_angle(mechanism);
+        columns.push(Axis::new(input.name(mechanism), is_angle));
         let mut given = vec![0.0; inputs.len()];
         given[i] = 1.0;
         let rates = motion.rates(&given);
         let mut column = Vec::with_capacity(rows.len());
-        let mut frame = 0;
+        let mut moving = (0..frames.len()).map(|i| twists.twist(i, &placement, rates));
         for output in outputs {
-            match output {
-                Output::Joint(joint) => column.push(rates[*joint] * scales[*joint]),
-                Output::Twist(_) | Output::Point(_) => {
-                    let twist = twists.twist(frame, &placement, rates);
-                    if let Output::Twist(of) = output {
-                        column.extend(without(&twist.omega, spins.lines_of(*of)).0);
-                    }
-                    column.extend(twist.velocity.0);
-                    frame += 1;
+            let twist = output.frame().and_then(|_| moving.next());
+            match (*output, twist) {
+                (Lock::Frame(of), Some(Twist { omega, velocity })) => {
+                    column.extend(without(&omega, spins.lines_of(of)).0);
+                    column.extend(velocity.0);
                 }
-                &Output::Coordinate(platform, c) => {
-                    let twist = twists.twist(frame, &placement, rates);
-                    let slope =
-                        Coordinate::Pose(platform, c).slope(&at.platforms[platform].pose(), length);
+                (Lock::Point(_), Some(twist)) => column.extend(twist.velocity.0),
+                (Lock::Coordinate(Coordinate::Turn(_, axis)), Some(twist)) => {
+                    column.push(twist.omega.0[axis as usize]);
+                }
+                (Lock::Coordinate(of @ Coordinate::Pose(platform, c)), Some(twist)) => {
                     // the slope is that of the dimensionless coordinate
-                    let scale = if c.is_angle() { 1.0 } else { length };
+                    let slope = of.slope(&at.platforms[platform].pose(), length);
                     let turn = twist.omega.0.into_iter();
                     let shift = twist.velocity.0.into_iter().map(|v| v / length);
                     let sum: f64 = turn.chain(shift).zip(slope).map(|(t, s)| t * s).sum();
-                    column.push(sum * scale);
-                    frame += 1;
+                    column.push(sum * scale(c.is_angle()));
                 }
-                Output::Turn(_, axis) => {
-                    let twist = twists.twist(frame, &placement, rates);
-                    column.push(twist.omega.0[*axis as usize]);
-                    frame += 1;
+                (Lock::Coordinate(Coordinate::Joint(joint)), _) => {
+                    column.push(rates[joint] * mechanism.dimensions().joint_scales[joint]);
                 }
+                (_, None) => unreachable!("only joints have no frame"),
             }
         }
-        let scale = if angle { 1.0 } else { length };
         for ((row, &entry), row_scale) in entries.iter_mut().zip(&column).zip(&row_scales) {
             row.push(entry);
-            normalised.push(entry * scale / row_scale);
+            normalised.push(entry * scale(is_angle) / row_scale);
         }
     }
     let points = outputs.iter();
-    let points = points.filter(|output| matches!(output, Output::Point(_)));
+    let points = points.filter(|output| matches!(output, Lock::Point(_)));
     let followed = 3 * points.count();
     let counted = match rows.len() - followed {
         0 => rows.len(),

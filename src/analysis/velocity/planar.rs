@@ -8,7 +8,7 @@ use crate::geometry::Vector3;
 use crate::linear::{dot, norm};
 use crate::mechanism::{Body, Configuration, Frame, Mechanism};
 use crate::system::{
-    Coordinate, Drive, FrameTwists, LoopPart, MechanismLoop, Motion, Neighbourhood, Twist, loops,
+    Coordinate, Drive, FrameTwists, LoopPart, MechanismLoop, Motion, Neighbourhood, loops,
 };
 
 /// How well a driven joint moves the output link of a loop in a plane.
@@ -32,7 +32,7 @@ pub struct Transmission {
     pub pressure_angle: f64,
 }
 
-/// The point about which a body turns beside another, at the instant.
+/// The instant centre of the motion of a body relative to another.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct InstantCentre {
     /// The two bodies.
@@ -46,7 +46,7 @@ pub struct InstantCentre {
 /// What counts as zero beside one, dimensionless.
 const ZERO: f64 = 1e-9;
 
-/// Beyond so many bodies only the centres beside the ground are listed.
+/// Beyond so many bodies only centres relative to the ground are listed.
 const MANY_BODIES: usize = 12;
 
 /// Of each loop in which three joints are left when the held ones, and those that other such loops
@@ -255,8 +255,7 @@ fn split(twist: &[f64; 6]) -> (Vector3<f64>, Vector3<f64>) {
 
 /// The unit normal of the plane in which all twists (ω; v/L) move; `None` if there is none.
 fn normal<'a>(twists: impl Iterator<Item = &'a [f64; 6]> + Clone) -> Option<Vector3<f64>> {
-    let size = |twist: &[f64; 6]| twist.iter().map(|x| x * x).sum::<f64>().sqrt();
-    let largest = twists.clone().map(size).fold(0.0, f64::max);
+    let largest = twists.clone().map(|twist| norm(twist)).fold(0.0, f64::max);
     let turning = twists.clone().map(|twist| split(twist).0);
     let most = turning.max_by(|a, b| a.norm().total_cmp(&b.norm()))?;
     if most.norm() <= ZERO * largest {
@@ -279,12 +278,9 @@ pub(super) fn centres(
     at: &Configuration<f64>,
     drive: &Drive,
 ) -> Vec<InstantCentre> {
-    let rates = match (
-        drive.rates.iter().any(|rate| *rate != 0.0),
-        drive.rates.len(),
-    ) {
-        (true, _) => drive.rates.clone(),
-        (false, 1) => vec![1.0],
+    let rates = match drive.rates[..] {
+        _ if drive.rates.iter().any(|rate| *rate != 0.0) => drive.rates.clone(),
+        [_] => vec![1.0],
         _ => return vec![],
     };
     let rates = motion.rates(&rates).to_vec();
@@ -294,39 +290,28 @@ pub(super) fn centres(
         .map(|&body| mechanism.body_frame(body))
         .collect();
     let twists = FrameTwists::new(mechanism.dimensions(), motion.unknowns(), &frames);
-    let mut placement = twists.placement();
-    twists.place(at, &mut placement);
+    let placement = twists.placed(at);
     let length = mechanism.characteristic_length();
     let at_origin = |i: usize, rates: &[f64]| {
-        let Twist { omega, velocity } = twists.twist(i, &placement, rates);
-        let velocity = velocity - omega.cross(&twists.origin(i, &placement));
-        let ([a, b, c], [x, y, z]) = (omega.0, velocity.times(1.0 / length).0);
-        [a, b, c, x, y, z]
+        let twist = twists.twist(i, &placement, rates);
+        twist.at_ground(&twists.origin(i, &placement), length)
     };
     let at_input: Vec<[f64; 6]> = (0..frames.len()).map(|i| at_origin(i, &rates)).collect();
     // planar for a moment only is not enough: every joint and every input must keep the plane
     let mut all = at_input.clone();
-    let joints = (0..mechanism.joints().len()).map(|joint| {
-        let mut rates = vec![0.0; rates.len()];
-        rates[joint] = 1.0;
-        rates
-    });
-    let alone: Vec<Vec<f64>> = joints.collect();
-    let inputs = (0..drive.rates.len()).map(|input| {
-        let mut given = vec![0.0; drive.rates.len()];
-        given[input] = 1.0;
-        motion.rates(&given).to_vec()
-    });
+    let unit = |size: usize, i: usize| -> Vec<f64> {
+        (0..size).map(|k| f64::from(u8::from(k == i))).collect()
+    };
+    let alone = (0..mechanism.joints().len()).map(|joint| unit(rates.len(), joint));
+    let inputs = 0..drive.rates.len();
+    let inputs = inputs.map(|input| motion.rates(&unit(drive.rates.len(), input)).to_vec());
     for rates in inputs.chain(alone) {
         all.extend((0..frames.len()).map(|i| at_origin(i, &rates)));
     }
     if normal(all.iter()).is_none() {
         return vec![];
     }
-    let largest = at_input
-        .iter()
-        .flatten()
-        .fold(0.0, |m: f64, x| m.max(x.abs()));
+    let largest = (at_input.iter().flatten()).fold(0.0, |m: f64, x| m.max(x.abs()));
     let mut centres = Vec::new();
     for i in 0..bodies.len() {
         for j in i + 1..bodies.len() {

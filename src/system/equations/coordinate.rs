@@ -19,12 +19,47 @@ pub enum Coordinate {
 }
 
 impl Coordinate {
+    /// All coordinates that have a value: the joints, then six of each platform.
+    pub fn all(mechanism: &Mechanism) -> impl Iterator<Item = Coordinate> + use<> {
+        let joints = (0..mechanism.joints().len()).map(Coordinate::Joint);
+        let platforms = 0..mechanism.platforms().len();
+        let of_platform = |platform| PoseCoordinate::ALL.map(|c| Coordinate::Pose(platform, c));
+        joints.chain(platforms.flat_map(of_platform))
+    }
+
+    /// The platform it belongs to; none for a joint.
+    pub fn platform(self) -> Option<usize> {
+        match self {
+            Coordinate::Joint(_) => None,
+            Coordinate::Pose(platform, _) | Coordinate::Turn(platform, _) => Some(platform),
+        }
+    }
+
+    /// The turn about an axis of ground that takes the place of an angle where a whole orientation is
+    /// held.
+    pub fn turn_for(platform: usize, coordinate: PoseCoordinate) -> Coordinate {
+        match coordinate {
+            PoseCoordinate::Roll => Coordinate::Turn(platform, Axis::X),
+            PoseCoordinate::Pitch => Coordinate::Turn(platform, Axis::Y),
+            PoseCoordinate::Yaw => Coordinate::Turn(platform, Axis::Z),
+            shift => Coordinate::Pose(platform, shift),
+        }
+    }
+
     /// Whether its value is an angle, in rad; otherwise a length, in m.
     pub fn is_angle(self, mechanism: &Mechanism) -> bool {
         match self {
             Coordinate::Joint(joint) => mechanism.joints()[joint].kind.is_angle(),
             Coordinate::Pose(_, coordinate) => coordinate.is_angle(),
             Coordinate::Turn(..) => true,
+        }
+    }
+
+    /// What makes it dimensionless: 1 for an angle, the characteristic length in m for a length.
+    pub fn scale(self, mechanism: &Mechanism) -> f64 {
+        match self.is_angle(mechanism) {
+            true => 1.0,
+            false => mechanism.characteristic_length(),
         }
     }
 

@@ -76,6 +76,16 @@ pub enum Unknown {
     },
 }
 
+impl Unknown {
+    /// The name of the joint or platform it belongs to.
+    pub fn owner(self, mechanism: &Mechanism) -> &str {
+        match self {
+            Unknown::Joint(joint) => &mechanism.joints()[joint].name,
+            Unknown::Twist { platform, .. } => &mechanism.platforms()[platform].name,
+        }
+    }
+}
+
 /// A row below the blocks: a platform coordinate held at a value.
 #[derive(Clone, Debug)]
 pub(crate) enum HoldRow<T> {

@@ -7,7 +7,7 @@ use super::error::QuestionError;
 use crate::description::Role;
 use crate::geometry::RollPitchYaw;
 use crate::linear::RANK_TOLERANCE;
-use crate::mechanism::{Configuration, PoseCoordinate};
+use crate::mechanism::{Configuration, Mechanism, PoseCoordinate};
 use crate::solve::{Newton, Stop};
 use crate::system::{Coordinate, HeldPlatform, Mobility, System};
 
@@ -79,30 +79,17 @@ fn compared(
         mobility: Some(mobility.count()),
         held: held.len(),
     };
-    let joints = (0..mechanism.joints().len()).map(Coordinate::Joint);
-    let coordinates = (0..mechanism.platforms().len())
-        .flat_map(|platform| PoseCoordinate::ALL.map(|c| Coordinate::Pose(platform, c)));
-    let (actuated, passive): (Vec<_>, Vec<_>) = joints.partition(|joint| match joint {
-        Coordinate::Joint(joint) => mechanism.joints()[*joint].role == Role::Actuated,
-        Coordinate::Pose(..) | Coordinate::Turn(..) => false,
-    });
-    let candidates: Vec<Coordinate> = (held.iter().copied())
-        .chain(actuated)
-        .chain(passive)
-        .chain(coordinates)
-        .collect();
+    let (actuated, others): (Vec<_>, Vec<_>) =
+        Coordinate::all(mechanism).partition(|coordinate| match *coordinate {
+            Coordinate::Joint(joint) => mechanism.joints()[joint].role == Role::Actuated,
+            Coordinate::Pose(..) | Coordinate::Turn(..) => false,
+        });
+    let candidates = [&held[..], &actuated, &others].concat();
     let chosen = mobility.independent(mechanism, &candidates);
     let name = |holdable: &Coordinate| holdable.name(mechanism);
-    let free: Vec<String> = held
-        .iter()
-        .filter(|h| !chosen.contains(h))
-        .map(name)
-        .collect();
-    let hold: Vec<String> = chosen
-        .iter()
-        .filter(|c| !held.contains(c))
-        .map(name)
-        .collect();
+    let free = held.iter().filter(|h| !chosen.contains(h)).map(name);
+    let hold = chosen.iter().filter(|c| !held.contains(c)).map(name);
+    let (free, hold): (Vec<String>, Vec<String>) = (free.collect(), hold.collect());
     // a dependence at a singular configuration only is left to the analysis
     if !free.is_empty()
         && !hold.is_empty()
@@ -160,19 +147,29 @@ fn check_locked(question: &Question, start: &Configuration<f64>) -> Result<(), Q
 pub fn check_angles(question: &Question, at: &Configuration<f64>) -> Result<(), QuestionError> {
     let mechanism = question.mechanism();
     for coordinate in question.held_coordinates() {
-        let Coordinate::Pose(platform, coordinate) = coordinate else {
-            continue;
-        };
-        let pose = at.platforms[platform].pose();
-        let length = mechanism.characteristic_length();
-        let (_, slope) = coordinate.row(&pose, coordinate.of(&pose), length);
-        let steepest = slope.iter().fold(0.0, |most: f64, x| most.max(x.abs()));
-        let finite = slope.iter().all(|x| x.is_finite());
-        if !finite || steepest > 1.0 / RANK_TOLERANCE {
-            return Err(QuestionError::AnglesLocked {
-                platform: mechanism.platforms()[platform].name.clone(),
-            });
-        }
+        check_angle(mechanism, at, coordinate)?;
     }
     Ok(())
+}
+
+/// Whether the rate of a platform coordinate makes sense at a configuration.
+///
+/// # Errors
+/// If it is an angle and the pitch is ±90°.
+pub fn check_angle(
+    mechanism: &Mechanism,
+    at: &Configuration<f64>,
+    coordinate: Coordinate,
+) -> Result<(), QuestionError> {
+    let Coordinate::Pose(platform, _) = coordinate else {
+        return Ok(());
+    };
+    let pose = at.platforms[platform].pose();
+    let slope = coordinate.slope(&pose, mechanism.characteristic_length());
+    match slope.iter().all(|x| x.abs() <= 1.0 / RANK_TOLERANCE) {
+        true => Ok(()),
+        false => Err(QuestionError::AnglesLocked {
+            platform: mechanism.platforms()[platform].name.clone(),
+        }),
+    }
 }

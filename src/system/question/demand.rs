@@ -1,6 +1,6 @@
 //! What a question was asked by name, and which demands contradict one another.
 
-use crate::mechanism::PoseCoordinate;
+use crate::system::Coordinate;
 
 /// What is asked by name of one joint, coordinate or platform.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -27,10 +27,8 @@ pub enum Verb {
 /// What the name in a demand stands for.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum Target {
-    /// The joint of that index.
-    Joint(usize),
-    /// A coordinate of the platform of that index.
-    Coordinate(usize, PoseCoordinate),
+    /// A joint or a coordinate of a platform.
+    Coordinate(Coordinate),
     /// The whole pose of the platform of that index.
     Pose(usize),
 }
@@ -38,9 +36,9 @@ pub(crate) enum Target {
 impl Target {
     /// Whether both are the same, or one is part of the other.
     pub(crate) fn meets(self, other: Target) -> bool {
-        use Target::{Coordinate, Pose};
         match (self, other) {
-            (Pose(a), Pose(b) | Coordinate(b, _)) | (Coordinate(a, _), Pose(b)) => a == b,
+            (Target::Pose(whole), Target::Coordinate(part))
+            | (Target::Coordinate(part), Target::Pose(whole)) => part.platform() == Some(whole),
             _ => self == other,
         }
     }
@@ -63,14 +61,18 @@ mod tests {
     use crate::mechanism::Mechanism;
     use crate::system::{Question, QuestionError};
 
-    #[test]
-    fn demands_that_contradict_one_another_are_refused() {
+    fn mechanism() -> Mechanism {
         let text = r#"Mechanism(version: 1, name: "x", convention: Modified,
             joints: { "q": Actuated(), "p": Passive() },
             chains: { "c": Chain(rows: [(theta: "q"), (d: "p")]) },
             platforms: { "top": Platform(), "low": Platform() },
             closures: { "k": Spherical("c", "top"), "l": Rigid("top", "low") })"#;
-        let mechanism = Mechanism::new(&Description::read(text).unwrap()).unwrap();
+        Mechanism::new(&Description::read(text).unwrap()).unwrap()
+    }
+
+    #[test]
+    fn demands_that_contradict_one_another_are_refused() {
+        let mechanism = mechanism();
         let question = || Question::new(&mechanism);
         let refused = |result: Result<Question, QuestionError>| match result {
             Err(QuestionError::Contradiction { first, second }) => format!("{first} {second}"),
@@ -97,21 +99,16 @@ mod tests {
 
     #[test]
     fn demands_of_different_things_are_not() {
-        let text = r#"Mechanism(version: 1, name: "x", convention: Modified,
-            joints: { "q": Actuated(), "p": Passive() },
-            chains: { "c": Chain(rows: [(theta: "q"), (d: "p")]) },
-            platforms: { "top": Platform(), "low": Platform() },
-            closures: { "k": Spherical("c", "top"), "l": Rigid("top", "low") })"#;
-        let mechanism = Mechanism::new(&Description::read(text).unwrap()).unwrap();
+        let mechanism = mechanism();
         let question = Question::new(&mechanism);
-        let asked = question.free("actuated").and_then(|q| q.hold("q", "1"));
-        let asked = asked
+        let asked = question
+            .free("actuated")
+            .and_then(|q| q.hold("q", "1"))
             .and_then(|q| q.guess("q", "1"))
-            .and_then(|q| q.guess("p", "1"));
-        let asked = asked
+            .and_then(|q| q.guess("p", "1"))
             .and_then(|q| q.hold("top.x", "1"))
-            .and_then(|q| q.hold("top.y", "1"));
-        let asked = asked.and_then(|q| q.hold("low", "home"));
+            .and_then(|q| q.hold("top.y", "1"))
+            .and_then(|q| q.hold("low", "home"));
         assert!(asked.is_ok(), "{asked:?}");
     }
 }

@@ -1,7 +1,9 @@
 //! What a question drives, and how fast.
 
+use thiserror::Error;
+
 use super::Question;
-use super::error::QuestionError;
+use super::error::{QuestionError, instead};
 use super::value::Value;
 use crate::algebra::Measure;
 use crate::description::nearest;
@@ -42,11 +44,16 @@ enum Order {
 }
 
 /// Why a rate, an acceleration or a force cannot be given.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Error)]
 pub enum DriveError {
     /// The name or the value is wrong.
+    #[error(transparent)]
     Question(QuestionError),
     /// There is nothing of that name.
+    #[error(
+        "`{name}` is neither a joint nor a coordinate of a platform{}",
+        instead(suggestion, held, "held:")
+    )]
     UnknownName {
         /// The name.
         name: String,
@@ -56,6 +63,7 @@ pub enum DriveError {
         held: Vec<String>,
     },
     /// The coordinate is not held, so that its rate follows.
+    #[error("`{name}` is not held: its rate follows from the others{}", instead(&None, held, "held:"))]
     NotHeld {
         /// The coordinate.
         name: String,
@@ -63,6 +71,7 @@ pub enum DriveError {
         held: Vec<String>,
     },
     /// A single coordinate has a rate, and a whole platform was named.
+    #[error("`{platform}` is a platform: give the rate of one of its coordinates{}", instead(&None, held, "held:"))]
     Whole {
         /// The platform.
         platform: String,
@@ -70,16 +79,23 @@ pub enum DriveError {
         held: Vec<String>,
     },
     /// A platform turns as given only where its whole orientation is held.
+    #[error(
+        "an angular velocity of `{platform}` can be given only if its whole orientation is held"
+    )]
     NotTurned {
         /// The platform.
         platform: String,
     },
     /// How a platform turns was given both by its angles and about the axes of ground.
+    #[error(
+        "the rotation of `{platform}` is given twice, by its angles and about the axes of ground"
+    )]
     Mixed {
         /// The platform.
         platform: String,
     },
     /// Nothing is held, for the mechanism is a structure: nothing can be driven.
+    #[error("nothing can be driven: the mechanism is a structure")]
     Structure,
 }
 
@@ -209,22 +225,13 @@ impl Drive {
         if let Some(place) = held.iter().position(|held| held == name) {
             return Ok(self.coordinates[place]);
         }
-        let joints = (0..mechanism.joints().len()).map(Coordinate::Joint);
-        let platforms = 0..mechanism.platforms().len();
-        let coordinates = platforms.clone().flat_map(|platform| {
-            let all = PoseCoordinate::ALL;
-            all.map(|c| Coordinate::Pose(platform, c))
-        });
-        let turns = platforms.flat_map(|platform| {
+        let turns = (0..mechanism.platforms().len()).flat_map(|platform| {
             [Axis::X, Axis::Y, Axis::Z].map(|axis| Coordinate::Turn(platform, axis))
         });
-        let all: Vec<Coordinate> = joints.chain(coordinates).chain(turns).collect();
+        let all: Vec<Coordinate> = Coordinate::all(mechanism).chain(turns).collect();
         let known: Vec<String> = all.iter().map(named).collect();
         if let Some(platform) = mechanism.platform(name) {
-            let of_it = |c: &&Coordinate| match **c {
-                Coordinate::Pose(of, _) | Coordinate::Turn(of, _) => of == platform,
-                Coordinate::Joint(_) => false,
-            };
+            let of_it = |c: &&Coordinate| c.platform() == Some(platform);
             return Err(DriveError::Whole {
                 platform: name.into(),
                 held: (self.coordinates.iter().filter(of_it)).map(named).collect(),

@@ -56,7 +56,7 @@ pub enum QuestionError {
         /// Coordinates which, held too, leave a question that has an answer.
         hold: Vec<String>,
     },
-    /// Roll, pitch and yaw of a platform do not tell its motion where it is pitched by ±90°.
+    /// Roll and yaw of a platform turn about one axis where it is pitched by ±90°.
     AnglesLocked {
         /// The platform.
         platform: String,
@@ -200,5 +200,14 @@ fn are(held: usize) -> String {
         0 => "nothing is".into(),
         1 => "1 coordinate is".into(),
         _ => format!("{held} coordinates are"),
+    }
+}
+
+/// `; did you mean …?`, or `; what there is`.
+pub(super) fn instead(suggestion: &Option<String>, known: &[String], are: &str) -> String {
+    match (suggestion, known) {
+        (Some(meant), _) => format!("; did you mean `{meant}`?"),
+        (None, []) => String::new(),
+        (None, known) => format!("; {are} {}", listed(known)),
     }
 }

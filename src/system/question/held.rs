@@ -1,7 +1,7 @@
 //! What a question holds.
 
 use super::{Question, with_coordinates};
-use crate::geometry::{Axis, Pose, RollPitchYaw};
+use crate::geometry::{Pose, RollPitchYaw};
 use crate::mechanism::PoseCoordinate;
 use crate::system::Coordinate;
 
@@ -16,13 +16,10 @@ impl Question<'_> {
             let held: Vec<(PoseCoordinate, f64)> = held.collect();
             let pose = with_coordinates(&Pose::identity(), held.iter().copied());
             let locked = held.len() == 6 && RollPitchYaw::is_locked(&pose.rotation);
-            let holdable = move |(c, _): (PoseCoordinate, f64)| match c {
-                PoseCoordinate::Roll if locked => Coordinate::Turn(platform, Axis::X),
-                PoseCoordinate::Pitch if locked => Coordinate::Turn(platform, Axis::Y),
-                PoseCoordinate::Yaw if locked => Coordinate::Turn(platform, Axis::Z),
-                c => Coordinate::Pose(platform, c),
-            };
-            held.into_iter().map(holdable)
+            held.into_iter().map(move |(c, _)| match locked {
+                true => Coordinate::turn_for(platform, c),
+                false => Coordinate::Pose(platform, c),
+            })
         });
         let held = (0..self.joints.len()).filter(|&joint| self.joints[joint]);
         let (asked, by_file): (Vec<usize>, Vec<usize>) = held.partition(|&joint| self.asked[joint]);
@@ -36,13 +33,10 @@ impl Question<'_> {
     pub fn driven_coordinates(&self) -> Vec<Coordinate> {
         let held = self.held_coordinates().into_iter();
         held.map(|coordinate| match coordinate {
-            Coordinate::Pose(platform, c) if self.held_angles(platform).is_some() => match c {
-                PoseCoordinate::Roll => Coordinate::Turn(platform, Axis::X),
-                PoseCoordinate::Pitch => Coordinate::Turn(platform, Axis::Y),
-                PoseCoordinate::Yaw => Coordinate::Turn(platform, Axis::Z),
-                PoseCoordinate::X | PoseCoordinate::Y | PoseCoordinate::Z => coordinate,
-            },
-            Coordinate::Pose(..) | Coordinate::Joint(_) | Coordinate::Turn(..) => coordinate,
+            Coordinate::Pose(platform, c) if self.held_angles(platform).is_some() => {
+                Coordinate::turn_for(platform, c)
+            }
+            coordinate => coordinate,
         })
         .collect()
     }
@@ -59,18 +53,11 @@ impl Question<'_> {
 
     /// The names of the held coordinates.
     pub fn held_names(&self) -> Vec<String> {
-        let joints = self.mechanism.joints().iter().zip(&self.joints);
-        let joints = joints
-            .filter(|(_, held)| **held)
-            .map(|(joint, _)| joint.name.clone());
-        let platforms = self.mechanism.platforms().iter().zip(&self.coordinates);
-        let coordinates = platforms.flat_map(|(platform, values)| {
-            let held = PoseCoordinate::ALL
-                .into_iter()
-                .zip(values)
-                .filter(|(_, v)| v.is_some());
-            held.map(|(c, _)| format!("{}.{}", platform.name, c.name()))
+        let held = Coordinate::all(self.mechanism).filter(|of| match *of {
+            Coordinate::Joint(joint) => self.joints[joint],
+            Coordinate::Pose(platform, c) => self.coordinates[platform][c as usize].is_some(),
+            Coordinate::Turn(..) => false,
         });
-        joints.chain(coordinates).collect()
+        held.map(|of| of.name(self.mechanism)).collect()
     }
 }

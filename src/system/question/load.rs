@@ -1,7 +1,10 @@
 //! Forces and moments that act on a mechanism.
 
+use thiserror::Error;
+
 use super::Question;
 use super::drive::{DriveError, number};
+use super::error;
 use super::value::Value;
 use crate::algebra::{Measure, SiUnit};
 use crate::description::nearest;
@@ -18,16 +21,19 @@ pub struct Load {
 }
 
 /// Why a load cannot be given.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Error)]
 pub enum ForceError {
     /// The value is wrong.
+    #[error(transparent)]
     Value(DriveError),
     /// There is no frame of that name.
+    #[error("there is no frame `{name}`")]
     UnknownFrame {
         /// The name.
         name: String,
     },
     /// The frame is fixed to the ground, which nothing moves.
+    #[error("`{name}` is fixed to the ground and cannot be loaded{}", error::instead(&None, instead, "load a body that moves, such as"))]
     OnGround {
         /// The frame.
         name: String,
@@ -35,11 +41,16 @@ pub enum ForceError {
         instead: Vec<String>,
     },
     /// Neither three nor six components.
+    #[error("a wrench has three components (N) or six (N and N·m), but {given} were given")]
     Components {
         /// How many were given.
         given: usize,
     },
     /// There is no joint of that name.
+    #[error(
+        "`{name}` is not a joint{}",
+        error::instead(suggestion, known, "the joints are")
+    )]
     UnknownJoint {
         /// The name.
         name: String,
@@ -49,6 +60,7 @@ pub enum ForceError {
         known: Vec<String>,
     },
     /// A platform, or a coordinate of one, is loaded by a wrench.
+    #[error("`{name}` is not a joint: a platform is loaded by a wrench")]
     Platform {
         /// What was named.
         name: String,

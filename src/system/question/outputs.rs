@@ -1,12 +1,13 @@
 //! What is driven and what moves out, where a question does not name it.
 //!
 //! Velocities have rows for all that is free ([`free_outputs`]); singularities ask what stands still
-//! ([`platform_outputs`], [`default_outputs`]); both have the inputs of [`inputs_of`] or [`actuated`].
+//! ([`platform_outputs`], [`default_outputs`]); maps need as many coordinates as are held
+//! ([`coordinate_outputs`]). Inputs are those of [`inputs_of`] or [`actuated`].
 
 use super::Question;
 use crate::geometry::Axis;
 use crate::mechanism::{Body, Frame, Mechanism, PoseCoordinate, Role};
-use crate::system::{Coordinate, Held, HeldPlatform, Lock};
+use crate::system::{Coordinate, Held, HeldPlatform, Lock, Mobility};
 
 /// The actuated joints, in the order of the file.
 pub fn actuated(mechanism: &Mechanism) -> Vec<Coordinate> {
@@ -108,30 +109,27 @@ pub fn platform_outputs(
         }
         let turned = all.iter().filter(|c| c.is_angle()).count() == 3;
         outputs.extend(all.into_iter().map(|c| {
-            Lock::Coordinate(match c {
-                PoseCoordinate::Roll if turned => Coordinate::Turn(platform, Axis::X),
-                PoseCoordinate::Pitch if turned => Coordinate::Turn(platform, Axis::Y),
-                PoseCoordinate::Yaw if turned => Coordinate::Turn(platform, Axis::Z),
-                c => Coordinate::Pose(platform, c),
+            Lock::Coordinate(match turned {
+                true => Coordinate::turn_for(platform, c),
+                false => Coordinate::Pose(platform, c),
             })
         }));
     }
     (!outputs.is_empty()).then_some(outputs)
 }
 
-/// What the inputs drive.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Output {
-    /// The twist of a platform.
-    Twist(Frame),
-    /// The velocity of a frame's origin.
-    Point(Frame),
-    /// The rate of a joint.
-    Joint(usize),
-    /// The rate of a coordinate of a platform.
-    Coordinate(usize, PoseCoordinate),
-    /// A component of the angular velocity of a platform.
-    Turn(usize, Axis),
+/// As many coordinates of platforms as can be outputs of an inverse problem: those that are held where
+/// all of these belong to platforms, else independent ones at home.
+pub fn coordinate_outputs(mechanism: &Mechanism, held: &[Coordinate]) -> Vec<Coordinate> {
+    if held.iter().all(|held| held.platform().is_some()) {
+        return held.to_vec();
+    }
+    let all = Coordinate::all(mechanism);
+    let candidates: Vec<Coordinate> = all.filter(|c| c.platform().is_some()).collect();
+    let mobility = Mobility::near(mechanism, &mechanism.home());
+    mobility.map_or_else(Vec::new, |mobility| {
+        mobility.independent(mechanism, &candidates)
+    })
 }
 
 /// The outputs of a question: what is free of the platforms, and with a platform coordinate held the
@@ -140,35 +138,33 @@ pub enum Output {
 ///
 /// Of a platform that is partly held the angular velocity is free if no angle is held, else the
 /// other angles.
-pub fn free_outputs(mechanism: &Mechanism, held: &[Coordinate], spinning: &[usize]) -> Vec<Output> {
+pub fn free_outputs(mechanism: &Mechanism, held: &[Coordinate], spinning: &[usize]) -> Vec<Lock> {
     let mut outputs = Vec::new();
     for platform in 0..mechanism.platforms().len() {
         let is_held = |c: &PoseCoordinate| held.contains(&Coordinate::Pose(platform, *c));
-        let of_it = |holdable: &Coordinate| match holdable {
-            Coordinate::Pose(of, _) | Coordinate::Turn(of, _) => *of == platform,
-            Coordinate::Joint(_) => false,
-        };
+        let of_it = |held: &Coordinate| held.platform() == Some(platform);
         if !held.iter().any(of_it) {
-            outputs.push(Output::Twist(Frame::Platform { platform }));
+            outputs.push(Lock::Frame(Frame::Platform { platform }));
         } else if held.iter().filter(|held| of_it(held)).count() < 6 {
             let (angles, shifts): (Vec<PoseCoordinate>, _) =
                 PoseCoordinate::ALL.into_iter().partition(|c| c.is_angle());
-            let coordinate =
-                |c: PoseCoordinate| (!is_held(&c)).then_some(Output::Coordinate(platform, c));
+            let coordinate = |c: PoseCoordinate| {
+                (!is_held(&c)).then_some(Lock::Coordinate(Coordinate::Pose(platform, c)))
+            };
             let turned = (held.iter())
                 .any(|held| matches!(held, Coordinate::Turn(of, _) if *of == platform));
             match angles.iter().any(is_held) {
                 _ if turned => {}
                 true => outputs.extend(angles.into_iter().filter_map(coordinate)),
-                false => {
-                    outputs.extend(
-                        [Axis::X, Axis::Y, Axis::Z].map(|axis| Output::Turn(platform, axis)),
-                    );
-                }
+                false => outputs.extend(
+                    [Axis::X, Axis::Y, Axis::Z]
+                        .map(|axis| Lock::Coordinate(Coordinate::Turn(platform, axis))),
+                ),
             }
             outputs.extend(Vec::into_iter(shifts).filter_map(coordinate));
         }
     }
+    let joint_output = |joint: usize| Lock::Coordinate(Coordinate::Joint(joint));
     let inverse = !held.iter().all(|held| matches!(held, Coordinate::Joint(_)));
     let free =
         |joint: &usize| !held.contains(&Coordinate::Joint(*joint)) && !spinning.contains(joint);
@@ -176,10 +172,10 @@ pub fn free_outputs(mechanism: &Mechanism, held: &[Coordinate], spinning: &[usiz
     let driven = |joint: &usize| mechanism.joints()[*joint].role == Role::Actuated;
     if inverse {
         let driven = joints.clone().filter(|joint| free(joint) && driven(joint));
-        outputs.extend(driven.map(Output::Joint));
+        outputs.extend(driven.map(joint_output));
     }
     if outputs.is_empty() {
-        outputs.extend(joints.filter(free).map(Output::Joint));
+        outputs.extend(joints.filter(free).map(joint_output));
     }
     outputs
 }

@@ -1,4 +1,4 @@
-//! Values given beside a file, in the words of the file.
+//! Values of coordinates as they are written in a file.
 
 use crate::algebra::{
     EvaluationErrorKind, Expression, LARGEST, Measure, MeasureErrorKind, ParseErrorKind,

@@ -6,7 +6,7 @@ use super::Search;
 use crate::linear::SPECTRUM_LIMIT;
 use crate::mechanism::{Configuration, Mechanism};
 use crate::solve::{Equations, Newton, Stop, Watch};
-use crate::system::{Gap, Held, Question, System};
+use crate::system::{Gap, Held, Question, QuestionError, System, check_count};
 
 /// How far a closure of a given pose is from being whole.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -23,6 +23,58 @@ impl WidestGap {
     /// The larger of distance over the characteristic length and angle.
     pub fn size(&self, mechanism: &Mechanism) -> f64 {
         (self.distance / mechanism.characteristic_length()).max(self.angle)
+    }
+}
+
+/// How to look for the assembled configuration near the start of a question.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Closing {
+    /// The iteration that closes the mechanism.
+    pub newton: Newton,
+    /// Random starts within limits after the guess has failed.
+    pub restarts: usize,
+    /// Seed of the random starts.
+    pub seed: u64,
+}
+
+impl Default for Closing {
+    fn default() -> Self {
+        Closing::seeded(1)
+    }
+}
+
+impl Closing {
+    /// The usual way with another seed.
+    pub fn seeded(seed: u64) -> Self {
+        Closing {
+            newton: Newton::default(),
+            restarts: 40,
+            seed,
+        }
+    }
+
+    /// The closed mechanism, or the answer of an analysis that cannot be made without it.
+    pub fn start<R>(&self, question: &Question, watch: &Watch) -> Result<Closed, Analysed<R>> {
+        if let Some(large) = too_large(question.mechanism()) {
+            return Err(Analysed::TooLarge(large));
+        }
+        let starts = (self.restarts, self.seed);
+        close(question, &self.newton, starts, watch).map_err(Analysed::NotClosed)
+    }
+
+    /// The same for a question that must leave no freedom.
+    ///
+    /// # Errors
+    /// Those of [`check_count`].
+    pub fn determined<R>(
+        &self,
+        question: &Question,
+        watch: &Watch,
+    ) -> Result<Result<Closed, Analysed<R>>, QuestionError> {
+        if too_large(question.mechanism()).is_none() {
+            check_count(question)?;
+        }
+        Ok(self.start(question, watch))
     }
 }
 

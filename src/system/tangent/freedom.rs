@@ -1,6 +1,6 @@
 use super::neighbourhood::Neighbourhood;
 use crate::geometry::{RollPitchYaw, Vector3};
-use crate::linear::{INDEPENDENT, SPECTRUM_LIMIT, Spectrum, rank};
+use crate::linear::{INDEPENDENT, SPECTRUM_LIMIT, Spectrum, norm, rank, remove};
 use crate::mechanism::{Configuration, Dimensions, Mechanism, PoseCoordinate};
 use crate::solve::{Equations, Newton, Stop};
 use crate::system::{Coordinate, Held, System, Unknown};
@@ -21,22 +21,19 @@ impl Freedoms {
     /// [`SPECTRUM_LIMIT`] unknowns nothing is computed, and the condition number is NaN.
     pub fn at(dimensions: &Dimensions<f64>, held: &Held<f64>, at: &Configuration<f64>) -> Self {
         let system = System::new(dimensions, held);
-        if system.unknowns().len() > SPECTRUM_LIMIT {
-            return Freedoms {
-                unknowns: system.unknowns().to_vec(),
-                motions: Vec::new(),
-                singular_values: Vec::new(),
-            };
+        let unknowns = system.unknowns().to_vec();
+        let (mut motions, mut singular_values) = (Vec::new(), Vec::new());
+        if unknowns.len() <= SPECTRUM_LIMIT {
+            let mut work = system.work();
+            system.linearise(at, &mut work);
+            let jacobian = system.dense_jacobian(&mut work);
+            let spectrum = Spectrum::of(system.rows(), unknowns.len(), &jacobian);
+            (motions, singular_values) = (spectrum.null_space, spectrum.values);
         }
-        let mut work = system.work();
-        system.linearise(at, &mut work);
-        let jacobian = system.dense_jacobian(&mut work);
-        let (rows, columns) = (system.rows(), system.unknowns().len());
-        let spectrum = Spectrum::of(rows, columns, &jacobian);
         Freedoms {
-            unknowns: system.unknowns().to_vec(),
-            motions: spectrum.null_space,
-            singular_values: spectrum.values,
+            unknowns,
+            motions,
+            singular_values,
         }
     }
 
@@ -45,17 +42,14 @@ impl Freedoms {
         rank(&self.singular_values)
     }
 
-    /// Ratio of the largest to the smallest singular value that counts; infinite where unknowns are
-    /// not determined.
+    /// Condition number; infinite where unknowns are not determined.
     pub fn condition(&self) -> f64 {
-        match (
-            self.singular_values.first(),
-            self.singular_values
-                .get(self.unknowns.len().wrapping_sub(1)),
-        ) {
-            (Some(largest), Some(smallest)) if self.motions.is_empty() => largest / smallest,
-            (_, _) if self.unknowns.is_empty() => 1.0,
-            (None, _) => f64::NAN,
+        match self.singular_values[..] {
+            _ if self.unknowns.is_empty() => 1.0,
+            [] => f64::NAN,
+            [largest, ..] if self.motions.is_empty() => {
+                largest / self.singular_values[self.unknowns.len() - 1]
+            }
             _ => f64::INFINITY,
         }
     }
@@ -68,13 +62,14 @@ impl Freedoms {
         }
     }
 
-    /// The component of a motion along a joint variable.
-    fn joint_rate(&self, motion: &[f64], joint: usize) -> f64 {
-        let place = self
-            .unknowns
-            .iter()
-            .position(|u| *u == Unknown::Joint(joint));
-        place.map_or(0.0, |place| motion[place])
+    /// The rate of an unknown in each motion, weighted; zero for one that is held.
+    fn rates(&self, unknown: Unknown, weights: &[f64]) -> Vec<f64> {
+        let place = self.unknowns.iter().position(|u| *u == unknown);
+        let rate = |motion: &Vec<f64>| {
+            let rates = place.into_iter().flat_map(|place| &motion[place..]);
+            rates.zip(weights).map(|(rate, weight)| weight * rate).sum()
+        };
+        self.motions.iter().map(rate).collect()
     }
 
     /// The joints and platforms that take part in the free motions, the most mobile first.
@@ -82,8 +77,8 @@ impl Freedoms {
         moving(mechanism, &self.unknowns, &self.motions)
     }
 
-    /// Whether every motion only turns links about their own lines, as it does a rod between two
-    /// balls. (A wrist or a platform that turns about one point goes somewhere else.)
+    /// Whether all motions are local: links turn about their own axes, as a rod between two balls does, and no
+    /// point moves.
     pub fn are_local(&self, mechanism: &Mechanism, at: &Configuration<f64>) -> bool {
         if self.motions.is_empty() {
             return true;
@@ -106,13 +101,10 @@ pub fn moving(mechanism: &Mechanism, unknowns: &[Unknown], motions: &[Vec<f64>])
     let mut shares: Vec<(String, f64)> = Vec::new();
     for (i, unknown) in unknowns.iter().enumerate() {
         let share: f64 = motions.iter().map(|motion| motion[i] * motion[i]).sum();
-        let name = match *unknown {
-            Unknown::Joint(joint) => &mechanism.joints()[joint].name,
-            Unknown::Twist { platform, .. } => &mechanism.platforms()[platform].name,
-        };
+        let name = unknown.owner(mechanism);
         match shares.iter_mut().find(|(known, _)| known == name) {
             Some((_, sum)) => *sum += share,
-            None => shares.push((name.clone(), share)),
+            None => shares.push((name.to_owned(), share)),
         }
     }
     shares.retain(|(_, share)| *share > 1e-6);
@@ -120,8 +112,7 @@ pub fn moving(mechanism: &Mechanism, unknowns: &[Unknown], motions: &[Vec<f64>])
     shares.into_iter().map(|(name, _)| name).collect()
 }
 
-/// The freedoms of a mechanism with nothing held, at an assembled configuration that is not
-/// special.
+/// The freedoms of a mechanism with nothing held, at a regular assembled configuration.
 #[derive(Clone, Debug)]
 pub struct Mobility {
     freedoms: Freedoms,
@@ -130,14 +121,13 @@ pub struct Mobility {
 }
 
 impl Mobility {
-    /// Looks near a configuration for assembled ones and takes the one with the fewest freedoms:
-    /// what is lost or gained at a special configuration does not count. `None` if the mechanism
-    /// does not assemble near there, or has too many unknowns to tell.
+    /// Of the assembled configurations near one given the one with the fewest freedoms, so that those gained
+    /// at a singularity do not count. `None` if none is found, or there are too many unknowns.
     pub fn near(mechanism: &Mechanism, start: &Configuration<f64>) -> Option<Self> {
         Mobility::among(mechanism, start, 0..4)
     }
 
-    /// The same, of configurations beside the start only: where that is special they are not.
+    /// The same without the start itself, which may be singular.
     pub fn beside(mechanism: &Mechanism, start: &Configuration<f64>) -> Option<Self> {
         Mobility::among(mechanism, start, 1..4)
     }
@@ -155,7 +145,7 @@ impl Mobility {
         }
         let mut work = system.work();
         let mut fewest: Option<(Freedoms, Configuration<f64>)> = None;
-        // the start itself, and three points beside it in directions that have no symmetry
+        // the start itself, and three points nearby in directions without symmetry
         for k in shakes {
             let mut at = start.clone();
             for (joint, value) in at.joints.iter_mut().enumerate() {
@@ -193,7 +183,7 @@ impl Mobility {
         &self.at
     }
 
-    /// The number of freedoms, without those that only turn a link about its own line.
+    /// The number of freedoms without local ones.
     pub fn count(&self) -> usize {
         self.freedoms.motions.len() - self.idle.min(self.freedoms.motions.len())
     }
@@ -206,7 +196,7 @@ impl Mobility {
         near.is_mobile(&tangent)
     }
 
-    /// The number of freedoms that only turn a link about its own line.
+    /// The number of local freedoms.
     pub fn idle(&self) -> usize {
         self.idle
     }
@@ -222,12 +212,7 @@ impl Mobility {
             }
             let mut row = self.rates(mechanism, candidate);
             let size = norm(&row);
-            for direction in &basis {
-                let along: f64 = row.iter().zip(direction).map(|(a, b)| a * b).sum();
-                row.iter_mut()
-                    .zip(direction)
-                    .for_each(|(a, b)| *a -= along * b);
-            }
+            remove(&mut row, &basis);
             let left = norm(&row);
             if left > INDEPENDENT && left > INDEPENDENT * size {
                 row.iter_mut().for_each(|a| *a /= left);
@@ -241,12 +226,7 @@ impl Mobility {
     /// How fast a coordinate changes along each freedom.
     fn rates(&self, mechanism: &Mechanism, candidate: Coordinate) -> Vec<f64> {
         match candidate {
-            Coordinate::Joint(joint) => {
-                let motions = self.freedoms.motions.iter();
-                motions
-                    .map(|motion| self.freedoms.joint_rate(motion, joint))
-                    .collect()
-            }
+            Coordinate::Joint(joint) => self.freedoms.rates(Unknown::Joint(joint), &[1.0]),
             Coordinate::Pose(platform, _) | Coordinate::Turn(platform, _) => {
                 let pose = self.at.platforms[platform].pose();
                 let slope = match candidate {
@@ -264,17 +244,8 @@ impl Mobility {
                     platform,
                     component: 0,
                 };
-                let first = self.freedoms.unknowns.iter().position(|u| *u == first);
-                let first = first.expect("every platform is free here");
-                let motions = self.freedoms.motions.iter();
-                motions
-                    .map(|motion| (0..6).map(|i| slope[i] * motion[first + i]).sum())
-                    .collect()
+                self.freedoms.rates(first, &slope)
             }
         }
     }
-}
-
-fn norm(row: &[f64]) -> f64 {
-    row.iter().map(|a| a * a).sum::<f64>().sqrt()
 }

@@ -1,12 +1,12 @@
-//! A mechanism with some of its coordinates and frames kept at rest.
+//! The closure Jacobian with rows for the rates of inputs or outputs.
 
 use super::twists::FrameTwists;
-use crate::linear::Decomposition;
+use crate::linear::{Decomposition, add};
 use crate::mechanism::{Configuration, Frame, Mechanism};
 use crate::solve::Equations;
 use crate::system::{Coordinate, Held, System, Work};
 
-/// A coordinate or frame that is kept at rest.
+/// A coordinate or frame whose rate is an input or an output.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Lock {
     /// A joint or a platform coordinate.
@@ -17,9 +17,8 @@ pub enum Lock {
     Point(Frame),
 }
 
-/// The closure equations linearised with nothing held, with the rates of the locked coordinates and
-/// frames below: M = [J; A]. What M maps to zero are the motions that leave the locked things at
-/// rest.
+/// M = [J; A]: the closure Jacobian J with nothing held, above the rates A of inputs or outputs. Its
+/// null space are the motions that leave these at rest.
 ///
 /// Rows and columns are dimensionless; the columns are the unknowns of [`Locked::system`].
 #[derive(Clone, Debug)]
@@ -41,6 +40,17 @@ impl Lock {
         }
     }
 
+    /// The frame on whose twist its rate depends; none for a joint.
+    pub fn frame(self) -> Option<Frame> {
+        match self {
+            Lock::Frame(frame) | Lock::Point(frame) => Some(frame),
+            Lock::Coordinate(Coordinate::Pose(platform, _) | Coordinate::Turn(platform, _)) => {
+                Some(Frame::Platform { platform })
+            }
+            Lock::Coordinate(Coordinate::Joint(_)) => None,
+        }
+    }
+
     /// What it is called.
     pub fn name(self, mechanism: &Mechanism) -> String {
         match self {
@@ -52,7 +62,7 @@ impl Lock {
 }
 
 impl Locked {
-    /// Keeps these things at rest.
+    /// For these inputs or outputs.
     pub fn new(mechanism: &Mechanism, locks: &[Lock]) -> Self {
         let system = System::new(mechanism.dimensions(), &Held::nothing(mechanism));
         let frames = locks.iter().filter_map(|lock| match lock {
@@ -95,8 +105,7 @@ impl Locked {
         {
             to[..first].copy_from_slice(from);
         }
-        let mut placement = self.twists.placement();
-        self.twists.place(at, &mut placement);
+        let placement = self.twists.placed(at);
         let (mut row, mut frame) = (first, 0);
         let mut rates = vec![0.0; self.columns()];
         for lock in &self.locks {
@@ -126,6 +135,20 @@ impl Locked {
         entries
     }
 
+    /// The rates of the inputs or outputs in motions at a configuration: A ξ for each ξ.
+    pub fn rates(&mut self, at: &Configuration<f64>, motions: &[Vec<f64>]) -> Vec<Vec<f64>> {
+        let entries = self.jacobian(at);
+        let (rows, first) = (self.rows(), self.system.rows());
+        let rates = motions.iter().map(|motion| {
+            let mut rates = vec![0.0; rows - first];
+            for (column, rate) in entries.chunks_exact(rows.max(1)).zip(motion) {
+                add(&mut rates, *rate, &column[first..]);
+            }
+            rates
+        });
+        rates.collect()
+    }
+
     /// M decomposed at a configuration, cut at the rank tolerance.
     pub fn decomposition(&mut self, at: &Configuration<f64>) -> Decomposition {
         let entries = self.jacobian(at);
@@ -138,11 +161,9 @@ impl Locked {
         Decomposition::of_rank(self.rows(), self.columns(), &entries, rank)
     }
 
-    /// det(Uᵀ M V Σ⁻¹) with the decomposition U Σ Vᵀ of M at a configuration nearby: 1 there, and
-    /// it changes sign where M loses an odd number of ranks.
-    ///
-    /// Unlike singular values it is a smooth function of the configuration, and redundant rows do
-    /// no harm to it.
+    /// det(Uᵀ M V Σ⁻¹) with the decomposition U Σ Vᵀ of M at a configuration nearby: 1 there, and of
+    /// the other sign beyond a loss of an odd number of ranks. It is smooth, and redundant rows do it
+    /// no harm.
     pub fn orientation(&mut self, near: &Decomposition, at: &Configuration<f64>) -> f64 {
         let entries = self.jacobian(at);
         near.determinant_beside(&entries)

@@ -9,12 +9,12 @@ use crate::linear::Decomposition;
 use crate::mechanism::{Body, Configuration, Frame, Symbol};
 use crate::system::Unknown;
 
-/// A loop: a closure and the two ways from it to the body they part at.
+/// A loop: a closure and the two chains from it to the body where they part.
 #[derive(Clone, Debug)]
 pub struct MechanismLoop {
     /// Name of the closure that completes it.
     pub closure: String,
-    /// Its bodies in order, from the one the two ways part at.
+    /// Its bodies in order, from the one where its two chains part.
     pub bodies: Vec<Body>,
     /// What joins each body to the next, and the last to the first.
     pub parts: Vec<LoopPart>,
@@ -97,19 +97,12 @@ pub fn loops(near: &mut Neighbourhood, at: &Configuration<f64>) -> Vec<Mechanism
         .collect()
 }
 
-fn at_ground(twist: &Twist<f64>, point: &Vector3<f64>, length: f64) -> [f64; 6] {
-    let velocity = twist.velocity - twist.omega.cross(point);
-    let ([a, b, c], [x, y, z]) = (twist.omega.0, velocity.times(1.0 / length).0);
-    [a, b, c, x, y, z]
-}
-
 /// The rows of the tables in which a joint variable stands.
 fn rows(near: &Neighbourhood, at: &Configuration<f64>) -> Vec<LoopPart> {
     let mechanism = near.mechanism();
     let length = mechanism.characteristic_length();
     let twists = near.frames();
-    let mut placement = twists.placement();
-    twists.place(at, &mut placement);
+    let placement = twists.placed(at);
     let frames: Vec<Frame> = twists.frames().collect();
     let place = |frame: Frame| frames.iter().position(|f| *f == frame);
     let unknowns = near.system().unknowns();
@@ -127,7 +120,7 @@ fn rows(near: &Neighbourhood, at: &Configuration<f64>) -> Vec<LoopPart> {
                 rates[column.expect("every joint is free")] = 1.0;
                 let [a, b] = [a, b].map(|frame| {
                     let twist = twists.twist(frame, &placement, &rates);
-                    at_ground(&twist, &twists.origin(frame, &placement), length)
+                    twist.at_ground(&twists.origin(frame, &placement), length)
                 });
                 std::array::from_fn(|k| a[k] - b[k])
             });
@@ -162,7 +155,7 @@ fn closures(near: &mut Neighbourhood, at: &Configuration<f64>) -> Vec<LoopPart> 
                         omega: Vector3([twist[0], twist[1], twist[2]]),
                         velocity: Vector3([twist[3], twist[4], twist[5]]).times(length),
                     };
-                    at_ground(&twist, &wrenches.points[1], length)
+                    twist.at_ground(&wrenches.points[1], length)
                 })
                 .collect();
             let (mut names, mut joints) = (vec![closure.name.clone()], vec![]);
@@ -176,7 +169,7 @@ fn closures(near: &mut Neighbourhood, at: &Configuration<f64>) -> Vec<LoopPart> 
                         omega: Vector3::zero(),
                         velocity: Vector3([along[3], along[4], along[5]]).times(length),
                     };
-                    twists.push(at_ground(&slide, &wrenches.points[1], length));
+                    twists.push(slide.at_ground(&wrenches.points[1], length));
                 }
             }
             LoopPart {

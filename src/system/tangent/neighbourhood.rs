@@ -2,6 +2,7 @@
 
 mod follow;
 
+use super::STILL;
 use super::twists::FrameTwists;
 use crate::description::{ClosureKind, Role};
 use crate::linear::{Decomposition, complement, dot, orthonormal, rank_of};
@@ -11,11 +12,7 @@ use crate::system::{ClosureWrenches, Held, System, Unknown, Work};
 
 pub use follow::FiniteStep;
 
-/// Rates of motions of unit norm below this are rounding.
-const ROUNDING: f64 = 1e-6;
-
-/// A mechanism with nothing held, or with the held coordinates of a question, near assembled
-/// configurations.
+/// A mechanism near assembled configurations, with nothing held or as a question holds it.
 #[derive(Clone, Debug)]
 pub struct Neighbourhood<'a> {
     mechanism: &'a Mechanism,
@@ -33,9 +30,9 @@ pub struct Tangent {
     pub jacobian: Vec<f64>,
     /// Its decomposition.
     pub decomposition: Decomposition,
-    /// Orthonormal basis of the infinitesimal motions ξ that are more than idle.
+    /// Orthonormal basis of the infinitesimal motions ξ without local freedoms.
     pub motions: Vec<Vec<f64>>,
-    /// Orthonormal basis of the idle ones: links turn about their own lines and nothing else moves.
+    /// Orthonormal basis of the local (passive) freedoms: links turn about their own axes.
     pub idle: Vec<Vec<f64>>,
 }
 
@@ -87,13 +84,13 @@ impl<'a> Neighbourhood<'a> {
         };
         let idle = match split.singular_values().first() {
             // everything is rounding compared with motions of unit norm
-            Some(&largest) if largest < ROUNDING => complement(&[], all.len()),
+            Some(&largest) if largest < STILL => complement(&[], all.len()),
             _ => split.null_space(),
         };
         let motions = complement(&idle, all.len());
         Tangent {
             idle: idle.iter().map(combine).collect(),
-            // without idle ones the basis stays as sparse as it came
+            // without local freedoms the basis stays as sparse as it came
             motions: if idle.is_empty() {
                 all
             } else {
@@ -134,15 +131,14 @@ impl<'a> Neighbourhood<'a> {
         self.system.residual(at, &mut self.work).largest
     }
 
-    /// Whether motions are idle: links turn about their own lines and nothing else moves.
+    /// Whether motions are local freedoms: links turn about their own axes and nothing else moves.
     pub fn are_local(&self, at: &Configuration<f64>, motions: &[Vec<f64>]) -> bool {
         let felt = self.felt(at, motions);
-        felt.iter().all(|rate| rate.abs() < ROUNDING)
+        felt.iter().all(|rate| rate.abs() < STILL)
     }
 
-    /// For each motion a column of all that idle freedoms leave at rest: origins of frames,
-    /// platforms, driven joints, links that end in something else than a ball, joints that no
-    /// closure feels.
+    /// For each motion the rates that vanish in local freedoms: of origins of frames, platforms, driven
+    /// joints, links that do not end in a ball, joints that no closure feels.
     fn felt(&self, at: &Configuration<f64>, motions: &[Vec<f64>]) -> Vec<f64> {
         let mechanism = self.mechanism;
         let mut placement = self.frames.placement();
@@ -157,8 +153,7 @@ impl<'a> Neighbourhood<'a> {
             .filter_map(|frame| frames.iter().position(|f| *f == frame))
             .collect();
         let unfelt = mechanism.unfelt_joints();
-        // platforms on balls apart: what leaves the balls at rest turns them about the line of
-        // these
+        // platforms on several balls can only spin about the line of these
         let balls = |platform: usize| {
             let closures = mechanism.closures().iter();
             let balls = closures
@@ -209,7 +204,7 @@ impl Tangent {
                 let all = motion.iter().zip(own);
                 all.map(|(x, own)| if *own { *x } else { 0.0 }).collect()
             };
-            orthonormal(&motions.iter().map(part).collect::<Vec<_>>(), 1e-6)
+            orthonormal(&motions.iter().map(part).collect::<Vec<_>>(), STILL)
         };
         Tangent {
             motions: parts(&self.motions),

@@ -2,7 +2,9 @@
 
 use serde::{Deserialize, Serialize};
 
+use super::STILL;
 use super::neighbourhood::Neighbourhood;
+use super::twists::Twist;
 use crate::geometry::Vector3;
 use crate::linear::{axis_aligned, norm, remove};
 use crate::mechanism::{Body, Configuration, Frame, Mechanism};
@@ -14,8 +16,7 @@ pub struct TwistSpace {
     pub body: String,
     /// A basis: principal screws first, translations after them.
     pub screws: Vec<Screw>,
-    /// The lines about which it spins in idle freedoms: what the screws leave open, and have none
-    /// of.
+    /// The axes about which it spins in local freedoms, which the screws leave out.
     pub spins: Vec<Screw>,
 }
 
@@ -58,9 +59,8 @@ fn carriers(mechanism: &Mechanism) -> Vec<(Body, Frame)> {
 }
 
 impl Neighbourhood<'_> {
-    /// The twists that bodies have over a space of infinitesimal motions at a configuration: those
-    /// of the platforms, or else of the links that closures join. A body that spins about a line in
-    /// one of the `idle` motions has no part of that spin in its others.
+    /// The twists that a space of infinitesimal motions gives to the platforms, or else to the links that
+    /// closures join, without spins in the local freedoms `idle`.
     pub fn twist_spaces(
         &self,
         at: &Configuration<f64>,
@@ -70,8 +70,7 @@ impl Neighbourhood<'_> {
         let mechanism = self.mechanism();
         let length = mechanism.characteristic_length();
         let frames = self.frames();
-        let mut placement = frames.placement();
-        frames.place(at, &mut placement);
+        let placement = frames.placed(at);
         let spaces = carriers(mechanism).into_iter().map(|(body, frame)| {
             let place = frames
                 .frames()
@@ -79,8 +78,9 @@ impl Neighbourhood<'_> {
                 .expect("every frame is planned");
             let origin = frames.origin(place, &placement);
             let at_ground = |omega: Vector3<f64>, velocity: Vector3<f64>| {
-                let velocity = (velocity - omega.cross(&origin)).times(1.0 / length);
-                [omega.0, velocity.0].concat()
+                Twist { omega, velocity }
+                    .at_ground(&origin, length)
+                    .to_vec()
             };
             let lines = spin_lines(
                 idle.iter()
@@ -103,16 +103,14 @@ impl Neighbourhood<'_> {
     }
 }
 
-/// Orthonormal directions of the lines about which a frame spins at the given angular velocities.
+/// Orthonormal directions of the axes about which a frame spins at the given angular velocities.
 pub fn spin_lines(omegas: impl Iterator<Item = Vector3<f64>>) -> Vec<Vector3<f64>> {
-    /// Beside idle motions of unit norm this is rounding.
-    const ROUNDING: f64 = 1e-6;
     let omegas: Vec<Vec<f64>> = omegas.map(|omega| omega.0.to_vec()).collect();
-    let lines = crate::linear::orthonormal(&omegas, ROUNDING).into_iter();
+    let lines = crate::linear::orthonormal(&omegas, STILL).into_iter();
     lines.map(|w| Vector3([w[0], w[1], w[2]])).collect()
 }
 
-/// What is left of an angular velocity without the spins about orthonormal directions.
+/// An angular velocity without the spins about orthonormal directions.
 pub fn without(omega: &Vector3<f64>, spins: &[Vector3<f64>]) -> Vector3<f64> {
     let along = spins.iter().map(|line| line.times(line.dot(omega)));
     along.fold(*omega, |left, part| left - part)

@@ -14,6 +14,15 @@ pub struct Twist<T> {
     pub velocity: Vector3<T>,
 }
 
+impl Twist<f64> {
+    /// (ω; v/L) of the point of the body at the origin of ground; `point` is the frame's origin.
+    pub fn at_ground(&self, point: &Vector3<f64>, length: f64) -> [f64; 6] {
+        let velocity = self.velocity - self.omega.cross(point);
+        let ([a, b, c], [x, y, z]) = (self.omega.0, velocity.times(1.0 / length).0);
+        [a, b, c, x, y, z]
+    }
+}
+
 /// Twists of chosen frames for rates of all joints and platforms, in dimensionless unknowns.
 ///
 /// ω = Σ z q̇ and v = Σ z × (p − o) q̇ (or z q̇ for a slide) over the joints on the way to the frame,
@@ -76,6 +85,13 @@ impl<T: Number> FrameTwists<T> {
     /// Multiplies the chains out at a configuration. Nothing allocates.
     pub fn place(&self, at: &Configuration<T>, placement: &mut Placement<T>) {
         self.kinematics.place(at, placement);
+    }
+
+    /// The chains multiplied out at a configuration.
+    pub fn placed(&self, at: &Configuration<T>) -> Placement<T> {
+        let mut placement = self.placement();
+        self.place(at, &mut placement);
+        placement
     }
 
     /// The origin of frame `i` of those asked for, in ground, in m.

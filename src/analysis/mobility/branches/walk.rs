@@ -1,47 +1,24 @@
-//! Walking on the branches through a singular configuration.
+//! Following the branches through a singular configuration by small steps.
 
 use rand::Rng;
 
 use super::super::MobilitySettings;
 use super::super::cone::{Cone, combination};
 use super::{is_regular, see};
-use crate::linear::{dot, norm, orthonormal, remove};
+use crate::linear::{add, dot, norm, orthonormal, remove};
 use crate::mechanism::Configuration;
 use crate::system::{Neighbourhood, Tangent};
 
-/// The same beside a singular configuration, over the length of the step: shaky freedoms have slack.
+/// A joint moves on a branch if it moves by more than this part of the step: infinitesimal freedoms
+/// leave some slack.
 const MOVED_ON_A_BRANCH: f64 = 1e-3;
 
 /// Branches whose tangents beside the meeting point differ by less than this are one, seen at two
 /// points of a curve.
 const SAME_BRANCH: f64 = 0.15;
 
-/// Adds the branch that a small step along a direction settles on, if it does.
-pub(super) fn explore(
-    near: &mut Neighbourhood,
-    own: &[bool],
-    tangent: &Tangent,
-    direction: &[f64],
-    settings: &MobilitySettings,
-    seen: &mut Vec<Seen>,
-    rng: &mut impl Rng,
-) {
-    let reach = settings.branch_step;
-    if let Some((mut at, way)) = arrive(near, tangent, direction, reach) {
-        // too near the meeting point a motion of high order looks finite
-        let distance = norm(&near.system().difference(&tangent.at, &at));
-        if distance < 0.5 * reach
-            && let Some((further, _)) = arrive(near, tangent, &way, reach)
-        {
-            at = further;
-        }
-        let beside = near.tangent(at).within(own);
-        look(near, own, tangent, beside, settings, seen, rng);
-    }
-}
-
-/// Directions that are worth a try: some on the quadratic cone, some between the basis vectors,
-/// and along each of them both ways. Each is made when it is asked for: seldom are all needed.
+/// Directions to try, made one at a time: some on the quadratic cone, some between the basis vectors,
+/// and both ways along each of these.
 pub(super) struct Directions {
     /// Tries on the cone that are left.
     on_cone: usize,
@@ -62,12 +39,9 @@ impl Directions {
     /// Those on the quadratic cone alone; none where second order excludes nothing.
     pub fn on_cone(cone: &Cone, at: &Tangent, trials: usize) -> Self {
         let n = at.motions.len();
+        let curved = n >= 2 && !cone.is_all();
         Directions {
-            on_cone: if n < 2 || cone.is_all() {
-                0
-            } else {
-                trials * n
-            },
+            on_cone: if curved { trials * n } else { 0 },
             between: None,
             made: [0; 3],
         }
@@ -95,11 +69,7 @@ impl Directions {
         let enough = self.made[0] + self.made[1] > basis.len() && !cone.is_all();
         self.between.filter(|_| !enough)?;
         let motion = basis.get(self.made[2] / 2)?;
-        let sign = if self.made[2].is_multiple_of(2) {
-            1.0
-        } else {
-            -1.0
-        };
+        let sign = [1.0, -1.0][self.made[2] % 2];
         self.made[2] += 1;
         Some(motion.iter().map(|x| sign * x).collect())
     }
@@ -119,11 +89,6 @@ impl Seen {
     fn agrees(&self, other: &Tangent) -> bool {
         same(&self.beside.motions, &other.motions, SAME_BRANCH)
     }
-
-    fn see(&mut self, near: &Neighbourhood, from: &Tangent, at: &Tangent, reach: f64) {
-        let way = near.system().difference(&from.at, &at.at);
-        see(&mut self.moved, &way, MOVED_ON_A_BRANCH * reach);
-    }
 }
 
 /// Whether two orthonormal bases span the same but for angles of this sine.
@@ -133,179 +98,186 @@ pub(super) fn same(a: &[Vec<f64>], b: &[Vec<f64>], sine: f64) -> bool {
 
 /// Whether an orthonormal basis spans the vectors of another but for angles of this sine.
 pub(super) fn contains(space: &[Vec<f64>], vectors: &[Vec<f64>], sine: f64) -> bool {
-    vectors.iter().all(|vector| {
-        let mut out = vector.clone();
-        remove(&mut out, space);
-        norm(&out) < sine
-    })
+    (vectors.iter()).all(|vector| norm(&left_of(vector, space)) < sine)
 }
 
-/// Adds the branch on which a point lies, looked at where it lies on no other: at a point where all
-/// infinitesimal freedoms are finite, which is moved on to if need be.
-fn look(
-    near: &mut Neighbourhood,
-    own: &[bool],
-    from: &Tangent,
-    point: Tangent,
-    settings: &MobilitySettings,
-    seen: &mut Vec<Seen>,
-    rng: &mut impl Rng,
-) {
-    let reach = settings.branch_step;
-    let step = 0.3 * reach;
-    if point.motions.is_empty() {
-        return;
-    }
-    let mut points = vec![point];
-    for _ in 0..=settings.branch_trials {
-        let Some(last) = points.last() else { return };
-        let known = |seen: &&mut Seen| seen.regular && seen.agrees(last);
-        if let Some(known) = seen.iter_mut().find(known) {
-            known.see(near, from, last, reach);
-            return;
-        }
-        if is_regular(near, last, reach, 3, rng) {
-            let beside = last.clone();
-            return add(near, from, beside, true, reach, seen);
-        }
-        // on from where the fewest motions were seen
-        let Some(least) = points.iter().min_by_key(|point| point.motions.len()) else {
+/// A vector without its components along orthonormal ones.
+fn left_of(vector: &[f64], basis: &[Vec<f64>]) -> Vec<f64> {
+    let mut left = vector.to_vec();
+    remove(&mut left, basis);
+    left
+}
+
+/// The components of a vector along orthonormal ones.
+fn within(vector: &[f64], basis: &[Vec<f64>]) -> Vec<f64> {
+    let left = left_of(vector, basis);
+    vector.iter().zip(left).map(|(x, out)| x - out).collect()
+}
+
+/// The search for the branches of an independent part of a mechanism through a singular configuration.
+pub(super) struct Walk<'s, 'm, R> {
+    pub near: &'s mut Neighbourhood<'m>,
+    /// The unknowns of the part.
+    pub own: &'s [bool],
+    /// The singular configuration.
+    pub from: &'s Tangent,
+    pub settings: &'s MobilitySettings,
+    pub rng: &'s mut R,
+    pub seen: Vec<Seen>,
+}
+
+impl<R: Rng> Walk<'_, '_, R> {
+    /// Adds the branch that a small step along a direction settles on, if it does.
+    pub fn explore(&mut self, direction: &[f64]) {
+        let reach = self.settings.branch_step;
+        let Some((mut at, way)) = arrive(self.near, self.from, direction, reach) else {
             return;
         };
-        let direction = combination(&least.motions, rng);
-        if let Some((at, _)) = arrive(near, least, &direction, step) {
-            points.push(near.tangent(at).within(own));
+        // too near the meeting point a motion of high order looks finite
+        let distance = norm(&self.near.system().difference(&self.from.at, &at));
+        if distance < 0.5 * reach
+            && let Some((further, _)) = arrive(self.near, self.from, &way, reach)
+        {
+            at = further;
         }
+        let beside = self.tangent(at);
+        self.look(beside);
     }
-    // shaky wherever it was seen
-    let least = points.into_iter().min_by_key(|point| point.motions.len());
-    if let Some(mut least) = least {
-        let cone = Cone::of(near, &least);
-        let mut directions = Directions::new(&cone, &least, settings.branch_trials);
+
+    fn tangent(&mut self, at: Configuration<f64>) -> Tangent {
+        self.near.tangent(at).within(self.own)
+    }
+
+    /// Adds the branch on which a point lies, looked at where it lies on no other: at a point where all
+    /// infinitesimal freedoms are finite, to which it moves on if need be.
+    fn look(&mut self, point: Tangent) {
+        let reach = self.settings.branch_step;
+        let step = 0.3 * reach;
+        if point.motions.is_empty() {
+            return;
+        }
+        let mut points = vec![point];
+        for _ in 0..=self.settings.branch_trials {
+            let Some(last) = points.last() else { return };
+            if (self.seen.iter()).any(|seen| seen.regular && seen.agrees(last))
+                || is_regular(self.near, last, reach, 3, self.rng)
+            {
+                let beside = last.clone();
+                return self.add(beside, true);
+            }
+            // on from where the fewest motions were seen
+            let Some(least) = points.iter().min_by_key(|point| point.motions.len()) else {
+                return;
+            };
+            let direction = combination(&least.motions, self.rng);
+            if let Some((at, _)) = arrive(self.near, least, &direction, step) {
+                points.push(self.tangent(at));
+            }
+        }
+        // infinitesimally flexible wherever it was seen
+        let least = points.into_iter().min_by_key(|point| point.motions.len());
+        let Some(mut least) = least else { return };
+        let cone = Cone::of(self.near, &least);
+        let mut directions = Directions::new(&cone, &least, self.settings.branch_trials);
         let mut ways: Vec<Vec<f64>> = Vec::new();
-        while let Some(direction) = directions.next(&cone, &least, rng) {
-            ways.extend(arrive(near, &least, &direction, step).map(|(_, way)| way));
+        while let Some(direction) = directions.next(&cone, &least, self.rng) {
+            ways.extend(arrive(self.near, &least, &direction, step).map(|(_, way)| way));
         }
         least.motions = orthonormal(&ways, 0.1);
-        if !least.motions.is_empty() && fills(near, &least, step, rng) {
-            add(near, from, least, false, reach, seen);
+        if !least.motions.is_empty() && self.fills(&least, step) {
+            self.add(least, false);
         }
     }
-}
 
-/// Whether steps in the span of the motions arrive where they aim: where branches meet they fall
-/// to one or the other.
-pub(super) fn fills(near: &mut Neighbourhood, at: &Tangent, step: f64, rng: &mut impl Rng) -> bool {
-    const TRIALS: usize = 6;
-    const ALONG: f64 = 0.95;
-    at.motions.len() == 1
-        || (0..TRIALS).all(|_| {
-            let direction = combination(&at.motions, rng);
-            let arrived = arrive(near, at, &direction, step);
-            arrived.is_some_and(|(_, way)| dot(&way, &direction) > ALONG)
-        })
-}
-
-fn add(
-    near: &Neighbourhood,
-    from: &Tangent,
-    beside: Tangent,
-    regular: bool,
-    reach: f64,
-    seen: &mut Vec<Seen>,
-) {
-    let known = |seen: &&mut Seen| seen.regular == regular && seen.agrees(&beside);
-    if let Some(known) = seen.iter_mut().find(known) {
-        return known.see(near, from, &beside, reach);
+    /// Whether steps in the span of the motions arrive where they aim: not where branches meet.
+    pub fn fills(&mut self, at: &Tangent, step: f64) -> bool {
+        const TRIALS: usize = 6;
+        const ALONG: f64 = 0.95;
+        at.motions.len() == 1
+            || (0..TRIALS).all(|_| {
+                let direction = combination(&at.motions, self.rng);
+                let arrived = arrive(self.near, at, &direction, step);
+                arrived.is_some_and(|(_, way)| dot(&way, &direction) > ALONG)
+            })
     }
-    let mut new = Seen {
-        moved: vec![false; beside.columns()],
-        beside: beside.clone(),
-        regular,
-    };
-    new.see(near, from, &beside, reach);
-    for motion in &beside.motions {
-        see(&mut new.moved, motion, MOVED_ON_A_BRANCH);
-    }
-    seen.push(new);
-}
 
-/// The motions of a branch at the meeting point: the limit of its tangents on the way there, by
-/// extrapolation.
-pub(super) fn there(
-    near: &mut Neighbourhood,
-    own: &[bool],
-    tangent: &Tangent,
-    seen: &Seen,
-) -> Vec<Vec<f64>> {
-    const LEVELS: i32 = 4;
-    let basis = &seen.beside.motions;
-    let mut way = near.system().difference(&tangent.at, &seen.beside.at);
-    remove(&mut way, &tangent.idle);
-    let distance = norm(&way);
-    // distances and the branch's motions there, as parts of the same basis
-    let mut levels: Vec<(f64, Vec<Vec<f64>>)> = vec![];
-    for level in 0..LEVELS {
-        let factor = 0.5f64.powi(level);
-        let step: Vec<f64> = way.iter().map(|x| x * factor).collect();
-        let start = near.system().displaced(&tangent.at, &step);
-        let Some(at) = near.settle(start, factor * distance) else {
-            break;
-        };
-        let mut back = near.system().difference(&tangent.at, &at);
-        remove(&mut back, &tangent.idle);
-        let along = dot(&back, &way) / (distance * distance);
-        if !(0.5 * factor..2.0 * factor).contains(&along) {
-            break;
+    fn add(&mut self, beside: Tangent, regular: bool) {
+        let way = self.near.system().difference(&self.from.at, &beside.at);
+        let clearly = MOVED_ON_A_BRANCH * self.settings.branch_step;
+        let known = |seen: &&mut Seen| seen.regular == regular && seen.agrees(&beside);
+        if let Some(known) = self.seen.iter_mut().find(known) {
+            return see(&mut known.moved, &way, clearly);
         }
-        if seen.regular {
-            let there = near.tangent(at).within(own);
-            if there.motions.len() != basis.len() {
+        let mut moved = vec![false; beside.columns()];
+        see(&mut moved, &way, clearly);
+        for motion in &beside.motions {
+            see(&mut moved, motion, MOVED_ON_A_BRANCH);
+        }
+        self.seen.push(Seen {
+            beside,
+            regular,
+            moved,
+        });
+    }
+
+    /// The motions at the meeting point of the branch of this number: the limit of its tangents on the
+    /// way there, by extrapolation.
+    pub fn limit(&mut self, number: usize) -> Vec<Vec<f64>> {
+        const LEVELS: i32 = 4;
+        let seen = &self.seen[number];
+        let (basis, tangent) = (&seen.beside.motions, self.from);
+        let mut way = self.near.system().difference(&tangent.at, &seen.beside.at);
+        remove(&mut way, &tangent.idle);
+        let distance = norm(&way);
+        // distances and the branch's motions there, as parts of the same basis
+        let mut levels: Vec<(f64, Vec<Vec<f64>>)> = vec![];
+        for level in 0..LEVELS {
+            let factor = 0.5f64.powi(level);
+            let step: Vec<f64> = way.iter().map(|x| x * factor).collect();
+            let start = self.near.system().displaced(&tangent.at, &step);
+            let Some(at) = self.near.settle(start, factor * distance) else {
+                break;
+            };
+            let mut back = self.near.system().difference(&tangent.at, &at);
+            remove(&mut back, &tangent.idle);
+            let along = dot(&back, &way) / (distance * distance);
+            if !(0.5 * factor..2.0 * factor).contains(&along) {
                 break;
             }
-            let part = |motion: &Vec<f64>| {
-                let mut out = motion.clone();
-                remove(&mut out, &there.motions);
-                motion.iter().zip(out).map(|(m, o)| m - o).collect()
-            };
-            levels.push((along, basis.iter().map(part).collect()));
-        } else if basis.len() == 1 {
-            // the tangent is not known apart from shaky motions, but the chord is
-            let length = norm(&back);
-            levels.push((along, vec![back.iter().map(|x| x / length).collect()]));
+            if seen.regular {
+                let there = self.near.tangent(at).within(self.own).motions;
+                if there.len() != basis.len() {
+                    break;
+                }
+                levels.push((along, basis.iter().map(|m| within(m, &there)).collect()));
+            } else if basis.len() == 1 {
+                // among infinitesimal motions the tangent is not known, but the chord is
+                let length = norm(&back);
+                levels.push((along, vec![back.iter().map(|x| x / length).collect()]));
+            }
         }
-    }
-    let mut limit = match levels.is_empty() {
-        true => basis.clone(),
-        false => vec![vec![0.0; way.len()]; basis.len()],
-    };
-    for (i, (own, motions)) in levels.iter().enumerate() {
-        let others = levels.iter().enumerate().filter(|(j, _)| *j != i);
-        let weight: f64 = others
-            .map(|(_, (other, _))| other / (other - own))
-            .product();
-        for (limit, motion) in limit.iter_mut().zip(motions) {
-            limit
-                .iter_mut()
-                .zip(motion)
-                .for_each(|(l, m)| *l += weight * m);
+        let mut limit = match levels.is_empty() {
+            true => basis.clone(),
+            false => vec![vec![0.0; way.len()]; basis.len()],
+        };
+        for (i, (own, motions)) in levels.iter().enumerate() {
+            let others = levels.iter().enumerate().filter(|(j, _)| *j != i);
+            let weight: f64 = (others.map(|(_, (other, _))| other / (other - own))).product();
+            for (limit, motion) in limit.iter_mut().zip(motions) {
+                add(limit, weight, motion);
+            }
         }
-    }
-    // every finite motion starts along an infinitesimal one
-    for motion in &mut limit {
-        let mut out = motion.clone();
-        remove(&mut out, &tangent.motions);
-        motion.iter_mut().zip(out).for_each(|(m, o)| *m -= o);
-    }
-    let found = orthonormal(&limit, 0.1);
-    match found.len() == basis.len() {
-        true => found,
-        false => basis.clone(),
+        // every finite motion starts along an infinitesimal one
+        let limit: Vec<Vec<f64>> = limit.iter().map(|m| within(m, &tangent.motions)).collect();
+        let found = orthonormal(&limit, 0.1);
+        match found.len() == basis.len() {
+            true => found,
+            false => basis.clone(),
+        }
     }
 }
 
-/// An assembled configuration that a small step settles on, with the unit direction to it; `None`
-/// if it comes back or runs away.
+/// The assembled configuration that a small step leads to, with the unit direction to it, if it converges.
 fn arrive(
     near: &mut Neighbourhood,
     from: &Tangent,

@@ -1,13 +1,13 @@
 //! Wrenches that the closures resist at outputs that lost freedoms.
 
-use super::{Classifier, Resisted};
+use super::{CLOSURES, Classifier, INVERSE, Resisted};
 use crate::geometry::Vector3;
-use crate::linear::{complement, dot, norm, orthonormal, remove};
+use crate::linear::{RANK_TOLERANCE, add, complement, dot, norm, orthonormal, remove};
 use crate::mechanism::{Configuration, Frame};
 use crate::system::{Coordinate, Lock, wrench_screws};
 
-/// An output, or the coordinates of one platform, with its wrenches (m/L; f) about the origin of
-/// the frame.
+/// An output, or the coordinates of one platform, with its wrenches (m/L; f) about the origin of the
+/// frame.
 struct Part {
     frame: Frame,
     name: String,
@@ -15,22 +15,11 @@ struct Part {
 }
 
 impl Classifier<'_> {
-    /// What the motions of the mechanism make of the outputs, orthonormal.
+    /// The rates of the outputs that the motions of the mechanism make possible, orthonormal.
     fn image(&mut self, at: &Configuration<f64>) -> Vec<Vec<f64>> {
-        let motions = self.closures.decomposition(at).null_space();
-        let entries = self.inverse.jacobian(at);
-        let (rows, first) = (self.inverse.rows(), self.closures.rows());
-        let images: Vec<Vec<f64>> = (motions.iter())
-            .map(|motion| {
-                let mut image = vec![0.0; rows - first];
-                for (column, rate) in entries.chunks_exact(rows.max(1)).zip(motion) {
-                    let outputs = column[first..].iter();
-                    (image.iter_mut().zip(outputs)).for_each(|(sum, x)| *sum += rate * x);
-                }
-                image
-            })
-            .collect();
-        orthonormal(&images, crate::linear::RANK_TOLERANCE)
+        let motions = self.matrices[CLOSURES].decomposition(at).null_space();
+        let rates = self.matrices[INVERSE].rates(at, &motions);
+        orthonormal(&rates, RANK_TOLERANCE)
     }
 
     /// Wrenches reciprocal to all that the outputs can do here, but not to all they can do nearby.
@@ -41,7 +30,7 @@ impl Classifier<'_> {
             return Vec::new();
         };
         let (here, there) = (self.image(at), self.image(&beside));
-        let size = self.inverse.rows() - self.closures.rows();
+        let size = self.matrices[INVERSE].rows() - self.matrices[CLOSURES].rows();
         let outside = here.iter().any(|direction| {
             let mut left = direction.clone();
             remove(&mut left, &there);
@@ -54,8 +43,7 @@ impl Classifier<'_> {
         let within = complement(&here, size).into_iter().map(|w| {
             let mut inside = vec![0.0; size];
             for direction in &there {
-                let along = dot(&w, direction);
-                (inside.iter_mut().zip(direction)).for_each(|(x, d)| *x += along * d);
+                add(&mut inside, dot(&w, direction), direction);
             }
             inside
         });
@@ -64,49 +52,42 @@ impl Classifier<'_> {
         let length = mechanism.characteristic_length();
         let mut parts: Vec<Part> = Vec::new();
         let mut row = 0;
-        for output in &self.outputs {
-            let rates = |first: usize, size: usize| {
-                let wrenches = within.iter().map(|w| {
-                    let mut wrench = [0.0; 6];
-                    wrench[first..first + size].copy_from_slice(&w[row..row + size]);
-                    wrench
-                });
-                wrenches.collect::<Vec<_>>()
+        for &output in &self.outputs {
+            let unit = |k: usize| std::array::from_fn(|i| f64::from(u8::from(i == k)));
+            // how each of its rates depends on the twist (ω; v/L) of its frame
+            let slopes: Vec<[f64; 6]> = match output {
+                Lock::Frame(_) => (0..6).map(unit).collect(),
+                Lock::Point(_) => (3..6).map(unit).collect(),
+                Lock::Coordinate(
+                    of @ (Coordinate::Pose(platform, _) | Coordinate::Turn(platform, _)),
+                ) => {
+                    vec![of.slope(&at.platforms[platform].pose(), length)]
+                }
+                Lock::Coordinate(Coordinate::Joint(_)) => vec![[0.0; 6]],
             };
-            match *output {
-                Lock::Frame(frame) | Lock::Point(frame) => {
-                    let (first, size) = match output {
-                        Lock::Frame(_) => (0, 6),
-                        _ => (3, 3),
-                    };
+            if let Some(frame) = output.frame() {
+                let of_platform = matches!(output, Lock::Coordinate(_));
+                let known = parts
+                    .iter()
+                    .position(|part| of_platform && part.frame == frame);
+                let place = known.unwrap_or_else(|| {
                     parts.push(Part {
                         frame,
-                        name: output.name(mechanism),
-                        wrenches: rates(first, size),
+                        name: match of_platform {
+                            true => mechanism.frame_name(frame),
+                            false => output.name(mechanism),
+                        },
+                        wrenches: vec![[0.0; 6]; within.len()],
                     });
-                    row += size;
-                }
-                Lock::Coordinate(
-                    coordinate @ (Coordinate::Pose(platform, _) | Coordinate::Turn(platform, _)),
-                ) => {
-                    let slope = coordinate.slope(&at.platforms[platform].pose(), length);
-                    let frame = Frame::Platform { platform };
-                    let place = parts.iter().position(|part| part.frame == frame);
-                    let place = place.unwrap_or_else(|| {
-                        parts.push(Part {
-                            frame,
-                            name: mechanism.frame_name(frame),
-                            wrenches: vec![[0.0; 6]; within.len()],
-                        });
-                        parts.len() - 1
-                    });
-                    for (wrench, w) in parts[place].wrenches.iter_mut().zip(&within) {
-                        (wrench.iter_mut().zip(slope)).for_each(|(sum, x)| *sum += w[row] * x);
+                    parts.len() - 1
+                });
+                for (wrench, w) in parts[place].wrenches.iter_mut().zip(&within) {
+                    for (slope, force) in slopes.iter().zip(&w[row..]) {
+                        add(wrench, *force, slope);
                     }
-                    row += 1;
                 }
-                Lock::Coordinate(Coordinate::Joint(_)) => row += 1,
             }
+            row += slopes.len();
         }
         let resisted = parts.into_iter().map(|part| {
             let origin = mechanism.poses([part.frame; 2], at)[0].position;

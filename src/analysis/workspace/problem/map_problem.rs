@@ -6,7 +6,8 @@ use crate::mechanism::{Configuration, Mechanism, PlatformPose, PoseCoordinate};
 use crate::number::Packed;
 use crate::solve::Newton;
 use crate::system::{
-    Coordinate, Driven, HeldPlatform, Lock, Mobility, Question, System, actuated, with_coordinates,
+    Coordinate, Driven, HeldPlatform, Lock, Question, System, actuated, coordinate_outputs,
+    with_coordinates,
 };
 
 /// A question with some of its held coordinates mapped.
@@ -55,17 +56,7 @@ impl<'m> MapProblem<'m> {
                 held.push(holdable);
             }
         }
-        let platforms = 0..mechanism.platforms().len();
-        let coordinates: Vec<Coordinate> = platforms
-            .flat_map(|p| PoseCoordinate::ALL.map(|c| Coordinate::Pose(p, c)))
-            .collect();
-        let of_platforms = held.iter().all(|h| !matches!(h, Coordinate::Joint(_)));
-        let outputs = match of_platforms {
-            true => held.clone(),
-            false => Mobility::near(mechanism, &mechanism.home())
-                .map(|mobility| mobility.independent(mechanism, &coordinates))
-                .unwrap_or_default(),
-        };
+        let outputs = coordinate_outputs(mechanism, &held);
         let whole = |set: Vec<Coordinate>| match set.len() == held.len() {
             true => set,
             false => Vec::new(),

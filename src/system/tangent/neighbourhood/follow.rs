@@ -1,7 +1,7 @@
 //! Finite steps from an assembled configuration.
 
 use super::{Neighbourhood, Tangent};
-use crate::linear::{Decomposition, RANK_TOLERANCE, dot, norm};
+use crate::linear::{Decomposition, RANK_TOLERANCE, add, dot, norm};
 use crate::mechanism::Configuration;
 use crate::solve::Equations;
 
@@ -96,7 +96,7 @@ impl Neighbourhood<'_> {
         let mut mixed = vec![0.0; self.system.unknowns().len()];
         for (motion, weight) in at.motions.iter().zip(1u8..) {
             let weight = (1.7 * f64::from(weight)).sin();
-            (mixed.iter_mut().zip(motion)).for_each(|(x, m)| *x += weight * m);
+            add(&mut mixed, weight, motion);
         }
         let size = norm(&mixed);
         if size == 0.0 {
