@@ -86,10 +86,11 @@ pub struct ClosestApproach {
 }
 
 /// How the question fits the mechanism.
-#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Fit {
     /// As many inputs are held as the mechanism has freedoms: a finite number of assemblies.
+    #[default]
     Finite,
     /// So many freedoms are left; the assemblies listed are samples.
     FreedomLeft(usize),
@@ -127,7 +128,7 @@ pub struct ListedJoint {
 }
 
 /// All assemblies for the target inputs.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct AssembliesReport {
     /// Name of the mechanism.
     pub mechanism: String,

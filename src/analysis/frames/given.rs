@@ -9,9 +9,10 @@ use crate::geometry::{Axis, Pose, Vector3};
 use crate::mechanism::{Body, Configuration, Frame, Mechanism};
 
 /// Why a mechanism's joints are not given by axes.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum AxesError {
     /// A row that is not one revolute or prismatic joint with a variable of its own.
+    #[error("row {row} of chain `{chain}` is not one joint with a variable of its own")]
     Row {
         /// The chain.
         chain: String,
@@ -19,6 +20,7 @@ pub enum AxesError {
         row: usize,
     },
     /// A rod whose length is no constant plus or minus one variable of its own.
+    #[error("the length of the {} closure `{closure}` is not one joint", .kind.word().to_lowercase())]
     Closure {
         /// The closure.
         closure: String,
@@ -26,27 +28,9 @@ pub enum AxesError {
         kind: ClosureKind,
     },
     /// A chain or platform holds no joint.
+    #[error("the mechanism has no joints with axes")]
     TooFew,
 }
-
-impl std::fmt::Display for AxesError {
-    fn fmt(&self, f: &mut std::fmt::Formatter) -> std::fmt::Result {
-        match self {
-            AxesError::Row { chain, row } => write!(
-                f,
-                "row {row} of chain `{chain}` is not one joint with a variable of its own"
-            ),
-            AxesError::Closure { closure, kind } => write!(
-                f,
-                "the length of the {} closure `{closure}` is not one joint",
-                kind.word().to_lowercase()
-            ),
-            AxesError::TooFew => f.write_str("the mechanism has no joints with axes"),
-        }
-    }
-}
-
-impl std::error::Error for AxesError {}
 
 /// A joint with the bodies it connects.
 struct Joint {

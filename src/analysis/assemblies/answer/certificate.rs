@@ -12,7 +12,7 @@ use crate::linear::INDEPENDENT;
 use crate::mechanism::{Configuration, Mechanism, PlatformPose};
 use crate::number::{Interval, Number};
 use crate::solve::Equations;
-use crate::system::{Held, HeldPlatform, System, Unknown, Work};
+use crate::system::{Held, System, Unknown, Work};
 
 /// What the interval test came to.
 #[derive(Clone, Debug, PartialEq)]
@@ -46,26 +46,7 @@ impl Certifier {
         let real = mechanism.dimensions();
         dimensions.characteristic_length = real.characteristic_length;
         dimensions.joint_scales.clone_from(&real.joint_scales);
-        let platforms = held.platforms.iter().map(|held| match held {
-            HeldPlatform::Free => HeldPlatform::Free,
-            HeldPlatform::Pose => HeldPlatform::Pose,
-            HeldPlatform::Partly {
-                coordinates,
-                orientation,
-            } => HeldPlatform::Partly {
-                coordinates: coordinates
-                    .iter()
-                    .map(|(c, x)| (*c, Interval::point(*x)))
-                    .collect(),
-                orientation: orientation.map(|r| {
-                    crate::geometry::Rotation(r.0.map(|v| Vector3(v.0.map(Interval::point))))
-                }),
-            },
-        });
-        let held = Held {
-            joints: held.joints.clone(),
-            platforms: platforms.collect(),
-        };
+        let held = held.map(Interval::point);
         let system = System::new(&dimensions, &held);
         if rows.len() != system.unknowns().len() {
             return None;

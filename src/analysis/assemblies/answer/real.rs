@@ -1,6 +1,6 @@
 //! The real ones among the ends of the paths.
 
-use crate::analysis::assemblies::family::{C, Coordinates, size};
+use crate::analysis::assemblies::family::{C, Coordinates, Input, size};
 use crate::geometry::RollPitchYaw;
 use crate::mechanism::{Configuration, Mechanism, PoseCoordinate, principal};
 use crate::number::Number;
@@ -57,10 +57,11 @@ pub(crate) fn real_solution(
 /// The least cos(pitch) of platforms with a roll or yaw held: by it these angles, and their rows,
 /// are turned more than the platform is.
 fn steepness(point: &Configuration<f64>, coordinates: &Coordinates) -> f64 {
-    let turning = |c: &PoseCoordinate| matches!(c, PoseCoordinate::Roll | PoseCoordinate::Yaw);
-    let targets = coordinates.targets.iter().filter(|(_, c)| turning(c));
-    let steepest =
-        targets.map(|&(p, _)| PoseCoordinate::Pitch.of(&point.platforms[p].pose()).cos());
+    let turned = coordinates.inputs.iter().filter_map(|input| match *input {
+        Input::Target(p, PoseCoordinate::Roll | PoseCoordinate::Yaw) => Some(p),
+        _ => None,
+    });
+    let steepest = turned.map(|p| PoseCoordinate::Pitch.of(&point.platforms[p].pose()).cos());
     steepest.fold(1.0, |least, cos| least.min(cos.abs()).max(f64::EPSILON))
 }
 

@@ -13,24 +13,14 @@ use super::coordinates::{C, Coordinates};
 /// One placement of the platforms and the ways in which the legs close for it. Without platforms to
 /// be found there is one placement.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub(crate) struct LegwiseSolutions<T> {
+pub(crate) struct LegwiseSolutions {
     /// Seven coordinates for each platform.
-    pub pose: Vec<T>,
+    pub pose: Vec<C>,
     /// For each leg its ways, each a value for every joint of the leg.
-    pub legs: Vec<Vec<Vec<T>>>,
+    pub legs: Vec<Vec<Vec<C>>>,
 }
 
-impl<T: Copy> LegwiseSolutions<T> {
-    pub fn map<U>(&self, f: impl Fn(T) -> U + Copy) -> LegwiseSolutions<U> {
-        let all = |x: &Vec<T>| x.iter().map(|x| f(*x)).collect();
-        LegwiseSolutions {
-            pose: all(&self.pose),
-            legs: (self.legs.iter())
-                .map(|ways| ways.iter().map(all).collect())
-                .collect(),
-        }
-    }
-
+impl LegwiseSolutions {
     /// How many solutions it stands for.
     pub fn count(&self) -> usize {
         self.legs.iter().map(Vec::len).product()
@@ -50,9 +40,7 @@ impl<T: Copy> LegwiseSolutions<T> {
                 !ways.is_empty() && ways.iter().all(|way| way.len() == joints.len())
             })
     }
-}
 
-impl LegwiseSolutions<C> {
     pub fn of(coordinates: &Coordinates, x: &[C]) -> Self {
         let legs = coordinates.legs.iter();
         LegwiseSolutions {
@@ -114,12 +102,12 @@ fn at(joints: &[usize], x: &[C]) -> Vec<C> {
 
 /// What a set of legwise solutions learns from a solution; whether anything was new.
 pub(crate) fn learn(
-    legwise: &mut Vec<LegwiseSolutions<C>>,
+    legwise: &mut Vec<LegwiseSolutions>,
     coordinates: &Coordinates,
     x: &[C],
 ) -> bool {
     let pose = coordinates.pose_of(x);
-    let known = |solutions_at_pose: &&mut LegwiseSolutions<C>| {
+    let known = |solutions_at_pose: &&mut LegwiseSolutions| {
         coordinates.same_pose(&solutions_at_pose.pose, pose)
     };
     match legwise.iter_mut().find(known) {
@@ -132,6 +120,6 @@ pub(crate) fn learn(
 }
 
 /// How many solutions legwise solutions stand for.
-pub(crate) fn count<T: Copy>(legwise: &[LegwiseSolutions<T>]) -> usize {
+pub(crate) fn count(legwise: &[LegwiseSolutions]) -> usize {
     legwise.iter().map(LegwiseSolutions::count).sum()
 }

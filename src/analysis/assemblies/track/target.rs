@@ -33,7 +33,7 @@ pub(crate) fn track_to_target(
     family: &Family,
     from: &Member,
     to: &Member,
-    legwise: &[LegwiseSolutions<C>],
+    legwise: &[LegwiseSolutions],
     watch: &Watch,
 ) -> Option<Ends> {
     let homotopy = family.homotopy(from, to)?;
@@ -102,7 +102,7 @@ impl Manner<'_> {
 
 fn combined(
     homotopy: &ParameterHomotopy<'_>,
-    legwise: &[LegwiseSolutions<C>],
+    legwise: &[LegwiseSolutions],
     manner: &Manner<'_>,
 ) -> Ends {
     let coordinates = &homotopy.family.coordinates;
@@ -111,7 +111,7 @@ fn combined(
     let shown = std::mem::take(&mut all.ends);
     let mut shown = shown.as_slice();
     let mut points: Vec<Vec<C>> = Vec::new();
-    let mut combined: Vec<(&LegwiseSolutions<C>, usize)> = Vec::new();
+    let mut combined: Vec<(&LegwiseSolutions, usize)> = Vec::new();
     let mut apart: Vec<Vec<C>> = Vec::new();
     for solutions_at_pose in legwise {
         let (of_stance, rest) = shown.split_at(solutions_at_pose.spanning());
@@ -156,10 +156,10 @@ fn combined(
 /// `None` if one of these ends is not a simple solution.
 fn combinations(
     coordinates: &Coordinates,
-    solutions_at_pose: &LegwiseSolutions<C>,
+    solutions_at_pose: &LegwiseSolutions,
     ends: &[End],
 ) -> Option<Vec<Vec<C>>> {
-    let mut tracked: Vec<LegwiseSolutions<C>> = Vec::new();
+    let mut tracked: Vec<LegwiseSolutions> = Vec::new();
     for end in ends {
         let End::Regular(x) = end else { return None };
         learn(&mut tracked, coordinates, x);
@@ -167,7 +167,7 @@ fn combinations(
     let [tracked] = tracked.as_slice() else {
         return None;
     };
-    let ways = |solutions_at_pose: &LegwiseSolutions<C>| {
+    let ways = |solutions_at_pose: &LegwiseSolutions| {
         solutions_at_pose
             .legs
             .iter()
