@@ -127,7 +127,7 @@ pub(super) fn follow(
     };
     let homotopy = family.homotopy(&member(&start), &member(&end));
     let mut homotopy = homotopy.ok_or(AssembliesError::NoValue)?;
-    let mut x = c.flatten(&from.0.map(C::from_f64));
+    let mut x = c.flat(from.0);
     let whole = (C::from_f64(0.0), C::from_f64(1.0));
     // real inputs keep every number real, so no step can leave the real branch unnoticed
     let tracker = Tracker {
@@ -161,8 +161,7 @@ pub(super) fn follow(
         }
         return Ok(Followed::Arrived(point));
     }
-    let mut last = from.0.map(C::from_f64);
-    c.unflatten(&x, &mut last);
+    let mut last = c.placed(&x, from.0);
     for (input, value) in c.split(&inputs) {
         if let Input::Joint(j) = input {
             last.joints[j] = C::from_f64(value[0]);

@@ -3,7 +3,6 @@
 use crate::analysis::assemblies::family::{C, Coordinates, Input, size};
 use crate::geometry::RollPitchYaw;
 use crate::mechanism::{Configuration, Mechanism, PoseCoordinate, principal};
-use crate::number::Number;
 use crate::solve::{Equations, Newton, Stop};
 use crate::system::{System, Work};
 
@@ -31,9 +30,7 @@ pub(crate) fn real_solution(
     if imaginary > 1e-5 * scale {
         return None;
     }
-    let mut lifted = asked.map(C::from_f64);
-    coordinates.unflatten(x, &mut lifted);
-    let mut point = lifted.map(|z| z.re);
+    let mut point = coordinates.placed(x, asked).map(|z| z.re);
     for &p in &coordinates.free_platforms {
         point.platforms[p].orientation = point.platforms[p].orientation.normalised();
     }
@@ -49,7 +46,7 @@ pub(crate) fn real_solution(
     }
     let mut trial = point.clone();
     let report = newton.solve(system, &mut point, &mut trial, work);
-    let reached = coordinates.flatten(&point.map(C::from_f64));
+    let reached = coordinates.flat(&point);
     let near = coordinates.difference(x, &reached) <= 2e-5 * scale;
     (report.stop == Stop::Solved && near).then(|| tidied(point, coordinates, true))
 }

@@ -117,6 +117,18 @@ impl Coordinates {
         joints.chain(poses).collect()
     }
 
+    /// The flat unknowns of a real configuration.
+    pub fn flat(&self, at: &Configuration<f64>) -> Vec<C> {
+        self.flatten(&at.map(C::from_f64))
+    }
+
+    /// The configuration with these unknowns; what is held is as in `like`.
+    pub fn placed(&self, x: &[C], like: &Configuration<f64>) -> Configuration<C> {
+        let mut at = like.map(C::from_f64);
+        self.unflatten(x, &mut at);
+        at
+    }
+
     /// Writes the unknowns into a configuration; what is held in it stays.
     #[inline]
     pub fn unflatten(&self, x: &[C], at: &mut Configuration<C>) {

@@ -1,14 +1,13 @@
-//! The straight way between two members of a family.
+//! Straight-line homotopy between two members of a family.
 
 use super::member::{MemberEquations, Segment};
 use crate::analysis::assemblies::family::{C, Family, Member, size};
 use crate::geometry::{Quaternion, Vector3};
-use crate::linear::ILL_CONDITIONED;
 use crate::number::Number;
 use crate::solve::{Equations, Homotopy};
 
 impl Family {
-    /// The way from one member to another. `None` if an expression has no value at the start.
+    /// The homotopy from one member to another. `None` if an expression has no value at the start.
     pub fn homotopy(&self, from: &Member, to: &Member) -> Option<ParameterHomotopy<'_>> {
         let course = Segment::new(from, to);
         let here = MemberEquations::start(self, &course)?;
@@ -25,7 +24,7 @@ impl Family {
     }
 }
 
-/// A straight way between two members, s from 0 to 1, with storage for following it.
+/// A straight-line homotopy, s from 0 to 1, with storage for tracking.
 #[derive(Clone, Debug)]
 pub(crate) struct ParameterHomotopy<'f> {
     pub family: &'f Family,
@@ -34,7 +33,7 @@ pub(crate) struct ParameterHomotopy<'f> {
     pub stops_where_open: bool,
     /// Where the equations were last evaluated.
     pub here: MemberEquations,
-    /// A little ahead of it, for the rate at which the residual changes on the way.
+    /// A little ahead of it, for ∂h/∂s.
     ahead: Option<Box<MemberEquations>>,
     rates: Vec<C>,
     residual: Vec<C>,
@@ -130,9 +129,8 @@ impl ParameterHomotopy<'_> {
         self.here.system.difference(&from, &self.here.at)
     }
 
-    /// How far two points are apart as the closures see it at the first one: |J (y − x)|, each row
-    /// beside its slopes where these exceed 1. Two approximations of one solution differ by no more
-    /// than rounding there, however badly the solution is determined.
+    /// |J (y − x)| at the first point, each row relative to its norm where that exceeds 1: rounding for
+    /// two approximations of one solution, however ill-conditioned it is.
     pub fn seen_apart(&mut self, s: C, x: &[C], y: &[C]) -> f64 {
         let y = self.family.coordinates.beside(x, y);
         let step = self.step_between(s, x, &y);
@@ -147,8 +145,8 @@ impl ParameterHomotopy<'_> {
         seen.fold(0.0, f64::max) / (1.0 + size(x))
     }
 
-    /// A point moved by what an error in every closure of `noise`, beside its slopes and the size
-    /// of the point, does to a solution there. None if the closures leave an unknown undetermined.
+    /// A solution moved by J⁺ e, where e is an error of every closure of size `noise` relative to its
+    /// row norm and the size of the point. None if J loses rank.
     pub fn jolted(&mut self, s: C, x: &[C], noise: f64, stream: usize) -> Option<Vec<C>> {
         let (residual, jacobian) = self.evaluated(s, x);
         let rows = residual.len();
@@ -175,19 +173,6 @@ impl ParameterHomotopy<'_> {
         longest.is_finite().then(|| self.moved(s, x, &step))
     }
 
-    /// Quotient of the largest and the smallest singular value of the Jacobian at a point, if it is
-    /// not singular.
-    pub fn condition(&mut self, s: C, x: &[C]) -> Option<f64> {
-        let (residual, jacobian) = self.evaluated(s, x);
-        let columns = self.unknowns();
-        if columns == 0 {
-            return Some(1.0);
-        }
-        let matrix = nalgebra::DMatrix::from_vec(residual.len(), columns, jacobian);
-        let values = (residual.len() >= columns).then(|| matrix.singular_values())?;
-        (values.min() > ILL_CONDITIONED * values.max()).then(|| values.max() / values.min())
-    }
-
     /// How many directions are free at a point.
     pub fn freedom(&mut self, s: C, x: &[C], tolerance: f64) -> usize {
         self.load(s, x);
@@ -195,15 +180,8 @@ impl ParameterHomotopy<'_> {
         self.here.system.nullity(tolerance, &mut self.here.work)
     }
 
-    /// dx/ds = −J⁺ ∂h/∂s by the factors last made. The residual is analytic in s, so a difference
-    /// over 1e-7 is as good as a derivative for a prediction.
-    fn velocity_by_factors(&mut self, s: C, x: &[C], out: &mut [C]) -> bool {
-        self.load(s, x);
-        self.here.residual();
-        self.velocity_from_residual(s, x, out)
-    }
-
-    /// The same where the residual was evaluated last.
+    /// dx/ds = −J⁺ ∂h/∂s by the factors last made and the residual last evaluated. A forward difference
+    /// over 1e-7 is good enough for a prediction.
     fn velocity_from_residual(&mut self, s: C, x: &[C], out: &mut [C]) -> bool {
         const APART: f64 = 1e-7;
         let here = &mut self.here;
@@ -250,7 +228,9 @@ impl Homotopy for ParameterHomotopy<'_> {
     }
 
     fn velocity_again(&mut self, s: C, x: &[C], out: &mut [C]) -> bool {
-        self.here.sound && self.velocity_by_factors(s, x, out)
+        self.load(s, x);
+        self.here.residual();
+        self.here.sound && self.velocity_from_residual(s, x, out)
     }
 
     fn correct(&mut self, s: C, x: &mut [C]) -> f64 {

@@ -1,4 +1,4 @@
-//! The equations of the member at one parameter value of a homotopy.
+//! The equations at one parameter value of a homotopy.
 
 use crate::analysis::assemblies::family::{C, Family, Input, Member};
 use crate::geometry::{Quaternion, Vector3};
@@ -11,7 +11,7 @@ use crate::system::{System, Work};
 pub(crate) struct Segment {
     pub from: Member,
     pub change: Member,
-    /// Whether dimensions change on the way; otherwise only inputs do.
+    /// Whether dimensions change; otherwise only inputs do.
     pub resized: bool,
 }
 
@@ -49,7 +49,7 @@ pub(crate) struct MemberEquations {
 }
 
 impl MemberEquations {
-    /// Where a course starts. `None` if an expression has no value there.
+    /// At s = 0. `None` if an expression has no value there.
     pub fn start(family: &Family, course: &Segment) -> Option<Self> {
         let system = family.system(&course.from.parameters)?;
         let mut place = MemberEquations {
@@ -64,7 +64,7 @@ impl MemberEquations {
         Some(place)
     }
 
-    /// On to another place of the course.
+    /// At another s.
     pub fn go(&mut self, family: &Family, course: &Segment, s: C) {
         if self.s == Some(s) {
             return;
