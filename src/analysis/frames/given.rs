@@ -1,9 +1,8 @@
 //! The way back: the joint axes that the tables of a mechanism describe.
 
-use super::chains::nowhere;
 use crate::description::{
     AxesDescription, AxisDescription, AxisKind, AxisPlace, ClosureKind, Displacement, Entry,
-    GROUND, Named, Role, free_variable,
+    GROUND, Named, Role, Spanned, free_variable,
 };
 use crate::geometry::{Axis, Pose, Vector3};
 use crate::mechanism::{Body, Configuration, Frame, Mechanism};
@@ -63,7 +62,7 @@ impl Joint {
             role: self.role,
             home: value(self.home),
             limits: self.limits.map(|(low, high)| (value(low), value(high))),
-            between: closed.then(|| self.bodies.map(nowhere)),
+            between: closed.then(|| self.bodies.map(Spanned::nowhere)),
             span: 0..0,
         };
         Named::new(self.name, axis)
@@ -113,9 +112,11 @@ pub fn joint_axes(
     let convention = mechanism.chains().first().map(|chain| chain.convention);
     let joints = joints.into_iter().map(|joint| joint.described(!serial));
     Ok(AxesDescription {
-        name: nowhere(mechanism.name().into()),
-        source: mechanism.source().map(|source| nowhere(source.into())),
-        convention: convention.map(nowhere),
+        name: Spanned::nowhere(mechanism.name().into()),
+        source: mechanism
+            .source()
+            .map(|source| Spanned::nowhere(source.into())),
+        convention: convention.map(Spanned::nowhere),
         parameters: vec![],
         joints: joints.collect(),
         base: chain.map(|chain| ends(Frame::Link { chain, row: 0 })),

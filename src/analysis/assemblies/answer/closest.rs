@@ -5,7 +5,6 @@ use super::real::{named_joints, named_poses, tidied};
 use crate::analysis::assemblies::family::C;
 use crate::analysis::assemblies::report::{ClosestApproach, Named};
 use crate::mechanism::Configuration;
-use crate::number::Number;
 use crate::solve::{Newton, Stop};
 use crate::system::{Gap, Work, approach};
 
