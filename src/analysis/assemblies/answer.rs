@@ -197,7 +197,6 @@ impl Question<'_> {
             report.closest = self.closest(near);
         }
         report.interrupted |= self.watch.is_stopped();
-        report.complete = report.completeness(self.coordinates.length);
         report
     }
 
