@@ -1,10 +1,8 @@
 //! Solutions kept leg by leg.
 //!
-//! Closures that share no free joint meet only in the poses of the platforms: given those, each such
-//! leg closes by itself. Where a leg can close in several ways, every combination of one way for each
-//! leg is a solution: the six universal joints of a 6-UPS platform make 40·2⁶ of 40 poses and twelve
-//! ways. What is kept, and followed through the family, is a few points for each pose that together
-//! show every way of every leg.
+//! Given the poses of the platforms each leg closes by itself, and every combination of one way for
+//! each leg is a solution: 40·2⁶ for a 6-UPS platform of 40 poses. A few points for each pose that show
+//! every way of every leg are kept and tracked.
 
 use serde::{Deserialize, Serialize};
 

@@ -2,16 +2,13 @@
 //! monodromy.
 //!
 //! A loop through the family permutes the solutions within each irreducible component (Sommese,
-//! Verschelde and Wampler 2001; Duff et al. 2019). Components are reached by seeds only: the two
-//! operation modes of a 3-RPS never exchange solutions. A solution that few starts of one member lead
-//! to may be what many of another lead to, so seeds are started at every corner of every loop, and what
-//! they find is tracked home by the rest of the loop. Both are repeated until neither finds anything.
+//! Verschelde and Wampler 2001; Duff et al. 2019). Other components are reached by seeds only, as the
+//! two operation modes of a 3-RPS. Seeds are started at every corner of every loop, and what they find
+//! is tracked home by the rest of it, until neither seeds nor loops find anything.
 //!
-//! What a quiet loop says: if some solutions of a component are known and others not, a random element
-//! of the component's monodromy group keeps the known ones among themselves with probability ½ at most
-//! (those that do are a proper subgroup). It says so only if no path was lost: paths that are lost or
-//! that meet are followed again with greater care, and a loop that still is no exchange of places does
-//! not count.
+//! If a component is known in part, a random element of its monodromy group keeps the known solutions
+//! among themselves with probability ½ at most (those that do are a proper subgroup). A loop that lost
+//! a path does not count.
 
 use rand::SeedableRng;
 use rand_pcg::Pcg64;
@@ -41,9 +38,8 @@ struct Search<'a> {
     found: GenericSolutions,
 }
 
-/// Searches a generic member, and where fewer solutions than the bound were found another one: the
-/// loops about one member may miss what those about another find. `None` if a dimension has no value
-/// anywhere near.
+/// Searches a generic member, and another one where fewer solutions than the bound were found. `None`
+/// if a dimension has no value anywhere near.
 pub(crate) fn search(
     family: &Family,
     question: String,
@@ -265,11 +261,9 @@ impl Search<'_> {
     fn spread(&mut self) {
         self.found.loops += 1;
         let mut rng = generator(self.settings.seed, (self.found.loops as u64) << 1);
-        // some loops change dimensions too, at several times the cost: at special dimensions the inputs
-        // alone may not exchange all solutions
+        // at special dimensions the inputs alone may not exchange all solutions
         let resize = self.found.loops.is_multiple_of(6) || self.base.inputs.is_empty();
-        // small loops go round few of the places where solutions meet, and solutions far out meet at
-        // inputs far out
+        // small loops go round few branch points, and solutions far out meet at inputs far out
         let reach = [1.0, 2.0, 8.0, 4.0, 16.0][self.found.loops % 5];
         let mut member = || Member {
             inputs: self.family.random_inputs(&mut rng, reach),
