@@ -28,7 +28,7 @@ use crate::number::Number;
 use crate::solve::Watch;
 use crate::system::{Held, HeldPlatform, System};
 use answer::Question;
-use family::{C, Family, KnownBound, LegwiseSolutions, Member};
+use family::{C, Family, KnownBound, Member};
 use search::question;
 
 /// How hard to search.
@@ -85,59 +85,39 @@ impl Default for Wanted {
 }
 
 /// Why a question cannot be put.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum AssembliesError {
     /// An expression has no value near the mechanism's own dimensions.
+    #[error("an expression has no value near the mechanism's own dimensions")]
     NoValue,
     /// The stored solutions belong to other dimensions or to another choice of inputs.
+    #[error("the stored solutions belong to other dimensions or to another choice of inputs")]
     StoredForAnotherQuestion,
     /// No assembly has that number; there are this many.
+    #[error("{}", no_such_mode(*.0))]
     NoSuchMode(usize),
     /// The mode was followed to the target inputs, where double precision does not tell whether
     /// it is assembled.
+    #[error(
+        "the mode was followed to the inputs asked for, but is so near a singular configuration \
+         there that double precision does not tell whether it is assembled: hold values a little \
+         farther from it (a pitch farther from 90 deg, if one is held) or hold other coordinates"
+    )]
     Undecided,
     /// The work was stopped before the mode was found.
+    #[error("interrupted before the mode was found")]
     Interrupted,
 }
 
-impl std::fmt::Display for AssembliesError {
-    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        match self {
-            AssembliesError::NoValue => {
-                write!(
-                    f,
-                    "an expression has no value near the mechanism's own dimensions"
-                )
-            }
-            AssembliesError::StoredForAnotherQuestion => write!(
-                f,
-                "the stored solutions belong to other dimensions or to another choice of inputs"
-            ),
-            AssembliesError::Interrupted => write!(f, "interrupted before the mode was found"),
-            AssembliesError::Undecided => write!(
-                f,
-                "the mode was followed to the inputs asked for, but is so near a singular \
-                 configuration there that double precision does not tell whether it is assembled: \
-                 hold values a little farther from it (a pitch farther from 90 deg, if one is held) \
-                 or hold other coordinates"
-            ),
-            AssembliesError::NoSuchMode(0) => write!(
-                f,
-                "there is no assembly at the home inputs for a mode to be followed from: \
-                 `linkwork assemblies` lists those at the inputs in question, and \
-                 a guess starts the search near one of them"
-            ),
-            AssembliesError::NoSuchMode(n) => {
-                write!(
-                    f,
-                    "there is no such mode: the home inputs have modes 1 to {n}"
-                )
-            }
-        }
+fn no_such_mode(modes: usize) -> String {
+    match modes {
+        0 => "there is no assembly at the home inputs for a mode to be followed from: \
+              `linkwork assemblies` lists those at the inputs in question, and \
+              a guess starts the search near one of them"
+            .into(),
+        n => format!("there is no such mode: the home inputs have modes 1 to {n}"),
     }
 }
-
-impl std::error::Error for AssembliesError {}
 
 /// All generic solutions of one mechanism for one choice of inputs, ready for many values of them.
 #[derive(Clone, Debug)]
@@ -147,7 +127,6 @@ pub struct AssemblySolver {
     family: Family,
     bound: Option<KnownBound>,
     generic: GenericSolutions,
-    legwise: Vec<LegwiseSolutions<C>>,
     interrupted: bool,
 }
 
@@ -188,9 +167,8 @@ impl AssemblySolver {
         stored: GenericSolutions,
     ) -> Result<Self, AssembliesError> {
         let family = Family::new(mechanism, held);
-        let fits = |count: usize, stored: &[[f64; 2]]| stored.len() == count;
-        let sizes = fits(family.parameters.len(), &stored.parameters)
-            && fits(family.coordinates.input_count(), &stored.inputs)
+        let sizes = stored.parameters.len() == family.parameters.len()
+            && stored.inputs.len() == family.coordinates.input_count()
             && (stored.legwise.iter())
                 .all(|solutions_at_pose| solutions_at_pose.fits(&family.coordinates));
         let asked = stored.question == question(mechanism, &family);
@@ -210,7 +188,6 @@ impl AssemblySolver {
             mechanism: mechanism.clone(),
             held: held.clone(),
             bound: family::known_bound(mechanism, &family),
-            legwise: generic.legwise(),
             family,
             generic,
             interrupted: false,
@@ -264,7 +241,7 @@ impl AssemblySolver {
             watch,
             interrupted: self.interrupted,
         };
-        let fit = match (self.legwise.is_empty(), self.generic.freedom) {
+        let fit = match (self.generic.legwise.is_empty(), self.generic.freedom) {
             (false, 0) => Fit::Finite,
             // nothing was found yet, and nothing can be said
             (true, 0) if self.interrupted => Fit::Finite,
@@ -273,13 +250,13 @@ impl AssemblySolver {
             (_, freedom) => Fit::FreedomLeft(freedom),
         };
         let member = self.member(asked, held);
-        let ends = match self.legwise.is_empty() {
+        let ends = match self.generic.legwise.is_empty() {
             true => None,
             false => track::track_to_target(
                 &self.family,
                 &self.generic.member(),
                 &member,
-                &self.legwise,
+                &self.generic.legwise,
                 watch,
             ),
         };
@@ -295,7 +272,7 @@ impl AssemblySolver {
 
     /// The member with the mechanism's own dimensions and the target inputs.
     fn member(&self, asked: &Configuration<f64>, held: &Held<f64>) -> Member {
-        let inputs = self.family.coordinates.inputs(asked, held);
+        let inputs = self.family.coordinates.inputs_of(asked, held);
         Member {
             parameters: self.family.parameters.clone(),
             inputs: inputs.into_iter().map(C::from_f64).collect(),
@@ -332,7 +309,7 @@ impl AssemblySolver {
         let assembly = found.ok_or(AssembliesError::NoSuchMode(modes.real))?;
         let start = assembly.configuration(&home);
         let coordinates = &self.family.coordinates;
-        let stays = coordinates.inputs(&home, &held_home) == coordinates.inputs(asked, held);
+        let stays = coordinates.inputs_of(&home, &held_home) == coordinates.inputs_of(asked, held);
         if stays {
             return Ok(Followed::Arrived(start));
         }
@@ -353,25 +330,17 @@ impl AssemblySolver {
 /// The same coordinates held, at the values they have at home.
 fn held_at_home(mechanism: &Mechanism, held: &Held<f64>) -> Held<f64> {
     let home = mechanism.home();
-    let platforms = held
-        .platforms
-        .iter()
-        .zip(&home.platforms)
-        .map(|(held, pose)| match held {
-            HeldPlatform::Partly {
-                coordinates,
-                orientation,
-            } => HeldPlatform::Partly {
-                coordinates: coordinates
-                    .iter()
-                    .map(|(c, _)| (*c, c.of(&pose.pose())))
-                    .collect(),
-                orientation: orientation.map(|_| pose.pose().rotation),
-            },
-            other => other.clone(),
-        });
-    Held {
-        joints: held.joints.clone(),
-        platforms: platforms.collect(),
+    let mut held = held.clone();
+    for (held, pose) in held.platforms.iter_mut().zip(&home.platforms) {
+        if let HeldPlatform::Partly {
+            coordinates,
+            orientation,
+        } = held
+        {
+            let pose = pose.pose();
+            (coordinates.iter_mut()).for_each(|(c, value)| *value = c.of(&pose));
+            *orientation = orientation.map(|_| pose.rotation);
+        }
     }
+    held
 }

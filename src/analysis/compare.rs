@@ -12,11 +12,12 @@ use std::ops::ControlFlow;
 
 use serde::{Deserialize, Serialize};
 
+use crate::algebra::EvaluationError;
 use crate::geometry::Pose;
 use crate::mechanism::{ClosedForm, Configuration, Given, MatrixEntry, Mechanism};
 use crate::solve::{Stage, Watch};
 use crate::system::{FormulaNames, Named};
-use formula::{Evaluated, Values};
+use formula::{Values, identity};
 pub use proof::{Difference, Proof, Reason};
 use samples::Samples;
 
@@ -226,112 +227,136 @@ fn must_be_assembled(mechanism: &Mechanism, form: &ClosedForm) -> bool {
     }
 }
 
-/// One component while it is being checked.
-struct Check {
-    report: ComponentReport,
-    /// The joint values of `report.worst`.
-    worst: Vec<f64>,
-}
-
-impl Check {
-    fn new(name: String, quantity: Quantity, proof: Proof) -> Self {
-        Check {
-            report: ComponentReport {
-                name,
-                quantity,
-                agree: false,
-                proof,
-                max_difference: 0.0,
-                relative: 0.0,
-                samples: 0,
-                without_value: 0,
-                worst: None,
-            },
-            worst: Vec::new(),
-        }
-    }
-
-    /// Takes note of what form and chains give at a sample, and the size it is compared with.
-    fn add(&mut self, joints: &[f64], closed_form: f64, chains: f64, size: f64) {
-        let difference = (closed_form - chains).abs();
-        let relative = if difference == 0.0 {
-            0.0
-        } else {
-            difference / size
-        };
-        let report = &mut self.report;
-        report.samples += 1;
-        report.relative = report.relative.max(relative);
-        if report.worst.is_none() || difference > report.max_difference {
-            report.max_difference = difference;
-            self.worst = joints.to_vec();
-            report.worst = Some(WorstSample {
-                joints: Named::default(),
-                closed_form,
-                chains,
-            });
-        }
-    }
-}
-
 /// One closed form while it is being checked.
 struct Checked<'a> {
     form: &'a ClosedForm,
-    checks: Vec<Check>,
+    components: Vec<ComponentReport>,
 }
 
 impl<'a> Checked<'a> {
     fn new(mechanism: &Mechanism, form: &'a ClosedForm, proves: bool) -> Self {
+        let named: Vec<(String, Quantity)> = match &form.gives {
+            Given::Pose { entries, .. } => (entries.iter())
+                .map(|(entry, _)| (entry.to_string(), quantity(*entry)))
+                .collect(),
+            Given::Identities(identities) => (identities.iter())
+                .map(|(name, _)| (name.clone(), Quantity::Identity))
+                .collect(),
+        };
         let proofs = match proves {
             true => proof::proofs(mechanism, form),
-            false => proof::interrupted(form),
+            false => vec![Proof::undecided(Reason::Interrupted); named.len()],
         };
-        let proofs = proofs.into_iter();
-        let checks = match &form.gives {
-            Given::Pose { entries, .. } => (entries.iter().zip(proofs))
-                .map(|((entry, _), proof)| Check::new(entry.to_string(), quantity(*entry), proof))
-                .collect(),
-            Given::Identities(identities) => (identities.iter().zip(proofs))
-                .map(|((name, _), proof)| Check::new(name.clone(), Quantity::Identity, proof))
-                .collect(),
+        let new = |((name, quantity), proof)| ComponentReport {
+            name,
+            quantity,
+            agree: false,
+            proof,
+            max_difference: 0.0,
+            relative: 0.0,
+            samples: 0,
+            without_value: 0,
+            worst: None,
         };
-        Checked { form, checks }
+        Checked {
+            form,
+            components: named.into_iter().zip(proofs).map(new).collect(),
+        }
     }
 
     /// Compares every component at a configuration.
     fn add(&mut self, mechanism: &Mechanism, at: &Configuration<f64>) {
         let (form, joints) = (self.form, &at.joints);
-        match &form.gives {
+        // what the form gives, what the chains give, and the size these are compared with
+        let compared: Vec<Result<[f64; 3], EvaluationError>> = match &form.gives {
             Given::Pose {
                 of,
                 relative_to,
                 entries,
             } => {
-                let values = Values::new(mechanism, form, joints);
+                let values = Values::at(mechanism, form, joints);
                 let pose = mechanism.transform(*relative_to, *of, at);
-                for (check, (entry, formula)) in self.checks.iter_mut().zip(entries) {
-                    let Ok(given) = values.of(formula) else {
-                        check.report.without_value += 1;
-                        continue;
-                    };
+                let compared = entries.iter().map(|(entry, formula)| {
+                    let given = values.of(formula)?;
                     let (found, natural) = entry_of(*entry, &pose, mechanism);
                     let size = natural.max(given.abs()).max(found.abs());
-                    check.add(joints, given, found, size);
-                }
+                    Ok([given, found, size])
+                });
+                compared.collect()
             }
-            Given::Identities(identities) => {
-                for (check, (_, formula)) in self.checks.iter_mut().zip(identities) {
-                    match Evaluated::new(mechanism, form, formula, joints) {
-                        Ok(Evaluated { value, size }) => check.add(joints, value, 0.0, size),
-                        Err(_) => check.report.without_value += 1,
-                    }
-                }
+            Given::Identities(identities) => (identities.iter())
+                .map(|(_, formula)| {
+                    let (value, size) = identity(mechanism, form, formula, joints)?;
+                    Ok([value, 0.0, size])
+                })
+                .collect(),
+        };
+        for (component, compared) in self.components.iter_mut().zip(compared) {
+            let Ok([closed_form, chains, size]) = compared else {
+                component.without_value += 1;
+                continue;
+            };
+            let difference = (closed_form - chains).abs();
+            if difference != 0.0 {
+                component.relative = component.relative.max(difference / size);
+            }
+            component.samples += 1;
+            if component.worst.is_none() || difference > component.max_difference {
+                let names = mechanism.joints().iter().map(|joint| joint.name.clone());
+                component.max_difference = difference;
+                component.worst = Some(WorstSample {
+                    joints: names.zip(joints.iter().copied()).collect(),
+                    closed_form,
+                    chains,
+                });
             }
         }
     }
 
     fn report(self, mechanism: &Mechanism, tolerance: f64, watch: &Watch) -> FormReport {
-        report(mechanism, self.form, self.checks, (tolerance, watch))
+        let Checked {
+            form,
+            mut components,
+        } = self;
+        for component in components.iter_mut().filter(|c| c.worst.is_some()) {
+            // what is proved may still be off by what solving leaves near singular configurations, and beside terms that
+            // all vanish there
+            let relative = component.relative;
+            let off = relative > NEAR_SINGULAR && component.max_difference > tolerance;
+            component.agree = relative <= tolerance || component.proof.proved() && !off;
+        }
+        let refuted = |component: &ComponentReport| {
+            let open = component.proof == Proof::undecided(Reason::NeedsElimination);
+            !component.agree && component.samples > 0 && open
+        };
+        if components.iter().any(refuted) && !watch.is_stopped() {
+            // what numbers refute is written out
+            let differences = proof::refutations(mechanism, form);
+            for (component, difference) in components.iter_mut().zip(differences) {
+                if let (true, Some(difference)) = (refuted(component), difference) {
+                    component.proof = Proof::Different(Box::new(difference));
+                }
+            }
+        }
+        let tried = || components.iter().filter(|c| c.samples > 0);
+        let verdict = match components.iter().all(|component| component.agree) {
+            _ if tried().any(|component| !component.agree) => Verdict::Disagrees,
+            true if !components.is_empty() => Verdict::Agrees,
+            _ => Verdict::NotTried,
+        };
+        let worst = tried()
+            .reduce(|a, b| if b.relative > a.relative { b } else { a })
+            .and_then(|component| component.worst.as_ref());
+        FormReport {
+            name: form.name.clone(),
+            agree: verdict == Verdict::Agrees,
+            verdict,
+            max_difference: (components.iter()).fold(0.0, |m, c| c.max_difference.max(m)),
+            samples: components.iter().map(|c| c.samples).max().unwrap_or(0),
+            source: form.source.clone(),
+            worst: worst.map_or(Named::default(), |worst| worst.joints.clone()),
+            components,
+        }
     }
 }
 
@@ -347,57 +372,6 @@ fn entry_of(entry: MatrixEntry, pose: &Pose<f64>, mechanism: &Mechanism) -> (f64
     match entry {
         MatrixEntry::Position(i) => (pose.position.0[i], mechanism.characteristic_length()),
         MatrixEntry::Rotation(i, j) => (pose.rotation.0[j].0[i], 1.0),
-    }
-}
-
-fn report(
-    mechanism: &Mechanism,
-    form: &ClosedForm,
-    mut checks: Vec<Check>,
-    (tolerance, watch): (f64, &Watch),
-) -> FormReport {
-    for check in &mut checks {
-        let Some(worst) = &mut check.report.worst else {
-            continue;
-        };
-        // what is proved may still be off by what solving leaves near singular configurations, and beside terms that all
-        // vanish there
-        let (relative, absolute) = (check.report.relative, check.report.max_difference);
-        let off = relative > NEAR_SINGULAR && absolute > tolerance;
-        check.report.agree = relative <= tolerance || check.report.proof.proved() && !off;
-        let names = mechanism.joints().iter().map(|joint| joint.name.clone());
-        worst.joints = names.zip(check.worst.iter().copied()).collect();
-    }
-    let open = |check: &Check| check.report.proof == Proof::undecided(Reason::NeedsElimination);
-    let refuted = |check: &Check| !check.report.agree && check.report.samples > 0 && open(check);
-    if checks.iter().any(refuted) && !watch.is_stopped() {
-        // what numbers refute is written out
-        for (check, difference) in checks.iter_mut().zip(proof::refutations(mechanism, form)) {
-            if let (true, Some(difference)) = (refuted(check), difference) {
-                check.report.proof = Proof::Different(Box::new(difference));
-            }
-        }
-    }
-    let components: Vec<ComponentReport> = checks.into_iter().map(|check| check.report).collect();
-    let disagrees = (components.iter()).any(|c| !c.agree && c.samples > 0);
-    let verdict = match components.iter().all(|component| component.agree) {
-        _ if disagrees => Verdict::Disagrees,
-        true if !components.is_empty() => Verdict::Agrees,
-        _ => Verdict::NotTried,
-    };
-    let worst = (components.iter())
-        .filter(|component| component.samples > 0)
-        .reduce(|a, b| if b.relative > a.relative { b } else { a })
-        .and_then(|component| component.worst.as_ref());
-    FormReport {
-        name: form.name.clone(),
-        agree: verdict == Verdict::Agrees,
-        verdict,
-        max_difference: (components.iter()).fold(0.0, |m, c| c.max_difference.max(m)),
-        samples: components.iter().map(|c| c.samples).max().unwrap_or(0),
-        source: form.source.clone(),
-        worst: worst.map_or(Named::default(), |worst| worst.joints.clone()),
-        components,
     }
 }
 

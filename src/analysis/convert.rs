@@ -7,9 +7,6 @@ mod convention;
 mod cut;
 mod references;
 
-use std::error::Error;
-use std::fmt::{self, Display, Formatter};
-
 use serde::{Deserialize, Serialize};
 
 use crate::algebra::{Expression, Node, Operator};
@@ -77,37 +74,19 @@ pub enum ConversionNote {
 }
 
 /// Why a mechanism is not converted.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum ConvertError {
     /// It cannot be broken there.
-    Cut(CutError),
+    #[error(transparent)]
+    Cut(#[from] CutError),
     /// What came out is not a mechanism.
+    #[error("the converted file is not a mechanism: {}", titles(.0))]
     Wrong(Vec<Problem>),
 }
 
-impl Display for ConvertError {
-    fn fmt(&self, f: &mut Formatter) -> fmt::Result {
-        match self {
-            ConvertError::Cut(error) => error.fmt(f),
-            ConvertError::Wrong(problems) => {
-                let titles: Vec<String> = problems.iter().map(|p| p.kind.title()).collect();
-                write!(
-                    f,
-                    "the converted file is not a mechanism: {}",
-                    titles.join("; ")
-                )
-            }
-        }
-    }
-}
-
-impl Error for ConvertError {
-    fn source(&self) -> Option<&(dyn Error + 'static)> {
-        match self {
-            ConvertError::Cut(error) => error.source(),
-            ConvertError::Wrong(_) => None,
-        }
-    }
+fn titles(problems: &[Problem]) -> String {
+    let titles: Vec<String> = problems.iter().map(|p| p.kind.title()).collect();
+    titles.join("; ")
 }
 
 /// The same mechanism, written another way.
@@ -124,7 +103,7 @@ pub fn convert(
         notes: Vec::new(),
     };
     if let Some(joint) = &settings.cut {
-        conversion = cut::cut(mechanism, description, joint).map_err(ConvertError::Cut)?;
+        conversion = cut::cut(mechanism, description, joint)?;
     }
     if let Some(convention) = settings.convention {
         convention::convert(&mut conversion, convention);

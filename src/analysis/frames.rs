@@ -10,14 +10,16 @@ mod graph;
 mod loops;
 mod values;
 
+use std::ops::Range;
+
 use serde::{Deserialize, Serialize};
 
 use crate::description::{
     AxesDescription, AxesProblem, AxisKind, Convention, Description, Displacement, Problem,
-    ProblemKind, Role, axes_text, mechanism_text,
+    ProblemKind, Role, axes_text, mechanism_text, place_of,
 };
-use crate::geometry::{Pose, Relation, Vector3};
-use crate::mechanism::{Assignment, Mechanism, Normal, SerialAxes};
+use crate::geometry::{Line, Pose, Relation, Vector3};
+use crate::mechanism::{Assignment, Mechanism, Normal, SerialAxes, TableRow};
 
 pub use given::{AxesError, joint_axes};
 
@@ -180,36 +182,20 @@ pub struct CutChoice {
     pub cut: Vec<String>,
 }
 
-impl PlacedFrame {
-    fn of(pose: &Pose<f64>) -> Self {
-        let [x, y, z] = pose.rotation.0.map(|column| column.0);
-        PlacedFrame {
-            position: pose.position.0,
-            x,
-            y,
-            z,
-        }
-    }
-}
-
-impl PlacedNormal {
-    fn of(normal: &Normal) -> Self {
-        PlacedNormal {
+impl PlacedChain {
+    /// The first `rows` rows of an assignment.
+    fn of(name: String, on: String, joints: Vec<String>, made: &Assignment) -> Self {
+        let count = joints.len();
+        let rows = &made.table.rows[..count];
+        let normal = |normal: &Normal| PlacedNormal {
             relation: normal.relation,
             angle: normal.angle,
             distance: normal.distance,
             from: normal.feet[0].0,
             to: normal.feet[1].0,
             x: normal.x.0,
-        }
-    }
-}
-
-impl PlacedChain {
-    /// The first `rows` rows of an assignment.
-    fn of(name: String, on: String, joints: Vec<String>, made: &Assignment) -> Self {
-        let rows = joints.len();
-        let row = |row: &crate::mechanism::TableRow| PlacedRow {
+        };
+        let row = |row: &TableRow| PlacedRow {
             alpha: row.alpha,
             a: row.a,
             d: row.d,
@@ -217,28 +203,29 @@ impl PlacedChain {
             turn: row.turn,
             slide: row.slide,
         };
-        let frames = made.table.frames();
-        let axis =
-            |(line, row): (&crate::geometry::Line, &crate::mechanism::TableRow)| PlacedAxis {
-                point: line.point.0,
-                direction: line.direction.0,
-                prismatic: row.turn == 0.0,
-            };
+        let frame = |pose: &Pose<f64>| {
+            let [x, y, z] = pose.rotation.0.map(|column| column.0);
+            PlacedFrame {
+                position: pose.position.0,
+                x,
+                y,
+                z,
+            }
+        };
+        let axis = |(line, row): (&Line, &TableRow)| PlacedAxis {
+            point: line.point.0,
+            direction: line.direction.0,
+            prismatic: row.turn == 0.0,
+        };
         PlacedChain {
             name,
             on,
             starts_at_base: made.starts_at_base,
-            ends_at_tool: made.ends_at_tool && made.table.rows.len() == rows,
-            normals: made.normals[..=rows].iter().map(PlacedNormal::of).collect(),
-            rows: made.table.rows[..rows].iter().map(row).collect(),
-            frames: frames[..=rows].iter().map(PlacedFrame::of).collect(),
-            axes: made
-                .axes
-                .iter()
-                .zip(&made.table.rows)
-                .take(rows)
-                .map(axis)
-                .collect(),
+            ends_at_tool: made.ends_at_tool && made.table.rows.len() == count,
+            normals: made.normals[..=count].iter().map(normal).collect(),
+            rows: rows.iter().map(row).collect(),
+            frames: made.table.frames()[..=count].iter().map(frame).collect(),
+            axes: made.axes.iter().zip(rows).map(axis).collect(),
             joints,
         }
     }
@@ -249,13 +236,13 @@ fn lost_by_cuts(axes: &AxesDescription, cuts: Option<&CutReport>) -> Vec<Problem
     let is_cut = |name: &String| cuts.is_some_and(|cuts| cuts.cut.contains(name));
     let mut lost = Vec::new();
     for joint in axes.joints.iter().filter(|joint| is_cut(&joint.name.value)) {
-        let name = || joint.name.value.clone();
-        let place = || joint.name.span.clone();
+        let (name, at) = (joint.name.value.clone(), &joint.name.span);
         if joint.value.role == Some(Role::Actuated) {
-            lost.push(problem(AxesProblem::DriveCut { joint: name() }).at(place()));
+            let joint = name.clone();
+            lost.push(problem(AxesProblem::DriveCut { joint }, at));
         }
         if joint.value.limits.is_some() {
-            lost.push(problem(AxesProblem::LimitsCut { joint: name() }).at(place()));
+            lost.push(problem(AxesProblem::LimitsCut { joint: name }, at));
         }
     }
     lost
@@ -284,10 +271,7 @@ fn far_normals(
         for (k, pair) in chain.rows.windows(2).enumerate() {
             let normal = &chain.normals[k + 1];
             let from = Vector3(normal.from);
-            let first = axes
-                .joints
-                .iter()
-                .position(|j| j.name.value == chain.joints[k]);
+            let first = place_of(&axes.joints, &chain.joints[k]);
             // at the ends of a chain the offset stands in base or tip
             let away = first.filter(|&j| axes.joints[j].value.kind == AxisKind::Revolute);
             let away = away.map_or(0.0, |j| (from - values.lines[j].point).norm());
@@ -299,22 +283,22 @@ fn far_normals(
                 continue;
             }
             let joints = [k, k + 1].map(|k| chain.joints[k].clone());
-            let second = axes.joints.iter().find(|j| j.name.value == joints[1]);
-            let span = second.map_or(0..0, |joint| joint.name.span.clone());
+            let second = place_of(&axes.joints, &joints[1]);
+            let span = second.map_or(0..0, |joint| axes.joints[joint].name.span.clone());
             let far = AxesProblem::FarNormal {
                 joints,
                 angle,
                 offset,
                 size,
             };
-            found.push(problem(far).at(span));
+            found.push(problem(far, &span));
         }
     }
     found
 }
 
-fn problem(problem: AxesProblem) -> ProblemKind {
-    ProblemKind::Axes(Box::new(problem))
+fn problem(problem: AxesProblem, at: &Range<usize>) -> Problem {
+    ProblemKind::Axes(Box::new(problem)).at(at.clone())
 }
 
 /// Places frames on joint axes and reads the tables off them.
@@ -331,32 +315,10 @@ pub fn frames(
         .or(of_file)
         .unwrap_or(Convention::Modified);
     let values = values::Values::of(axes)?;
-    let closed = axes
-        .joints
-        .iter()
-        .any(|joint| joint.value.between.is_some());
+    let closed = (axes.joints.iter()).any(|joint| joint.value.between.is_some());
     let built = match closed {
         true => loops::closed(axes, &values, convention)?,
-        false => {
-            let ball = axes
-                .joints
-                .iter()
-                .filter(|joint| joint.value.kind == AxisKind::Spherical);
-            let problems: Vec<Problem> = ball
-                .map(|ball| {
-                    let joint = ball.name.value.clone();
-                    problem(AxesProblem::SphericalInSerial { joint }).at(ball.value.span.clone())
-                })
-                .chain(axes.cut.first().map(|cut| {
-                    let joint = cut.value.clone();
-                    problem(AxesProblem::CutsOff { joint }).at(cut.span.clone())
-                }))
-                .collect();
-            if !problems.is_empty() {
-                return Err(problems);
-            }
-            chains::serial(axes, &values, convention)
-        }
+        false => chains::serial(axes, &values, convention)?,
     };
     let description = built.description;
     let mut warnings = values.warnings.clone();
@@ -373,7 +335,7 @@ pub fn frames(
         let end = |step: &Displacement| Some(step.entries().last()?.span.end);
         let span = base.first().and_then(start).zip(base.last().and_then(end));
         let span = span.map_or(axes.name.span.clone(), |(start, end)| start..end);
-        warnings.push(problem(AxesProblem::BaseUnused { convention }).at(span));
+        warnings.push(problem(AxesProblem::BaseUnused { convention }, &span));
     }
     warnings.extend(far_normals(axes, &values, &built.chains));
     Ok(FramesReport {

@@ -8,11 +8,16 @@ use super::document::{Document, Report, Section};
 use super::quantity::quantity;
 use crate::analysis::assemblies::{AssembliesReport, ClosestApproach, Continuum, Fit};
 use crate::description::{count, listed};
+use crate::linear::RANK_TOLERANCE;
 use tables::{complex, joints, overview, platforms, reasons, times};
 
 impl Report for AssembliesReport {
     fn is_interrupted(&self) -> bool {
         self.interrupted
+    }
+
+    fn sentences(&self) -> Vec<(&'static str, Option<String>)> {
+        vec![("complete", Some(completeness(self)))]
     }
 
     fn document(&self) -> Document {
@@ -113,9 +118,98 @@ fn meeting(report: &AssembliesReport) -> Option<String> {
     })
 }
 
+/// How complete the list is and why, in a sentence.
+pub fn completeness(report: &AssembliesReport) -> String {
+    if report.interrupted {
+        return format!(
+            "interrupted with {} found after {} and {}: assemblies may be missing",
+            count(report.generic, "generic solution"),
+            count(report.seeds, "seed"),
+            count(report.loops, "loop"),
+        );
+    }
+    match report.fit {
+        Fit::Finite => {}
+        Fit::FreedomLeft(freedom) => {
+            let isolated = match report.generic {
+                0 => "",
+                1 => "; beside them 1 isolated one was found",
+                n => &format!("; beside them {n} isolated ones were found"),
+            };
+            return format!(
+                "{} left: the assemblies are not finite in number and those listed are \
+                 samples{isolated}; hold {freedom} more for a finite list",
+                count(freedom, "freedom"),
+            );
+        }
+        Fit::TooManyHeld => {
+            return format!(
+                "no solution could be found for complex inputs nearby: either more is held than can \
+                 be chosen freely, and something must be freed, or the dimensions differ too much in \
+                 size, and those far below or above {} m must be given others: what is below \
+                 {RANK_TOLERANCE:e} of that length moves nothing; the list comes from many starts \
+                 and may be incomplete",
+                report.characteristic_length
+            );
+        }
+        Fit::AlwaysMultiple => {
+            return "every solution that was met is multiple for all inputs, as in a shaky \
+                    structure, and cannot be followed from input to input; the list comes from many \
+                    starts and may be incomplete"
+                .into();
+        }
+    }
+    let mut quiet = format!("{} without a lost path", count(report.quiet_loops, "loop"));
+    if report.quiet_seeds > 0 {
+        quiet += &format!(" and {}", count(report.quiet_seeds, "seed"));
+    }
+    let bound = match report.bound {
+        Some(bound) if bound == report.generic => {
+            format!("equals the known bound of {bound} for this structure")
+        }
+        Some(bound) => format!("no more than {bound} are possible for this structure"),
+        None => "no bound is known for this structure".into(),
+    };
+    let mut parts = vec![
+        format!("{} found", report.generic),
+        format!("{quiet} found no more"),
+        bound,
+    ];
+    if report.exhausted {
+        parts.push("the search ended at its limits and there may be more".into());
+    }
+    if let Some(largest) = report.continua.first() {
+        parts.push(format!(
+            "at these inputs there are infinitely many assemblies, in a set of dimension {}: of \
+             isolated ones the list is complete as said, of the others it has samples",
+            largest.dimension
+        ));
+    }
+    if report.multiple > 0 {
+        parts.push(
+            "others are multiple for all inputs and were sought from many starts only: of them some \
+             may be missing"
+                .into(),
+        );
+    }
+    if report.unexpected > 0 {
+        parts.push(format!(
+            "no path led to {} found from other starts: the list may be incomplete",
+            count(report.unexpected, "assembly")
+        ));
+    }
+    if report.lost > 0 {
+        parts.push(format!(
+            "{} could not be decided",
+            count(report.lost, "path")
+        ));
+    }
+    parts.join("; ")
+}
+
 /// How the list was found and how complete it is.
 fn accounting(report: &AssembliesReport) -> Vec<String> {
-    let mut lines = vec![format!("completeness: {}", report.complete)];
+    let mut lines = vec![format!("completeness: {}", completeness(report))];
     lines.extend((report.bound_source.as_ref()).map(|source| format!("bound for {source}")));
     let mut solutions = format!(
         "{} complex solutions counted with multiplicity, {} at infinity{}, {} lost",

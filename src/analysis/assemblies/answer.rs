@@ -52,6 +52,21 @@ pub(super) struct Found {
     pub dimension: usize,
 }
 
+impl Found {
+    fn new(
+        coordinates: &Coordinates,
+        point: Configuration<f64>,
+        (multiplicity, dimension): (usize, usize),
+    ) -> Self {
+        Found {
+            key: key(&point, coordinates),
+            point,
+            multiplicity,
+            dimension,
+        }
+    }
+}
+
 /// A distinct finite end with the number of paths that lead there.
 struct Group {
     x: Vec<C>,
@@ -92,16 +107,17 @@ impl Question<'_> {
         let mut gathered = Gathered::default();
         for group in groups.iter().filter(|g| g.dimension == 0) {
             match self.real(&group.x, group.singular, &mut work) {
-                Some(point) => gathered.found.push(Found {
-                    key: key(&point, self.coordinates),
-                    point,
-                    multiplicity: group.paths,
-                    dimension: 0,
-                }),
+                Some(point) => {
+                    let found = Found::new(self.coordinates, point, (group.paths, 0));
+                    gathered.found.push(found);
+                }
                 None if wanted.all_complex => {
                     let x = tidied_complex(&group.x, self.coordinates);
                     let condition = match (&mut homotopy, group.paths) {
-                        (Some(homotopy), 1) => homotopy.condition(END, &x),
+                        (Some(homotopy), 1) => {
+                            let (residual, jacobian) = homotopy.evaluated(END, &x);
+                            describe::condition(residual.len(), homotopy.unknowns(), &jacobian)
+                        }
                         _ => None,
                     };
                     let solution = self.complex(&x, (group.paths, condition));
@@ -143,9 +159,7 @@ impl Question<'_> {
         let Gathered {
             mut found,
             mut complex,
-            unexpected,
-            multiple,
-            merged,
+            ..
         } = gathered;
         // what is isolated comes first
         found.sort_by(|a, b| {
@@ -165,13 +179,14 @@ impl Question<'_> {
         report.continua = continua(&sets, &found);
         report.not_isolated = sets.iter().map(|g| g.paths).sum();
         report.unexpected = match fit {
-            Fit::Finite => unexpected,
+            Fit::Finite => gathered.unexpected,
             _ => 0,
         };
         report.fit = fit;
         report.at_infinity = ends.ends.iter().filter(infinite).count();
         report.lost = ends.ends.iter().filter(|e| **e == End::Lost).count();
-        report.singular = isolated.filter(|g| g.paths > 1).count() + merged + multiple;
+        report.singular =
+            isolated.filter(|g| g.paths > 1).count() + gathered.merged + gathered.multiple;
         report.retried = ends.retries;
         report.paths = ends.paths;
         report.steps = ends.steps;
@@ -182,7 +197,6 @@ impl Question<'_> {
             report.closest = self.closest(near);
         }
         report.interrupted |= self.watch.is_stopped();
-        report.complete = report.completeness(self.coordinates.length);
         report
     }
 
@@ -221,20 +235,18 @@ impl Question<'_> {
     /// Of real solutions that are one, as two conjugate complex ones are whose real part is
     /// assembled, one is kept, with the multiplicity of all; how many others there were.
     fn merge(&self, found: &mut Vec<Found>, homotopy: &mut ParameterHomotopy<'_>) -> usize {
-        let flat = |f: &Found| self.coordinates.flatten(&f.point.map(C::from_f64));
         let mut kept: Vec<Found> = Vec::new();
         let mut points: Vec<Vec<C>> = Vec::new();
         let mut merged = 0;
         for f in found.drain(..) {
-            let x = flat(&f);
+            let x = self.coordinates.flat(&f.point);
             match points.iter().position(|y| are_one(homotopy, END, y, &x)) {
                 Some(place) => {
                     let one = &mut kept[place];
                     merged += usize::from(one.multiplicity == 1);
                     one.multiplicity += f.multiplicity;
                     let x = Local::new(homotopy, true).refined(&x);
-                    let mut at = self.asked.map(C::from_f64);
-                    self.coordinates.unflatten(&x, &mut at);
+                    let at = self.coordinates.placed(&x, self.asked);
                     one.point = tidied(at.map(|z| z.re), self.coordinates, false);
                     one.key = key(&one.point, self.coordinates);
                 }
@@ -267,36 +279,17 @@ impl Question<'_> {
                 .map(|(platform, _)| platform.name.clone())
                 .collect(),
             characteristic_length: self.mechanism.characteristic_length(),
-            assemblies: Vec::new(),
-            complex_assemblies: Vec::new(),
-            complex: 0,
-            real: 0,
-            at_infinity: 0,
-            singular: 0,
-            half_a_turn_away: 0,
-            not_isolated: 0,
-            continua: Vec::new(),
-            unexpected: 0,
             multiple: generic.multiple,
-            lost: 0,
-            retried: 0,
-            paths: 0,
             generic: generic.count(),
             bound: self.bound.map(|b| b.count),
             bound_source: self.bound.map(|b| format!("{}: {}", b.structure, b.source)),
-            steps: 0,
-            evaluations: 0,
-            fit: Fit::Finite,
             seeds: generic.seeds,
             quiet_seeds: generic.quiet_seeds,
             loops: generic.loops,
             quiet_loops: generic.quiet_loops,
             exhausted: generic.exhausted,
             seed: generic.seed,
-            complete: String::new(),
-            independent_rows: None,
-            closest: None,
-            interrupted: false,
+            ..AssembliesReport::default()
         }
     }
 
@@ -336,8 +329,7 @@ impl Question<'_> {
     }
 
     fn complex(&self, x: &[C], (multiplicity, condition): (usize, Option<f64>)) -> ComplexAssembly {
-        let mut at = self.asked.map(C::from_f64);
-        self.coordinates.unflatten(x, &mut at);
+        let at = self.coordinates.placed(x, self.asked);
         let pair = |z: &C| [z.re, z.im];
         let joints = self.mechanism.joints().iter().map(|j| j.name.clone());
         let platforms = self.mechanism.platforms().iter().map(|p| p.name.clone());

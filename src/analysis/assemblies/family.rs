@@ -6,7 +6,7 @@ mod coordinates;
 mod legwise;
 
 pub(super) use bound::{KnownBound, known_bound};
-pub(super) use coordinates::{C, Coordinates, size};
+pub(super) use coordinates::{C, Coordinates, Input, size};
 pub(super) use legwise::{LegwiseSolutions, count, learn};
 
 use rand::Rng;
@@ -52,27 +52,11 @@ fn quaternion(rng: &mut Pcg64) -> Quaternion<C> {
 
 impl Family {
     pub fn new(mechanism: &Mechanism, held: &Held<f64>) -> Self {
-        let lift = |x: &f64| C::from_f64(*x);
-        let platforms = held.platforms.iter().map(|held| match held {
-            HeldPlatform::Free => HeldPlatform::Free,
-            HeldPlatform::Pose => HeldPlatform::Pose,
-            HeldPlatform::Partly {
-                coordinates,
-                orientation,
-            } => HeldPlatform::Partly {
-                coordinates: coordinates.iter().map(|(c, x)| (*c, lift(x))).collect(),
-                orientation: orientation
-                    .map(|r| crate::geometry::Rotation(r.0.map(|v| Vector3(v.0.map(C::from_f64))))),
-            },
-        });
         let independent = mechanism.independent_parameters();
         let value = |i: usize| C::from_f64(mechanism.parameters()[i].value);
         let mut family = Family {
             coordinates: Coordinates::new(mechanism, held),
-            held: Held {
-                joints: held.joints.clone(),
-                platforms: platforms.collect(),
-            },
+            held: held.map(C::from_f64),
             parameters: independent.into_iter().map(value).collect(),
             home: mechanism.home(),
             mechanism: mechanism.clone(),
@@ -119,24 +103,22 @@ impl Family {
             )
         };
         let mut inputs = Vec::with_capacity(c.input_count());
-        for &j in &c.held_joints {
-            inputs.push(match self.mechanism.joints()[j].kind.is_angle() {
-                true => angle(rng),
-                false => about(self.home.joints[j], rng),
-            });
-        }
-        for &p in &c.held_poses {
-            inputs.extend(quaternion(rng).0);
-            inputs.extend(self.home.platforms[p].position.0.map(|x| about(x, rng)));
-        }
-        for &(p, coordinate) in &c.targets {
-            inputs.push(match coordinate.is_angle() {
-                true => angle(rng),
-                false => about(coordinate.of(&self.home.platforms[p].pose()), rng),
-            });
-        }
-        for _ in &c.orientations {
-            inputs.extend(quaternion(rng).0);
+        for &input in &c.inputs {
+            match input {
+                Input::Joint(j) => inputs.push(match self.mechanism.joints()[j].kind.is_angle() {
+                    true => angle(rng),
+                    false => about(self.home.joints[j], rng),
+                }),
+                Input::Pose(p) => {
+                    inputs.extend(quaternion(rng).0);
+                    inputs.extend(self.home.platforms[p].position.0.map(|x| about(x, rng)));
+                }
+                Input::Target(p, coordinate) => inputs.push(match coordinate.is_angle() {
+                    true => angle(rng),
+                    false => about(coordinate.of(&self.home.platforms[p].pose()), rng),
+                }),
+                Input::Orientation(_) => inputs.extend(quaternion(rng).0),
+            }
         }
         inputs
     }
@@ -154,18 +136,13 @@ impl Family {
 
     /// Which inputs are lengths.
     pub fn lengths_among_inputs(&self) -> Vec<bool> {
-        let c = &self.coordinates;
-        let joints = c.held_joints.iter();
-        let mut lengths: Vec<bool> = joints
-            .map(|&j| !self.mechanism.joints()[j].kind.is_angle())
-            .collect();
-        for _ in &c.held_poses {
-            lengths.extend([false; 4]);
-            lengths.extend([true; 3]);
-        }
-        lengths.extend(c.targets.iter().map(|(_, target)| !target.is_angle()));
-        lengths.extend(c.orientations.iter().flat_map(|_| [false; 4]));
-        lengths
+        let lengths = self.coordinates.inputs.iter().map(|input| match *input {
+            Input::Joint(j) => vec![!self.mechanism.joints()[j].kind.is_angle()],
+            Input::Pose(_) => [[false; 4].as_slice(), &[true; 3]].concat(),
+            Input::Target(_, coordinate) => vec![!coordinate.is_angle()],
+            Input::Orientation(_) => vec![false; 4],
+        });
+        lengths.flatten().collect()
     }
 
     /// A random complex point, far from assembled. `reach` says how far out, as for inputs: complex

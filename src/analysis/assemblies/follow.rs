@@ -4,12 +4,12 @@ use serde::{Deserialize, Serialize};
 
 use super::AssembliesError;
 use super::answer::{named_joints, real_solution};
-use super::family::{C, Family, Member};
+use super::family::{C, Family, Input, Member};
 use super::report::Named;
-use super::track::{ParameterHomotopy, located, polish};
+use super::track::{located, polish};
 use crate::mechanism::{Configuration, Mechanism, Variable};
 use crate::number::Number;
-use crate::solve::{Arrival, Homotopy, Stages, Tracker};
+use crate::solve::{Arrival, Stages, Tracker};
 use crate::system::{Held, System};
 
 /// Where a mode went when its inputs changed.
@@ -106,13 +106,19 @@ pub(super) fn follow(
     to: (&Configuration<f64>, &Held<f64>),
 ) -> Result<Followed, AssembliesError> {
     let c = &family.coordinates;
-    let start = c.inputs(from.0, from.1);
-    let mut end = c.inputs(to.0, to.1);
-    for q in c.input_quaternions() {
-        // of q and −q the one on this side: the short way round
-        let along: f64 = (0..4).map(|i| start[q + i] * end[q + i]).sum();
-        if along < 0.0 {
-            end[q..q + 4].iter_mut().for_each(|x| *x = -*x);
+    let start = c.inputs_of(from.0, from.1);
+    let mut end = c.inputs_of(to.0, to.1);
+    let mut first = 0;
+    for (input, x) in c.split(&start) {
+        let end = &mut end[first..first + x.len()];
+        first += x.len();
+        if matches!(input, Input::Pose(_) | Input::Orientation(_)) {
+            // of q and −q the one on this side: the short way round
+            let to = &mut end[..4];
+            let along: f64 = x.iter().zip(to.iter()).map(|(a, b)| a * b).sum();
+            if along < 0.0 {
+                to.iter_mut().for_each(|x| *x = -*x);
+            }
         }
     }
     let member = |inputs: &[f64]| Member {
@@ -121,7 +127,7 @@ pub(super) fn follow(
     };
     let homotopy = family.homotopy(&member(&start), &member(&end));
     let mut homotopy = homotopy.ok_or(AssembliesError::NoValue)?;
-    let mut x = c.flatten(&from.0.map(C::from_f64));
+    let mut x = c.flat(from.0);
     let whole = (C::from_f64(0.0), C::from_f64(1.0));
     // real inputs keep every number real, so no step can leave the real branch unnoticed
     let tracker = Tracker {
@@ -130,7 +136,9 @@ pub(super) fn follow(
         ..Tracker::default().tightened(0.05)
     };
     let mut stages = Stages::new(c.count());
-    let track = tracker.track(&mut Assembled(&mut homotopy), whole, &mut x, &mut stages);
+    homotopy.stops_where_open = true;
+    let track = tracker.track(&mut homotopy, whole, &mut x, &mut stages);
+    homotopy.stops_where_open = false;
     let (mut done, mut turns_back) = match track.arrival {
         Arrival::There => (1.0, false),
         Arrival::Stuck(at) | Arrival::Diverged(at) => (at, false),
@@ -153,87 +161,37 @@ pub(super) fn follow(
         }
         return Ok(Followed::Arrived(point));
     }
-    let mut last = from.0.map(C::from_f64);
-    c.unflatten(&x, &mut last);
-    for (&j, value) in c.held_joints.iter().zip(&inputs) {
-        last.joints[j] = C::from_f64(*value);
+    let mut last = c.placed(&x, from.0);
+    for (input, value) in c.split(&inputs) {
+        if let Input::Joint(j) = input {
+            last.joints[j] = C::from_f64(value[0]);
+        }
     }
     Ok(Followed::Fold(Fold {
         fraction: done,
-        inputs: Named(
-            input_names(mechanism, family)
-                .into_iter()
-                .zip(inputs)
-                .collect(),
-        ),
+        inputs: (input_names(mechanism, family).into_iter())
+            .zip(inputs)
+            .collect(),
         joints: named_joints(mechanism, &last.map(|z| z.re)),
         turns_back,
     }))
 }
 
-/// A homotopy that is left where the closures open.
-///
-/// Beyond a fold nothing closes, but where the Jacobian is singular the least-squares step takes no
-/// notice of the gap that is left: without this, a path may go on through configurations that are
-/// singular instead of assembled.
-struct Assembled<'w, 'f>(&'w mut ParameterHomotopy<'f>);
-
-impl Homotopy for Assembled<'_, '_> {
-    fn settle(&self, x: &mut [C]) {
-        self.0.settle(x);
-    }
-
-    fn velocity(&mut self, s: C, x: &[C], out: &mut [C]) -> bool {
-        self.0.velocity(s, x, out)
-    }
-
-    fn velocity_again(&mut self, s: C, x: &[C], out: &mut [C]) -> bool {
-        self.0.velocity_again(s, x, out)
-    }
-
-    fn correct(&mut self, s: C, x: &mut [C]) -> f64 {
-        /// A gap is that much larger than a step that leaves it open; slopes are near 1.
-        const UNSEEN: f64 = 1e3;
-        /// What rounding leaves of a gap.
-        const ROUNDING: f64 = 1e-10;
-        let gap = self.0.residual(s, x);
-        let step = self.0.correct(s, x);
-        match gap > ROUNDING && gap > UNSEEN * step {
-            true => f64::NAN,
-            false => step,
-        }
-    }
-
-    fn residual(&mut self, s: C, x: &[C]) -> f64 {
-        self.0.residual(s, x)
-    }
-}
-
 /// Names of the flat inputs.
 fn input_names(mechanism: &Mechanism, family: &Family) -> Vec<String> {
     const QUATERNION: [&str; 4] = ["qw", "qx", "qy", "qz"];
-    let c = &family.coordinates;
-    let platform = |p: usize| &mechanism.platforms()[p].name;
-    let mut names: Vec<String> = c
-        .held_joints
-        .iter()
-        .map(|&j| mechanism.joints()[j].name.clone())
-        .collect();
-    for &p in &c.held_poses {
-        let parts = QUATERNION.iter().chain(&["x", "y", "z"]);
-        names.extend(parts.map(|part| format!("{}.{part}", platform(p))));
-    }
-    names.extend(
-        c.targets
+    let of_platform = |p: usize, parts: &[&str]| -> Vec<String> {
+        let platform = &mechanism.platforms()[p].name;
+        parts
             .iter()
-            .map(|&(p, coordinate)| format!("{}.{}", platform(p), coordinate.name())),
-    );
-    for &p in &c.orientations {
-        names.extend(
-            QUATERNION
-                .iter()
-                .map(|part| format!("{}.{part}", platform(p))),
-        );
-    }
-    names
+            .map(|part| format!("{platform}.{part}"))
+            .collect()
+    };
+    let names = family.coordinates.inputs.iter().map(|input| match *input {
+        Input::Joint(j) => vec![mechanism.joints()[j].name.clone()],
+        Input::Pose(p) => of_platform(p, &[&QUATERNION[..], &["x", "y", "z"]].concat()),
+        Input::Target(p, coordinate) => of_platform(p, &[coordinate.name()]),
+        Input::Orientation(p) => of_platform(p, &QUATERNION),
+    });
+    names.flatten().collect()
 }

@@ -3,9 +3,7 @@
 use serde::{Deserialize, Serialize};
 
 use crate::algebra::SiUnit;
-use crate::description::count;
 use crate::geometry::{Quaternion, Vector3};
-use crate::linear::RANK_TOLERANCE;
 use crate::mechanism::Configuration;
 use crate::system::Gap;
 pub use crate::system::Named;
@@ -86,10 +84,11 @@ pub struct ClosestApproach {
 }
 
 /// How the question fits the mechanism.
-#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Fit {
     /// As many inputs are held as the mechanism has freedoms: a finite number of assemblies.
+    #[default]
     Finite,
     /// So many freedoms are left; the assemblies listed are samples.
     FreedomLeft(usize),
@@ -127,7 +126,7 @@ pub struct ListedJoint {
 }
 
 /// All assemblies for the target inputs.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct AssembliesReport {
     /// Name of the mechanism.
     pub mechanism: String,
@@ -196,8 +195,6 @@ pub struct AssembliesReport {
     pub exhausted: bool,
     /// The random seed.
     pub seed: u64,
-    /// How complete the list is and why.
-    pub complete: String,
     /// Which closure rows the certificates and determinants use, if not all.
     pub independent_rows: Option<(usize, usize)>,
     /// Where there is no real assembly: the best that can be done.
@@ -219,87 +216,4 @@ pub struct ComplexAssembly {
     /// Quotient of the largest and the smallest singular value of the dimensionless closure
     /// Jacobian; `null` where solutions meet.
     pub condition: Option<f64>,
-}
-
-impl AssembliesReport {
-    /// How complete the list is and why, in a sentence.
-    pub(super) fn completeness(&self, length: f64) -> String {
-        if self.interrupted {
-            return format!(
-                "interrupted with {} found after {} and {}: assemblies may be missing",
-                count(self.generic, "generic solution"),
-                count(self.seeds, "seed"),
-                count(self.loops, "loop"),
-            );
-        }
-        match self.fit {
-            Fit::FreedomLeft(freedom) => {
-                let isolated = match self.generic {
-                    0 => String::new(),
-                    n => format!(
-                        "; beside them {} found",
-                        match n {
-                            1 => "1 isolated one was".into(),
-                            n => format!("{n} isolated ones were"),
-                        }
-                    ),
-                };
-                return format!(
-                    "{} left: the assemblies are not finite in number and those listed are samples{isolated}; hold {freedom} more for a finite list",
-                    count(freedom, "freedom"),
-                );
-            }
-            Fit::TooManyHeld => {
-                return format!(
-                    "no solution could be found for complex inputs nearby: either more is held than can be \
-                     chosen freely, and something must be freed, or the dimensions differ too much in size, \
-                     and those far below or above {} m must be given others: what is below {RANK_TOLERANCE:e} of \
-                     that length moves nothing; the list comes from many starts and may be incomplete",
-                    length
-                );
-            }
-            Fit::AlwaysMultiple => {
-                return "every solution that was met is multiple for all inputs, as in a shaky structure, and \
-                        cannot be followed from input to input; the list comes from many starts and may be \
-                        incomplete"
-                    .into();
-            }
-            Fit::Finite => {}
-        }
-        let loops = format!("{} without a lost path", count(self.quiet_loops, "loop"));
-        let quiet = match self.quiet_seeds {
-            0 => loops,
-            seeds => format!("{loops} and {}", count(seeds, "seed")),
-        };
-        let mut sentence = format!("{} found; {quiet} found no more; ", self.generic);
-        sentence += &match self.bound {
-            Some(bound) if bound == self.generic => {
-                format!("equals the known bound of {bound} for this structure")
-            }
-            Some(bound) => format!("no more than {bound} are possible for this structure"),
-            None => "no bound is known for this structure".into(),
-        };
-        if self.exhausted {
-            sentence += "; the search ended at its limits and there may be more";
-        }
-        if let Some(largest) = self.continua.first() {
-            sentence += &format!(
-                "; at these inputs there are infinitely many assemblies, in a set of dimension {}: of isolated ones the list is complete as said, of the others it has samples",
-                largest.dimension
-            );
-        }
-        if self.multiple > 0 {
-            sentence += "; others are multiple for all inputs and were sought from many starts only: of them some may be missing";
-        }
-        if self.unexpected > 0 {
-            sentence += &format!(
-                "; no path led to {} found from other starts: the list may be incomplete",
-                count(self.unexpected, "assembly")
-            );
-        }
-        if self.lost > 0 {
-            sentence += &format!("; {} could not be decided", count(self.lost, "path"));
-        }
-        sentence
-    }
 }

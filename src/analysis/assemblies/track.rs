@@ -1,4 +1,4 @@
-//! Following solutions along parameter homotopies between members of the family.
+//! Path tracking along parameter homotopies between members of the family.
 
 mod along;
 mod fold;

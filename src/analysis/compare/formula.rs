@@ -14,40 +14,33 @@ pub(super) struct Values<'a, T: Number> {
 }
 
 impl<'a, T: Number> Values<'a, T> {
-    pub fn new(mechanism: &Mechanism, form: &ClosedForm, joints: &'a [T]) -> Self {
+    /// At joint values, with the parameters of the mechanism.
+    pub fn at(mechanism: &Mechanism, form: &ClosedForm, joints: &'a [T]) -> Self {
         let parameters = mechanism.parameters().iter();
-        let values = Values {
-            parameters: parameters.map(|p| T::from_f64(p.value)).collect(),
-            joints: Cow::Borrowed(joints),
-            locals: Vec::with_capacity(form.locals.len()),
-        };
-        values.with_locals(form, &[])
+        let parameters = parameters.map(|p| T::from_f64(p.value)).collect();
+        Values::new(form, parameters, Cow::Borrowed(joints), &[])
     }
 
     /// For given values of parameters and joints, and of some local names.
-    pub fn over(
+    pub fn new(
         form: &ClosedForm,
         parameters: Vec<T>,
-        joints: Vec<T>,
+        joints: Cow<'a, [T]>,
         replaced: &[Option<T>],
     ) -> Self {
-        let values = Values {
+        let mut values = Values {
             parameters,
-            joints: Cow::Owned(joints),
+            joints,
             locals: Vec::with_capacity(form.locals.len()),
         };
-        values.with_locals(form, replaced)
-    }
-
-    fn with_locals(mut self, form: &ClosedForm, replaced: &[Option<T>]) -> Self {
         for (i, (_, formula)) in form.locals.iter().enumerate() {
             let value = match replaced.get(i) {
                 Some(Some(value)) => Ok(*value),
-                _ => self.of(formula),
+                _ => values.of(formula),
             };
-            self.locals.push(value);
+            values.locals.push(value);
         }
-        self
+        values
     }
 
     /// The value of a formula. A local name without a value is to blame only where it is used.
@@ -65,36 +58,29 @@ impl<'a, T: Number> Values<'a, T> {
     }
 }
 
-/// The value of an identity and the size it is to be compared with.
-pub(super) struct Evaluated {
-    pub value: f64,
-    /// The absolute terms of the sum together with the change for a joint motion of natural size,
-    /// Σ |∂f/∂qⱼ| sⱼ: a value of ε times that is an error of ε in a joint.
-    pub size: f64,
-}
-
-impl Evaluated {
-    pub fn new(
-        mechanism: &Mechanism,
-        form: &ClosedForm,
-        identity: &Formula,
-        joints: &[f64],
-    ) -> Result<Self, EvaluationError> {
-        let values = Values::new(mechanism, form, joints);
-        let value = values.of(identity)?;
-        let mut size = terms(&values, identity)?;
-        let mut moving: Vec<Dual<f64>> = joints.iter().map(|&x| Dual::constant(x)).collect();
-        let scales = &mechanism.dimensions().joint_scales;
-        for (joint, scale) in scales.iter().enumerate() {
-            moving[joint].slope = *scale;
-            // a slope that is not finite says nothing
-            if let Ok(moved) = Values::new(mechanism, form, &moving).of(identity) {
-                size += moved.slope.abs();
-            }
-            moving[joint].slope = 0.0;
+/// The value of an identity and the size it is to be compared with: the absolute terms of the sum
+/// together with the change for a joint motion of natural size, Σ |∂f/∂qⱼ| sⱼ. A value of ε times that
+/// is an error of ε in a joint.
+pub(super) fn identity(
+    mechanism: &Mechanism,
+    form: &ClosedForm,
+    identity: &Formula,
+    joints: &[f64],
+) -> Result<(f64, f64), EvaluationError> {
+    let values = Values::at(mechanism, form, joints);
+    let value = values.of(identity)?;
+    let mut size = terms(&values, identity)?;
+    let mut moving: Vec<Dual<f64>> = joints.iter().map(|&x| Dual::constant(x)).collect();
+    let scales = &mechanism.dimensions().joint_scales;
+    for (joint, scale) in scales.iter().enumerate() {
+        moving[joint].slope = *scale;
+        // a slope that is not finite says nothing
+        if let Ok(moved) = Values::at(mechanism, form, &moving).of(identity) {
+            size += moved.slope.abs();
         }
-        Ok(Evaluated { value, size })
+        moving[joint].slope = 0.0;
     }
+    Ok((value, size))
 }
 
 /// The sum of the absolute values of the terms an expression adds up.

@@ -109,16 +109,6 @@ pub(super) fn proofs(mechanism: &Mechanism, form: &ClosedForm) -> Vec<Proof> {
         .collect()
 }
 
-/// The same where the work was stopped before.
-pub(super) fn interrupted(form: &ClosedForm) -> Vec<Proof> {
-    let components = match &form.gives {
-        Given::Pose { entries, .. } => entries.len(),
-        Given::Identities(identities) => identities.len(),
-    };
-    let reason = Reason::Interrupted;
-    vec![Proof::NotDecided { reason }; components]
-}
-
 /// How identities that numbers refute differ from what the closures give, in order; nothing where that is too long.
 pub(super) fn refutations(mechanism: &Mechanism, form: &ClosedForm) -> Vec<Option<Difference>> {
     let Given::Identities(identities) = &form.gives else {
@@ -127,12 +117,8 @@ pub(super) fn refutations(mechanism: &Mechanism, form: &ClosedForm) -> Vec<Optio
     let refutations = over_letters(mechanism, form, || {
         let setting = Setting::new(mechanism, form, false)?;
         let equations = setting.equations();
-        let refuted = identities.iter();
-        Some(
-            refuted
-                .map(|(_, formula)| setting.refuted(formula, &equations))
-                .collect(),
-        )
+        let refuted = |(_, formula): &(_, _)| setting.refuted(formula, &equations);
+        Some(identities.iter().map(refuted).collect())
     });
     refutations.unwrap_or_else(|| vec![None; identities.len()])
 }
@@ -151,10 +137,20 @@ fn over_letters<R>(mechanism: &Mechanism, form: &ClosedForm, work: impl FnOnce()
 
 /// What can be proved with parameters as letters, or with the numbers of the file.
 fn attempt(mechanism: &Mechanism, form: &ClosedForm, numbers: bool) -> Vec<Proof> {
-    let count = match &form.gives {
-        Given::Pose { entries, .. } => entries.len(),
-        Given::Identities(identities) => identities.len(),
+    let (count, moves) = match &form.gives {
+        Given::Identities(identities) => (identities.len(), false),
+        Given::Pose {
+            of,
+            relative_to,
+            entries,
+        } => {
+            let moves = mechanism.carrier(*of) != mechanism.carrier(*relative_to);
+            (entries.len(), moves)
+        }
     };
+    if moves {
+        return vec![Proof::undecided(Reason::NeedsPlatform); count];
+    }
     let proofs = over_letters(mechanism, form, || {
         let setting = Setting::new(mechanism, form, numbers)?;
         Some(match &form.gives {
@@ -163,9 +159,6 @@ fn attempt(mechanism: &Mechanism, form: &ClosedForm, numbers: bool) -> Vec<Proof
                 relative_to,
                 entries,
             } => {
-                if mechanism.carrier(*of) != mechanism.carrier(*relative_to) {
-                    return Some(vec![Proof::undecided(Reason::NeedsPlatform); count]);
-                }
                 let pose = setting.formal.transform(*relative_to, *of);
                 let proved = entries.iter().map(|(entry, formula)| {
                     let chains = match *entry {
@@ -178,10 +171,8 @@ fn attempt(mechanism: &Mechanism, form: &ClosedForm, numbers: bool) -> Vec<Proof
             }
             Given::Identities(identities) => {
                 let equations = setting.equations();
-                let proved = identities.iter();
-                proved
-                    .map(|(_, formula)| setting.vanishing(formula, &equations))
-                    .collect()
+                let proved = |(_, formula): &(_, _)| setting.vanishing(formula, &equations);
+                identities.iter().map(proved).collect()
             }
         })
     });
@@ -211,7 +202,7 @@ impl<'a> Setting<'a> {
         let parameters = mechanism.parameters_from(&independent).ok()?;
         let (joints, replaced) = own_variables(&letters, form, &parameters);
         let formal = Formal::new(mechanism, &parameters, joints.clone()).ok()?;
-        let values = Values::over(form, parameters, joints, &replaced);
+        let values = Values::new(form, parameters, joints.into(), &replaced);
         Some(Setting {
             form,
             letters,

@@ -3,12 +3,12 @@
 use std::collections::BTreeSet;
 
 use super::PlacedChain;
-use super::chains::{self, Built, between, declarations, joint_axis, nowhere, turned_to};
+use super::chains::{self, Built, between, declarations, joint_axis, turned_to};
 use super::graph::{Graph, driven};
 use super::values::Values;
 use crate::description::{
     AxesDescription, AxisKind, ChainDescription, ClosureDescription, Convention, Description,
-    Displacement, GROUND, Named, PlatformDescription, Role, place_of,
+    Displacement, GROUND, Named, PlatformDescription, Role, Spanned, place_of,
 };
 use crate::geometry::{Axis, Line, Pose, Rotation, Vector3};
 use crate::mechanism::{Assignment, JointAxis, SerialAxes};
@@ -86,7 +86,7 @@ impl<'a> Build<'a> {
             description: Description {
                 name: self.axes.name.clone(),
                 source: self.axes.source.clone(),
-                convention: Some(nowhere(self.convention)),
+                convention: Some(Spanned::nowhere(self.convention)),
                 joints,
                 chains: self.chains,
                 platforms: self.platforms,
@@ -358,7 +358,9 @@ impl<'a> Build<'a> {
 
     fn closure(&self, joint: usize) -> Named<ClosureDescription> {
         let described = &self.axes.joints[joint];
-        let frame = |side: usize| nowhere(self.cut_frames[joint][side].clone().unwrap_or_default());
+        let frame = |side: usize| {
+            Spanned::nowhere(self.cut_frames[joint][side].clone().unwrap_or_default())
+        };
         let closure = ClosureDescription {
             kind: described.value.kind.closure(),
             frames: [frame(0), frame(1)],

@@ -1,11 +1,11 @@
 //! Chains of a mechanism file from assigned frames.
 
 use super::values::Values;
-use super::{CutReport, PlacedChain};
+use super::{CutReport, PlacedChain, problem};
 use crate::algebra::{Expression, Node, Operator};
 use crate::description::{
-    AxesDescription, AxisKind, ChainDescription, Convention, Description, Displacement, Entry,
-    JointDescription, Named, Role, Row, Spanned, names_of,
+    AxesDescription, AxesProblem, AxisKind, ChainDescription, Convention, Description,
+    Displacement, Entry, JointDescription, Named, Problem, Role, Row, Spanned, names_of,
 };
 use crate::geometry::{Axis, Pose, Rotation, Vector3};
 use crate::mechanism::{JointAxis, SerialAxes, Table, TableRow};
@@ -17,10 +17,6 @@ pub(super) struct Built {
     pub cuts: Option<CutReport>,
     pub turned: f64,
     pub moved: f64,
-}
-
-pub(super) fn nowhere<T>(value: T) -> Spanned<T> {
-    Spanned::nowhere(value)
 }
 
 /// The axis of the joint of that index, traversed from the first of its bodies or from the second.
@@ -125,7 +121,24 @@ pub(super) fn declarations(
 }
 
 /// The one chain of a serial mechanism.
-pub(super) fn serial(axes: &AxesDescription, values: &Values, convention: Convention) -> Built {
+pub(super) fn serial(
+    axes: &AxesDescription,
+    values: &Values,
+    convention: Convention,
+) -> Result<Built, Vec<Problem>> {
+    let balls = (axes.joints.iter()).filter(|joint| joint.value.kind == AxisKind::Spherical);
+    let problems = balls.map(|ball| {
+        let joint = ball.name.value.clone();
+        problem(AxesProblem::SphericalInSerial { joint }, &ball.value.span)
+    });
+    let cut = axes.cut.first().map(|cut| {
+        let joint = cut.value.clone();
+        problem(AxesProblem::CutsOff { joint }, &cut.span)
+    });
+    let problems: Vec<Problem> = problems.chain(cut).collect();
+    if !problems.is_empty() {
+        return Err(problems);
+    }
     let joints = (0..axes.joints.len()).map(|k| joint_axis(axes, values, k, true));
     let serial = SerialAxes {
         base: values.base,
@@ -148,11 +161,11 @@ pub(super) fn serial(axes: &AxesDescription, values: &Values, convention: Conven
     };
     let joints = declarations(axes, values, |_| true, role);
     let name = "chain";
-    Built {
+    Ok(Built {
         description: Description {
             name: axes.name.clone(),
             source: axes.source.clone(),
-            convention: Some(nowhere(convention)),
+            convention: Some(Spanned::nowhere(convention)),
             joints,
             chains: vec![Named::new(name, chain)],
             ..Description::default()
@@ -161,7 +174,7 @@ pub(super) fn serial(axes: &AxesDescription, values: &Values, convention: Conven
         cuts: None,
         turned: made.turned,
         moved: made.moved,
-    }
+    })
 }
 
 /// A displacement from one pose to another, both in ground.

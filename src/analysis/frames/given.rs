@@ -1,17 +1,17 @@
 //! The way back: the joint axes that the tables of a mechanism describe.
 
-use super::chains::nowhere;
 use crate::description::{
     AxesDescription, AxisDescription, AxisKind, AxisPlace, ClosureKind, Displacement, Entry,
-    GROUND, Named, Role, free_variable,
+    GROUND, Named, Role, Spanned, free_variable,
 };
 use crate::geometry::{Axis, Pose, Vector3};
 use crate::mechanism::{Body, Configuration, Frame, Mechanism};
 
 /// Why a mechanism's joints are not given by axes.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum AxesError {
     /// A row that is not one revolute or prismatic joint with a variable of its own.
+    #[error("row {row} of chain `{chain}` is not one joint with a variable of its own")]
     Row {
         /// The chain.
         chain: String,
@@ -19,6 +19,7 @@ pub enum AxesError {
         row: usize,
     },
     /// A rod whose length is no constant plus or minus one variable of its own.
+    #[error("the length of the {} closure `{closure}` is not one joint", .kind.word().to_lowercase())]
     Closure {
         /// The closure.
         closure: String,
@@ -26,27 +27,9 @@ pub enum AxesError {
         kind: ClosureKind,
     },
     /// A chain or platform holds no joint.
+    #[error("the mechanism has no joints with axes")]
     TooFew,
 }
-
-impl std::fmt::Display for AxesError {
-    fn fmt(&self, f: &mut std::fmt::Formatter) -> std::fmt::Result {
-        match self {
-            AxesError::Row { chain, row } => write!(
-                f,
-                "row {row} of chain `{chain}` is not one joint with a variable of its own"
-            ),
-            AxesError::Closure { closure, kind } => write!(
-                f,
-                "the length of the {} closure `{closure}` is not one joint",
-                kind.word().to_lowercase()
-            ),
-            AxesError::TooFew => f.write_str("the mechanism has no joints with axes"),
-        }
-    }
-}
-
-impl std::error::Error for AxesError {}
 
 /// A joint with the bodies it connects.
 struct Joint {
@@ -79,7 +62,7 @@ impl Joint {
             role: self.role,
             home: value(self.home),
             limits: self.limits.map(|(low, high)| (value(low), value(high))),
-            between: closed.then(|| self.bodies.map(nowhere)),
+            between: closed.then(|| self.bodies.map(Spanned::nowhere)),
             span: 0..0,
         };
         Named::new(self.name, axis)
@@ -129,9 +112,11 @@ pub fn joint_axes(
     let convention = mechanism.chains().first().map(|chain| chain.convention);
     let joints = joints.into_iter().map(|joint| joint.described(!serial));
     Ok(AxesDescription {
-        name: nowhere(mechanism.name().into()),
-        source: mechanism.source().map(|source| nowhere(source.into())),
-        convention: convention.map(nowhere),
+        name: Spanned::nowhere(mechanism.name().into()),
+        source: mechanism
+            .source()
+            .map(|source| Spanned::nowhere(source.into())),
+        convention: convention.map(Spanned::nowhere),
         parameters: vec![],
         joints: joints.collect(),
         base: chain.map(|chain| ends(Frame::Link { chain, row: 0 })),

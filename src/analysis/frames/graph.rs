@@ -25,8 +25,8 @@ impl Graph {
         for joint in &axes.joints {
             let Some(names) = &joint.value.between else {
                 let name = joint.name.value.clone();
-                let kind = problem(AxesProblem::NotBetween { joint: name });
-                problems.push(kind.at(joint.name.span.clone()));
+                let kind = AxesProblem::NotBetween { joint: name };
+                problems.push(problem(kind, &joint.name.span));
                 continue;
             };
             let mut body = |name: &String| match graph.bodies.iter().position(|b| b == name) {
@@ -39,13 +39,13 @@ impl Graph {
             let [first, second] = [&names[0].value, &names[1].value].map(&mut body);
             if first == second {
                 let body = names[0].value.clone();
-                problems.push(problem(AxesProblem::OneBody { body }).at(names[1].span.clone()));
+                problems.push(problem(AxesProblem::OneBody { body }, &names[1].span));
             }
             graph.ends.push([first, second]);
         }
-        if let Some(tool) = axes.tool.as_ref().map(|_| "tool") {
-            let kind = problem(AxesProblem::SerialOnly { field: tool });
-            problems.push(kind.at(axes.name.span.clone()));
+        if axes.tool.is_some() {
+            let kind = AxesProblem::SerialOnly { field: "tool" };
+            problems.push(problem(kind, &axes.name.span));
         }
         if problems.is_empty() {
             problems.extend(graph.disconnected(axes));
@@ -66,7 +66,7 @@ impl Graph {
                 body: self.bodies[lost].clone(),
             },
         };
-        Some(problem(kind).at(axes.joints[joint].name.span.clone()))
+        Some(problem(kind, &axes.joints[joint].name.span))
     }
 
     /// For each body a body of the part it belongs to, the parts being held together by some joints.

@@ -95,11 +95,11 @@ fn given(
     for cut in &axes.cut {
         let Some(joint) = place_of(&axes.joints, &cut.value) else {
             let names = names_of(&axes.joints);
-            let kind = problem(AxesProblem::UnknownCut {
+            let kind = AxesProblem::UnknownCut {
                 name: cut.value.clone(),
                 suggestion: nearest(&cut.value, names).map(str::to_owned),
-            });
-            problems.push(kind.at(cut.span.clone()));
+            };
+            problems.push(problem(kind, &cut.span));
             continue;
         };
         let [a, b] = graph.ends[joint];
@@ -109,9 +109,8 @@ fn given(
         let parts = graph.parts(|j| !named.contains(&j));
         let before = graph.parts(|j| !named.contains(&j) || j == joint);
         if !balls.contains(&joint) && parts[a] != parts[b] && before[a] == before[b] {
-            let name = cut.value.clone();
-            let kind = problem(AxesProblem::CutsOff { joint: name });
-            problems.push(kind.at(cut.span.clone()));
+            let joint = cut.value.clone();
+            problems.push(problem(AxesProblem::CutsOff { joint }, &cut.span));
         }
     }
     if problems.is_empty() && graph.loops(|j| !cuts.contains(&j)) > 0 {
@@ -122,9 +121,11 @@ fn given(
             !cuts.contains(&joint) && parts[a] == parts[b]
         };
         let joint = (0..axes.joints.len()).find(opens).unwrap_or(0);
-        let name = axes.joints[joint].name.value.clone();
-        let kind = problem(AxesProblem::StillClosed { joint: name });
-        problems.push(kind.at(axes.cut[0].span.clone()));
+        let joint = axes.joints[joint].name.value.clone();
+        problems.push(problem(
+            AxesProblem::StillClosed { joint },
+            &axes.cut[0].span,
+        ));
     }
     match problems.is_empty() {
         true => Ok(cuts),
@@ -177,9 +178,7 @@ fn proposed(
     }
     let more = choices > MOST_CHOICES || found.len() == MOST_WAYS;
     match found.is_empty() {
-        true => Err(vec![
-            problem(AxesProblem::NothingToCut).at(axes.name.span.clone()),
-        ]),
+        true => Err(vec![problem(AxesProblem::NothingToCut, &axes.name.span)]),
         false => Ok((found, more)),
     }
 }

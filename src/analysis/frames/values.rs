@@ -27,8 +27,8 @@ impl Values {
     pub fn of(axes: &AxesDescription) -> Result<Self, Vec<Problem>> {
         let joints = axes.joints.len();
         if joints > MOST_JOINTS {
-            let kind = problem(AxesProblem::TooMany { joints });
-            return Err(vec![kind.at(axes.name.span.clone())]);
+            let kind = AxesProblem::TooMany { joints };
+            return Err(vec![problem(kind, &axes.name.span)]);
         }
         let mut frames: Vec<Named<Vec<Displacement>>> = Vec::new();
         let mut add = |steps: Vec<Displacement>| {
@@ -70,14 +70,13 @@ impl Values {
             };
             if line.is_none() {
                 let name = joint.name.value.clone();
-                let kind = problem(AxesProblem::NoDirection { joint: name });
-                problems.push(kind.at(place_span(&joint.value)));
+                let kind = AxesProblem::NoDirection { joint: name };
+                problems.push(problem(kind, &place_span(&joint.value)));
             }
             lines.extend(line);
         }
         if joints < 2 {
-            let kind = problem(AxesProblem::TooFew { joints });
-            problems.push(kind.at(axes.name.span.clone()));
+            problems.push(problem(AxesProblem::TooFew { joints }, &axes.name.span));
         }
         if !problems.is_empty() {
             return Err(problems);

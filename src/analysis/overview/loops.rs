@@ -61,58 +61,37 @@ pub(super) fn loops(mechanism: &Mechanism) -> Vec<Loop> {
         let [from, to] = closure.frames.map(|frame| index(mechanism.body(frame)));
         match path(&tree, from, to) {
             None => join(&mut tree, from, to, Link::Closure(i)),
-            Some(way) => loops.push(Loop {
-                closed_by: closure.name.clone(),
-                steps: walk(mechanism, &bodies, from, way, Link::Closure(i)),
-            }),
+            Some(mut way) => {
+                way.push((to, Link::Closure(i)));
+                loops.push(Loop {
+                    closed_by: closure.name.clone(),
+                    steps: named(mechanism, &bodies, way),
+                });
+            }
         }
     }
     loops
 }
 
-/// The way in the tree from one body to another: each body with what leads to it.
+/// The way in the tree from one body to another: each body with what leads on from it.
 fn path(tree: &[Vec<(usize, Link)>], from: usize, to: usize) -> Option<Vec<(usize, Link)>> {
-    let mut reached: Vec<Option<(usize, Link)>> = vec![None; tree.len()];
-    let mut waiting = vec![from];
-    while let Some(at) = waiting.pop() {
+    let mut waiting = vec![(from, Vec::new())];
+    while let Some((at, way)) = waiting.pop() {
         if at == to {
-            let mut way = Vec::new();
-            let mut at = to;
-            while at != from {
-                let (before, link) = reached[at]?;
-                way.push((at, link));
-                at = before;
-            }
-            way.reverse();
             return Some(way);
         }
         for &(next, link) in &tree[at] {
-            if next != from && reached[next].is_none() {
-                reached[next] = Some((at, link));
-                waiting.push(next);
+            if way.last().is_none_or(|&(before, _)| before != next) {
+                waiting.push((next, [&way[..], &[(at, link)]].concat()));
             }
         }
     }
     None
 }
 
-/// The names along a loop; links between joints of one chain have none. Begins at ground or a platform if the loop
-/// passes there.
-fn walk(
-    mechanism: &Mechanism,
-    bodies: &[Body],
-    from: usize,
-    way: Vec<(usize, Link)>,
-    closing: Link,
-) -> Vec<LoopStep> {
-    // round the loop as (body, what leads on from it)
-    let mut around: Vec<(usize, Link)> = Vec::new();
-    let mut at = from;
-    for (next, link) in way {
-        around.push((at, link));
-        at = next;
-    }
-    around.push((at, closing));
+/// The names along a loop of bodies with what leads on from them; links between joints of one chain
+/// have none. Begins at ground or a platform if the loop passes there.
+fn named(mechanism: &Mechanism, bodies: &[Body], mut around: Vec<(usize, Link)>) -> Vec<LoopStep> {
     // ground sorts first, platforms next
     let first = (0..around.len()).min_by_key(|&i| around[i].0).unwrap_or(0);
     around.rotate_left(first);

@@ -19,6 +19,26 @@ pub enum HeldPlatform<T> {
     },
 }
 
+impl<T: Copy> HeldPlatform<T> {
+    /// The value at which a single coordinate is held.
+    pub fn target(&self, coordinate: PoseCoordinate) -> Option<T> {
+        match self {
+            HeldPlatform::Partly { coordinates, .. } => (coordinates.iter())
+                .find(|(held, _)| *held == coordinate)
+                .map(|(_, value)| *value),
+            _ => None,
+        }
+    }
+
+    /// The orientation at which it is held, if its position is not held with it.
+    pub fn orientation(&self) -> Option<Rotation<T>> {
+        match self {
+            HeldPlatform::Partly { orientation, .. } => *orientation,
+            _ => None,
+        }
+    }
+}
+
 /// Which coordinates of a mechanism are held.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Held<T> {

@@ -8,20 +8,11 @@
 use nalgebra::DMatrix;
 
 use crate::geometry::{Quaternion, Vector3};
-use crate::linear::INDEPENDENT;
+use crate::linear::{INDEPENDENT, norm, remove};
 use crate::mechanism::{Configuration, Mechanism, PlatformPose};
 use crate::number::{Interval, Number};
 use crate::solve::Equations;
-use crate::system::{Held, HeldPlatform, System, Unknown, Work};
-
-/// What the interval test came to.
-#[derive(Clone, Debug, PartialEq)]
-pub(crate) enum Certificate {
-    /// Exactly one solution within this radius.
-    Unique(f64),
-    /// The test failed.
-    Failed(&'static str),
-}
+use crate::system::{Held, System, Unknown, Work};
 
 /// The interval version of a question.
 pub(crate) struct Certifier {
@@ -46,26 +37,7 @@ impl Certifier {
         let real = mechanism.dimensions();
         dimensions.characteristic_length = real.characteristic_length;
         dimensions.joint_scales.clone_from(&real.joint_scales);
-        let platforms = held.platforms.iter().map(|held| match held {
-            HeldPlatform::Free => HeldPlatform::Free,
-            HeldPlatform::Pose => HeldPlatform::Pose,
-            HeldPlatform::Partly {
-                coordinates,
-                orientation,
-            } => HeldPlatform::Partly {
-                coordinates: coordinates
-                    .iter()
-                    .map(|(c, x)| (*c, Interval::point(*x)))
-                    .collect(),
-                orientation: orientation.map(|r| {
-                    crate::geometry::Rotation(r.0.map(|v| Vector3(v.0.map(Interval::point))))
-                }),
-            },
-        });
-        let held = Held {
-            joints: held.joints.clone(),
-            platforms: platforms.collect(),
-        };
+        let held = held.map(Interval::point);
         let system = System::new(&dimensions, &held);
         if rows.len() != system.unknowns().len() {
             return None;
@@ -79,20 +51,21 @@ impl Certifier {
         })
     }
 
-    /// The largest radius, of those tried, in which the assembly is proved to be the only one.
-    pub fn certify(&mut self, at: &Configuration<f64>, largest: f64) -> Certificate {
+    /// The largest radius, of those tried, in which the assembly is proved to be the only one; why
+    /// there is none.
+    pub fn certify(&mut self, at: &Configuration<f64>, largest: f64) -> Result<f64, &'static str> {
         let n = self.rows.len();
         if n == 0 {
-            return Certificate::Unique(largest);
+            return Ok(largest);
         }
         let centre = at.map(Interval::point);
         let zero = vec![Interval::point(0.0); n];
         let Some((residual, jacobian)) = self.evaluate(&centre, &zero) else {
-            return Certificate::Failed("the closures have no enclosure here");
+            return Err("the closures have no enclosure here");
         };
         let middle = DMatrix::from_fn(n, n, |i, j| jacobian[j * n + i].real());
         let Some(inverse) = middle.try_inverse() else {
-            return Certificate::Failed("singular: solutions meet here");
+            return Err("singular: solutions meet here");
         };
         let times = |i: usize, column: &dyn Fn(usize) -> Interval| {
             (0..n).fold(Interval::point(0.0), |sum, k| {
@@ -118,12 +91,12 @@ impl Certifier {
                     .map(reached)
                     .all(|x| x < radius)
                 {
-                    return Certificate::Unique(radius);
+                    return Ok(radius);
                 }
             }
             radius /= 4.0;
         }
-        Certificate::Failed(
+        Err(
             "near-singular: no box is small enough to hold one solution and large enough for rounding",
         )
     }
@@ -253,15 +226,11 @@ pub(crate) fn independent_rows(rows: usize, columns: usize, dense: &[f64]) -> Ve
     let mut chosen = Vec::new();
     for r in 0..rows {
         let mut row: Vec<f64> = (0..columns).map(|j| dense[j * rows + r]).collect();
-        let size = row.iter().map(|x| x * x).sum::<f64>().sqrt();
+        let size = norm(&row);
         // twice, for the digits that one Gram–Schmidt pass loses
-        for _ in 0..2 {
-            for b in &basis {
-                let along: f64 = b.iter().zip(&row).map(|(b, x)| b * x).sum();
-                row.iter_mut().zip(b).for_each(|(x, b)| *x -= along * b);
-            }
-        }
-        let left = row.iter().map(|x| x * x).sum::<f64>().sqrt();
+        remove(&mut row, &basis);
+        remove(&mut row, &basis);
+        let left = norm(&row);
         if left > INDEPENDENT * size.max(1e-3) && basis.len() < columns {
             basis.push(row.iter().map(|x| x / left).collect());
             chosen.push(r);

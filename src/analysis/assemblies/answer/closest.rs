@@ -5,7 +5,6 @@ use super::real::{named_joints, named_poses, tidied};
 use crate::analysis::assemblies::family::C;
 use crate::analysis::assemblies::report::{ClosestApproach, Named};
 use crate::mechanism::Configuration;
-use crate::number::Number;
 use crate::solve::{Newton, Stop};
 use crate::system::{Gap, Work, approach};
 
@@ -20,9 +19,7 @@ impl Question<'_> {
         let newton = Newton::default();
         let mut best: Option<(f64, bool, Configuration<f64>)> = None;
         let lifted = starts.iter().map(|x| {
-            let mut at = self.asked.map(C::from_f64);
-            self.coordinates.unflatten(x, &mut at);
-            let mut point = at.map(|z| z.re);
+            let mut point = self.coordinates.placed(x, self.asked).map(|z| z.re);
             for pose in &mut point.platforms {
                 let q = pose.orientation.normalised();
                 if q.0.iter().all(|x| x.is_finite()) {

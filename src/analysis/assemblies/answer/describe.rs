@@ -1,12 +1,13 @@
 //! What is said of each assembly: its number, condition, side and certificate.
 
-use super::certificate::{Certificate, Certifier, independent_rows};
+use nalgebra::{ComplexField, DMatrix};
+
+use super::certificate::{Certifier, independent_rows};
 use super::real::{named_joints, named_poses};
 use super::{Found, Question};
 use crate::analysis::assemblies::family::{C, Coordinates};
 use crate::analysis::assemblies::report::{AssembliesReport, Assembly};
 use crate::linear::ILL_CONDITIONED;
-use crate::number::Number;
 use crate::solve::{Equations, Stage};
 use crate::system::Work;
 
@@ -42,19 +43,13 @@ impl Question<'_> {
             true => Certifier::new(self.mechanism, self.held, &chosen),
             false => None,
         };
-        let flat = |f: &Found| self.coordinates.flatten(&f.point.map(C::from_f64));
+        let flat = |f: &Found| self.coordinates.flat(&f.point);
         let flat: Vec<Vec<C>> = found.iter().map(flat).collect();
         for (k, (f, dense)) in found.iter().zip(&jacobians).enumerate() {
             let stopped = (self.watch).stops(Stage::Certificates, k, Some(found.len()));
-            let (first, last) = extremes(rows, columns, dense);
-            let condition = match (first, last) {
-                (Some(a), Some(b))
-                    if rows >= columns && b > ILL_CONDITIONED * a && f.multiplicity == 1 =>
-                {
-                    Some(a / b)
-                }
-                (None, _) => Some(1.0),
-                _ => None,
+            let condition = match f.multiplicity == 1 || columns == 0 {
+                true => condition(rows, columns, dense),
+                false => None,
             };
             let sign = match chosen.len() == columns && f.multiplicity == 1 {
                 true => determinant_sign(rows, columns, dense, &chosen),
@@ -66,18 +61,14 @@ impl Question<'_> {
                 .map(|(_, other)| self.coordinates.difference(&flat[k], other))
                 .fold(f64::INFINITY, f64::min);
             let certificate = match (&mut certifier, f.multiplicity) {
-                _ if stopped => Certificate::Failed("interrupted"),
-                (_, 0) => {
-                    Certificate::Failed("one of infinitely many: others are arbitrarily near")
-                }
-                (_, 2..) => Certificate::Failed(
+                _ if stopped => Err("interrupted"),
+                (_, 0) => Err("one of infinitely many: others are arbitrarily near"),
+                (_, 2..) => Err(
                     "singular: solutions meet here, or are too near for double precision to tell apart",
                 ),
                 (Some(certifier), _) => certifier.certify(&f.point, (0.49 * gap).min(0.01)),
-                (None, _) if certify => {
-                    Certificate::Failed("singular: too few independent closure rows")
-                }
-                (None, _) => Certificate::Failed("not asked for"),
+                (None, _) if certify => Err("singular: too few independent closure rows"),
+                (None, _) => Err("not asked for"),
             };
             let joints = self.mechanism.joints().iter().zip(&f.point.joints);
             let outside_limits: Vec<String> = joints
@@ -92,18 +83,14 @@ impl Question<'_> {
                 determinant_sign: sign,
                 multiplicity: f.multiplicity,
                 dimension: f.dimension,
-                certified: matches!(certificate, Certificate::Unique(_)),
-                radius: match certificate {
-                    Certificate::Unique(radius) => Some(radius),
-                    Certificate::Failed(_) => None,
-                },
-                uncertified_because: match certificate {
-                    Certificate::Unique(_) => None,
-                    Certificate::Failed(reason) if gap < BARELY => Some(format!(
+                certified: certificate.is_ok(),
+                radius: certificate.ok(),
+                uncertified_because: certificate.err().map(|reason| match gap < BARELY {
+                    true => format!(
                         "{reason}; another assembly is {gap:.1e} away, which double precision barely separates"
-                    )),
-                    Certificate::Failed(reason) => Some(reason.into()),
-                },
+                    ),
+                    false => reason.into(),
+                }),
                 within_limits: outside_limits.is_empty(),
                 outside_limits,
                 shares_platform_pose_with: (0..found.len())
@@ -122,24 +109,21 @@ fn shares_pose(coordinates: &Coordinates, a: &[f64], b: &[f64]) -> bool {
         && (a[joints..].iter().zip(&b[joints..])).all(|(a, b)| (a - b).abs() < 1e-6)
 }
 
-/// The largest and the smallest singular value, which need no vectors.
-fn extremes(rows: usize, columns: usize, dense: &[f64]) -> (Option<f64>, Option<f64>) {
-    if rows == 0 || columns == 0 {
-        let nothing = (columns > 0).then_some(0.0);
-        return (nothing, nothing);
+/// Quotient of the largest and the smallest singular value of a column-major matrix; `None` if its
+/// columns depend on one another.
+pub(super) fn condition<T>(rows: usize, columns: usize, dense: &[T]) -> Option<f64>
+where
+    T: ComplexField<RealField = f64>,
+{
+    if columns == 0 || rows < columns {
+        return (columns == 0).then_some(1.0);
     }
-    let values = nalgebra::DMatrix::from_column_slice(rows, columns, dense).singular_values();
-    (Some(values.max()), Some(values.min()))
+    let values = DMatrix::from_column_slice(rows, columns, dense).singular_values();
+    (values.min() > ILL_CONDITIONED * values.max()).then(|| values.max() / values.min())
 }
 
 fn determinant_sign(rows: usize, columns: usize, dense: &[f64], chosen: &[usize]) -> i8 {
-    let square = nalgebra::DMatrix::from_fn(columns, columns, |i, j| dense[j * rows + chosen[i]]);
+    let square = DMatrix::from_fn(columns, columns, |i, j| dense[j * rows + chosen[i]]);
     let determinant = square.determinant();
-    if determinant > 0.0 {
-        1
-    } else if determinant < 0.0 {
-        -1
-    } else {
-        0
-    }
+    i8::from(determinant > 0.0) - i8::from(determinant < 0.0)
 }

@@ -1,7 +1,6 @@
 //! Assemblies at the target inputs to which no path leads, and samples of sets of them.
 
 use super::super::Wanted;
-use super::real::key;
 use super::{END, Found, Gathered, Question, Starts};
 use crate::analysis::assemblies::family::{C, size};
 use crate::analysis::assemblies::report::Fit;
@@ -26,7 +25,7 @@ impl Question<'_> {
     /// see no more between them than it leaves.
     fn is_at(&self, x: &[C], found: &Found, homotopy: &mut ParameterHomotopy<'_>) -> bool {
         const NEAR: f64 = 0.3;
-        let y = self.coordinates.flatten(&found.point.map(C::from_f64));
+        let y = self.coordinates.flat(&found.point);
         self.coordinates.within(NEAR, x, &y)
             && homotopy.seen_apart(END, &y, x) <= 10.0 * Newton::default().tolerance
     }
@@ -60,9 +59,7 @@ impl Question<'_> {
             return None;
         }
         let x = Local::new(homotopy, true).settled(start)?;
-        let mut at = self.asked.map(C::from_f64);
-        self.coordinates.unflatten(&x, &mut at);
-        Some(at.map(|z| z.re))
+        Some(self.coordinates.placed(&x, self.asked).map(|z| z.re))
     }
 
     /// Adds solved points: by themselves, or as samples of a set.
@@ -75,14 +72,14 @@ impl Question<'_> {
     ) {
         let mut work = self.system.work();
         for point in points {
-            let x = self.coordinates.flatten(&point.map(C::from_f64));
+            let x = self.coordinates.flat(&point);
             let samples: Vec<&Found> = gathered.found.iter().filter(|f| f.dimension > 0).collect();
             if *fit != Fit::Finite && samples.len() >= SAMPLES {
                 break;
             }
             let apart = |f: &Found, x: &[C]| {
-                let y = self.coordinates.flatten(&f.point.map(C::from_f64));
-                self.coordinates.difference(x, &y)
+                self.coordinates
+                    .difference(x, &self.coordinates.flat(&f.point))
             };
             let is_known = |x: &[C], homotopy: &mut ParameterHomotopy<'_>| {
                 (gathered.found.iter()).any(|f| f.dimension == 0 && self.is_at(x, f, homotopy))
@@ -116,12 +113,11 @@ impl Question<'_> {
             };
             gathered.multiple += usize::from(multiplicity > 1);
             gathered.unexpected += usize::from(dimension == 0 && !expected);
-            gathered.found.push(Found {
-                key: key(&point, self.coordinates),
+            gathered.found.push(Found::new(
+                self.coordinates,
                 point,
-                multiplicity,
-                dimension,
-            });
+                (multiplicity, dimension),
+            ));
         }
     }
 }

@@ -1,9 +1,8 @@
 //! The real ones among the ends of the paths.
 
-use crate::analysis::assemblies::family::{C, Coordinates, size};
+use crate::analysis::assemblies::family::{C, Coordinates, Input, size};
 use crate::geometry::RollPitchYaw;
 use crate::mechanism::{Configuration, Mechanism, PoseCoordinate, principal};
-use crate::number::Number;
 use crate::solve::{Equations, Newton, Stop};
 use crate::system::{System, Work};
 
@@ -31,9 +30,7 @@ pub(crate) fn real_solution(
     if imaginary > 1e-5 * scale {
         return None;
     }
-    let mut lifted = asked.map(C::from_f64);
-    coordinates.unflatten(x, &mut lifted);
-    let mut point = lifted.map(|z| z.re);
+    let mut point = coordinates.placed(x, asked).map(|z| z.re);
     for &p in &coordinates.free_platforms {
         point.platforms[p].orientation = point.platforms[p].orientation.normalised();
     }
@@ -49,7 +46,7 @@ pub(crate) fn real_solution(
     }
     let mut trial = point.clone();
     let report = newton.solve(system, &mut point, &mut trial, work);
-    let reached = coordinates.flatten(&point.map(C::from_f64));
+    let reached = coordinates.flat(&point);
     let near = coordinates.difference(x, &reached) <= 2e-5 * scale;
     (report.stop == Stop::Solved && near).then(|| tidied(point, coordinates, true))
 }
@@ -57,10 +54,11 @@ pub(crate) fn real_solution(
 /// The least cos(pitch) of platforms with a roll or yaw held: by it these angles, and their rows,
 /// are turned more than the platform is.
 fn steepness(point: &Configuration<f64>, coordinates: &Coordinates) -> f64 {
-    let turning = |c: &PoseCoordinate| matches!(c, PoseCoordinate::Roll | PoseCoordinate::Yaw);
-    let targets = coordinates.targets.iter().filter(|(_, c)| turning(c));
-    let steepest =
-        targets.map(|&(p, _)| PoseCoordinate::Pitch.of(&point.platforms[p].pose()).cos());
+    let turned = coordinates.inputs.iter().filter_map(|input| match *input {
+        Input::Target(p, PoseCoordinate::Roll | PoseCoordinate::Yaw) => Some(p),
+        _ => None,
+    });
+    let steepest = turned.map(|p| PoseCoordinate::Pitch.of(&point.platforms[p].pose()).cos());
     steepest.fold(1.0, |least, cos| least.min(cos.abs()).max(f64::EPSILON))
 }
 

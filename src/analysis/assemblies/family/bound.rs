@@ -1,9 +1,8 @@
 //! Structures whose number of solutions is known.
 //!
-//! What a structure is, is read off a member that is as generic as the one whose solutions are found:
-//! its inputs are random and complex, and its dimensions the mechanism's own, unless there are no
-//! inputs and the dimensions make the family. Axes that are parallel or meet there do so for all
-//! inputs; so do points that coincide.
+//! The structure is read off a generic member: axes that are parallel or meet there do so for all
+//! inputs, and so do points that coincide. A bound that is reached ends the search; one that is not
+//! makes it longer.
 
 use rand::SeedableRng;
 use rand_pcg::Pcg64;
@@ -113,10 +112,8 @@ impl<'a> Structure<'a> {
 
     /// Closures that can be closed one after another, each by two joints or one.
     ///
-    /// What one joint moves goes round a circle or along a line, and of two such curves not more than
-    /// two points are common (two circles in a plane share the two circular points at infinity as
-    /// well): 4-bar and slider-crank linkages (Freudenstein 1955), spherical 4-bars, RSSR, five-bars
-    /// with two cranks held, Watt six-bars.
+    /// Circles and lines share two finite points at most: 4-bar and slider-crank linkages, spherical
+    /// 4-bars, RSSR, five-bars with two cranks held, Watt six-bars.
     fn dyads(&self) -> Option<KnownBound> {
         let mut known: Vec<usize> = Vec::new();
         let mut left: Vec<&Link> = self.links.iter().collect();

@@ -3,26 +3,46 @@
 use std::f64::consts::{PI, TAU};
 
 use crate::geometry::{Quaternion, Vector3};
-use crate::mechanism::{Configuration, Mechanism, PlatformPose};
+use crate::mechanism::{Configuration, Mechanism, PlatformPose, PoseCoordinate};
 use crate::number::{Complex, Number};
 use crate::system::{Held, HeldPlatform, System};
 
 pub(crate) type C = Complex<f64>;
 
+/// A given coordinate, or several that belong together.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) enum Input {
+    /// The variable of a joint.
+    Joint(usize),
+    /// The pose of a platform: quaternion, then position.
+    Pose(usize),
+    /// One coordinate of a platform.
+    Target(usize, PoseCoordinate),
+    /// The orientation of a platform, as a quaternion.
+    Orientation(usize),
+}
+
+impl Input {
+    /// How many flat inputs it is.
+    fn width(self) -> usize {
+        match self {
+            Input::Joint(_) | Input::Target(..) => 1,
+            Input::Pose(_) => 7,
+            Input::Orientation(_) => 4,
+        }
+    }
+}
+
 /// Which coordinates are unknown and which are given, and how they stand in flat vectors.
 ///
 /// Flat unknowns are dimensionless: free joints over their scale, then for each platform to be found
-/// a quaternion and a position over the characteristic length. Flat inputs keep their units: held
-/// joints, then quaternion and position of each held pose, single platform coordinates, quaternions
-/// of held orientations.
+/// a quaternion and a position over the characteristic length. Flat inputs keep their units.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Coordinates {
     pub free_joints: Vec<usize>,
     pub free_platforms: Vec<usize>,
-    pub held_joints: Vec<usize>,
-    pub held_poses: Vec<usize>,
-    pub targets: Vec<(usize, crate::mechanism::PoseCoordinate)>,
-    pub orientations: Vec<usize>,
+    /// Held joints, then held poses, single coordinates of platforms, held orientations.
+    pub inputs: Vec<Input>,
     pub joint_scales: Vec<f64>,
     pub length: f64,
     /// For each joint whether its variable counts modulo a turn.
@@ -34,42 +54,29 @@ pub(crate) struct Coordinates {
 
 impl Coordinates {
     pub fn new(mechanism: &Mechanism, held: &Held<f64>) -> Self {
-        let which = |wanted: bool| {
-            let joints = held.joints.iter().enumerate();
-            joints
-                .filter(move |(_, held)| **held == wanted)
-                .map(|(i, _)| i)
-                .collect()
-        };
-        let platforms = || held.platforms.iter().enumerate();
-        let mut targets = Vec::new();
-        let mut orientations = Vec::new();
-        for (p, held) in platforms() {
+        let (held_joints, free_joints): (Vec<usize>, Vec<usize>) =
+            (0..held.joints.len()).partition(|&j| held.joints[j]);
+        let (held_poses, free_platforms): (Vec<usize>, Vec<usize>) =
+            (0..held.platforms.len()).partition(|&p| held.platforms[p] == HeldPlatform::Pose);
+        let (mut targets, mut orientations) = (Vec::new(), Vec::new());
+        for (p, held) in held.platforms.iter().enumerate() {
             if let HeldPlatform::Partly {
                 coordinates,
                 orientation,
             } = held
             {
-                targets.extend(coordinates.iter().map(|(c, _)| (p, *c)));
-                orientations.extend(orientation.map(|_| p));
+                targets.extend(coordinates.iter().map(|(c, _)| Input::Target(p, *c)));
+                orientations.extend(orientation.map(|_| Input::Orientation(p)));
             }
         }
+        let joints = held_joints.into_iter().map(Input::Joint);
+        let poses = held_poses.into_iter().map(Input::Pose);
         let dimensions = mechanism.dimensions();
-        let free_joints: Vec<usize> = which(false);
         Coordinates {
             legs: legs(&free_joints, &System::new(dimensions, held)),
             free_joints,
-            held_joints: which(true),
-            free_platforms: platforms()
-                .filter(|(_, h)| **h != HeldPlatform::Pose)
-                .map(|(i, _)| i)
-                .collect(),
-            held_poses: platforms()
-                .filter(|(_, h)| **h == HeldPlatform::Pose)
-                .map(|(i, _)| i)
-                .collect(),
-            targets,
-            orientations,
+            free_platforms,
+            inputs: (joints.chain(poses).chain(targets).chain(orientations)).collect(),
             joint_scales: dimensions.joint_scales.clone(),
             length: dimensions.characteristic_length,
             periodic: (0..mechanism.joints().len())
@@ -85,10 +92,16 @@ impl Coordinates {
 
     /// Number of flat inputs.
     pub fn input_count(&self) -> usize {
-        self.held_joints.len()
-            + 7 * self.held_poses.len()
-            + self.targets.len()
-            + 4 * self.orientations.len()
+        self.inputs.iter().map(|input| input.width()).sum()
+    }
+
+    /// Each input with its part of the flat inputs.
+    pub fn split<'a, T>(&'a self, mut flat: &'a [T]) -> impl Iterator<Item = (Input, &'a [T])> {
+        self.inputs.iter().map(move |&input| {
+            let (own, rest) = flat.split_at(input.width());
+            flat = rest;
+            (input, own)
+        })
     }
 
     pub fn flatten(&self, at: &Configuration<C>) -> Vec<C> {
@@ -102,6 +115,18 @@ impl Coordinates {
             pose.orientation.0.into_iter().chain(position)
         });
         joints.chain(poses).collect()
+    }
+
+    /// The flat unknowns of a real configuration.
+    pub fn flat(&self, at: &Configuration<f64>) -> Vec<C> {
+        self.flatten(&at.map(C::from_f64))
+    }
+
+    /// The configuration with these unknowns; what is held is as in `like`.
+    pub fn placed(&self, x: &[C], like: &Configuration<f64>) -> Configuration<C> {
+        let mut at = like.map(C::from_f64);
+        self.unflatten(x, &mut at);
+        at
     }
 
     /// Writes the unknowns into a configuration; what is held in it stays.
@@ -128,37 +153,23 @@ impl Coordinates {
     }
 
     /// The inputs of a question: what a configuration holds, and what is asked of platforms.
-    pub fn inputs<T: Number>(&self, at: &Configuration<T>, held: &Held<T>) -> Vec<T> {
-        let mut inputs: Vec<T> = self.held_joints.iter().map(|&j| at.joints[j]).collect();
-        for &p in &self.held_poses {
-            inputs.extend(at.platforms[p].orientation.0);
-            inputs.extend(at.platforms[p].position.0);
-        }
-        let partly = held.platforms.iter().filter_map(|held| match held {
-            HeldPlatform::Partly {
-                coordinates,
-                orientation,
-            } => Some((coordinates, orientation)),
-            _ => None,
-        });
-        for (coordinates, _) in partly.clone() {
-            inputs.extend(coordinates.iter().map(|(_, value)| *value));
-        }
-        for rotation in partly.filter_map(|(_, orientation)| orientation.as_ref()) {
-            inputs.extend(Quaternion::from_rotation(rotation).0);
+    pub fn inputs_of<T: Number>(&self, at: &Configuration<T>, held: &Held<T>) -> Vec<T> {
+        let mut inputs = Vec::with_capacity(self.input_count());
+        for &input in &self.inputs {
+            match input {
+                Input::Joint(j) => inputs.push(at.joints[j]),
+                Input::Pose(p) => {
+                    inputs.extend(at.platforms[p].orientation.0);
+                    inputs.extend(at.platforms[p].position.0);
+                }
+                Input::Target(p, c) => inputs.extend(held.platforms[p].target(c)),
+                Input::Orientation(p) => {
+                    let wanted = held.platforms[p].orientation();
+                    inputs.extend(wanted.iter().flat_map(|r| Quaternion::from_rotation(r).0));
+                }
+            }
         }
         inputs
-    }
-
-    /// Where the quaternions stand among the inputs.
-    pub fn input_quaternions(&self) -> impl Iterator<Item = usize> + use<> {
-        let first = self.held_joints.len();
-        let poses = self.held_poses.len();
-        let orientations = first + 7 * poses + self.targets.len();
-        let count = self.orientations.len();
-        (0..poses)
-            .map(move |i| first + 7 * i)
-            .chain((0..count).map(move |i| orientations + 4 * i))
     }
 
     /// The coordinates of the platforms.

@@ -1,10 +1,8 @@
 //! Solutions kept leg by leg.
 //!
-//! Closures that share no free joint meet only in the poses of the platforms: given those, each such
-//! leg closes by itself. Where a leg can close in several ways, every combination of one way for each
-//! leg is a solution: the six universal joints of a 6-UPS platform make 40·2⁶ of 40 poses and twelve
-//! ways. What is kept, and followed through the family, is a few points for each pose that together
-//! show every way of every leg.
+//! Given the poses of the platforms each leg closes by itself, and every combination of one way for
+//! each leg is a solution: 40·2⁶ for a 6-UPS platform of 40 poses. A few points for each pose that show
+//! every way of every leg are kept and tracked.
 
 use serde::{Deserialize, Serialize};
 
@@ -13,24 +11,14 @@ use super::coordinates::{C, Coordinates};
 /// One placement of the platforms and the ways in which the legs close for it. Without platforms to
 /// be found there is one placement.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub(crate) struct LegwiseSolutions<T> {
+pub(crate) struct LegwiseSolutions {
     /// Seven coordinates for each platform.
-    pub pose: Vec<T>,
+    pub pose: Vec<C>,
     /// For each leg its ways, each a value for every joint of the leg.
-    pub legs: Vec<Vec<Vec<T>>>,
+    pub legs: Vec<Vec<Vec<C>>>,
 }
 
-impl<T: Copy> LegwiseSolutions<T> {
-    pub fn map<U>(&self, f: impl Fn(T) -> U + Copy) -> LegwiseSolutions<U> {
-        let all = |x: &Vec<T>| x.iter().map(|x| f(*x)).collect();
-        LegwiseSolutions {
-            pose: all(&self.pose),
-            legs: (self.legs.iter())
-                .map(|ways| ways.iter().map(all).collect())
-                .collect(),
-        }
-    }
-
+impl LegwiseSolutions {
     /// How many solutions it stands for.
     pub fn count(&self) -> usize {
         self.legs.iter().map(Vec::len).product()
@@ -50,9 +38,7 @@ impl<T: Copy> LegwiseSolutions<T> {
                 !ways.is_empty() && ways.iter().all(|way| way.len() == joints.len())
             })
     }
-}
 
-impl LegwiseSolutions<C> {
     pub fn of(coordinates: &Coordinates, x: &[C]) -> Self {
         let legs = coordinates.legs.iter();
         LegwiseSolutions {
@@ -114,12 +100,12 @@ fn at(joints: &[usize], x: &[C]) -> Vec<C> {
 
 /// What a set of legwise solutions learns from a solution; whether anything was new.
 pub(crate) fn learn(
-    legwise: &mut Vec<LegwiseSolutions<C>>,
+    legwise: &mut Vec<LegwiseSolutions>,
     coordinates: &Coordinates,
     x: &[C],
 ) -> bool {
     let pose = coordinates.pose_of(x);
-    let known = |solutions_at_pose: &&mut LegwiseSolutions<C>| {
+    let known = |solutions_at_pose: &&mut LegwiseSolutions| {
         coordinates.same_pose(&solutions_at_pose.pose, pose)
     };
     match legwise.iter_mut().find(known) {
@@ -132,6 +118,6 @@ pub(crate) fn learn(
 }
 
 /// How many solutions legwise solutions stand for.
-pub(crate) fn count<T: Copy>(legwise: &[LegwiseSolutions<T>]) -> usize {
+pub(crate) fn count(legwise: &[LegwiseSolutions]) -> usize {
     legwise.iter().map(LegwiseSolutions::count).sum()
 }

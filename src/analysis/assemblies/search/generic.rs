@@ -2,24 +2,21 @@
 //! monodromy.
 //!
 //! A loop through the family permutes the solutions within each irreducible component (Sommese,
-//! Verschelde and Wampler 2001; Duff et al. 2019). Components are reached by seeds only: the two
-//! operation modes of a 3-RPS never exchange solutions. A solution that few starts of one member lead
-//! to may be what many of another lead to, so seeds are started at every corner of every loop, and what
-//! they find is tracked home by the rest of the loop. Both are repeated until neither finds anything.
+//! Verschelde and Wampler 2001; Duff et al. 2019). Other components are reached by seeds only, as the
+//! two operation modes of a 3-RPS. Seeds are started at every corner of every loop, and what they find
+//! is tracked home by the rest of it, until neither seeds nor loops find anything.
 //!
-//! What a quiet loop says: if some solutions of a component are known and others not, a random element
-//! of the component's monodromy group keeps the known ones among themselves with probability ½ at most
-//! (those that do are a proper subgroup). It says so only if no path was lost: paths that are lost or
-//! that meet are followed again with greater care, and a loop that still is no exchange of places does
-//! not count.
+//! If a component is known in part, a random element of its monodromy group keeps the known solutions
+//! among themselves with probability ½ at most (those that do are a proper subgroup). A loop that lost
+//! a path does not count.
 
 use rand::SeedableRng;
 use rand_pcg::Pcg64;
 
 use super::super::AssembliesSettings;
 use super::seed::{Seed, newton, newton_seeds, solution};
-use super::solutions::{GenericSolutions, pairs};
-use crate::analysis::assemblies::family::{C, Family, LegwiseSolutions, Member, count, learn};
+use super::solutions::GenericSolutions;
+use crate::analysis::assemblies::family::{C, Family, Member, learn};
 use crate::analysis::assemblies::track::{ParameterHomotopy, stands_alone, tracked};
 use crate::number::Number;
 use crate::solve::{Progress, Stage, Watch};
@@ -38,19 +35,11 @@ struct Search<'a> {
     family: &'a Family,
     settings: &'a AssembliesSettings,
     base: Member,
-    legwise: Vec<LegwiseSolutions<C>>,
-    freedom: Option<usize>,
-    seeds: usize,
-    not_isolated: usize,
-    multiple: usize,
-    loops: usize,
-    quiet_seeds: usize,
-    quiet_loops: usize,
+    found: GenericSolutions,
 }
 
-/// Searches a generic member, and where fewer solutions than the bound were found another one: the
-/// loops about one member may miss what those about another find. `None` if a dimension has no value
-/// anywhere near.
+/// Searches a generic member, and another one where fewer solutions than the bound were found. `None`
+/// if a dimension has no value anywhere near.
 pub(crate) fn search(
     family: &Family,
     question: String,
@@ -59,10 +48,10 @@ pub(crate) fn search(
     watch: &Watch,
 ) -> Option<GenericSolutions> {
     let first = search_one(family, &question, bound, settings, watch)?;
-    if first.legwise.is_empty()
+    if first.count() == 0
         || watch.is_stopped()
         || first.exhausted
-        || bound.is_none_or(|bound| count(&first.legwise) >= bound)
+        || bound.is_none_or(|bound| first.count() >= bound)
     {
         return Some(first);
     }
@@ -72,7 +61,7 @@ pub(crate) fn search(
     };
     let second = search_one(family, &question, bound, &other, watch)?;
     let (seeds, loops) = (first.seeds + second.seeds, first.loops + second.loops);
-    let better = match count(&second.legwise) > count(&first.legwise) {
+    let better = match second.count() > first.count() {
         true => second,
         false => first,
     };
@@ -93,39 +82,23 @@ fn search_one(
 ) -> Option<GenericSolutions> {
     let mut rng = generator(settings.seed, 0);
     let base = family.generic_member(&mut rng);
+    let found = GenericSolutions {
+        question: question.to_owned(),
+        parameters: base.parameters.clone(),
+        inputs: base.inputs.clone(),
+        seed: settings.seed,
+        ..GenericSolutions::default()
+    };
     let mut search = Search {
         watch,
         bound,
         family,
         settings,
         base,
-        legwise: Vec::new(),
-        freedom: None,
-        seeds: 0,
-        not_isolated: 0,
-        multiple: 0,
-        loops: 0,
-        quiet_seeds: 0,
-        quiet_loops: 0,
+        found,
     };
-    let exhausted = search.run()?;
-    Some(GenericSolutions {
-        question: question.to_owned(),
-        parameters: pairs(&search.base.parameters),
-        inputs: pairs(&search.base.inputs),
-        legwise: (search.legwise.iter())
-            .map(|solutions_at_pose| solutions_at_pose.map(|z| [z.re, z.im]))
-            .collect(),
-        freedom: search.freedom.unwrap_or(0),
-        seeds: search.seeds,
-        not_isolated: search.not_isolated,
-        multiple: search.multiple,
-        loops: search.loops,
-        quiet_seeds: search.quiet_seeds,
-        quiet_loops: search.quiet_loops,
-        exhausted,
-        seed: settings.seed,
-    })
+    search.found.exhausted = search.run()?;
+    Some(search.found)
 }
 
 /// Seeds started at once at the generic member, and at most at a corner of a loop.
@@ -135,9 +108,9 @@ impl Search<'_> {
     /// Until nothing more is found; whether it ended at its limits, or was stopped, before.
     fn run(&mut self) -> Option<bool> {
         let still = self.family.homotopy(&self.base, &self.base)?;
-        while self.legwise.is_empty() {
-            if self.seeds >= self.settings.hopeless_seeds
-                || self.quiet_seeds >= self.settings.quiet_seeds
+        while self.found.legwise.is_empty() {
+            if self.found.seeds >= self.settings.hopeless_seeds
+                || self.found.quiet_seeds >= self.settings.quiet_seeds
             {
                 return Some(false);
             }
@@ -147,22 +120,22 @@ impl Search<'_> {
             self.newton_seeds(&still);
         }
         loop {
-            while self.quiet_loops < self.enough_loops() {
-                if self.loops >= self.settings.most_loops || self.is_stopped_in_loops() {
+            while self.found.quiet_loops < self.enough_loops() {
+                if self.found.loops >= self.settings.most_loops || self.is_stopped_in_loops() {
                     return Some(true);
                 }
                 self.spread();
             }
-            if self.bound == Some(count(&self.legwise)) {
+            if self.bound == Some(self.found.count()) {
                 return Some(false);
             }
-            while self.quiet_loops > 0 && self.quiet_seeds < self.settings.quiet_seeds {
-                if self.seeds >= self.settings.most_seeds || self.is_stopped_sowing() {
+            while self.found.quiet_loops > 0 && self.found.quiet_seeds < self.settings.quiet_seeds {
+                if self.found.seeds >= self.settings.most_seeds || self.is_stopped_sowing() {
                     return Some(true);
                 }
                 self.newton_seeds(&still);
             }
-            if self.quiet_loops > 0 && !self.close_legs(&still) {
+            if self.found.quiet_loops > 0 && !self.close_legs(&still) {
                 return Some(false);
             }
         }
@@ -176,7 +149,7 @@ impl Search<'_> {
             return false;
         };
         let (coordinates, seed) = (&self.family.coordinates, self.settings.seed);
-        let known: Vec<Vec<C>> = (self.legwise.iter())
+        let known: Vec<Vec<C>> = (self.found.legwise.iter())
             .map(|solutions_at_pose| {
                 solutions_at_pose
                     .spanning_points(coordinates)
@@ -203,11 +176,11 @@ impl Search<'_> {
                 stands_alone(homotopy, C::from_f64(0.0), &x).then_some(x)
             });
             for x in ends.into_iter().flatten() {
-                new |= learn(&mut self.legwise, coordinates, &x);
+                new |= learn(&mut self.found.legwise, coordinates, &x);
             }
         }
         if new {
-            self.quiet_loops = 0;
+            self.found.quiet_loops = 0;
         }
         new
     }
@@ -215,7 +188,7 @@ impl Search<'_> {
     /// Where the known bound is reached, one loop confirms it; below it the end is doubted.
     fn enough_loops(&self) -> usize {
         let quiet = self.settings.quiet_loops.max(1);
-        match self.bound.map(|bound| count(&self.legwise).cmp(&bound)) {
+        match self.bound.map(|bound| self.found.count().cmp(&bound)) {
             Some(std::cmp::Ordering::Equal) => 1,
             Some(_) => quiet + quiet / 2,
             None => quiet,
@@ -223,8 +196,8 @@ impl Search<'_> {
     }
 
     fn is_stopped_sowing(&self) -> bool {
-        let found = count(&self.legwise);
-        (self.watch).stops(Stage::Seeds { found }, self.seeds, None)
+        let found = self.found.count();
+        (self.watch).stops(Stage::Seeds { found }, self.found.seeds, None)
     }
 
     fn is_stopped_in_loops(&self) -> bool {
@@ -234,9 +207,9 @@ impl Search<'_> {
     fn in_loops(&self) -> Progress {
         Progress {
             stage: Stage::Loops {
-                found: count(&self.legwise),
+                found: self.found.count(),
             },
-            done: self.loops,
+            done: self.found.loops,
             of: None,
         }
     }
@@ -245,24 +218,28 @@ impl Search<'_> {
     /// solutions they ended at. `reach` is that of the member's inputs; only what is multiple with the
     /// mechanism's `own` dimensions counts.
     fn seeds(&mut self, still: &ParameterHomotopy<'_>, reach: f64, own: bool) -> Vec<Vec<C>> {
-        let (first, seed) = (self.seeds, self.settings.seed);
+        let (first, seed) = (self.found.seeds, self.settings.seed);
         let ends = crate::solve::each(BATCH, still, |homotopy, i| {
             let mut rng = generator(seed, 1 + (((first + i) as u64) << 1));
             // most solutions are near, some far out
             let further = [1.0, 2.0, 1.0, 4.0][(first + i) % 4];
             newton_seeds(homotopy, reach * further, &mut rng)
         });
-        self.seeds += BATCH;
+        self.found.seeds += BATCH;
         let mut isolated = Vec::new();
         for end in ends {
             match end {
                 Seed::Nothing => {}
-                Seed::Multiple => self.multiple += usize::from(own),
+                Seed::Multiple => self.found.multiple += usize::from(own),
                 Seed::Isolated(x) => isolated.push(x),
                 Seed::Free(freedom) => {
-                    self.not_isolated += 1;
-                    self.quiet_seeds += 1;
-                    self.freedom = Some(self.freedom.map_or(freedom, |f| f.min(freedom)));
+                    let found = &mut self.found;
+                    found.freedom = match found.not_isolated {
+                        0 => freedom,
+                        _ => found.freedom.min(freedom),
+                    };
+                    found.not_isolated += 1;
+                    found.quiet_seeds += 1;
                 }
             }
         }
@@ -272,9 +249,9 @@ impl Search<'_> {
     /// Seeds at the generic member.
     fn newton_seeds(&mut self, still: &ParameterHomotopy<'_>) {
         for x in self.seeds(still, 1.0, true) {
-            match learn(&mut self.legwise, &self.family.coordinates, &x) {
-                true => (self.quiet_seeds, self.quiet_loops) = (0, 0),
-                false => self.quiet_seeds += 1,
+            match learn(&mut self.found.legwise, &self.family.coordinates, &x) {
+                true => (self.found.quiet_seeds, self.found.quiet_loops) = (0, 0),
+                false => self.found.quiet_seeds += 1,
             }
         }
     }
@@ -282,14 +259,12 @@ impl Search<'_> {
     /// One loop through two other random members, followed by every known solution and by what
     /// seeds find there.
     fn spread(&mut self) {
-        self.loops += 1;
-        let mut rng = generator(self.settings.seed, (self.loops as u64) << 1);
-        // some loops change dimensions too, at several times the cost: at special dimensions the inputs
-        // alone may not exchange all solutions
-        let resize = self.loops.is_multiple_of(6) || self.base.inputs.is_empty();
-        // small loops go round few of the places where solutions meet, and solutions far out meet at
-        // inputs far out
-        let reach = [1.0, 2.0, 8.0, 4.0, 16.0][self.loops % 5];
+        self.found.loops += 1;
+        let mut rng = generator(self.settings.seed, (self.found.loops as u64) << 1);
+        // at special dimensions the inputs alone may not exchange all solutions
+        let resize = self.found.loops.is_multiple_of(6) || self.base.inputs.is_empty();
+        // small loops go round few branch points, and solutions far out meet at inputs far out
+        let reach = [1.0, 2.0, 8.0, 4.0, 16.0][self.found.loops % 5];
         let mut member = || Member {
             inputs: self.family.random_inputs(&mut rng, reach),
             parameters: match resize {
@@ -299,7 +274,7 @@ impl Search<'_> {
         };
         let corners = [self.base.clone(), member(), member(), self.base.clone()];
         let coordinates = &self.family.coordinates;
-        let mut points: Vec<Option<Vec<C>>> = (self.legwise.iter())
+        let mut points: Vec<Option<Vec<C>>> = (self.found.legwise.iter())
             .flat_map(|solutions_at_pose| solutions_at_pose.spanning_points(coordinates))
             .map(Some)
             .collect();
@@ -320,14 +295,14 @@ impl Search<'_> {
         let mut new = false;
         for x in points.into_iter().flatten() {
             match stands_alone(&mut still, C::from_f64(0.0), &x) {
-                true => new |= learn(&mut self.legwise, coordinates, &x),
+                true => new |= learn(&mut self.found.legwise, coordinates, &x),
                 // other dimensions may have solutions that meet, or go away, at the mechanism's own
                 false => whole &= resize,
             }
         }
         match (new, whole) {
-            (true, _) => self.quiet_loops = 0,
-            (false, true) => self.quiet_loops += 1,
+            (true, _) => self.found.quiet_loops = 0,
+            (false, true) => self.found.quiet_loops += 1,
             (false, false) => {}
         }
     }
@@ -347,10 +322,10 @@ impl Search<'_> {
         for x in self.seeds(homotopy, reach, own) {
             match learn(&mut known, coordinates, &x) {
                 true => {
-                    self.quiet_seeds = 0;
+                    self.found.quiet_seeds = 0;
                     points.push(Some(x));
                 }
-                false => self.quiet_seeds += 1,
+                false => self.found.quiet_seeds += 1,
             }
         }
     }

@@ -30,9 +30,8 @@ pub(crate) fn newton() -> Newton {
     }
 }
 
-/// The solution that Newton's method ended at. Far out, where coordinates are tens of
-/// characteristic lengths, rounding keeps residuals above its tolerance; there the last digits
-/// tell.
+/// The solution that Newton's method ended at. Far out rounding keeps residuals above its tolerance;
+/// there the last digits tell.
 pub(crate) fn solution(
     homotopy: &mut ParameterHomotopy<'_>,
     report: &Report,

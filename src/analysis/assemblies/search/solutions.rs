@@ -5,15 +5,15 @@ use serde::{Deserialize, Serialize};
 use crate::analysis::assemblies::family::{C, LegwiseSolutions, Member, count};
 
 /// All solutions of a generic member, kept to be tracked to any inputs.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct GenericSolutions {
     /// Names of the mechanism and its joints, values of its parameters and what is held: the
     /// solutions serve no other question.
     pub(crate) question: String,
-    pub(crate) parameters: Vec<[f64; 2]>,
-    pub(crate) inputs: Vec<[f64; 2]>,
+    pub(crate) parameters: Vec<C>,
+    pub(crate) inputs: Vec<C>,
     #[serde(rename = "stances")]
-    pub(crate) legwise: Vec<LegwiseSolutions<[f64; 2]>>,
+    pub(crate) legwise: Vec<LegwiseSolutions>,
     /// Freedom left when the inputs are held: the least dimension of a set of solutions that was
     /// met, 0 if there was none. There may be isolated solutions beside it.
     pub freedom: usize,
@@ -36,29 +36,16 @@ pub struct GenericSolutions {
     pub seed: u64,
 }
 
-pub(crate) fn pairs(x: &[C]) -> Vec<[f64; 2]> {
-    x.iter().map(|z| [z.re, z.im]).collect()
-}
-
-fn numbers(x: &[[f64; 2]]) -> Vec<C> {
-    x.iter().map(|z| C::new(z[0], z[1])).collect()
-}
-
 impl GenericSolutions {
     /// How many isolated complex solutions a generic member has.
     pub fn count(&self) -> usize {
         count(&self.legwise)
     }
 
-    pub(crate) fn legwise(&self) -> Vec<LegwiseSolutions<C>> {
-        let number = |z: [f64; 2]| C::new(z[0], z[1]);
-        self.legwise.iter().map(|s| s.map(number)).collect()
-    }
-
     pub(crate) fn member(&self) -> Member {
         Member {
-            parameters: numbers(&self.parameters),
-            inputs: numbers(&self.inputs),
+            parameters: self.parameters.clone(),
+            inputs: self.inputs.clone(),
         }
     }
 }

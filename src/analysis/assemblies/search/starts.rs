@@ -5,10 +5,9 @@ use std::ops::Range;
 use rand::SeedableRng;
 use rand_pcg::Pcg64;
 
-use crate::analysis::assemblies::family::{C, Family};
+use crate::analysis::assemblies::family::Family;
 use crate::geometry::Quaternion;
 use crate::mechanism::Configuration;
-use crate::number::Number;
 use crate::solve::{Newton, Stage, Stop, Watch};
 use crate::system::System;
 
@@ -40,8 +39,7 @@ fn started(family: &Family, asked: &Configuration<f64>, number: usize) -> Config
     }
     let mut rng = Pcg64::seed_from_u64(number as u64);
     let c = &family.coordinates;
-    let mut lifted = asked.map(C::from_f64);
-    c.unflatten(&family.random_point(&mut rng, 1.0), &mut lifted);
+    let lifted = c.placed(&family.random_point(&mut rng, 1.0), asked);
     for &j in &c.free_joints {
         point.joints[j] = lifted.joints[j].re;
     }

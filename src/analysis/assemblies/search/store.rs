@@ -14,27 +14,18 @@ const TITLE: &str = "linkwork generic solutions, version ";
 const VERSION: u32 = 2;
 
 /// What is wrong with stored solutions.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum StoredError {
     /// The text is something else.
+    #[error("it is something else")]
     SomethingElse,
     /// The text was written by a linkwork that stores solutions in another form.
+    #[error("another version of linkwork wrote them in another form")]
     OtherVersion,
     /// The text was changed or cut short after it was written.
+    #[error("they are cut short or changed since they were written")]
     Damaged,
 }
-
-impl std::fmt::Display for StoredError {
-    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        f.write_str(match self {
-            StoredError::SomethingElse => "it is something else",
-            StoredError::OtherVersion => "another version of linkwork wrote them in another form",
-            StoredError::Damaged => "they are cut short or changed since they were written",
-        })
-    }
-}
-
-impl std::error::Error for StoredError {}
 
 impl GenericSolutions {
     /// Reads the text written by [`GenericSolutions::to_text`].
@@ -60,9 +51,7 @@ impl GenericSolutions {
         let body = ron::to_string(self).expect("lists of numbers have a RON form") + "\n";
         format!("{}\n{body}", title(self, &body))
     }
-}
 
-impl GenericSolutions {
     /// Whether the generic member is assembled at every solution.
     pub(crate) fn solves(&self, family: &Family) -> bool {
         let member = self.member();
@@ -70,24 +59,19 @@ impl GenericSolutions {
             return false;
         };
         // the others are combinations of these
-        let shown = self.legwise();
-        let mut shown = (shown.iter()).flat_map(|s| s.spanning_points(&family.coordinates));
+        let mut shown = (self.legwise.iter()).flat_map(|s| s.spanning_points(&family.coordinates));
         shown.all(|x| homotopy.linearise(C::from_f64(0.0), &x) <= 1e-9 * (1.0 + size(&x).powi(2)))
     }
 }
 
 /// What stored solutions belong to: names to be read by people, and a mark of all dimensions.
 pub(crate) fn question(mechanism: &Mechanism, family: &Family) -> String {
-    let c = &family.coordinates;
     let all = format!(
-        "{:?} {:?} {:?} {:?} {:?} {:?} {:?}",
+        "{:?} {:?} {:?} {:?}",
         mechanism.dimensions(),
         mechanism.home(),
         mechanism.parameters(),
-        c.held_joints,
-        c.held_poses,
-        c.targets,
-        c.orientations,
+        family.coordinates.inputs,
     );
     // FNV-1a (Fowler, Noll and Vo 1991)
     let mark = all.bytes().fold(0xcbf2_9ce4_8422_2325_u64, |mark, byte| {

@@ -1,4 +1,4 @@
-//! Solutions tracked along a path through the family.
+//! Solutions tracked along one edge of a monodromy loop.
 
 use super::homotopy::ParameterHomotopy;
 use crate::analysis::assemblies::family::{C, size};
@@ -9,9 +9,9 @@ use crate::solve::{Arrival, Homotopy, Progress, Stages, Tracker, Watch};
 /// thousands of characteristic lengths away for all inputs, and farther on the way.
 const FARTHEST: f64 = 1e6;
 
-/// Carries solutions along a way. Those that are lost and those that share an end, of which all but
-/// one have jumped, are followed again with greater care; what cannot be told is `None`, as are
-/// those that were not followed when the work was stopped.
+/// Tracks solutions from s = 0 to 1. Lost paths, and paths that share an endpoint (all but one have
+/// jumped), are tracked again with smaller corrections; `None` where that does not help or the work
+/// was stopped.
 pub(crate) fn tracked(
     homotopy: &ParameterHomotopy<'_>,
     points: &mut [Option<Vec<C>>],
@@ -20,15 +20,11 @@ pub(crate) fn tracked(
     let coordinates = &homotopy.family.coordinates;
     let starts: Vec<Option<Vec<C>>> = points.to_vec();
     let mut waiting: Vec<usize> = (0..starts.len()).filter(|&i| starts[i].is_some()).collect();
-    for care in [1.0, 0.1, 0.01] {
-        let tracker = Tracker {
-            largest: FARTHEST,
-            ..Tracker::default()
-        };
-        let tracker = match care {
-            1.0 => tracker,
-            _ => tracker.tightened(care),
-        };
+    let plain = Tracker {
+        largest: FARTHEST,
+        ..Tracker::default()
+    };
+    for tracker in [plain.clone(), plain.tightened(0.1), plain.tightened(0.01)] {
         let ends = crate::solve::each(waiting.len(), homotopy, |homotopy, k| {
             match watch.at(now).is_break() {
                 true => None,
@@ -55,9 +51,8 @@ pub(crate) fn tracked(
 
 fn follow(homotopy: &mut ParameterHomotopy<'_>, tracker: &Tracker, from: &[C]) -> Option<Vec<C>> {
     let mut x = from.to_vec();
-    let whole = (C::from_f64(0.0), C::from_f64(1.0));
-    let track = tracker.track(homotopy, whole, &mut x, &mut Stages::new(from.len()));
-    let end = whole.1;
+    let (start, end) = (C::from_f64(0.0), C::from_f64(1.0));
+    let track = tracker.track(homotopy, (start, end), &mut x, &mut Stages::new(from.len()));
     (track.arrival == Arrival::There && polish(homotopy, end, &mut x)).then_some(x)
 }
 

@@ -1,4 +1,4 @@
-//! The parameter value where two real solutions meet, to full precision.
+//! Turning points of a real path, to full precision.
 
 use super::homotopy::ParameterHomotopy;
 use crate::analysis::assemblies::family::C;
@@ -9,7 +9,7 @@ use crate::number::Number;
 pub(crate) struct Meeting {
     pub s: f64,
     pub x: Vec<C>,
-    /// Whether the solutions turn back there: beyond they are complex. Otherwise they cross.
+    /// Whether it is a turning point, beyond which the solutions are complex. Otherwise they cross.
     pub turns_back: bool,
 }
 
@@ -20,19 +20,17 @@ fn linear(homotopy: &mut ParameterHomotopy<'_>, s: f64, x: &[C]) -> (Vec<f64>, V
     (real(residual), real(jacobian))
 }
 
-/// The slope of a function at the middle of two places, 2·`STEP` apart.
 const STEP: f64 = 1e-5;
+
+/// Central difference over 2·`STEP`.
 fn slope(after: &[f64], before: &[f64]) -> Vec<f64> {
     let pairs = after.iter().zip(before);
     pairs.map(|(a, b)| (a - b) / (2.0 * STEP)).collect()
 }
 
-/// The meeting near a real point of a way, by Newton's method for x and s on
-///
-/// h(x, s) = 0, wᵢᵀ J(x, s) v = 0
-///
-/// with the null vectors v and w that J has with one singular value fewer, renewed in every step
-/// (Griewank and Reddien 1984). `None` if there is none nearby.
+/// The singular point near a real point of a path, by Newton's method for x and s on h(x, s) = 0 and
+/// wᵢᵀ J(x, s) v = 0, with null vectors v and w of J at rank n − 1, renewed in every step (Griewank and
+/// Reddien 1984). `None` if there is none nearby.
 pub(crate) fn located(
     homotopy: &mut ParameterHomotopy<'_>,
     mut s: f64,
@@ -56,12 +54,12 @@ pub(crate) fn located(
         let later = linear(homotopy, s + STEP, &x);
         let earlier = linear(homotopy, s - STEP, &x);
         let rate = slope(&later.0, &earlier.0);
-        let ahead = |homotopy: &mut ParameterHomotopy<'_>, length: f64, x: &[C]| {
+        let mut ahead = |length: f64| {
             let step: Vec<C> = v.iter().map(|v| C::from_f64(v * length)).collect();
-            let at = homotopy.moved(C::from_f64(s), x, &step);
+            let at = homotopy.moved(C::from_f64(s), &x, &step);
             linear(homotopy, s, &at).1
         };
-        let bent = slope(&ahead(homotopy, STEP, &x), &ahead(homotopy, -STEP, &x));
+        let bent = slope(&ahead(STEP), &ahead(-STEP));
         let swept = slope(&later.1, &earlier.1);
         let times = |matrix: &[f64]| -> Vec<f64> {
             let columns = || matrix.chunks_exact(rows);

@@ -1,20 +1,20 @@
-//! The straight way between two members of a family.
+//! Straight-line homotopy between two members of a family.
 
 use super::member::{MemberEquations, Segment};
-use crate::analysis::assemblies::family::{C, Family, Member};
+use crate::analysis::assemblies::family::{C, Family, Member, size};
 use crate::geometry::{Quaternion, Vector3};
-use crate::linear::ILL_CONDITIONED;
 use crate::number::Number;
 use crate::solve::{Equations, Homotopy};
 
 impl Family {
-    /// The way from one member to another. `None` if an expression has no value at the start.
+    /// The homotopy from one member to another. `None` if an expression has no value at the start.
     pub fn homotopy(&self, from: &Member, to: &Member) -> Option<ParameterHomotopy<'_>> {
         let course = Segment::new(from, to);
         let here = MemberEquations::start(self, &course)?;
         let rows = vec![C::from_f64(0.0); here.system.rows()];
         Some(ParameterHomotopy {
             family: self,
+            stops_where_open: false,
             rates: rows.clone(),
             residual: rows,
             here,
@@ -24,13 +24,16 @@ impl Family {
     }
 }
 
-/// A straight way between two members, s from 0 to 1, with storage for following it.
+/// A straight-line homotopy, s from 0 to 1, with storage for tracking.
 #[derive(Clone, Debug)]
 pub(crate) struct ParameterHomotopy<'f> {
     pub family: &'f Family,
+    /// Whether corrections fail where the closures stay open. Beyond a fold nothing closes, but where
+    /// the Jacobian is singular the least-squares step takes no notice of the gap that is left.
+    pub stops_where_open: bool,
     /// Where the equations were last evaluated.
     pub here: MemberEquations,
-    /// A little ahead of it, for the rate at which the residual changes on the way.
+    /// A little ahead of it, for ∂h/∂s.
     ahead: Option<Box<MemberEquations>>,
     rates: Vec<C>,
     residual: Vec<C>,
@@ -46,20 +49,15 @@ impl ParameterHomotopy<'_> {
     /// Evaluates and factorises at a point; returns the largest residual.
     pub fn linearise(&mut self, s: C, x: &[C]) -> f64 {
         self.load(s, x);
-        let size = self
-            .here
-            .system
-            .linearise(&self.here.at, &mut self.here.work);
+        let largest = self.here.linearise();
         self.here.system.factorise(0.0, &mut self.here.work);
-        size.largest
+        largest
     }
 
     /// Quotient of the smallest and the largest pivot of the Jacobian at a point.
     pub fn regularity(&mut self, s: C, x: &[C]) -> f64 {
         self.load(s, x);
-        self.here
-            .system
-            .linearise(&self.here.at, &mut self.here.work);
+        self.here.linearise();
         let (largest, smallest) = self.here.system.pivots(&mut self.here.work);
         if largest > 0.0 {
             smallest / largest
@@ -70,33 +68,34 @@ impl ParameterHomotopy<'_> {
 
     /// How far it is: the largest change of an input, in rad or characteristic lengths.
     pub fn length(&self) -> f64 {
-        self.measured(&self.course.change.inputs, |_| true)
+        self.measured(&self.course.change.inputs)
+            .fold(0.0, f64::max)
     }
 
     /// The largest length held at the end, in characteristic lengths, and no less than 1.
     pub fn reach(&self) -> f64 {
-        let inputs = self
-            .course
-            .from
-            .inputs
-            .iter()
-            .zip(&self.course.change.inputs);
-        let end: Vec<C> = inputs.map(|(a, d)| a + d).collect();
-        self.measured(&end, |length| length).max(1.0)
+        let (from, change) = (&self.course.from.inputs, &self.course.change.inputs);
+        let end: Vec<C> = from.iter().zip(change).map(|(a, d)| a + d).collect();
+        let lengths = self.family.lengths_among_inputs();
+        let sizes = self.measured(&end).zip(lengths);
+        sizes.fold(
+            1.0,
+            |most, (size, length)| if length { size.max(most) } else { most },
+        )
     }
 
-    /// The largest of inputs, lengths or not, of those wanted.
-    fn measured(&self, inputs: &[C], wanted: impl Fn(bool) -> bool) -> f64 {
-        let unit = |length: &bool| {
-            if *length {
+    /// Absolute values of inputs, in rad or characteristic lengths.
+    fn measured(&self, inputs: &[C]) -> impl Iterator<Item = f64> {
+        let lengths = self.family.lengths_among_inputs().into_iter();
+        let unit = |length| {
+            if length {
                 self.family.coordinates.length
             } else {
                 1.0
             }
         };
-        let lengths = self.family.lengths_among_inputs();
-        let inputs = inputs.iter().zip(&lengths).filter(|(_, l)| wanted(**l));
-        (inputs.map(|(x, l)| (x / unit(l)).norm())).fold(0.0, f64::max)
+        let sizes = inputs.iter().zip(lengths);
+        sizes.map(move |(x, length)| (x / unit(length)).norm())
     }
 
     /// Number of dimensionless steps that move a point.
@@ -107,14 +106,10 @@ impl ParameterHomotopy<'_> {
     /// Residual and dense Jacobian at a point, column-major.
     pub fn evaluated(&mut self, s: C, x: &[C]) -> (Vec<C>, Vec<C>) {
         self.load(s, x);
-        self.here
-            .system
-            .linearise(&self.here.at, &mut self.here.work);
+        self.here.linearise();
         let jacobian = self.here.system.dense_jacobian(&mut self.here.work);
-        (
-            self.here.system.residual_of(&self.here.work).to_vec(),
-            jacobian,
-        )
+        let residual = self.here.system.residual_of(&self.here.work);
+        (residual.to_vec(), jacobian)
     }
 
     /// A point moved by dimensionless steps of the unknowns.
@@ -134,9 +129,8 @@ impl ParameterHomotopy<'_> {
         self.here.system.difference(&from, &self.here.at)
     }
 
-    /// How far two points are apart as the closures see it at the first one: |J (y − x)|, each row
-    /// beside its slopes where these exceed 1. Two approximations of one solution differ by no more
-    /// than rounding there, however badly the solution is determined.
+    /// |J (y − x)| at the first point, each row relative to its norm where that exceeds 1: rounding for
+    /// two approximations of one solution, however ill-conditioned it is.
     pub fn seen_apart(&mut self, s: C, x: &[C], y: &[C]) -> f64 {
         let y = self.family.coordinates.beside(x, y);
         let step = self.step_between(s, x, &y);
@@ -148,11 +142,11 @@ impl ParameterHomotopy<'_> {
             let slopes: f64 = columns().map(|column| column[r].norm_sqr()).sum();
             along.norm() / slopes.sqrt().max(1.0)
         });
-        seen.fold(0.0, f64::max) / (1.0 + crate::analysis::assemblies::family::size(x))
+        seen.fold(0.0, f64::max) / (1.0 + size(x))
     }
 
-    /// A point moved by what an error in every closure of `noise`, beside its slopes and the size
-    /// of the point, does to a solution there. None if the closures leave an unknown undetermined.
+    /// A solution moved by J⁺ e, where e is an error of every closure of size `noise` relative to its
+    /// row norm and the size of the point. None if J loses rank.
     pub fn jolted(&mut self, s: C, x: &[C], noise: f64, stream: usize) -> Option<Vec<C>> {
         let (residual, jacobian) = self.evaluated(s, x);
         let rows = residual.len();
@@ -161,8 +155,7 @@ impl ParameterHomotopy<'_> {
                 let slopes = jacobian
                     .chunks_exact(rows)
                     .map(|column| column[r].norm_sqr());
-                let size = slopes.sum::<f64>().sqrt().max(1.0)
-                    * (1.0 + crate::analysis::assemblies::family::size(x));
+                let size = slopes.sum::<f64>().sqrt().max(1.0) * (1.0 + size(x));
                 // directions without symmetry, the same in every run
                 C::from_polar(
                     noise * size,
@@ -180,39 +173,15 @@ impl ParameterHomotopy<'_> {
         longest.is_finite().then(|| self.moved(s, x, &step))
     }
 
-    /// Quotient of the largest and the smallest singular value of the Jacobian at a point, if it is
-    /// not singular.
-    pub fn condition(&mut self, s: C, x: &[C]) -> Option<f64> {
-        let (residual, jacobian) = self.evaluated(s, x);
-        let columns = self.unknowns();
-        if columns == 0 {
-            return Some(1.0);
-        }
-        let matrix = nalgebra::DMatrix::from_vec(residual.len(), columns, jacobian);
-        let values = (residual.len() >= columns).then(|| matrix.singular_values())?;
-        (values.min() > ILL_CONDITIONED * values.max()).then(|| values.max() / values.min())
-    }
-
     /// How many directions are free at a point.
     pub fn freedom(&mut self, s: C, x: &[C], tolerance: f64) -> usize {
         self.load(s, x);
-        self.here
-            .system
-            .linearise(&self.here.at, &mut self.here.work);
+        self.here.linearise();
         self.here.system.nullity(tolerance, &mut self.here.work)
     }
 
-    /// dx/ds = −J⁺ ∂h/∂s by the factors last made. The residual is analytic in s, so a difference
-    /// over 1e-7 is as good as a derivative for a prediction.
-    fn velocity_by_factors(&mut self, s: C, x: &[C], out: &mut [C]) -> bool {
-        self.load(s, x);
-        self.here
-            .system
-            .residual(&self.here.at, &mut self.here.work);
-        self.velocity_from_residual(s, x, out)
-    }
-
-    /// The same where the residual was evaluated last.
+    /// dx/ds = −J⁺ ∂h/∂s by the factors last made and the residual last evaluated. A forward difference
+    /// over 1e-7 is good enough for a prediction.
     fn velocity_from_residual(&mut self, s: C, x: &[C], out: &mut [C]) -> bool {
         const APART: f64 = 1e-7;
         let here = &mut self.here;
@@ -259,12 +228,19 @@ impl Homotopy for ParameterHomotopy<'_> {
     }
 
     fn velocity_again(&mut self, s: C, x: &[C], out: &mut [C]) -> bool {
-        self.here.sound && self.velocity_by_factors(s, x, out)
+        self.load(s, x);
+        self.here.residual();
+        self.here.sound && self.velocity_from_residual(s, x, out)
     }
 
     fn correct(&mut self, s: C, x: &mut [C]) -> f64 {
+        /// A gap is that much larger than a step that leaves it open; slopes are near 1.
+        const UNSEEN: f64 = 1e3;
+        /// What rounding leaves of a gap.
+        const ROUNDING: f64 = 1e-10;
+        let gap = self.linearise(s, x);
         // an angle so far out that its sine has no number gives no pivots, and steps of zero
-        if !self.linearise(s, x).is_finite() {
+        if !gap.is_finite() {
             return f64::NAN;
         }
         let longest = self.here.system.step(&mut self.here.work);
@@ -302,15 +278,16 @@ impl Homotopy for ParameterHomotopy<'_> {
             }
             largest = largest.max(moved / size);
         }
-        largest.sqrt()
+        let step = largest.sqrt();
+        match self.stops_where_open && gap > ROUNDING && gap > UNSEEN * step {
+            true => f64::NAN,
+            false => step,
+        }
     }
 
     fn residual(&mut self, s: C, x: &[C]) -> f64 {
         self.load(s, x);
-        self.here
-            .system
-            .residual(&self.here.at, &mut self.here.work)
-            .largest
+        self.here.residual()
     }
 }
 

@@ -1,10 +1,8 @@
-//! What the solutions look like about a point where the Jacobian loses rank: one solution that is
-//! multiple, or a set of some dimension.
+//! Local structure where the Jacobian loses rank: a multiple solution, or a set of some dimension.
 //!
-//! The dimension is that of the solutions reached by Gauss–Newton steps of least length from beside
-//! a point of the set that is not special. (Where branches meet, the span of what is near would be
-//! too large; so a neighbour is looked at, and of several the one with the most freedom counts.)
-//! Nothing infinitesimal is taken for a motion: a multiple solution attracts what starts beside it.
+//! The local dimension is that spanned by solutions which Gauss–Newton steps reach from beside a
+//! neighbour of the point (at the point itself branches may meet). A null vector is not taken for a
+//! motion: a multiple solution attracts what starts beside it.
 
 use nalgebra::{DMatrix, DVector};
 
@@ -13,20 +11,18 @@ use crate::analysis::assemblies::family::{C, size};
 use crate::linear::Svd;
 use crate::number::Number;
 
-/// Directions this small beside the largest singular value may be free.
+/// Singular values this small relative to the largest may be zero.
 const SUSPECT: f64 = 1e-5;
-/// How far beside a point its neighbours are sought, and beside these theirs.
+/// Distance of neighbours of a point, and of their neighbours.
 const BESIDE: [f64; 2] = [0.03, 2e-3];
-/// What comes back to within this part of the distance it was moved has not stayed where it was
-/// put.
+/// What comes back to within this part of the distance it was moved has returned.
 const BACK: f64 = 0.1;
-/// Points looked at beside the first one.
 const NEIGHBOURS: u64 = 4;
 /// The end of the homotopy, where the target inputs are.
 const END: f64 = 1.0;
 
-/// The equations at the target inputs, looked at as real ones: at real points the complex ones with
-/// their imaginary halves left out, elsewhere real and imaginary parts one after the other.
+/// The equations at the target inputs as real ones: about real points the real parts, elsewhere real
+/// and imaginary parts one after the other.
 pub(crate) struct Local<'a, 'f> {
     homotopy: &'a mut ParameterHomotopy<'f>,
     real: bool,
@@ -49,8 +45,7 @@ impl Linear {
         self.values.iter().filter(counts).count()
     }
 
-    /// Of the vectors nearest to a solution of J x = b the shortest, seen by `rank` singular
-    /// values.
+    /// J⁺ b with `rank` singular values.
     fn solve(&self, b: &DVector<f64>, rank: usize) -> DVector<f64> {
         let mut x = DVector::zeros(self.jacobian.ncols());
         for i in 0..rank {
@@ -59,14 +54,14 @@ impl Linear {
         x
     }
 
-    /// A unit basis of what `rank` singular values leave.
+    /// Orthonormal basis of the null space at that rank.
     fn null_space(&self, rank: usize) -> DMatrix<f64> {
         self.right
             .columns(rank, self.right.ncols() - rank)
             .into_owned()
     }
 
-    /// What of a vector no motion can change.
+    /// Part of vectors outside the range of J at that rank.
     fn unseen(&self, b: DMatrix<f64>, rank: usize) -> DMatrix<f64> {
         let range = self.left.columns(0, rank);
         let along = range.transpose() * &b;
@@ -112,7 +107,6 @@ impl<'a, 'f> Local<'a, 'f> {
         if free == 0 {
             return 0;
         }
-        let columns = linear.jacobian.ncols();
         let mut steps = Vec::new();
         for k in 0..free as u64 + 3 {
             let Some(beside) = self.beside(x, 16 * (stream + 1) + k, BESIDE[1]) else {
@@ -125,22 +119,16 @@ impl<'a, 'f> Local<'a, 'f> {
         if steps.is_empty() {
             return 0;
         }
-        let moves = DMatrix::from_columns(&steps);
-        let values = moves.singular_values();
+        let values = DMatrix::from_columns(&steps).singular_values();
         let rank = values.iter().filter(|v| **v > BACK).count();
-        debug_assert!(rank <= columns);
         match self.real {
             true => rank,
             false => rank.div_ceil(2),
         }
     }
 
-    /// A multiple solution to full precision: where the equations in the range of the Jacobian
-    /// hold, and the others have no slope. `x` itself where that is not within reach.
-    ///
-    /// For null vectors v and what P of the equations no motion changes to first order, a fold has
-    /// P J v = 0, which one more derivative makes regular (deflation; Leykin, Verschelde and Zhao
-    /// 2006).
+    /// A multiple solution to full precision, by deflation: P J v = 0 for null vectors v and the
+    /// projection P off the range of J (Leykin, Verschelde and Zhao 2006). `x` where that fails.
     pub fn refined(&mut self, x: &[C]) -> Vec<C> {
         const STEPS: usize = 4;
         const APART: f64 = 1e-4;
@@ -187,9 +175,8 @@ impl<'a, 'f> Local<'a, 'f> {
         at
     }
 
-    /// How many solutions meet at an isolated solution, at least: 1 where the Jacobian is regular.
-    /// With one direction lost it is the order to which the equations vanish along it; with k lost
-    /// no fewer than 2ᵏ meet.
+    /// Multiplicity of an isolated solution, at least: at corank 1 the order to which the equations
+    /// vanish along the null vector, at corank k no less than 2ᵏ.
     pub fn order(&mut self, x: &[C]) -> usize {
         const STEP: f64 = 0.02;
         let linear = self.linear(x);
@@ -221,8 +208,7 @@ impl<'a, 'f> Local<'a, 'f> {
 
     /// The solution that Gauss–Newton steps reach from beside a point.
     fn beside(&mut self, x: &[C], stream: u64, distance: f64) -> Option<Vec<C>> {
-        let columns = self.linear_columns(x);
-        let step = DVector::from_fn(columns, |i, _| distance * shake(stream, i));
+        let step = DVector::from_fn(self.columns(), |i, _| distance * shake(stream, i));
         let start = self.moved(x, &step);
         self.settled(start)
     }
@@ -263,7 +249,7 @@ impl<'a, 'f> Local<'a, 'f> {
         (error <= TOLERANCE).then_some(at)
     }
 
-    /// Directions that are lost at a point; complex ones count once.
+    /// Corank; complex directions count once.
     fn freedom(&self, linear: &Linear, tolerance: f64) -> usize {
         let lost = linear.values.len() - linear.rank(tolerance);
         match self.real {
@@ -272,13 +258,13 @@ impl<'a, 'f> Local<'a, 'f> {
         }
     }
 
-    fn gap(&self, x: &[C], y: &[C]) -> f64 {
-        self.homotopy.family.coordinates.difference(x, y)
+    /// Number of real unknowns.
+    fn columns(&self) -> usize {
+        self.homotopy.unknowns() * if self.real { 1 } else { 2 }
     }
 
-    fn linear_columns(&self, _: &[C]) -> usize {
-        let unknowns = self.homotopy.unknowns();
-        if self.real { unknowns } else { 2 * unknowns }
+    fn gap(&self, x: &[C], y: &[C]) -> f64 {
+        self.homotopy.family.coordinates.difference(x, y)
     }
 
     fn moved(&mut self, x: &[C], step: &DVector<f64>) -> Vec<C> {
@@ -293,11 +279,11 @@ impl<'a, 'f> Local<'a, 'f> {
 
     fn step_between(&mut self, x: &[C], y: &[C]) -> DVector<f64> {
         let step = self.homotopy.step_between(C::from_f64(END), x, y);
-        let (n, columns) = (step.len(), self.linear_columns(x));
-        DVector::from_fn(
-            columns,
-            |i, _| if i < n { step[i].re } else { step[i - n].im },
-        )
+        let n = step.len();
+        DVector::from_fn(self.columns(), |i, _| match i < n {
+            true => step[i].re,
+            false => step[i - n].im,
+        })
     }
 
     /// Residual and Jacobian as real numbers.

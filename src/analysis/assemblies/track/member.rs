@@ -1,8 +1,9 @@
-//! The equations of the member at one parameter value of a homotopy.
+//! The equations at one parameter value of a homotopy.
 
-use crate::analysis::assemblies::family::{C, Family, Member};
+use crate::analysis::assemblies::family::{C, Family, Input, Member};
 use crate::geometry::{Quaternion, Vector3};
 use crate::mechanism::{Configuration, PlatformPose};
+use crate::solve::Equations;
 use crate::system::{System, Work};
 
 /// The straight segment from one member to another: its start and the difference.
@@ -10,7 +11,7 @@ use crate::system::{System, Work};
 pub(crate) struct Segment {
     pub from: Member,
     pub change: Member,
-    /// Whether dimensions change on the way; otherwise only inputs do.
+    /// Whether dimensions change; otherwise only inputs do.
     pub resized: bool,
 }
 
@@ -48,7 +49,7 @@ pub(crate) struct MemberEquations {
 }
 
 impl MemberEquations {
-    /// Where a course starts. `None` if an expression has no value there.
+    /// At s = 0. `None` if an expression has no value there.
     pub fn start(family: &Family, course: &Segment) -> Option<Self> {
         let system = family.system(&course.from.parameters)?;
         let mut place = MemberEquations {
@@ -63,7 +64,7 @@ impl MemberEquations {
         Some(place)
     }
 
-    /// On to another place of the course.
+    /// At another s.
     pub fn go(&mut self, family: &Family, course: &Segment, s: C) {
         if self.s == Some(s) {
             return;
@@ -81,26 +82,32 @@ impl MemberEquations {
         for (x, (a, d)) in self.inputs.iter_mut().zip(inputs) {
             *x = a + d * s;
         }
-        let c = &family.coordinates;
-        let (joints, rest) = self.inputs.split_at(c.held_joints.len());
-        for (&j, x) in c.held_joints.iter().zip(joints) {
-            self.at.joints[j] = *x;
+        let quaternion = |x: &[C]| Quaternion([x[0], x[1], x[2], x[3]]).normalised();
+        for (input, x) in family.coordinates.split(&self.inputs) {
+            match input {
+                Input::Joint(j) => self.at.joints[j] = x[0],
+                Input::Pose(p) => {
+                    self.at.platforms[p] = PlatformPose {
+                        orientation: quaternion(x),
+                        position: Vector3([x[4], x[5], x[6]]),
+                    }
+                }
+                Input::Target(p, coordinate) => self.system.set_target(p, coordinate, x[0]),
+                Input::Orientation(p) => {
+                    self.system.set_orientation(p, quaternion(x).rotation());
+                }
+            }
         }
-        let (poses, rest) = rest.split_at(7 * c.held_poses.len());
-        for (&p, x) in c.held_poses.iter().zip(poses.chunks_exact(7)) {
-            self.at.platforms[p] = PlatformPose {
-                orientation: Quaternion([x[0], x[1], x[2], x[3]]).normalised(),
-                position: Vector3([x[4], x[5], x[6]]),
-            };
-        }
-        let (targets, orientations) = rest.split_at(c.targets.len());
-        for (&(p, coordinate), x) in c.targets.iter().zip(targets) {
-            self.system.set_target(p, coordinate, *x);
-        }
-        for (&p, x) in c.orientations.iter().zip(orientations.chunks_exact(4)) {
-            let wanted = Quaternion([x[0], x[1], x[2], x[3]]).normalised();
-            self.system.set_orientation(p, wanted.rotation());
-        }
+    }
+
+    /// Residual and Jacobian at `at`; returns the largest residual.
+    pub fn linearise(&mut self) -> f64 {
+        self.system.linearise(&self.at, &mut self.work).largest
+    }
+
+    /// The largest residual at `at`.
+    pub fn residual(&mut self) -> f64 {
+        self.system.residual(&self.at, &mut self.work).largest
     }
 }
 

@@ -1,4 +1,4 @@
-//! One path: a solution followed to the end of the homotopy, and what it ends in.
+//! One path, tracked to s = 1, and the classification of its endpoint.
 
 use nalgebra::{DMatrix, DVector};
 
@@ -10,15 +10,14 @@ use crate::analysis::assemblies::family::{C, size};
 use crate::number::Number;
 use crate::solve::{Arrival, Homotopy, Newton, PathEnd, Stages, Tracker, path_end};
 
-/// Where one path ended.
+/// Endpoint of a path.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) enum End {
     /// A simple isolated solution.
     Regular(Vec<C>),
     /// A solution where several meet, or that is not isolated.
     Singular(Vec<C>),
-    /// One of two solutions so near to each other that the path could not be followed between them;
-    /// another path ends at the other one.
+    /// One of two regular solutions too near each other to tell which; another path ends at the other.
     Either([Vec<C>; 2]),
     Infinite,
     Lost,
@@ -36,29 +35,27 @@ impl End {
 
 /// Rounding beside the square of the size of a solution.
 const ROUNDING: f64 = 1e-15;
-/// Solutions larger than this count as infinite: rounding errors of ε in the dimensions bring a
-/// solution that is m-fold at infinity back to ε^(−1/m), some 1e4 for m = 4. Held lengths beyond
-/// the characteristic length reach as much further.
+/// Solutions larger than this, times the largest held length, count as infinite: rounding of the
+/// dimensions by ε brings one that is m-fold at infinity back to ε^(−1/m), some 1e4 for m = 4.
 const FAR: f64 = 1e3;
-/// Where the endgame starts, as distance from the end of the way.
+/// Radius 1 − s at which the endgame starts.
 const NEAR_END: f64 = 0.03;
-/// What is no larger than this so near the end and still seems to go to infinity may be two
-/// solutions that meet just before it: circles round the end look alike until they are too small to
-/// hold that.
+/// A path no larger than this where the endgame starts, that still seems to diverge, may meet another
+/// one inside the circle.
 const NEARBY: f64 = 10.0;
-/// Ways longer than this, in rad or characteristic lengths, are gone in parts.
+/// Segments longer than this, in rad or characteristic lengths, are tracked in parts.
 const LONG: f64 = 10.0;
 
-/// A path that was followed.
+/// A tracked path.
 pub(crate) struct Path {
     pub end: End,
-    /// Whether it deserves a second look although it has an end.
+    /// Whether its endpoint is doubtful.
     pub unsure: bool,
     pub steps: usize,
     pub evaluations: usize,
 }
 
-/// Follows one path along a way that is bent to the side by `bend`, through complex s.
+/// Tracks one path along an arc through complex s, bent to the side by `bend`.
 pub(crate) fn follow(
     homotopy: &mut ParameterHomotopy<'_>,
     tracker: &Tracker,
@@ -78,7 +75,7 @@ pub(crate) fn follow(
         };
     let mut from_here = start;
     let mut arrival = Arrival::There;
-    // a long segment is followed in parts, each ten times as long as all before it
+    // each part ten times as long as all before it
     let decades = (homotopy.length() / LONG).log10().ceil().clamp(0.0, 12.0) as i32;
     let mut corners: Vec<C> = (1..=decades)
         .rev()
@@ -102,15 +99,14 @@ pub(crate) fn follow(
                 .then(|| arrived(homotopy, &x))
                 .flatten()
         }
-        // a corner of the way is no special place: only what is far out cannot get there, and does
-        // not come back on a way as long as all before it
+        // a corner is a generic point: only what is far out does not get there
         Arrival::Diverged(_) => Some(End::Infinite),
         Arrival::Stuck(_) if decades > 0 && size(&x) > FAR => Some(End::Infinite),
         Arrival::Stuck(_) => Some(End::Lost),
     };
     let mut unsure = false;
     let end = found.unwrap_or_else(|| {
-        // an end that is not regular: stop short of it and go round
+        // not regular: Cauchy endgame
         let mut x = corner;
         let short = C::from_f64(1.0 - NEAR_END);
         match leg(homotopy, &mut x, &mut stages, from_here, short) {
@@ -132,23 +128,20 @@ pub(crate) fn follow(
     }
 }
 
-/// The solution by itself at the end of the way that a point is at. `None` if there is none, or it
-/// is too far out.
+/// The regular endpoint that a point is at; `None` if there is none, or it is too far out.
 pub(crate) fn arrived(homotopy: &mut ParameterHomotopy<'_>, x: &[C]) -> Option<End> {
     let mut x = x.to_vec();
     (size(&x) <= FAR * homotopy.reach() && settles(homotopy, &mut x)).then_some(End::Regular(x))
 }
 
-/// Newton's method converges there quadratically, as at a simple solution.
+/// Whether Newton's method converges quadratically to a simple solution.
 fn settles(homotopy: &mut ParameterHomotopy<'_>, x: &mut [C]) -> bool {
     let end = C::from_f64(1.0);
     polish(homotopy, end, x) && stands_alone(homotopy, end, x)
 }
 
-/// The two simple solutions on either side of a point where they seem to meet.
-///
-/// With the null vectors v and w that the point has with one singular value fewer, the closures
-/// change along v as w·h + t w·Jv + ½ t² w·(v·∇)Jv, which vanishes at both.
+/// The two simple solutions beside a point where they seem to coincide: the roots t of
+/// w·h + t w·Jv + ½ t² w·(v·∇)Jv for null vectors v and w of J at rank n − 1.
 fn parted(homotopy: &mut ParameterHomotopy<'_>, x: &[C]) -> Option<[Vec<C>; 2]> {
     const STEP: f64 = 1e-4;
     const REACH: f64 = 1e-3;

@@ -1,4 +1,4 @@
-//! Whether a solution is simple, or several that coincide.
+//! Simple and multiple solutions told apart in double precision.
 
 use super::homotopy::ParameterHomotopy;
 use crate::analysis::assemblies::family::{C, size};
@@ -6,18 +6,16 @@ use crate::solve::Homotopy;
 
 /// A larger quotient of pivots than this leaves no doubt.
 const PLAIN: f64 = 1e-4;
-/// An error of a closure, beside its slopes: some tens of roundings.
+/// An error of a closure relative to its row of J: some tens of roundings.
 const NOISE: f64 = 5e-15;
-/// What two approximations of one solution differ by at most, as the closures see it.
+/// Two approximations of one solution differ by no more, multiplied by J.
 const ALIKE: f64 = 4.0 * NOISE;
-/// Two approximations of one solution are not farther apart than this, beside their size.
+/// Two approximations of one solution are not farther apart than this, relative to their size.
 const NEAR: f64 = 1e-4;
 
-/// Whether a solution is simple, as far as double precision can decide.
-///
-/// Errors of the closures as large as rounding move a solution to somewhere beside it. From there
-/// one step of Newton's method returns, if no other solution is as near as that. To where solutions
-/// meet it goes half the way at most, and in a set of solutions it stays.
+/// Whether a solution is simple: one Newton step returns to it from where an error of rounding in the
+/// closures moves it. To a multiple solution it goes half the way at most; in a positive-dimensional
+/// set it stays.
 pub(crate) fn stands_alone(homotopy: &mut ParameterHomotopy<'_>, s: C, x: &[C]) -> bool {
     const TRIES: usize = 3;
     const RETURNED: f64 = 0.3;
@@ -36,7 +34,7 @@ pub(crate) fn stands_alone(homotopy: &mut ParameterHomotopy<'_>, s: C, x: &[C]) 
     })
 }
 
-/// How far another approximation of a solution may be from it.
+/// How far another approximation of a solution may be.
 pub(crate) fn near(x: &[C]) -> f64 {
     NEAR * (1.0 + size(x))
 }

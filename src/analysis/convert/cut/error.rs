@@ -1,14 +1,12 @@
 //! Why a mechanism cannot be cut at a joint.
 
-use std::error::Error;
-use std::fmt::{self, Display, Formatter};
-
 use crate::description::quoted;
 
 /// Why a mechanism is not broken at a joint.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum CutError {
     /// There is no such joint.
+    #[error("there is no joint `{name}`{}", meant(.suggestion.as_deref()))]
     UnknownJoint {
         /// Its name.
         name: String,
@@ -16,36 +14,51 @@ pub enum CutError {
         suggestion: Option<String>,
     },
     /// The name is a closure's: the mechanism is broken there already.
+    #[error("`{closure}` is a closure: the mechanism is already cut there")]
     AlreadyCut {
         /// The closure.
         closure: String,
     },
     /// The joint is helical, and no closure is.
+    #[error("the joint `{joint}` is helical, and there is no helical closure")]
     Helical {
         /// The joint.
         joint: String,
     },
     /// The variable stands in no row.
+    #[error("the variable `{joint}` stands in no row of a table")]
     NoRow {
         /// The joint.
         joint: String,
     },
     /// The variable stands in several rows or entries.
+    #[error(
+        "the variable `{joint}` stands in several places, and a cut would open only one of them"
+    )]
     SeveralRows {
         /// The joint.
         joint: String,
     },
     /// Other variables stand in its row.
+    #[error("the row of `{joint}` has other variables too, which the cut would free")]
     SharedRow {
         /// The joint.
         joint: String,
     },
     /// No closure holds what is behind the joint.
+    #[error(
+        "`{joint}` is not part of a loop: after the cut nothing would hold the links behind it"
+    )]
     NoLoop {
         /// The joint.
         joint: String,
     },
     /// The closures that do are not at the end of the joint's own chain, or cannot become rows.
+    #[error(
+        "the links behind `{joint}` are held only by {}, which cannot become rows at the end of \
+         its chain",
+        quoted(closures)
+    )]
     NotRows {
         /// The joint.
         joint: String,
@@ -54,49 +67,6 @@ pub enum CutError {
     },
 }
 
-impl Display for CutError {
-    fn fmt(&self, f: &mut Formatter) -> fmt::Result {
-        match self {
-            CutError::UnknownJoint { name, suggestion } => {
-                write!(f, "there is no joint `{name}`")?;
-                match suggestion {
-                    Some(meant) => write!(f, "; did you mean `{meant}`?"),
-                    None => Ok(()),
-                }
-            }
-            CutError::AlreadyCut { closure } => {
-                write!(
-                    f,
-                    "`{closure}` is a closure: the mechanism is already cut there"
-                )
-            }
-            CutError::Helical { joint } => write!(
-                f,
-                "the joint `{joint}` is helical, and there is no helical closure"
-            ),
-            CutError::NoRow { joint } => {
-                write!(f, "the variable `{joint}` stands in no row of a table")
-            }
-            CutError::SeveralRows { joint } => write!(
-                f,
-                "the variable `{joint}` stands in several places, and a cut would open only one of them"
-            ),
-            CutError::SharedRow { joint } => write!(
-                f,
-                "the row of `{joint}` has other variables too, which the cut would free"
-            ),
-            CutError::NoLoop { joint } => write!(
-                f,
-                "`{joint}` is not part of a loop: after the cut nothing would hold the links behind it"
-            ),
-            CutError::NotRows { joint, closures } => write!(
-                f,
-                "the links behind `{joint}` are held only by {}, which cannot become rows at the \
-                 end of its chain",
-                quoted(closures)
-            ),
-        }
-    }
+fn meant(suggestion: Option<&str>) -> String {
+    suggestion.map_or(String::new(), |name| format!("; did you mean `{name}`?"))
 }
-
-impl Error for CutError {}
