@@ -257,19 +257,12 @@ pub(super) fn turned(quaternion: [f64; 4]) -> Rotation<f64> {
 
 /// Entries that differ from 0, 1 and −1 by rounding made exact, so that planar linkages stay planar.
 fn exact(rotation: Rotation<f64>) -> Rotation<f64> {
-    let clean = |x: f64| {
-        let whole = x.round();
-        if (x - whole).abs() < 4.0 * f64::EPSILON {
-            whole + 0.0
-        } else {
-            x
-        }
+    let clean = |x: f64| match x.round() {
+        whole if (x - whole).abs() < 4.0 * f64::EPSILON => whole + 0.0,
+        _ => x,
     };
     let cleaned = Rotation(rotation.0.map(|column| column.map(clean)));
-    let axes = cleaned
-        .0
-        .iter()
-        .filter(|column| column.0.iter().any(|x| x.abs() == 1.0));
     // all three axes are along coordinates, or one is and the others are turned about it
-    if axes.count() > 0 { cleaned } else { rotation }
+    let planar = cleaned.0.iter().flat_map(|c| c.0).any(|x| x.abs() == 1.0);
+    if planar { cleaned } else { rotation }
 }
