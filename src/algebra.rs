@@ -7,7 +7,6 @@
 mod affine;
 mod arrangement;
 mod display;
-mod error;
 mod evaluation;
 mod measure;
 mod parser;
@@ -24,6 +23,7 @@ pub use parser::{MAX_HEIGHT, MAX_NESTING, ParseError, ParseErrorKind};
 pub use si_unit::{SiUnit, SiUnitError};
 pub use symbolic::{Symbolic, with_letters};
 pub use trigonometric::{Atom, Budget, Key, Powers, Trigonometric, Wave};
+pub(crate) use parser::shown;
 pub(crate) use vocabulary::words;
 pub use vocabulary::{Constant, Function, Unit, is_name, is_reserved};
 
@@ -114,12 +114,10 @@ impl<N> Expression<N> {
     /// The direct subexpressions, in the order in which they are written.
     pub fn operands(&self) -> impl DoubleEndedIterator<Item = &Expression<N>> {
         let (first, second, arguments): (Option<&Self>, Option<&Self>, &[Self]) = match &self.node {
-            Node::Number(_) | Node::Quantity(..) | Node::Constant(_) | Node::Name(_) => {
-                (None, None, &[])
-            }
             Node::Negate(x) => (Some(x), None, &[]),
             Node::Binary(_, x, y) => (Some(x), Some(y), &[]),
             Node::Call(_, arguments) => (None, None, arguments),
+            _ => (None, None, &[]),
         };
         first.into_iter().chain(second).chain(arguments)
     }
@@ -147,13 +145,23 @@ impl<N> Expression<N> {
         let mut resolve = |name: &N, span: &Range<usize>| {
             resolve(name, span).map_err(|error| errors.push(error)).ok()
         };
-        let resolved = self.exchange(&mut resolve);
+        let resolved = self.rebuilt(&|span| span, &mut resolve);
         resolved.filter(|_| errors.is_empty()).ok_or(errors)
     }
 
-    /// Visits every name even after an error, so that all errors are reported.
-    fn exchange<M>(
+    /// The same expression with every span replaced.
+    pub fn relocate(&self, place: &impl Fn(Range<usize>) -> Range<usize>) -> Self
+    where
+        N: Clone,
+    {
+        let same = self.rebuilt(place, &mut |name, _| Some(name.clone()));
+        same.expect("every name is kept")
+    }
+
+    /// The tree with other spans and names. Visits every name even after an error, so that all errors are reported.
+    fn rebuilt<M>(
         &self,
+        place: &impl Fn(Range<usize>) -> Range<usize>,
         resolve: &mut impl FnMut(&N, &Range<usize>) -> Option<M>,
     ) -> Option<Expression<M>> {
         let node = match &self.node {
@@ -161,38 +169,18 @@ impl<N> Expression<N> {
             Node::Quantity(value, unit) => Node::Quantity(*value, *unit),
             Node::Constant(constant) => Node::Constant(*constant),
             Node::Name(name) => Node::Name(resolve(name, &self.span)?),
-            Node::Negate(x) => Node::Negate(Box::new(x.exchange(resolve)?)),
+            Node::Negate(x) => Node::negated(x.rebuilt(place, resolve)?),
             Node::Binary(operator, x, y) => {
-                let (x, y) = (x.exchange(resolve), y.exchange(resolve));
-                Node::Binary(*operator, Box::new(x?), Box::new(y?))
+                let (x, y) = (x.rebuilt(place, resolve), y.rebuilt(place, resolve));
+                Node::binary(*operator, x?, y?)
             }
             Node::Call(function, arguments) => {
-                let arguments: Vec<_> = arguments.iter().map(|x| x.exchange(resolve)).collect();
+                let arguments = arguments.iter().map(|x| x.rebuilt(place, resolve));
+                let arguments: Vec<Option<_>> = arguments.collect();
                 Node::Call(*function, arguments.into_iter().collect::<Option<_>>()?)
             }
         };
-        Some(node.at(self.span.clone()))
-    }
-
-    /// The same expression with every span replaced.
-    pub fn relocate(mut self, place: &impl Fn(Range<usize>) -> Range<usize>) -> Self {
-        self.relocate_in_place(place);
-        self
-    }
-
-    fn relocate_in_place(&mut self, place: &impl Fn(Range<usize>) -> Range<usize>) {
-        self.span = place(self.span.clone());
-        match &mut self.node {
-            Node::Number(_) | Node::Quantity(..) | Node::Constant(_) | Node::Name(_) => {}
-            Node::Negate(x) => x.relocate_in_place(place),
-            Node::Binary(_, x, y) => {
-                x.relocate_in_place(place);
-                y.relocate_in_place(place);
-            }
-            Node::Call(_, arguments) => arguments
-                .iter_mut()
-                .for_each(|x| x.relocate_in_place(place)),
-        }
+        Some(node.at(place(self.span.clone())))
     }
 }
 

@@ -2,6 +2,8 @@
 
 use std::ops::Range;
 
+use thiserror::Error;
+
 use super::{Expression, Node, Operator};
 
 /// An affine expression, decomposed: `constant + Σ coefficient·variable`.
@@ -14,7 +16,8 @@ pub struct Affine<N> {
 }
 
 /// The smallest part of an expression that is not affine in the variables.
-#[derive(Debug, Clone, PartialEq, Eq)]
+#[derive(Debug, Clone, Error, PartialEq, Eq)]
+#[error("a variable may only be added, subtracted and multiplied by constants here")]
 pub struct NonAffine {
     /// Where it stands.
     pub span: Range<usize>,

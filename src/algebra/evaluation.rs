@@ -2,11 +2,14 @@
 
 use std::ops::Range;
 
+use thiserror::Error;
+
 use super::{Expression, Function, Node, Operator};
 use crate::number::Number;
 
 /// Why an expression has no value, and which part of it is the cause.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, Error, PartialEq)]
+#[error("{kind}")]
 pub struct EvaluationError {
     /// The smallest part that has no value.
     pub span: Range<usize>,
@@ -15,21 +18,23 @@ pub struct EvaluationError {
 }
 
 /// Why a part of an expression has no value. The numbers are the real parts of the arguments.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, Error, PartialEq)]
+#[allow(missing_docs)]
 pub enum EvaluationErrorKind {
-    /// A divisor is zero.
+    #[error("division by zero")]
     DivisionByZero,
-    /// A real square root of a negative number.
+    #[error("the square root of {_0} is not a real number")]
     RootOfNegative(f64),
-    /// A real logarithm of a number that is not positive.
+    #[error("the logarithm of {_0} is not a real number")]
     LogarithmOfNonPositive(f64),
     /// `asin` or `acos` of a number outside [-1, 1].
+    #[error("`{}` of {_1} is not a real number", _0.word())]
     OutOfRange(Function, f64),
-    /// A negative number to a power that is not whole.
+    #[error("a non-integer power of {_0} is not a real number")]
     PowerOfNegative(f64),
-    /// The value is above [`LARGEST`] or below its negative.
+    #[error("the value {_0:e} is too large; the limit is {LARGEST:e}")]
     TooLarge(f64),
-    /// The value is infinite or undefined for another reason.
+    #[error("the value is not finite")]
     NotFinite,
 }
 
@@ -102,7 +107,7 @@ fn combine<T: Number>(operator: Operator, x: T, y: T) -> T {
 }
 
 /// `y` is used only by functions of two arguments.
-fn call<T: Number>(function: Function, x: T, y: T) -> T {
+pub(super) fn call<T: Number>(function: Function, x: T, y: T) -> T {
     match function {
         Function::Sin => x.sin_cos().0,
         Function::Cos => x.sin_cos().1,

@@ -2,6 +2,8 @@
 
 use std::ops::Range;
 
+use thiserror::Error;
+
 use super::{Constant, Expression, Function, Node, Operator, Unit};
 
 /// The dimension of a value.
@@ -22,28 +24,38 @@ pub enum Measure {
 }
 
 /// A unit that does not fit, and which part of an expression has it.
-#[derive(Debug, Clone, PartialEq, Eq)]
+#[derive(Debug, Clone, Error, PartialEq, Eq)]
+#[error("{kind}")]
 pub struct MeasureError {
     /// The smallest part that is wrong.
     pub span: Range<usize>,
-    /// Its problems.
+    /// What is wrong with it.
     pub kind: MeasureErrorKind,
 }
 
 /// Why a unit does not fit.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, Error, PartialEq, Eq)]
+#[allow(missing_docs)]
 pub enum MeasureErrorKind {
-    /// The value has another dimension than its place requires.
-    Wrong {
-        /// What is expected.
-        wanted: Measure,
-        /// What was found.
-        found: Measure,
-    },
-    /// An angle and a length are added or compared.
+    #[error("expected {}, found {}", wanted.words(), found.words())]
+    Wrong { wanted: Measure, found: Measure },
+    #[error("an angle and a length are mixed")]
     Mixed,
-    /// A function of an angle is given a length.
+    #[error("`{}` takes an angle, not a length", _0.word())]
     LengthAsAngle(Function),
+}
+
+impl Measure {
+    /// What it is called: `an angle`.
+    pub fn words(self) -> &'static str {
+        match self {
+            Measure::Number | Measure::Open => "a number",
+            Measure::Angle => "an angle",
+            Measure::Length => "a length",
+            Measure::Force => "a force",
+            Measure::Moment => "a moment",
+        }
+    }
 }
 
 impl Unit {

@@ -2,6 +2,8 @@
 
 use std::ops::Range;
 
+use thiserror::Error;
+
 use super::vocabulary::{continues_name, starts_name};
 use super::{Constant, Expression, Function, Node, Operator, Unit};
 
@@ -13,7 +15,8 @@ pub const MAX_NESTING: usize = 64;
 pub const MAX_HEIGHT: usize = 500;
 
 /// Why a text is not an expression, and where.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, Error, PartialEq)]
+#[error("{kind}")]
 pub struct ParseError {
     /// The offending bytes; empty at the end of the text.
     pub span: Range<usize>,
@@ -22,47 +25,58 @@ pub struct ParseError {
 }
 
 /// What is wrong with the text of an expression.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, Error, PartialEq)]
+#[allow(missing_docs)]
 pub enum ParseErrorKind {
-    /// There is nothing but white space.
+    #[error("the expression is empty")]
     Empty,
-    /// A character that has no meaning in an expression.
+    #[error("the character `{}` has no meaning in an expression", shown(*_0))]
     UnexpectedCharacter(char),
-    /// Something else stands where a number, a name or `(` must.
+    #[error("expected a number, a name or `(`")]
     ExpectedOperand,
-    /// Two operands follow one another.
+    #[error("an operator is missing between two values")]
     MissingOperator,
-    /// A number is followed by a name that is no unit.
+    #[error("`{_0}` after a number is not a unit")]
     UnknownUnit(String),
-    /// This `(` is not closed.
+    #[error("a parenthesis is not closed")]
     UnclosedParenthesis,
-    /// This `)` closes nothing.
+    #[error("a closing parenthesis has no opening one")]
     UnopenedParenthesis,
-    /// A comma outside the arguments of a function.
+    #[error("there is a comma outside the arguments of a function")]
     UnexpectedComma,
-    /// A name that is no function is called.
+    #[error("there is no function `{_0}`")]
     UnknownFunction(String),
-    /// A function stands without its arguments.
+    #[error("the function `{}` needs its argument in parentheses", _0.word())]
     MissingArguments(Function),
-    /// A function is called with the wrong number of arguments.
-    WrongArgumentCount {
-        /// The function.
-        function: Function,
-        /// How many arguments it was given.
-        found: usize,
-    },
-    /// A power of a number with a unit, `5 mm^2`: it is not clear what is raised.
+    #[error(
+        "`{}` takes {}, found {found}",
+        function.word(),
+        ["1 argument", "2 arguments"][function.arity() - 1]
+    )]
+    WrongArgumentCount { function: Function, found: usize },
+    /// A power such as `5 mm^2`.
+    #[error("it is not clear whether the power belongs to the number or to its unit")]
     PowerOfUnit,
-    /// `**`
+    #[error("a power is written `^`, not `**`")]
     DoubleStar,
     /// A number such as `1.2.3`.
+    #[error("this is not a number")]
     MalformedNumber,
     /// A number too large for a 64-bit floating-point number.
+    #[error("the number is too large")]
     NumberTooLarge,
-    /// More than [`MAX_NESTING`] levels.
+    #[error("the expression is nested more than {MAX_NESTING} levels deep")]
     TooDeep,
-    /// A tree taller than [`MAX_HEIGHT`].
+    #[error("the expression has more than {MAX_HEIGHT} operations in a row")]
     TooLong,
+}
+
+/// A character as it can be printed.
+pub(crate) fn shown(c: char) -> String {
+    match c.is_control() {
+        true => c.escape_default().to_string(),
+        false => c.to_string(),
+    }
 }
 
 impl ParseErrorKind {

@@ -4,6 +4,7 @@ use std::fmt::{self, Display, Formatter};
 use std::str::FromStr;
 
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
+use thiserror::Error;
 
 use super::Measure;
 
@@ -11,15 +12,17 @@ use super::Measure;
 ///
 /// It is written, printed and serialised as text: `rad`, `m`, `N·m`, `rad/s`, `m/s²`, `rad·m²`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
-pub struct SiUnit {
-    radian: i8,
-    newton: i8,
-    metre: i8,
-    second: i8,
-}
+pub struct SiUnit([i8; 4]);
+
+/// What the powers are those of.
+const BASE: [&str; 4] = ["rad", "N", "m", "s"];
+
+/// Digits of powers; a first power is not written.
+const POWERS: [char; 10] = ['⁰', '¹', '²', '³', '⁴', '⁵', '⁶', '⁷', '⁸', '⁹'];
 
 /// A text that is not a unit.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, Error, PartialEq, Eq)]
+#[error("`{text}` is not a unit such as rad, m/s or N·m")]
 pub struct SiUnitError {
     /// The text.
     pub text: String,
@@ -27,31 +30,19 @@ pub struct SiUnitError {
 
 impl SiUnit {
     /// No unit: a ratio or a count; written as an empty text.
-    pub const ONE: Self = Self::new(0, 0, 0, 0);
+    pub const ONE: Self = SiUnit([0, 0, 0, 0]);
     /// An angle.
-    pub const RADIAN: Self = Self::new(1, 0, 0, 0);
+    pub const RADIAN: Self = SiUnit([1, 0, 0, 0]);
     /// A length.
-    pub const METRE: Self = Self::new(0, 0, 1, 0);
+    pub const METRE: Self = SiUnit([0, 0, 1, 0]);
     /// A force.
-    pub const NEWTON: Self = Self::new(0, 1, 0, 0);
+    pub const NEWTON: Self = SiUnit([0, 1, 0, 0]);
     /// A moment.
-    pub const NEWTON_METRE: Self = Self::new(0, 1, 1, 0);
-
-    const fn new(radian: i8, newton: i8, metre: i8, second: i8) -> Self {
-        SiUnit {
-            radian,
-            newton,
-            metre,
-            second,
-        }
-    }
+    pub const NEWTON_METRE: Self = SiUnit([0, 1, 1, 0]);
 
     /// The unit of a coordinate: rad for an angle, m for a length.
     pub fn of_coordinate(is_angle: bool) -> Self {
-        match is_angle {
-            true => Self::RADIAN,
-            false => Self::METRE,
-        }
+        if is_angle { Self::RADIAN } else { Self::METRE }
     }
 
     /// The unit of what acts along a coordinate: N·m about an axis, N along one.
@@ -69,29 +60,12 @@ impl SiUnit {
 
     /// The unit of a rate of change.
     pub fn per_second(self) -> Self {
-        SiUnit {
-            second: self.second - 1,
-            ..self
-        }
+        self.times(SiUnit([0, 0, 0, -1]))
     }
 
     /// The unit of a product.
     pub fn times(self, other: Self) -> Self {
-        Self::new(
-            self.radian + other.radian,
-            self.newton + other.newton,
-            self.metre + other.metre,
-            self.second + other.second,
-        )
-    }
-
-    fn powers(self) -> [(&'static str, i8); 4] {
-        [
-            ("rad", self.radian),
-            ("N", self.newton),
-            ("m", self.metre),
-            ("s", self.second),
-        ]
+        SiUnit(std::array::from_fn(|i| self.0[i] + other.0[i]))
     }
 }
 
@@ -108,16 +82,11 @@ impl Measure {
     }
 }
 
-/// Digits of powers; a first power is not written.
-const POWERS: [char; 10] = ['⁰', '¹', '²', '³', '⁴', '⁵', '⁶', '⁷', '⁸', '⁹'];
-
 impl Display for SiUnit {
     fn fmt(&self, f: &mut Formatter) -> fmt::Result {
         let side = |sign: i8| {
-            let parts = self
-                .powers()
-                .into_iter()
-                .filter(|(_, power)| sign * power > 0);
+            let powers = BASE.into_iter().zip(self.0);
+            let parts = powers.filter(|(_, power)| sign * power > 0);
             let parts = parts.map(|(name, power)| match power.unsigned_abs() {
                 1 => name.to_owned(),
                 power => format!("{name}{}", POWERS[usize::from(power).min(9)]),
@@ -125,11 +94,10 @@ impl Display for SiUnit {
             parts.collect::<Vec<String>>().join("·")
         };
         let (above, below) = (side(1), side(-1));
-        match (above.is_empty(), below.is_empty()) {
-            (true, true) => f.pad(""),
-            (false, true) => f.pad(&above),
-            (true, false) => f.pad(&format!("1/{below}")),
-            (false, false) => f.pad(&format!("{above}/{below}")),
+        match (above.as_str(), below.as_str()) {
+            (above, "") => f.pad(above),
+            ("", below) => f.pad(&format!("1/{below}")),
+            (above, below) => f.pad(&format!("{above}/{below}")),
         }
     }
 }
@@ -139,46 +107,26 @@ impl FromStr for SiUnit {
 
     fn from_str(text: &str) -> Result<Self, SiUnitError> {
         let wrong = || SiUnitError { text: text.into() };
-        let (above, below) = match text.split_once('/') {
-            Some((above, below)) => (above, Some(below)),
-            None => (text, None),
-        };
         let mut unit = SiUnit::ONE;
         if text.is_empty() {
-            return Ok(SiUnit::ONE);
+            return Ok(unit);
         }
-        let above = above.split('·').filter(|part| *part != "1");
-        let below = below.into_iter().flat_map(|below| below.split('·'));
-        for (part, sign) in above
-            .map(|part| (part, 1))
-            .chain(below.map(|part| (part, -1)))
-        {
-            let name = part.trim_end_matches(POWERS);
-            let power = match part[name.len()..].chars().collect::<Vec<char>>()[..] {
-                [] => 1,
-                [digit] => POWERS.iter().position(|d| *d == digit).ok_or_else(wrong)? as i8,
-                _ => return Err(wrong()),
-            };
-            let own = match name {
-                "rad" => &mut unit.radian,
-                "N" => &mut unit.newton,
-                "m" => &mut unit.metre,
-                "s" => &mut unit.second,
-                _ => return Err(wrong()),
-            };
-            *own += sign * power;
+        for (side, sign) in text.splitn(2, '/').zip([1, -1]) {
+            for part in side.split('·').filter(|part| sign < 0 || *part != "1") {
+                let name = part.trim_end_matches(POWERS);
+                let mut digits = part[name.len()..].chars();
+                let power = match (digits.next(), digits.next()) {
+                    (None, _) => 1,
+                    (Some(digit), None) => POWERS.iter().position(|d| *d == digit).unwrap_or(1),
+                    _ => return Err(wrong()),
+                };
+                let base = BASE.iter().position(|base| *base == name);
+                unit.0[base.ok_or_else(wrong)?] += sign * power as i8;
+            }
         }
         Ok(unit)
     }
 }
-
-impl Display for SiUnitError {
-    fn fmt(&self, f: &mut Formatter) -> fmt::Result {
-        write!(f, "`{}` is not a unit such as rad, m/s or N·m", self.text)
-    }
-}
-
-impl std::error::Error for SiUnitError {}
 
 impl Serialize for SiUnit {
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {

@@ -40,83 +40,53 @@ words! {
 
 /// The value expected at a place of the file.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+#[allow(missing_docs)]
 pub enum Expected {
-    /// The fields of a structure.
     Fields(Structure),
-    /// The number of the file format.
     Version,
-    /// Any text.
     Text,
-    /// A name, as the key of a map.
     NameOf(Noun),
-    /// The name of a frame.
     Frame,
-    /// A number or an expression.
     Entry,
-    /// A map from names to things.
     MapOf(Noun),
-    /// A list of rows.
     Rows,
-    /// A list of displacements.
     Transform,
-    /// A displacement such as `Tx(…)`.
     Displacement,
-    /// One of the displacements, with this many entries.
+    /// The entries of the displacement of that word.
     DisplacementEntries(&'static str),
-    /// Passive or actuated.
     Joint,
-    /// A lowest and a highest value.
     Limits,
-    /// Modified or standard.
     Convention,
-    /// A closure such as `Spherical(…)`.
     Closure,
-    /// The frames of a closure, for a distance with the length.
+    /// The frames of the closure of that word, and the length of a distance.
     ClosureFrames(&'static str),
-    /// Three entries.
     Vector,
-    /// Rows of a rotation matrix.
     RotationRows,
-    /// One row of a rotation matrix.
     RotationRow,
-    /// Three or four rows of a transform.
     TransformRows,
-    /// One row of a transform.
     TransformRow,
-    /// A joint such as `Revolute(…)` in a file of joint axes.
     Axis,
-    /// Two points on an axis.
     TwoPoints,
-    /// `Passive` or `Actuated`, without parentheses.
     Role,
-    /// The name of a body.
     Body,
-    /// The names of two bodies.
     Bodies,
-    /// A list of joints to cut.
     Cuts,
 }
 
 /// The value found at a place of the file.
 #[derive(Debug, Clone, PartialEq, Eq)]
+#[allow(missing_docs)]
 pub enum Found {
-    /// A number.
     Number,
-    /// A string.
     Text,
-    /// A character in apostrophes.
     Character,
-    /// A byte string.
     Bytes,
-    /// `[…]`
     List,
-    /// `{…}`
     Map,
     /// `(…, …)`
     Tuple,
     /// `(name: …)`
     Fields,
-    /// A word by itself, such as `true`.
     Word(String),
     /// A word followed by parentheses.
     Call(String),

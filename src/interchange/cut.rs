@@ -37,7 +37,10 @@ pub fn tree_of(mechanism: &Mechanism, at: &Configuration<f64>) -> (Tree, Vec<Rem
     cutter.chains();
     let loops = cutter.loops();
     let mut tree = Tree {
-        name: printable(mechanism.name()),
+        name: match mechanism.name() {
+            "" => "mechanism".into(),
+            name => printable(name),
+        },
         bodies: cutter.bodies,
         couplings: cutter.couplings,
         loops,

@@ -4,7 +4,6 @@ mod check;
 mod constraints;
 mod hinges;
 mod include;
-mod joint;
 mod part;
 mod read;
 mod sliders;

@@ -11,11 +11,12 @@ use crate::description::{GROUND, first_free};
 pub(super) struct Names {
     variables: HashSet<String>,
     bodies: HashSet<String>,
-    /// The requested name of each platform.
-    platforms: HashMap<String, String>,
-    /// The requested name of each frame.
-    frames: HashMap<String, String>,
-    renamed: Vec<(&'static str, String, String)>,
+    /// The name given to the platform for which another one was requested.
+    pub platforms: HashMap<String, String>,
+    /// The name given to the frame for which another one was requested.
+    pub frames: HashMap<String, String>,
+    /// What had to be renamed.
+    pub renamed: Vec<Remark>,
 }
 
 impl Names {
@@ -39,22 +40,11 @@ impl Names {
         name
     }
 
-    /// The name given to the platform for which `wanted` was requested.
-    pub fn of_platform(&self, wanted: &str) -> String {
-        let name = self.platforms.get(wanted).cloned();
-        name.unwrap_or_else(|| fit(wanted))
-    }
-
     /// A name for a frame, or for the chain that ends there.
     pub fn frame(&mut self, wanted: &str) -> String {
         let name = self.body(wanted);
         self.frames.insert(wanted.to_owned(), name.clone());
         name
-    }
-
-    /// The name given to the frame for which `wanted` was requested, if there is one.
-    pub fn of_frame(&self, wanted: &str) -> Option<&String> {
-        self.frames.get(wanted)
     }
 
     fn body(&mut self, wanted: &str) -> String {
@@ -66,17 +56,9 @@ impl Names {
 
     fn note(&mut self, noun: &'static str, wanted: &str, name: &str) {
         if wanted != name {
-            self.renamed
-                .push((noun, wanted.to_owned(), name.to_owned()));
+            let (from, to) = (wanted.to_owned(), name.to_owned());
+            self.renamed.push(Remark::Renamed { noun, from, to });
         }
-    }
-
-    /// The items that had to be renamed.
-    pub fn renamed(self) -> Vec<Remark> {
-        let renamed = self.renamed.into_iter();
-        renamed
-            .map(|(noun, from, to)| Remark::Renamed { noun, from, to })
-            .collect()
     }
 }
 

@@ -21,18 +21,16 @@ pub(super) fn document(text: &str) -> Result<Document<'_>, ImportProblem> {
     }
     // the reader recurses for each level too
     check_depth(text)?;
-    let document = Document::parse(text).map_err(|error| {
+    Document::parse(text).map_err(|error| {
         let position = error.pos();
-        let message = error.to_string();
+        let mut message = error.to_string();
         // the position is reported separately from the text
-        let message = match message.rfind(" at ") {
-            Some(end) if message[end..].contains(':') => message[..end].to_owned(),
-            _ => message,
-        };
+        if let Some(end) = message.rfind(" at ").filter(|&at| message[at..].contains(':')) {
+            message.truncate(end);
+        }
         let start = Lines::new(text).offset(position.row as usize, position.col as usize);
         ImportProblemKind::Syntax { message }.at(start..next_char(text, start))
-    })?;
-    Ok(document)
+    })
 }
 
 /// Counts opening and closing tags, accurately enough to bound the depth.
@@ -112,10 +110,8 @@ fn value_span(node: Node, name: &str) -> Range<usize> {
 
 /// The elements in an element, of a name.
 pub(super) fn children<'a, 'i>(node: Node<'a, 'i>, name: &str) -> Vec<Node<'a, 'i>> {
-    let elements = node.children().filter(|child| child.is_element());
-    elements
-        .filter(|child| child.tag_name().name() == name)
-        .collect()
+    let named = |child: &Node| child.is_element() && child.tag_name().name() == name;
+    node.children().filter(named).collect()
 }
 
 /// The first of them.
@@ -166,10 +162,19 @@ impl Problems {
 
     /// Numbers of an attribute, if it is there.
     pub fn numbers<const N: usize>(&mut self, node: Node, name: &str) -> Option<[f64; N]> {
-        let text = node.attribute(name)?;
-        let found = parse(text);
+        self.values(node, name, N)?.try_into().ok()
+    }
+
+    /// So many numbers of an attribute, if it is there.
+    pub fn values(&mut self, node: Node, name: &str, count: usize) -> Option<Vec<f64>> {
+        self.parsed(node.attribute(name)?, count, value_span(node, name))
+    }
+
+    /// So many finite numbers of a text.
+    pub fn parsed(&mut self, text: &str, count: usize, span: Range<usize>) -> Option<Vec<f64>> {
+        let found = parse(text).filter(|numbers| numbers.len() == count);
         if found.is_none() {
-            self.not_numbers(text, N, value_span(node, name));
+            self.not_numbers(text, count, span);
         }
         found
     }
@@ -186,6 +191,22 @@ impl Problems {
         let found = text.trim().parse().ok().filter(|x: &f64| !x.is_nan());
         if found.is_none() {
             self.not_numbers(text, 1, value_span(node, name));
+        }
+        found
+    }
+
+    /// The unit vector along an axis, written as in the example.
+    pub fn axis(
+        &mut self,
+        along: [f64; 3],
+        joint: &str,
+        example: &'static str,
+        node: Node,
+    ) -> Option<Vector3<f64>> {
+        let found = direction(along);
+        if found.is_none() {
+            let joint = joint.to_owned();
+            self.say(ImportProblemKind::NoAxis { joint, example }, node);
         }
         found
     }
@@ -214,32 +235,59 @@ impl Problems {
         None
     }
 
-    /// An unknown name in an attribute.
-    pub fn unknown(
+    /// What an attribute names, if it was found.
+    pub fn known<'k, T>(
         &mut self,
-        node: Node,
-        attribute: &str,
-        noun: &'static str,
-        name: &str,
-        known: &[String],
-    ) {
-        let suggestion = nearest(name, known.iter().map(String::as_str)).map(str::to_owned);
-        let problem = ImportProblemKind::Unknown {
-            noun,
-            name: name.into(),
-            suggestion,
-        };
-        self.0.push(problem.at(value_span(node, attribute)));
+        found: Option<T>,
+        (node, attribute): (Node, &str),
+        (noun, name): (&'static str, &str),
+        known: impl Iterator<Item = &'k str>,
+    ) -> Option<T> {
+        if found.is_none() {
+            let problem = ImportProblemKind::Unknown {
+                noun,
+                name: name.into(),
+                suggestion: nearest(name, known).map(str::to_owned),
+            };
+            self.0.push(problem.at(value_span(node, attribute)));
+        }
+        found
     }
 }
 
-/// The given number of finite numbers.
-pub(super) fn parse<const N: usize>(text: &str) -> Option<[f64; N]> {
-    let numbers = text
-        .split_whitespace()
-        .map(|word| word.parse::<f64>().ok().filter(|x| x.is_finite()));
-    let numbers: Vec<f64> = numbers.collect::<Option<_>>()?;
-    numbers.try_into().ok()
+/// Finite numbers.
+pub(super) fn parse(text: &str) -> Option<Vec<f64>> {
+    let number = |word: &str| word.parse::<f64>().ok().filter(|x| x.is_finite());
+    text.split_whitespace().map(number).collect()
+}
+
+/// The unit vector along three numbers, if they give a direction.
+pub(super) fn direction([x, y, z]: [f64; 3]) -> Option<Vector3<f64>> {
+    let v = Vector3([x, y, z]);
+    let largest = x.abs().max(y.abs()).max(z.abs());
+    if !largest.is_finite() || largest < 1e-12 {
+        return None;
+    }
+    let scaled = v.times(1.0 / largest);
+    Some(scaled.times(1.0 / scaled.norm()))
+}
+
+/// The coordinate axis most across a direction.
+pub(super) fn least_along(axis: &Vector3<f64>) -> usize {
+    let size = |i: usize| axis.0[i].abs();
+    (0..3).fold(0, |i, j| if size(j) < size(i) { j } else { i })
+}
+
+/// A rotation that turns z into a direction; axes of coordinates stay exact.
+pub(super) fn along_z(axis: &Vector3<f64>) -> Pose<f64> {
+    // the coordinate axis most across the direction becomes x as nearly as it can
+    let e = Vector3::unit(least_along(axis));
+    let across = e - axis.times(axis.dot(&e));
+    let x = across.times(1.0 / across.norm());
+    Pose {
+        rotation: Rotation([x, axis.cross(&x), *axis]),
+        position: Vector3::zero(),
+    }
 }
 
 /// A position and roll, pitch and yaw as a pose; right angles are exact.
@@ -257,19 +305,12 @@ pub(super) fn turned(quaternion: [f64; 4]) -> Rotation<f64> {
 
 /// Entries that differ from 0, 1 and −1 by rounding made exact, so that planar linkages stay planar.
 fn exact(rotation: Rotation<f64>) -> Rotation<f64> {
-    let clean = |x: f64| {
-        let whole = x.round();
-        if (x - whole).abs() < 4.0 * f64::EPSILON {
-            whole + 0.0
-        } else {
-            x
-        }
+    let clean = |x: f64| match x.round() {
+        whole if (x - whole).abs() < 4.0 * f64::EPSILON => whole + 0.0,
+        _ => x,
     };
     let cleaned = Rotation(rotation.0.map(|column| column.map(clean)));
-    let axes = cleaned
-        .0
-        .iter()
-        .filter(|column| column.0.iter().any(|x| x.abs() == 1.0));
     // all three axes are along coordinates, or one is and the others are turned about it
-    if axes.count() > 0 { cleaned } else { rotation }
+    let planar = cleaned.0.iter().flat_map(|c| c.0).any(|x| x.abs() == 1.0);
+    if planar { cleaned } else { rotation }
 }

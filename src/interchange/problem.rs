@@ -33,12 +33,11 @@ impl WrongFile {
             let (name, text) = &self.files[*file];
             let place = problem.span.as_ref().map_or(String::new(), |span| {
                 let (line, column) = Lines::new(text).position(span.start);
-                format!("{line}:{column}: ")
+                format!("{line}:{column}:")
             });
             let help = problem.kind.help();
             let help = help.map_or(String::new(), |help| format!(" ({help})"));
-            let separator = if place.is_empty() { ": " } else { ":" };
-            format!("{name}{separator}{place}{problem}{help}")
+            format!("{name}:{place} {problem}{help}")
         };
         self.problems.iter().map(line).collect()
     }
@@ -66,7 +65,10 @@ pub enum ImportProblemKind {
     #[error("`{element}` has no {needs}")]
     Missing { element: String, needs: String },
     /// A text that does not consist of the right number of finite numbers.
-    #[error("`{text}` is not {}", numbers(*count))]
+    #[error(
+        "`{text}` is not {}",
+        if *count == 1 { "a finite number".into() } else { format!("{count} finite numbers") }
+    )]
     NotNumbers { text: String, count: usize },
     #[error("unknown word `{word}`")]
     UnknownWord {
@@ -124,11 +126,6 @@ pub enum ImportProblemKind {
 }
 
 impl ImportProblemKind {
-    /// What is wrong, in one line.
-    pub fn title(&self) -> String {
-        self.to_string()
-    }
-
     /// A hint on how to correct it.
     pub fn help(&self) -> Option<String> {
         let help = match self {
@@ -162,10 +159,10 @@ impl ImportProblemKind {
             }
             Self::TwoParents { .. } => {
                 "a tree has one joint for each link: remove one of them, and close the loop with \
-                 `loop_joint` or with --loops"
+                 `loop_joint` or in a file of loops"
             }
             Self::NoRoot { .. } | Self::Cycle { .. } => {
-                "remove one joint of the cycle, and close the loop with `loop_joint` or with --loops"
+                "remove one joint of the cycle, and close the loop with `loop_joint` or in a file of loops"
             }
             Self::SeveralRoots { .. } => {
                 "connect them to one link, with fixed joints if they do not move"
@@ -184,25 +181,14 @@ impl ImportProblemKind {
 
     /// The problem, at a place.
     pub(super) fn at(self, span: Range<usize>) -> ImportProblem {
-        ImportProblem {
-            span: Some(span),
-            ..self.anywhere()
-        }
+        let span = Some(span);
+        ImportProblem { kind: self, span }
     }
 
     /// The problem of the whole file.
     pub(super) fn anywhere(self) -> ImportProblem {
-        ImportProblem {
-            kind: self,
-            span: None,
-        }
-    }
-}
-
-fn numbers(count: usize) -> String {
-    match count {
-        1 => "a finite number".into(),
-        _ => format!("{count} finite numbers"),
+        let span = None;
+        ImportProblem { kind: self, span }
     }
 }
 
@@ -215,8 +201,8 @@ fn quoted(names: &[String]) -> String {
 
 fn or(words: &[&str]) -> String {
     let quoted: Vec<String> = words.iter().map(|word| format!("`{word}`")).collect();
-    match quoted.as_slice() {
-        [words @ .., last] if !words.is_empty() => format!("{} or {last}", words.join(", ")),
-        words => words.join(""),
+    match quoted.split_last() {
+        Some((last, words)) if !words.is_empty() => format!("{} or {last}", words.join(", ")),
+        _ => quoted.concat(),
     }
 }

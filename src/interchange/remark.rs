@@ -2,7 +2,7 @@
 
 use thiserror::Error;
 
-use crate::description::{ClosureKind, count as count_of, listed};
+use crate::description::{ClosureKind, count as count_of, quoted};
 
 /// A remark on a file that was read or written, in one line.
 #[derive(Clone, Debug, Error, PartialEq)]
@@ -92,7 +92,7 @@ pub enum Remark {
     #[error("{0}")]
     Driven(&'static str),
     #[error(
-        "links `{}` and `{}` look like the two halves of a cut joint: close it with --loops",
+        "links `{}` and `{}` look like the two halves of a cut joint: close it in a file of loops",
         _0[0], _0[1]
     )]
     Halves([String; 2]),
@@ -129,16 +129,7 @@ impl Remark {
     }
 }
 
-fn quoted(names: &[String]) -> String {
-    let names: Vec<String> = names.iter().map(|name| format!("`{name}`")).collect();
-    listed(&names)
-}
-
 fn follow(followers: &[String]) -> String {
-    let verb = if followers.len() == 1 {
-        "follows"
-    } else {
-        "follow"
-    };
+    let verb = ["follows", "follow"][usize::from(followers.len() > 1)];
     format!("{} {verb} it", quoted(followers))
 }

@@ -79,7 +79,7 @@ pub struct Attachment {
 }
 
 /// A length that may depend on joints: `constant + Σ factor · joint` (m).
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct Extent {
     /// The part that does not change.
     pub constant: f64,
@@ -185,9 +185,7 @@ impl Joint {
             Motion::Ball | Motion::Free => Pose::identity(),
         }
     }
-}
 
-impl Joint {
     /// A rotation about the point of the joint.
     pub(super) fn about_point(&self, rotation: Rotation<f64>) -> Pose<f64> {
         let position = Vector3::zero();

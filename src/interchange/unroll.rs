@@ -10,7 +10,7 @@ mod closures;
 mod relations;
 mod sum;
 
-use std::collections::{HashMap, HashSet};
+use std::collections::HashMap;
 
 use relations::{carriers, leaders, within_reason};
 use sum::sum;
@@ -18,7 +18,7 @@ use sum::sum;
 use super::names::Names;
 use super::problem::ImportProblemKind;
 use super::remark::Remark;
-use super::tree::{Attachment, Coupling, Joint, Motion, Tree};
+use super::tree::{Attachment, Coupling, Motion, Tree};
 use crate::description::{
     ChainDescription, ClosureDescription, Convention, Description, Displacement, Entry, GROUND,
     JointDescription, Named, PlatformDescription, Role, Row, Spanned,
@@ -79,7 +79,7 @@ pub(super) fn describe(
         ..Description::default()
     };
     let mut remarks = unroller.remarks;
-    remarks.extend(unroller.names.renamed());
+    remarks.extend(unroller.names.renamed);
     Ok(Unrolled {
         description,
         remarks,
@@ -143,21 +143,18 @@ impl Unroller<'_> {
     fn needs(&mut self, asked: &[String]) {
         let mut found = Vec::new();
         for name in asked {
-            for (i, body) in self.tree.bodies.iter().enumerate() {
-                for (frame, pose) in body.frames.iter().filter(|(frame, _)| frame == name) {
-                    let (carrier, own) = self.carriers[i];
-                    found.push((frame.clone(), carrier, own * *pose));
-                }
+            for (body, &(carrier, own)) in self.tree.bodies.iter().zip(&self.carriers) {
+                let named = body.frames.iter().filter(|(frame, _)| frame == name);
+                found.extend(named.map(|(frame, pose)| (frame.clone(), carrier, own * *pose)));
             }
         }
         for side in self.tree.loops.iter().flat_map(|l| &l.sides) {
             let (carrier, pose) = self.carried(side);
             found.push((side.frame.clone(), carrier, pose));
         }
-        for (name, carrier, pose) in found {
-            let known = self.needs.iter().any(|(other, ..)| *other == name);
-            if !known {
-                self.needs.push((name, carrier, pose));
+        for frame in found {
+            if self.needs.iter().all(|(other, ..)| *other != frame.0) {
+                self.needs.push(frame);
             }
         }
     }
@@ -209,13 +206,13 @@ impl Unroller<'_> {
         if let Some((name, _, pose)) = self.needs.iter().find(|(_, carrier, _)| *carrier == last) {
             return (name.clone(), *pose);
         }
-        // the last of the parts fixed to the link that has no children, if any
-        let fixed = (last + 1..self.tree.bodies.len()).filter(|&i| self.carriers[i].0 == last);
-        let fixed: Vec<usize> = fixed.collect();
-        let hung: HashSet<_> = self.tree.bodies.iter().map(|body| body.parent).collect();
-        let end = fixed.into_iter().find(|i| !hung.contains(&Some(*i)));
-        let end = end.unwrap_or(last);
-        (self.tree.bodies[end].name.clone(), self.carriers[end].1)
+        // a part fixed to the link that has no children, if any
+        let bodies = &self.tree.bodies;
+        let is_end = |i: &usize| {
+            self.carriers[*i].0 == last && bodies.iter().all(|body| body.parent != Some(*i))
+        };
+        let end = (last + 1..bodies.len()).find(is_end).unwrap_or(last);
+        (bodies[end].name.clone(), self.carriers[end].1)
     }
 
     fn chain(&mut self, on: usize, links: &[usize]) {
@@ -277,8 +274,8 @@ impl Unroller<'_> {
             }
             None if on == 0 => (GROUND.into(), base),
             None => {
-                let name = self.names.of_platform(&self.tree.bodies[on].name);
-                (name, self.zero[on].inverse() * base)
+                let name = &self.names.platforms[&self.tree.bodies[on].name];
+                (name.clone(), self.zero[on].inverse() * base)
             }
         }
     }
@@ -288,37 +285,36 @@ impl Unroller<'_> {
             .iter()
             .flat_map(|&link| &self.tree.bodies[link].joints);
         let rows = joints.zip(&table.rows).map(|(joint, row)| {
+            let entry = |kind: fn(f64) -> Entry, constant: f64, coefficient: f64| {
+                let (constant, terms) = self.affine(constant, [(&joint.name, coefficient)]);
+                sum(kind(constant), &terms)
+            };
             let (alpha, a) = (Entry::angle(row.alpha), Entry::length(row.a));
-            let d = self.affine(Entry::length, row.d, row.slide, joint);
-            let theta = self.affine(Entry::angle, row.theta, row.turn, joint);
-            Row::new(alpha, a, d, theta)
+            let d = entry(Entry::length, row.d, row.slide);
+            Row::new(alpha, a, d, entry(Entry::angle, row.theta, row.turn))
         });
         rows.collect()
     }
 
-    /// constant + coefficient · joint, with a following joint replaced by its leader.
-    fn affine(
+    /// constant + Σ coefficient · joint in terms of variables: joints that follow are replaced by their leaders.
+    fn affine<'n>(
         &self,
-        entry: fn(f64) -> Entry,
         constant: f64,
-        coefficient: f64,
-        joint: &Joint,
-    ) -> Entry {
-        if coefficient == 0.0 {
-            return entry(constant);
+        terms: impl IntoIterator<Item = (&'n String, f64)>,
+    ) -> (f64, Vec<(String, f64)>) {
+        let (mut constant, mut variables) = (constant, Vec::new());
+        for (joint, coefficient) in terms.into_iter().filter(|(_, c)| *c != 0.0) {
+            let (leader, factor) = match self.leaders.get(joint) {
+                None => (joint, coefficient),
+                Some(coupling) => {
+                    constant += coefficient * coupling.offset;
+                    (&coupling.leader, coefficient * coupling.factor)
+                }
+            };
+            let variable = self.variables.get(leader).filter(|_| factor != 0.0);
+            variables.extend(variable.map(|variable| (variable.clone(), factor)));
         }
-        match self.leaders.get(&joint.name) {
-            None => {
-                let variable = self.variables[&joint.name].clone();
-                sum(entry(constant), &[(variable, coefficient)])
-            }
-            Some(coupling) => {
-                let constant = constant + coefficient * coupling.offset;
-                let terms = self.variables.get(&coupling.leader);
-                let terms = terms.map(|leader| (leader.clone(), coefficient * coupling.factor));
-                sum(entry(constant), &terms.into_iter().collect::<Vec<_>>())
-            }
-        }
+        (constant, variables)
     }
 
     /// The joint variables: those of joints that lead, within the limits of all that follow.
@@ -328,14 +324,13 @@ impl Unroller<'_> {
             let Some(variable) = self.variables.get(&joint.name) else {
                 continue;
             };
-            let mut limits = joint.limits;
-            let mut actuated = joint.actuated;
+            let (mut limits, mut actuated) = (joint.limits, joint.actuated);
             let mut angle = joint.motion == Motion::Turn;
-            for follower in self.tree.joints() {
-                let coupling = self.leaders.get(&follower.name);
-                let Some(coupling) = coupling.filter(|c| c.leader == joint.name) else {
-                    continue;
-                };
+            let coupled = self.tree.joints().filter_map(|follower| {
+                let coupling = self.leaders.get(&follower.name)?;
+                (coupling.leader == joint.name).then_some((follower, coupling))
+            });
+            for (follower, coupling) in coupled {
                 actuated |= follower.actuated;
                 angle |= follower.motion == Motion::Turn;
                 if let (Some((low, high)), true) = (follower.limits, coupling.factor != 0.0) {

@@ -5,7 +5,5 @@ mod motion;
 mod read;
 mod write;
 
-pub(super) use loops::along_z;
-pub(super) use motion::direction;
 pub(super) use read::read;
 pub use write::write;

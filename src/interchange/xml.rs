@@ -1,85 +1,88 @@
 //! Elements written one after the other, in nested lines.
 
-use std::io;
+use std::fmt::Display;
 
 use quick_xml::Writer;
 use quick_xml::events::{BytesEnd, BytesStart, BytesText, Event};
 
 use crate::geometry::{Pose, Quaternion, Vector3};
 
-/// Text of nested elements.
-pub(super) struct Xml(Writer<Vec<u8>>);
+/// Elements in the order in which they are written.
+#[derive(Default)]
+pub(super) struct Xml(Vec<Event<'static>>);
 
-/// Writing into memory cannot fail.
-const IN_MEMORY: &str = "memory can be written to";
+/// Names and values; one whose text is empty is left out.
+pub(super) type Attributes<'a> = &'a [(&'a str, &'a dyn Display)];
+
+fn start(tag: &'static str, attributes: Attributes) -> BytesStart<'static> {
+    let mut start = BytesStart::new(tag);
+    for (name, value) in attributes {
+        let value = value.to_string();
+        if !value.is_empty() {
+            start.push_attribute((*name, value.as_str()));
+        }
+    }
+    start
+}
 
 impl Xml {
-    pub fn new() -> Self {
-        Xml(Writer::new_with_indent(Vec::new(), b' ', 2))
+    pub fn comment(&mut self, text: &str) {
+        let text = format!(" {} ", text.replace("--", "- -"));
+        self.0.push(Event::Comment(BytesText::from_escaped(text)));
     }
 
-    fn event(&mut self, event: Event) -> &mut Self {
-        let written: io::Result<()> = self.0.write_event(event);
-        written.expect(IN_MEMORY);
-        self
+    pub fn open(&mut self, tag: &'static str, attributes: Attributes) {
+        self.0.push(Event::Start(start(tag, attributes)));
     }
 
-    pub fn comment(&mut self, text: &str) -> &mut Self {
-        let text = text.replace("--", "- -");
-        self.event(Event::Comment(BytesText::from_escaped(format!(" {text} "))))
+    pub fn leaf(&mut self, tag: &'static str, attributes: Attributes) {
+        self.0.push(Event::Empty(start(tag, attributes)));
     }
 
-    pub fn open(&mut self, tag: &str, attributes: &[(&str, String)]) -> &mut Self {
-        let start = BytesStart::new(tag).with_attributes(pairs(attributes));
-        self.event(Event::Start(start))
+    pub fn close(&mut self, tag: &'static str) {
+        self.0.push(Event::End(BytesEnd::new(tag)));
     }
 
-    pub fn close(&mut self, tag: &str) -> &mut Self {
-        self.event(Event::End(BytesEnd::new(tag)))
+    pub fn append(&mut self, others: Xml) {
+        self.0.extend(others.0);
     }
 
-    pub fn leaf(&mut self, tag: &str, attributes: &[(&str, String)]) -> &mut Self {
-        let start = BytesStart::new(tag).with_attributes(pairs(attributes));
-        self.event(Event::Empty(start))
+    /// An element around others, if there are any.
+    pub fn block(&mut self, tag: &'static str, inside: Xml) {
+        if !inside.0.is_empty() {
+            self.open(tag, &[]);
+            self.append(inside);
+            self.close(tag);
+        }
     }
 
     pub fn text(self) -> String {
-        let mut text = String::from_utf8(self.0.into_inner()).expect("only text was written");
-        text.push('\n');
-        text
+        let mut writer = Writer::new_with_indent(Vec::new(), b' ', 2);
+        for event in self.0 {
+            let written: std::io::Result<()> = writer.write_event(event);
+            written.expect("memory can be written to");
+        }
+        String::from_utf8(writer.into_inner()).expect("only text was written") + "\n"
     }
-}
-
-fn pairs<'a>(attributes: &'a [(&str, String)]) -> impl Iterator<Item = (&'a str, &'a str)> {
-    attributes
-        .iter()
-        .map(|(name, value)| (*name, value.as_str()))
 }
 
 /// Numbers with a space between, all digits, no negative zeros.
 pub(super) fn numbers(values: impl IntoIterator<Item = f64>) -> String {
-    let values = values.into_iter().map(number);
+    let values = values.into_iter().map(|value| (value + 0.0).to_string());
     values.collect::<Vec<_>>().join(" ")
-}
-
-/// A number with all digits, zero without sign.
-pub(super) fn number(value: f64) -> String {
-    (value + 0.0).to_string()
 }
 
 pub(super) fn vector(v: &Vector3<f64>) -> String {
     numbers(v.0)
 }
 
-/// `pos` and `quat`, unless they are the identity.
-pub(super) fn place(pose: &Pose<f64>) -> Vec<(&'static str, String)> {
-    let mut attributes = Vec::new();
-    if pose.position.0.iter().any(|x| *x != 0.0) {
-        attributes.push(("pos", vector(&pose.position)));
-    }
+/// Position and quaternion, empty where they are zero and the identity.
+pub(super) fn place(pose: &Pose<f64>) -> [String; 2] {
+    let unless = |identity: bool, text: String| if identity { String::new() } else { text };
     let q = Quaternion::from_rotation(&pose.rotation).canonical();
-    if q.0[1..].iter().any(|x| *x != 0.0) {
-        attributes.push(("quat", numbers(q.0)));
-    }
-    attributes
+    let zero = |values: &[f64]| values.iter().all(|x| *x == 0.0);
+    [
+        unless(zero(&pose.position.0), vector(&pose.position)),
+        unless(zero(&q.0[1..]), numbers(q.0)),
+    ]
 }

@@ -37,7 +37,7 @@ pub fn render(wrong: &WrongFile, style: Style) -> String {
 }
 
 fn one(renderer: &Renderer, (name, text): &(String, String), problem: &ImportProblem) -> String {
-    let title = Level::ERROR.primary_title(problem.kind.title());
+    let title = Level::ERROR.primary_title(problem.to_string());
     let mut group = match &problem.span {
         None => title.element(Level::NOTE.message(format!("in {name}"))),
         Some(span) => {

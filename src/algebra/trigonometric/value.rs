@@ -2,7 +2,7 @@
 
 use num_traits::ToPrimitive;
 
-use super::super::Function;
+use super::super::evaluation;
 use super::{Atom, Powers, Trigonometric};
 use crate::number::Number;
 
@@ -42,22 +42,7 @@ impl Atom {
             Atom::Call(function, arguments) => {
                 let x = arguments[0].value(value_of);
                 let y = arguments.get(1).map_or(x, |y| y.value(value_of));
-                match function {
-                    Function::Sin => Number::sin_cos(x).0,
-                    Function::Cos => Number::sin_cos(x).1,
-                    Function::Tan => Number::tan(x),
-                    Function::Asin => Number::asin(x),
-                    Function::Acos => Number::acos(x),
-                    Function::Atan => Number::atan(x),
-                    Function::Atan2 => Number::atan2(x, y),
-                    Function::Sqrt => x.sqrt(),
-                    Function::Exp => Number::exp(x),
-                    Function::Ln => Number::ln(x),
-                    Function::Abs => x.abs(),
-                    Function::Hypot => (x * x + y * y).sqrt(),
-                    Function::Min => x.min(y),
-                    Function::Max => x.max(y),
-                }
+                evaluation::call(*function, x, y)
             }
         }
     }

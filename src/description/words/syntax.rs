@@ -2,6 +2,8 @@
 
 use ron::Error;
 
+use crate::algebra::shown;
+
 /// `found` is the character at which reading stopped.
 pub(in crate::description) fn title(error: &Error, found: Option<char>) -> String {
     let title = match (error, found) {
@@ -37,14 +39,6 @@ pub(in crate::description) fn title(error: &Error, found: Option<char>) -> Strin
         (other, _) => return format!("this is not RON: {}", first_lower(&other.to_string())),
     };
     title.to_owned()
-}
-
-/// A character as it can be printed.
-pub(super) fn shown(c: char) -> String {
-    match c.is_control() {
-        true => c.escape_default().to_string(),
-        false => c.to_string(),
-    }
 }
 
 fn first_lower(text: &str) -> String {

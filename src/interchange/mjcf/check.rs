@@ -102,25 +102,13 @@ pub(super) fn look<'a>(
         );
     }
     for &(name, count) in NUMBERS {
-        let fits = match (name, count) {
-            // of spatial tendons, lights and others it has another meaning
-            ("range", _) if element != "joint" => continue,
-            ("coef", _) if element != "joint" => continue,
-            (name, 1) => problems.numbers::<1>(node, name).is_some(),
-            (name, 2) => problems.numbers::<2>(node, name).is_some(),
-            (name, 3) => problems.numbers::<3>(node, name).is_some(),
-            (name, 4) => problems.numbers::<4>(node, name).is_some(),
-            (name, 6) => problems.numbers::<6>(node, name).is_some(),
-            (name, _) => problems.numbers::<7>(node, name).is_some(),
-        };
-        if !fits {
+        // of spatial tendons, lights and others these have another meaning
+        if matches!(name, "range" | "coef") && element != "joint" {
             continue;
         }
-        let text = node.attribute(name).unwrap_or_default();
-        let numbers: Vec<f64> = text
-            .split_whitespace()
-            .filter_map(|word| word.parse().ok())
-            .collect();
+        let Some(numbers) = problems.values(node, name, count) else {
+            continue;
+        };
         let size = |numbers: &[f64]| numbers.iter().fold(0.0, |most: f64, x| most.max(x.abs()));
         let parallel = |v: &[f64]| {
             let unit = |v: &[f64]| Vector3([v[0], v[1], v[2]]).times(1.0 / size(v));
@@ -134,7 +122,7 @@ pub(super) fn look<'a>(
             _ => false,
         };
         if nothing {
-            let text = text.to_owned();
+            let text = node.attribute(name).unwrap_or_default().to_owned();
             problems.say(ImportProblemKind::NoOrientation { text }, node);
         }
         if name == "axis" && size(&numbers) < 1e-12 {

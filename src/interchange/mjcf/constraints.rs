@@ -51,7 +51,7 @@ pub(super) fn read(
             _ => {
                 let help = "only rigid bodies are supported: remove it";
                 let what = format!("the constraint `{element}`");
-                let _: Option<()> = reader.problems.unsupported(what, help, node);
+                reader.problems.unsupported::<()>(what, help, node);
             }
         }
     }
@@ -84,30 +84,28 @@ impl<'r, 'i> Constraints<'_, 'r, 'i> {
             "world" => Some(0),
             name => self.model.body_id_by_name(name),
         };
-        if found.is_none() {
-            let bodies = self.model.bodies.iter();
-            let known: Vec<String> = bodies.filter_map(|b| b.body.name.clone()).collect();
-            self.problems.unknown(node, attribute, "body", name, &known);
-        }
-        found.and_then(|body| self.parts[body].last().copied())
+        let bodies = self.model.bodies.iter();
+        let known = bodies.filter_map(|entry| entry.body.name.as_deref());
+        let found = (self.problems).known(found, (node, attribute), ("body", name), known)?;
+        self.parts[found].last().copied()
     }
 
     /// The site of that name.
     fn site(&mut self, node: Node, attribute: &str, name: &str) -> Option<Attachment> {
-        for (body, entry) in self.model.bodies.iter().enumerate() {
-            let mut sites = entry.body.sites.iter();
-            if let Some(site) = sites.find(|site| site.name.as_deref() == Some(name)) {
-                return Some(Attachment {
-                    body: *self.parts[body].last()?,
-                    frame: name.to_owned(),
-                    pose: pose(&site.pose),
-                });
-            }
-        }
-        let sites = self.model.bodies.iter().flat_map(|entry| &entry.body.sites);
-        let known: Vec<String> = sites.filter_map(|site| site.name.clone()).collect();
-        self.problems.unknown(node, attribute, "site", name, &known);
-        None
+        let bodies = self.model.bodies.iter().enumerate();
+        let mut sites = bodies.flat_map(|(body, entry)| {
+            let sites = entry.body.sites.iter();
+            sites.filter_map(move |site| Some((body, site.name.as_deref()?, &site.pose)))
+        });
+        let known = sites.clone().map(|(_, known, _)| known);
+        let found = sites.find(|(_, known, _)| *known == name);
+        let found = (self.problems).known(found, (node, attribute), ("site", name), known);
+        let (body, _, at) = found?;
+        Some(Attachment {
+            body: *self.parts[body].last()?,
+            frame: name.to_owned(),
+            pose: pose(at),
+        })
     }
 
     /// The sites of a constraint, if it has them.
@@ -164,10 +162,7 @@ impl<'r, 'i> Constraints<'_, 'r, 'i> {
     /// Coefficients c₀, c₁ of a polynomial without higher powers.
     fn line(&mut self, node: Node) -> Option<[f64; 2]> {
         let text = node.attribute("polycoef").unwrap_or("0 1");
-        let numbers = text.split_whitespace().map(|word| word.parse().ok());
-        let numbers = numbers.collect::<Option<Vec<f64>>>();
-        let fits = |n: &Vec<f64>| n.len() <= 5 && n.iter().all(|x| x.is_finite());
-        let Some(numbers) = numbers.filter(fits) else {
+        let Some(numbers) = parse(text).filter(|numbers| numbers.len() <= 5) else {
             self.problems.not_numbers(text, 5, tag(node));
             return None;
         };
@@ -182,20 +177,14 @@ impl<'r, 'i> Constraints<'_, 'r, 'i> {
 
     /// The reference of a joint that turns or slides.
     fn reference(&mut self, node: Node, attribute: &str, name: &str) -> Option<f64> {
-        match self.tree.joints().find(|joint| joint.name == name) {
-            Some(joint) if !joint.motion.floats() => Some(joint.reference),
-            Some(_) => {
-                let what =
-                    format!("a constraint on `{name}`, which is neither a hinge nor a slide");
-                self.problems.unsupported(what, "leave it out", node)
-            }
-            None => {
-                let known: Vec<String> = self.tree.joints().map(|j| j.name.clone()).collect();
-                self.problems
-                    .unknown(node, attribute, "joint", name, &known);
-                None
-            }
+        let found = self.tree.joints().find(|joint| joint.name == name);
+        let known = self.tree.joints().map(|joint| joint.name.as_str());
+        let found = (self.problems).known(found, (node, attribute), ("joint", name), known)?;
+        if found.motion.floats() {
+            let what = format!("a constraint on `{name}`, which is neither a hinge nor a slide");
+            return self.problems.unsupported(what, "leave it out", node);
         }
+        Some(found.reference)
     }
 
     /// y − y₀ = c₀ + c₁ (x − x₀), with the references x₀ and y₀.
@@ -252,8 +241,8 @@ impl<'r, 'i> Constraints<'_, 'r, 'i> {
             }
             for term in children(fixed, "joint") {
                 let joint = self.problems.needed(term, "joint")?;
-                let coefficient = term.attribute("coef").map_or(Some([1.0]), parse);
-                let (x0, [coefficient]) = (self.reference(term, "joint", joint)?, coefficient?);
+                let coefficient = term.attribute("coef").map_or(Some(vec![1.0]), parse);
+                let (x0, coefficient) = (self.reference(term, "joint", joint)?, *coefficient?.first()?);
                 length.constant -= c1 * coefficient * x0;
                 length.terms.push((joint.to_owned(), c1 * coefficient));
             }
@@ -271,11 +260,8 @@ impl<'r, 'i> Constraints<'_, 'r, 'i> {
             .filter_map(|tendon| Some((tendon, tendon.attribute("name")?)))
             .collect();
         let found = tendons.iter().find(|(_, known)| *known == name);
-        if found.is_none() {
-            let known: Vec<String> = tendons.iter().map(|(_, name)| (*name).to_owned()).collect();
-            self.problems
-                .unknown(node, attribute, "tendon", name, &known);
-        }
+        let known = tendons.iter().map(|(_, known)| *known);
+        let found = (self.problems).known(found, (node, attribute), ("tendon", name), known);
         found.map(|(tendon, _)| *tendon)
     }
 }

@@ -15,11 +15,10 @@ use super::check::{AXIS, IRRELEVANT, look};
 use super::constraints;
 use super::part::{Parts, pose};
 use crate::geometry::{Pose, Quaternion, Rotation, Vector3};
-use crate::interchange::page::{Problems, document};
+use crate::interchange::page::{Problems, direction, document};
 use crate::interchange::problem::{ImportProblem, ImportProblemKind};
 use crate::interchange::remark::Remark;
 use crate::interchange::tree::{Body, Joint, Motion, Tree};
-use crate::interchange::urdf::direction;
 
 /// Reads the text of an MJCF file without `include`.
 pub(crate) fn read(text: &str) -> Result<(Tree, Vec<Remark>), Vec<ImportProblem>> {

@@ -44,7 +44,7 @@ impl Unroller<'_> {
             Some(Placed { chain, row, frame }) => {
                 let part = &self.chains[*chain];
                 let at = frame.inverse() * self.zero[carrier] * *pose;
-                if self.names.of_frame(wanted) == Some(&part.name.value)
+                if self.names.frames.get(wanted) == Some(&part.name.value)
                     && *row == part.value.rows.len()
                 {
                     return part.name.value.clone();
@@ -52,7 +52,7 @@ impl Unroller<'_> {
                 (format!("{}.{row}", part.name.value), at)
             }
         };
-        if let Some(name) = self.names.of_frame(wanted) {
+        if let Some(name) = self.names.frames.get(wanted) {
             return name.clone();
         }
         if is_identity(&base) && fit(wanted) != wanted {
@@ -138,25 +138,13 @@ impl Unroller<'_> {
     }
 
     fn length(&self, extent: &Extent) -> Entry {
-        let mut constant = extent.constant;
-        let mut terms = Vec::new();
-        for (joint, factor) in &extent.terms {
-            match self.leaders.get(joint) {
-                None => terms.push((self.variables[joint].clone(), *factor)),
-                Some(coupling) => {
-                    constant += factor * coupling.offset;
-                    let leader = self.variables.get(&coupling.leader);
-                    terms.extend(leader.map(|leader| (leader.clone(), factor * coupling.factor)));
-                }
-            }
-        }
-        terms.retain(|(_, factor)| *factor != 0.0);
+        let terms = extent.terms.iter().map(|(joint, factor)| (joint, *factor));
+        let (constant, terms) = self.affine(extent.constant, terms);
         // a length has no sign
-        let constant = Entry::length(if terms.is_empty() {
-            constant.abs()
-        } else {
-            constant
-        });
-        sum(constant, &terms)
+        let constant = match terms.is_empty() {
+            true => constant.abs(),
+            false => constant,
+        };
+        sum(Entry::length(constant), &terms)
     }
 }

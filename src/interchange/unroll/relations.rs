@@ -48,47 +48,43 @@ pub(super) fn leaders(tree: &Tree) -> Result<HashMap<String, Coupling>, ImportPr
     Ok(leaders)
 }
 
-/// Refuses lengths so large that all others would be lost to rounding.
+/// Refuses numbers so large that all others would be lost to rounding.
 pub(super) fn within_reason(tree: &Tree) -> Result<(), ImportProblemKind> {
     const MOST: f64 = 1e12;
-    let fits = |x: &f64| x.abs() <= MOST;
-    let pose = |pose: &Pose<f64>| {
-        let axes = pose.rotation.0.iter().flat_map(|axis| &axis.0);
-        pose.position.0.iter().chain(axes).all(fits)
-    };
-    let refuse = |of: &str| Err(ImportProblemKind::TooLarge { of: of.to_owned() });
+    fn entries(pose: &Pose<f64>) -> impl Iterator<Item = f64> {
+        let axes = pose.rotation.0.into_iter().chain([pose.position]);
+        axes.flat_map(|axis| axis.0)
+    }
+    fn check(of: &str, mut numbers: impl Iterator<Item = f64>) -> Result<(), ImportProblemKind> {
+        let of = of.to_owned();
+        let fit = numbers.all(|x| x.abs() <= MOST);
+        fit.then_some(()).ok_or(ImportProblemKind::TooLarge { of })
+    }
     let zero = tree.poses(|joint| joint.reference);
-    let home = tree.home();
-    for (i, body) in tree.bodies.iter().enumerate() {
-        if ![&body.pose, &zero[i], &home[i]].into_iter().all(pose) {
-            return refuse(&body.name);
-        }
-        if let Some((name, _)) = body.frames.iter().find(|(_, frame)| !pose(frame)) {
-            return refuse(name);
+    for ((body, zero), home) in tree.bodies.iter().zip(&zero).zip(&tree.home()) {
+        let poses = [&body.pose, zero, home];
+        check(&body.name, poses.into_iter().flat_map(entries))?;
+        for (name, frame) in &body.frames {
+            check(name, entries(frame))?;
         }
         for joint in &body.joints {
-            let point = joint.point.0.iter().chain(&joint.axis.0);
-            let limits = joint.limits.map_or([0.0; 2], |(low, high)| [low, high]);
-            let values = [joint.reference, joint.home];
-            if !point.chain(&values).chain(&limits).all(fits) {
-                return refuse(&joint.name);
-            }
+            let line = joint.point.0.into_iter().chain(joint.axis.0);
+            let (low, high) = joint.limits.unwrap_or_default();
+            let values = [joint.reference, joint.home, low, high];
+            check(&joint.name, line.chain(values))?;
         }
     }
     for coupling in &tree.couplings {
-        if ![coupling.factor, coupling.offset].iter().all(fits) {
-            return refuse(&coupling.joint);
-        }
+        let line = [coupling.factor, coupling.offset];
+        check(&coupling.joint, line.into_iter())?;
     }
     for part in &tree.loops {
         let lengths = part.length.iter().flat_map(|length| {
             let factors = length.terms.iter().map(|(_, factor)| *factor);
             factors.chain([length.constant])
         });
-        if !part.sides.iter().all(|side| pose(&side.pose)) || !lengths.into_iter().all(|x| fits(&x))
-        {
-            return refuse(&part.name);
-        }
+        let sides = part.sides.iter().flat_map(|side| entries(&side.pose));
+        check(&part.name, sides.chain(lengths))?;
     }
     Ok(())
 }

@@ -10,11 +10,10 @@
 
 use roxmltree::Node;
 
-use super::motion::{direction, least_along, no_axis};
+use super::motion::AXIS;
 use crate::description::ClosureKind;
-use crate::geometry::{Pose, Rotation, Vector3};
-use crate::interchange::page::{Problems, child, children, parse, pose_of, tag};
-use crate::interchange::problem::ImportProblemKind;
+use crate::geometry::{Pose, Vector3};
+use crate::interchange::page::{Problems, along_z, child, children, pose_of, tag};
 use crate::interchange::remark::Remark;
 use crate::interchange::tree::{Loop, Tree};
 
@@ -100,13 +99,9 @@ struct LoopReader<'a> {
 impl LoopReader<'_> {
     /// The link of that name.
     fn link(&mut self, node: Node, attribute: &str, name: &str) -> Option<usize> {
+        let links = self.tree.bodies.iter().map(|body| body.name.as_str());
         let found = self.tree.body(name);
-        if found.is_none() {
-            let bodies = self.tree.bodies.iter();
-            let known: Vec<String> = bodies.map(|body| body.name.clone()).collect();
-            self.problems.unknown(node, attribute, "link", name, &known);
-        }
-        found
+        (self.problems).known(found, (node, attribute), ("link", name), links)
     }
 
     fn close(&mut self, node: Node, kind: ClosureKind, ends: [(usize, Pose<f64>); 2]) {
@@ -144,12 +139,8 @@ impl LoopReader<'_> {
             if let Some(axis) = axis
                 && let Some(along) = self.problems.numbers(axis, "xyz")
             {
-                let Some(along) = direction(along) else {
-                    let joint = node.attribute("name").unwrap_or("loop").to_owned();
-                    self.problems.say(no_axis(joint), axis);
-                    return None;
-                };
-                axes[side] = along;
+                let joint = node.attribute("name").unwrap_or("loop");
+                axes[side] = self.problems.axis(along, joint, AXIS, axis)?;
             }
             sides.push((body, pose));
         }
@@ -189,26 +180,14 @@ impl LoopReader<'_> {
             bodies.push(body);
         }
         let [parent, child_body] = <[usize; 2]>::try_from(bodies).ok()?;
-        let mut numbers = |part: Node, count: usize| {
-            let text = part.text().unwrap_or_default();
-            let words: Option<Vec<f64>> = match count {
-                3 => parse::<3>(text).map(Vec::from),
-                _ => parse::<6>(text).map(Vec::from),
-            };
-            if words.is_none() {
-                let text = text.chars().take(40).collect::<String>();
-                self.problems.not_numbers(&text, count, tag(part));
-            }
-            words
+        let numbers = |problems: &mut Problems, part: Node, count: usize| {
+            problems.parsed(part.text().unwrap_or_default(), count, tag(part))
         };
         let mut pose = Pose::identity();
         if let Some(part) = child(node, "pose") {
-            let v = numbers(part, 6)?;
+            let v = numbers(self.problems, part, 6)?;
             pose = pose_of([v[0], v[1], v[2]], [v[3], v[4], v[5]]);
-            if part
-                .attribute("relative_to")
-                .is_some_and(|name| !name.is_empty())
-            {
+            if !part.attribute("relative_to").unwrap_or_default().is_empty() {
                 let help = "give the pose in the child link";
                 let what = "a pose relative to a named frame";
                 return self.problems.unsupported(what, help, part);
@@ -216,15 +195,10 @@ impl LoopReader<'_> {
         }
         let mut axis = Vector3::unit(2);
         if let Some(part) = child(node, "axis").and_then(|axis| child(axis, "xyz")) {
-            let v = numbers(part, 3)?;
-            let Some(along) = direction([v[0], v[1], v[2]]) else {
-                let joint = node.attribute("name").unwrap_or("joint").to_owned();
-                let example = "<xyz>0 0 1</xyz>";
-                let problem = ImportProblemKind::NoAxis { joint, example };
-                self.problems.say(problem, part);
-                return None;
-            };
-            axis = along;
+            let v = numbers(self.problems, part, 3)?;
+            let joint = node.attribute("name").unwrap_or("joint");
+            let (along, example) = ([v[0], v[1], v[2]], "<xyz>0 0 1</xyz>");
+            axis = self.problems.axis(along, joint, example, part)?;
         }
         let poses = self.tree.poses(|joint| joint.reference);
         let frame = pose * along_z(&axis);
@@ -246,14 +220,3 @@ fn kind_of(word: &str) -> ClosureKind {
     }
 }
 
-/// A rotation that turns z into a direction; axes of coordinates stay exact.
-pub(crate) fn along_z(axis: &Vector3<f64>) -> Pose<f64> {
-    // the coordinate axis most across the direction becomes x as nearly as it can
-    let e = Vector3::unit(least_along(axis));
-    let across = e - axis.times(axis.dot(&e));
-    let x = across.times(1.0 / across.norm());
-    Pose {
-        rotation: Rotation([x, axis.cross(&x), *axis]),
-        position: Vector3::zero(),
-    }
-}

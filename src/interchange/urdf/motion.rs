@@ -5,8 +5,7 @@ use std::collections::HashSet;
 use roxmltree::Node;
 
 use crate::geometry::{Pose, Vector3};
-use crate::interchange::page::{child, children};
-use crate::interchange::problem::ImportProblemKind;
+use crate::interchange::page::{child, children, least_along};
 use crate::interchange::remark::Remark;
 use crate::interchange::tree::{Joint, Motion};
 
@@ -23,23 +22,6 @@ pub(super) struct Hanging {
     pub limits: (f64, f64),
     /// The joint that is followed, the factor and the offset.
     pub mimic: Option<(String, f64, f64)>,
-}
-
-/// The unit vector along three numbers, if they give a direction.
-pub(crate) fn direction([x, y, z]: [f64; 3]) -> Option<Vector3<f64>> {
-    let v = Vector3([x, y, z]);
-    let largest = x.abs().max(y.abs()).max(z.abs());
-    if !largest.is_finite() || largest < 1e-12 {
-        return None;
-    }
-    let scaled = v.times(1.0 / largest);
-    Some(scaled.times(1.0 / scaled.norm()))
-}
-
-/// The coordinate axis most across a direction.
-pub(super) fn least_along(axis: &Vector3<f64>) -> usize {
-    let size = |i: usize| axis.0[i].abs();
-    (0..3).fold(0, |i, j| if size(j) < size(i) { j } else { i })
 }
 
 /// The joints of a link, as turns and slides about axes through its own frame.
@@ -114,8 +96,5 @@ pub(super) fn driven(
     driven.collect()
 }
 
-/// The problem of an axis of zero length.
-pub(super) fn no_axis(joint: String) -> ImportProblemKind {
-    let example = "xyz=\"0 0 1\"";
-    ImportProblemKind::NoAxis { joint, example }
-}
+/// How an axis is written.
+pub(super) const AXIS: &str = "xyz=\"0 0 1\"";

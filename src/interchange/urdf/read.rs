@@ -10,9 +10,9 @@ use std::collections::{BTreeMap, HashMap, HashSet};
 use roxmltree::Node;
 
 use super::loops;
-use super::motion::{Hanging, direction, driven, moving, no_axis};
+use super::motion::{AXIS, Hanging, driven, moving};
 use crate::geometry::{Pose, Vector3};
-use crate::interchange::page::{Problems, child, children, document, turned};
+use crate::interchange::page::{Problems, child, children, direction, document, turned};
 use crate::interchange::problem::{ImportProblem, ImportProblemKind};
 use crate::interchange::remark::Remark;
 use crate::interchange::tree::{Body, Coupling, Tree};
@@ -176,11 +176,8 @@ impl<'a, 'i> Reader<'a, 'i> {
         }
         if let Some([x, y, z, w]) = self.problems.numbers::<4>(node, "quat_xyzw") {
             if node.has_attribute("rpy") {
-                let problem = ImportProblemKind::Unsupported {
-                    what: "an origin with both `rpy` and `quat_xyzw`".into(),
-                    help: "leave one of them out",
-                };
-                self.problems.say(problem, node);
+                let what = "an origin with both `rpy` and `quat_xyzw`";
+                (self.problems).unsupported::<()>(what, "leave one of them out", node);
             }
             match direction([x, y, z]).is_some() || w != 0.0 {
                 true => pose.rotation = turned([w, x, y, z]),
@@ -209,14 +206,11 @@ impl<'a, 'i> Reader<'a, 'i> {
             let needs_axis = kind.is_some_and(|kind| {
                 matches!(kind, "revolute" | "continuous" | "prismatic" | "planar")
             });
-            match direction(given) {
-                Some(unit) => along = unit,
-                None if needs_axis => {
-                    let joint = name.to_owned();
-                    self.problems.say(no_axis(joint), axis);
-                }
-                None => {}
-            }
+            let unit = match needs_axis {
+                true => self.problems.axis(given, name, AXIS, axis),
+                false => direction(given),
+            };
+            along = unit.unwrap_or(along);
         }
         let absent = match self.version < (1, 2) {
             true => (0.0, 0.0),
@@ -235,25 +229,18 @@ impl<'a, 'i> Reader<'a, 'i> {
         }
         let mut mimic = None;
         if let Some(part) = child(node, "mimic") {
-            let [factor, offset] = ["multiplier", "offset"].map(|name| {
-                let number = self.problems.numbers::<1>(part, name);
-                number.map(|[number]| number)
-            });
+            let [factor] = self.problems.numbers(part, "multiplier").unwrap_or([1.0]);
+            let [offset] = self.problems.numbers(part, "offset").unwrap_or([0.0]);
             let leader = self.problems.needed(part, "joint");
-            mimic = leader.map(|leader| {
-                let leader = leader.to_owned();
-                (leader, factor.unwrap_or(1.0), offset.unwrap_or(0.0))
-            });
+            mimic = leader.map(|leader| (leader.to_owned(), factor, offset));
         }
         let ends = ["parent", "child"].map(|end| {
             let part = self.problems.needed_child(node, end)?;
             let link = self.problems.needed(part, "link")?;
-            if !self.links.iter().any(|known| known == link) {
-                let links = self.links.clone();
-                self.problems.unknown(part, "link", "link", link, &links);
-                return None;
-            }
-            Some(link.to_owned())
+            let found = self.links.iter().find(|known| *known == link);
+            let links = self.links.iter().map(String::as_str);
+            let found = (self.problems).known(found, (part, "link"), ("link", link), links);
+            found.cloned()
         });
         let [parent, child] = ends;
         Some(Hanging {
@@ -291,11 +278,10 @@ impl<'a, 'i> Reader<'a, 'i> {
             let Some((mimic, leader)) = mimic.and_then(|m| Some((m, m.attribute("joint")?))) else {
                 continue;
             };
-            if !joints.iter().any(|(_, other)| other == leader) {
-                let known: Vec<String> = joints.iter().map(|(_, name)| name.clone()).collect();
-                self.problems
-                    .unknown(mimic, "joint", "joint", leader, &known);
-            } else if leader == name {
+            let known = joints.iter().map(|(_, name)| name.as_str());
+            let found = known.clone().find(|other| *other == leader);
+            (self.problems).known(found, (mimic, "joint"), ("joint", leader), known);
+            if leader == name {
                 let problem = ImportProblemKind::FollowsItself {
                     joint: name.clone(),
                 };

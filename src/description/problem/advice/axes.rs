@@ -23,7 +23,7 @@ pub(super) fn help(problem: &AxesProblem) -> Option<String> {
         SphericalInSerial { .. } => {
             "write three revolute joints with intersecting axes, or name the bodies that the joints connect".into()
         }
-        DriveCut { .. } => "cut another joint of its loop, or hold another joint with --hold".into(),
+        DriveCut { .. } => "cut another joint of its loop, or drive another joint".into(),
         LimitsCut { .. } => "cut another joint of its loop to keep them".into(),
         BaseUnused {
             convention: Convention::Modified,
