@@ -342,7 +342,7 @@ impl<'a> Question<'a> {
         if let Some((platform, coordinate)) = name.rsplit_once('.')
             && let (Some(platform), Some(coordinate)) = (
                 self.mechanism.platform(platform),
-                PoseCoordinate::by_name(coordinate),
+                PoseCoordinate::from_word(coordinate),
             )
         {
             return Ok(Target::Coordinate(platform, coordinate));
@@ -354,7 +354,7 @@ impl<'a> Question<'a> {
             .map(|joint| joint.name.clone());
         let platforms = self.mechanism.platforms().iter().flat_map(|platform| {
             let coordinates =
-                PoseCoordinate::ALL.map(|c| format!("{}.{}", platform.name, c.name()));
+                PoseCoordinate::ALL.map(|c| format!("{}.{}", platform.name, c.word()));
             [platform.name.clone()].into_iter().chain(coordinates)
         });
         let known: Vec<String> = joints.chain(platforms).collect();

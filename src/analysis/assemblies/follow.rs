@@ -226,7 +226,7 @@ fn input_names(mechanism: &Mechanism, family: &Family) -> Vec<String> {
     names.extend(
         c.targets
             .iter()
-            .map(|&(p, coordinate)| format!("{}.{}", platform(p), coordinate.name())),
+            .map(|&(p, coordinate)| format!("{}.{}", platform(p), coordinate.word())),
     );
     for &p in &c.orientations {
         names.extend(

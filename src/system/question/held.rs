@@ -69,7 +69,7 @@ impl Question<'_> {
                 .into_iter()
                 .zip(values)
                 .filter(|(_, v)| v.is_some());
-            held.map(|(c, _)| format!("{}.{}", platform.name, c.name()))
+            held.map(|(c, _)| format!("{}.{}", platform.name, c.word()))
         });
         joints.chain(coordinates).collect()
     }
