@@ -2,7 +2,7 @@
 
 use std::fmt::{self, Display, Formatter};
 
-use serde::de::{Error, Visitor};
+use serde::de::Error;
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
 
 use super::parser::parse_dotted;
@@ -125,31 +125,16 @@ impl<N: Display> Serialize for Expression<N> {
 /// From a number or a text, as it is serialised.
 impl<'de> Deserialize<'de> for Expression {
     fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
-        struct NumberOrText;
-        impl Visitor<'_> for NumberOrText {
-            type Value = Expression;
-
-            fn expecting(&self, f: &mut Formatter) -> fmt::Result {
-                f.write_str("a number or an expression")
-            }
-
-            fn visit_f64<E: Error>(self, value: f64) -> Result<Expression, E> {
-                Ok(Expression::number(value))
-            }
-
-            fn visit_i64<E: Error>(self, value: i64) -> Result<Expression, E> {
-                Ok(Expression::number(value as f64))
-            }
-
-            fn visit_u64<E: Error>(self, value: u64) -> Result<Expression, E> {
-                Ok(Expression::number(value as f64))
-            }
-
-            fn visit_str<E: Error>(self, text: &str) -> Result<Expression, E> {
-                parse_dotted(text).map_err(E::custom)
-            }
+        #[derive(Deserialize)]
+        #[serde(untagged, expecting = "expected a number or an expression")]
+        enum Written {
+            Number(f64),
+            Text(String),
         }
-        deserializer.deserialize_any(NumberOrText)
+        match Written::deserialize(deserializer)? {
+            Written::Number(value) => Ok(Expression::number(value)),
+            Written::Text(text) => parse_dotted(&text).map_err(Error::custom),
+        }
     }
 }
 

@@ -146,6 +146,14 @@ impl Symbolic {
         self.of(|x, _| Some(Trigonometric::call(function, std::slice::from_ref(x))))
     }
 
+    /// A function that is zero at zero.
+    fn odd(self, function: Function) -> Self {
+        match self.is_zero() {
+            true => self,
+            false => self.called(function),
+        }
+    }
+
     fn is_zero(self) -> bool {
         self.place == 0
     }
@@ -248,44 +256,33 @@ impl Number for Symbolic {
         self.of(|x, budget| x.root(budget))
     }
     fn asin(self) -> Self {
-        if self.is_zero() {
-            self
-        } else {
-            self.called(Function::Asin)
-        }
+        self.odd(Function::Asin)
     }
     fn acos(self) -> Self {
-        if self.is_one() {
-            Self::zero()
-        } else {
-            self.called(Function::Acos)
+        match self.is_one() {
+            true => Self::zero(),
+            false => self.called(Function::Acos),
         }
     }
     fn atan(self) -> Self {
-        if self.is_zero() {
-            self
-        } else {
-            self.called(Function::Atan)
-        }
+        self.odd(Function::Atan)
     }
     fn atan2(self, x: Self) -> Self {
-        let arc = |y: &Trigonometric, x: &Trigonometric| [y.clone(), x.clone()];
         self.with(x, |y, x, _| {
-            Some(Trigonometric::call(Function::Atan2, &arc(y, x)))
+            let arguments = [y.clone(), x.clone()];
+            Some(Trigonometric::call(Function::Atan2, &arguments))
         })
     }
     fn exp(self) -> Self {
-        if self.is_zero() {
-            Self::one()
-        } else {
-            self.called(Function::Exp)
+        match self.is_zero() {
+            true => Self::one(),
+            false => self.called(Function::Exp),
         }
     }
     fn ln(self) -> Self {
-        if self.is_one() {
-            Self::zero()
-        } else {
-            self.called(Function::Ln)
+        match self.is_one() {
+            true => Self::zero(),
+            false => self.called(Function::Ln),
         }
     }
     /// The sign of a letter is not known, whatever its value at home.

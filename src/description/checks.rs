@@ -9,34 +9,22 @@ use crate::algebra::{is_name, is_reserved};
 pub(super) fn check(description: &Description, problems: &mut Vec<Problem>) {
     let parameters = names(Noun::Parameter, &description.parameters);
     let joints = names(Noun::Joint, &description.joints);
-    let quantities: Vec<_> = parameters.chain(joints).collect();
-    let bodies: Vec<_> = names(Noun::Chain, &description.chains)
-        .chain(names(Noun::Platform, &description.platforms))
-        .collect();
-    for &(noun, name) in &quantities {
-        check_quantity(noun, name, problems);
-    }
+    let quantities = check_quantities(parameters.chain(joints), problems);
+    let platforms = names(Noun::Platform, &description.platforms);
+    let bodies = names(Noun::Chain, &description.chains).chain(platforms);
+    let bodies: Vec<_> = bodies.collect();
     for &(noun, name) in &bodies {
         check_body(noun, name, problems);
     }
-    check_distinct(&quantities, problems);
     check_distinct(&bodies, problems);
+    let frames = description.platforms.iter();
+    let frames = frames.flat_map(|p| names(Noun::PlatformFrame, &p.value.frames));
     let labels = names(Noun::Closure, &description.closures)
-        .chain(names(Noun::ClosedForm, &description.closed_forms))
-        .chain(
-            description
-                .platforms
-                .iter()
-                .flat_map(|p| names(Noun::PlatformFrame, &p.value.frames)),
-        );
-    for (noun, name) in labels {
+        .chain(names(Noun::ClosedForm, &description.closed_forms));
+    for (noun, name) in labels.chain(frames) {
         check_not_empty(noun, name, problems);
     }
     check_conventions(description, problems);
-    let quantities: HashMap<_, _> = quantities
-        .iter()
-        .map(|(noun, name)| (name.value.as_str(), (*noun, name.span.clone())))
-        .collect();
     for closed_form in &description.closed_forms {
         check_locals(&closed_form.value, &quantities, problems);
     }
@@ -46,11 +34,19 @@ pub(super) fn check(description: &Description, problems: &mut Vec<Problem>) {
 pub(super) fn check_axes(description: &AxesDescription, problems: &mut Vec<Problem>) {
     let parameters = names(Noun::Parameter, &description.parameters);
     let joints = names(Noun::Axis, &description.joints);
-    let quantities: Vec<_> = parameters.chain(joints).collect();
-    for &(noun, name) in &quantities {
+    check_quantities(parameters.chain(joints), problems);
+}
+
+/// Names that expressions use; where the first of each stands.
+fn check_quantities<'a>(
+    names: impl Iterator<Item = (Noun, &'a Spanned<String>)>,
+    problems: &mut Vec<Problem>,
+) -> HashMap<&'a str, (Noun, &'a Range<usize>)> {
+    let names: Vec<_> = names.collect();
+    for &(noun, name) in &names {
         check_quantity(noun, name, problems);
     }
-    check_distinct(&quantities, problems);
+    check_distinct(&names, problems)
 }
 
 fn names<T>(noun: Noun, named: &[Named<T>]) -> impl Iterator<Item = (Noun, &Spanned<String>)> {
@@ -92,23 +88,26 @@ fn check_body(noun: Noun, name: &Spanned<String>, problems: &mut Vec<Problem>) {
 }
 
 /// Names of different things that share one namespace. (Within one map the reader has checked this.)
-fn check_distinct(names: &[(Noun, &Spanned<String>)], problems: &mut Vec<Problem>) {
-    let mut first: HashMap<&str, (Noun, &Range<usize>)> = HashMap::new();
+fn check_distinct<'a>(
+    names: &[(Noun, &'a Spanned<String>)],
+    problems: &mut Vec<Problem>,
+) -> HashMap<&'a str, (Noun, &'a Range<usize>)> {
+    let mut first = HashMap::new();
     for &(noun, name) in names {
         match first.get(name.value.as_str()) {
             None => {
-                first.insert(&name.value, (noun, &name.span));
+                first.insert(name.value.as_str(), (noun, &name.span));
             }
-            Some(&(other, span)) => {
-                let problem = ProblemKind::DuplicateName {
-                    noun,
-                    name: name.value.clone(),
-                }
-                .at(name.span.clone());
-                problems.push(problem.with(span.clone(), Note::FirstHere(other)));
-            }
+            Some(first) => problems.push(given_twice(noun, name, *first)),
         }
     }
+    first
+}
+
+fn given_twice(noun: Noun, name: &Spanned<String>, first: (Noun, &Range<usize>)) -> Problem {
+    let (value, span) = (name.value.clone(), name.span.clone());
+    let problem = ProblemKind::DuplicateName { noun, name: value }.at(span);
+    problem.with(first.1.clone(), Note::FirstHere(first.0))
 }
 
 /// One problem for all chains: one line in the file corrects them all.
@@ -140,20 +139,13 @@ fn check_conventions(description: &Description, problems: &mut Vec<Problem>) {
 
 fn check_locals(
     form: &ClosedFormDescription,
-    quantities: &HashMap<&str, (Noun, Range<usize>)>,
+    quantities: &HashMap<&str, (Noun, &Range<usize>)>,
     problems: &mut Vec<Problem>,
 ) {
     for Named { name, .. } in &form.locals {
         check_quantity(Noun::LocalName, name, problems);
-        if let Some((noun, span)) = quantities.get(name.value.as_str()) {
-            let kind = ProblemKind::DuplicateName {
-                noun: Noun::LocalName,
-                name: name.value.clone(),
-            };
-            problems.push(
-                kind.at(name.span.clone())
-                    .with(span.clone(), Note::FirstHere(*noun)),
-            );
+        if let Some(first) = quantities.get(name.value.as_str()) {
+            problems.push(given_twice(Noun::LocalName, name, *first));
         }
     }
 }

@@ -271,11 +271,6 @@ impl ChainDescription {
             ..Self::default()
         }
     }
-
-    /// The frame to which the chain is attached.
-    pub fn stands_on(&self) -> &str {
-        self.on.as_ref().map_or(GROUND, |frame| &frame.value)
-    }
 }
 
 /// The name of the fixed frame.

@@ -17,7 +17,7 @@ use crate::description::{FileError, LoadError, Problem, ProblemKind, Severity};
 use crate::geometry::Pose;
 
 /// A chain as far as it could be resolved.
-struct Draughted {
+struct ResolvedChain {
     name: String,
     doubtful: bool,
     on: Option<Frame>,
@@ -29,7 +29,7 @@ struct Draughted {
     tip: Vec<FixedStep>,
 }
 
-impl Draughted {
+impl ResolvedChain {
     /// The chain, if all of it could be resolved.
     fn finished(self) -> Option<Chain> {
         Some(Chain {
@@ -133,7 +133,7 @@ impl Mechanism {
             source: description.source.as_ref().map(|s| s.value.clone()),
             parameters,
             joints,
-            chains: chains.into_iter().filter_map(Draughted::finished).collect(),
+            chains: chains.into_iter().filter_map(ResolvedChain::finished).collect(),
             platforms,
             closures,
             closed_forms,
@@ -223,7 +223,7 @@ impl Builder<'_> {
         found.map_err(|kind| self.refuse(kind, &name.span)).ok()
     }
 
-    fn chains(&mut self, description: &Description) -> Vec<Draughted> {
+    fn chains(&mut self, description: &Description) -> Vec<ResolvedChain> {
         let mut chains = Vec::new();
         for Named { name, value } in &description.chains {
             let convention = value
@@ -253,7 +253,7 @@ impl Builder<'_> {
                 };
                 rows.push(whole());
             }
-            chains.push(Draughted {
+            chains.push(ResolvedChain {
                 doubtful: self.doubtful.contains(&name.value),
                 name: name.value.clone(),
                 on,
@@ -269,7 +269,7 @@ impl Builder<'_> {
     }
 
     /// Chains may be attached to one another, but not in a cycle.
-    fn check_mounting(&mut self, description: &Description, chains: &mut [Draughted]) {
+    fn check_mounting(&mut self, description: &Description, chains: &mut [ResolvedChain]) {
         let uses: Vec<Vec<usize>> = (chains.iter())
             .map(|chain| match chain.on {
                 Some(Frame::Tip { chain } | Frame::Link { chain, .. }) => vec![chain],

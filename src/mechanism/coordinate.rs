@@ -23,34 +23,16 @@ words! {
 }
 
 impl PoseCoordinate {
-    /// The name used after the platform's: `top.z`, `top.yaw`.
-    pub fn name(self) -> &'static str {
-        self.word()
-    }
-
-    /// The coordinate of that name.
-    pub fn by_name(name: &str) -> Option<Self> {
-        Self::from_word(name)
-    }
-
     /// Whether it is an angle, in rad; otherwise a length, in m.
     pub fn is_angle(self) -> bool {
-        matches!(
-            self,
-            PoseCoordinate::Roll | PoseCoordinate::Pitch | PoseCoordinate::Yaw
-        )
+        matches!(self, Self::Roll | Self::Pitch | Self::Yaw)
     }
 
     /// Its value at a pose.
     pub fn of<T: Number>(self, pose: &Pose<T>) -> T {
-        let angles = || RollPitchYaw::from_rotation(&pose.rotation);
         match self {
-            PoseCoordinate::X => pose.position.0[0],
-            PoseCoordinate::Y => pose.position.0[1],
-            PoseCoordinate::Z => pose.position.0[2],
-            PoseCoordinate::Roll => angles().roll,
-            PoseCoordinate::Pitch => angles().pitch,
-            PoseCoordinate::Yaw => angles().yaw,
+            Self::X | Self::Y | Self::Z => pose.position.0[self as usize],
+            _ => Self::all_of(pose)[self as usize],
         }
     }
 
@@ -66,8 +48,8 @@ impl PoseCoordinate {
     pub(crate) fn along<T: Number>(self, rotation: &Rotation<T>, value: T) -> Option<T> {
         let [n, s, a] = rotation.0;
         let (y, x) = match self {
-            PoseCoordinate::Roll => (s.0[2], a.0[2]),
-            PoseCoordinate::Yaw => (n.0[1], n.0[0]),
+            Self::Roll => (s.0[2], a.0[2]),
+            Self::Yaw => (n.0[1], n.0[0]),
             _ => return None,
         };
         let (sin, cos) = value.sin_cos();
@@ -82,18 +64,18 @@ impl PoseCoordinate {
     ///
     /// Over complex numbers the row is entire instead: y c − x s for roll and yaw, y − s for pitch.
     /// No analytic row can tell φ from φ + π there, nor the two signs of cos(pitch), so it vanishes
-    /// for both; [`Coordinate::along`] tells them apart.
+    /// for both; [`PoseCoordinate::along`] tells them apart.
     pub(crate) fn row<T: Number>(self, pose: &Pose<T>, value: T, length: f64) -> (T, [T; 6]) {
         let gap = match self {
-            PoseCoordinate::X | PoseCoordinate::Y | PoseCoordinate::Z => {
+            Self::X | Self::Y | Self::Z => {
                 (pose.position.0[self as usize] - value).scale(1.0 / length)
             }
-            PoseCoordinate::Roll | PoseCoordinate::Pitch | PoseCoordinate::Yaw => {
-                let ((y, dy), (x, dx)) = self.legs(pose);
+            _ => {
+                let ((y, dy), (x, dx)) = self.arguments(pose);
                 let (sin, cos) = value.sin_cos();
                 if !T::REAL {
                     let (gap, d) = match self {
-                        PoseCoordinate::Pitch => (y - sin, dy),
+                        Self::Pitch => (y - sin, dy),
                         _ => (y * cos - x * sin, dy.times(cos) - dx.times(sin)),
                     };
                     let mut slope = [T::zero(); 6];
@@ -111,11 +93,11 @@ impl PoseCoordinate {
     pub(crate) fn slope<T: Number>(self, pose: &Pose<T>) -> [T; 6] {
         let mut slope = [T::zero(); 6];
         match self {
-            PoseCoordinate::X | PoseCoordinate::Y | PoseCoordinate::Z => {
+            Self::X | Self::Y | Self::Z => {
                 slope[3 + self as usize] = T::one()
             }
-            PoseCoordinate::Roll | PoseCoordinate::Pitch | PoseCoordinate::Yaw => {
-                let ((y, dy), (x, dx)) = self.legs(pose);
+            _ => {
+                let ((y, dy), (x, dx)) = self.arguments(pose);
                 let d = (dy.times(x) - dx.times(y)).times(T::one() / (x * x + y * y));
                 slope[..3].copy_from_slice(&d.0);
             }
@@ -125,15 +107,15 @@ impl PoseCoordinate {
 
     /// The two arguments of an angle's arc tangent, (y, dy) and (x, dx): an entry r of column n along e
     /// changes by ω·(n × e).
-    fn legs<T: Number>(self, pose: &Pose<T>) -> (Changing<T>, Changing<T>) {
+    fn arguments<T: Number>(self, pose: &Pose<T>) -> (Changing<T>, Changing<T>) {
         let [n, s, a] = pose.rotation.0;
         let entry = |column: &Vector3<T>, axis: Axis| {
             let e = Vector3::unit(axis as usize);
             (column.dot(&e), column.cross(&e))
         };
         match self {
-            PoseCoordinate::Roll => (entry(&s, Axis::Z), entry(&a, Axis::Z)),
-            PoseCoordinate::Pitch => {
+            Self::Roll => (entry(&s, Axis::Z), entry(&a, Axis::Z)),
+            Self::Pitch => {
                 let (r31, d31) = entry(&n, Axis::Z);
                 let cos = (n.0[0] * n.0[0] + n.0[1] * n.0[1]).sqrt();
                 // cos² = 1 − r31², so d cos = −r31 d r31/cos

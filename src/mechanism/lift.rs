@@ -106,36 +106,35 @@ impl Mechanism {
         &self,
         parameters: &[T],
     ) -> Result<Dimensions<T>, EvaluationError> {
-        let mut chains = Vec::with_capacity(self.chains.len());
-        for chain in &self.chains {
+        let chains = self.chains.iter().map(|chain| {
             let rows = chain.rows.iter();
             let rows = rows.map(|row| row.over(chain.convention, parameters));
-            chains.push(ChainDimensions {
+            Ok(ChainDimensions {
                 on: chain.on,
                 base: product(&chain.base, parameters)?,
                 rows: rows.collect::<Result<_, _>>()?,
                 tip: product(&chain.tip, parameters)?,
-            });
-        }
-        let mut platforms = Vec::with_capacity(self.platforms.len());
-        for platform in &self.platforms {
+            })
+        });
+        let chains = chains.collect::<Result<_, _>>()?;
+        let platforms = self.platforms.iter().map(|platform| {
             let frames = platform.frames.iter();
-            let frames = frames.map(|(_, steps)| product(steps, parameters));
-            platforms.push(frames.collect::<Result<_, _>>()?);
-        }
-        let mut closures = Vec::with_capacity(self.closures.len());
-        for closure in &self.closures {
+            frames.map(|(_, steps)| product(steps, parameters)).collect()
+        });
+        let platforms = platforms.collect::<Result<_, _>>()?;
+        let closures = self.closures.iter().map(|closure| {
             let (length, extension) = match &closure.length {
                 Some(affine) => linear_form(affine, parameters)?,
                 None => (T::zero(), LinearForm(vec![])),
             };
-            closures.push(ClosureDimensions {
+            Ok(ClosureDimensions {
                 kind: closure.kind,
                 frames: closure.frames,
                 length,
                 extension,
-            });
-        }
+            })
+        });
+        let closures = closures.collect::<Result<_, _>>()?;
         let mut dimensions = Dimensions {
             characteristic_length: 1.0,
             joint_scales: vec![1.0; self.joints.len()],

@@ -342,7 +342,7 @@ impl<'a> Question<'a> {
         if let Some((platform, coordinate)) = name.rsplit_once('.')
             && let (Some(platform), Some(coordinate)) = (
                 self.mechanism.platform(platform),
-                PoseCoordinate::by_name(coordinate),
+                PoseCoordinate::from_word(coordinate),
             )
         {
             return Ok(Target::Coordinate(Coordinate::Pose(platform, coordinate)));

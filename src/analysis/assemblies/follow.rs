@@ -190,7 +190,7 @@ fn input_names(mechanism: &Mechanism, family: &Family) -> Vec<String> {
     let names = family.coordinates.inputs.iter().map(|input| match *input {
         Input::Joint(j) => vec![mechanism.joints()[j].name.clone()],
         Input::Pose(p) => of_platform(p, &[&QUATERNION[..], &["x", "y", "z"]].concat()),
-        Input::Target(p, coordinate) => of_platform(p, &[coordinate.name()]),
+        Input::Target(p, coordinate) => of_platform(p, &[coordinate.word()]),
         Input::Orientation(p) => of_platform(p, &QUATERNION),
     });
     names.flatten().collect()

@@ -2,7 +2,7 @@
 
 use super::super::model::{Closure, Row};
 use super::super::{Body, Frame};
-use super::{Builder, Draughted};
+use super::{Builder, ResolvedChain};
 use crate::algebra::Measure;
 use crate::description::{ClosureDescription, ClosureKind, Description, Entry, Named, ProblemKind};
 
@@ -10,7 +10,7 @@ impl Builder<'_> {
     pub(super) fn closures(
         &mut self,
         description: &Description,
-        chains: &[Draughted],
+        chains: &[ResolvedChain],
     ) -> Vec<Closure> {
         let mut closures = Vec::new();
         for Named { name, value } in &description.closures {
@@ -41,7 +41,7 @@ impl Builder<'_> {
         name: &str,
         described: &ClosureDescription,
         frames: [Frame; 2],
-        chains: &[Draughted],
+        chains: &[ResolvedChain],
     ) {
         let [a, b] = frames;
         let bodies = frames.map(|frame| self.body(frame, chains));
@@ -64,7 +64,7 @@ impl Builder<'_> {
     }
 
     /// The body that a frame is fixed to, or `None` if that depends on what is wrong with the file.
-    fn body(&self, frame: Frame, chains: &[Draughted]) -> Option<Body> {
+    fn body(&self, frame: Frame, chains: &[ResolvedChain]) -> Option<Body> {
         let mut frame = frame;
         loop {
             let (chain, rows) = match frame {

@@ -58,6 +58,6 @@ fn input(variables: &[Variable], name: &str, value: f64) -> String {
     }
     let coordinate = name
         .rsplit_once('.')
-        .and_then(|(_, c)| PoseCoordinate::by_name(c));
+        .and_then(|(_, c)| PoseCoordinate::from_word(c));
     coordinate.map_or(number(value), |c| quantity(value, c.is_angle()))
 }

@@ -129,7 +129,7 @@ impl Coordinate {
             Coordinate::Joint(joint) => mechanism.joints()[joint].name.clone(),
             Coordinate::Pose(platform, coordinate) => {
                 let platform = &mechanism.platforms()[platform].name;
-                format!("{platform}.{}", coordinate.name())
+                format!("{platform}.{}", coordinate.word())
             }
             Coordinate::Turn(platform, axis) => {
                 let axis = ["wx", "wy", "wz"][axis as usize];

@@ -132,7 +132,7 @@ impl Load {
         let mechanism = question.mechanism();
         let Some(joint) = mechanism.joint(name) else {
             let (platform, part) = name.rsplit_once('.').unwrap_or((name, ""));
-            let coordinate = PoseCoordinate::by_name(part);
+            let coordinate = PoseCoordinate::from_word(part);
             if mechanism.platform(name).is_some()
                 || coordinate.is_some() && mechanism.platform(platform).is_some()
             {
