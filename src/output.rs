@@ -22,8 +22,6 @@ pub mod conversion;
 pub mod diagnostics;
 pub mod formulas;
 pub mod frames;
-#[cfg(feature = "interchange")]
-pub mod import;
 pub mod mobility;
 pub mod overview;
 #[cfg(feature = "plot")]

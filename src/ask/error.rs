@@ -4,7 +4,7 @@ use std::fmt::{self, Display, Formatter};
 
 use crate::analysis::assemblies::AssembliesError;
 use crate::analysis::sweep::PointError;
-use crate::description::listed;
+use crate::description::{count, listed};
 use crate::system::{DriveError, ForceError, QuestionError};
 
 /// What a name or a value is in a question.
@@ -253,12 +253,37 @@ pub enum AskError {
     Interrupted,
 }
 
+impl AskError {
+    /// The part of the question that is wrong, if it is one.
+    pub fn item(&self) -> Option<Item> {
+        match self {
+            AskError::Named { item, .. }
+            | AskError::NotMapped { item, .. }
+            | AskError::Drive { item, .. }
+            | AskError::Load { item, .. }
+            | AskError::UnknownFrame { item, .. }
+            | AskError::Motionless { item, .. }
+            | AskError::UnknownOutput { item, .. }
+            | AskError::Traced { item, .. }
+            | AskError::Twice { item, .. }
+            | AskError::EmptyRange { item, .. }
+            | AskError::OutsideLimits { item, .. }
+            | AskError::AlsoHeld { item, .. } => Some(*item),
+            _ => None,
+        }
+    }
+}
+
 impl Display for AskError {
     fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
         match self {
             AskError::Named { error, .. }
             | AskError::Mapped { error, .. }
             | AskError::NotMapped { error, .. } => write!(f, "{error}"),
+            AskError::NotOneFreedom(QuestionError::TooFew { mobility, held, .. }) => {
+                let left = count(mobility.saturating_sub(*held), "freedom");
+                write!(f, "{left} remain, but a curve has one")
+            }
             AskError::Question(error) | AskError::NotOneFreedom(error) => write!(f, "{error}"),
             AskError::Drive { error, .. } => write!(f, "{error}"),
             AskError::Load { error, .. } => write!(f, "{error}"),
@@ -274,20 +299,26 @@ impl Display for AskError {
                 write!(f, "the motion begins outside the limits of `{name}`")
             }
             AskError::AlsoHeld { name, .. } => {
-                write!(f, "`{name}` is mapped and also held or freed")
+                write!(f, "`{name}` is given a range and also held or freed")
             }
             AskError::MoreThanATurn { name } => {
-                write!(f, "`{name}` is mapped over more than a turn")
+                write!(f, "the map of `{name}` is wider than a full turn")
             }
-            AskError::NothingMoves { .. } => write!(f, "no input is given"),
+            AskError::NothingMoves { .. } => write!(f, "no input moves"),
             AskError::Steps { given, most } => {
-                write!(f, "{given} steps; there are 1 to {most}")
+                write!(f, "a motion has 1 to {most} steps, not {given}")
             }
             AskError::Starts { given, most } => {
-                write!(f, "{given} starts or nodes; there are 1 to {most}")
+                write!(f, "a search has 1 to {most} starts or nodes, not {given}")
+            }
+            AskError::NothingLeft { held } if held.is_empty() => {
+                write!(
+                    f,
+                    "the mechanism has no freedom, so there is no motion to follow"
+                )
             }
             AskError::NothingLeft { held } => {
-                write!(f, "nothing is left to move: {} are held", listed(held))
+                write!(f, "with {} held no freedom remains", listed(held))
             }
             AskError::NotOneJoint => write!(f, "the freedom that is left is not that of one joint"),
             AskError::NotAssembled { held } => write!(
@@ -302,23 +333,48 @@ impl Display for AskError {
                 f,
                 "there is no mode {mode}: with these inputs there are modes 1 to {modes}"
             ),
-            AskError::NothingToDrive => write!(f, "there is no input"),
-            AskError::Sides(given) => write!(f, "loci have a box of two coordinates, not {given}"),
-            AskError::Axes(given) => write!(f, "one to three coordinates are mapped, not {given}"),
-            AskError::Spinning(spins) => write!(f, "{spins} links spin about their own lines"),
-            AskError::TooLarge { unknowns } => {
-                write!(
-                    f,
-                    "the mechanism has {unknowns} unknowns, too many for this analysis"
-                )
+            AskError::NothingToDrive => write!(
+                f,
+                "nothing is driven: singularities are defined with respect to inputs"
+            ),
+            AskError::Sides(given) => {
+                let given = count(*given, "coordinate");
+                write!(f, "a locus is a curve in two coordinates, not in {given}")
             }
-            AskError::Grid { nodes, axes } => {
-                write!(f, "{nodes:?} nodes for {axes} coordinates: at least 2 each")
+            AskError::Axes(0) => write!(f, "nothing is mapped"),
+            AskError::Axes(given) => write!(
+                f,
+                "{given} coordinates are mapped, and a map has one, two or three"
+            ),
+            AskError::Spinning(spins) => write!(
+                f,
+                "{} of links that spin about their own axes remain whatever the inputs do",
+                count(*spins, "freedom")
+            ),
+            AskError::TooLarge { unknowns } => write!(
+                f,
+                "the mechanism has {unknowns} unknowns, too many for this analysis"
+            ),
+            AskError::Grid { nodes, .. } if nodes.iter().any(|n| *n < 2) => {
+                write!(f, "a grid has at least 2 nodes along each coordinate")
             }
-            AskError::TooFine { bytes, most, .. } => {
-                write!(f, "the map would take {bytes:e} of {most:e} bytes")
-            }
-            AskError::TooMany { cells, .. } => write!(f, "more than {cells} nodes are reached"),
+            AskError::Grid { nodes, axes } => write!(
+                f,
+                "{} numbers of nodes are given for {}",
+                nodes.len(),
+                count(*axes, "mapped coordinate")
+            ),
+            AskError::TooFine { nodes, bytes, most } => write!(
+                f,
+                "the grid has {nodes} nodes, which in one mode alone take {:.1} GB of {:.1} GB",
+                bytes / 1e9,
+                most / 1e9
+            ),
+            AskError::TooMany { cells, most } => write!(
+                f,
+                "{cells} nodes in modes were reached, which take all of {:.1} GB",
+                most / 1e9
+            ),
             AskError::Assemblies(error) => write!(f, "{error}"),
             AskError::Store(error) => write!(f, "{error}"),
             AskError::Interrupted => write!(f, "interrupted before the first result"),

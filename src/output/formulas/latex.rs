@@ -1,7 +1,7 @@
 //! Formulas as LaTeX: displayed equations, each of which stands alone.
 
 use super::notation::upright;
-use super::{Notation, Script, notes};
+use super::{Notation, Script, notes, one_line, printed_rows};
 use crate::algebra::Expression;
 use crate::analysis::formulas::{
     ClosureFormula, FormulasReport, JacobianFormula, TransformFormula,
@@ -36,13 +36,8 @@ pub fn latex(report: &FormulasReport) -> String {
     text
 }
 
-/// What follows a % to the end of a line; a name may hold anything.
 fn comment(text: &str) -> String {
-    let one_line: String = text
-        .chars()
-        .map(|c| if c.is_control() { ' ' } else { c })
-        .collect();
-    format!("% {one_line}\n")
+    format!("% {}\n", one_line(text))
 }
 
 fn display(body: String) -> String {
@@ -50,16 +45,9 @@ fn display(body: String) -> String {
 }
 
 fn transform_of(notation: &Notation, transform: &TransformFormula) -> String {
-    let TransformFormula {
-        of,
-        relative_to,
-        rotation,
-        position,
-    } = transform;
-    let name = format!("{{}}^{{{}}}_{{{}}}T", upright(relative_to), upright(of));
-    let rows: Vec<Vec<String>> = (rotation.iter().zip(position))
-        .map(|(row, p)| row.iter().chain([p]).map(|e| notation.print(e)).collect())
-        .collect();
+    let [relative_to, of] = [&transform.relative_to, &transform.of].map(|name| upright(name));
+    let name = format!("{{}}^{{{relative_to}}}_{{{of}}}T");
+    let rows = printed_rows(notation, transform);
     if rows
         .iter()
         .any(|row| row.iter().map(String::len).sum::<usize>() > WIDEST)

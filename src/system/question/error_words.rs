@@ -20,43 +20,45 @@ fn instead(
     }
 }
 
-impl Display for DriveError {
-    fn fmt(&self, f: &mut Formatter) -> fmt::Result {
+impl DriveError {
+    /// What is wrong, without what to do about it.
+    pub fn title(&self) -> String {
         match self {
-            DriveError::Question(error) => error.fmt(f),
-            DriveError::UnknownName {
-                name,
-                suggestion,
-                held,
-            } => {
-                write!(
-                    f,
-                    "`{name}` is neither a joint nor a coordinate of a platform"
-                )?;
-                instead(f, suggestion, held, "held:")
+            DriveError::Question(error) => error.title(),
+            DriveError::UnknownName { name, .. } => {
+                format!("`{name}` is neither a joint nor a coordinate of a platform")
             }
-            DriveError::NotHeld { name, held } => {
-                write!(f, "`{name}` is not held: its rate follows from the others")?;
-                instead(f, &None, held, "held:")
+            DriveError::NotHeld { name, .. } => {
+                format!("`{name}` is not held: its rate follows from the others")
             }
-            DriveError::Whole { platform, held } => {
-                write!(
-                    f,
-                    "`{platform}` is a platform: give the rate of one of its coordinates"
-                )?;
-                instead(f, &None, held, "held:")
+            DriveError::Whole { platform, .. } => {
+                format!("`{platform}` is a platform: give the rate of one of its coordinates")
             }
-            DriveError::NotTurned { platform } => write!(
-                f,
+            DriveError::NotTurned { platform } => format!(
                 "an angular velocity of `{platform}` can be given only if its whole orientation is held"
             ),
-            DriveError::Mixed { platform } => write!(
-                f,
+            DriveError::Mixed { platform } => format!(
                 "the rotation of `{platform}` is given twice, by its angles and about the axes of ground"
             ),
-            DriveError::Structure => {
-                f.write_str("nothing can be driven: the mechanism is a structure")
+            DriveError::Structure => "nothing can be driven: the mechanism is a structure".into(),
+        }
+    }
+}
+
+impl Display for DriveError {
+    fn fmt(&self, f: &mut Formatter) -> fmt::Result {
+        if let DriveError::Question(error) = self {
+            return error.fmt(f);
+        }
+        f.write_str(&self.title())?;
+        match self {
+            DriveError::UnknownName {
+                suggestion, held, ..
+            } => instead(f, suggestion, held, "held:"),
+            DriveError::NotHeld { held, .. } | DriveError::Whole { held, .. } => {
+                instead(f, &None, held, "held:")
             }
+            _ => Ok(()),
         }
     }
 }
@@ -70,36 +72,40 @@ impl Error for DriveError {
     }
 }
 
-impl Display for ForceError {
-    fn fmt(&self, f: &mut Formatter) -> fmt::Result {
+impl ForceError {
+    /// What is wrong, without what to do about it.
+    pub fn title(&self) -> String {
         match self {
-            ForceError::Value(error) => error.fmt(f),
-            ForceError::UnknownFrame { name } => write!(f, "there is no frame `{name}`"),
-            ForceError::OnGround { name, instead } => {
-                write!(f, "`{name}` is fixed to the ground and cannot be loaded")?;
-                match &instead[..] {
-                    [] => Ok(()),
-                    moving => write!(f, "; load a body that moves, such as {}", listed(moving)),
-                }
+            ForceError::Value(error) => error.title(),
+            ForceError::UnknownFrame { name } => format!("there is no frame `{name}`"),
+            ForceError::OnGround { name, .. } => {
+                format!("`{name}` is fixed to the ground and cannot be loaded")
             }
-            ForceError::Components { given } => write!(
-                f,
+            ForceError::Components { given } => format!(
                 "a wrench has three components (N) or six (N and N·m), but {given} were given"
             ),
-            ForceError::UnknownJoint {
-                name,
-                suggestion,
-                known,
-            } => {
-                write!(f, "`{name}` is not a joint")?;
-                instead(f, suggestion, known, "the joints are")
-            }
+            ForceError::UnknownJoint { name, .. } => format!("`{name}` is not a joint"),
             ForceError::Platform { name, .. } => {
-                write!(
-                    f,
-                    "`{name}` is not a joint: a platform is loaded by a wrench"
-                )
+                format!("`{name}` is not a joint: a platform is loaded by a wrench")
             }
+        }
+    }
+}
+
+impl Display for ForceError {
+    fn fmt(&self, f: &mut Formatter) -> fmt::Result {
+        if let ForceError::Value(error) = self {
+            return error.fmt(f);
+        }
+        f.write_str(&self.title())?;
+        match self {
+            ForceError::OnGround { instead, .. } if !instead.is_empty() => {
+                write!(f, "; load a body that moves, such as {}", listed(instead))
+            }
+            ForceError::UnknownJoint {
+                suggestion, known, ..
+            } => instead(f, suggestion, known, "the joints are"),
+            _ => Ok(()),
         }
     }
 }
