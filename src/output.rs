@@ -9,9 +9,12 @@ pub mod document;
 pub mod html;
 pub mod json;
 pub mod markdown;
+mod report;
 pub mod text;
 
-pub use document::{Document, Report};
+pub use document::Document;
+pub use json::JsonReport;
+pub use report::{Remarks, Report, Rows};
 
 pub mod assemblies;
 pub mod closing;

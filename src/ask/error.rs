@@ -338,8 +338,8 @@ impl Display for AskError {
                 "nothing is driven: singularities are defined with respect to inputs"
             ),
             AskError::Sides(given) => {
-                let given = count(*given, "coordinate");
-                write!(f, "a locus is a curve in two coordinates, not in {given}")
+                let are = if *given == 1 { "is" } else { "are" };
+                write!(f, "a locus needs two coordinates, but {given} {are} given")
             }
             AskError::Axes(0) => write!(f, "nothing is mapped"),
             AskError::Axes(given) => write!(

@@ -3,11 +3,10 @@
 use clap::Args;
 use linkwork::ask::{AskError, Item, Mode, Question, Role};
 use linkwork::mechanism::{Frame, Mechanism};
-use linkwork::output::Report;
+use linkwork::output::JsonReport;
 use linkwork::output::complaint::{Complaint, Given};
 use linkwork::solve::Watch;
 use linkwork::system;
-use serde::Serialize;
 
 use super::format::Format;
 use super::source::{Assignment, Loaded, Source, once};
@@ -153,7 +152,7 @@ impl<'o> Posed<'o> {
     }
 
     /// Asks and writes the report.
-    pub fn answer<'q, R: Report + Serialize>(
+    pub fn answer<'q, R: JsonReport>(
         &'q self,
         format: Format,
         work: impl FnOnce(&'q Question, &Watch) -> Result<R, AskError>,

@@ -3,8 +3,7 @@
 use clap::ValueEnum;
 use clap::builder::{PossibleValuesParser, TypedValueParser};
 use linkwork::description::Convention;
-use linkwork::output::{Document, Report, html, json, markdown, text};
-use serde::Serialize;
+use linkwork::output::{Document, JsonReport, Report, html, json, markdown, text};
 
 use super::written::rows;
 use super::{Answer, Refusal, lines};
@@ -28,7 +27,7 @@ pub enum Format {
 
 impl Format {
     /// The whole report in this format; nothing in one that consists of rows, or of a file.
-    pub fn shown(self, report: &(impl Report + Serialize)) -> String {
+    pub fn shown(self, report: &impl JsonReport) -> String {
         match self {
             Format::Text => text::render(&report.shown()),
             Format::Json => json::render(report),
@@ -39,7 +38,7 @@ impl Format {
     }
 
     /// The answer that a report gives.
-    pub fn answer(self, report: &(impl Report + Serialize)) -> Result<Answer, Refusal> {
+    pub fn answer(self, report: &impl JsonReport) -> Result<Answer, Refusal> {
         let mut answer = Answer {
             data: self.shown(report),
             remarks: lines("warning", report.warnings()),

@@ -8,8 +8,7 @@ use clap::Args;
 use linkwork::description::{self, Description, FileError, LoadError, Problem};
 use linkwork::mechanism::Mechanism;
 use linkwork::output::complaint::{Complaint, Given, Part};
-use linkwork::output::{Report, diagnostics};
-use serde::Serialize;
+use linkwork::output::{JsonReport, diagnostics};
 
 use super::format::Format;
 use super::{Answer, Refusal, style};
@@ -171,11 +170,7 @@ impl From<LoadError> for Refusal {
 
 impl Loaded {
     /// The answer that a report about the mechanism gives.
-    pub fn answer(
-        &self,
-        format: Format,
-        report: &(impl Report + Serialize),
-    ) -> Result<Answer, Refusal> {
+    pub fn answer(&self, format: Format, report: &impl JsonReport) -> Result<Answer, Refusal> {
         Ok(format.answer(report)?.after(self.warnings()))
     }
 

@@ -4,7 +4,8 @@ use std::fs::File;
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 
-use linkwork::output::csv::{Csv, Rows};
+use linkwork::output::Rows;
+use linkwork::output::csv::Csv;
 
 use super::Refusal;
 use super::watched::{interruptions, read_no_more};

@@ -4,8 +4,9 @@ mod lost;
 mod tables;
 
 use super::closing;
-use super::document::{Document, Report, Section};
+use super::document::{Document, Section};
 use super::quantity::{at, form, metres};
+use super::report::Report;
 use crate::analysis::assemblies::{AssembliesReport, ClosestApproach, Continuum, Fit};
 use crate::description::{count, listed};
 use tables::{complex, joints, overview, platforms, reasons, times};

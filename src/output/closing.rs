@@ -1,9 +1,8 @@
 //! Words about closing a mechanism before it is analysed.
 
-use super::csv::Rows;
-use super::document::{Document, Report};
-use super::json::Remarks;
+use super::document::Document;
 use super::quantity::{degrees, form, metres};
+use super::report::{Remarks, Report, Rows};
 use crate::description::listed;
 use crate::linear::SPECTRUM_LIMIT;
 use crate::system::{Analysed, NotClosed, TooLarge, WidestGap};

@@ -1,8 +1,9 @@
 //! A comparison of closed forms with the chains as a document.
 
-use super::document::{Document, Report, Section, Table, TableOf};
+use super::document::{Document, Section, Table, TableOf};
 use super::formulas::{Notation, Script};
 use super::quantity::{form, quantity, size, values as values_of, with_unit};
+use super::report::Report;
 use crate::algebra::SiUnit;
 use crate::analysis::compare::{
     CompareReport, ComponentReport, Difference, FormReport, Proof, Quantity, Reason, Verdict,

@@ -1,6 +1,7 @@
 //! Mechanisms written another way as documents.
 
-use super::document::{Document, Report, Section};
+use super::document::{Document, Section};
+use super::report::Report;
 use crate::analysis::convert::{Conversion, ConversionNote, ConvertError, CutError};
 use crate::description::quoted;
 

@@ -3,17 +3,7 @@
 use std::io::{self, Write};
 
 use super::document::Cell;
-
-/// The values of a row. Only their values are written: numbers with all their digits, nothing for what is not finite.
-pub type Record = Vec<Cell>;
-
-/// Rows with the names of their columns.
-pub struct Rows<'a> {
-    /// The names of the columns, with units.
-    pub columns: Vec<String>,
-    /// The rows, made as they are asked for.
-    pub rows: Box<dyn Iterator<Item = Record> + 'a>,
-}
+use super::report::Rows;
 
 /// Writes rows as they come, quoted as RFC 4180 asks, with `\n` after each.
 #[derive(Debug)]

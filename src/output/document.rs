@@ -10,8 +10,6 @@ pub use cell::{Cell, Digits};
 
 use serde::{Deserialize, Serialize};
 
-use super::csv::Rows;
-use super::json::Remarks;
 use crate::algebra::SiUnit;
 
 /// Cells of a row, each from what it shows: `cells!["x", 0.5, 2]`.
@@ -19,52 +17,6 @@ macro_rules! cells {
     ($($cell:expr),* $(,)?) => { vec![$($crate::output::document::Cell::from($cell)),*] };
 }
 pub(crate) use cells;
-
-/// A report that can be shown: as a [`Document`], and as JSON within an [`Answer`](super::json::Answer).
-pub trait Report {
-    /// The report in words and tables. It needs nothing but the report.
-    fn document(&self) -> Document;
-
-    /// Whether the answer is yes, or at least not no.
-    fn is_yes(&self) -> bool {
-        true
-    }
-
-    /// Whether the work was stopped before it was done.
-    fn is_interrupted(&self) -> bool {
-        false
-    }
-
-    /// What a reader must not overlook, a line each.
-    fn warnings(&self) -> Vec<String> {
-        Vec::new()
-    }
-
-    /// What JSON says in words beside the answer.
-    fn remarks(&self) -> Remarks {
-        Remarks::default()
-    }
-
-    /// The report as rows for programs, if it has any.
-    fn rows(&self) -> Option<Rows<'_>> {
-        None
-    }
-
-    /// The mechanism file that was made, if one was.
-    fn file(&self) -> Option<Result<String, ron::Error>> {
-        None
-    }
-
-    /// The document, which says first where the work was stopped.
-    fn shown(&self) -> Document {
-        let mut document = self.document();
-        if self.is_interrupted() {
-            let found = "Interrupted: this is what was found until then. ";
-            document.answer.insert_str(0, found);
-        }
-        document
-    }
-}
 
 /// Something to read, whatever the format. In all its texts names and commands stand between back
 /// quotes; anything else is to be shown as it stands.

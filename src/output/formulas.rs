@@ -13,7 +13,9 @@ pub use ron::ron;
 pub(super) use notation::{Notation, Script};
 
 use crate::algebra::Expression;
-use crate::analysis::formulas::{ClosureFormula, FormulasReport, Meaning, TransformFormula};
+use crate::analysis::formulas::{
+    ClosureFormula, FormulasReport, JacobianFormula, Meaning, TransformFormula,
+};
 
 /// Sentences about what a reader might miss; none for most mechanisms.
 fn notes(report: &FormulasReport) -> Vec<String> {
@@ -67,6 +69,22 @@ fn rows(transform: &TransformFormula) -> [[&Expression; 4]; 3] {
 fn printed_rows(notation: &Notation, transform: &TransformFormula) -> Vec<Vec<String>> {
     let print = |row: [&Expression; 4]| row.map(|e| notation.print(e)).to_vec();
     rows(transform).map(print).to_vec()
+}
+
+/// The six rows of a Jacobian, printed: v above ω.
+fn jacobian_rows(notation: &Notation, jacobian: &JacobianFormula) -> Vec<Vec<String>> {
+    let row = |i: usize| -> Vec<String> {
+        let columns = jacobian.columns.iter();
+        let entries = columns.map(|of| {
+            if i < 3 {
+                &of.velocity[i]
+            } else {
+                &of.omega[i - 3]
+            }
+        });
+        entries.map(|entry| notation.print(entry)).collect()
+    };
+    (0..6).map(row).collect()
 }
 
 /// All that has to vanish or to be of a length where a closure is closed.

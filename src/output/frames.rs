@@ -2,10 +2,11 @@
 
 mod steps;
 
+use super::report::Report;
 use serde::Serialize;
 
 use super::complaint::Complaint;
-use super::document::{Document, Report, Section, Table};
+use super::document::{Document, Section, Table};
 use super::overview;
 use super::quantity::{degrees, metres, number, quantity, size, triple};
 use crate::algebra::SiUnit;

@@ -4,7 +4,7 @@ use serde::de::{DeserializeOwned, Deserializer, Error};
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
 
-use super::document::Report;
+use super::report::{Remarks, Report};
 
 /// What every command prints as JSON: the fields of its report after those of the envelope. Numbers are in SI units and
 /// rad. A field that both have, the name of the mechanism, stands once.
@@ -31,23 +31,6 @@ pub struct Envelope {
     /// What more is said.
     #[serde(flatten)]
     pub remarks: Remarks,
-}
-
-/// What is said beside the answer; each is absent where the question is another one.
-#[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
-pub struct Remarks {
-    /// Why the mobility is not that of Kutzbach's count.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub explanation: Option<String>,
-    /// How sure it is that nothing is missing.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub completeness: Option<String>,
-    /// What outputs that are full poses may hide; `null` if nothing.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub note: Option<Option<String>>,
-    /// What repeats what other closures hold already.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub redundant_constraints: Option<Vec<String>>,
 }
 
 impl<R: Report> Answer<R> {
@@ -81,9 +64,14 @@ impl<'de, R: DeserializeOwned> Deserialize<'de> for Answer<R> {
     }
 }
 
+/// A report that can be written as JSON too.
+pub trait JsonReport: Report + Serialize {}
+
+impl<R: Report + Serialize> JsonReport for R {}
+
 /// The report as JSON. Numbers keep all their digits; one that is not finite is written as `null`, a negative zero as
 /// zero.
-pub fn render(report: &(impl Report + Serialize)) -> String {
+pub fn render(report: &impl JsonReport) -> String {
     let envelope = Envelope::of(report);
     written(&Answer { envelope, report })
 }

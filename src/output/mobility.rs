@@ -3,9 +3,9 @@
 mod words;
 
 use super::closing;
-use super::document::{Document, Report, Section, Table, TableOf};
-use super::json::Remarks;
+use super::document::{Document, Section, Table, TableOf};
 use super::quantity::{metres, size};
+use super::report::{Remarks, Report};
 use super::screws::twist_table;
 use crate::analysis::mobility::{BranchReport, LoopCount, MobilityReport};
 use crate::description::{count, listed};

@@ -1,7 +1,8 @@
 //! What a mechanism file means, drawn as a lecture draws it, as a document.
 
-use super::document::{Document, Report, Section, Table, TableOf};
+use super::document::{Document, Section, Table, TableOf};
 use super::quantity::{at, degrees, number, quantity, signed};
+use super::report::Report;
 use crate::algebra::SiUnit;
 use crate::analysis::overview::{
     ChainOverview, ClosedFormOverview, ClosureOverview, JointOverview, LoopStep, MobilityCount,
@@ -167,28 +168,34 @@ fn loops(overview: &Overview) -> Section {
     }
 }
 
-/// The count with its terms.
-fn mobility(count: &MobilityCount) -> Section {
-    let MobilityCount {
-        bodies,
-        variables,
-        platforms,
-        equations,
-        mobility,
-        ..
-    } = count;
-    let mut terms = format!("6·({bodies} − 1)");
-    for (number, constraints) in [(of_freedom(count, 1), 5), (of_freedom(count, 2), 4)] {
-        if number > 0 {
-            terms += &format!(" − {constraints}·{number}");
+/// The count with its terms, and what each of them counts.
+fn mobility(of: &MobilityCount) -> Section {
+    let (variables, platforms, equations) = (of.variables, of.platforms, of.equations);
+    let bodies = count(of.bodies, "body") + " with ground";
+    let mut terms = vec![(format!("6·({} − 1)", of.bodies), bodies)];
+    for (freedoms, constraints) in [(1, 5), (2, 4)] {
+        let rows = of.row_freedoms.iter().filter(|f| **f == freedoms).count();
+        let said = format!("{} with {}", count(rows, "row"), count(freedoms, "freedom"));
+        if rows > 0 {
+            terms.push((format!(" − {constraints}·{rows}"), said));
         }
     }
-    match count.correction {
+    let size = of.correction.unsigned_abs() as usize;
+    match of.correction {
         0 => {}
-        correction if correction > 0 => terms += &format!(" + {correction}"),
-        correction => terms += &format!(" − {}", -correction),
+        1.. => terms.push((
+            format!(" + {size}"),
+            count(size, "variable") + " in distances",
+        )),
+        _ => {
+            let said = count(size, "row") + " driven together with another";
+            terms.push((format!(" − {size}"), said));
+        }
     }
-    let planar = count.planar.as_ref().map(|planar| {
+    let closure_equations = count(equations, "closure equation");
+    terms.push((format!(" − {equations}"), closure_equations.clone()));
+    let (terms, said): (Vec<String>, Vec<String>) = terms.into_iter().unzip();
+    let planar = of.planar.as_ref().map(|planar| {
         format!(
             "planar: {variables} + 3·{platforms} − {} = {}, as all joints move parallel to one \
              plane at home",
@@ -197,44 +204,15 @@ fn mobility(count: &MobilityCount) -> Section {
         )
     });
     let lines = [
-        format!("{terms} − {equations} = {}", signed(*mobility)),
-        explained(count),
+        format!("{} = {}", terms.concat(), signed(of.mobility)),
+        said.join(", "),
         format!(
-            "the same as {variables} + 6·{platforms} − {equations}: {}, {}, {}",
-            self::count(*variables, "joint variable"),
-            self::count(*platforms, "platform"),
-            self::count(*equations, "closure equation"),
+            "the same as {variables} + 6·{platforms} − {equations}: {}, {}, {closure_equations}",
+            count(variables, "joint variable"),
+            count(platforms, "platform"),
         ),
     ];
     Section::new("Kutzbach count").list(lines.into_iter().chain(planar))
-}
-
-/// How many rows have so many freedoms.
-fn of_freedom(count: &MobilityCount, freedoms: usize) -> usize {
-    let rows = count.row_freedoms.iter();
-    rows.filter(|&&found| found == freedoms).count()
-}
-
-fn explained(count: &MobilityCount) -> String {
-    let mut parts = vec![format!("{} with ground", self::count(count.bodies, "body"))];
-    for f in [1, 2] {
-        if of_freedom(count, f) > 0 {
-            let joints = self::count(of_freedom(count, f), "row");
-            parts.push(format!("{joints} with {}", self::count(f, "freedom")));
-        }
-    }
-    match count.correction {
-        0 => {}
-        correction if correction > 0 => {
-            parts.push(self::count(correction as usize, "variable") + " in distances");
-        }
-        correction => parts.push(
-            self::count(correction.unsigned_abs() as usize, "row")
-                + " driven together with another",
-        ),
-    }
-    parts.push(self::count(count.equations, "closure equation"));
-    parts.join(", ")
 }
 
 fn closed_forms(overview: &Overview) -> TableOf<&ClosedFormOverview> {

@@ -8,11 +8,11 @@ mod picture;
 mod words;
 
 #[cfg(feature = "plot")]
-pub use picture::svg;
+pub use super::report::{Remarks, Report};
+use picture::svg;
 
 use super::closing;
-use super::document::{Cell, Document, Report, Section, Table};
-use super::json::Remarks;
+use super::document::{Cell, Document, Section, Table};
 use super::quantity::{metres, short, values};
 use super::screws::{twist_table, wrench_table};
 use crate::analysis::singularities::{

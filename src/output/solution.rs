@@ -1,8 +1,9 @@
 //! An assembled configuration, or why there is none, as a document.
 
 use super::closing;
-use super::document::{Cell, Document, Report, Section, Table, TableOf};
+use super::document::{Cell, Document, Section, Table, TableOf};
 use super::quantity::{degrees, form, number, quantity, size};
+use super::report::Report;
 use crate::analysis::assembly::{AssemblyReport, JointVariable, Outcome, PlatformRecord};
 use crate::description::{count, listed};
 use crate::system::{FrameRecord, Gap};

@@ -1,8 +1,9 @@
 //! The forces in a mechanism as a document.
 
 use super::closing;
-use super::document::{Cell, Digits, Document, Report, Section, Table, TableOf};
+use super::document::{Cell, Digits, Document, Section, Table, TableOf};
 use super::quantity::{metres, size};
+use super::report::Report;
 use crate::algebra::SiUnit;
 use crate::analysis::statics::{AppliedWrench, Force, Reaction, StaticsReport};
 use crate::description::{count, listed};

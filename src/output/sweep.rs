@@ -6,10 +6,11 @@ mod picture;
 mod words;
 
 #[cfg(feature = "plot")]
-pub use picture::Picture;
+pub use super::report::Report;
+use picture::Picture;
 pub use words::sentence;
 
-use super::document::{Cell, Document, Report, Section, Table};
+use super::document::{Cell, Document, Section, Table};
 use crate::algebra::SiUnit;
 use crate::analysis::sweep::{Columns, MetKind, MotionReport, MotionsReport, Row};
 use crate::mechanism::Variable;

@@ -1,8 +1,9 @@
 //! How an assembled mechanism moves, as a document.
 
 use super::closing;
-use super::document::{Cell, Document, Matrix, Report, Section, Table, TableOf};
+use super::document::{Cell, Document, Matrix, Section, Table, TableOf};
 use super::quantity::{metres, number, size, triple};
+use super::report::Report;
 use crate::algebra::SiUnit;
 use crate::analysis::velocity::{
     Axis, FirstOrderOnly, FrameRate, Gain, InputOutput, InstantCentre, JointRate, Transmission,

@@ -5,12 +5,11 @@ mod picture;
 mod words;
 
 #[cfg(feature = "plot")]
-pub use picture::{left_out, svg};
+pub use super::report::{Remarks, Report, Rows};
+use picture::{left_out, svg};
 use words::{completeness, sentence};
 
-use super::csv::Rows;
-use super::document::{Cell, Document, Report, Section, Table, cells};
-use super::json::Remarks;
+use super::document::{Cell, Document, Section, Table, cells};
 use super::quantity::{number, quantity};
 use crate::analysis::workspace::{
     AspectReport, BoundaryKind, Conditioned, ModeReport, WorkspaceReport,

@@ -4,8 +4,9 @@ use super::tables::times;
 use crate::algebra::SiUnit;
 use crate::analysis::assemblies::{Fold, LostMode, LostReason};
 use crate::mechanism::{PoseCoordinate, Variable};
-use crate::output::document::{Document, Report, Section};
+use crate::output::document::{Document, Section};
 use crate::output::quantity::{at, number, values};
+use crate::output::report::Report;
 
 impl Report for LostMode {
     fn document(&self) -> Document {

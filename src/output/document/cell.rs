@@ -157,52 +157,28 @@ impl Cell {
     }
 }
 
-impl From<&str> for Cell {
-    fn from(text: &str) -> Self {
-        match text {
-            "" => Cell::Empty,
-            text => Cell::Text(text.into()),
+/// What each type becomes as a cell.
+macro_rules! cell_from {
+    ($($type:ty: $cell:expr;)*) => {$(
+        impl From<$type> for Cell {
+            fn from(value: $type) -> Self {
+                $cell(value)
+            }
         }
-    }
+    )*};
 }
 
-impl From<String> for Cell {
-    fn from(text: String) -> Self {
-        match text.is_empty() {
-            true => Cell::Empty,
-            false => Cell::Text(text),
-        }
-    }
-}
-
-impl From<&String> for Cell {
-    fn from(text: &String) -> Self {
-        text.as_str().into()
-    }
-}
-
-impl From<f64> for Cell {
-    fn from(value: f64) -> Self {
-        Cell::quantity(value, SiUnit::ONE)
-    }
-}
-
-impl From<usize> for Cell {
-    fn from(count: usize) -> Self {
-        Cell::Count(i64::try_from(count).unwrap_or(i64::MAX))
-    }
-}
-
-impl From<i64> for Cell {
-    fn from(count: i64) -> Self {
-        Cell::Count(count)
-    }
-}
-
-impl From<bool> for Cell {
-    fn from(value: bool) -> Self {
-        Cell::Text(value.to_string())
-    }
+cell_from! {
+    f64: |value| Cell::quantity(value, SiUnit::ONE);
+    i64: Cell::Count;
+    usize: |count| Cell::Count(i64::try_from(count).unwrap_or(i64::MAX));
+    bool: |value: bool| Cell::Text(value.to_string());
+    &str: |text: &str| Cell::from(text.to_owned());
+    &String: |text: &String| Cell::from(text.clone());
+    String: |text: String| match text.is_empty() {
+        true => Cell::Empty,
+        false => Cell::Text(text),
+    };
 }
 
 impl<T: Into<Cell>> From<Option<T>> for Cell {

@@ -107,6 +107,11 @@ fn identifier(name: &str) -> String {
     }
 }
 
+/// With spaces around × and ÷, which formulas do without.
+fn spaced(code: &str) -> String {
+    code.replace('*', " * ").replace('/', " / ")
+}
+
 struct Writer {
     arguments: BTreeMap<String, (String, Meaning)>,
     functions: BTreeSet<String>,
@@ -140,7 +145,10 @@ impl Writer {
         let rows: Vec<String> = rows
             .iter()
             .map(|row| {
-                let entries: Vec<String> = row.iter().map(|e| self.code(e, &mut angles)).collect();
+                let entries: Vec<String> = row
+                    .iter()
+                    .map(|e| spaced(&self.code(e, &mut angles)))
+                    .collect();
                 format!(
                     "        [\n            {},\n        ],\n",
                     entries.join(",\n            ")
@@ -151,6 +159,7 @@ impl Writer {
         numbered.sort_by_key(|(_, (number, ..))| *number);
         let lets: String = numbered
             .into_iter()
+            .map(|(angle, of)| (spaced(angle), of))
             .map(|(angle, (k, sin, cos))| match (sin, cos) {
                 (true, true) => format!("    let (sin_{k}, cos_{k}) = f64::sin_cos({angle});\n"),
                 (true, false) => format!("    let sin_{k} = f64::sin({angle});\n"),

@@ -1,13 +1,14 @@
 //! Formulas as a document.
 
+use crate::output::report::Report;
 use std::collections::BTreeMap;
 
-use super::{Notation, Script, notes, parts, printed_rows, rows};
+use super::{Notation, Script, jacobian_rows, notes, parts, printed_rows, rows};
 use crate::algebra::Expression;
 use crate::analysis::formulas::{
     ClosureFormula, FormulasReport, JacobianFormula, Meaning, TransformFormula,
 };
-use crate::output::document::{Document, Report, Section};
+use crate::output::document::{Document, Section};
 
 /// Wider matrices are printed entry by entry.
 const WIDEST: usize = 110;
@@ -138,31 +139,20 @@ fn closure(notation: &Notation, closure: &ClosureFormula) -> String {
 }
 
 fn jacobian(notation: &Notation, jacobian: &JacobianFormula) -> String {
-    let JacobianFormula {
-        of,
-        relative_to,
-        columns,
-    } = jacobian;
-    let print = |e: &Expression| notation.print(e);
-    let joints: Vec<String> = columns.iter().map(|c| notation.name(&c.joint)).collect();
-    let mut text = format!("  {of} in {relative_to}, columns {}\n", joints.join(", "));
-    let entries: Vec<Vec<String>> = (columns.iter())
-        .map(|c| c.velocity.iter().chain(&c.omega).map(print).collect())
-        .collect();
-    let rows: Vec<Vec<String>> = (0..6)
-        .map(|row| entries.iter().map(|column| column[row].clone()).collect())
-        .collect();
-    text += &matrix(&rows).unwrap_or_else(|| {
-        let mut listed = String::new();
-        for (joint, column) in joints.iter().zip(&entries) {
-            listed += &format!("    {joint}\n");
-            for (name, entry) in ["vx", "vy", "vz", "ωx", "ωy", "ωz"].into_iter().zip(column) {
-                listed += &format!("      {name} = {entry}\n");
-            }
-        }
-        listed
-    });
-    text
+    let joints = jacobian.columns.iter();
+    let joints: Vec<String> = joints.map(|c| notation.name(&c.joint)).collect();
+    let (of, relative_to) = (&jacobian.of, &jacobian.relative_to);
+    let title = format!("  {of} in {relative_to}, columns {}\n", joints.join(", "));
+    let rows = jacobian_rows(notation, jacobian);
+    let listed = || -> String {
+        let columns = joints.iter().enumerate().map(|(j, joint)| {
+            let names = ["vx", "vy", "vz", "ωx", "ωy", "ωz"].into_iter().zip(&rows);
+            let entries = names.map(|(name, row)| format!("      {name} = {}\n", row[j]));
+            format!("    {joint}\n{}", entries.collect::<String>())
+        });
+        columns.collect()
+    };
+    title + &matrix(&rows).unwrap_or_else(listed)
 }
 
 /// Every expression of a report.

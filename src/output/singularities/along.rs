@@ -3,9 +3,8 @@
 use super::{Once, details, note, words};
 use crate::analysis::singularities::{AlongEnd, AlongReport};
 use crate::mechanism::Variable;
-use crate::output::csv::Rows;
-use crate::output::document::{Document, Report, Section, cells};
-use crate::output::json::Remarks;
+use crate::output::document::{Document, Section, cells};
+use crate::output::report::{Remarks, Report, Rows};
 
 impl Report for AlongReport {
     fn is_interrupted(&self) -> bool {

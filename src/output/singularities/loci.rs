@@ -4,10 +4,9 @@ use super::{Once, kind_word, note, words};
 use crate::analysis::singularities::{Locus, LocusReport, Shape};
 use crate::description::count;
 use crate::mechanism::Variable;
-use crate::output::csv::Rows;
-use crate::output::document::{Cell, Document, Report, Section, Table, cells};
-use crate::output::json::Remarks;
+use crate::output::document::{Cell, Document, Section, Table, cells};
 use crate::output::quantity::quantity;
+use crate::output::report::{Remarks, Report, Rows};
 
 impl Report for LocusReport {
     fn is_interrupted(&self) -> bool {

@@ -3,8 +3,9 @@
 use crate::algebra::SiUnit;
 use crate::analysis::sweep::{Circuit, CircuitsReport, FourBarClass, JointMotion};
 use crate::description::{count, listed};
-use crate::output::document::{Cell, Document, Report, Section, Table};
+use crate::output::document::{Cell, Document, Section, Table};
 use crate::output::quantity::{self, metres, number, quantity};
+use crate::output::report::Report;
 
 impl Report for CircuitsReport {
     fn is_interrupted(&self) -> bool {
