@@ -8,12 +8,12 @@ mod picture;
 mod words;
 
 #[cfg(feature = "plot")]
-pub use super::report::{Remarks, Report};
-use picture::svg;
+pub use picture::svg;
 
 use super::closing;
 use super::document::{Cell, Document, Section, Table};
 use super::quantity::{metres, short, values};
+use super::report::{Remarks, Report};
 use super::screws::{twist_table, wrench_table};
 use crate::analysis::singularities::{
     Distances, Kind, Movement, Resisted, SingularitiesReport, Singularity,

@@ -6,14 +6,14 @@ mod picture;
 mod words;
 
 #[cfg(feature = "plot")]
-pub use super::report::Report;
-use picture::Picture;
-pub use words::sentence;
+pub use picture::Picture;
 
 use super::document::{Cell, Document, Section, Table};
+use super::report::Report;
 use crate::algebra::SiUnit;
 use crate::analysis::sweep::{Columns, MetKind, MotionReport, MotionsReport, Row};
 use crate::mechanism::Variable;
+use words::sentence;
 
 impl Report for MotionsReport {
     fn is_interrupted(&self) -> bool {

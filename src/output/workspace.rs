@@ -5,12 +5,12 @@ mod picture;
 mod words;
 
 #[cfg(feature = "plot")]
-pub use super::report::{Remarks, Report, Rows};
-use picture::{left_out, svg};
+pub use picture::{left_out, svg};
 use words::{completeness, sentence};
 
 use super::document::{Cell, Document, Section, Table, cells};
 use super::quantity::{number, quantity};
+use super::report::{Remarks, Report, Rows};
 use crate::analysis::workspace::{
     AspectReport, BoundaryKind, Conditioned, ModeReport, WorkspaceReport,
 };
