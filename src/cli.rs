@@ -28,6 +28,7 @@ use std::io::{self, IsTerminal, Write};
 use std::process::ExitCode;
 
 use clap::{Parser, Subcommand};
+use linkwork::output::complaint::Complaint;
 use linkwork::output::diagnostics::Style;
 
 /// Analyses parallel and closed-chain mechanisms described as Denavit–Hartenberg chains.
@@ -70,8 +71,30 @@ struct Answer {
     yes: bool,
 }
 
+impl Answer {
+    /// The same with remarks that come first.
+    fn after(self, remarks: String) -> Self {
+        Answer {
+            remarks: remarks + &self.remarks,
+            ..self
+        }
+    }
+}
+
 /// Why a command has no answer, ready to be read.
 struct Refusal(String);
+
+impl From<Complaint> for Refusal {
+    fn from(said: Complaint) -> Self {
+        Refusal(said.render(style()))
+    }
+}
+
+/// Lines for stderr: `note: …`.
+fn lines(word: &str, said: impl IntoIterator<Item = String>) -> String {
+    let lines = said.into_iter().map(|line| format!("{word}: {line}\n"));
+    lines.collect()
+}
 
 /// Does what the command line asks for.
 pub fn run() -> ExitCode {

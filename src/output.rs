@@ -9,9 +9,12 @@ pub mod document;
 pub mod html;
 pub mod json;
 pub mod markdown;
+mod report;
 pub mod text;
 
-pub use document::{Document, Report};
+pub use document::Document;
+pub use json::JsonReport;
+pub use report::{Remarks, Report, Rows};
 
 pub mod assemblies;
 pub mod closing;
@@ -22,8 +25,6 @@ pub mod conversion;
 pub mod diagnostics;
 pub mod formulas;
 pub mod frames;
-#[cfg(feature = "interchange")]
-pub mod import;
 pub mod mobility;
 pub mod overview;
 #[cfg(feature = "plot")]

@@ -293,7 +293,7 @@ fn a_number_that_is_none_is_told_what_it_should_be() {
 #[test]
 fn a_frame_that_stands_on_ground_has_no_velocity() {
     let said = refusal(&["velocity", FOUR_BAR, "--point", "ground"]);
-    assert!(said.contains("ground does not move"), "{said}");
+    assert!(said.contains("`ground` does not move"), "{said}");
     answer(&["velocity", FOUR_BAR, "--point", "left"]);
 }
 

@@ -4,7 +4,7 @@ use thiserror::Error;
 
 use crate::analysis::assemblies::AssembliesError;
 use crate::analysis::sweep::PointError;
-use crate::description::listed;
+use crate::description::{count, listed};
 use crate::system::{DriveError, ForceError, QuestionError};
 
 /// What a name or a value is in a question.
@@ -187,7 +187,7 @@ pub enum AskError {
         is_angle: bool,
     },
     /// A mapped coordinate is held or freed too.
-    #[error("`{name}` is mapped and also held or freed")]
+    #[error("`{name}` is given a range and also held or freed")]
     AlsoHeld {
         /// Which.
         item: Item,
@@ -195,19 +195,19 @@ pub enum AskError {
         name: String,
     },
     /// A mapped coordinate that comes round again covers more than a turn.
-    #[error("`{name}` is mapped over more than a turn")]
+    #[error("the map of `{name}` is wider than a full turn")]
     MoreThanATurn {
         /// The coordinate.
         name: String,
     },
     /// Nothing moves.
-    #[error("no input is given")]
+    #[error("no input moves")]
     NothingMoves {
         /// The driven joint, if there is one.
         driven: Option<String>,
     },
     /// A motion of so many steps.
-    #[error("{given} steps; there are 1 to {most}")]
+    #[error("a motion has 1 to {most} steps, not {given}")]
     Steps {
         /// How many were given.
         given: usize,
@@ -215,7 +215,7 @@ pub enum AskError {
         most: usize,
     },
     /// Random starts, or nodes that are searched.
-    #[error("{given} starts or nodes; there are 1 to {most}")]
+    #[error("a search has 1 to {most} starts or nodes, not {given}")]
     Starts {
         /// How many were given.
         given: usize,
@@ -223,13 +223,13 @@ pub enum AskError {
         most: usize,
     },
     /// Nothing is left to move: as much is held as the mechanism has freedoms.
-    #[error("nothing is left to move: {} are held", listed(held))]
+    #[error("{}", nothing_left(held))]
     NothingLeft {
         /// What is held.
         held: Vec<String>,
     },
     /// More than one freedom is left.
-    #[error("{0}")]
+    #[error("{}", not_one_freedom(.0))]
     NotOneFreedom(QuestionError),
     /// The freedom is not that of one joint.
     #[error("the freedom that is left is not that of one joint")]
@@ -249,16 +249,19 @@ pub enum AskError {
         modes: usize,
     },
     /// No input can be driven.
-    #[error("there is no input")]
+    #[error("nothing is driven: singularities are defined with respect to inputs")]
     NothingToDrive,
     /// Loci need a box of two sides.
-    #[error("loci have a box of two coordinates, not {0}")]
+    #[error("a locus needs two coordinates, but {0} {are} given", are = if *.0 == 1 { "is" } else { "are" })]
     Sides(usize),
     /// A map has one to three coordinates.
-    #[error("one to three coordinates are mapped, not {0}")]
+    #[error("{}", wrong_axes(*.0))]
     Axes(usize),
     /// Some link spins without a joint that could stand still; so many such freedoms.
-    #[error("{0} links spin about their own lines")]
+    #[error(
+        "{} of links that spin about their own axes remain whatever the inputs do",
+        count(*.0, "freedom")
+    )]
     Spinning(usize),
     /// The mechanism has too many unknowns.
     #[error("the mechanism has {unknowns} unknowns, too many for this analysis")]
@@ -267,7 +270,7 @@ pub enum AskError {
         unknowns: usize,
     },
     /// The nodes of a map are not one number or one for each coordinate, or too few.
-    #[error("{nodes:?} nodes for {axes} coordinates: at least 2 each")]
+    #[error("{}", wrong_grid(nodes, *axes))]
     Grid {
         /// What was given.
         nodes: Vec<usize>,
@@ -275,7 +278,11 @@ pub enum AskError {
         axes: usize,
     },
     /// A map would take too much memory.
-    #[error("the map would take {bytes:e} of {most:e} bytes")]
+    #[error(
+        "the grid has {nodes} nodes, which in one mode alone take {:.1} GB of {:.1} GB",
+        bytes / 1e9,
+        most / 1e9
+    )]
     TooFine {
         /// Its nodes.
         nodes: f64,
@@ -285,7 +292,10 @@ pub enum AskError {
         most: f64,
     },
     /// More was reached than memory allows.
-    #[error("more than {cells} nodes are reached")]
+    #[error(
+        "{cells} nodes in modes were reached, which take all of {:.1} GB",
+        most / 1e9
+    )]
     TooMany {
         /// The nodes in modes that may be kept.
         cells: usize,
@@ -301,6 +311,62 @@ pub enum AskError {
     /// The work was stopped before its first result.
     #[error("interrupted before the first result")]
     Interrupted,
+}
+
+impl AskError {
+    /// The part of the question that is wrong, if it is one.
+    pub fn item(&self) -> Option<Item> {
+        match self {
+            AskError::Named { item, .. }
+            | AskError::NotMapped { item, .. }
+            | AskError::Drive { item, .. }
+            | AskError::Load { item, .. }
+            | AskError::UnknownFrame { item, .. }
+            | AskError::Motionless { item, .. }
+            | AskError::UnknownOutput { item, .. }
+            | AskError::Traced { item, .. }
+            | AskError::Twice { item, .. }
+            | AskError::EmptyRange { item, .. }
+            | AskError::OutsideLimits { item, .. }
+            | AskError::AlsoHeld { item, .. } => Some(*item),
+            _ => None,
+        }
+    }
+}
+
+fn nothing_left(held: &[String]) -> String {
+    match held {
+        [] => "the mechanism has no freedom, so there is no motion to follow".into(),
+        held => format!("with {} held no freedom remains", listed(held)),
+    }
+}
+
+fn not_one_freedom(error: &QuestionError) -> String {
+    match error {
+        QuestionError::TooFew { mobility, held, .. } => {
+            let left = count(mobility.saturating_sub(*held), "freedom");
+            format!("{left} remain, but a curve has one")
+        }
+        error => error.to_string(),
+    }
+}
+
+fn wrong_axes(given: usize) -> String {
+    match given {
+        0 => "nothing is mapped".into(),
+        _ => format!("{given} coordinates are mapped, and a map has one, two or three"),
+    }
+}
+
+fn wrong_grid(nodes: &[usize], axes: usize) -> String {
+    match nodes.iter().any(|n| *n < 2) {
+        true => "a grid has at least 2 nodes along each coordinate".into(),
+        false => format!(
+            "{} numbers of nodes are given for {}",
+            nodes.len(),
+            count(axes, "mapped coordinate")
+        ),
+    }
 }
 
 fn no_such_mode(mode: usize, modes: usize) -> String {

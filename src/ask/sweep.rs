@@ -6,8 +6,8 @@ use super::ranges::still;
 use super::{AskError, Question, Role};
 use crate::analysis::assemblies::{AssemblySolver, Wanted};
 use crate::analysis::sweep::{
-    CircuitsReport, CircuitsSettings, Sink, SweepReport, SweepSettings, TracedPoint, circuits,
-    follow, sweep,
+    CircuitsReport, CircuitsSettings, Columns, KeptRows, MotionReport, MotionsReport, Row, Sink,
+    SweepReport, SweepSettings, TracedPoint, circuits, follow, sweep,
 };
 use crate::mechanism::{Configuration, Mechanism};
 use crate::solve::{Stage, Watch};
@@ -32,6 +32,46 @@ impl Motions<'_> {
     /// The points that are traced.
     pub fn points(&self) -> &[TracedPoint] {
         &self.settings.points
+    }
+
+    /// What the columns of rows are.
+    pub fn columns(&self) -> Columns {
+        Columns::new(self.mechanism, self.points())
+    }
+
+    /// Moves from every start and keeps no more than `most` rows of each motion. All rows go to `sink` as they are
+    /// found, with the number of their mode.
+    pub fn report(
+        &self,
+        most: usize,
+        sink: &mut dyn FnMut(Option<usize>, &Row),
+        watch: &Watch,
+    ) -> MotionsReport {
+        let columns = self.columns();
+        let mut motions = Vec::new();
+        for (mode, start) in &self.starts {
+            let mut rows = KeptRows::of(most);
+            let mut take = |row: &Row| {
+                rows.take(&columns, row);
+                sink(*mode, row);
+            };
+            let sweep = self.run(start, &mut take, watch);
+            let interrupted = sweep.interrupted;
+            motions.push(MotionReport {
+                mode: *mode,
+                sentence: String::new(),
+                sweep,
+                columns: columns.variables().to_vec(),
+                values: rows.finished(),
+            });
+            if interrupted {
+                break;
+            }
+        }
+        MotionsReport {
+            mechanism: self.mechanism.name().to_owned(),
+            motions,
+        }
     }
 
     /// Moves from one of the starts. Rows go to `sink` as they are found.

@@ -1,14 +1,13 @@
 //! `linkwork assemblies`
 
 use clap::Args;
-use linkwork::analysis::assemblies::{Fit, Wanted};
+use linkwork::analysis::assemblies::Wanted;
 use linkwork::ask::AskError;
 
 use super::asked::Split;
-use super::format::Written;
+use super::format::{Format, readable};
 use super::search::Search;
 use super::source::Source;
-use super::watched::watched;
 use super::words::question::complaint;
 use super::{Answer, Refusal, style};
 
@@ -33,33 +32,27 @@ pub struct Assemblies {
     all_complex: bool,
     #[command(flatten)]
     search: Search,
-    #[command(flatten)]
-    format: Written,
+    /// How to write the answer; where there is none, stderr says why as text
+    #[arg(long, value_name = "FORMAT", default_value = "text", value_parser = readable())]
+    format: Format,
 }
 
 impl Assemblies {
     pub fn run(&self) -> Result<Answer, Refusal> {
-        let loaded = self.source.load()?;
-        let mut posed = self.split.pose(&loaded);
+        let mut posed = self.split.pose(&self.source)?;
         self.search.pose(&mut posed)?;
-        let (question, refusal) = (&posed.question, |error| posed.refusal(&error));
-        let mut remarks = loaded.warnings();
-        // samples answer a question that holds too little, but what is missing is said too
-        if let Err(AskError::Question(error)) = question.count() {
-            remarks += &complaint(&error).render_warning(style());
-        }
         let wanted = Wanted {
             all_complex: self.all_complex,
             ..Wanted::default()
         };
-        let report = watched(|watch| question.assemblies(wanted, watch)).map_err(refusal)?;
-        Ok(Answer {
-            data: self.format.shown(&report),
-            remarks,
-            yes: report.real > 0
-                && report.lost == 0
-                && report.unexpected == 0
-                && matches!(report.fit, Fit::Finite | Fit::FreedomLeft(_)),
-        })
+        // samples answer a question that holds too little, but what is missing is said too
+        let missing = match posed.question.count() {
+            Err(AskError::Question(error)) => complaint(&error).render_warning(style()),
+            _ => String::new(),
+        };
+        let answer = posed.answer(self.format, |question, watch| {
+            question.assemblies(wanted, watch)
+        })?;
+        Ok(answer.after(missing))
     }
 }

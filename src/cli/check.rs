@@ -3,11 +3,11 @@
 use clap::Args;
 use linkwork::analysis::overview::overview;
 
-use super::format::Written;
+use super::format::{Format, readable};
 use super::source::Source;
 use super::{Answer, Refusal};
 
-/// Say what a mechanism file means, or everything that is wrong with it.
+/// Describe what a mechanism file says, or everything that is wrong with it.
 ///
 /// Prints parameters, joints, the Denavit–Hartenberg tables as a lecture draws them, platforms, closures with the
 /// equations they add, loops and the Kutzbach count. Warnings go to stderr.
@@ -16,18 +16,14 @@ use super::{Answer, Refusal};
 pub struct Check {
     #[command(flatten)]
     source: Source,
-    #[command(flatten)]
-    format: Written,
+    /// How to write the answer; where there is none, stderr says why as text
+    #[arg(long, value_name = "FORMAT", default_value = "text", value_parser = readable())]
+    format: Format,
 }
 
 impl Check {
     pub fn run(&self) -> Result<Answer, Refusal> {
         let loaded = self.source.load()?;
-        let report = overview(&loaded.mechanism);
-        Ok(Answer {
-            data: self.format.shown(&report),
-            remarks: loaded.warnings(),
-            yes: true,
-        })
+        loaded.answer(self.format, &overview(&loaded.mechanism))
     }
 }

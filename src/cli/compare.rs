@@ -2,12 +2,11 @@
 
 use clap::Args;
 use linkwork::analysis::compare::CompareSettings;
-use linkwork::ask::Question;
 
-use super::format::Written;
+use super::asked::Posed;
+use super::format::{Format, readable};
 use super::search::seed;
 use super::source::Source;
-use super::watched::watched;
 use super::{Answer, Refusal};
 
 /// Check every closed form of a mechanism file against its chains.
@@ -26,19 +25,17 @@ pub struct Compare {
     #[arg(long, value_parser = seed, allow_negative_numbers = true)]
     #[arg(default_value_t = CompareSettings::default().seed)]
     seed: u64,
-    #[command(flatten)]
-    format: Written,
+    /// How to write the answer; where there is none, stderr says why as text
+    #[arg(long, value_name = "FORMAT", default_value = "text", value_parser = readable())]
+    format: Format,
 }
 
 impl Compare {
     pub fn run(&self) -> Result<Answer, Refusal> {
-        let loaded = self.source.load()?;
-        let question = Question::new(loaded.mechanism.clone()).seed(self.seed);
-        let report = watched(|watch| question.compare(self.samples, watch));
-        Ok(Answer {
-            data: self.format.shown(&report),
-            remarks: loaded.warnings(),
-            yes: report.agree,
+        let mut posed = Posed::new(&self.source)?;
+        posed.ask_with(|question| question.seed(self.seed));
+        posed.answer(self.format, |question, watch| {
+            Ok(question.compare(self.samples, watch))
         })
     }
 }

@@ -3,11 +3,12 @@
 use clap::Args;
 use linkwork::analysis::convert::{ConvertSettings, convert, possible_cuts};
 use linkwork::description::Convention;
-use linkwork::output::conversion;
+use linkwork::output::complaint::Complaint;
+use linkwork::output::{Report, conversion};
 
-use super::frames::{FileFormat, Named};
+use super::format::{Format, Tables, with_file};
 use super::source::Source;
-use super::{Answer, Refusal, style};
+use super::{Answer, Refusal, lines};
 
 /// Write a mechanism in the other convention, or broken at another joint, with the same configurations.
 ///
@@ -20,38 +21,33 @@ pub struct Convert {
     source: Source,
     /// The convention of all chains
     #[arg(long, value_enum)]
-    convention: Option<Named>,
+    convention: Option<Tables>,
     /// Break the mechanism at this joint; a closure of its loop becomes rows with variables of its own
     #[arg(long, value_name = "JOINT")]
     cut: Option<String>,
     /// How to write the answer
-    #[arg(long, value_enum, default_value_t = FileFormat::Ron)]
-    format: FileFormat,
+    #[arg(long, value_name = "FORMAT", default_value = "ron", value_parser = with_file())]
+    format: Format,
 }
 
 impl Convert {
     pub fn run(&self) -> Result<Answer, Refusal> {
         let loaded = self.source.load()?;
         if self.convention.is_none() && self.cut.is_none() {
-            return Err(Refusal(conversion::nothing_asked().render(style())));
+            let said = Complaint::new("nothing to convert: give a convention or a joint to cut")
+                .help("give --convention modified or standard, or --cut JOINT, or both");
+            return Err(said.into());
         }
         let settings = ConvertSettings {
             convention: self.convention.map(Convention::from),
             cut: self.cut.clone(),
         };
-        let converted =
-            convert(&loaded.mechanism, &loaded.description, &settings).map_err(|error| {
-                let possible = possible_cuts(&loaded.mechanism, &loaded.description);
-                Refusal(conversion::complaint(&error, &possible).render(style()))
-            })?;
-        let unwritten =
-            |error| Refusal(format!("error: the mechanism cannot be written: {error}\n"));
-        Ok(Answer {
-            data: self.format.shown(&converted, || {
-                converted.description.to_ron().map_err(unwritten)
-            })?,
-            remarks: loaded.warnings() + &conversion::notes(&converted.notes),
-            yes: true,
-        })
+        let (mechanism, description) = (&loaded.mechanism, &loaded.description);
+        let converted = convert(mechanism, description, &settings).map_err(|error| {
+            let possible = possible_cuts(mechanism, description);
+            Refusal::from(conversion::complaint(&error, &possible))
+        })?;
+        let answer = loaded.answer(self.format, &converted)?;
+        Ok(answer.after(lines("note", converted.document().notes)))
     }
 }

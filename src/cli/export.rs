@@ -3,13 +3,14 @@
 use std::path::PathBuf;
 
 use clap::{Args, ValueEnum};
+use linkwork::ask::Question;
 use linkwork::interchange::{Remark, tree_of, write_mjcf, write_urdf};
 use linkwork::output::{Report, closing, text};
 
 use super::asked::Asked;
 use super::source::Source;
-use super::watched::watched;
-use super::{Answer, Refusal};
+use super::written::written;
+use super::{Answer, Refusal, lines};
 
 /// Write a mechanism as a file for another program.
 ///
@@ -44,45 +45,40 @@ enum To {
 
 impl Export {
     pub fn run(&self) -> Result<Answer, Refusal> {
-        let loaded = self.source.load()?;
-        let posed = self.asked.pose(&loaded);
-        let closed = watched(|watch| posed.question.closed(watch));
-        let closed = match closed.map_err(|error| posed.refusal(&error))? {
+        let posed = self.asked.pose(&self.source)?;
+        let mechanism = &posed.loaded.mechanism;
+        let closed = match posed.ask(Question::closed)? {
             Ok(closed) => closed,
             Err(open) => {
                 let open = text::render(&open.document());
                 return Ok(Answer {
                     data: String::new(),
-                    remarks: loaded.warnings() + &open + "Nothing is written.\n",
+                    remarks: posed.loaded.warnings() + &open + "Nothing is written.\n",
                     yes: false,
                 });
             }
         };
-        let (tree, mut said) = tree_of(&loaded.mechanism, &closed.configuration);
+        let (tree, mut said) = tree_of(mechanism, &closed.configuration);
         let (text, more): (String, Vec<Remark>) = match self.to {
             To::Mjcf => write_mjcf(&tree, &said),
             To::Urdf => write_urdf(&tree),
         };
         said.extend(more);
-        let mut remarks = loaded.warnings();
-        remarks += &closing::limits_warning(&closed.outside_limits(&loaded.mechanism));
-        for remark in &said {
-            let word = if remark.is_loss() { "warning" } else { "note" };
-            remarks += &format!("{word}: {remark}\n");
-        }
-        let data = match &self.output {
-            None => text,
-            Some(path) => {
-                std::fs::write(path, text).map_err(|error| {
-                    Refusal(format!("error: cannot write {}: {error}\n", path.display()))
-                })?;
-                String::new()
-            }
-        };
+        let outside = closing::outside_limits(&closed.outside_limits(mechanism));
+        let outside = lines("warning", outside);
         Ok(Answer {
-            data,
-            remarks,
+            data: written(text, self.output.as_deref())?,
+            remarks: posed.loaded.warnings() + &outside + &remarks(&said),
             yes: true,
         })
     }
+}
+
+/// What a format cannot say, or what was decided where a file left it open.
+pub fn remarks(said: &[Remark]) -> String {
+    let lines = said.iter().map(|remark| {
+        let word = if remark.is_loss() { "warning" } else { "note" };
+        format!("{word}: {remark}\n")
+    });
+    lines.collect()
 }

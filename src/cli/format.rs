@@ -1,14 +1,20 @@
-//! `--format`
+//! `--format`, and how a report becomes an answer.
 
+use clap::ValueEnum;
 use clap::builder::{PossibleValuesParser, TypedValueParser};
-use clap::{Args, ValueEnum};
-use linkwork::output::{Report, html, json, markdown, text};
+use linkwork::description::Convention;
+use linkwork::output::{Document, JsonReport, Report, html, json, markdown, text};
+
+use super::written::rows;
+use super::{Answer, Refusal, lines};
 
 /// How an answer is written.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 pub enum Format {
     /// To be read by people
     Text,
+    /// The mechanism file that was made
+    Ron,
     /// To be read by programs: SI units and radians with all digits
     Json,
     /// Rows as they come: SI units and radians with all digits
@@ -20,37 +26,98 @@ pub enum Format {
 }
 
 impl Format {
-    /// The whole report in this format; nothing in one that consists of rows.
-    pub fn shown(self, report: &impl Report) -> String {
+    /// The whole report in this format; nothing in one that consists of rows, or of a file.
+    pub fn shown(self, report: &impl JsonReport) -> String {
         match self {
             Format::Text => text::render(&report.shown()),
             Format::Json => json::render(report),
             Format::Markdown => markdown::render(&report.shown()),
             Format::Html => html::render(&report.shown()),
-            Format::Csv => String::new(),
+            Format::Csv | Format::Ron => String::new(),
         }
     }
-}
 
-/// The format of an answer without rows.
-#[derive(Args)]
-pub struct Written {
-    /// How to write the answer; where there is none, stderr says why as text
-    #[arg(long, value_name = "FORMAT", default_value = "text", value_parser = without_rows())]
-    format: Format,
-}
-
-impl Written {
-    /// The whole report in this format.
-    pub fn shown(&self, report: &impl Report) -> String {
-        self.format.shown(report)
+    /// The answer that a report gives.
+    pub fn answer(self, report: &impl JsonReport) -> Result<Answer, Refusal> {
+        let mut answer = Answer {
+            data: self.shown(report),
+            remarks: lines("warning", report.warnings()),
+            yes: report.is_yes(),
+        };
+        match (self, report.rows(), report.file()) {
+            (Format::Csv, Some(all), _) => {
+                let whole = rows(all)?;
+                answer.remarks += &beside_rows(report, whole);
+                answer.yes &= whole;
+            }
+            (Format::Csv, None, _) => {
+                let help = "choose another --format; rows come with --input, --locus or --follow";
+                let title = "this answer has no rows";
+                return Err(Refusal(format!("error: {title}\n  = help: {help}\n")));
+            }
+            (Format::Ron, _, Some(file)) => {
+                answer.data = file.map_err(|error| {
+                    Refusal(format!("error: the file cannot be written: {error}\n"))
+                })?;
+            }
+            _ => {}
+        }
+        Ok(answer)
     }
 }
 
-/// Every format but the one of rows.
-fn without_rows() -> impl TypedValueParser<Value = Format> {
+/// What is said on stderr where only rows are written.
+pub fn beside_rows(report: &impl Report, whole: bool) -> String {
+    if !whole {
+        let said = "interrupted: the rows end before the answer does";
+        return lines("note", [said.to_owned()]);
+    }
+    let Document {
+        answer,
+        notes,
+        method,
+        ..
+    } = report.shown();
+    let answer = (!report.is_yes()).then_some(answer);
+    lines("note", answer.into_iter().chain(notes).chain(method))
+}
+
+/// The formats of an answer without rows and files.
+pub fn readable() -> impl TypedValueParser<Value = Format> {
+    all_but(&[Format::Csv, Format::Ron])
+}
+
+/// The formats of an answer with rows.
+pub fn with_rows() -> impl TypedValueParser<Value = Format> {
+    all_but(&[Format::Ron])
+}
+
+/// The formats of a mechanism that was made.
+pub fn with_file() -> impl TypedValueParser<Value = Format> {
+    all_but(&[Format::Csv])
+}
+
+fn all_but(without: &[Format]) -> impl TypedValueParser<Value = Format> + use<> {
     let formats = Format::value_variants().iter();
-    let formats = formats.filter(|format| **format != Format::Csv);
+    let formats = formats.filter(|format| !without.contains(format));
     PossibleValuesParser::new(formats.filter_map(ValueEnum::to_possible_value))
         .try_map(|name| Format::from_str(&name, false))
+}
+
+/// A convention of Denavit–Hartenberg tables.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub enum Tables {
+    /// Rows (α(i−1), a(i−1), d(i), θ(i)), z of frame i along joint i (Craig)
+    Modified,
+    /// Rows (θ(i), d(i), a(i), α(i)), z of frame i−1 along joint i (Denavit and Hartenberg)
+    Standard,
+}
+
+impl From<Tables> for Convention {
+    fn from(tables: Tables) -> Self {
+        match tables {
+            Tables::Modified => Convention::Modified,
+            Tables::Standard => Convention::Standard,
+        }
+    }
 }

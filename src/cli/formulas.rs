@@ -2,15 +2,16 @@
 
 use clap::Args;
 use linkwork::analysis::formulas::{FormulasSettings, formulas};
-use linkwork::description::listed;
+use linkwork::description::quoted;
 use linkwork::mechanism::Frame;
+use linkwork::output::complaint::Complaint;
 use linkwork::output::formulas as output;
 
-use super::format::Written;
+use super::format::{Format, readable};
 use super::source::Source;
-use super::{Answer, Refusal, asked};
+use super::{Answer, Refusal, asked, lines};
 
-/// Multiply a mechanism out: transforms, closure equations and screw Jacobians as closed forms.
+/// Write out transforms, closure equations and screw Jacobians in closed form.
 ///
 /// Without --of and --in: every link, every chain's tip in ground with its Jacobian, and every closure. Parameters are
 /// letters, except those that --set gives another value: these are written out.
@@ -39,60 +40,44 @@ pub struct Formulas {
     /// Write Rust functions
     #[arg(long, group = "script", conflicts_with = "format")]
     rust: bool,
-    #[command(flatten)]
-    format: Written,
+    /// How to write the answer; where there is none, stderr says why as text
+    #[arg(long, value_name = "FORMAT", default_value = "text", value_parser = readable())]
+    format: Format,
 }
 
 impl Formulas {
     pub fn run(&self) -> Result<Answer, Refusal> {
         let loaded = self.source.load()?;
-        let mechanism = &loaded.mechanism;
-        let named = |name: &Option<String>, option| match name {
-            Some(name) => asked::frame(mechanism, name, option).map(Some),
-            None => Ok(None),
+        let named = |name: &Option<String>, option| {
+            let frame = |name| asked::frame(&loaded.mechanism, name, option);
+            name.as_deref().map(frame).transpose()
         };
         let (of, relative_to) = (named(&self.of, "--of")?, named(&self.relative_to, "--in")?);
-        let transform = match (of, relative_to) {
-            (None, None) => None,
-            (Some(of), relative_to) => Some((of, relative_to.unwrap_or(Frame::Ground))),
-            (None, Some(_)) => {
-                return Err(Refusal(
-                    "error: `--in` says from where a frame is seen, but not which frame\n = help: add --of FRAME\n".into(),
-                ));
-            }
-        };
-        let set = loaded.set();
+        if let (None, Some(_)) = (of, relative_to) {
+            let title = "`--in` says from where a frame is seen, but not which frame";
+            return Err(Complaint::new(title).help("add --of FRAME").into());
+        }
         let settings = FormulasSettings {
-            transform,
-            numbers: set.clone(),
+            transform: of.map(|of| (of, relative_to.unwrap_or(Frame::Ground))),
+            numbers: loaded.set(),
             ..FormulasSettings::default()
         };
-        let report = formulas(mechanism, &settings).map_err(|error| {
+        let report = formulas(&loaded.mechanism, &settings).map_err(|error| {
             let part = loaded.excerpt(&error.span);
-            Refusal(format!(
-                "error: `{part}` is too long to be multiplied out in letters\n = help: give it a name among the parameters\n"
-            ))
+            let title = format!("`{part}` is too long to be multiplied out in letters");
+            Refusal::from(Complaint::new(title).help("give it a name among the parameters"))
         })?;
-        let data = match (self.latex, self.ron, self.rust) {
-            (true, ..) => output::latex(&report),
-            (_, true, _) => output::ron(&report),
-            (_, _, true) => output::rust(&report),
-            _ => self.format.shown(&report),
-        };
-        Ok(Answer {
-            data,
-            remarks: match set.is_empty() {
-                true => loaded.warnings(),
-                false => {
-                    let quoted: Vec<String> = set.iter().map(|name| format!("`{name}`")).collect();
-                    loaded.warnings()
-                        + &format!(
-                            "note: {} set by --set, written out; other parameters are letters\n",
-                            listed(&quoted)
-                        )
-                }
-            },
-            yes: true,
-        })
+        let mut answer = loaded.answer(self.format, &report)?;
+        match (self.latex, self.ron, self.rust) {
+            (true, ..) => answer.data = output::latex(&report),
+            (_, true, _) => answer.data = output::ron(&report),
+            (_, _, true) => answer.data = output::rust(&report),
+            _ => {}
+        }
+        let set = (!settings.numbers.is_empty()).then(|| {
+            let set = quoted(&settings.numbers);
+            format!("{set} set by --set, written out; other parameters are letters")
+        });
+        Ok(answer.after(lines("note", set)))
     }
 }

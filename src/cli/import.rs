@@ -2,12 +2,15 @@
 
 use std::path::PathBuf;
 
-use clap::{Args, ValueEnum};
-use linkwork::description::{self, Convention, FileError, LoadError, ProblemKind};
+use clap::Args;
+use linkwork::description::{self, FileError, LoadError, ProblemKind};
 use linkwork::interchange::{ImportError, ImportSettings, load};
 use linkwork::mechanism::Mechanism;
-use linkwork::output::{diagnostics, import};
+use linkwork::output::diagnostics;
 
+use super::export::remarks;
+use super::format::Tables;
+use super::written::written;
 use super::{Answer, Refusal, style};
 
 /// Read a URDF or MJCF file as a mechanism.
@@ -36,39 +39,18 @@ pub struct Import {
     output: Option<PathBuf>,
 }
 
-/// A convention of tables.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-enum Tables {
-    /// Craig's: alpha and a before the joint.
-    Modified,
-    /// Denavit's and Hartenberg's: alpha and a behind it.
-    Standard,
-}
-
 impl Import {
     pub fn run(&self) -> Result<Answer, Refusal> {
-        let loops = match &self.loops {
-            None => None,
-            Some(path) => Some(description::load(path).map_err(|error| {
-                Refusal(match error {
-                    LoadError::Wrong(error) => diagnostics::render(&error, style()),
-                    other => format!("error: {other}\n"),
-                })
-            })?),
-        };
-        let all_frames = self.frame.iter().any(|name| name == "all");
+        let loops = self.loops.as_ref().map(description::load).transpose()?;
         let settings = ImportSettings {
-            convention: match self.convention {
-                Tables::Modified => Convention::Modified,
-                Tables::Standard => Convention::Standard,
-            },
+            convention: self.convention.into(),
             frames: self.frame.clone(),
-            all_frames,
+            all_frames: self.frame.iter().any(|name| name == "all"),
         };
         let closing = loops.as_ref().map(|(_, description)| description);
         let imported = load(&self.file, closing, &settings).map_err(|error| {
             Refusal(match error {
-                ImportError::Wrong(wrong) => import::render(&wrong, style()),
+                ImportError::Wrong(wrong) => diagnostics::import(&wrong, style()),
                 ImportError::Unreadable(error) => format!("error: {error}\n"),
             })
         })?;
@@ -89,29 +71,15 @@ impl Import {
                 text,
                 problems,
             };
-            return Err(Refusal(diagnostics::render(&error, style())));
+            return Err(LoadError::Wrong(error).into());
         }
         let text = imported.description.to_ron();
         let text = text.map_err(|error| {
             Refusal(format!("error: the mechanism cannot be written: {error}\n"))
         })?;
-        let remarks = imported.remarks.iter().map(|remark| {
-            let word = if remark.is_loss() { "warning" } else { "note" };
-            format!("{word}: {remark}\n")
-        });
-        let remarks: String = remarks.collect();
-        let data = match &self.output {
-            None => text,
-            Some(path) => {
-                std::fs::write(path, text).map_err(|error| {
-                    Refusal(format!("error: cannot write {}: {error}\n", path.display()))
-                })?;
-                String::new()
-            }
-        };
         Ok(Answer {
-            data,
-            remarks,
+            data: written(text, self.output.as_deref())?,
+            remarks: remarks(&imported.remarks),
             yes: true,
         })
     }

@@ -2,13 +2,12 @@
 
 use clap::Args;
 use linkwork::analysis::mobility::MobilitySettings;
-use linkwork::output::closing as analysed;
+use linkwork::ask::Question;
 
 use super::asked::Asked;
-use super::format::Written;
+use super::format::{Format, readable};
 use super::search::seed;
 use super::source::Source;
-use super::watched::watched;
 use super::{Answer, Refusal};
 
 /// Count the freedoms of the assembled mechanism, and say which joints move and what is redundant.
@@ -26,24 +25,15 @@ pub struct Mobility {
     #[arg(long, value_parser = seed, allow_negative_numbers = true)]
     #[arg(default_value_t = MobilitySettings::default().seed)]
     seed: u64,
-    #[command(flatten)]
-    format: Written,
+    /// How to write the answer; where there is none, stderr says why as text
+    #[arg(long, value_name = "FORMAT", default_value = "text", value_parser = readable())]
+    format: Format,
 }
 
 impl Mobility {
     pub fn run(&self) -> Result<Answer, Refusal> {
-        let loaded = self.source.load()?;
-        let posed = self.asked.pose(&loaded);
-        let question = posed.question.clone().seed(self.seed);
-        let report = watched(|watch| question.mobility(watch));
-        let report = report.map_err(|error| posed.refusal(&error))?;
-        let yes = report.report();
-        let warning = yes.map(|report| analysed::limits_warning(&report.outside_limits));
-        let yes = yes.is_some();
-        Ok(Answer {
-            data: self.format.shown(&report),
-            remarks: loaded.warnings() + &warning.unwrap_or_default(),
-            yes,
-        })
+        let mut posed = self.asked.pose(&self.source)?;
+        posed.ask_with(|question| question.seed(self.seed));
+        posed.answer(self.format, Question::mobility)
     }
 }

@@ -38,11 +38,11 @@ pub fn mode(text: &str) -> Result<usize, String> {
 impl Search {
     /// Puts seed and store into a question.
     pub fn pose(&self, posed: &mut Posed) -> Result<(), Refusal> {
-        let mut question = posed.question.clone().seed(self.seed);
+        posed.ask_with(|question| question.seed(self.seed));
         if let Some(path) = &self.store {
-            question = question.store(Arc::new(Store::at(path)?));
+            let store = Arc::new(Store::at(path)?);
+            posed.ask_with(|question| question.store(store));
         }
-        posed.question = question;
         Ok(())
     }
 }

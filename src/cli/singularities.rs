@@ -3,18 +3,15 @@
 use std::path::PathBuf;
 
 use clap::Args;
-use linkwork::analysis::singularities::{AlongEnd, Coupled, SingularitiesSettings};
-use linkwork::ask::{Mode, Role};
+use linkwork::analysis::singularities::SingularitiesSettings;
+use linkwork::ask::{Question, Role};
 use linkwork::output::singularities as output;
 
-use super::asked::{Asked, Posed, Ranges};
-use super::format::Format;
+use super::asked::{Asked, Ranges};
+use super::format::{Format, with_rows};
 use super::search::{Search, mode};
 use super::source::{Assignment, Source};
-use super::watched::watched;
-#[cfg(feature = "plot")]
 use super::written::save;
-use super::written::{INTERRUPTED_REMARK, rows};
 use super::{Answer, Refusal};
 
 /// Find singularities: at a configuration, along inputs, or as curves in two inputs.
@@ -37,7 +34,7 @@ pub struct Singularities {
     /// Move a joint or coordinate, e.g. --input theta1=0deg..360deg; several move together
     #[arg(long, value_name = "NAME=FROM..TO")]
     input: Vec<Assignment>,
-    /// A side of the box for loci: give it twice, e.g. --locus l1=0.4..1 --locus l2=0.4..1
+    /// A range of the two coordinates in which loci are sought; give it twice, e.g. --locus l1=0.4..1 --locus l2=0.4..1
     #[arg(long, value_name = "NAME=FROM..TO", conflicts_with_all = ["input", "mode", "follow"])]
     locus: Vec<Assignment>,
     /// An output: a joint, a platform coordinate or a frame with its orientation
@@ -59,7 +56,7 @@ pub struct Singularities {
     #[command(flatten)]
     search: Search,
     /// How to write the answer
-    #[arg(long, value_enum, default_value_t = Format::Text)]
+    #[arg(long, value_name = "FORMAT", default_value = "text", value_parser = with_rows())]
     format: Format,
     /// Draw the loci to a file
     #[arg(long, value_name = "FILE", requires = "locus")]
@@ -68,116 +65,28 @@ pub struct Singularities {
 
 impl Singularities {
     pub fn run(&self) -> Result<Answer, Refusal> {
-        let loaded = self.source.load()?;
         let settings = SingularitiesSettings {
             starts: self.starts,
             follow: self.follow,
             ..SingularitiesSettings::default()
         };
-        let mut posed = self.asked.pose(&loaded);
+        let mut posed = self.asked.pose(&self.source)?;
         self.search.pose(&mut posed)?;
-        for name in &self.output {
-            posed.name(Role::Output, "--output", name);
-            posed.question = posed.question.output(name);
+        posed.names(Role::Output, "--output", &self.output, Question::output);
+        posed.names(Role::Point, "--point", &self.point, Question::point);
+        posed.ranges(Ranges::Input, &self.input)?;
+        posed.mode(self.mode);
+        if self.locus.is_empty() {
+            return match self.input.is_empty() {
+                true => posed.answer(self.format, |q, watch| q.singularities(&settings, watch)),
+                false => posed.answer(self.format, |q, watch| q.along(&settings, watch)),
+            };
         }
-        for name in &self.point {
-            posed.name(Role::Point, "--point", name);
-            posed.question = posed.question.point(name);
-        }
-        match self.locus.is_empty() {
-            true => posed.ranges(Ranges::Input, &self.input)?,
-            false => posed.ranges(Ranges::Locus, &self.locus)?,
-        }
-        let mode = self.mode.map_or(Mode::Nearest, Mode::Number);
-        posed.question = posed.question.mode(mode);
-        let answer = match (self.input.is_empty(), self.locus.is_empty()) {
-            (_, false) => self.loci(&posed, &settings)?,
-            (false, true) => self.along(&posed, &settings)?,
-            (true, true) => self.here(&posed, &settings)?,
-        };
-        Ok(Answer {
-            remarks: loaded.warnings() + &answer.remarks,
-            ..answer
-        })
-    }
-
-    fn here(&self, posed: &Posed, settings: &SingularitiesSettings) -> Result<Answer, Refusal> {
-        if self.format == Format::Csv {
-            return Err(Refusal(
-                "error: one configuration has no rows: choose another --format, or ask for rows \
-                 along --input or --locus\n"
-                    .into(),
-            ));
-        }
-        let report = watched(|watch| posed.question.singularities(settings, watch));
-        let report = report.map_err(|error| posed.refusal(&error))?;
-        let found = report.report();
-        Ok(Answer {
-            remarks: found.map(output::limits_remark).unwrap_or_default(),
-            yes: found.is_some(),
-            data: self.format.shown(&report),
-        })
-    }
-
-    fn along(&self, posed: &Posed, settings: &SingularitiesSettings) -> Result<Answer, Refusal> {
-        let report = watched(|watch| posed.question.along(settings, watch));
-        let report = report.map_err(|error| posed.refusal(&error))?;
-        let yes = matches!(
-            report.ending,
-            AlongEnd::Complete | AlongEnd::Returned | AlongEnd::Closed
-        );
-        let whole = match self.format {
-            Format::Csv => rows(output::along_rows(&report))?,
-            _ => true,
-        };
-        Ok(Answer {
-            data: self.format.shown(&report),
-            remarks: match self.format {
-                Format::Csv if !yes => format!("note: {}\n", output::ending(&report)),
-                _ => String::new(),
-            } + &self.beside_rows(&report.coupled),
-            yes: yes && whole,
-        })
-    }
-
-    fn loci(&self, posed: &Posed, settings: &SingularitiesSettings) -> Result<Answer, Refusal> {
-        #[cfg(not(feature = "plot"))]
-        if self.svg.is_some() {
-            return Err(Refusal(
-                "error: built without feature `plot`, which draws\n".into(),
-            ));
-        }
-        let report = watched(|watch| posed.question.loci(settings, watch));
-        let report = report.map_err(|error| posed.refusal(&error))?;
-        #[cfg(feature = "plot")]
+        posed.ranges(Ranges::Locus, &self.locus)?;
+        let report = posed.ask(|question, watch| question.loci(&settings, watch))?;
         if let Some(path) = &self.svg {
             save(path, &output::svg(&report))?;
         }
-        let whole = match self.format {
-            Format::Csv => rows(output::locus_rows(&report))?,
-            _ => true,
-        };
-        let data = self.format.shown(&report);
-        Ok(Answer {
-            data,
-            remarks: match self.format {
-                Format::Csv if !whole => INTERRUPTED_REMARK.to_owned(),
-                Format::Csv => {
-                    let said = output::pinned(&report).into_iter();
-                    let said = said.chain([output::completeness(&report)]);
-                    said.map(|said| format!("note: {said}\n")).collect()
-                }
-                _ => String::new(),
-            } + &self.beside_rows(&report.coupled),
-            yes: !report.loci.is_empty() && whole,
-        })
-    }
-
-    /// What is said of the outputs where only rows are written.
-    fn beside_rows(&self, coupled: &[Coupled]) -> String {
-        match (self.format, output::note(coupled)) {
-            (Format::Csv, Some(note)) => format!("note: {note}\n"),
-            _ => String::new(),
-        }
+        posed.loaded.answer(self.format, &report)
     }
 }

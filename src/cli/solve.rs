@@ -1,14 +1,13 @@
 //! `linkwork solve`
 
 use clap::Args;
-use linkwork::analysis::assembly::{AssemblySettings, Outcome};
-use linkwork::ask::{Mode, Solved};
+use linkwork::analysis::assembly::AssemblySettings;
+use linkwork::ask::Solved;
 
 use super::asked::Asked;
-use super::format::Written;
+use super::format::{Format, readable};
 use super::search::{Search, mode};
 use super::source::Source;
-use super::watched::watched;
 use super::{Answer, Refusal};
 
 /// Find the assembled configuration near a guess.
@@ -33,35 +32,20 @@ pub struct Solve {
     mode: Option<usize>,
     #[command(flatten)]
     search: Search,
-    #[command(flatten)]
-    format: Written,
+    /// How to write the answer; where there is none, stderr says why as text
+    #[arg(long, value_name = "FORMAT", default_value = "text", value_parser = readable())]
+    format: Format,
 }
 
 impl Solve {
     pub fn run(&self) -> Result<Answer, Refusal> {
-        let loaded = self.source.load()?;
-        let mut posed = self.asked.pose(&loaded);
+        let mut posed = self.asked.pose(&self.source)?;
         self.search.pose(&mut posed)?;
-        let mode = self.mode.map_or(Mode::Nearest, Mode::Number);
-        let question = posed.question.clone().mode(mode);
+        posed.mode(self.mode);
         let settings = AssemblySettings::default();
-        let solved = watched(|watch| question.solve(&settings, watch));
-        let report = match solved.map_err(|error| posed.refusal(&error))? {
-            Solved::Ended(report) => report,
-            Solved::Lost(lost) => {
-                return Ok(Answer {
-                    data: self.format.shown(&*lost),
-                    remarks: loaded.warnings(),
-                    yes: false,
-                });
-            }
-        };
-        let warning = report.warning();
-        let warning = warning.map(|warning| format!("warning: {warning}\n"));
-        Ok(Answer {
-            data: self.format.shown(&*report),
-            remarks: loaded.warnings() + &warning.unwrap_or_default(),
-            yes: report.outcome == Outcome::Converged,
-        })
+        match posed.ask(|question, watch| question.solve(&settings, watch))? {
+            Solved::Ended(report) => posed.loaded.answer(self.format, &*report),
+            Solved::Lost(lost) => posed.loaded.answer(self.format, &*lost),
+        }
     }
 }

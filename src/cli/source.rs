@@ -8,9 +8,10 @@ use clap::Args;
 use linkwork::description::{self, Description, FileError, LoadError, Problem};
 use linkwork::mechanism::Mechanism;
 use linkwork::output::complaint::{Complaint, Given, Part};
-use linkwork::output::diagnostics;
+use linkwork::output::{JsonReport, diagnostics};
 
-use super::{Refusal, style};
+use super::format::Format;
+use super::{Answer, Refusal, style};
 
 #[derive(Args)]
 pub struct Source {
@@ -63,8 +64,7 @@ pub fn once(option: &str, given: &[Assignment]) -> Result<(), Refusal> {
                 written(first),
                 written(second)
             );
-            let help = "give only one of them".to_owned();
-            let said = Complaint::with_help(title, "", help);
+            let said = Complaint::new(title).help("give only one of them");
             return Err(Refusal(said.render_in(&second.given(option), style())));
         }
     }
@@ -84,12 +84,7 @@ pub struct Loaded {
 impl Source {
     /// Reads the file, or says everything that is wrong with it or with `--set`.
     pub fn load(&self) -> Result<Loaded, Refusal> {
-        let (text, mut description) = Mechanism::read(&self.file).map_err(|error| {
-            Refusal(match error {
-                LoadError::Wrong(error) => diagnostics::render(&error, style()),
-                other => format!("error: {other}\n"),
-            })
-        })?;
+        let (text, mut description) = Mechanism::read(&self.file)?;
         once("--set", &self.set)?;
         let mut refused = Vec::new();
         for assignment in &self.set {
@@ -163,7 +158,22 @@ impl Source {
     }
 }
 
+/// A file that cannot be read, or everything that is wrong in it.
+impl From<LoadError> for Refusal {
+    fn from(error: LoadError) -> Self {
+        match error {
+            LoadError::Wrong(error) => Refusal(diagnostics::render(&error, style())),
+            other => Refusal(format!("error: {other}\n")),
+        }
+    }
+}
+
 impl Loaded {
+    /// The answer that a report about the mechanism gives.
+    pub fn answer(&self, format: Format, report: &impl JsonReport) -> Result<Answer, Refusal> {
+        Ok(format.answer(report)?.after(self.warnings()))
+    }
+
     /// The parameters that `--set` gave another value.
     pub fn set(&self) -> Vec<String> {
         self.set.clone()

@@ -1,13 +1,11 @@
 //! `linkwork statics`
 
 use clap::Args;
-use linkwork::ask::Role;
-use linkwork::output::closing as analysed;
+use linkwork::ask::{Question, Role};
 
 use super::asked::Asked;
-use super::format::Written;
+use super::format::{Format, readable};
 use super::source::{Assignment, Source};
-use super::watched::watched;
 use super::{Answer, Refusal};
 
 /// Find the actuator forces that balance a load, and what every joint has to carry.
@@ -34,31 +32,21 @@ pub struct Statics {
     /// Force in N or moment in N·m along a joint variable, e.g. --load phi1=2
     #[arg(long, value_name = "JOINT=FORCE")]
     load: Vec<Assignment>,
-    #[command(flatten)]
-    format: Written,
+    /// How to write the answer; where there is none, stderr says why as text
+    #[arg(long, value_name = "FORMAT", default_value = "text", value_parser = readable())]
+    format: Format,
 }
 
 impl Statics {
     pub fn run(&self) -> Result<Answer, Refusal> {
-        let loaded = self.source.load()?;
-        let mut posed = self.asked.pose(&loaded);
-        for given in &self.wrench {
-            posed.value(Role::Wrench, "--wrench", given);
-            posed.question = posed.question.wrench_text(&given.name, &given.value);
-        }
-        for given in &self.load {
-            posed.value(Role::Load, "--load", given);
-            posed.question = posed.question.load(&given.name, &given.value);
-        }
-        let report = watched(|watch| posed.question.statics(watch));
-        let report = report.map_err(|error| posed.refusal(&error))?;
-        let yes = report.report();
-        let warning = yes.map(|report| analysed::limits_warning(&report.outside_limits));
-        let yes = yes.is_some_and(|report| report.unbalanced.is_empty());
-        Ok(Answer {
-            data: self.format.shown(&report),
-            remarks: loaded.warnings() + &warning.unwrap_or_default(),
-            yes,
-        })
+        let mut posed = self.asked.pose(&self.source)?;
+        posed.values(
+            Role::Wrench,
+            "--wrench",
+            &self.wrench,
+            Question::wrench_text,
+        );
+        posed.values(Role::Load, "--load", &self.load, Question::load);
+        posed.answer(self.format, Question::statics)
     }
 }

@@ -1,14 +1,15 @@
 //! The file that keeps generic solutions from one run to the next.
 
 use std::fs::{self, File};
-use std::io::{self, ErrorKind, Read, Write};
+use std::io::{ErrorKind, Read};
 use std::path::{Path, PathBuf};
 
 use linkwork::analysis::assemblies::{GenericSolutions, StoredError};
 use linkwork::ask;
 use linkwork::output::complaint::Complaint;
 
-use super::{Refusal, say, style};
+use super::written::{beside, replace};
+use super::{Refusal, say};
 
 /// The largest store that is read (bytes): a hundred times that of a thousand solutions of a large mechanism.
 const MAX_BYTES: u64 = 1 << 28;
@@ -22,7 +23,7 @@ pub struct Store {
 }
 
 fn refusal(title: String, help: &str) -> Refusal {
-    Refusal(Complaint::with_help(title, "", help.into()).render(style()))
+    Complaint::new(title).help(help).into()
 }
 
 const ANOTHER: &str = "name another file with --store, or leave the option out";
@@ -92,13 +93,6 @@ impl Store {
         })
     }
 
-    /// A file beside the store, of this process alone.
-    fn beside(&self) -> Option<PathBuf> {
-        let mut name = self.place.file_name()?.to_owned();
-        name.push(format!(".{}.part", std::process::id()));
-        Some(self.place.with_file_name(name))
-    }
-
     /// Refuses a place that cannot be written, before the search rather than after it. Leaves nothing behind.
     fn check_writable(&self) -> Result<(), Refusal> {
         let refused = |reason: &dyn std::fmt::Display| {
@@ -112,7 +106,7 @@ impl Store {
         {
             return Err(refused(&"it is write-protected"));
         }
-        let beside = self.beside().ok_or_else(|| refused(&"it has no name"))?;
+        let beside = beside(&self.place);
         File::create(&beside)
             .and_then(|_| fs::remove_file(&beside))
             .map_err(|error| {
@@ -122,21 +116,6 @@ impl Store {
                     false => refused(&"there is no such folder"),
                 }
             })
-    }
-
-    /// Writes beside the store and then puts the file in its place, so that it is never half written.
-    fn write(&self, generic: &GenericSolutions) -> io::Result<()> {
-        let beside = self.beside().ok_or(ErrorKind::InvalidFilename)?;
-        let written = File::create(&beside).and_then(|mut file| {
-            file.write_all(generic.to_text().as_bytes())?;
-            file.sync_all()?;
-            fs::rename(&beside, &self.place)
-        });
-        if written.is_err() {
-            // perhaps it was never made
-            let _ = fs::remove_file(&beside);
-        }
-        written
     }
 }
 
@@ -158,7 +137,7 @@ impl ask::Store for Store {
 
     fn keep(&self, generic: &GenericSolutions) {
         // the answer is not lost with its store
-        if let Err(error) = self.write(generic) {
+        if let Err(error) = replace(&self.place, &generic.to_text()) {
             say(&format!(
                 "warning: the solutions could not be stored in {}: {error}\n",
                 self.path.display()

@@ -1,13 +1,11 @@
 //! `linkwork velocity`
 
 use clap::Args;
-use linkwork::ask::Role;
-use linkwork::output::closing as analysed;
+use linkwork::ask::{Question, Role};
 
 use super::asked::Asked;
-use super::format::Written;
+use super::format::{Format, readable};
 use super::source::{Assignment, Source, once};
-use super::watched::watched;
 use super::{Answer, Refusal};
 
 /// Find how everything moves when the inputs move: rates, accelerations, Jacobian.
@@ -33,37 +31,25 @@ pub struct Velocity {
     /// Follow the origin of a frame too, e.g. --point top.S1
     #[arg(long, value_name = "FRAME")]
     point: Vec<String>,
-    #[command(flatten)]
-    format: Written,
+    /// How to write the answer; where there is none, stderr says why as text
+    #[arg(long, value_name = "FORMAT", default_value = "text", value_parser = readable())]
+    format: Format,
 }
 
 impl Velocity {
     pub fn run(&self) -> Result<Answer, Refusal> {
-        let loaded = self.source.load()?;
-        let mut posed = self.asked.pose(&loaded);
+        let mut posed = self.asked.pose(&self.source)?;
         once("--rate", &self.rate)?;
         once("--acceleration", &self.acceleration)?;
-        for given in &self.rate {
-            posed.value(Role::Rate, "--rate", given);
-            posed.question = posed.question.rate(&given.name, &given.value);
-        }
-        for given in &self.acceleration {
-            posed.value(Role::Acceleration, "--acceleration", given);
-            posed.question = posed.question.acceleration(&given.name, &given.value);
-        }
-        for name in &self.point {
-            posed.name(Role::Point, "--point", name);
-            posed.question = posed.question.point(name);
-        }
-        let report = watched(|watch| posed.question.velocity(watch));
-        let report = report.map_err(|error| posed.refusal(&error))?;
-        let yes = report.report();
-        let warning = yes.map(|report| analysed::limits_warning(&report.outside_limits));
-        let yes = yes.is_some_and(|report| report.is_determined());
-        Ok(Answer {
-            data: self.format.shown(&report),
-            remarks: loaded.warnings() + &warning.unwrap_or_default(),
-            yes,
-        })
+        posed.values(Role::Rate, "--rate", &self.rate, Question::rate);
+        let role = Role::Acceleration;
+        posed.values(
+            role,
+            "--acceleration",
+            &self.acceleration,
+            Question::acceleration,
+        );
+        posed.names(Role::Point, "--point", &self.point, Question::point);
+        posed.answer(self.format, Question::velocity)
     }
 }

@@ -1,7 +1,297 @@
-//! What is said of questions that have no answer as they are posed, with the options that would put them right.
+//! What is said of questions that have no answer as they are posed, with the options that would put them right. What is
+//! wrong the library says; options are named here alone.
 
-pub mod load;
-pub mod loci;
-pub mod map;
-pub mod motion;
 pub mod question;
+
+use linkwork::analysis::sweep::PointError;
+use linkwork::ask::{AskError, Role};
+use linkwork::description::{count, listed, nearest};
+use linkwork::mechanism::{self, Mechanism};
+use linkwork::output::complaint::{Complaint, Given, Part};
+use linkwork::output::quantity::number;
+use linkwork::system::QuestionError;
+
+use question::{driven_complaint, load_complaint, quoted, unknown_frame, value};
+
+/// What ranges are for, which decides the words.
+#[derive(Clone, Copy, PartialEq, Eq)]
+pub enum Ranged {
+    /// Inputs that move.
+    Input,
+    /// Sides of the box of loci.
+    Locus,
+    /// Mapped coordinates.
+    Map,
+}
+
+impl Ranged {
+    /// The option that gives them.
+    pub fn option(self) -> &'static str {
+        match self {
+            Ranged::Input => "--input",
+            Ranged::Locus => "--locus",
+            Ranged::Map => "--map",
+        }
+    }
+}
+
+const ONE_OF_THEM: &str = "give only one of them";
+const COARSER: &str = "give a coarser --grid, or map a part of the box at a time";
+
+/// What is wrong with a question, and with which part of the option that says so, if one does.
+pub fn complaint(
+    mechanism: &Mechanism,
+    ranged: Ranged,
+    error: &AskError,
+    given: Option<Given>,
+) -> Complaint {
+    let said = Complaint::new(error.to_string());
+    let written = given.and_then(|given| given.value).unwrap_or_default();
+    let option = |other| given.map_or(other, |given| given.option);
+    match error {
+        AskError::Named { item, error } => {
+            let said = question::complaint(error);
+            let (first, end) = (written.find("..").unwrap_or(written.len()), written.len());
+            match item.role {
+                Role::From => said.at(Part::Value(0..first)),
+                Role::To => said.at(Part::Value((first + 2).min(end)..end)),
+                _ => said,
+            }
+        }
+        AskError::Question(error) => question::complaint(error),
+        AskError::Mapped {
+            error,
+            mapped,
+            missing,
+        } => wrong_count(error, mapped, missing).unwrap_or_else(|| question::complaint(error)),
+        AskError::NotMapped { error, .. } => {
+            no_platform(mechanism, error).unwrap_or_else(|| question::complaint(error))
+        }
+        AskError::Drive { error, .. } => driven_complaint(error, option("--rate")),
+        AskError::Load { error, .. } => load_complaint(mechanism, error, option("--load")),
+        AskError::UnknownFrame { name, .. } => unknown_frame(mechanism, name),
+        AskError::Motionless { .. } => said.label("stands still").help(
+            "follow a frame of a link or of a platform, e.g. the tip of a chain by its name",
+        ),
+        AskError::UnknownOutput { name, .. } => {
+            let frames = mechanism.frames().into_iter();
+            let frames = frames.map(|frame| mechanism.frame_name(frame));
+            let joints = mechanism.joints().iter().map(|joint| joint.name.clone());
+            let known: Vec<String> = frames.chain(joints).collect();
+            said.label("not known").help(meant(name, &known, || {
+                "an output is a joint, a platform coordinate such as `top.x`, or a frame".into()
+            }))
+        }
+        AskError::Traced { error, .. } => match error {
+            PointError::NoFrame(name) => unknown_frame(mechanism, name),
+            PointError::Value { text, error } => value(text, error).at(Part::Name),
+            PointError::TooMany(_) => Complaint::new(error.to_string())
+                .label("too many")
+                .help("write FRAME+X,Y,Z, e.g. --of left+0.5,0.2,0"),
+        },
+        AskError::EmptyRange { name, .. } => said.label("empty").at(Part::WholeValue).help(
+            match ranged {
+                Ranged::Input => {
+                    let from = written.split("..").next().unwrap_or_default();
+                    let from = quoted(from.trim());
+                    format!("for one configuration ask `linkwork solve`, with --hold {name}={from}")
+                }
+                Ranged::Locus | Ranged::Map => {
+                    "write the lower end first; for one value hold it with --hold".into()
+                }
+            },
+        ),
+        AskError::OutsideLimits {
+            name,
+            limits,
+            is_angle,
+            ..
+        } => {
+            let written = |x: f64| match is_angle {
+                true => format!("{}deg", number(x.to_degrees())),
+                false => number(x),
+            };
+            let (low, high) = (written(limits.0), written(limits.1));
+            let help = format!("sweep within them, e.g. --input {name}={low}..{high}");
+            said.label("outside").at(Part::WholeValue).help(help)
+        }
+        AskError::AlsoHeld { .. } => said.label("also held").help(ONE_OF_THEM),
+        AskError::MoreThanATurn { name } => {
+            said.help(format!("map a turn, e.g. --map {name}=-180deg..180deg"))
+        }
+        AskError::NothingMoves { driven } => {
+            let name = driven.as_deref().unwrap_or("NAME");
+            said.help(format!(
+                "give the inputs their ranges, e.g. --input {name}=0deg..360deg; follow the whole curve \
+                 with --follow; or list circuits with --circuits"
+            ))
+        }
+        AskError::NotOneJoint => said.help("move the inputs with --input"),
+        AskError::Steps { given, most } => steps(*given, *most, false),
+        AskError::Starts { most, .. } => said.help(match ranged {
+            Ranged::Map => format!("give --starts and --search from 1 to {most}"),
+            Ranged::Input | Ranged::Locus => format!("give --starts from 1 to {most}"),
+        }),
+        AskError::NothingLeft { held } => said.help(match held.is_empty() {
+            true => "`linkwork mobility` shows why it cannot move",
+            false => "hold one coordinate less",
+        }),
+        AskError::NotOneFreedom(error) => match error {
+            QuestionError::TooFew {
+                mobility,
+                held,
+                hold,
+            } => {
+                let more = mobility.saturating_sub(held + 1);
+                let most = hold.len().min(more);
+                said.help(format!(
+                    "hold {} more, e.g. {}; or prescribe the inputs with --input",
+                    count(more, "coordinate"),
+                    question::options("--hold", &hold[..most], "=home")
+                ))
+            }
+            _ => said.help("hold other coordinates"),
+        },
+        AskError::NotAssembled { .. } => said.help("`linkwork solve` says how near it comes"),
+        AskError::NothingToDrive => said.help(
+            "hold the driven joints with --hold; `linkwork mobility` shows whether a mechanism without \
+             freedoms is infinitesimally flexible",
+        ),
+        AskError::Sides(given) => said.help(format!(
+            "give --locus twice, e.g. --locus a=0..1 --locus b=0..1; {}",
+            match given {
+                1 => "for singularities along one coordinate use --input NAME=FROM..TO",
+                _ => "hold the others with --hold",
+            }
+        )),
+        AskError::Axes(0) => {
+            let help = "say which coordinates, and from where to where, e.g.";
+            said.help(format!("{help} {}", mappable(mechanism)))
+        }
+        AskError::Axes(_) => said.help("hold the others with --hold"),
+        AskError::Spinning(_) => said.help(
+            "a locus needs a unique motion, and these links have no joint of their own that could be held: \
+             write legs between two ball joints as `Distance` closures",
+        ),
+        AskError::Grid { .. } => {
+            said.help("give one number for all coordinates or one for each, e.g. --grid 60,40")
+        }
+        AskError::TooFine { .. } | AskError::TooMany { .. } => said.help(COARSER),
+        AskError::TooLarge { .. } => said.help("ask about a part of it"),
+        _ => said,
+    }
+}
+
+/// What was meant by a name, or else something more general.
+fn meant(name: &str, known: &[String], other: impl FnOnce() -> String) -> String {
+    match nearest(name, known.iter().map(String::as_str)) {
+        Some(meant) => format!("did you mean `{meant}`?"),
+        None => other(),
+    }
+}
+
+/// A value that is no range.
+pub fn no_range(ranged: Ranged, name: &str) -> Complaint {
+    let option = ranged.option();
+    let help = format!(
+        "write {option} {name}=FROM..TO, e.g. {option} {name}=0deg..90deg or {option} {name}=-1..1"
+    );
+    let said = Complaint::new(format!("`{name}` has no range")).label("no range");
+    said.at(Part::WholeValue).help(help)
+}
+
+/// A number of steps that is none, or too many.
+pub fn steps(given: usize, most: usize, rows_kept: bool) -> Complaint {
+    match given {
+        0 => Complaint::new("a motion in no steps has no rows").help(
+            "give at least one step, e.g. --steps 100; for one configuration ask `linkwork solve`",
+        ),
+        _ if rows_kept => Complaint::new(format!(
+            "{given} steps are too many to keep: up to {most} are"
+        ))
+        .help("write rows as they come with --format csv"),
+        _ => Complaint::new(format!("{given} steps are too many: up to {most} are made")).help(
+            "dead points and crossings between the rows are located exactly, however long the steps are",
+        ),
+    }
+}
+
+/// Rows of boundary curves where there are none.
+pub fn no_boundary(axes: usize) -> Complaint {
+    match axes {
+        1 => Complaint::new("the boundary of a map with one coordinate is points, not curves")
+            .help("--format json has them as `points`"),
+        _ => Complaint::new("--boundary chooses the rows of --format csv")
+            .help("add --format csv, or leave --boundary out: --format json has boundaries too"),
+    }
+}
+
+/// Options that map what a mechanism has.
+fn mappable(mechanism: &Mechanism) -> String {
+    if let Some(platform) = mechanism.platforms().first() {
+        return format!("--map {0}.x=-1..1 --map {0}.y=-1..1", platform.name);
+    }
+    let driven = |joint: &&mechanism::Joint| joint.role == mechanism::Role::Actuated;
+    let joints = mechanism.joints().iter().filter(driven).take(2);
+    let options = joints.map(|joint| match joint.kind.is_angle() {
+        true => format!("--map {}=-180deg..180deg", joint.name),
+        false => format!("--map {}=0..1", joint.name),
+    });
+    options.collect::<Vec<String>>().join(" ")
+}
+
+/// A name where there is no platform.
+fn no_platform(mechanism: &Mechanism, error: &QuestionError) -> Option<Complaint> {
+    let QuestionError::UnknownName {
+        name,
+        suggestion: None,
+    } = error
+    else {
+        return None;
+    };
+    let joints: Vec<&str> = mechanism.joints().iter().map(|j| j.name.as_str()).collect();
+    let title = format!("`{name}` is no joint, and the mechanism has no platform");
+    let help = format!(
+        "map joints ({}); to map where a link is, give the file a platform that is closed to it by `Rigid`",
+        listed(&joints)
+    );
+    let said = Complaint::new(title).label("not known").help(help);
+    mechanism.platforms().is_empty().then_some(said)
+}
+
+/// More or less is mapped and held than there are freedoms. `missing` are coordinates that would do. Nothing where the
+/// question's own words will do.
+fn wrong_count(error: &QuestionError, mapped: &[String], missing: &[String]) -> Option<Complaint> {
+    let is_mapped = |name: &String| mapped.contains(name);
+    match error {
+        QuestionError::TooMany { free, .. } => {
+            let away: Vec<String> = free.iter().filter(|n| is_mapped(n)).cloned().collect();
+            let help = format!("do not map {}: the others determine it", listed(&away));
+            (!away.is_empty()).then(|| Complaint::new(error.title()).help(help))
+        }
+        QuestionError::TooFew { .. } => {
+            let first = missing.first()?;
+            let range = match first.rsplit('.').next() {
+                Some("roll" | "pitch" | "yaw") => "-90deg..90deg",
+                _ => "-1..1",
+            };
+            let help = format!(
+                "map or hold {} too, e.g. --hold {first}=home or --map {first}={range}",
+                listed(missing)
+            );
+            Some(Complaint::new(error.title()).help(help))
+        }
+        QuestionError::Dependent { free, hold } => {
+            let (away, rest): (Vec<String>, Vec<String>) =
+                free.iter().cloned().partition(|name| is_mapped(name));
+            let mut ways = vec![format!("do not map {}", listed(&away))];
+            if !rest.is_empty() {
+                ways.push(format!("do not hold {}", listed(&rest)));
+            }
+            let ways = ways.join(" and ");
+            let help = format!("{ways}; map or hold {} instead", listed(hold));
+            (!away.is_empty()).then(|| Complaint::new(error.title()).help(help))
+        }
+        _ => None,
+    }
+}

@@ -5,18 +5,15 @@ use std::path::PathBuf;
 use clap::Args;
 use linkwork::analysis::workspace::WorkspaceSettings;
 use linkwork::ask::Mode;
-use linkwork::output::workspace as output;
+use linkwork::output::{Report, workspace as output};
 
 use super::asked::{Ranges, Split};
-use super::format::Format;
+use super::format::{Format, beside_rows, with_rows};
 use super::search::Search;
 use super::source::{Assignment, Source};
-use super::watched::watched;
-use super::words::map;
-#[cfg(feature = "plot")]
-use super::written::save;
-use super::written::{INTERRUPTED_REMARK, rows};
-use super::{Answer, Refusal, style};
+use super::words;
+use super::written::{rows, save};
+use super::{Answer, Refusal, lines, style};
 
 /// Map where the mechanism reaches, in which modes, and what bounds it.
 ///
@@ -52,7 +49,7 @@ pub struct Workspace {
     #[command(flatten)]
     search: Search,
     /// How to write the answer
-    #[arg(long, value_enum, default_value_t = Format::Text)]
+    #[arg(long, value_name = "FORMAT", default_value = "text", value_parser = with_rows())]
     format: Format,
     /// Write the points of boundary curves as rows, instead of the nodes
     #[arg(long)]
@@ -64,26 +61,14 @@ pub struct Workspace {
 
 impl Workspace {
     pub fn run(&self) -> Result<Answer, Refusal> {
-        let loaded = self.source.load()?;
-        let mut posed = self.split.pose(&loaded);
+        let mut posed = self.split.pose(&self.source)?;
         self.search.pose(&mut posed)?;
         posed.ranges(Ranges::Map, &self.map)?;
-        if self.boundary && self.map.len() == 1 {
-            return Err(Refusal(map::boundary_flat().render(style())));
-        }
-        if self.boundary && self.format != Format::Csv {
-            return Err(Refusal(
-                "error: --boundary chooses the rows of --format csv; --format json has boundaries too\n".into(),
-            ));
-        }
-        #[cfg(not(feature = "plot"))]
-        if self.svg.is_some() {
-            return Err(Refusal(
-                "error: built without feature `plot`, which draws\n".into(),
-            ));
+        if self.boundary && (self.map.len() == 1 || self.format != Format::Csv) {
+            return Err(Refusal(words::no_boundary(self.map.len()).render(style())));
         }
         if self.assemblies {
-            posed.question = posed.question.mode(Mode::All);
+            posed.ask_with(|question| question.mode(Mode::All));
         }
         let settings = WorkspaceSettings {
             nodes: self.grid.clone(),
@@ -91,31 +76,25 @@ impl Workspace {
             starts: self.starts,
             ..WorkspaceSettings::default()
         };
-        let report = watched(|watch| posed.question.workspace(&settings, watch));
-        let report = report.map_err(|error| posed.refusal(&error))?;
-        let mut remarks = loaded.warnings();
-        #[cfg(feature = "plot")]
+        let report = posed.ask(|question, watch| question.workspace(&settings, watch))?;
+        let mut drawn = String::new();
         if let Some(path) = &self.svg {
             save(path, &output::svg(&report))?;
-            if let Some(drawn) = output::left_out(&report) {
-                remarks += &format!("note: {drawn} in {}\n", path.display());
-            }
+            let part = output::left_out(&report);
+            let part = part.map(|part| format!("{part} in {}", path.display()));
+            drawn = lines("note", part);
         }
-        let whole = match (self.format, self.boundary) {
-            (Format::Csv, true) => rows(output::boundary_rows(&report))?,
-            (Format::Csv, false) => rows(output::node_rows(&report))?,
-            _ => true,
+        let answer = match self.boundary {
+            false => posed.loaded.answer(self.format, &report)?,
+            true => {
+                let whole = rows(output::boundary_rows(&report))?;
+                Answer {
+                    data: String::new(),
+                    remarks: posed.loaded.warnings() + &beside_rows(&report, whole),
+                    yes: report.is_yes() && whole,
+                }
+            }
         };
-        let data = self.format.shown(&report);
-        remarks += &match self.format {
-            Format::Csv if !whole => INTERRUPTED_REMARK.to_owned(),
-            Format::Csv => format!("note: {}\n", output::completeness(&report)),
-            _ => String::new(),
-        };
-        Ok(Answer {
-            data,
-            remarks,
-            yes: report.reached > 0 && whole,
-        })
+        Ok(answer.after(drawn))
     }
 }

@@ -1,10 +1,11 @@
 //! What is written beside an answer: rows as they come, and pictures.
 
+use std::fs::File;
 use std::io::{self, Write};
-#[cfg(feature = "plot")]
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
-use linkwork::output::csv::{Csv, Record};
+use linkwork::output::Rows;
+use linkwork::output::csv::Csv;
 
 use super::Refusal;
 use super::watched::{interruptions, read_no_more};
@@ -77,16 +78,11 @@ pub fn unwritten(error: io::Error) -> Refusal {
     Refusal(format!("error: the rows cannot be written: {error}\n"))
 }
 
-/// What is said where an interruption ended the rows before their time.
-pub const INTERRUPTED_REMARK: &str = "note: interrupted: the rows end before the answer does\n";
-
 /// All rows to stdout; whether nobody interrupted meanwhile.
-pub fn rows<'a>(
-    (columns, all): (Vec<String>, impl Iterator<Item = Record<'a>>),
-) -> Result<bool, Refusal> {
+pub fn rows(all: Rows) -> Result<bool, Refusal> {
     let before = interruptions();
-    let mut csv = Csv::new(Lines::new(true), columns).map_err(unwritten)?;
-    for row in all {
+    let mut csv = Csv::new(Lines::new(true), all.columns).map_err(unwritten)?;
+    for row in all.rows {
         if !csv.target().open() || interruptions() > before {
             break;
         }
@@ -96,16 +92,43 @@ pub fn rows<'a>(
     Ok(interruptions() == before)
 }
 
-/// Written beside and then put in its place, so that it is never half written.
-#[cfg(feature = "plot")]
-pub fn save(path: &Path, picture: &str) -> Result<(), Refusal> {
+/// A file beside another, of this process alone.
+pub fn beside(path: &Path) -> PathBuf {
     let mut beside = path.as_os_str().to_owned();
-    beside.push(".part");
-    let written = std::fs::write(&beside, picture).and_then(|()| std::fs::rename(&beside, path));
-    written.map_err(|error| {
-        Refusal(format!(
-            "error: {} cannot be written: {error}\n",
-            path.display()
-        ))
-    })
+    beside.push(format!(".{}.part", std::process::id()));
+    beside.into()
+}
+
+/// Writes beside a file and then puts it in its place, so that it is never half written.
+pub fn replace(path: &Path, text: &str) -> io::Result<()> {
+    let beside = beside(path);
+    let written = File::create(&beside).and_then(|mut file| {
+        file.write_all(text.as_bytes())?;
+        file.sync_all()?;
+        std::fs::rename(&beside, path)
+    });
+    if written.is_err() {
+        // perhaps it was never made
+        let _ = std::fs::remove_file(&beside);
+    }
+    written
+}
+
+/// The same where there is no answer without it.
+pub fn save(path: &Path, text: &str) -> Result<(), Refusal> {
+    replace(path, text).map_err(|error| not_written(path, error))
+}
+
+fn not_written(path: &Path, error: io::Error) -> Refusal {
+    let path = path.display();
+    Refusal(format!("error: {path} cannot be written: {error}\n"))
+}
+
+/// What goes to stdout of a text: all, or nothing where it is written to a file, which may be a device.
+pub fn written(text: String, file: Option<&Path>) -> Result<String, Refusal> {
+    let Some(path) = file else {
+        return Ok(text);
+    };
+    std::fs::write(path, text).map_err(|error| not_written(path, error))?;
+    Ok(String::new())
 }

@@ -4,8 +4,9 @@ mod lost;
 mod tables;
 
 use super::closing;
-use super::document::{Document, Report, Section};
-use super::quantity::quantity;
+use super::document::{Document, Section};
+use super::quantity::{at, form, metres};
+use super::report::Report;
 use crate::analysis::assemblies::{AssembliesReport, ClosestApproach, Continuum, Fit};
 use crate::description::{count, listed};
 use crate::linear::RANK_TOLERANCE;
@@ -34,6 +35,11 @@ impl Report for AssembliesReport {
             .into_iter()
             .fold(document, Document::method)
     }
+
+    fn is_yes(&self) -> bool {
+        let fits = matches!(self.fit, Fit::Finite | Fit::FreedomLeft(_));
+        self.real > 0 && self.lost == 0 && self.unexpected == 0 && fits
+    }
 }
 
 /// The answer in one sentence.
@@ -44,10 +50,8 @@ fn sentence(report: &AssembliesReport) -> String {
         _ if report.interrupted => format!("{real} found."),
         (Fit::FreedomLeft(_), 0) => "No assembly was found.".into(),
         (Fit::FreedomLeft(freedom), _) => {
-            let left = match freedom {
-                1 => "1 freedom is".into(),
-                n => format!("{n} freedoms are"),
-            };
+            let left = count(*freedom, "freedom");
+            let are = form(*freedom, "is", "are");
             let isolated = report.assemblies.iter().filter(|a| a.multiplicity > 0);
             let isolated = isolated.count();
             let listed = match report.real - isolated {
@@ -59,7 +63,7 @@ fn sentence(report: &AssembliesReport) -> String {
                     count(samples, "sample")
                 ),
             };
-            format!("Infinitely many assemblies: {left} left with what is held. {listed}.")
+            format!("Infinitely many assemblies: {left} {are} left with what is held. {listed}.")
         }
         (Fit::TooManyHeld | Fit::AlwaysMultiple, _) => format!("{real} found."),
         (Fit::Finite, _) if !report.continua.is_empty() => infinitely_many(report),
@@ -76,10 +80,8 @@ fn infinitely_many(report: &AssembliesReport) -> String {
     let isolated = report.assemblies.iter().filter(|a| a.multiplicity > 0);
     let sets = report.continua.iter().map(|set: &Continuum| {
         // a path may stand for several solutions, and be followed again for each
-        let ends = match count(set.paths, "complex solution") {
-            one if set.paths == 1 => format!("{one} ends"),
-            many => format!("{many} end"),
-        };
+        let solutions = count(set.paths, "complex solution");
+        let ends = format!("{solutions} {}", form(set.paths, "ends", "end"));
         match set.samples.len() {
             0 => format!(
                 "a complex set of dimension {} in which {ends}, of which no real assembly was met",
@@ -249,7 +251,7 @@ fn accounting(report: &AssembliesReport) -> Vec<String> {
         report.seed
     ));
     if report.assemblies.iter().any(|a| a.certified) {
-        let length = quantity(report.characteristic_length, false);
+        let length = metres(report.characteristic_length);
         lines.push(format!(
             "a certificate proves that exactly one solution lies within its radius, in rad and, for \
              lengths, in units of {length}"
@@ -273,9 +275,7 @@ fn nearest(report: &AssembliesReport, closest: &ClosestApproach) -> Section {
     };
     let gaps = (closest.gaps.0.iter())
         .map(|(name, gap)| format!("{name}: {}", closing::gap(gap.distance, gap.angle)));
-    let joints = closest.joints.0.iter().zip(&report.variables);
-    let joints = joints.map(|((name, value), joint)| {
-        format!("{name} = {}", quantity(*value, joint.unit.is_angle()))
-    });
+    let joints = report.variables.iter().zip(closest.joints.values());
+    let joints = joints.map(|(joint, value)| at(&joint.name, *value, joint.unit));
     Section::new(title).list(gaps).list(joints)
 }

@@ -1,94 +1,123 @@
 //! Words about closing a mechanism before it is analysed.
 
-use super::document::{Document, Report};
-use super::quantity::{degrees, quantity};
+use super::document::Document;
+use super::quantity::{degrees, form, metres};
+use super::report::{Remarks, Report, Rows};
 use crate::description::listed;
 use crate::linear::SPECTRUM_LIMIT;
-use crate::system::{Analysed, NotClosed, WidestGap};
+use crate::system::{Analysed, NotClosed, TooLarge, WidestGap};
 
 /// `0.213 m and 4.2°`
 pub(super) fn gap(distance: f64, angle: f64) -> String {
     // what rounding leaves of a gap is none
     const NONE: f64 = 1e-9;
     match (distance < NONE, angle < NONE) {
-        (_, true) => quantity(distance, false),
+        (_, true) => metres(distance),
         (true, false) => degrees(angle),
-        (false, false) => format!("{} and {}", quantity(distance, false), degrees(angle)),
+        (false, false) => format!("{} and {}", metres(distance), degrees(angle)),
     }
 }
 
 /// How far the pose given was off.
-pub(super) fn given(given: &WidestGap, kept: bool) -> String {
-    let free = match kept {
+pub(super) fn given(given: Option<&WidestGap>, kept: bool) -> Option<String> {
+    let moved = match kept {
         true => "",
         false => ", which moved actuated joints too",
     };
-    format!(
-        "The pose given was not assembled: closure `{}` was open by {}; it was assembled first{free}.",
-        given.closure,
-        gap(given.distance, given.angle)
-    )
+    given.map(|given| {
+        format!(
+            "The pose given was not assembled: closure `{}` was open by {}; it was assembled first{moved}.",
+            given.closure,
+            gap(given.distance, given.angle)
+        )
+    })
 }
 
-/// The remark that joints are outside their limits; empty if none is.
-pub fn limits_warning(outside: &[String]) -> String {
-    match outside {
-        [] => String::new(),
-        [one] => format!("warning: {one} is outside its limits\n"),
-        many => format!("warning: {} are outside their limits\n", listed(many)),
-    }
+/// The warning that joints are outside their limits.
+pub fn outside_limits(joints: &[String]) -> Option<String> {
+    let are = form(
+        joints.len(),
+        "is outside its limits",
+        "are outside their limits",
+    );
+    (!joints.is_empty()).then(|| format!("{} {are}", listed(joints)))
 }
 
 impl<R: Report> Report for Analysed<R> {
     fn document(&self) -> Document {
-        match self {
-            Analysed::Closed(report) => report.document(),
-            Analysed::NotClosed(open) => open.document(),
-            Analysed::TooLarge(large) => Document::new(&large.mechanism, too_large(large.unknowns)),
-        }
+        report(self).document()
     }
 
-    fn sentences(&self) -> Vec<(&'static str, Option<String>)> {
-        self.report().map_or(Vec::new(), Report::sentences)
+    fn is_yes(&self) -> bool {
+        report(self).is_yes()
     }
 
-    fn lists(&self) -> Vec<(&'static str, Vec<String>)> {
-        self.report().map_or(Vec::new(), Report::lists)
+    fn is_interrupted(&self) -> bool {
+        report(self).is_interrupted()
+    }
+
+    fn warnings(&self) -> Vec<String> {
+        report(self).warnings()
+    }
+
+    fn remarks(&self) -> Remarks {
+        report(self).remarks()
+    }
+
+    fn rows(&self) -> Option<Rows<'_>> {
+        report(self).rows()
+    }
+}
+
+fn report<R: Report>(analysed: &Analysed<R>) -> &dyn Report {
+    match analysed {
+        Analysed::Closed(report) => report,
+        Analysed::NotClosed(open) => open,
+        Analysed::TooLarge(large) => large,
+    }
+}
+
+impl Report for TooLarge {
+    fn document(&self) -> Document {
+        let answer = format!(
+            "Not analysed: the mechanism has {} unknowns, and this analysis is limited to \
+             {SPECTRUM_LIMIT}. Analyse a part of it.",
+            self.unknowns
+        );
+        Document::new(&self.mechanism, answer)
+    }
+
+    fn is_yes(&self) -> bool {
+        false
     }
 }
 
 impl Report for NotClosed {
+    fn document(&self) -> Document {
+        let held = match self.held.is_empty() {
+            true => String::new(),
+            false => format!(" with {} held", listed(&self.held)),
+        };
+        let left = self.left.as_ref().map(|left| {
+            let gap = gap(left.distance, left.angle);
+            format!(
+                ": at the closest approach closure {} is open by {gap}",
+                left.closure
+            )
+        });
+        let answer = format!(
+            "Not assembled{held}{}. Only an assembled mechanism can be analysed: hold other \
+             values, start elsewhere, or free a joint that is held; `linkwork solve` says more.",
+            left.unwrap_or_default()
+        );
+        Document::new(&self.mechanism, answer)
+    }
+
+    fn is_yes(&self) -> bool {
+        false
+    }
+
     fn is_interrupted(&self) -> bool {
         self.interrupted
     }
-
-    fn document(&self) -> Document {
-        Document::new(&self.mechanism, sentence(self))
-    }
-}
-
-fn too_large(unknowns: usize) -> String {
-    format!(
-        "Not analysed: the mechanism has {unknowns} unknowns, and this analysis is limited to \
-         {SPECTRUM_LIMIT}. Analyse a part of it."
-    )
-}
-
-fn sentence(open: &NotClosed) -> String {
-    let held = match open.held.is_empty() {
-        true => String::new(),
-        false => format!(" with {} held", listed(&open.held)),
-    };
-    let left = match &open.left {
-        Some(left) => format!(
-            ": at the closest approach closure {} is open by {}",
-            left.closure,
-            gap(left.distance, left.angle)
-        ),
-        None => String::new(),
-    };
-    format!(
-        "Not assembled{held}{left}. Only an assembled mechanism can be analysed: hold other \
-         values, start elsewhere, or free a joint that is held; `linkwork solve` says more."
-    )
 }

@@ -1,11 +1,12 @@
 //! A comparison of closed forms with the chains as a document.
 
-use super::document::{Column, Document, Report, Section, Table, cells};
+use super::document::{Document, Section, Table, TableOf};
 use super::formulas::{Notation, Script};
-use super::quantity::{number, size};
+use super::quantity::{form, quantity, size, values as values_of, with_unit};
+use super::report::Report;
+use crate::algebra::SiUnit;
 use crate::analysis::compare::{
     CompareReport, ComponentReport, Difference, FormReport, Proof, Quantity, Reason, Verdict,
-    WorstSample,
 };
 use crate::description::count;
 
@@ -40,6 +41,10 @@ impl Report for CompareReport {
             .section(Section::new("Differences").list(remarks))
             .notes(not_assembled)
     }
+
+    fn is_yes(&self) -> bool {
+        self.agree
+    }
 }
 
 /// How many forms are proved, if any.
@@ -67,28 +72,19 @@ fn proved(report: &CompareReport) -> String {
     }
 }
 
-fn table(report: &CompareReport) -> Table {
-    let mut table = Table::new([
-        Column::words("form"),
-        Column::numbers("components"),
-        Column::numbers("samples"),
-        Column::words("largest difference"),
-        Column::words("verdict"),
-        Column::words("proof"),
-        Column::words("source"),
-    ]);
-    for form in &report.closed_forms {
-        table.row(cells![
-            &form.name,
-            form.components.len(),
-            form.samples,
-            largest(form),
-            verdict(form.verdict),
-            proof(form),
-            form.source.as_deref()
-        ]);
-    }
-    table
+fn table(report: &CompareReport) -> TableOf<&FormReport> {
+    Table::of(&report.closed_forms)
+        .words("form", |form| form.name.as_str())
+        .numbers("components", |form| form.components.len())
+        .numbers("samples", |form| form.samples)
+        .words("largest difference", largest)
+        .words("verdict", |form| match form.verdict {
+            Verdict::Agrees => "agrees",
+            Verdict::Disagrees => "disagrees",
+            Verdict::NotTried => "not tried",
+        })
+        .words("proof", proof)
+        .words("source", |form| form.source.as_deref())
 }
 
 const QUANTITIES: [Quantity; 3] = [Quantity::Position, Quantity::Rotation, Quantity::Identity];
@@ -99,12 +95,11 @@ fn largest(form: &FormReport) -> String {
         let tried = form.components.iter();
         let tried = tried.filter(|c| c.samples > 0 && c.quantity == quantity);
         let largest = tried.map(|c| c.max_difference).reduce(f64::max)?;
-        let place = if quantity == Quantity::Rotation {
-            " in R"
-        } else {
-            ""
+        let place = match quantity {
+            Quantity::Rotation => " in R",
+            Quantity::Position | Quantity::Identity => "",
         };
-        Some(format!("{}{}{place}", size(largest), unit(quantity)))
+        Some(with_unit(&size(largest), unit(quantity)) + place)
     };
     let parts: Vec<String> = QUANTITIES.into_iter().filter_map(of).collect();
     match parts.is_empty() {
@@ -133,18 +128,10 @@ fn units(report: &CompareReport) -> String {
     }
 }
 
-fn unit(quantity: Quantity) -> &'static str {
+fn unit(quantity: Quantity) -> SiUnit {
     match quantity {
-        Quantity::Position => " m",
-        Quantity::Rotation | Quantity::Identity => "",
-    }
-}
-
-fn verdict(verdict: Verdict) -> &'static str {
-    match verdict {
-        Verdict::Agrees => "agrees",
-        Verdict::Disagrees => "disagrees",
-        Verdict::NotTried => "not tried",
+        Quantity::Position => SiUnit::METRE,
+        Quantity::Rotation | Quantity::Identity => SiUnit::ONE,
     }
 }
 
@@ -255,18 +242,17 @@ fn remark(report: &CompareReport, form: &FormReport, component: &ComponentReport
     }
     let mut lines = Vec::new();
     if let Some(worst) = component.worst.as_ref().filter(|_| !component.agree) {
-        let unit = unit(*quantity);
+        let six = |value: f64| with_unit(&format!("{value:.6}"), unit(*quantity));
+        let (own, theirs) = (six(worst.closed_form), six(worst.chains));
         let values = match quantity {
-            Quantity::Identity => format!("it is {:.6}, not zero,", worst.closed_form),
-            _ => format!(
-                "the form gives {:.6}{unit}, the chains {:.6}{unit},",
-                worst.closed_form, worst.chains
-            ),
+            Quantity::Identity => format!("it is {own}, not zero,"),
+            _ => format!("the form gives {own}, the chains {theirs},"),
         };
+        let joints = values_of(&report.names.joints, worst.joints.values());
         lines.push(format!(
-            "{form}, {name}: differs by up to {}{unit}: {values} at {}.",
-            number(*max_difference),
-            joint_values(report, worst)
+            "{form}, {name}: differs by up to {}: {values} at {}.",
+            self::quantity(*max_difference, unit(*quantity)),
+            joints.join(", ")
         ));
     }
     if *without_value > 0 {
@@ -278,48 +264,19 @@ fn remark(report: &CompareReport, form: &FormReport, component: &ComponentReport
     lines
 }
 
-/// `theta1 = 30 deg, l1 = 0.6 m`
-fn joint_values(report: &CompareReport, worst: &WorstSample) -> String {
-    let values = worst.joints.0.iter().zip(&report.names.joints);
-    let values = values.map(|((name, value), joint)| match joint.unit.is_angle() {
-        true => format!("{name} = {:.4} deg", value.to_degrees()),
-        false => format!("{name} = {value:.6} m"),
-    });
-    values.collect::<Vec<_>>().join(", ")
-}
-
 fn sentence(report: &CompareReport) -> String {
     let forms = &report.closed_forms;
     let having = |verdict: Verdict| forms.iter().filter(|form| form.verdict == verdict).count();
     let (disagree, untried) = (having(Verdict::Disagrees), having(Verdict::NotTried));
-    let seed = report.seed;
-    match (disagree, untried, forms.len()) {
-        (0, 0, 1) => format!("The closed form agrees with the chains (seed {seed})."),
-        (0, 0, 2) => format!("Both closed forms agree with the chains (seed {seed})."),
-        (0, 0, all) => format!("All {all} closed forms agree with the chains (seed {seed})."),
-        (0, untried, all) => {
-            format!(
-                "{untried} of {} could not be tried (seed {seed}).",
-                count(all, "closed form")
-            )
-        }
-        (disagree, 0, all) => format!(
-            "{disagree} of {} {} with the chains (seed {seed}).",
-            count(all, "closed form"),
-            if disagree == 1 {
-                "disagrees"
-            } else {
-                "disagree"
-            },
-        ),
-        (disagree, untried, all) => format!(
-            "{disagree} of {} {} with the chains, {untried} could not be tried (seed {seed}).",
-            count(all, "closed form"),
-            if disagree == 1 {
-                "disagrees"
-            } else {
-                "disagree"
-            },
-        ),
-    }
+    let all = count(forms.len(), "closed form");
+    let verb = form(disagree, "disagrees", "disagree");
+    let said = match (disagree, untried, forms.len()) {
+        (0, 0, 1) => "The closed form agrees with the chains".into(),
+        (0, 0, 2) => "Both closed forms agree with the chains".into(),
+        (0, 0, _) => format!("All {all} agree with the chains"),
+        (0, ..) => format!("{untried} of {all} could not be tried"),
+        (_, 0, _) => format!("{disagree} of {all} {verb} with the chains"),
+        _ => format!("{disagree} of {all} {verb} with the chains, {untried} could not be tried"),
+    };
+    format!("{said} (seed {}).", report.seed)
 }

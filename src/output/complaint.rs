@@ -4,7 +4,7 @@ use std::ops::Range;
 
 use serde::{Deserialize, Serialize};
 
-use crate::description::Problem;
+use crate::description::{Problem, ProblemKind};
 
 /// An option as it was given: `--set l1=2*l0`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -42,14 +42,28 @@ pub enum Part {
 }
 
 impl Complaint {
-    /// What is wrong, a few words for the offending part, which may be empty, and what to do.
-    pub fn new(title: String, label: &str, help: Option<String>) -> Self {
+    /// What is wrong.
+    pub fn new(title: impl Into<String>) -> Self {
         Complaint {
-            title,
-            label: label.into(),
-            help,
+            title: title.into(),
+            label: String::new(),
+            help: None,
             part: Part::Name,
         }
+    }
+
+    /// With a few words for the offending part.
+    #[must_use]
+    pub fn label(self, label: impl Into<String>) -> Self {
+        let label = label.into();
+        Complaint { label, ..self }
+    }
+
+    /// With what to do about it.
+    #[must_use]
+    pub fn help(self, help: impl Into<String>) -> Self {
+        let help = Some(help.into());
+        Complaint { help, ..self }
     }
 
     /// The same about another part of the option than its name.
@@ -58,14 +72,16 @@ impl Complaint {
         Complaint { part, ..self }
     }
 
-    /// The same where there is something to do.
-    pub fn with_help(title: String, label: &str, help: String) -> Self {
-        Complaint::new(title, label, Some(help))
-    }
-
     /// The words for a problem of a mechanism file.
     pub fn of(problem: &Problem) -> Self {
-        let kind = &problem.kind;
-        Complaint::new(kind.title(), &kind.label(), kind.help())
+        Complaint::kind(&problem.kind)
+    }
+
+    /// The words for a kind of problem.
+    pub fn kind(kind: &ProblemKind) -> Self {
+        Complaint {
+            help: kind.help(),
+            ..Complaint::new(kind.title()).label(kind.label())
+        }
     }
 }

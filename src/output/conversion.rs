@@ -1,6 +1,7 @@
 //! Mechanisms written another way as documents.
 
-use super::document::{Document, Report, Section};
+use super::document::{Document, Section};
+use super::report::Report;
 use crate::analysis::convert::{Conversion, ConversionNote, ConvertError, CutError};
 use crate::description::quoted;
 
@@ -15,12 +16,10 @@ impl Report for Conversion {
             .notes(self.notes.iter().map(note))
             .section(file)
     }
-}
 
-/// A line for each note.
-pub fn notes(notes: &[ConversionNote]) -> String {
-    let lines = notes.iter().map(|of| format!("note: {}\n", note(of)));
-    lines.collect()
+    fn file(&self) -> Option<Result<String, ron::Error>> {
+        Some(self.description.to_ron())
+    }
 }
 
 fn note(note: &ConversionNote) -> String {
@@ -30,7 +29,7 @@ fn note(note: &ConversionNote) -> String {
             "the closed form `{closed_form}` is left out: it names `{joint}`, which has become a closure"
         ),
         ConversionNote::DriveLost { joint } => format!(
-            "`{joint}` was driven but no longer has a variable: hold another joint with --hold"
+            "`{joint}` was driven but no longer has a variable: hold another joint in its place"
         ),
         ConversionNote::LimitsLost { joint } => {
             format!("`{joint}` had limits but no longer has a variable: its limits are lost")
@@ -47,49 +46,31 @@ fn note(note: &ConversionNote) -> String {
     }
 }
 
-/// What is said where neither a convention nor a cut is asked for.
-pub fn nothing_asked() -> Complaint {
-    Complaint::with_help(
-        "nothing to convert: give a convention or a joint to cut".into(),
-        "",
-        "give --convention modified or standard, or --cut JOINT, or both".into(),
-    )
-}
+/// Where tables cannot be rearranged as they are written, axes can.
+const BY_AXES: &str = "`linkwork frames FILE --format ron` gives the joint axes; with \
+     `cut: [\"JOINT\"]` in that file, `linkwork frames` makes tables cut at that joint; ";
 
 /// Why a mechanism is not converted, unless it is what came out that is wrong. `possible` are the joints that can be cut.
 pub fn complaint(error: &ConvertError, possible: &[String]) -> Complaint {
-    let (title, help) = match error {
-        ConvertError::Cut(error) => {
-            let (title, help) = because(error);
-            let instead = match possible {
-                [] => "no joint of this mechanism can be cut".to_owned(),
-                names => format!("joints that can be cut: {}", quoted(names)),
-            };
-            let help = help.map_or(instead.clone(), |help| format!("{help}; {instead}"));
-            (title, Some(help))
-        }
-        ConvertError::Wrong(_) => (error.to_string(), None),
+    let ConvertError::Cut(cut) = error else {
+        return Complaint::new(error.to_string());
     };
-    Complaint::new(title, "", help)
-}
-
-/// Where tables cannot be rearranged as they are written, axes can.
-const BY_AXES: &str = "`linkwork frames FILE --format ron` gives the joint axes; with \
-     `cut: [\"JOINT\"]` in that file, `linkwork frames` makes tables cut at that joint";
-
-fn because(error: &CutError) -> (String, Option<String>) {
-    let title = match error {
+    let title = match cut {
         CutError::UnknownJoint { name, .. } => format!("there is no joint `{name}`"),
-        error => error.to_string(),
+        cut => cut.to_string(),
     };
-    let help = match error {
+    let help = match cut {
         CutError::UnknownJoint {
             suggestion: Some(meant),
             ..
-        } => Some(format!("did you mean `{meant}`?")),
-        CutError::AlreadyCut { .. } => Some("name a joint that has a variable".into()),
-        CutError::SharedRow { .. } | CutError::NotRows { .. } => Some(BY_AXES.into()),
-        _ => None,
+        } => format!("did you mean `{meant}`? "),
+        CutError::AlreadyCut { .. } => "name a joint that has a variable; ".into(),
+        CutError::SharedRow { .. } | CutError::NotRows { .. } => BY_AXES.into(),
+        _ => String::new(),
     };
-    (title, help)
+    let instead = match possible {
+        [] => "no joint of this mechanism can be cut".to_owned(),
+        names => format!("joints that can be cut: {}", quoted(names)),
+    };
+    Complaint::new(title).help(help + &instead)
 }

@@ -1,64 +1,9 @@
 //! Rows of numbers as comma-separated values.
 
-use std::borrow::Cow;
 use std::io::{self, Write};
 
-use super::quantity::is_long;
-
-/// The values of a row.
-pub type Record<'a> = Vec<Value<'a>>;
-
-/// One value of a row.
-#[derive(Clone, Debug, PartialEq)]
-pub enum Value<'a> {
-    /// Nothing: not known, or not a number.
-    Empty,
-    /// A word.
-    Text(Cow<'a, str>),
-    /// A whole number.
-    Count(usize),
-    /// A number, written with all its digits.
-    Number(f64),
-}
-
-impl From<f64> for Value<'_> {
-    fn from(value: f64) -> Self {
-        match value.is_finite() {
-            true => Value::Number(value),
-            false => Value::Empty,
-        }
-    }
-}
-
-impl<'a> From<&'a str> for Value<'a> {
-    fn from(text: &'a str) -> Self {
-        Value::Text(text.into())
-    }
-}
-
-impl From<String> for Value<'_> {
-    fn from(text: String) -> Self {
-        Value::Text(text.into())
-    }
-}
-
-impl From<bool> for Value<'_> {
-    fn from(value: bool) -> Self {
-        Value::Text(if value { "true" } else { "false" }.into())
-    }
-}
-
-impl From<usize> for Value<'_> {
-    fn from(count: usize) -> Self {
-        Value::Count(count)
-    }
-}
-
-impl<'a, T: Into<Value<'a>>> From<Option<T>> for Value<'a> {
-    fn from(value: Option<T>) -> Self {
-        value.map_or(Value::Empty, Into::into)
-    }
-}
+use super::document::Cell;
+use super::report::Rows;
 
 /// Writes rows as they come, quoted as RFC 4180 asks, with `\n` after each.
 #[derive(Debug)]
@@ -88,30 +33,40 @@ impl<W: Write> Csv<W> {
     ///
     /// # Errors
     /// If it cannot be written.
-    pub fn row<'a>(&mut self, values: impl IntoIterator<Item = Value<'a>>) -> io::Result<()> {
-        use std::fmt::Write as _;
+    pub fn row(&mut self, values: impl IntoIterator<Item = Cell>) -> io::Result<()> {
         for value in values {
-            self.number.clear();
             match value {
-                Value::Empty => self.writer.write_field("")?,
-                Value::Text(text) => self.writer.write_field(text.as_ref())?,
-                Value::Count(count) => {
-                    let _ = write!(self.number, "{count}");
-                    self.writer.write_field(&self.number)?;
+                Cell::Text(text) => self.writer.write_field(text)?,
+                Cell::Count(count) => self.number(format_args!("{count}"))?,
+                Cell::Number { value, .. } => self.value(value)?,
+                Cell::Vector { components, .. } => {
+                    components.into_iter().try_for_each(|x| self.value(x))?;
                 }
-                Value::Number(value) => {
-                    // a zero has no sign: what is left of one tells of the way a number was computed
-                    let value = value + 0.0;
-                    let _ = match is_long(value) {
-                        true => write!(self.number, "{value:e}"),
-                        false => write!(self.number, "{value}"),
-                    };
-                    self.writer.write_field(&self.number)?;
-                }
+                Cell::Empty => self.writer.write_field("")?,
             }
         }
         self.writer.write_record(None::<&[u8]>)?;
         Ok(())
+    }
+
+    fn value(&mut self, value: f64) -> io::Result<()> {
+        // a zero has no sign: what is left of one tells of the way a number was computed
+        let value = value + 0.0;
+        match value.abs() {
+            size if !size.is_finite() => self.number(format_args!("")),
+            size if size == 0.0 || (1e-5..1e16).contains(&size) => {
+                self.number(format_args!("{value}"))
+            }
+            _ => self.number(format_args!("{value:e}")),
+        }
+    }
+
+    fn number(&mut self, number: std::fmt::Arguments) -> io::Result<()> {
+        use std::fmt::Write as _;
+        self.number.clear();
+        // writing to a text cannot fail
+        let _ = self.number.write_fmt(number);
+        Ok(self.writer.write_field(&self.number)?)
     }
 
     /// Where the rows go.
@@ -132,9 +87,10 @@ impl<W: Write> Csv<W> {
 }
 
 /// All rows as one text.
-pub fn render<'a>((columns, rows): (Vec<String>, impl Iterator<Item = Record<'a>>)) -> String {
-    let written = Csv::new(Vec::new(), columns).and_then(|mut csv| {
-        rows.into_iter().try_for_each(|row| csv.row(row))?;
+pub fn render(rows: Rows) -> String {
+    let written = Csv::new(Vec::new(), rows.columns).and_then(|mut csv| {
+        let mut rows = rows.rows;
+        rows.try_for_each(|row| csv.row(row))?;
         csv.finish()
     });
     // writing to memory cannot fail, and all that is written is text
@@ -148,10 +104,11 @@ mod tests {
     #[test]
     fn values_keep_their_digits_and_names_their_commas() {
         let mut csv = Csv::new(Vec::new(), ["mode", "a,b"]).unwrap();
-        let row = [Value::from(None::<usize>), Value::from(-0.0)];
+        let row = [Cell::Empty, Cell::from(-0.0)];
         csv.row(row).unwrap();
-        csv.row([Value::from(2), Value::from(0.1 + 0.2)]).unwrap();
-        csv.row([Value::from("say \"x\""), Value::from(f64::NAN)])
+        csv.row([Cell::from(2usize), Cell::from(0.1 + 0.2)])
+            .unwrap();
+        csv.row([Cell::from("say \"x\""), Cell::from(f64::NAN)])
             .unwrap();
         let text = String::from_utf8(csv.finish().unwrap()).unwrap();
         assert_eq!(

@@ -1,14 +1,14 @@
 //! Complaints for a terminal: the problems of a mechanism file with the offending lines, and wrong
 //! options, each with the offending text underlined.
 
-use std::borrow::Cow;
 use std::ops::Range;
 
 use annotate_snippets::renderer::DecorStyle;
 use annotate_snippets::{AnnotationKind, Group, Level, Renderer, Snippet};
 
 use super::complaint::{Complaint, Given, Part};
-use crate::description::{FileError, Lines, Problem, ReplacementError, Severity, count};
+use crate::description::{FileError, Lines, ReplacementError, Severity, count, listed};
+use crate::interchange::{ImportProblem, WrongFile};
 
 /// Of longer lines only a part is shown: nobody could read them, and laying them out takes long.
 const MAX_WIDTH: usize = 2000;
@@ -29,47 +29,88 @@ pub enum Style {
 /// All problems of a file and how many there are.
 pub fn render(error: &FileError, style: Style) -> String {
     let renderer = renderer(style);
-    let page = Page {
-        path: error.path.display().to_string(),
-        text: &error.text,
-        lines: Lines::new(&error.text),
-    };
+    let page = Page::new(error.path.display().to_string(), &error.text);
     let (shown, more) = error.shown();
-    let mut rendered: Vec<String> = shown
-        .iter()
-        .map(|problem| renderer.render(&page.report(problem)))
+    let mut rendered: Vec<String> = (shown.iter())
+        .map(|problem| {
+            let level = match problem.severity() {
+                Severity::Error => Level::ERROR,
+                Severity::Warning => Level::WARNING,
+            };
+            let related = problem.related.iter();
+            let related = related.map(|(span, note)| (span.clone(), note.label()));
+            let places = Places {
+                span: problem.span.clone(),
+                related: related.collect(),
+            };
+            renderer.render(&page.report(level, &Complaint::of(problem), Some(&places)))
+        })
         .collect();
-    rendered.push(summary(error, more));
+    let problems = error.problems.iter();
+    let errors = problems.filter(|problem| problem.severity() == Severity::Error);
+    let errors = errors.count();
+    let kinds = [
+        (errors, "problem"),
+        (error.problems.len() - errors, "warning"),
+    ];
+    rendered.push(summary(&kinds, &page.path, more));
     rendered.join("\n\n") + "\n"
 }
 
 /// `3 problems in four_bar.ron`
-fn summary(error: &FileError, hidden: usize) -> String {
-    let errors = error
-        .problems
-        .iter()
-        .filter(|problem| problem.severity() == Severity::Error)
-        .count();
-    let warnings = error.problems.len() - errors;
-    let what = match (errors, warnings) {
-        (errors, 0) => count(errors, "problem"),
-        (0, warnings) => count(warnings, "warning"),
-        _ => format!(
-            "{} and {}",
-            count(errors, "problem"),
-            count(warnings, "warning")
-        ),
-    };
+fn summary(kinds: &[(usize, &str)], path: &str, hidden: usize) -> String {
+    let some = kinds.iter().filter(|(number, _)| *number > 0);
+    let some: Vec<String> = some.map(|(number, noun)| count(*number, noun)).collect();
     let hidden = match hidden {
         0 => String::new(),
         _ => format!(", {hidden} of them not shown"),
     };
-    format!("{what} in {}{hidden}", error.path.display())
+    format!("{} in {path}{hidden}", listed(&some))
 }
 
-fn label(problem: &Problem) -> Option<Cow<'static, str>> {
-    let label = Some(problem.kind.label());
-    label.filter(|label| !label.is_empty()).map(Cow::Owned)
+/// What is wrong with a file of another program.
+pub fn import(wrong: &WrongFile, style: Style) -> String {
+    /// More problems are not shown.
+    const MAX_SHOWN: usize = 50;
+    let renderer = renderer(style);
+    let one = |(file, problem): &(usize, ImportProblem)| {
+        let (name, text) = &wrong.files[*file];
+        let page = Page::new(name.clone(), text);
+        let said = Complaint {
+            help: problem.kind.help(),
+            ..Complaint::new(problem.kind.title())
+        };
+        // of an element over many lines the first is shown
+        let places = problem.span.as_ref().map(|span| {
+            let line = page.lines.position(span.start).0;
+            let line = page.lines.start(line)..page.lines.start(line + 1);
+            let end = line.start + text[line.clone()].trim_end().len();
+            Places {
+                span: span.start..span.end.min(end).max(span.start),
+                related: Vec::new(),
+            }
+        });
+        renderer.render(&page.report(Level::ERROR, &said, places.as_ref()))
+    };
+    let mut parts: Vec<String> = wrong.problems.iter().take(MAX_SHOWN).map(one).collect();
+    let all = wrong.problems.len();
+    let name = wrong.files.first().map_or("", |(name, _)| name);
+    let kinds = [(all, "problem")];
+    parts.push(summary(&kinds, name, all.saturating_sub(MAX_SHOWN)));
+    parts.join("\n\n") + "\n"
+}
+
+/// Where something is wrong in a text.
+struct Places {
+    span: Range<usize>,
+    /// What belongs to it, with a few words each.
+    related: Vec<(Range<usize>, String)>,
+}
+
+impl Places {
+    fn all(&self) -> impl Iterator<Item = &Range<usize>> {
+        std::iter::once(&self.span).chain(self.related.iter().map(|(span, _)| span))
+    }
 }
 
 struct Page<'a> {
@@ -78,76 +119,76 @@ struct Page<'a> {
     lines: Lines<'a>,
 }
 
-impl Page<'_> {
-    fn report(&self, problem: &Problem) -> Vec<Group<'_>> {
-        let level = match problem.severity() {
-            Severity::Error => Level::ERROR,
-            Severity::Warning => Level::WARNING,
+impl<'a> Page<'a> {
+    fn new(path: String, text: &'a str) -> Self {
+        let lines = Lines::new(text);
+        Page { path, text, lines }
+    }
+
+    fn report<'p>(
+        &'p self,
+        level: Level<'static>,
+        said: &'p Complaint,
+        places: Option<&Places>,
+    ) -> Vec<Group<'p>> {
+        let title = level.primary_title(said.title.as_str());
+        let group = match places {
+            Some(places) if !self.text.trim().is_empty() => match self.excerpt(said, places) {
+                Some(excerpt) => title.element(excerpt),
+                None => {
+                    let at = |what: &str, span: &Range<usize>| {
+                        let (line, column) = self.lines.position(span.start);
+                        Level::NOTE.message(format!("{what}at {}:{line}:{column}", self.path))
+                    };
+                    let group = title.element(self.cut(said, &places.span));
+                    let group = group.element(at("", &places.span));
+                    let related = places.related.iter();
+                    related.fold(group, |group, (span, note)| {
+                        group.element(at(&format!("{note}: "), span))
+                    })
+                }
+            },
+            _ => title.element(Level::NOTE.message(format!("in {}", self.path))),
         };
-        let title = level.primary_title(problem.kind.title());
-        let mut group = match self.excerpt(problem) {
-            Some(excerpt) => title.element(excerpt),
-            None if self.text.trim().is_empty() => {
-                title.element(Level::NOTE.message(format!("in {}", self.path)))
-            }
-            None => {
-                let at = |what: &str, span: &Range<usize>| {
-                    let (line, column) = self.lines.position(span.start);
-                    Level::NOTE.message(format!("{what}at {}:{line}:{column}", self.path))
-                };
-                let group = title
-                    .element(self.cut(problem))
-                    .element(at("", &problem.span));
-                let related = problem.related.iter();
-                related.fold(group, |group, (span, note)| {
-                    group.element(at(&format!("{}: ", note.label()), span))
-                })
-            }
-        };
-        if let Some(help) = problem.kind.help() {
-            group = group.element(Level::HELP.message(help));
-        }
-        vec![group]
+        vec![helped(group, said)]
     }
 
     /// The lines from the first to the last place of a problem; the unconcerned ones among them are folded.
-    fn excerpt(&self, problem: &Problem) -> Option<Snippet<'_, annotate_snippets::Annotation<'_>>> {
-        let places =
-            || std::iter::once(&problem.span).chain(problem.related.iter().map(|(span, _)| span));
-        let first = places()
-            .map(|span| self.lines.position(span.start).0)
-            .min()?;
-        let last = places().map(|span| self.lines.position(span.end).0).max()?;
+    fn excerpt<'p>(&'p self, said: &'p Complaint, places: &Places) -> Option<Drawn<'p>> {
+        let line = |at: usize| self.lines.position(at).0;
+        let first = places.all().map(|span| line(span.start)).min()?;
+        let last = places.all().map(|span| line(span.end)).max()?;
         let window = self.lines.start(first)..self.lines.start(last + 1);
         let source = &self.text[window.clone()];
-        if source.trim().is_empty() {
-            return None;
-        }
-        if places().any(|span| self.width_at(span) > MAX_WIDTH) {
+        let too_wide = places.all().any(|span| self.width_at(span) > MAX_WIDTH);
+        if too_wide || source.trim().is_empty() {
             return None;
         }
         let within = |span: &Range<usize>| span.start - window.start..span.end - window.start;
-        let main = AnnotationKind::Primary
-            .span(within(&problem.span))
-            .label(label(problem));
-        let related = problem.related.iter().map(|(span, note)| {
+        let main = AnnotationKind::Primary.span(within(&places.span));
+        let related = places.related.iter();
+        let related = related.map(|(span, note)| {
             AnnotationKind::Context
                 .span(within(span))
-                .label(note.label())
+                .label(note.clone())
         });
         let snippet = Snippet::source(source)
             .line_start(first)
-            .path(self.path.clone());
-        Some(snippet.annotation(main).annotations(related))
+            .path(self.path.as_str());
+        Some(
+            snippet
+                .annotation(main.label(label(said)))
+                .annotations(related),
+        )
     }
 
     /// What stands around the beginning of the offending text, if its line is too long to be shown. The columns are not
     /// those of the file, so that the place has to be said beside it.
-    fn cut(&self, problem: &Problem) -> Snippet<'_, annotate_snippets::Annotation<'_>> {
-        let line = self.lines.position(problem.span.start).0;
+    fn cut<'p>(&'p self, said: &'p Complaint, span: &Range<usize>) -> Drawn<'p> {
+        let line = self.lines.position(span.start).0;
         let window = self.lines.start(line)..self.lines.start(line + 1);
-        let start = problem.span.start.clamp(window.start, window.end);
-        let end = problem.span.end.clamp(start, window.end);
+        let start = span.start.clamp(window.start, window.end);
+        let end = span.end.clamp(start, window.end);
         let (head, tail) = (
             &self.text[window.start..start],
             &self.text[start..window.end],
@@ -164,7 +205,7 @@ impl Page<'_> {
         if tail.chars().nth(FROM).is_some() {
             source.push('…');
         }
-        let annotation = AnnotationKind::Primary.span(from..to).label(label(problem));
+        let annotation = AnnotationKind::Primary.span(from..to).label(label(said));
         Snippet::source(source)
             .line_start(line)
             .annotation(annotation)
@@ -192,17 +233,10 @@ impl Complaint {
             Part::WholeValue => before.len()..source.len(),
             Part::Value(span) => before.len() + span.start..before.len() + span.end,
         };
-        let label = Some(self.label.as_str()).filter(|label| !label.is_empty());
-        let annotation = AnnotationKind::Primary
-            .span(span)
-            .label(label.map(Cow::Borrowed));
+        let annotation = AnnotationKind::Primary.span(span).label(label(self));
         let snippet = Snippet::source(source.as_str()).annotation(annotation);
         let title = Level::ERROR.primary_title(self.title.as_str());
-        let mut group = title.element(snippet);
-        if let Some(help) = &self.help {
-            group = group.element(Level::HELP.message(help.as_str()));
-        }
-        renderer(style).render(&[group]) + "\n"
+        renderer(style).render(&[helped(title.element(snippet), self)]) + "\n"
     }
 
     /// The complaint about the options as a whole.
@@ -216,12 +250,21 @@ impl Complaint {
     }
 
     fn at_level(&self, level: Level<'static>, style: Style) -> String {
-        let title = level.primary_title(self.title.as_str());
-        let group = match &self.help {
-            Some(help) => title.element(Level::HELP.message(help.as_str())),
-            None => Group::with_title(title),
-        };
-        renderer(style).render(&[group]) + "\n"
+        let title = Group::with_title(level.primary_title(self.title.as_str()));
+        renderer(style).render(&[helped(title, self)]) + "\n"
+    }
+}
+
+type Drawn<'p> = Snippet<'p, annotate_snippets::Annotation<'p>>;
+
+fn label(said: &Complaint) -> Option<&str> {
+    Some(said.label.as_str()).filter(|label| !label.is_empty())
+}
+
+fn helped<'p>(group: Group<'p>, said: &'p Complaint) -> Group<'p> {
+    match &said.help {
+        Some(help) => group.element(Level::HELP.message(help.as_str())),
+        None => group,
     }
 }
 
@@ -236,11 +279,11 @@ fn renderer(style: Style) -> Renderer {
 /// Everything that is wrong with another value for a parameter.
 pub fn replacement(error: &ReplacementError, given: &Given, style: Style) -> String {
     match error {
-        ReplacementError::UnknownParameter { suggestion, .. } => {
-            let meant = suggestion.as_ref();
-            let help = meant.map(|meant| format!("did you mean `{meant}`?"));
-            Complaint::new(error.to_string(), "not known", help).render_in(given, style)
+        ReplacementError::UnknownParameter { suggestion, .. } => Complaint {
+            help: (suggestion.as_ref()).map(|meant| format!("did you mean `{meant}`?")),
+            ..Complaint::new(error.to_string()).label("not known")
         }
+        .render_in(given, style),
         ReplacementError::Value(problems) => {
             let rendered = problems.iter().map(|problem| {
                 let part = Part::Value(problem.span.clone());

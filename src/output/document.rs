@@ -10,48 +10,13 @@ pub use cell::{Cell, Digits};
 
 use serde::{Deserialize, Serialize};
 
-/// Cells of a row, each from what it shows: `cells!["x", 0.5, Cell::quantity(1.0, "m")]`.
+use crate::algebra::SiUnit;
+
+/// Cells of a row, each from what it shows: `cells!["x", 0.5, 2]`.
 macro_rules! cells {
     ($($cell:expr),* $(,)?) => { vec![$($crate::output::document::Cell::from($cell)),*] };
 }
 pub(crate) use cells;
-
-/// A report that can be shown. Serialised it is the JSON answer, within an envelope that adds the
-/// program's version, the mechanism's name and the answer in words.
-pub trait Report: Serialize {
-    /// The report in words and tables. It needs nothing but the report.
-    fn document(&self) -> Document;
-
-    /// Whether the work was stopped before it was done.
-    fn is_interrupted(&self) -> bool {
-        false
-    }
-
-    /// The document, which says first where the work was stopped.
-    fn shown(&self) -> Document {
-        let document = self.document();
-        match self.is_interrupted() {
-            false => document,
-            true => Document {
-                answer: format!(
-                    "Interrupted: this is what was found until then. {}",
-                    document.answer
-                ),
-                ..document
-            },
-        }
-    }
-
-    /// Sentences that JSON has beside the answer, each with the name of its field.
-    fn sentences(&self) -> Vec<(&'static str, Option<String>)> {
-        Vec::new()
-    }
-
-    /// The same for lists of sentences.
-    fn lists(&self) -> Vec<(&'static str, Vec<String>)> {
-        Vec::new()
-    }
-}
 
 /// Something to read, whatever the format. In all its texts names and commands stand between back
 /// quotes; anything else is to be shown as it stands.
@@ -114,8 +79,8 @@ pub struct Table {
 pub struct Column {
     /// What stands in it; may be empty.
     pub title: String,
-    /// The unit of its numbers, which are then shown without; may be empty.
-    pub unit: String,
+    /// The unit of its numbers, which are then shown without.
+    pub unit: SiUnit,
     /// Where its cells begin or end.
     pub align: Align,
 }
@@ -172,35 +137,30 @@ impl Document {
         }
     }
 
-    /// With a line that qualifies the answer; an empty one is left out.
+    /// With a line that qualifies the answer.
     #[must_use]
-    pub fn note(mut self, note: impl Into<String>) -> Self {
-        push(&mut self.notes, note.into());
-        self
+    pub fn note(self, note: impl Into<String>) -> Self {
+        self.notes([note.into()])
     }
 
-    /// With more lines that qualify the answer.
+    /// With lines that qualify the answer.
     #[must_use]
     pub fn notes(mut self, notes: impl IntoIterator<Item = String>) -> Self {
-        notes
-            .into_iter()
-            .for_each(|note| push(&mut self.notes, note));
+        self.notes.extend(notes);
         self
     }
 
     /// With a note if the work was stopped before it was done, and what may be missing then.
     #[must_use]
     pub fn interrupted(self, interrupted: bool, missing: &str) -> Self {
-        match interrupted {
-            true => self.note(format!("interrupted: {missing} may be missing")),
-            false => self,
-        }
+        let note = interrupted.then(|| format!("interrupted: {missing} may be missing"));
+        self.notes(note)
     }
 
-    /// With a line on how the answer was found; an empty one is left out.
+    /// With a line on how the answer was found.
     #[must_use]
     pub fn method(mut self, line: impl Into<String>) -> Self {
-        push(&mut self.method, line.into());
+        self.method.push(line.into());
         self
     }
 
@@ -225,12 +185,6 @@ impl Document {
         let method = Section::new("How it was found").list(self.method.clone());
         let method = (!self.method.is_empty()).then_some(Cow::Owned(method));
         self.sections.iter().map(Cow::Borrowed).chain(method)
-    }
-}
-
-fn push(lines: &mut Vec<String>, line: String) {
-    if !line.is_empty() {
-        lines.push(line);
     }
 }
 
@@ -270,7 +224,8 @@ impl Section {
 
     /// With a table; one without rows is left out.
     #[must_use]
-    pub fn table(self, table: Table) -> Self {
+    pub fn table(self, table: impl Into<Table>) -> Self {
+        let table = table.into();
         match table.rows.is_empty() {
             true => self,
             false => self.block(Block::Table(table)),
@@ -312,11 +267,18 @@ impl Table {
         }
     }
 
-    /// The same drawn with lines.
-    #[must_use]
-    pub fn ruled(mut self) -> Self {
-        self.ruled = true;
-        self
+    /// A table with a row for each item; its columns follow, each with what stands in it:
+    /// `Table::of(joints).words("name", |j| &j.name).numbers("home", |j| j.home)`.
+    pub(super) fn of<T: Copy>(items: impl IntoIterator<Item = T>) -> TableOf<T> {
+        let items: Vec<T> = items.into_iter().collect();
+        let rows = vec![Vec::new(); items.len()];
+        TableOf {
+            items,
+            table: Table {
+                rows,
+                ..Table::new([])
+            },
+        }
     }
 
     /// Adds a row.
@@ -331,7 +293,7 @@ impl Column {
     pub fn words(title: impl Into<String>) -> Self {
         Column {
             title: title.into(),
-            unit: String::new(),
+            unit: SiUnit::ONE,
             align: Align::Left,
         }
     }
@@ -346,30 +308,74 @@ impl Column {
 
     /// With a unit for all its numbers.
     #[must_use]
-    pub fn in_unit(mut self, unit: impl ToString) -> Self {
-        self.unit = unit.to_string();
-        self
+    pub fn in_unit(self, unit: SiUnit) -> Self {
+        Column { unit, ..self }
     }
 
     /// Title and unit: `Fx (N)`.
     pub fn header(&self) -> String {
-        match self.unit.is_empty() {
-            true => self.title.clone(),
-            false => format!("{} ({})", self.title, self.unit),
+        match self.unit {
+            SiUnit::ONE => self.title.clone(),
+            unit => format!("{} ({unit})", self.title),
         }
+    }
+}
+
+/// A table whose columns are being given.
+pub(super) struct TableOf<T> {
+    items: Vec<T>,
+    table: Table,
+}
+
+impl<T: Copy> TableOf<T> {
+    /// With a column of words.
+    pub fn words<C: Into<Cell>>(self, title: impl Into<String>, cell: impl Fn(T) -> C) -> Self {
+        self.column(Column::words(title), cell)
+    }
+
+    /// With a column of numbers.
+    pub fn numbers<C: Into<Cell>>(self, title: impl Into<String>, cell: impl Fn(T) -> C) -> Self {
+        self.column(Column::numbers(title), cell)
+    }
+
+    fn column<C: Into<Cell>>(mut self, column: Column, cell: impl Fn(T) -> C) -> Self {
+        self.table.columns.push(column);
+        for (row, &item) in self.table.rows.iter_mut().zip(&self.items) {
+            row.push(cell(item).into());
+        }
+        self
+    }
+
+    /// With a unit for all numbers of the last column.
+    pub fn in_unit(mut self, unit: SiUnit) -> Self {
+        let last = self.table.columns.last_mut();
+        last.into_iter().for_each(|column| column.unit = unit);
+        self
+    }
+
+    /// Drawn with lines.
+    pub fn ruled(mut self) -> Self {
+        self.table.ruled = true;
+        self
+    }
+}
+
+impl<T> From<TableOf<T>> for Table {
+    fn from(of: TableOf<T>) -> Self {
+        of.table
     }
 }
 
 impl Matrix {
     /// The same as a table.
     pub fn table(&self) -> Table {
-        let names = self.columns.iter().map(Column::numbers);
-        let mut table = Table::new(std::iter::once(Column::words(&self.rows_are)).chain(names));
-        for (name, entries) in self.rows.iter().zip(&self.entries) {
-            let entries = entries.iter().map(|&entry| Cell::from(entry));
-            table.row(std::iter::once(Cell::from(name)).chain(entries).collect());
-        }
-        table
+        let rows = Table::of(self.rows.iter().zip(&self.entries));
+        let named = rows.words(&self.rows_are, |(name, _)| name);
+        let columns = self.columns.iter().enumerate();
+        let table = columns.fold(named, |table, (i, name)| {
+            table.numbers(name, |(_, row)| row[i])
+        });
+        table.into()
     }
 }
 
@@ -397,6 +403,11 @@ pub(super) fn pieces(text: &str) -> Vec<Piece<'_>> {
     pieces
 }
 
+/// The text on one line.
+pub(super) fn one_line(text: &str) -> String {
+    text.replace(['\n', '\r'], " ")
+}
+
 /// An SVG document as an address that pages can show without running anything in it.
 pub(super) fn address(svg: &str) -> String {
     let mut address = String::from("data:image/svg+xml,");
@@ -419,13 +430,13 @@ pub(super) mod tests {
     pub fn sample() -> Document {
         let mut table = Table::new([
             Column::words("on|<b>"),
-            Column::numbers("Fx").in_unit("N"),
+            Column::numbers("Fx").in_unit(SiUnit::NEWTON),
             Column::numbers("angle"),
         ]);
-        table.row(cells!["a|b", -0.5, Cell::quantity(0.5, "rad")]);
+        table.row(cells!["a|b", -0.5, Cell::quantity(0.5, SiUnit::RADIAN)]);
         table.row(cells![
             "<script>",
-            Cell::number(10.0).marked("*"),
+            Cell::from(10.0).starred(true),
             Cell::Empty
         ]);
         let matrix = Matrix {

@@ -13,7 +13,9 @@ pub use ron::ron;
 pub(super) use notation::{Notation, Script};
 
 use crate::algebra::Expression;
-use crate::analysis::formulas::{FormulasReport, Meaning};
+use crate::analysis::formulas::{
+    ClosureFormula, FormulasReport, JacobianFormula, Meaning, TransformFormula,
+};
 
 /// Sentences about what a reader might miss; none for most mechanisms.
 fn notes(report: &FormulasReport) -> Vec<String> {
@@ -43,11 +45,56 @@ fn notes(report: &FormulasReport) -> Vec<String> {
 }
 
 /// Whether the pose of a platform stands in an expression.
-fn needs_platform(report: &FormulasReport, expressions: &[&Expression]) -> bool {
+fn needs_platform<'e>(
+    report: &FormulasReport,
+    expressions: impl IntoIterator<Item = &'e Expression>,
+) -> bool {
     let platform = |name: &str| {
         let mut letters = report.letters.iter();
         letters.any(|letter| letter.meaning == Meaning::Platform && letter.name == name)
     };
-    let mut names = expressions.iter().flat_map(|expression| expression.names());
+    let mut names = expressions.into_iter().flat_map(Expression::names);
     names.any(|(name, _)| platform(name))
+}
+
+/// The rows of [R | p].
+fn rows(transform: &TransformFormula) -> [[&Expression; 4]; 3] {
+    std::array::from_fn(|i| {
+        let [n, s, a] = &transform.rotation[i];
+        [n, s, a, &transform.position[i]]
+    })
+}
+
+/// The rows of [R | p], printed.
+fn printed_rows(notation: &Notation, transform: &TransformFormula) -> Vec<Vec<String>> {
+    let print = |row: [&Expression; 4]| row.map(|e| notation.print(e)).to_vec();
+    rows(transform).map(print).to_vec()
+}
+
+/// The six rows of a Jacobian, printed: v above ω.
+fn jacobian_rows(notation: &Notation, jacobian: &JacobianFormula) -> Vec<Vec<String>> {
+    let row = |i: usize| -> Vec<String> {
+        let columns = jacobian.columns.iter();
+        let entries = columns.map(|of| {
+            if i < 3 {
+                &of.velocity[i]
+            } else {
+                &of.omega[i - 3]
+            }
+        });
+        entries.map(|entry| notation.print(entry)).collect()
+    };
+    (0..6).map(row).collect()
+}
+
+/// All that has to vanish or to be of a length where a closure is closed.
+fn parts(closure: &ClosureFormula) -> impl Iterator<Item = &Expression> {
+    let distance = closure.distance.iter();
+    let distance = distance.flat_map(|(gap, length)| gap.iter().chain([length]));
+    closure.equations.iter().chain(distance)
+}
+
+/// A name as it can stand in a comment: it may hold anything.
+fn one_line(text: &str) -> String {
+    text.replace(char::is_control, " ")
 }

@@ -2,18 +2,20 @@
 
 mod steps;
 
+use super::report::Report;
 use serde::Serialize;
 
 use super::complaint::Complaint;
-use super::document::{Column, Document, Report, Section, Table, cells};
+use super::document::{Document, Section, Table};
 use super::overview;
-use super::quantity::{degrees, number, quantity, short, size};
+use super::quantity::{degrees, metres, number, quantity, size, triple};
+use crate::algebra::SiUnit;
 use crate::analysis::frames::{
     AxesError, AxesReport, CutChoice, CutReport, FramesReport, PlacedChain, PlacedNormal,
 };
 use crate::analysis::overview::overview;
 use crate::description::{
-    AxisDescription, AxisKind, AxisPlace, Convention, Entry, count, listed, quoted,
+    AxisDescription, AxisKind, AxisPlace, Convention, Entry, Named, count, listed, quoted,
 };
 use crate::geometry::Relation;
 use crate::linear::RANK_TOLERANCE;
@@ -29,16 +31,33 @@ impl Report for FramesReport {
     fn document(&self) -> Document {
         document(self, false)
     }
+
+    fn warnings(&self) -> Vec<String> {
+        let problems = self.warnings.iter();
+        problems.map(|problem| problem.kind.title()).collect()
+    }
+
+    fn file(&self) -> Option<Result<String, ron::Error>> {
+        Some(self.description.to_ron())
+    }
 }
 
 /// Frames with the steps by which they were placed.
 #[derive(Serialize)]
 #[serde(transparent)]
-pub struct WithSteps(pub FramesReport);
+pub struct WithSteps<'r>(pub &'r FramesReport);
 
-impl Report for WithSteps {
+impl Report for WithSteps<'_> {
     fn document(&self) -> Document {
-        document(&self.0, true)
+        document(self.0, true)
+    }
+
+    fn warnings(&self) -> Vec<String> {
+        self.0.warnings()
+    }
+
+    fn file(&self) -> Option<Result<String, ron::Error>> {
+        self.0.file()
     }
 }
 
@@ -66,7 +85,7 @@ fn document(report: &FramesReport, steps: bool) -> Document {
     }
     document
         .sections(overview::platforms(&overview))
-        .sections(overview::closures(&overview))
+        .section(overview::closures(&overview))
 }
 
 fn cut_section(cuts: &CutReport) -> Section {
@@ -77,10 +96,7 @@ fn cut_section(cuts: &CutReport) -> Section {
     let balls = cuts.cut.len() - cuts.ways.first().map_or(0, |way| way.cut.len());
     let mut lines = Vec::new();
     if balls > 0 {
-        lines.push(format!(
-            "{} cut in any case",
-            count(balls, "spherical joint")
-        ));
+        lines.push(format!("{} always cut", count(balls, "spherical joint")));
     }
     match cuts.ways.split_first() {
         None => {}
@@ -113,10 +129,7 @@ fn cut_section(cuts: &CutReport) -> Section {
 }
 
 fn simple(way: &CutChoice) -> String {
-    let entries = match way.entries {
-        1 => "1 non-zero constant".into(),
-        number => format!("{number} non-zero constants"),
-    };
+    let entries = count(way.entries, "non-zero constant");
     let prismatic = match way.prismatic {
         0 => String::new(),
         number => format!(", {}", count(number, "prismatic joint cut")),
@@ -171,19 +184,19 @@ fn remark(normal: &PlacedNormal) -> Option<String> {
     let tolerance = size(RANK_TOLERANCE);
     if found.is_parallel() && off > ROUNDING {
         return Some(format!(
-            "taken as parallel: {} rad apart, within {tolerance}",
+            "treated as parallel: {} rad apart, within {tolerance}",
             size(off)
         ));
     }
     if found.meets() && normal.distance > ROUNDING {
         return Some(format!(
-            "taken as meeting: {} m apart, within {tolerance} of the size",
+            "treated as intersecting: {} m apart, within {tolerance} of the size",
             size(normal.distance)
         ));
     }
     if !found.is_parallel() && off < NEARLY_PARALLEL {
         return Some(format!(
-            "nearly parallel: {} rad, beyond {tolerance}; the normal is far off",
+            "nearly parallel: {} rad apart, beyond {tolerance}; the common normal lies far away",
             size(off)
         ));
     }
@@ -191,57 +204,44 @@ fn remark(normal: &PlacedNormal) -> Option<String> {
 }
 
 fn normals(chain: &PlacedChain) -> Section {
-    let mut table = Table::new([
-        Column::words("x"),
-        Column::words("between"),
-        Column::words("axes"),
-        Column::numbers("angle"),
-        Column::numbers("distance"),
-        Column::words("chosen"),
-        Column::words(""),
-    ]);
+    type Numbered<'c> = (usize, &'c PlacedNormal);
     let last = chain.normals.len() - 1;
     let name = |k: usize| match k.checked_sub(1) {
-        None => match chain.starts_at_base {
-            true => "base".to_owned(),
-            false => "free base".into(),
-        },
+        None if chain.starts_at_base => "base",
+        None => "free base",
         Some(k) => match chain.joints.get(k) {
-            Some(joint) => joint.clone(),
-            None if chain.ends_at_tool => "tool".into(),
-            None => "end".into(),
+            Some(joint) => joint,
+            None if chain.ends_at_tool => "tool",
+            None => "end",
         },
     };
-    for (k, normal) in chain.normals.iter().enumerate() {
-        let nothing = normal.relation.is_none();
-        let shown = |text: String| if nothing { String::new() } else { text };
-        let chosen = match (k, nothing) {
-            (0, true) => "frame 0 is frame 1 at the variable's zero".into(),
-            (0, false) => "none".into(),
-            (k, false) if k == last && chain.ends_at_tool => "none".into(),
-            (1, false) => match sense_of_first(chain) {
-                Some(sense) => format!("sense of x1: {sense}"),
-                None => choice(normal, k),
-            },
-            _ => choice(normal, k),
-        };
-        table.row(cells![
-            k,
-            format!("{} – {}", name(k), name(k + 1)),
-            relation(normal.relation),
-            shown(degrees(normal.angle)),
-            shown(format!("{} m", number(normal.distance))),
-            chosen,
-            remark(normal)
-        ]);
-    }
+    let chosen = |(k, normal): Numbered| match (k, normal.relation.is_none()) {
+        (0, true) => "frame 0 is frame 1 at the variable's zero".into(),
+        (0, false) => "none".into(),
+        (k, false) if k == last && chain.ends_at_tool => "none".into(),
+        (1, false) => match sense_of_first(chain) {
+            Some(sense) => format!("sense of x1: {sense}"),
+            None => choice(normal, k),
+        },
+        _ => choice(normal, k),
+    };
+    let table = Table::of(chain.normals.iter().enumerate())
+        .words("x", |(k, _)| k)
+        .words("between", |(k, _)| format!("{} – {}", name(k), name(k + 1)))
+        .words("axes", |(_, normal)| relation(normal.relation))
+        .numbers("angle", |(_, normal)| {
+            normal.relation.map(|_| degrees(normal.angle))
+        })
+        .numbers("distance", |(_, normal)| {
+            normal.relation.map(|_| metres(normal.distance))
+        })
+        .words("chosen", chosen)
+        .words("", |(_, normal)| remark(normal));
     let slides = chain.axes.iter().zip(&chain.joints);
     let slides = slides.filter(|(axis, _)| axis.prismatic);
     let slides = slides.map(|(axis, joint)| {
-        let [x, y, z] = axis.point.map(short);
-        format!(
-            "{joint} slides: the position of its axis is free and was chosen through ({x}, {y}, {z}) m"
-        )
+        let point = triple(&axis.point);
+        format!("{joint} slides: the position of its axis is free; it was placed through {point} m")
     });
     Section::new(format!("Common normals of {}", chain.name))
         .table(table)
@@ -257,43 +257,45 @@ fn accuracy(report: &FramesReport) -> String {
 }
 
 /// What is said where the axes are those of a configuration that is not assembled.
-pub const NOT_ASSEMBLED: &str = "warning: the mechanism could not be assembled near home; these are \
-     the axes at home, and tables made from them will not close\n";
+pub const NOT_ASSEMBLED: &str = "the mechanism could not be assembled near home; these are the axes at home, and \
+     tables made from them will not close";
+
+/// A joint with its name.
+type Axis = Named<AxisDescription>;
 
 impl Report for AxesReport {
     fn document(&self) -> Document {
-        let vector = |v: &[Entry; 3]| {
+        let vector = |v: &[Entry; 3]| -> String {
             let shown = v.each_ref().map(|x| match x.expression.as_number() {
                 Some(value) => number(value),
                 None => x.expression.to_string(),
             });
             format!("({})", shown.join(", "))
         };
-        let columns = ["joint", "kind", "point (m)", "direction", "home", "between"];
-        let mut table = Table::new(columns.map(Column::words));
-        for joint in &self.axes.joints {
-            let axis = &joint.value;
-            let (point, direction) = match &axis.place {
-                AxisPlace::Along(point, direction) => (
-                    point.as_ref().map_or("any".into(), vector),
-                    vector(direction),
-                ),
-                AxisPlace::Through(first, second) => {
-                    (vector(first), format!("to {}", vector(second)))
-                }
-                AxisPlace::Centre(point) => (vector(point), String::new()),
-            };
-            let between = axis.between.as_ref();
-            table.row(cells![
-                &joint.name.value,
-                axis.kind.word().to_lowercase(),
-                point,
-                direction,
-                home(axis),
+        let point = |joint: &Axis| match &joint.value.place {
+            AxisPlace::Along(point, _) => point.as_ref().map_or("any".into(), vector),
+            AxisPlace::Through(point, _) | AxisPlace::Centre(point) => vector(point),
+        };
+        let direction = |joint: &Axis| match &joint.value.place {
+            AxisPlace::Along(_, direction) => Some(vector(direction)),
+            AxisPlace::Through(_, second) => Some(format!("to {}", vector(second))),
+            AxisPlace::Centre(_) => None,
+        };
+        let table = Table::of(&self.axes.joints)
+            .words("joint", |joint| &joint.name.value)
+            .words("kind", |joint| joint.value.kind.word().to_lowercase())
+            .words("point (m)", point)
+            .words("direction", direction)
+            .words("home", |joint| home(&joint.value))
+            .words("between", |joint| {
+                let between = joint.value.between.as_ref();
                 between.map(|[a, b]| format!("{} and {}", a.value, b.value))
-            ]);
-        }
+            });
         Document::new(&self.mechanism, "").section(Section::new("Joint axes").table(table))
+    }
+
+    fn file(&self) -> Option<Result<String, ron::Error>> {
+        Some(self.axes.to_ron())
     }
 }
 
@@ -302,30 +304,26 @@ fn home(axis: &AxisDescription) -> String {
     let value = axis.home.expression.evaluate(&|_| f64::NAN);
     match (axis.kind, value) {
         (AxisKind::Spherical, _) => String::new(),
-        (kind, Ok(value)) => quantity(value, kind != AxisKind::Prismatic),
+        (kind, Ok(value)) => quantity(value, SiUnit::of_coordinate(kind != AxisKind::Prismatic)),
         (_, Err(_)) => axis.home.expression.to_string(),
     }
 }
 
 /// Why the joints of a mechanism are not given by axes.
 pub fn no_axes(error: &AxesError) -> Complaint {
-    let (title, help) = match error {
-        AxesError::Row { chain, row } => (
-            format!("row {row} of chain `{chain}` is not one joint with a variable of its own"),
-            Some(
-                "axes are given for joints that turn or slide, or do both by two variables; give each joint a variable \
-                 of its own, or ask `linkwork formulas` for the transforms as they are"
-                    .to_owned(),
-            ),
+    match error {
+        AxesError::Row { chain, row } => Complaint::new(format!(
+            "row {row} of chain `{chain}` is not one joint with a variable of its own"
+        ))
+        .help(
+            "give each joint a variable of its own, so that it turns, slides, or does both by two variables; or ask \
+             `linkwork formulas` for the transforms as they are",
         ),
-        AxesError::Closure { closure, kind } => (
-            format!(
-                "the length of the {} closure `{closure}` is not one joint",
-                kind.word().to_lowercase()
-            ),
-            Some("write the length as a constant plus a variable that stands nowhere else".into()),
-        ),
-        AxesError::TooFew => ("the mechanism has no joints with axes".to_owned(), None),
-    };
-    Complaint::new(title, "", help)
+        AxesError::Closure { closure, kind } => Complaint::new(format!(
+            "the length of the {} closure `{closure}` is not one joint",
+            kind.word().to_lowercase()
+        ))
+        .help("write the length as a constant plus a variable that stands nowhere else"),
+        AxesError::TooFew => Complaint::new("the mechanism has no joints with axes"),
+    }
 }

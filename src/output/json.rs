@@ -1,40 +1,86 @@
-//! The envelope every JSON answer has.
+//! The JSON of every command.
 
-use serde::Serialize;
-use serde_json::{Map, Value};
+use serde::de::{DeserializeOwned, Deserializer, Error};
+use serde::{Deserialize, Serialize};
+use serde_json::Value;
 
-use super::document::Report;
+use super::report::{Remarks, Report};
 
-/// The report as JSON: its own fields, after the program's version, the mechanism's name and the
-/// answer in words. Numbers are in SI units and rad.
-pub fn render(report: &impl Report) -> String {
-    let document = report.shown();
-    let mut object = Map::new();
-    object.insert("linkwork".into(), env!("CARGO_PKG_VERSION").into());
-    object.insert("mechanism".into(), document.title.into());
-    if !document.answer.is_empty() {
-        object.insert("sentence".into(), document.answer.into());
-    }
-    for (name, sentence) in report.sentences() {
-        object.insert(name.into(), sentence.into());
-    }
-    for (name, sentences) in report.lists() {
-        object.insert(name.into(), sentences.into());
-    }
-    extended(object, report)
+/// What every command prints as JSON: the fields of its report after those of the envelope. Numbers are in SI units and
+/// rad. A field that both have, the name of the mechanism, stands once.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Answer<R> {
+    /// What stands before the report.
+    #[serde(flatten)]
+    pub envelope: Envelope,
+    /// The report.
+    #[serde(flatten)]
+    pub report: R,
 }
 
-/// The fields of a report after those of the envelope. Numbers keep all their digits; one that is
-/// not finite is written as `null`, a negative zero as zero.
-fn extended(mut object: Map<String, Value>, report: &impl Serialize) -> String {
-    let report = serde_json::to_value(report)
-        .expect("the keys of every map in a report are texts, which alone could fail");
-    if let Value::Object(report) = report {
-        object.extend(report);
+/// What every answer begins with.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Envelope {
+    /// The version of the program.
+    pub linkwork: String,
+    /// The mechanism's name.
+    pub mechanism: String,
+    /// The answer in words; absent where the report is all there is to say.
+    #[serde(default, skip_serializing_if = "String::is_empty")]
+    pub sentence: String,
+    /// What more is said.
+    #[serde(flatten)]
+    pub remarks: Remarks,
+}
+
+impl<R: Report> Answer<R> {
+    /// The report with what is said about it.
+    pub fn new(report: R) -> Self {
+        let envelope = Envelope::of(&report);
+        Answer { envelope, report }
     }
-    let mut document = Value::Object(object);
-    unsign_zeros(&mut document);
-    format!("{document:#}\n")
+}
+
+impl Envelope {
+    fn of(report: &impl Report) -> Self {
+        let document = report.shown();
+        Envelope {
+            linkwork: env!("CARGO_PKG_VERSION").into(),
+            mechanism: document.title,
+            sentence: document.answer,
+            remarks: report.remarks(),
+        }
+    }
+}
+
+/// Fields that envelope and report have in common are read for both.
+impl<'de, R: DeserializeOwned> Deserialize<'de> for Answer<R> {
+    fn deserialize<D: Deserializer<'de>>(from: D) -> Result<Self, D::Error> {
+        let value = Value::deserialize(from)?;
+        Ok(Answer {
+            envelope: Envelope::deserialize(&value).map_err(D::Error::custom)?,
+            report: serde_json::from_value(value).map_err(D::Error::custom)?,
+        })
+    }
+}
+
+/// A report that can be written as JSON too.
+pub trait JsonReport: Report + Serialize {}
+
+impl<R: Report + Serialize> JsonReport for R {}
+
+/// The report as JSON. Numbers keep all their digits; one that is not finite is written as `null`, a negative zero as
+/// zero.
+pub fn render(report: &impl JsonReport) -> String {
+    let envelope = Envelope::of(report);
+    written(&Answer { envelope, report })
+}
+
+fn written(answer: &impl Serialize) -> String {
+    let mut value = serde_json::to_value(answer)
+        .expect("the keys of every map in a report are texts, which alone could fail");
+    unsign_zeros(&mut value);
+    format!("{value:#}\n")
 }
 
 /// A zero has no sign: what is left of one tells of the way a number was computed.
@@ -56,7 +102,7 @@ mod tests {
     #[test]
     fn zeros_have_no_sign_however_deep() {
         let report = serde_json::json!({ "a": [-0.0, [-1.5, { "b": -0.0 }]], "c": -0.0 });
-        let written: Value = serde_json::from_str(&extended(Map::new(), &report)).unwrap();
+        let written: Value = serde_json::from_str(&written(&report)).unwrap();
         assert_eq!(written["a"].to_string(), "[0.0,[-1.5,{\"b\":0.0}]]");
         assert_eq!(written["c"].to_string(), "0.0");
     }

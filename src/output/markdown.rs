@@ -1,6 +1,6 @@
 //! Documents as Markdown (CommonMark with the tables of GitHub).
 
-use super::document::{Align, Block, Document, Piece, Section, Table, address, pieces};
+use super::document::{Align, Block, Document, Piece, Section, Table, address, one_line, pieces};
 
 /// The document as Markdown.
 pub fn render(document: &Document) -> String {
@@ -105,10 +105,6 @@ fn inline(text: &str) -> String {
         Piece::Quoted(text) => format!("`{}`", one_line(text)),
     });
     pieces.collect()
-}
-
-fn one_line(text: &str) -> String {
-    text.replace(['\n', '\r'], " ")
 }
 
 fn escaped(text: &str) -> String {

@@ -3,8 +3,9 @@
 mod words;
 
 use super::closing;
-use super::document::{Cell, Column, Document, Report, Section, Table, cells};
-use super::quantity::{number, size};
+use super::document::{Document, Section, Table, TableOf};
+use super::quantity::{metres, size};
+use super::report::{Remarks, Report};
 use super::screws::twist_table;
 use crate::analysis::mobility::{BranchReport, LoopCount, MobilityReport};
 use crate::description::{count, listed};
@@ -22,7 +23,6 @@ impl Report for MobilityReport {
         let idle = idle.map(|freedom| format!("not counted: {}", words::idle(freedom)));
         let elsewhere = self.elsewhere.iter();
         let elsewhere = elsewhere.map(|other| words::elsewhere(self, other));
-        let given = self.given.as_ref();
         let redundant = self.redundancies.iter().map(words::redundancy);
         let motions = match self.branches.is_empty() {
             true => twist_table(&self.twists),
@@ -34,7 +34,7 @@ impl Report for MobilityReport {
             .note(words::counted(self))
             .notes(idle)
             .notes(elsewhere)
-            .notes(given.map(|gap| closing::given(gap, self.kept)))
+            .notes(closing::given(self.given.as_ref(), self.kept))
             .section(joints(self))
             .section(
                 Section::new(
@@ -53,19 +53,23 @@ impl Report for MobilityReport {
             }
         });
         document.section(more_branches(self)).method(format!(
-            "condition number {} with lengths over {} m",
+            "condition number {} with lengths over {}",
             size(self.condition),
-            number(self.length)
+            metres(self.length)
         ))
     }
 
-    fn sentences(&self) -> Vec<(&'static str, Option<String>)> {
-        vec![("explanation", Some(words::explanation(self)))]
+    fn warnings(&self) -> Vec<String> {
+        Vec::from_iter(closing::outside_limits(&self.outside_limits))
     }
 
-    fn lists(&self) -> Vec<(&'static str, Vec<String>)> {
+    fn remarks(&self) -> Remarks {
         let redundant = self.redundancies.iter().map(words::redundancy);
-        vec![("redundant_constraints", redundant.collect())]
+        Remarks {
+            explanation: Some(words::explanation(self)),
+            redundant_constraints: Some(redundant.collect()),
+            ..Remarks::default()
+        }
     }
 }
 
@@ -73,44 +77,31 @@ fn joints(report: &MobilityReport) -> Section {
     if report.joints.is_empty() {
         return Section::new("Joints");
     }
-    let said = |names: &[String]| match names {
+    let some = |names: &[String]| match names {
         [] => "none".to_owned(),
         names => listed(names),
     };
-    let mut table = Table::new([Column::words(""), Column::words("")]);
-    table.row(cells!["moving", said(&report.moving_joints)]);
-    table.row(cells!["idle", said(&words::still(report))]);
+    let mut rows = vec![
+        ("moving", some(&report.moving_joints)),
+        ("idle", some(&words::still(report))),
+    ];
     if !report.spinning_joints.is_empty() {
-        table.row(cells!["spinning", listed(&report.spinning_joints)]);
+        rows.push(("spinning", listed(&report.spinning_joints)));
     }
+    let table = Table::of(&rows)
+        .words("", |(what, _)| *what)
+        .words("", |(_, names)| names);
     Section::new("Joints").table(table)
 }
 
-fn loops(loops: &[LoopCount]) -> Table {
-    let numbers = ["Σf", "Σf − 6", "order λ", "Σf − λ"].map(Column::numbers);
-    let words = ["closed by", "joints"].map(Column::words);
-    let mut table = Table::new(words.into_iter().chain(numbers));
-    for LoopCount {
-        closure,
-        joints,
-        freedoms,
-        order,
-        kutzbach,
-        by_order,
-        ..
-    } in loops
-    {
-        let [kutzbach, by_order] = [*kutzbach, *by_order].map(Cell::Count);
-        table.row(cells![
-            closure,
-            joints.join(" "),
-            *freedoms,
-            kutzbach,
-            *order,
-            by_order
-        ]);
-    }
-    table
+fn loops(loops: &[LoopCount]) -> TableOf<&LoopCount> {
+    Table::of(loops)
+        .words("closed by", |of| &of.closure)
+        .words("joints", |of| of.joints.join(" "))
+        .numbers("Σf", |of| of.freedoms)
+        .numbers("Σf − 6", |of| of.kutzbach)
+        .numbers("order λ", |of| of.order)
+        .numbers("Σf − λ", |of| of.by_order)
 }
 
 fn branch(i: usize, branch: &BranchReport) -> Section {

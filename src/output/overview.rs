@@ -1,10 +1,12 @@
 //! What a mechanism file means, drawn as a lecture draws it, as a document.
 
-use super::document::{Column, Document, Report, Section, Table, cells};
-use super::quantity::{degrees, number, quantity, signed};
+use super::document::{Document, Section, Table, TableOf};
+use super::quantity::{at, degrees, number, quantity, signed};
+use super::report::Report;
+use crate::algebra::SiUnit;
 use crate::analysis::overview::{
-    ChainOverview, ClosureOverview, LoopStep, MobilityCount, Overview, PlatformOverview,
-    RowOverview,
+    ChainOverview, ClosedFormOverview, ClosureOverview, JointOverview, LoopStep, MobilityCount,
+    Overview, ParameterOverview, PlatformOverview, RowOverview,
 };
 use crate::description::{ClosureKind, Convention, count};
 
@@ -16,55 +18,36 @@ impl Report for Overview {
             .section(Section::new("Joints").table(joints(self)))
             .sections(self.chains.iter().map(chain))
             .sections(platforms(self))
-            .sections(closures(self))
+            .section(closures(self))
             .sections((!self.closures.is_empty()).then(|| loops(self)))
             .section(mobility(&self.count))
             .section(Section::new("Closed forms").table(closed_forms(self)))
     }
 }
 
-fn parameters(overview: &Overview) -> Table {
-    let mut table = Table::new([
-        Column::words("name"),
-        Column::numbers("value"),
-        Column::words("defined as"),
-    ]);
-    for parameter in &overview.parameters {
-        let definition = match parameter.definition.parse() == Ok(parameter.value) {
-            true => "",
-            false => &parameter.definition,
-        };
-        table.row(cells![&parameter.name, parameter.value, definition]);
-    }
-    table
+fn parameters(overview: &Overview) -> TableOf<&ParameterOverview> {
+    let definition = |parameter: &ParameterOverview| match parameter.definition.parse::<f64>() {
+        Ok(value) if value == parameter.value => None,
+        _ => Some(parameter.definition.clone()),
+    };
+    Table::of(&overview.parameters)
+        .words("name", |parameter| &parameter.name)
+        .numbers("value", |parameter| parameter.value)
+        .words("defined as", definition)
 }
 
-fn joints(overview: &Overview) -> Table {
-    let mut table = Table::new([
-        Column::words("name"),
-        Column::words("kind"),
-        Column::words("role"),
-        Column::numbers("home"),
-        Column::words("limits"),
-    ]);
-    for joint in &overview.joints {
-        let shown = |value| match joint.unit {
-            Some(unit) => quantity(value, unit.is_angle()),
-            None => number(value),
-        };
-        let limits = joint.limits.map_or("none".to_owned(), |(low, high)| {
-            format!("{} to {}", shown(low), shown(high))
-        });
-        let role = joint.role.word().to_lowercase();
-        table.row(cells![
-            &joint.name,
-            joint.kind.word(),
-            role,
-            shown(joint.home),
-            limits
-        ]);
-    }
-    table
+fn joints(overview: &Overview) -> TableOf<&JointOverview> {
+    let shown = |joint: &JointOverview, value| quantity(value, joint.unit.unwrap_or(SiUnit::ONE));
+    let limits = move |joint: &JointOverview| match joint.limits {
+        Some((low, high)) => format!("{} to {}", shown(joint, low), shown(joint, high)),
+        None => "none".into(),
+    };
+    Table::of(&overview.joints)
+        .words("name", |joint| &joint.name)
+        .words("kind", |joint| joint.kind.word())
+        .words("role", |joint| joint.role.word().to_lowercase())
+        .numbers("home", move |joint| shown(joint, joint.home))
+        .words("limits", limits)
 }
 
 pub(super) fn chain(chain: &ChainOverview) -> Section {
@@ -75,17 +58,17 @@ pub(super) fn chain(chain: &ChainOverview) -> Section {
     }
     let step = |name: &str, steps: &[String]| match steps.is_empty() {
         true => String::new(),
-        false => format!("{name} {}", product(steps)),
+        false => format!("{name} {}", steps.join(" ")),
     };
     let entries = |row: &RowOverview| {
-        let lengths = [row.a.clone(), row.d.clone()].map(|entry| (entry, false));
-        let angles = [row.alpha.clone(), row.theta.clone()].map(|entry| (entry, true));
+        let lengths = [&row.a, &row.d].map(|entry| (entry.clone(), SiUnit::METRE));
+        let angles = [&row.alpha, &row.theta].map(|entry| (entry.clone(), SiUnit::RADIAN));
         lengths.into_iter().chain(angles)
     };
     let mut values: Vec<String> = Vec::new();
-    for (entry, is_angle) in chain.rows.iter().flat_map(entries) {
+    for (entry, unit) in chain.rows.iter().flat_map(entries) {
         if let (Some(value), true) = (entry.value, entry.uses_parameters) {
-            let said = format!("{} = {}", entry.written, quantity(value, is_angle));
+            let said = at(&entry.written, value, unit);
             if !values.contains(&said) {
                 values.push(said);
             }
@@ -106,28 +89,23 @@ pub(super) fn chain(chain: &ChainOverview) -> Section {
     }
 }
 
-fn product(steps: &[String]) -> String {
-    steps.join(" ")
-}
-
 /// The table in the order of its convention, as lectures print it.
-fn table(chain: &ChainOverview) -> Table {
-    let modified = chain.convention == Convention::Modified;
-    let columns = match modified {
-        true => ["i", "αᵢ₋₁", "aᵢ₋₁", "dᵢ", "θᵢ"],
-        false => ["i", "θᵢ", "dᵢ", "aᵢ", "αᵢ"],
-    };
-    let mut table = Table::new(columns.map(Column::words)).ruled();
-    for (i, row) in chain.rows.iter().enumerate() {
-        let RowOverview { alpha, a, d, theta } = row;
-        let entries = match modified {
-            true => [alpha, a, d, theta],
-            false => [theta, d, a, alpha],
-        };
-        let [first, second, third, fourth] = entries.map(|entry| &entry.written);
-        table.row(cells![i + 1, first, second, third, fourth]);
+fn table(chain: &ChainOverview) -> TableOf<(usize, &RowOverview)> {
+    let table = Table::of((1..).zip(&chain.rows))
+        .ruled()
+        .words("i", |(i, _)| i);
+    match chain.convention {
+        Convention::Modified => table
+            .words("αᵢ₋₁", |(_, row)| &row.alpha.written)
+            .words("aᵢ₋₁", |(_, row)| &row.a.written)
+            .words("dᵢ", |(_, row)| &row.d.written)
+            .words("θᵢ", |(_, row)| &row.theta.written),
+        Convention::Standard => table
+            .words("θᵢ", |(_, row)| &row.theta.written)
+            .words("dᵢ", |(_, row)| &row.d.written)
+            .words("aᵢ", |(_, row)| &row.a.written)
+            .words("αᵢ", |(_, row)| &row.alpha.written),
     }
-    table
 }
 
 pub(super) fn platforms(overview: &Overview) -> Vec<Section> {
@@ -135,30 +113,28 @@ pub(super) fn platforms(overview: &Overview) -> Vec<Section> {
         let [x, y, z] = platform.position.map(number);
         let [roll, pitch, yaw] = platform.roll_pitch_yaw.map(degrees);
         let home = format!("home at ({x}, {y}, {z}) m, roll {roll}, pitch {pitch}, yaw {yaw}");
-        let mut table = Table::new(["frame", "placed by"].map(Column::words));
-        for frame in &platform.frames {
-            table.row(cells![&frame.name, product(&frame.placed)]);
-        }
+        let frames = Table::of(&platform.frames)
+            .words("frame", |frame| &frame.name)
+            .words("placed by", |frame| frame.placed.join(" "));
         Section::new(format!("Platform {}", platform.name))
             .text(home)
-            .table(table)
+            .table(frames)
     };
     overview.platforms.iter().map(platform).collect()
 }
 
-/// The closures; none if there are none.
-pub(super) fn closures(overview: &Overview) -> Option<Section> {
-    let mut table = Table::new(["name", "kind", "between", "equations"].map(Column::words));
-    for closure in &overview.closures {
-        let [from, to] = &closure.frames;
-        table.row(cells![
-            &closure.name,
-            closure.kind.word().to_lowercase(),
-            format!("{from} and {to}"),
-            format!("{}: {}", closure.equations, equations(closure))
-        ]);
-    }
-    (!table.rows.is_empty()).then(|| Section::new("Closures").table(table))
+/// The closures; empty if there are none.
+pub(super) fn closures(overview: &Overview) -> Section {
+    let between = |closure: &ClosureOverview| closure.frames.join(" and ");
+    Section::new("Closures").table(
+        Table::of(&overview.closures)
+            .words("name", |closure| &closure.name)
+            .words("kind", |closure| closure.kind.word().to_lowercase())
+            .words("between", between)
+            .words("equations", |closure| {
+                format!("{}: {}", closure.equations, equations(closure))
+            }),
+    )
 }
 
 /// The equations of a closure in words; the axes are the z axes of the frames.
@@ -192,28 +168,34 @@ fn loops(overview: &Overview) -> Section {
     }
 }
 
-/// The count with its terms.
-fn mobility(count: &MobilityCount) -> Section {
-    let MobilityCount {
-        bodies,
-        variables,
-        platforms,
-        equations,
-        mobility,
-        ..
-    } = count;
-    let mut terms = format!("6·({bodies} − 1)");
-    for (number, constraints) in [(of_freedom(count, 1), 5), (of_freedom(count, 2), 4)] {
-        if number > 0 {
-            terms += &format!(" − {constraints}·{number}");
+/// The count with its terms, and what each of them counts.
+fn mobility(of: &MobilityCount) -> Section {
+    let (variables, platforms, equations) = (of.variables, of.platforms, of.equations);
+    let bodies = count(of.bodies, "body") + " with ground";
+    let mut terms = vec![(format!("6·({} − 1)", of.bodies), bodies)];
+    for (freedoms, constraints) in [(1, 5), (2, 4)] {
+        let rows = of.row_freedoms.iter().filter(|f| **f == freedoms).count();
+        let said = format!("{} with {}", count(rows, "row"), count(freedoms, "freedom"));
+        if rows > 0 {
+            terms.push((format!(" − {constraints}·{rows}"), said));
         }
     }
-    match count.correction {
+    let size = of.correction.unsigned_abs() as usize;
+    match of.correction {
         0 => {}
-        correction if correction > 0 => terms += &format!(" + {correction}"),
-        correction => terms += &format!(" − {}", -correction),
+        1.. => terms.push((
+            format!(" + {size}"),
+            count(size, "variable") + " in distances",
+        )),
+        _ => {
+            let said = count(size, "row") + " driven together with another";
+            terms.push((format!(" − {size}"), said));
+        }
     }
-    let planar = count.planar.as_ref().map(|planar| {
+    let closure_equations = count(equations, "closure equation");
+    terms.push((format!(" − {equations}"), closure_equations.clone()));
+    let (terms, said): (Vec<String>, Vec<String>) = terms.into_iter().unzip();
+    let planar = of.planar.as_ref().map(|planar| {
         format!(
             "planar: {variables} + 3·{platforms} − {} = {}, as all joints move parallel to one \
              plane at home",
@@ -222,56 +204,26 @@ fn mobility(count: &MobilityCount) -> Section {
         )
     });
     let lines = [
-        format!("{terms} − {equations} = {}", signed(*mobility)),
-        explained(count),
+        format!("{} = {}", terms.concat(), signed(of.mobility)),
+        said.join(", "),
         format!(
-            "the same as {variables} + 6·{platforms} − {equations}: {}, {}, {}",
-            self::count(*variables, "joint variable"),
-            self::count(*platforms, "platform"),
-            self::count(*equations, "closure equation"),
+            "the same as {variables} + 6·{platforms} − {equations}: {}, {}, {closure_equations}",
+            count(variables, "joint variable"),
+            count(platforms, "platform"),
         ),
     ];
     Section::new("Kutzbach count").list(lines.into_iter().chain(planar))
 }
 
-/// How many rows have so many freedoms.
-fn of_freedom(count: &MobilityCount, freedoms: usize) -> usize {
-    let rows = count.row_freedoms.iter();
-    rows.filter(|&&found| found == freedoms).count()
-}
-
-fn explained(count: &MobilityCount) -> String {
-    let mut parts = vec![format!("{} with ground", self::count(count.bodies, "body"))];
-    for f in [1, 2] {
-        if of_freedom(count, f) > 0 {
-            let joints = self::count(of_freedom(count, f), "row");
-            parts.push(format!("{joints} with {}", self::count(f, "freedom")));
+fn closed_forms(overview: &Overview) -> TableOf<&ClosedFormOverview> {
+    let gives = |form: &ClosedFormOverview| match &form.pose_of {
+        Some([of, relative_to]) => {
+            format!("{} of {of} in {relative_to}", count(form.formulas, "entry"))
         }
-    }
-    match count.correction {
-        0 => {}
-        correction if correction > 0 => {
-            parts.push(self::count(correction as usize, "variable") + " in distances");
-        }
-        correction => parts.push(
-            self::count(correction.unsigned_abs() as usize, "row")
-                + " driven together with another",
-        ),
-    }
-    parts.push(self::count(count.equations, "closure equation"));
-    parts.join(", ")
-}
-
-fn closed_forms(overview: &Overview) -> Table {
-    let mut table = Table::new(["name", "gives", "source"].map(Column::words));
-    for form in &overview.closed_forms {
-        let gives = match &form.pose_of {
-            Some([of, relative_to]) => {
-                format!("{} of {of} in {relative_to}", count(form.formulas, "entry"))
-            }
-            None => count(form.formulas, "identity"),
-        };
-        table.row(cells![&form.name, gives, form.source.as_deref()]);
-    }
-    table
+        None => count(form.formulas, "identity"),
+    };
+    Table::of(&overview.closed_forms)
+        .words("name", |form| &form.name)
+        .words("gives", gives)
+        .words("source", |form| form.source.as_deref())
 }

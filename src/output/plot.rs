@@ -3,6 +3,8 @@
 
 use std::sync::Arc;
 
+use super::quantity::with_unit;
+use crate::algebra::SiUnit;
 use kuva::backend::svg::SvgBackend;
 use kuva::plot::{ColorMap, Heatmap, LegendPosition, LinePlot, MarkerShape, ScatterPlot};
 use kuva::render::figure::Figure;
@@ -73,6 +75,11 @@ const SHAPES: [MarkerShape; 5] = [
     MarkerShape::Diamond,
     MarkerShape::Cross,
 ];
+
+/// The label of an axis: `theta1 (°)`.
+pub(super) fn label(name: &str, unit: SiUnit) -> String {
+    format!("{name} ({})", with_unit("", unit).trim())
+}
 
 /// The charts one below the other.
 pub fn svg(charts: &[Chart]) -> String {

@@ -1,9 +1,7 @@
-//! Numbers as people read them; JSON keeps every digit instead.
+//! Numbers as people read them; JSON keeps every digit instead. Here units leave the program.
 
-/// Whether a number needs a power of ten to be short.
-pub(super) fn is_long(x: f64) -> bool {
-    x != 0.0 && !(1e-5..1e16).contains(&x.abs())
-}
+use crate::algebra::SiUnit;
+use crate::mechanism::Variable;
 
 /// A count with the minus sign of the formulas it stands in.
 pub(super) fn signed(count: i64) -> String {
@@ -33,16 +31,70 @@ pub(super) fn short(value: f64) -> String {
     number((value * 1e4).round() / 1e4)
 }
 
-/// An angle in rad, shown in degrees.
-pub(super) fn degrees(radians: f64) -> String {
-    format!("{}°", number(radians.to_degrees()))
+/// A number as it is shown: that of an angle in degrees.
+pub(super) fn shown(value: f64, unit: SiUnit) -> f64 {
+    match unit.is_angle() {
+        true => value.to_degrees(),
+        false => value,
+    }
 }
 
-/// A value of a joint or coordinate with its unit: degrees or metres.
-pub fn quantity(value: f64, is_angle: bool) -> String {
-    match is_angle {
-        true => degrees(value),
-        false => format!("{} m", number(value)),
+/// A number that is written already, with its unit: degrees where the unit is rad.
+pub(super) fn with_unit(number: &str, unit: SiUnit) -> String {
+    match unit {
+        SiUnit::RADIAN => format!("{number}°"),
+        SiUnit::ONE => number.into(),
+        unit => format!("{number} {unit}"),
+    }
+}
+
+/// A value in SI units as people read it, with its unit; angles in degrees.
+pub fn quantity(value: f64, unit: SiUnit) -> String {
+    with_unit(&number(shown(value, unit)), unit)
+}
+
+/// An angle in rad, shown in degrees.
+pub(super) fn degrees(radians: f64) -> String {
+    quantity(radians, SiUnit::RADIAN)
+}
+
+/// A length.
+pub(super) fn metres(length: f64) -> String {
+    quantity(length, SiUnit::METRE)
+}
+
+/// `theta1 = 60°`
+pub(super) fn at(name: &str, value: f64, unit: SiUnit) -> String {
+    format!("{name} = {}", quantity(value, unit))
+}
+
+/// The values of variables: `theta1 = 60°`, `l1 = 0.5 m`.
+pub(super) fn values<'v>(
+    variables: &[Variable],
+    values: impl IntoIterator<Item = &'v f64>,
+) -> Vec<String> {
+    let values = variables.iter().zip(values);
+    values
+        .map(|(of, &value)| at(&of.name, value, of.unit))
+        .collect()
+}
+
+/// `theta1 from 0° to 60°`
+pub(super) fn range(name: &str, from: f64, to: f64, unit: SiUnit) -> String {
+    let [from, to] = [from, to].map(|x| quantity(x, unit));
+    format!("{name} from {from} to {to}")
+}
+
+/// `(0, 0.5, -1)`, with four decimals at most.
+pub(super) fn triple(v: &[f64; 3]) -> String {
+    format!("({})", v.map(short).join(", "))
+}
+
+/// The form of a word that goes with a number of things: `is` or `are`.
+pub(super) fn form<'w>(number: usize, one: &'w str, many: &'w str) -> &'w str {
+    match number {
+        1 => one,
+        _ => many,
     }
 }
 
@@ -80,6 +132,6 @@ mod tests {
             [1.23e-16, 0.0, 31.66, 2.5e7].map(size),
             ["1.2e-16", "0", "31.7", "2.5e7"]
         );
-        assert_eq!(quantity(-0.25, false), "-0.25 m");
+        assert_eq!(quantity(-0.25, SiUnit::METRE), "-0.25 m");
     }
 }

@@ -1,41 +1,53 @@
-//! Twists in words and numbers.
+//! Twists and wrenches in words and numbers.
 
-use super::document::{Column, Table, cells};
-use super::quantity::{quantity, short};
+use super::document::{Table, TableOf};
+use super::quantity::{metres, triple};
+use crate::algebra::SiUnit;
 use crate::system::{Screw, TwistSpace};
 
 /// A table of twists.
 pub(super) fn twist_table(spaces: &[TwistSpace]) -> Table {
-    let mut table = Table::new([
-        Column::words("body"),
-        Column::words("motion"),
-        Column::words("along"),
-        Column::words("through").in_unit("m"),
-        Column::words("pitch"),
-    ]);
-    for space in spaces {
-        for screw in &space.screws {
-            let [kind, along, through, pitch] = screw_words(screw);
-            table.row(cells![&space.body, kind, along, through, pitch]);
-        }
-        for spin in &space.spins {
-            let [_, along, through, _] = screw_words(spin);
-            table.row(cells![&space.body, "idle spin", along, through, ""]);
-        }
-    }
-    table
+    let rows = spaces.iter().flat_map(|space| {
+        let screws = space.screws.iter().map(move |screw| (space, screw, false));
+        screws.chain(space.spins.iter().map(move |spin| (space, spin, true)))
+    });
+    let motion = |(_, screw, idle)| match idle {
+        true => "idle spin",
+        false => kind(screw, ["turn", "shift", "screw"]),
+    };
+    let table = Table::of(rows).words("body", |(space, ..)| &space.body);
+    placed(table.words("motion", motion), |(_, screw, _)| screw)
 }
 
-/// Kind, direction, point and pitch of a screw.
-pub(super) fn screw_words(screw: &Screw) -> [String; 4] {
-    let triple = |v: &[f64; 3]| format!("({})", v.map(short).join(", "));
-    let along = triple(&screw.direction);
+/// A table of wrenches.
+pub(super) fn wrench_table(wrenches: &[Screw]) -> Table {
+    let kind = |screw| kind(screw, ["force", "moment", "wrench"]);
+    placed(Table::of(wrenches).words("wrench", kind), |screw| screw)
+}
+
+/// The name of a screw without pitch, without a place, and with both.
+fn kind(screw: &Screw, [line, free, both]: [&'static str; 3]) -> &'static str {
     match (&screw.point, screw.pitch) {
-        (Some(point), Some(0.0)) => ["turn".into(), along, triple(point), String::new()],
-        (Some(point), Some(pitch)) => {
-            let pitch = format!("{}/rad", quantity(pitch, false));
-            ["screw".into(), along, triple(point), pitch]
-        }
-        _ => ["shift".into(), along, String::new(), String::new()],
+        (Some(_), Some(0.0)) => line,
+        (Some(_), Some(_)) => both,
+        _ => free,
     }
+}
+
+/// With direction, point and pitch of a screw.
+fn placed<'s, T: Copy>(table: TableOf<T>, screw: impl Fn(T) -> &'s Screw) -> Table {
+    let place = |screw: &Screw| Some((screw.point?, screw.pitch?));
+    let pitch = |(_, pitch): ([f64; 3], f64)| format!("{}/rad", metres(pitch));
+    let table = table
+        .words("along", |row| triple(&screw(row).direction))
+        .words("through", |row| {
+            place(screw(row)).map(|(point, _)| triple(&point))
+        })
+        .in_unit(SiUnit::METRE)
+        .words("pitch", |row| {
+            place(screw(row))
+                .filter(|(_, pitch)| *pitch != 0.0)
+                .map(pitch)
+        });
+    table.into()
 }

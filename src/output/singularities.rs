@@ -7,43 +7,45 @@ mod loci;
 mod picture;
 mod words;
 
-pub use along::along_rows;
-pub use coupled::note;
-pub use loci::locus_rows;
 #[cfg(feature = "plot")]
 pub use picture::svg;
-pub use words::{completeness, ending, pinned};
 
-use super::csv::Value;
-use super::document::{Column, Document, Report, Section, Table, cells};
-use super::quantity::{number, quantity, short};
-use super::screws::{screw_words, twist_table};
+use super::closing;
+use super::document::{Cell, Document, Section, Table};
+use super::quantity::{metres, short, values};
+use super::report::{Remarks, Report};
+use super::screws::{twist_table, wrench_table};
 use crate::analysis::singularities::{
     Distances, Kind, Movement, Resisted, SingularitiesReport, Singularity,
 };
 use crate::description::listed;
 use crate::mechanism::Variable;
+use coupled::note;
 
 impl Report for SingularitiesReport {
     fn document(&self) -> Document {
         let singularity = &self.singularity;
         let answer = words::sentence(singularity, &self.inputs, &self.outputs);
-        let gap = self.given_gap.as_ref();
-        let at = self.variables.iter().zip(&self.joints);
-        let at = at.map(|(of, x)| format!("{} = {}", of.name, quantity(*x, of.unit.is_angle())));
-        let at: Vec<String> = at.collect();
+        let at = values(&self.variables, &self.joints);
         let at = (!at.is_empty()).then(|| format!("at {}", at.join(", ")));
         Document::new(&self.mechanism, answer)
             .note(words::split(&self.inputs, &self.outputs))
             .notes(note(&self.coupled))
-            .notes(gap.map(|gap| super::closing::given(gap, self.kept)))
+            .notes(closing::given(self.given_gap.as_ref(), self.kept))
             .notes(at)
             .sections(details(singularity))
             .section(distances(&singularity.distances, self.normalising_length))
     }
 
-    fn sentences(&self) -> Vec<(&'static str, Option<String>)> {
-        vec![("note", note(&self.coupled))]
+    fn warnings(&self) -> Vec<String> {
+        Vec::from_iter(closing::outside_limits(&self.outside_limits))
+    }
+
+    fn remarks(&self) -> Remarks {
+        Remarks {
+            note: Some(note(&self.coupled)),
+            ..Remarks::default()
+        }
     }
 }
 
@@ -78,45 +80,31 @@ fn movement(title: &str, movement: &Movement) -> Section {
 }
 
 fn wrenches(resisted: &Resisted) -> Section {
-    let mut table = Table::new([
-        Column::words("wrench"),
-        Column::words("along"),
-        Column::words("through").in_unit("m"),
-        Column::words("pitch"),
-    ]);
-    for screw in &resisted.wrenches {
-        let [kind, along, through, pitch] = screw_words(screw);
-        let kind = match kind.as_str() {
-            "turn" => "force",
-            "shift" => "moment",
-            _ => "wrench",
-        };
-        table.row(cells![kind, along, through, pitch]);
-    }
     let title = format!(
         "Lost: {} cannot move against this wrench, which is carried without the inputs",
         resisted.output
     );
-    Section::new(title).table(table)
+    Section::new(title).table(wrench_table(&resisted.wrenches))
 }
 
 fn distances(distances: &Distances, length: f64) -> Section {
-    let mut table = Table::new([Column::words(""), Column::words("σ")]);
+    type Row = (&'static str, Option<f64>);
     let rows = [
         ("direct, inputs at rest", distances.direct),
         ("inverse, outputs at rest", distances.inverse),
         ("constraint, nothing held", distances.constraint),
     ];
-    for (name, value) in rows {
-        let value = value.map_or("none can vanish".into(), |value| match value < 1e-12 {
-            true => "0".into(),
-            false => format!("{value:.4e}"),
-        });
-        table.row(cells![name, value]);
-    }
+    let value = |(_, value): Row| match value {
+        None => "none can vanish".into(),
+        Some(value) if value < 1e-12 => "0".into(),
+        Some(value) => format!("{value:.4e}"),
+    };
+    let table = Table::of(rows)
+        .words("", |(name, _)| name)
+        .words("σ", value);
     let title = format!(
-        "Distance to singularity: smallest singular values, lengths over {} m",
-        number(length)
+        "Distance to singularity: smallest singular values, lengths over {}",
+        metres(length)
     );
     Section::new(title).table(table)
 }
@@ -144,12 +132,9 @@ impl Once {
     }
 
     /// The values of the variables that stay.
-    fn values<'a>(
-        &self,
-        values: impl Iterator<Item = &'a f64>,
-    ) -> impl Iterator<Item = Value<'static>> {
+    fn values<'a>(&self, values: impl Iterator<Item = &'a f64>) -> impl Iterator<Item = Cell> {
         let values = values.zip(&self.stays).filter(|(_, stays)| **stays);
-        values.map(|(value, _)| Value::from(*value))
+        values.map(|(value, _)| Cell::from(*value))
     }
 }
 
@@ -158,11 +143,6 @@ fn kind_word(kind: Kind) -> &'static str {
         Kind::Direct => "direct",
         Kind::Inverse => "inverse",
     }
-}
-
-/// The remark that joints are outside their limits.
-pub fn limits_remark(report: &SingularitiesReport) -> String {
-    super::closing::limits_warning(&report.outside_limits)
 }
 
 fn names(names: &[String]) -> String {

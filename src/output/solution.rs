@@ -1,11 +1,12 @@
 //! An assembled configuration, or why there is none, as a document.
 
 use super::closing;
-use super::document::{Cell, Column, Document, Report, Section, Table, cells};
-use super::quantity::{degrees, number, quantity, size};
-use crate::algebra::SiUnit;
-use crate::analysis::assembly::{AssemblyReport, Outcome, PlatformRecord};
+use super::document::{Cell, Document, Section, Table, TableOf};
+use super::quantity::{degrees, form, number, quantity, size};
+use super::report::Report;
+use crate::analysis::assembly::{AssemblyReport, JointVariable, Outcome, PlatformRecord};
 use crate::description::{count, listed};
+use crate::system::{FrameRecord, Gap};
 
 impl Report for AssemblyReport {
     fn is_interrupted(&self) -> bool {
@@ -26,6 +27,14 @@ impl Report for AssemblyReport {
             .sections(gaps)
             .method(found(self))
     }
+
+    fn is_yes(&self) -> bool {
+        self.outcome == Outcome::Converged
+    }
+
+    fn warnings(&self) -> Vec<String> {
+        self.warning().into_iter().collect()
+    }
 }
 
 /// How the search ended, in one sentence.
@@ -37,11 +46,8 @@ fn sentence(report: &AssemblyReport) -> String {
     match &report.outcome {
         Outcome::Converged => "Assembled.".into(),
         Outcome::ConvergedOutsideLimits { joints } => {
-            let are = match joints.len() {
-                1 => "is outside its limits",
-                _ => "are outside their limits",
-            };
-            format!("Assembled, but {} {are}.", listed(joints))
+            let outside = closing::outside_limits(joints).unwrap_or_default();
+            format!("Assembled, but {outside}.")
         }
         Outcome::Singular {
             moving,
@@ -85,12 +91,12 @@ fn sentence(report: &AssemblyReport) -> String {
 
 /// Freedoms that do not matter.
 fn idle(report: &AssemblyReport) -> Option<String> {
-    let turn = match report.idle {
-        0 => return None,
-        1 => "only spins a link about its own line",
-        _ => "only spin links about their own lines",
-    };
-    Some(format!("{} {turn}", count(report.idle, "freedom")))
+    let spin = form(
+        report.idle,
+        "only spins a link about its own line",
+        "only spin links about their own lines",
+    );
+    (report.idle > 0).then(|| format!("{} {spin}", count(report.idle, "freedom")))
 }
 
 /// What is not known of other configurations with the same inputs.
@@ -124,45 +130,35 @@ fn found(report: &AssemblyReport) -> String {
     )
 }
 
-fn joints(report: &AssemblyReport) -> Table {
-    let mut table = Table::new([
-        Column::words("name"),
-        Column::words("role"),
-        Column::words(""),
-        Column::numbers("value"),
-        Column::numbers(""),
-        Column::words("limits"),
-    ]);
-    for (joint, &value) in report.variables.iter().zip(report.joints.values()) {
-        let is_angle = joint.unit.is_angle();
-        let radians = is_angle.then(|| format!("{} rad", number(value)));
-        let limits = joint.limits.map(|(low, high)| {
-            let [low, high] = [low, high].map(|limit| quantity(limit, is_angle));
-            let outside = if joint.within_limits { "" } else { ", outside" };
-            format!("{low} to {high}{outside}")
-        });
-        table.row(cells![
-            &joint.name,
-            joint.role.word().to_lowercase(),
-            if joint.held { "held" } else { "solved" },
-            Cell::quantity(value, joint.unit),
-            radians,
-            limits
-        ]);
-    }
-    table
+fn joints(report: &AssemblyReport) -> TableOf<(&JointVariable, f64)> {
+    type Joint<'a> = (&'a JointVariable, f64);
+    let radians = |(of, value): Joint| of.unit.is_angle().then(|| format!("{} rad", number(value)));
+    let limits = |(of, _): Joint| {
+        let (low, high) = of.limits?;
+        let outside = if of.within_limits { "" } else { ", outside" };
+        let [low, high] = [low, high].map(|limit| quantity(limit, of.unit));
+        Some(format!("{low} to {high}{outside}"))
+    };
+    let joints = report.variables.iter();
+    Table::of(joints.zip(report.joints.values().copied()))
+        .words("name", |(of, _)| &of.name)
+        .words("role", |(of, _)| of.role.word().to_lowercase())
+        .words("", |(of, _)| if of.held { "held" } else { "solved" })
+        .numbers("value", |(of, value)| Cell::quantity(value, of.unit))
+        .numbers("", radians)
+        .words("limits", limits)
 }
 
 /// Position and orientation of a platform in ground.
 fn pose(name: &str, platform: &PlatformRecord) -> Section {
     let frame = &platform.frame;
-    let columns = ["position", "n", "s", "a"].map(Column::numbers);
-    let mut table = Table::new([Column::words("")].into_iter().chain(columns));
-    for (i, axis) in ["x", "y", "z"].into_iter().enumerate() {
-        let [n, s, a] = frame.rotation[i];
-        let position = Cell::quantity(frame.position[i], SiUnit::METRE);
-        table.row(cells![axis, position, n, s, a]);
-    }
+    let column = |j: usize| move |i: usize| frame.rotation[i][j];
+    let table = Table::of(0..3)
+        .words("", |i: usize| ["x", "y", "z"][i])
+        .numbers("position", |i| Cell::metres(frame.position[i]))
+        .numbers("n", column(0))
+        .numbers("s", column(1))
+        .numbers("a", column(2));
     let [w, x, y, z] = frame.quaternion.map(number);
     let [roll, pitch, yaw] = platform.roll_pitch_yaw.map(degrees);
     Section::new(format!("Platform {name}")).table(table).list([
@@ -171,26 +167,17 @@ fn pose(name: &str, platform: &PlatformRecord) -> Section {
     ])
 }
 
-fn tips(report: &AssemblyReport) -> Table {
-    let columns = ["x", "y", "z"].map(Column::numbers);
-    let mut table = Table::new([Column::words("chain")].into_iter().chain(columns));
-    for (chain, tip) in &report.frames.0 {
-        let [x, y, z] = tip.position.map(|x| Cell::quantity(x, SiUnit::METRE));
-        table.row(cells![chain, x, y, z]);
-    }
-    table
+fn tips(report: &AssemblyReport) -> TableOf<&(String, FrameRecord)> {
+    Table::of(&report.frames.0)
+        .words("chain", |(chain, _)| chain)
+        .numbers("x", |(_, tip)| Cell::metres(tip.position[0]))
+        .numbers("y", |(_, tip)| Cell::metres(tip.position[1]))
+        .numbers("z", |(_, tip)| Cell::metres(tip.position[2]))
 }
 
-fn gaps(report: &AssemblyReport) -> Table {
-    let mut table = Table::new([
-        Column::words("closure"),
-        Column::numbers("distance"),
-        Column::numbers("angle"),
-    ]);
-    for (closure, gap) in &report.gaps.0 {
-        let distance = Cell::quantity(gap.distance, SiUnit::METRE);
-        let angle = Cell::quantity(gap.angle, SiUnit::RADIAN);
-        table.row(cells![closure, distance, angle]);
-    }
-    table
+fn gaps(report: &AssemblyReport) -> TableOf<&(String, Gap)> {
+    Table::of(&report.gaps.0)
+        .words("closure", |(closure, _)| closure)
+        .numbers("distance", |(_, gap)| Cell::metres(gap.distance))
+        .numbers("angle", |(_, gap)| Cell::radians(gap.angle))
 }

@@ -1,14 +1,16 @@
 //! The forces in a mechanism as a document.
 
 use super::closing;
-use super::document::{Cell, Column, Digits, Document, Report, Section, Table, cells};
-use super::quantity::{number, size};
-use crate::analysis::statics::{Force, Reaction, StaticsReport};
+use super::document::{Cell, Digits, Document, Section, Table, TableOf};
+use super::quantity::{metres, size};
+use super::report::Report;
+use crate::algebra::SiUnit;
+use crate::analysis::statics::{AppliedWrench, Force, Reaction, StaticsReport};
 use crate::description::{count, listed};
 
 impl Report for StaticsReport {
     fn document(&self) -> Document {
-        let gap = (self.given_gap.as_ref()).map(|gap| closing::given(gap, self.kept));
+        let gap = closing::given(self.given_gap.as_ref(), self.kept);
         let loads = Section::new("Loads, at the frame's origin").table(loads(self));
         let on_joints = Section::new("Loads on joints").table(forces(&self.joint_loads));
         let held =
@@ -22,14 +24,22 @@ impl Report for StaticsReport {
         let length = self.normalising_length;
         Document::new(&self.mechanism, sentence(self))
             .note(format!(
-                "without weight and friction; condition number {}, forces times {} m compared with moments",
+                "without weight and friction; condition number {}, forces times {} compared with moments",
                 size(self.condition),
-                number(length)
+                metres(length)
             ))
             .notes(gap)
             .sections([loads, on_joints, held])
             .section(closures.table(reactions(&self.closures, length)))
             .section(joints.table(reactions(&self.joints, length)))
+    }
+
+    fn is_yes(&self) -> bool {
+        self.unbalanced.is_empty()
+    }
+
+    fn warnings(&self) -> Vec<String> {
+        Vec::from_iter(closing::outside_limits(&self.outside_limits))
     }
 }
 
@@ -66,66 +76,48 @@ fn balance(report: &StaticsReport) -> String {
     }
 }
 
-/// The components of forces and moments.
-const COMPONENTS: [(&str, &str); 6] = [
-    ("Fx", "N"),
-    ("Fy", "N"),
-    ("Fz", "N"),
-    ("Mx", "N·m"),
-    ("My", "N·m"),
-    ("Mz", "N·m"),
-];
-
-fn components() -> impl Iterator<Item = Column> {
-    COMPONENTS
-        .map(|(name, unit)| Column::numbers(name).in_unit(unit))
-        .into_iter()
-}
-
-fn loads(report: &StaticsReport) -> Table {
-    let mut table = Table::new([Column::words("on")].into_iter().chain(components()));
-    for load in &report.loads {
-        let values = load.force.iter().chain(&load.moment);
-        let values = values.map(|&value| Cell::number(value));
-        table.row(
-            [Cell::from(&load.frame)]
-                .into_iter()
-                .chain(values)
-                .collect(),
-        );
-    }
-    table
-}
-
-fn mark(unique: bool) -> &'static str {
-    if unique { "" } else { "*" }
-}
-
-fn forces(forces: &[Force]) -> Table {
-    let mut table = Table::new([Column::words("name"), Column::numbers("force")]);
-    for force in forces {
-        let value = Cell::quantity(force.force, force.unit).marked(mark(force.unique));
-        table.row(cells![&force.name, value]);
-    }
-    table
-}
-
-fn reactions(reactions: &[Reaction], length: f64) -> Table {
-    let names = ["", "from", "on"].map(Column::words).into_iter();
-    let point = Column::words("at").in_unit("m");
-    let mut table = Table::new(names.chain([point]).chain(components()));
-    for reaction in reactions {
-        let name = match reaction.variables.is_empty() {
-            true => reaction.name.clone(),
-            false => reaction.variables.join(" "),
+/// With columns of a force and a moment; a `*` stands behind components that are not unique.
+fn components<T: Copy>(
+    table: TableOf<T>,
+    of: impl Fn(T) -> ([f64; 3], [f64; 3], [bool; 6]),
+) -> TableOf<T> {
+    let names = ["Fx", "Fy", "Fz", "Mx", "My", "Mz"];
+    (0..).zip(names).fold(table, |table, (i, name)| {
+        let component = |row| {
+            let (force, moment, unique) = of(row);
+            Cell::from(if i < 3 { force[i] } else { moment[i - 3] }).starred(!unique[i])
         };
-        let clean = |x: f64| if x.abs() < 1e-9 * length { 0.0 } else { x };
-        let point = Cell::vector(reaction.point.map(clean)).with(Digits::Six);
-        let mut row = cells![name, &reaction.from, &reaction.on, point];
-        let values = reaction.force.iter().chain(&reaction.moment);
-        let values = values.zip(reaction.unique);
-        row.extend(values.map(|(&value, unique)| Cell::number(value).marked(mark(unique))));
-        table.row(row);
-    }
-    table
+        table
+            .numbers(name, component)
+            .in_unit(SiUnit::of_effort(i >= 3))
+    })
+}
+
+fn loads(report: &StaticsReport) -> TableOf<&AppliedWrench> {
+    let table = Table::of(&report.loads).words("on", |load| &load.frame);
+    components(table, |load| (load.force, load.moment, [true; 6]))
+}
+
+fn forces(forces: &[Force]) -> TableOf<&Force> {
+    Table::of(forces)
+        .words("name", |force| &force.name)
+        .numbers("force", |force| {
+            Cell::quantity(force.force, force.unit).starred(!force.unique)
+        })
+}
+
+fn reactions(reactions: &[Reaction], length: f64) -> TableOf<&Reaction> {
+    let clean = |x: f64| if x.abs() < 1e-9 * length { 0.0 } else { x };
+    let table = Table::of(reactions)
+        .words("", |of| match of.variables.is_empty() {
+            true => of.name.clone(),
+            false => of.variables.join(" "),
+        })
+        .words("from", |of| &of.from)
+        .words("on", |of| &of.on)
+        .words("at", |of| {
+            Cell::vector(of.point.map(clean)).with(Digits::Six)
+        })
+        .in_unit(SiUnit::METRE);
+    components(table, |of| (of.force, of.moment, of.unique))
 }

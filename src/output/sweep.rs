@@ -7,15 +7,13 @@ mod words;
 
 #[cfg(feature = "plot")]
 pub use picture::Picture;
-pub use words::sentence;
 
-use serde::{Serialize, Serializer};
-
-use super::csv::Value;
-use super::document::{Cell, Column, Document, Report, Section, Table};
+use super::document::{Cell, Document, Section, Table};
+use super::report::Report;
 use crate::algebra::SiUnit;
-use crate::analysis::sweep::{Columns, MetKind, MotionReport, MotionsReport, Row, SweepReport};
+use crate::analysis::sweep::{Columns, MetKind, MotionReport, MotionsReport, Row};
 use crate::mechanism::Variable;
+use words::sentence;
 
 impl Report for MotionsReport {
     fn is_interrupted(&self) -> bool {
@@ -49,29 +47,19 @@ impl Report for MotionsReport {
             }
         }
     }
+
+    fn is_yes(&self) -> bool {
+        self.motions.iter().all(|m| m.sweep.ending.is_whole())
+    }
 }
 
-/// A motion is written with its sentence, as several stand in one answer.
-impl Serialize for MotionReport {
-    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
-        #[derive(Serialize)]
-        struct WithSentence<'a> {
-            mode: Option<usize>,
-            sentence: String,
-            #[serde(flatten)]
-            sweep: &'a SweepReport,
-            columns: &'a [Variable],
-            values: &'a [Vec<Option<f64>>],
-        }
-        let motion = WithSentence {
-            mode: self.mode,
-            sentence: sentence(&self.sweep),
-            sweep: &self.sweep,
-            columns: &self.columns,
-            values: &self.values,
-        };
-        motion.serialize(serializer)
+/// The report with the sentence of each motion.
+#[must_use]
+pub fn worded(mut report: MotionsReport) -> MotionsReport {
+    for motion in &mut report.motions {
+        motion.sentence = sentence(&motion.sweep);
     }
+    report
 }
 
 fn mode(motion: &MotionReport) -> String {
@@ -89,20 +77,13 @@ fn rows(motion: &MotionReport) -> Section {
     let shown = values.iter().enumerate();
     let shown = shown.filter(|(i, _)| i.is_multiple_of(every) || *i == last);
     // quaternions are for programs
-    let is_shown = |i: &usize| *i == 0 || motion.columns[*i].unit != SiUnit::ONE;
-    let columns: Vec<usize> = (0..motion.columns.len()).filter(is_shown).collect();
-    let headers = columns.iter().map(|&i| match i {
-        0 => Column::words("step"),
-        _ => Column::numbers(&motion.columns[i].name),
+    let columns = motion.columns.iter().enumerate().skip(1);
+    let columns = columns.filter(|(_, of)| of.unit != SiUnit::ONE);
+    let steps = Table::of(shown.map(|(_, row)| row)).words("step", |row| row[0]);
+    let table = columns.fold(steps, |table, (i, of)| {
+        table.numbers(&of.name, |row| row[i].map(|x| Cell::quantity(x, of.unit)))
     });
-    let mut table = Table::new(headers);
-    for (_, row) in shown {
-        let cell = |&i: &usize| match row.get(i) {
-            Some(Some(value)) => Cell::quantity(*value, motion.columns[i].unit),
-            _ => Cell::Empty,
-        };
-        table.row(columns.iter().map(cell).collect());
-    }
+    let table = Table::from(table);
     let title = match all > table.rows.len() {
         true => format!(
             "Rows, {} of {all}; CSV and JSON have all of them",
@@ -125,11 +106,11 @@ pub fn row_values<'a>(
     columns: &Columns,
     mode: Option<usize>,
     row: &Row<'a>,
-) -> impl Iterator<Item = Value<'static>> + use<'a> {
+) -> impl Iterator<Item = Cell> + use<'a> {
     let met = row.special.map(word);
-    let values = columns.values(row).map(Value::from);
-    let first = [Value::from(mode), Value::from(row.step)];
-    first.into_iter().chain(values).chain([Value::from(met)])
+    let values = columns.values(row).map(Cell::from);
+    let first = [Cell::from(mode), Cell::from(row.step)];
+    first.into_iter().chain(values).chain([Cell::from(met)])
 }
 
 /// What a special row is called in the last column.

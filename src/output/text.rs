@@ -3,7 +3,7 @@
 use comfy_table::presets::{NOTHING, UTF8_FULL_CONDENSED};
 use comfy_table::{CellAlignment, Table as Drawn};
 
-use super::document::{Align, Block, Document, Section, Table};
+use super::document::{Align, Block, Document, Section, Table, one_line};
 
 /// The document as text: title, answer and indented notes, then the sections, each after an empty
 /// line with its contents indented. Pictures are only named.
@@ -62,10 +62,6 @@ fn table(table: &Table) -> String {
         }
     }
     format!("{drawn}\n")
-}
-
-fn one_line(text: &str) -> String {
-    text.replace(['\n', '\r'], " ")
 }
 
 /// The text indented by two spaces, without spaces at the ends of lines.

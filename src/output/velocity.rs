@@ -1,16 +1,19 @@
 //! How an assembled mechanism moves, as a document.
 
 use super::closing;
-use super::document::{Cell, Column, Document, Matrix, Report, Section, Table, cells};
-use super::quantity::{number, short, size};
+use super::document::{Cell, Document, Matrix, Section, Table, TableOf};
+use super::quantity::{metres, number, size, triple};
+use super::report::Report;
+use crate::algebra::SiUnit;
 use crate::analysis::velocity::{
-    Axis, FirstOrderOnly, FrameRate, Gain, InputOutput, InstantCentre, Transmission, VelocityReport,
+    Axis, FirstOrderOnly, FrameRate, Gain, InputOutput, InstantCentre, JointRate, Transmission,
+    VelocityReport,
 };
 use crate::description::{count, listed};
 
 impl Report for VelocityReport {
     fn document(&self) -> Document {
-        let gap = (self.given_gap.as_ref()).map(|gap| closing::given(gap, self.kept));
+        let gap = closing::given(self.given_gap.as_ref(), self.kept);
         let jacobian = self.jacobian.as_ref();
         Document::new(&self.mechanism, sentence(self))
             .notes(gap)
@@ -19,6 +22,14 @@ impl Report for VelocityReport {
             .sections(jacobian.map(|j| matrix(j, self.normalising_length)))
             .section(Section::new("Transmission").table(transmission(&self.transmission)))
             .section(Section::new("Instant centres").table(centres(&self.centres)))
+    }
+
+    fn is_yes(&self) -> bool {
+        self.is_determined()
+    }
+
+    fn warnings(&self) -> Vec<String> {
+        Vec::from_iter(closing::outside_limits(&self.outside_limits))
     }
 }
 
@@ -98,7 +109,7 @@ fn infinitesimal(moving: &[String], only: &FirstOrderOnly) -> String {
     };
     let so = match only.shaky {
         true => "the mechanism cannot move here",
-        false => "no motion has them",
+        false => "no finite motion has these rates",
     };
     format!(
         "Infinitesimal only: to first order there are {rates}, but {why}; {so}, and there are no \
@@ -115,10 +126,10 @@ fn doubt(report: &VelocityReport) -> String {
         return String::new();
     };
     let near = format!(
-        "a singular configuration: the smallest singular value is {} (with lengths over {} m), and \
+        "a singular configuration: the smallest singular value is {} (with lengths over {}), and \
          rounding leaves the configuration uncertain by {}",
         size(smallest),
-        number(report.normalising_length),
+        metres(report.normalising_length),
         size(accuracy.configuration)
     );
     let parts = |share: f64| format!("{share:.0e}");
@@ -138,47 +149,40 @@ fn doubt(report: &VelocityReport) -> String {
     }
 }
 
-fn joints(report: &VelocityReport) -> Table {
-    let mut table = Table::new([
-        Column::words("name"),
-        Column::words(""),
-        Column::numbers("value"),
-        Column::numbers("rate"),
-        Column::numbers("acceleration"),
-    ]);
-    for joint in &report.joints {
-        let per = |value: Option<f64>, time: &str| match value {
-            Some(value) => Cell::quantity(value, format!("{}/{time}", joint.unit)),
-            None => "not determined".into(),
-        };
-        table.row(cells![
-            &joint.name,
-            if joint.held { "held" } else { "solved" },
-            Cell::quantity(joint.value, joint.unit),
-            per(joint.rate, "s"),
-            per(joint.acceleration, "s²"),
-        ]);
-    }
-    table
+fn joints(report: &VelocityReport) -> TableOf<&JointRate> {
+    let per = |rate: Option<f64>, unit: SiUnit| match rate {
+        Some(rate) => Cell::quantity(rate, unit),
+        None => "not determined".into(),
+    };
+    Table::of(&report.joints)
+        .words("name", |joint| joint.name.as_str())
+        .words("", |joint| if joint.held { "held" } else { "solved" })
+        .numbers("value", |joint| Cell::quantity(joint.value, joint.unit))
+        .numbers("rate", |joint| per(joint.rate, joint.unit.per_second()))
+        .numbers("acceleration", |joint| {
+            per(joint.acceleration, joint.unit.per_second().per_second())
+        })
 }
 
 fn frame(frame: &FrameRate) -> Section {
+    let [v, ω] = [SiUnit::METRE, SiUnit::RADIAN].map(SiUnit::per_second);
     let columns = [
-        ("position", "m", Some(frame.position)),
-        ("v", "m/s", Some(frame.velocity)),
-        ("a", "m/s²", frame.acceleration),
-        ("ω", "rad/s", Some(frame.angular_velocity)),
-        ("dω/dt", "rad/s²", frame.angular_acceleration),
+        ("position", SiUnit::METRE, Some(frame.position)),
+        ("v", v, Some(frame.velocity)),
+        ("a", v.per_second(), frame.acceleration),
+        ("ω", ω, Some(frame.angular_velocity)),
+        ("dω/dt", ω.per_second(), frame.angular_acceleration),
     ];
-    let headers = columns.map(|(name, unit, _)| Column::numbers(name).in_unit(unit));
-    let mut table = Table::new([Column::words("")].into_iter().chain(headers));
-    for (i, axis) in ["x", "y", "z"].into_iter().enumerate() {
-        let values = columns.map(|(_, _, value)| value.map_or("none".into(), |v| v[i].into()));
-        table.row([axis.into()].into_iter().chain(values).collect());
-    }
+    let axes = Table::of(0..3).words("", |i| ["x", "y", "z"][i]);
+    let table = columns
+        .into_iter()
+        .fold(axes, |table, (name, unit, value)| {
+            let component = |i: usize| value.map_or("none".into(), |v| Cell::from(v[i]));
+            table.numbers(name, component).in_unit(unit)
+        });
     let spins = frame.spins.iter().map(|line| {
-        let line = line.map(short).join(", ");
-        format!("it spins about ({line}) at any rate; ω does not include that spin")
+        let line = triple(line);
+        format!("it spins about {line} at any rate; ω does not include that spin")
     });
     Section::new(format!("Frame {} in ground", frame.name))
         .table(table)
@@ -213,44 +217,34 @@ fn matrix(jacobian: &InputOutput, length: f64) -> Section {
             entries: jacobian.entries.clone(),
         })
         .text(format!(
-            "{without}rank {}, condition number {condition}, manipulability {}, with lengths over {} m",
+            "{without}rank {}, condition number {condition}, manipulability {}, with lengths over {}",
             jacobian.rank,
             number(jacobian.manipulability),
-            number(length)
+            metres(length)
         ))
 }
 
-fn transmission(angles: &[Transmission]) -> Table {
-    let mut table = Table::new([
-        Column::words("driven"),
-        Column::words("at"),
-        Column::words("output"),
-        Column::numbers("transmission angle"),
-        Column::numbers("pressure angle"),
-    ]);
-    for angle in angles {
-        table.row(cells![
-            &angle.driven,
-            &angle.between,
-            &angle.output,
-            Cell::quantity(angle.transmission_angle, "rad"),
-            Cell::quantity(angle.pressure_angle, "rad"),
-        ]);
-    }
-    table
+fn transmission(angles: &[Transmission]) -> TableOf<&Transmission> {
+    Table::of(angles)
+        .words("driven", |angle| &angle.driven)
+        .words("at", |angle| &angle.between)
+        .words("output", |angle| &angle.output)
+        .numbers("transmission angle", |angle| {
+            Cell::radians(angle.transmission_angle)
+        })
+        .numbers("pressure angle", |angle| {
+            Cell::radians(angle.pressure_angle)
+        })
 }
 
-fn centres(centres: &[InstantCentre]) -> Table {
-    let mut table = Table::new(["bodies", "", "instant centre"].map(Column::words));
-    let triple = |v: &[f64; 3]| v.map(short).join(", ");
-    for centre in centres {
-        let [a, b] = &centre.bodies;
-        let place = match (&centre.point, &centre.at_infinity) {
-            (Some(point), _) => Cell::vector(*point).in_unit("m"),
-            (None, Some(towards)) => format!("at infinity along ({})", triple(towards)).into(),
-            (None, None) => "none".into(),
-        };
-        table.row(cells![a, b, place]);
-    }
-    table
+fn centres(centres: &[InstantCentre]) -> TableOf<&InstantCentre> {
+    let place = |centre: &InstantCentre| match (&centre.point, &centre.at_infinity) {
+        (Some(point), _) => Cell::vector(*point).in_unit(SiUnit::METRE),
+        (None, Some(towards)) => format!("at infinity along {}", triple(towards)).into(),
+        (None, None) => "none".into(),
+    };
+    Table::of(centres)
+        .words("bodies", |centre| &centre.bodies[0])
+        .words("", |centre| &centre.bodies[1])
+        .words("instant centre", place)
 }

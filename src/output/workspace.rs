@@ -6,13 +6,14 @@ mod words;
 
 #[cfg(feature = "plot")]
 pub use picture::{left_out, svg};
-pub use words::{completeness, sentence};
+use words::{completeness, sentence};
 
-use super::csv::{Record, Value};
-use super::document::{Cell, Column, Document, Report, Section, Table, cells};
+use super::document::{Cell, Document, Section, Table, cells};
 use super::quantity::{number, quantity};
-use crate::algebra::SiUnit;
-use crate::analysis::workspace::{AspectReport, BoundaryKind, Conditioned, WorkspaceReport};
+use super::report::{Remarks, Report, Rows};
+use crate::analysis::workspace::{
+    AspectReport, BoundaryKind, Conditioned, ModeReport, WorkspaceReport,
+};
 use crate::description::count;
 use crate::mechanism::Variable;
 
@@ -34,71 +35,70 @@ impl Report for WorkspaceReport {
             .method(completeness(self))
     }
 
-    fn sentences(&self) -> Vec<(&'static str, Option<String>)> {
-        vec![("completeness", Some(completeness(self)))]
+    fn is_yes(&self) -> bool {
+        self.reached > 0
+    }
+
+    fn remarks(&self) -> Remarks {
+        Remarks {
+            completeness: Some(completeness(self)),
+            ..Remarks::default()
+        }
+    }
+
+    /// The nodes, in SI units and rad. An aspect is missing for a node outside limits or on a singularity.
+    fn rows(&self) -> Option<Rows<'_>> {
+        let columns = self.cells.columns.iter().map(Variable::to_string);
+        let rows = self.cells.iter();
+        let rows = rows.map(|cell| cell.values().map(Cell::from).collect());
+        Some(Rows {
+            columns: columns.collect(),
+            rows: Box::new(rows),
+        })
     }
 }
 
-/// The nodes as rows: the names of the columns, then the values in SI units and rad. An aspect is
-/// missing for a node outside limits or on a singularity.
-pub fn node_rows(
-    report: &WorkspaceReport,
-) -> (Vec<String>, impl Iterator<Item = Record<'static>> + '_) {
-    let columns = report.cells.columns.iter().map(Variable::to_string);
-    let rows = report.cells.iter();
-    let rows = rows.map(|cell| cell.values().map(Value::from).collect());
-    (columns.collect(), rows)
-}
-
-/// The points of the boundary curves as rows, in the same way.
-pub fn boundary_rows(
-    report: &WorkspaceReport,
-) -> (Vec<String>, impl Iterator<Item = Record<'static>> + '_) {
+/// The points of the boundary curves as rows, in SI units and rad.
+pub fn boundary_rows(report: &WorkspaceReport) -> Rows<'_> {
     let own = ["curve", "kind", "ends reach"].map(str::to_owned);
     let axes = report.axes.iter();
     let axes = axes.map(|axis| Variable::new(&axis.name, axis.unit).to_string());
     let joints = report.variables.iter().map(Variable::to_string);
-    let columns = own.into_iter().chain(axes).chain(joints).collect();
     let rows = report.curves.iter().enumerate().flat_map(|(i, curve)| {
         let points = curve.points.iter().zip(&curve.joints);
         points.map(move |(point, joints)| {
-            let first = [
-                Value::from(i + 1),
-                Value::from(words::kind(&curve.kind)),
-                Value::from(curve.ends_reach),
-            ];
+            let mut row = cells![i + 1, words::kind(&curve.kind), curve.ends_reach];
             let values = point.iter().chain(&curve.slice).chain(joints);
-            let values = values.map(|value| Value::from(*value));
-            first.into_iter().chain(values).collect()
+            row.extend(values.map(|value| Cell::from(*value)));
+            row
         })
     });
-    (columns, rows)
+    Rows {
+        columns: own.into_iter().chain(axes).chain(joints).collect(),
+        rows: Box::new(rows),
+    }
 }
 
 fn modes(report: &WorkspaceReport) -> Section {
-    let mut table = Table::new([
-        Column::numbers("mode"),
-        Column::numbers("nodes"),
-        Column::numbers("within limits"),
-        Column::words("size"),
-        Column::words("aspects"),
-    ]);
-    for mode in report.modes.iter().take(MOST) {
+    let aspects = |mode: &ModeReport| {
         let aspects = report.aspects.iter().filter(|a| a.mode == mode.mode);
         let aspects: Vec<usize> = aspects.map(|aspect| aspect.aspect).collect();
-        let aspects = match aspects[..] {
+        match aspects[..] {
             [] => "none".into(),
             [one] => one.to_string(),
             [first, .., last] => format!("{first} to {last}"),
-        };
-        let size = words::area(report, mode.size);
-        table.row(cells![mode.mode, mode.nodes, mode.within, size, aspects]);
-    }
+        }
+    };
+    let table = Table::of(report.modes.iter().take(MOST))
+        .numbers("mode", |mode| mode.mode)
+        .numbers("nodes", |mode| mode.nodes)
+        .numbers("within limits", |mode| mode.within)
+        .words("size", |mode| words::area(report, mode.size))
+        .words("aspects", aspects);
     let repeated = report.modes.iter().filter(|mode| mode.repeated > 0);
     let repeated = repeated.map(|mode| {
         format!(
-            "mode {} meets itself: going round in the box leads from one configuration to another, \
-             at {}",
+            "mode {} overlaps itself: at {} a way round within the box leads to another configuration",
             mode.mode,
             count(mode.repeated, "node")
         )
@@ -118,56 +118,37 @@ fn more(all: usize) -> String {
 fn aspects(report: &WorkspaceReport) -> Section {
     /// Aspects of fewer nodes are only counted.
     const FEW: usize = 4;
-    let mut table = Table::new([
-        Column::numbers("aspect"),
-        Column::numbers("mode"),
-        Column::numbers("nodes"),
-        Column::words("size"),
-        Column::words("direct"),
-        Column::words("inverse"),
-        Column::numbers("best"),
-        Column::words("at"),
-        Column::numbers("worst"),
-        Column::words("at"),
-    ]);
     let sign = |sign: i8| match sign {
         0 => "",
         1.. => "+",
         _ => "-",
     };
-    let at = |node: &Conditioned| {
-        let values = node.at.iter().zip(&report.axes);
-        let values = values.map(|(x, axis)| quantity(*x, axis.unit.is_angle()));
-        values.collect::<Vec<String>>().join(", ")
+    let at = |node: Option<&Conditioned>| {
+        let values = node?.at.iter().zip(&report.axes);
+        let values = values.map(|(x, axis)| quantity(*x, axis.unit));
+        Some(values.collect::<Vec<String>>().join(", "))
     };
+    let condition = |node: Option<&Conditioned>| node.map(|node| Cell::size(node.condition));
     let (large, small): (Vec<&AspectReport>, Vec<_>) = report
         .aspects
         .iter()
         .partition(|aspect| aspect.nodes >= FEW);
-    for aspect in large.iter().take(MOST) {
-        let best = aspect.best.as_ref();
-        let worst = aspect.worst.as_ref();
-        table.row(cells![
-            aspect.aspect,
-            aspect.mode,
-            aspect.nodes,
-            words::area(report, aspect.size),
-            sign(aspect.direct),
-            sign(aspect.inverse),
-            best.map(|node| Cell::size(node.condition)),
-            best.map(at),
-            worst.map(|node| Cell::size(node.condition)),
-            worst.map(at),
-        ]);
-    }
-    let few = match (small.len(), large.is_empty()) {
-        (0, _) => None,
-        (n, false) => Some(format!(
-            "and {} of fewer than {FEW} nodes",
-            count(n, "aspect")
-        )),
-        (n, true) => Some(format!("{} of fewer than {FEW} nodes", count(n, "aspect"))),
-    };
+    let table = Table::of(large.iter().copied().take(MOST))
+        .numbers("aspect", |aspect| aspect.aspect)
+        .numbers("mode", |aspect| aspect.mode)
+        .numbers("nodes", |aspect| aspect.nodes)
+        .words("size", |aspect| words::area(report, aspect.size))
+        .words("direct", |aspect| sign(aspect.direct))
+        .words("inverse", |aspect| sign(aspect.inverse))
+        .numbers("best", |aspect| condition(aspect.best.as_ref()))
+        .words("at", |aspect| at(aspect.best.as_ref()))
+        .numbers("worst", |aspect| condition(aspect.worst.as_ref()))
+        .words("at", |aspect| at(aspect.worst.as_ref()));
+    let few = (!small.is_empty()).then(|| {
+        let and = if large.is_empty() { "" } else { "and " };
+        let few = count(small.len(), "aspect");
+        format!("{and}{few} of fewer than {FEW} nodes")
+    });
     let section = Section::new(format!("Aspects{}", more(large.len())));
     match report.aspects.is_empty() {
         true => section,
@@ -185,33 +166,20 @@ fn boundary(report: &WorkspaceReport) -> Section {
         }
     }
     kinds.sort();
-    let mut table = Table::new([
-        Column::words("what"),
-        Column::words("does"),
-        Column::numbers("points"),
-        Column::numbers("curves"),
-    ]);
-    for (kind, ends) in kinds {
-        let points = report.points.iter().filter(|point| point.kind == *kind);
-        let curves = report.curves.iter().filter(|curve| curve.kind == *kind);
-        let curves = (report.axes.len() > 1).then(|| curves.count());
-        let does = if ends {
-            "ends modes"
-        } else {
-            "separates aspects"
-        };
-        table.row(cells![words::kind(kind), does, points.count(), curves]);
-    }
+    type Kind<'r> = &'r (&'r BoundaryKind, bool);
+    let points = |(kind, _): Kind| report.points.iter().filter(|p| p.kind == **kind).count();
+    let curves = |(kind, _): Kind| report.curves.iter().filter(|c| c.kind == **kind).count();
+    let table = Table::of(&kinds)
+        .words("what", |(kind, _)| words::kind(kind))
+        .words("does", |(_, ends)| match ends {
+            true => "ends modes",
+            false => "separates aspects",
+        })
+        .numbers("points", points)
+        .numbers("curves", |kind| {
+            (report.axes.len() > 1).then(|| curves(kind))
+        });
     Section::new("Boundary, located to rounding on the edges of the grid").table(table)
-}
-
-fn range(name: &str, from: f64, to: f64, unit: SiUnit, nodes: usize) -> String {
-    let value = |x| quantity(x, unit.is_angle());
-    format!(
-        "{name} from {} to {} in {nodes} nodes",
-        value(from),
-        value(to)
-    )
 }
 
 fn percent(part: f64) -> String {

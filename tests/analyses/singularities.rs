@@ -1137,7 +1137,7 @@ fn legs_of_either_sign_make_one_locus_and_legs_without_length_points() {
     }
     assert_eq!(of(Kind::Inverse, Shape::Curve).count(), 0);
     // rows say so too
-    let csv = output::csv::render(output::singularities::locus_rows(&report));
+    let csv = output::csv::render(report.rows().unwrap());
     let columns: Vec<&str> = csv.lines().next().unwrap().split(',').collect();
     let mut unique = columns.clone();
     unique.sort_unstable();
@@ -1221,7 +1221,7 @@ fn questions_that_make_no_sense_are_told_what_to_ask_instead() {
         ),
         (
             &[rps, "--locus", "l1=1..0.4", "--locus", "l2=0.4..1"],
-            "the box is empty",
+            "the range of `l1` is empty",
         ),
         (
             &[rps, "--locus", "l1=1", "--locus", "l2=0.4..1"],

@@ -1309,7 +1309,7 @@ fn questions_that_make_no_sense_are_told_what_to_ask_instead() {
         ),
         (
             &[four_bar, "--input", "theta1=0..1", "--hold", "theta1=1"],
-            "`theta1` is both moved and held",
+            "`theta1` is given a range and also held",
         ),
         (
             &[four_bar, "--input", "theta1=0..1", "--of", "rigth"],

@@ -754,8 +754,8 @@ fn questions_that_make_no_sense_are_told_what_to_ask_instead() {
             &[hand, "--map", "hand.x=0.2"],
             "write --map hand.x=FROM..TO",
         ),
-        (&[hand, "--map", "hand.x=0.2..0.2"], "the map is empty"),
-        (&[hand, "--map", "hand.x=0.3..0.2"], "the map is empty"),
+        (&[hand, "--map", "hand.x=0.2..0.2"], "the range of `hand.x` is empty"),
+        (&[hand, "--map", "hand.x=0.3..0.2"], "the range of `hand.x` is empty"),
         (&[hand, "--map", "hand.q=0..1"], "did you mean"),
         (
             &[
@@ -769,7 +769,7 @@ fn questions_that_make_no_sense_are_told_what_to_ask_instead() {
         ),
         (
             &[hand, x[0], x[1], "--hold", "hand.x=0"],
-            "both mapped and held",
+            "given a range and also held",
         ),
         (
             &[

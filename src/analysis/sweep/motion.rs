@@ -16,10 +16,12 @@ pub struct MotionsReport {
 }
 
 /// A motion with its mode and the rows that are kept.
-#[derive(Clone, Debug, PartialEq, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct MotionReport {
     /// The number of the mode, if it was asked for.
     pub mode: Option<usize>,
+    /// How it ended, in words; the output fills it in.
+    pub sentence: String,
     /// What it came to.
     #[serde(flatten)]
     pub sweep: SweepReport,

@@ -1,134 +1,133 @@
 //! Words for questions that cannot be put, with the options that would put them right.
 
 use linkwork::algebra::Expression;
-use linkwork::description::{ProblemKind, Scope, listed, nearest};
+use linkwork::description::{ProblemKind, Scope, listed};
 use linkwork::mechanism::Mechanism;
 use linkwork::output::complaint::{Complaint, Part};
-use linkwork::system::{Demand, DriveError, QuestionError, ValueError};
+use linkwork::system::{Demand, DriveError, ForceError, QuestionError, ValueError};
+
+use super::meant;
 
 /// What is wrong with a question, and with which part of the option that asked it, if one did.
 pub fn complaint(error: &QuestionError) -> Complaint {
-    let title = error.title();
+    let said = Complaint::new(error.title());
     match error {
-        QuestionError::UnknownName { suggestion, .. } => {
-            let help = match suggestion {
-                Some(meant) => format!("did you mean `{meant}`?"),
-                None => "a coordinate is a joint, `platform.x`, `.y`, `.z`, `.roll`, `.pitch` or \
-                         `.yaw`, or a whole platform"
-                    .into(),
-            };
-            Complaint::new(title, "not known", Some(help))
-        }
-        QuestionError::NotAJoint { .. } => {
-            let help = "a platform is free unless it is held with --hold".to_owned();
-            Complaint::new(title, "not a joint", Some(help))
-        }
+        QuestionError::UnknownName { suggestion, .. } => said.label("not known").help(match suggestion {
+            Some(meant) => format!("did you mean `{meant}`?"),
+            None => "a coordinate is a joint, `platform.x`, `.y`, `.z`, `.roll`, `.pitch` or \
+                     `.yaw`, or a whole platform"
+                .into(),
+        }),
+        QuestionError::NotAJoint { .. } => said
+            .label("not a joint")
+            .help("a platform is free unless it is held with --hold"),
         QuestionError::Value { text, error, .. } => value(text, error),
         QuestionError::Contradiction { first, second } => {
             let [first, second] = [first, second].map(option);
-            let title = format!("{first} and {second} contradict one another");
-            let help = Some("give only one of them".to_owned());
-            Complaint::new(title, "", help)
+            Complaint::new(format!("{first} and {second} contradict one another"))
+                .help("give only one of them")
         }
-        QuestionError::TooMany { mobility, free, .. } => {
-            let rest = match mobility {
-                0 => "; it is a structure, which nothing can move",
-                _ => "",
-            };
-            Complaint::new(title, "", Some(release(free) + rest))
-        }
-        QuestionError::TooFew { hold, .. } => {
-            let help = format!(
-                "hold {} too, e.g. {}",
-                listed(hold),
-                options("--hold", hold, "=home")
-            );
-            Complaint::new(title, "", Some(help))
-        }
-        QuestionError::AnglesLocked { platform } => {
-            let help = format!(
-                "hold joints instead of `{platform}`, or describe `{platform}` by a frame that is turned"
-            );
-            Complaint::new(title, "", Some(help))
-        }
-        QuestionError::Dependent { free, hold } => {
-            let help = format!(
-                "{}; then hold {}, e.g. {}",
-                release(free),
-                listed(hold),
-                options("--hold", hold, "=home")
-            );
-            Complaint::new(title, "", Some(help))
-        }
+        QuestionError::TooMany { mobility, free, .. } => said.help(match mobility {
+            0 => release(free) + "; it is a structure, which nothing can move",
+            _ => release(free),
+        }),
+        QuestionError::TooFew { hold, .. } => said.help(format!(
+            "hold {} too, e.g. {}",
+            listed(hold),
+            options("--hold", hold, "=home")
+        )),
+        QuestionError::AnglesLocked { platform } => said.help(format!(
+            "hold joints instead of `{platform}`, or describe `{platform}` by a frame that is turned"
+        )),
+        QuestionError::Dependent { free, hold } => said.help(format!(
+            "{}; then hold {}, e.g. {}",
+            release(free),
+            listed(hold),
+            options("--hold", hold, "=home")
+        )),
     }
 }
 
 /// What is wrong with a rate, an acceleration or a force that an option gives.
 pub fn driven_complaint(error: &DriveError, option: &str) -> Complaint {
+    let said = |label| Complaint::new(error.title()).label(label);
+    let held_at = |held: &[String]| options(option, held, "=0.1");
     match error {
         DriveError::Question(error) => complaint(error),
         DriveError::UnknownName {
-            name,
-            suggestion,
-            held,
-        } => {
-            let title = QuestionError::UnknownName {
-                name: name.clone(),
-                suggestion: None,
-            };
-            let help = match (suggestion, held.is_empty()) {
-                (Some(meant), _) => format!("did you mean `{meant}`?"),
-                (None, false) => format!("drive what is held: {}", options(option, held, "=0.1")),
-                (None, true) => "hold a joint with --hold, and give the rate of that".into(),
-            };
-            Complaint::new(title.title(), "not known", Some(help))
-        }
-        DriveError::Whole { platform, held } => {
-            let title =
-                format!("`{platform}` is a whole platform, and a single coordinate has a rate");
-            let help = match held.is_empty() {
-                true => format!(
-                    "hold it, and give rates of its coordinates: {} {option} {}",
-                    instead(platform),
-                    quoted(&format!("{platform}.z=0.1")),
-                ),
-                false => format!("give {}", options(option, held, "=0.1")),
-            };
-            Complaint::new(title, "a platform", Some(help))
-        }
+            suggestion, held, ..
+        } => said("not known").help(match (suggestion, held.is_empty()) {
+            (Some(meant), _) => format!("did you mean `{meant}`?"),
+            (None, false) => format!("drive what is held: {}", held_at(held)),
+            (None, true) => "hold a joint with --hold, and give the rate of that".into(),
+        }),
+        DriveError::Whole { platform, held } => said("a platform").help(match held.is_empty() {
+            true => format!(
+                "hold it, and give rates of its coordinates: {} {option} {}",
+                instead(platform),
+                quoted(&format!("{platform}.z=0.1")),
+            ),
+            false => format!("give {}", held_at(held)),
+        }),
         DriveError::NotTurned { platform } => {
-            let title = format!(
-                "`{platform}` turns about given axes only where its whole orientation is held"
-            );
-            let help = format!("hold it: {}", instead(platform));
-            Complaint::new(title, "not held", Some(help))
+            said("not held").help(format!("hold it: {}", instead(platform)))
         }
-        DriveError::Mixed { platform } => {
-            let title = format!(
-                "how `{platform}` turns is given both by its angles and about the axes of ground"
-            );
-            let help = format!(
-                "give either roll, pitch and yaw, or {platform}.wx, {platform}.wy and {platform}.wz"
-            );
-            Complaint::new(title, "given twice", Some(help))
+        DriveError::Mixed { platform } => said("given twice").help(format!(
+            "give either roll, pitch and yaw, or {platform}.wx, {platform}.wy and {platform}.wz"
+        )),
+        DriveError::Structure => said("")
+            .help("`linkwork mobility` says why, `linkwork statics` what forces it carries"),
+        DriveError::NotHeld { name, held } => said("not held").help(match held.is_empty() {
+            true => format!("hold it: --hold {name}=home"),
+            false => format!(
+                "give rates of what is held, e.g. {}; or hold `{name}` in place of one of them, e.g. \
+                 --free {} --hold {name}=home",
+                held_at(held),
+                held[0]
+            ),
+        }),
+    }
+}
+
+/// What is wrong with a load.
+pub fn load_complaint(mechanism: &Mechanism, error: &ForceError, option: &str) -> Complaint {
+    let said = |label| Complaint::new(error.title()).label(label);
+    match error {
+        ForceError::Value(error) => {
+            let said = driven_complaint(error, option);
+            // of several components the wrong one is not known here
+            match said.part {
+                Part::Value(_) if option == "--wrench" => said.at(Part::WholeValue),
+                _ => said,
+            }
         }
-        DriveError::Structure => {
-            let title = "nothing can be driven: the mechanism is a structure, without a freedom";
-            let help = "`linkwork mobility` says why, `linkwork statics` what forces it carries";
-            Complaint::new(title.into(), "", Some(help.into()))
-        }
-        DriveError::NotHeld { name, held } => {
-            let title = format!("`{name}` is not held here, so its rate follows from the others");
-            let help = match held.is_empty() {
-                true => format!("hold it: --hold {name}=home"),
-                false => format!(
-                    "give rates of what is held, e.g. {}; or hold `{name}` in place of one of \
-                     them, e.g. --free {} --hold {name}=home",
-                    options(option, held, "=0.1"),
-                    held[0]
-                ),
-            };
-            Complaint::new(title, "not held", Some(help))
+        ForceError::UnknownFrame { name } => unknown_frame(mechanism, name),
+        ForceError::OnGround { instead, .. } => said("on the ground").help(format!(
+            "load a body that moves, such as {}",
+            listed(instead)
+        )),
+        ForceError::Components { .. } => said("")
+            .help("write Fx,Fy,Fz in N, or Fx,Fy,Fz,Mx,My,Mz with N·m")
+            .at(Part::WholeValue),
+        ForceError::UnknownJoint {
+            suggestion, known, ..
+        } => said("not known").help(match (suggestion, known.is_empty()) {
+            (Some(meant), _) => format!("did you mean `{meant}`?"),
+            (None, false) => format!("the joints are {}", listed(known)),
+            (None, true) => "there are no joints: load a frame with --wrench".into(),
+        }),
+        ForceError::Platform {
+            platform,
+            component,
+            ..
+        } => {
+            let mut example = ["0"; 6];
+            example[component.unwrap_or(2)] = "1";
+            let given = if *component >= Some(3) { 6 } else { 3 };
+            said("not a joint").help(format!(
+                "give force and moment on it in ground, e.g. --wrench {platform}={}",
+                example[..given].join(",")
+            ))
         }
     }
 }
@@ -137,22 +136,10 @@ pub fn driven_complaint(error: &DriveError, option: &str) -> Complaint {
 pub fn unknown_frame(mechanism: &Mechanism, name: &str) -> Complaint {
     let frames = mechanism.frames().into_iter();
     let known: Vec<String> = frames.map(|frame| mechanism.frame_name(frame)).collect();
-    let help = match nearest(name, known.iter().map(String::as_str)) {
-        Some(meant) => format!("did you mean `{meant}`?"),
-        None => format!("the frames are {}", listed(&known)),
-    };
-    let title = format!("`{name}` is not a frame");
-    Complaint::new(title, "not known", Some(help))
-}
-
-/// What is wrong with a frame that stands still, where its motion is asked for.
-pub fn motionless_frame(name: &str) -> Complaint {
-    let title = match name {
-        "ground" => "ground does not move".into(),
-        name => format!("`{name}` stands on ground and does not move"),
-    };
-    let help = "follow a frame of a link or of a platform, e.g. the tip of a chain by its name";
-    Complaint::new(title, "stands still", Some(help.into()))
+    let said = Complaint::new(format!("`{name}` is not a frame")).label("not known");
+    said.help(meant(name, &known, || {
+        format!("the frames are {}", listed(&known))
+    }))
 }
 
 /// The options that hold a platform and nothing else.
@@ -189,7 +176,7 @@ fn option(demand: &Demand) -> String {
 }
 
 /// `--free l1 --free l2`
-fn options(option: &str, names: &[String], value: &str) -> String {
+pub fn options(option: &str, names: &[String], value: &str) -> String {
     let options = names
         .iter()
         .map(|name| format!("{option} {}", quoted(&format!("{name}{value}"))));
@@ -205,47 +192,41 @@ pub fn quoted(word: &str) -> String {
     }
 }
 
+/// What is wrong with a value.
 pub fn value(text: &str, error: &ValueError) -> Complaint {
     // a value that is one expression tells where it is wrong
     let parsed = Expression::parse(text);
-    let (kind, part) = match error {
+    let whole = |kind: ProblemKind| Complaint::kind(&kind).at(Part::WholeValue);
+    match error {
         ValueError::Parse(kind) => {
-            let part = match &parsed {
-                Err(error) if error.kind == *kind => Part::Value(error.span.clone()),
-                _ => Part::WholeValue,
-            };
-            (ProblemKind::Expression(kind.clone()), part)
+            let said = whole(ProblemKind::Expression(kind.clone()));
+            match &parsed {
+                Err(error) if error.kind == *kind => said.at(Part::Value(error.span.clone())),
+                _ => said,
+            }
         }
         ValueError::UnknownName { name, suggestion } => {
-            let place = parsed.as_ref().ok().and_then(|expression| {
-                let mut names = expression.names();
-                names.find(|(found, _)| *found == name)
-            });
-            let part = place.map_or(Part::WholeValue, |(_, span)| Part::Value(span.clone()));
-            let kind = ProblemKind::UnknownName {
+            let said = whole(ProblemKind::UnknownName {
                 name: name.clone(),
                 suggestion: suggestion.clone(),
                 scope: Scope::Parameters,
+            });
+            // nothing can be declared in an option
+            let said = match suggestion {
+                Some(_) => said,
+                None => said.help("a value may use the parameters of the file"),
             };
-            (kind, part)
+            let names = parsed.iter().flat_map(Expression::names);
+            match names.into_iter().find(|(found, _)| *found == name) {
+                Some((_, span)) => said.at(Part::Value(span.clone())),
+                None => said,
+            }
         }
-        ValueError::NoValue(kind) => (ProblemKind::NoValue(*kind), Part::WholeValue),
-        ValueError::Unit(kind) => (ProblemKind::Unit(*kind), Part::WholeValue),
-        ValueError::NotANumber => {
-            return Complaint::new(error.to_string(), "", None).at(Part::WholeValue);
-        }
-        ValueError::NotAPose { .. } => {
-            let title = error.to_string();
-            let help = "a pose is a list such as [Tz(0.5), Rx(10 deg)], or home".to_owned();
-            return Complaint::new(title, "", Some(help)).at(Part::WholeValue);
-        }
-    };
-    let help = match &kind {
-        // nothing can be declared in an option
-        ProblemKind::UnknownName {
-            suggestion: None, ..
-        } => Some("a value may use the parameters of the file".into()),
-        kind => kind.help(),
-    };
-    Complaint::new(kind.title(), &kind.label(), help).at(part)
+        ValueError::NoValue(kind) => whole(ProblemKind::NoValue(*kind)),
+        ValueError::Unit(kind) => whole(ProblemKind::Unit(*kind)),
+        ValueError::NotANumber => Complaint::new(error.to_string()).at(Part::WholeValue),
+        ValueError::NotAPose { .. } => Complaint::new(error.to_string())
+            .help("a pose is a list such as [Tz(0.5), Rx(10 deg)], or home")
+            .at(Part::WholeValue),
+    }
 }

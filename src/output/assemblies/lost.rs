@@ -1,10 +1,12 @@
 //! Why a mode was not followed, as a document.
 
 use super::tables::times;
+use crate::algebra::SiUnit;
 use crate::analysis::assemblies::{Fold, LostMode, LostReason};
 use crate::mechanism::{PoseCoordinate, Variable};
-use crate::output::document::{Document, Report, Section};
-use crate::output::quantity::{number, quantity};
+use crate::output::document::{Document, Section};
+use crate::output::quantity::{at, number, values};
+use crate::output::report::Report;
 
 impl Report for LostMode {
     fn document(&self) -> Document {
@@ -12,15 +14,16 @@ impl Report for LostMode {
         let (LostReason::Ceases(fold) | LostReason::MeetsOthers(fold)) = &self.reason else {
             return document;
         };
-        let inputs = (fold.inputs.0.iter())
-            .map(|(name, value)| format!("{name} = {}", input(&self.variables, name, *value)));
-        let joints = fold.joints.0.iter().zip(&self.variables);
-        let joints = joints.map(|((name, value), joint)| {
-            format!("{name} = {}", quantity(*value, joint.unit.is_angle()))
-        });
+        let inputs = fold.inputs.0.iter();
+        let inputs = inputs.map(|(name, value)| at(name, *value, unit(&self.variables, name)));
+        let joints = values(&self.variables, fold.joints.values());
         document
             .section(Section::new("Inputs there").list(inputs))
             .section(Section::new("Joints there").list(joints))
+    }
+
+    fn is_yes(&self) -> bool {
+        false
     }
 }
 
@@ -51,13 +54,11 @@ fn sentence(lost: &LostMode) -> String {
     }
 }
 
-/// An input with its unit: joints and platform coordinates by name, parts of quaternions without.
-fn input(variables: &[Variable], name: &str, value: f64) -> String {
-    if let Some(joint) = variables.iter().find(|joint| joint.name == name) {
-        return quantity(value, joint.unit.is_angle());
-    }
-    let coordinate = name
-        .rsplit_once('.')
-        .and_then(|(_, c)| PoseCoordinate::from_word(c));
-    coordinate.map_or(number(value), |c| quantity(value, c.is_angle()))
+/// The unit of a joint or a platform coordinate; parts of quaternions have none.
+fn unit(variables: &[Variable], name: &str) -> SiUnit {
+    let joint = variables.iter().find(|joint| joint.name == name);
+    let coordinate = || PoseCoordinate::from_word(name.rsplit_once('.')?.1);
+    let unit = joint.map(|joint| joint.unit);
+    let unit = unit.or_else(|| Some(SiUnit::of_coordinate(coordinate()?.is_angle())));
+    unit.unwrap_or(SiUnit::ONE)
 }

@@ -2,7 +2,8 @@
 
 use serde::{Deserialize, Serialize};
 
-use crate::output::quantity::{coarse, degrees, number, short, size};
+use crate::algebra::SiUnit;
+use crate::output::quantity::{coarse, number, short, shown, size, with_unit};
 
 /// What stands in a cell of a table.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
@@ -19,19 +20,19 @@ pub enum Cell {
     Number {
         /// The value, in SI units and rad.
         value: f64,
-        /// Its unit: `rad`, `m`, `N`, `rad/s` …; empty if it has none or its column says it.
-        unit: String,
+        /// Its unit; [`SiUnit::ONE`] if it has none or its column says it.
+        unit: SiUnit,
         /// How much of it is shown.
         digits: Digits,
-        /// A sign behind it that refers to a remark; may be empty.
-        mark: String,
+        /// Whether a `*` behind it refers to a remark.
+        starred: bool,
     },
     /// A point or direction.
     Vector {
         /// Its components.
         components: Vec<f64>,
-        /// The unit of all of them; may be empty.
-        unit: String,
+        /// The unit of all of them.
+        unit: SiUnit,
         /// How much of them is shown.
         digits: Digits,
     },
@@ -65,45 +66,46 @@ impl Digits {
 }
 
 impl Cell {
-    /// A number without a unit, or with that of its column. One that is infinite or not known is
+    /// A number with its unit. Angles, which are given in rad, are shown in degrees; what is infinite or not known is
     /// said in words.
-    pub fn number(value: f64) -> Self {
-        Cell::quantity(value, "")
+    pub fn quantity(value: f64, unit: SiUnit) -> Self {
+        Cell::Number {
+            value,
+            unit,
+            digits: Digits::Six,
+            starred: false,
+        }
     }
 
-    /// A number with its unit. Angles, which are given in `rad`, are shown in degrees.
-    pub fn quantity(value: f64, unit: impl ToString) -> Self {
-        match value {
-            _ if value.is_nan() => Cell::Text("not known".into()),
-            _ if value.is_infinite() => Cell::Text("infinite".into()),
-            _ => Cell::Number {
-                value,
-                unit: unit.to_string(),
-                digits: Digits::Six,
-                mark: String::new(),
-            },
-        }
+    /// A length.
+    pub fn metres(length: f64) -> Self {
+        Cell::quantity(length, SiUnit::METRE)
+    }
+
+    /// An angle in rad.
+    pub fn radians(angle: f64) -> Self {
+        Cell::quantity(angle, SiUnit::RADIAN)
     }
 
     /// A number whose size alone matters, such as a condition number.
     pub fn size(value: f64) -> Self {
-        Cell::number(value).with(Digits::Two)
+        Cell::from(value).with(Digits::Two)
     }
 
     /// A point or direction, with four decimals.
     pub fn vector(components: impl IntoIterator<Item = f64>) -> Self {
         Cell::Vector {
             components: components.into_iter().collect(),
-            unit: String::new(),
+            unit: SiUnit::ONE,
             digits: Digits::Four,
         }
     }
 
     /// With a unit.
     #[must_use]
-    pub fn in_unit(mut self, wanted: impl ToString) -> Self {
+    pub fn in_unit(mut self, wanted: SiUnit) -> Self {
         if let Cell::Number { unit, .. } | Cell::Vector { unit, .. } = &mut self {
-            *unit = wanted.to_string();
+            *unit = wanted;
         }
         self
     }
@@ -117,11 +119,11 @@ impl Cell {
         self
     }
 
-    /// With a sign behind it.
+    /// With a `*` behind it.
     #[must_use]
-    pub fn marked(mut self, sign: &str) -> Self {
-        if let Cell::Number { mark, .. } = &mut self {
-            *mark = sign.into();
+    pub fn starred(mut self, wanted: bool) -> Self {
+        if let Cell::Number { starred, .. } = &mut self {
+            *starred = wanted;
         }
         self
     }
@@ -132,71 +134,51 @@ impl Cell {
             Cell::Empty => String::new(),
             Cell::Text(text) => text.clone(),
             Cell::Count(count) => count.to_string(),
+            Cell::Number { value, .. } if value.is_nan() => "not known".into(),
+            Cell::Number { value, .. } if value.is_infinite() => "infinite".into(),
             Cell::Number {
                 value,
                 unit,
                 digits,
-                mark,
-            } => match unit.as_str() {
-                "rad" if *digits == Digits::Six => degrees(*value) + mark,
-                "rad" => format!("{}°{mark}", digits.of(value.to_degrees())),
-                "" => digits.of(*value) + mark,
-                unit => format!("{}{mark} {unit}", digits.of(*value)),
-            },
+                starred,
+            } => {
+                let star = if *starred { "*" } else { "" };
+                with_unit(&(digits.of(shown(*value, *unit)) + star), *unit)
+            }
             Cell::Vector {
                 components,
                 unit,
                 digits,
             } => {
-                let components = components.iter().map(|&x| digits.of(x));
-                let components = components.collect::<Vec<_>>().join(", ");
-                let space = if unit.is_empty() { "" } else { " " };
-                format!("({components}){space}{unit}")
+                let components: Vec<String> = components.iter().map(|&x| digits.of(x)).collect();
+                with_unit(&format!("({})", components.join(", ")), *unit)
             }
         }
     }
 }
 
-impl From<&str> for Cell {
-    fn from(text: &str) -> Self {
-        match text {
-            "" => Cell::Empty,
-            text => Cell::Text(text.into()),
+/// What each type becomes as a cell.
+macro_rules! cell_from {
+    ($($type:ty: $cell:expr;)*) => {$(
+        impl From<$type> for Cell {
+            fn from(value: $type) -> Self {
+                $cell(value)
+            }
         }
-    }
+    )*};
 }
 
-impl From<String> for Cell {
-    fn from(text: String) -> Self {
-        match text.is_empty() {
-            true => Cell::Empty,
-            false => Cell::Text(text),
-        }
-    }
-}
-
-impl From<&String> for Cell {
-    fn from(text: &String) -> Self {
-        text.as_str().into()
-    }
-}
-
-impl From<f64> for Cell {
-    fn from(value: f64) -> Self {
-        Cell::number(value)
-    }
-}
-
-impl From<usize> for Cell {
-    fn from(count: usize) -> Self {
-        Cell::Count(i64::try_from(count).unwrap_or(i64::MAX))
-    }
-}
-
-impl From<[f64; 3]> for Cell {
-    fn from(components: [f64; 3]) -> Self {
-        Cell::vector(components)
-    }
+cell_from! {
+    f64: |value| Cell::quantity(value, SiUnit::ONE);
+    i64: Cell::Count;
+    usize: |count| Cell::Count(i64::try_from(count).unwrap_or(i64::MAX));
+    bool: |value: bool| Cell::Text(value.to_string());
+    &str: |text: &str| Cell::from(text.to_owned());
+    &String: |text: &String| Cell::from(text.clone());
+    String: |text: String| match text.is_empty() {
+        true => Cell::Empty,
+        false => Cell::Text(text),
+    };
 }
 
 impl<T: Into<Cell>> From<Option<T>> for Cell {
@@ -212,9 +194,15 @@ mod tests {
     #[test]
     fn cells_are_shown_with_their_units() {
         let angle = std::f64::consts::FRAC_PI_3;
-        assert_eq!(Cell::quantity(angle, "rad").shown(), "60°");
-        assert_eq!(Cell::quantity(0.25, "rad/s").shown(), "0.25 rad/s");
-        assert_eq!(Cell::quantity(2.0, "N").marked("*").shown(), "2* N");
+        assert_eq!(Cell::quantity(angle, SiUnit::RADIAN).shown(), "60°");
+        assert_eq!(
+            Cell::quantity(0.25, SiUnit::RADIAN.per_second()).shown(),
+            "0.25 rad/s"
+        );
+        assert_eq!(
+            Cell::quantity(2.0, SiUnit::NEWTON).starred(true).shown(),
+            "2* N"
+        );
         assert_eq!(Cell::size(1e9).shown(), "1.0e9");
         assert_eq!(Cell::size(f64::INFINITY).shown(), "infinite");
         assert_eq!(

@@ -2,7 +2,7 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use super::notes;
+use super::{notes, one_line, rows};
 use crate::algebra::{Constant, Expression, Function, Node, Operator};
 use crate::analysis::formulas::{ClosureFormula, FormulasReport, Letter, Meaning};
 
@@ -21,10 +21,7 @@ pub fn rust(report: &FormulasReport) -> String {
         .for_each(|note| text += &format!("// {}\n", one_line(note)));
     for transform in report.links.iter().chain(&report.transforms) {
         let (of, relative_to) = (&transform.of, &transform.relative_to);
-        let rows = transform.rotation.iter().zip(&transform.position);
-        let rows = rows
-            .map(|([n, s, a], p)| vec![n, s, a, p])
-            .collect::<Vec<_>>();
+        let rows = rows(transform).map(|row| row.to_vec());
         text += &writer.function(
             &format!("{of}_in_{relative_to}"),
             &format!("{of} in {relative_to}: rows of [R | p]."),
@@ -53,12 +50,6 @@ pub fn rust(report: &FormulasReport) -> String {
         );
     }
     text
-}
-
-fn one_line(text: &str) -> String {
-    text.chars()
-        .map(|c| if c.is_control() { ' ' } else { c })
-        .collect()
 }
 
 /// Letters as identifiers: of ASCII letters and digits, none twice, none a keyword or a name the functions use.
@@ -116,6 +107,11 @@ fn identifier(name: &str) -> String {
     }
 }
 
+/// With spaces around × and ÷, which formulas do without.
+fn spaced(code: &str) -> String {
+    code.replace('*', " * ").replace('/', " / ")
+}
+
 struct Writer {
     arguments: BTreeMap<String, (String, Meaning)>,
     functions: BTreeSet<String>,
@@ -149,8 +145,10 @@ impl Writer {
         let rows: Vec<String> = rows
             .iter()
             .map(|row| {
-                let entries: Vec<String> =
-                    row.iter().map(|e| self.code(e, &mut angles).0).collect();
+                let entries: Vec<String> = row
+                    .iter()
+                    .map(|e| spaced(&self.code(e, &mut angles)))
+                    .collect();
                 format!(
                     "        [\n            {},\n        ],\n",
                     entries.join(",\n            ")
@@ -161,6 +159,7 @@ impl Writer {
         numbered.sort_by_key(|(_, (number, ..))| *number);
         let lets: String = numbered
             .into_iter()
+            .map(|(angle, of)| (spaced(angle), of))
             .map(|(angle, (k, sin, cos))| match (sin, cos) {
                 (true, true) => format!("    let (sin_{k}, cos_{k}) = f64::sin_cos({angle});\n"),
                 (true, false) => format!("    let sin_{k} = f64::sin({angle});\n"),
@@ -209,78 +208,59 @@ impl Writer {
         }
     }
 
-    /// The code of an expression, and whether it is an operand (0), a product (1) or a sum (2).
-    fn code(&self, expression: &Expression, angles: &mut Angles) -> (String, u8) {
-        match &expression.node {
-            Node::Number(value) => (format!("{value:?}_f64"), u8::from(*value < 0.0)),
-            Node::Quantity(value, unit) => (format!("{:?}_f64", unit.to_si(*value)), 0),
-            Node::Constant(Constant::Pi) => ("std::f64::consts::PI".into(), 0),
-            Node::Constant(other) => (format!("{:?}_f64", other.over::<f64>()), 0),
-            Node::Name(name) => {
-                let known = self.arguments.get(name);
-                (
-                    known.map_or_else(|| identifier(name), |(argument, _)| argument.clone()),
-                    0,
-                )
+    fn code(&self, expression: &Expression, angles: &mut Angles) -> String {
+        self.coded(expression, angles).to_string()
+    }
+
+    /// The expression with names in place of all that Rust writes its own way: numbers, powers, functions. What is left
+    /// of it is written alike.
+    fn coded(&self, expression: &Expression, angles: &mut Angles) -> Expression {
+        let mut coded = |x: &Expression| Box::new(self.coded(x, angles));
+        let node = match &expression.node {
+            Node::Negate(x) => Node::Negate(coded(x)),
+            Node::Binary(operator, x, y) if *operator != Operator::Power => {
+                Node::Binary(*operator, coded(x), coded(y))
             }
-            Node::Negate(x) => (format!("-{}", self.part(x, 1, angles)), 1),
-            Node::Binary(operator, x, y) => match operator {
-                Operator::Add => (
-                    format!("{} + {}", self.part(x, 2, angles), self.part(y, 1, angles)),
-                    2,
-                ),
-                Operator::Subtract => (
-                    format!("{} - {}", self.part(x, 2, angles), self.part(y, 1, angles)),
-                    2,
-                ),
-                Operator::Multiply => (
-                    format!("{} * {}", self.part(x, 1, angles), self.part(y, 0, angles)),
-                    1,
-                ),
-                Operator::Divide => (
-                    format!("{} / {}", self.part(x, 1, angles), self.part(y, 0, angles)),
-                    1,
-                ),
-                Operator::Power => {
-                    let base = self.code(x, angles).0;
-                    let whole = y.as_number().filter(|n| n.fract() == 0.0 && n.abs() < 1e6);
-                    match whole {
-                        Some(n) => (format!("f64::powi({base}, {n})"), 0),
-                        None => (format!("f64::powf({base}, {})", self.code(y, angles).0), 0),
-                    }
-                }
-            },
-            Node::Call(function @ (Function::Sin | Function::Cos), arguments) => {
-                let angle = self.code(&arguments[0], angles).0;
-                let next = angles.len() + 1;
-                let (number, sin, cos) = angles.entry(angle).or_insert((next, false, false));
-                match function {
-                    Function::Sin => {
-                        *sin = true;
-                        (format!("sin_{number}"), 0)
-                    }
-                    _ => {
-                        *cos = true;
-                        (format!("cos_{number}"), 0)
-                    }
-                }
-            }
-            Node::Call(function, arguments) => {
-                let arguments: Vec<String> =
-                    arguments.iter().map(|x| self.code(x, angles).0).collect();
-                (
-                    format!("f64::{}({})", function.word(), arguments.join(", ")),
-                    0,
-                )
-            }
+            node => Node::Name(self.named(node, angles)),
+        };
+        Expression {
+            node,
+            ..expression.clone()
         }
     }
 
-    fn part(&self, expression: &Expression, loosest: u8, angles: &mut Angles) -> String {
-        let (code, looseness) = self.code(expression, angles);
-        match looseness <= loosest {
-            true => code,
-            false => format!("({code})"),
+    fn named(&self, node: &Node<String>, angles: &mut Angles) -> String {
+        match node {
+            Node::Number(value) => format!("{value:?}_f64"),
+            Node::Quantity(value, unit) => format!("{:?}_f64", unit.to_si(*value)),
+            Node::Constant(Constant::Pi) => "std::f64::consts::PI".into(),
+            Node::Constant(other) => format!("{:?}_f64", other.over::<f64>()),
+            Node::Name(name) => match self.arguments.get(name) {
+                Some((argument, _)) => argument.clone(),
+                None => identifier(name),
+            },
+            Node::Call(function @ (Function::Sin | Function::Cos), arguments) => {
+                let angle = self.code(&arguments[0], angles);
+                let next = angles.len() + 1;
+                let (number, sin, cos) = angles.entry(angle).or_insert((next, false, false));
+                *sin |= *function == Function::Sin;
+                *cos |= *function == Function::Cos;
+                format!("{}_{number}", function.word())
+            }
+            Node::Call(function, arguments) => {
+                let arguments = arguments.iter().map(|x| self.code(x, angles));
+                let arguments: Vec<String> = arguments.collect();
+                format!("f64::{}({})", function.word(), arguments.join(", "))
+            }
+            Node::Binary(_, x, y) => {
+                let base = self.code(x, angles);
+                let whole = y.as_number().filter(|n| n.fract() == 0.0 && n.abs() < 1e6);
+                match whole {
+                    Some(n) => format!("f64::powi({base}, {n})"),
+                    None => format!("f64::powf({base}, {})", self.code(y, angles)),
+                }
+            }
+            Node::Negate(x) => format!("-({})", self.code(x, angles)),
         }
     }
 }

@@ -1,14 +1,15 @@
 //! Formulas as LaTeX: displayed equations, each of which stands alone.
 
 use super::notation::upright;
-use super::{Notation, Script, notes};
-use crate::algebra::Expression;
+use super::{Notation, Script, jacobian_rows, notes, one_line, printed_rows};
 use crate::analysis::formulas::{
     ClosureFormula, FormulasReport, JacobianFormula, TransformFormula,
 };
 
 /// Matrices with longer rows are set entry by entry.
 const WIDEST: usize = 240;
+
+const AXES: [&str; 3] = ["x", "y", "z"];
 
 /// The report as displayed equations `\[…\]` that need amsmath (or KaTeX, or MathJax); what stands between them are comments.
 pub fn latex(report: &FormulasReport) -> String {
@@ -36,51 +37,56 @@ pub fn latex(report: &FormulasReport) -> String {
     text
 }
 
-/// What follows a % to the end of a line; a name may hold anything.
 fn comment(text: &str) -> String {
-    let one_line: String = text
-        .chars()
-        .map(|c| if c.is_control() { ' ' } else { c })
-        .collect();
-    format!("% {one_line}\n")
+    format!("% {}\n", one_line(text))
 }
 
 fn display(body: String) -> String {
     format!("\\[\n{body}\n\\]\n")
 }
 
-fn transform_of(notation: &Notation, transform: &TransformFormula) -> String {
-    let TransformFormula {
-        of,
-        relative_to,
-        rotation,
-        position,
-    } = transform;
-    let name = format!("{{}}^{{{}}}_{{{}}}T", upright(relative_to), upright(of));
-    let rows: Vec<Vec<String>> = (rotation.iter().zip(position))
-        .map(|(row, p)| row.iter().chain([p]).map(|e| notation.print(e)).collect())
-        .collect();
-    if rows
-        .iter()
-        .any(|row| row.iter().map(String::len).sum::<usize>() > WIDEST)
-    {
-        let names = ["r_{#1}", "r_{#2}", "r_{#3}", "p_{@}"];
-        let mut lines = Vec::new();
-        for (column, name) in names.into_iter().enumerate() {
-            for (row, cells) in rows.iter().enumerate() {
-                let axis = ["x", "y", "z"][row];
-                let name = name.replace('#', &(row + 1).to_string()).replace('@', axis);
-                lines.push(format!("{name} &= {}", cells[column]));
-            }
-        }
-        let aligned = lines.join(" \\\\\n");
-        return format!("{name}: \\quad \\begin{{aligned}}\n{aligned}\n\\end{{aligned}}");
+/// `{}^{ground}_{arm}T`
+fn named(letter: &str, of: &str, relative_to: &str) -> String {
+    let [of, relative_to] = [of, relative_to].map(upright);
+    match letter {
+        "T" => format!("{{}}^{{{relative_to}}}_{{{of}}}T"),
+        letter => format!("{{}}^{{{relative_to}}}{letter}_{{{of}}}"),
     }
-    let rows = rows.iter().map(|row| row.join(" & ")).collect::<Vec<_>>();
-    format!(
-        "{name} = \\left[\\begin{{array}}{{ccc|c}}\n{} \\\\\n0 & 0 & 0 & 1\n\\end{{array}}\\right]",
-        rows.join(" \\\\\n")
-    )
+}
+
+fn aligned(lines: &[String]) -> String {
+    let lines = lines.join(" \\\\\n");
+    format!("\\begin{{aligned}}\n{lines}\n\\end{{aligned}}")
+}
+
+/// A matrix, or each of its entries where it is too wide: these have names by row and column.
+fn matrix(
+    name: String,
+    columns: &str,
+    rows: &[Vec<String>],
+    last: &str,
+    entry: impl Fn(usize, usize) -> String,
+) -> String {
+    let is_wide = |row: &Vec<String>| row.iter().map(String::len).sum::<usize>() > WIDEST;
+    if rows.iter().any(is_wide) {
+        let places = (0..rows[0].len()).flat_map(|j| (0..rows.len()).map(move |i| (i, j)));
+        let lines = places.map(|(i, j)| format!("{} &= {}", entry(i, j), rows[i][j]));
+        let lines: Vec<String> = lines.collect();
+        return format!("{name}: \\quad {}", aligned(&lines));
+    }
+    let rows: Vec<String> = rows.iter().map(|row| row.join(" & ")).collect();
+    let rows = rows.join(" \\\\\n");
+    format!("{name} = \\left[\\begin{{array}}{{{columns}}}\n{rows}{last}\n\\end{{array}}\\right]")
+}
+
+fn transform_of(notation: &Notation, transform: &TransformFormula) -> String {
+    let name = named("T", &transform.of, &transform.relative_to);
+    let rows = printed_rows(notation, transform);
+    let last = " \\\\\n0 & 0 & 0 & 1";
+    matrix(name, "ccc|c", &rows, last, |i, j| match j {
+        3 => format!("p_{{{}}}", AXES[i]),
+        _ => format!("r_{{{}{}}}", i + 1, j + 1),
+    })
 }
 
 fn closure_of(notation: &Notation, closure: &ClosureFormula) -> Option<String> {
@@ -88,7 +94,7 @@ fn closure_of(notation: &Notation, closure: &ClosureFormula) -> Option<String> {
         .map(|equation| format!("{} &= 0", notation.print(equation)))
         .collect();
     if let Some((gap, length)) = &closure.distance {
-        for (axis, component) in ["x", "y", "z"].into_iter().zip(gap) {
+        for (axis, component) in AXES.into_iter().zip(gap) {
             lines.push(format!("g_{{{axis}}} &= {}", notation.print(component)));
         }
         let length = notation.print(length);
@@ -100,46 +106,16 @@ fn closure_of(notation: &Notation, closure: &ClosureFormula) -> Option<String> {
         let [a, b] = closure.between.each_ref().map(|name| upright(name));
         lines.push(format!("R_{{{a}}} &= R_{{{b}}}"));
     }
-    let aligned = lines.join(" \\\\\n");
-    (!lines.is_empty()).then(|| format!("\\begin{{aligned}}\n{aligned}\n\\end{{aligned}}"))
+    (!lines.is_empty()).then(|| aligned(&lines))
 }
 
 fn jacobian_of(notation: &Notation, jacobian: &JacobianFormula) -> String {
-    let JacobianFormula {
-        of,
-        relative_to,
-        columns,
-    } = jacobian;
-    let name = format!("{{}}^{{{}}}J_{{{}}}", upright(relative_to), upright(of));
-    let print = |e: &Expression| notation.print(e);
-    let entries: Vec<Vec<String>> = (columns.iter())
-        .map(|c| c.velocity.iter().chain(&c.omega).map(print).collect())
-        .collect();
-    let rows: Vec<String> = (0..6)
-        .map(|row| {
-            entries
-                .iter()
-                .map(|column| column[row].clone())
-                .collect::<Vec<_>>()
-        })
-        .map(|row| row.join(" & "))
-        .collect();
-    if rows.iter().all(|row| row.len() <= WIDEST) {
-        let kind = "c".repeat(columns.len());
-        return format!(
-            "{name} = \\left[\\begin{{array}}{{{kind}}}\n{}\n\\end{{array}}\\right]",
-            rows.join(" \\\\\n")
-        );
-    }
-    let mut lines = Vec::new();
-    for (column, entries) in columns.iter().zip(&entries) {
-        let joint = notation.name(&column.joint);
-        for (i, entry) in entries.iter().enumerate() {
-            let letter = if i < 3 { "v" } else { "\\omega" };
-            let axis = ["x", "y", "z"][i % 3];
-            lines.push(format!("{letter}_{{{axis}}}^{{({joint})}} &= {entry}"));
-        }
-    }
-    let aligned = lines.join(" \\\\\n");
-    format!("{name}: \\quad \\begin{{aligned}}\n{aligned}\n\\end{{aligned}}")
+    let name = named("J", &jacobian.of, &jacobian.relative_to);
+    let rows = jacobian_rows(notation, jacobian);
+    let columns = "c".repeat(jacobian.columns.len());
+    matrix(name, &columns, &rows, "", |i, j| {
+        let letter = if i < 3 { "v" } else { "\\omega" };
+        let joint = notation.name(&jacobian.columns[j].joint);
+        format!("{letter}_{{{}}}^{{({joint})}}", AXES[i % 3])
+    })
 }

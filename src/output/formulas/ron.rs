@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use super::{Notation, Script, needs_platform};
+use super::{Notation, Script, needs_platform, one_line, parts, rows};
 use crate::algebra::{Expression, Function, Node};
 use crate::analysis::formulas::{ClosureFormula, FormulasReport, TransformFormula};
 
@@ -71,13 +71,8 @@ fn quoted(text: &str) -> String {
     format!("\"{}\"", escaped.collect::<String>())
 }
 
-/// What follows // to the end of a line; a name may hold anything.
 fn comment(text: &str) -> String {
-    let one_line: String = text
-        .chars()
-        .map(|c| if c.is_control() { ' ' } else { c })
-        .collect();
-    format!("    // {one_line}\n")
+    format!("    // {}\n", one_line(text))
 }
 
 fn wheres(locals: &BTreeMap<(usize, String), String>) -> String {
@@ -99,22 +94,15 @@ fn transform_of(
     transform: &TransformFormula,
 ) -> String {
     let TransformFormula {
-        of,
-        relative_to,
-        rotation,
-        position,
+        of, relative_to, ..
     } = transform;
-    let all: Vec<&Expression> = rotation.iter().flatten().chain(position).collect();
-    if needs_platform(report, &all) {
+    if needs_platform(report, rows(transform).into_iter().flatten()) {
         let line = format!("{of} in {relative_to} depends on the pose of a platform");
         return comment(&line);
     }
     let mut locals = BTreeMap::new();
-    let rows: Vec<[String; 4]> = (rotation.iter().zip(position))
-        .map(|([n, s, a], p)| {
-            [n, s, a, p].map(|e| format!("\"{}\"", shortened(notation, e, &mut locals)))
-        })
-        .collect();
+    let mut quoted_entry = |e| format!("\"{}\"", shortened(notation, e, &mut locals));
+    let rows = rows(transform).map(|row| row.map(&mut quoted_entry));
     let rows = rows
         .iter()
         .map(|row| format!("            ({}),\n", row.join(", ")));
@@ -140,11 +128,7 @@ fn name_of(transform: &TransformFormula) -> String {
 }
 
 fn closure_of(notation: &Notation, report: &FormulasReport, closure: &ClosureFormula) -> String {
-    let mut all: Vec<&Expression> = closure.equations.iter().collect();
-    if let Some((gap, length)) = &closure.distance {
-        all.extend(gap.iter().chain([length]));
-    }
-    if needs_platform(report, &all) {
+    if needs_platform(report, parts(closure)) {
         let line = format!("closure {} depends on the pose of a platform", closure.name);
         return comment(&line);
     }

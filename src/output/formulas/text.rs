@@ -1,13 +1,14 @@
 //! Formulas as a document.
 
+use crate::output::report::Report;
 use std::collections::BTreeMap;
 
-use super::{Notation, Script, notes};
+use super::{Notation, Script, jacobian_rows, notes, parts, printed_rows, rows};
 use crate::algebra::Expression;
 use crate::analysis::formulas::{
     ClosureFormula, FormulasReport, JacobianFormula, Meaning, TransformFormula,
 };
-use crate::output::document::{Document, Report, Section};
+use crate::output::document::{Document, Section};
 
 /// Wider matrices are printed entry by entry.
 const WIDEST: usize = 110;
@@ -45,21 +46,13 @@ fn outdented(text: &str) -> String {
 }
 
 fn transform(notation: &Notation, transform: &TransformFormula) -> String {
-    let TransformFormula {
-        of,
-        relative_to,
-        rotation,
-        position,
-    } = transform;
-    let rows: Vec<Vec<String>> = (rotation.iter().zip(position))
-        .map(|(row, p)| row.iter().chain([p]).map(|e| notation.print(e)).collect())
-        .collect();
+    let rows = printed_rows(notation, transform);
     let names = [
         ["r11", "r12", "r13", "px"],
         ["r21", "r22", "r23", "py"],
         ["r31", "r32", "r33", "pz"],
     ];
-    let title = format!("  {of} in {relative_to}\n");
+    let title = format!("  {} in {}\n", transform.of, transform.relative_to);
     title
         + &matrix(&rows).unwrap_or_else(|| {
             // column after column, as n, s, a and p are read
@@ -146,46 +139,28 @@ fn closure(notation: &Notation, closure: &ClosureFormula) -> String {
 }
 
 fn jacobian(notation: &Notation, jacobian: &JacobianFormula) -> String {
-    let JacobianFormula {
-        of,
-        relative_to,
-        columns,
-    } = jacobian;
-    let print = |e: &Expression| notation.print(e);
-    let joints: Vec<String> = columns.iter().map(|c| notation.name(&c.joint)).collect();
-    let mut text = format!("  {of} in {relative_to}, columns {}\n", joints.join(", "));
-    let entries: Vec<Vec<String>> = (columns.iter())
-        .map(|c| c.velocity.iter().chain(&c.omega).map(print).collect())
-        .collect();
-    let rows: Vec<Vec<String>> = (0..6)
-        .map(|row| entries.iter().map(|column| column[row].clone()).collect())
-        .collect();
-    text += &matrix(&rows).unwrap_or_else(|| {
-        let mut listed = String::new();
-        for (joint, column) in joints.iter().zip(&entries) {
-            listed += &format!("    {joint}\n");
-            for (name, entry) in ["vx", "vy", "vz", "ωx", "ωy", "ωz"].into_iter().zip(column) {
-                listed += &format!("      {name} = {entry}\n");
-            }
-        }
-        listed
-    });
-    text
+    let joints = jacobian.columns.iter();
+    let joints: Vec<String> = joints.map(|c| notation.name(&c.joint)).collect();
+    let (of, relative_to) = (&jacobian.of, &jacobian.relative_to);
+    let title = format!("  {of} in {relative_to}, columns {}\n", joints.join(", "));
+    let rows = jacobian_rows(notation, jacobian);
+    let listed = || -> String {
+        let columns = joints.iter().enumerate().map(|(j, joint)| {
+            let names = ["vx", "vy", "vz", "ωx", "ωy", "ωz"].into_iter().zip(&rows);
+            let entries = names.map(|(name, row)| format!("      {name} = {}\n", row[j]));
+            format!("    {joint}\n{}", entries.collect::<String>())
+        });
+        columns.collect()
+    };
+    title + &matrix(&rows).unwrap_or_else(listed)
 }
 
 /// Every expression of a report.
 fn expressions(report: &FormulasReport) -> impl Iterator<Item = &Expression> {
     let transforms = report.links.iter().chain(&report.transforms);
-    let transforms = transforms.flat_map(|t| t.rotation.iter().flatten().chain(&t.position));
-    let closures = report.closures.iter().flat_map(|closure| {
-        let distance = closure.distance.iter();
-        let distance = distance.flat_map(|(gap, length)| gap.iter().chain([length]));
-        closure.equations.iter().chain(distance)
-    });
-    let columns = report
-        .jacobians
-        .iter()
-        .flat_map(|jacobian| &jacobian.columns);
+    let transforms = transforms.flat_map(|transform| rows(transform).into_iter().flatten());
+    let closures = report.closures.iter().flat_map(parts);
+    let columns = report.jacobians.iter().flat_map(|of| &of.columns);
     let columns = columns.flat_map(|column| column.velocity.iter().chain(&column.omega));
     transforms.chain(closures).chain(columns)
 }
@@ -198,35 +173,28 @@ fn legend(notation: &Notation, report: &FormulasReport) -> Vec<String> {
             short.insert(indices, notation.print(angle));
         }
     }
-    let mut lines = Vec::new();
-    // a sum is enclosed in parentheses, and all are explained by one of their kind
-    let mut explained: Vec<String> = Vec::new();
-    if let Some((indices, angle)) = short.iter().find(|(indices, _)| indices.len() == 1) {
+    // all are explained by one of their kind; a sum is enclosed in parentheses
+    let single = short.iter().find(|(indices, _)| indices.len() == 1);
+    let single = single.map(|(indices, angle)| (indices, format!(" {angle}")));
+    let sum = short.iter().find(|(indices, _)| indices.len() > 1);
+    let sum = sum.map(|(indices, angle)| (indices, format!("({angle})")));
+    let explained = single.into_iter().chain(sum).map(|(indices, angle)| {
         let lower = super::notation::lowered(indices);
-        explained.push(format!("c{lower} = cos {angle}, s{lower} = sin {angle}"));
-    }
-    if let Some((indices, angle)) = short.iter().find(|(indices, _)| indices.len() > 1) {
-        let lower = super::notation::lowered(indices);
-        explained.push(format!("c{lower} = cos({angle}), s{lower} = sin({angle})"));
-    }
-    if !explained.is_empty() {
-        lines.push(explained.join(", "));
-    }
-    let mut platforms = report
-        .letters
-        .iter()
-        .filter(|l| l.meaning == Meaning::Platform);
-    if let Some(letter) = platforms.next() {
-        let first = letter.name.split('.').next().unwrap_or_default();
-        let all = report
-            .letters
-            .iter()
-            .filter(|l| l.meaning == Meaning::Platform);
-        let several = all.clone().any(|l| l.name.split('.').next() != Some(first));
-        lines.push(match several {
-            true => "n, s, a and p: axes and origin of a platform in ground".into(),
-            false => format!("n, s, a and p: axes and origin of {first} in ground"),
-        });
-    }
-    lines
+        format!("c{lower} = cos{angle}, s{lower} = sin{angle}")
+    });
+    let explained: Vec<String> = explained.collect();
+    let explained = (!explained.is_empty()).then(|| explained.join(", "));
+    let platforms = report.letters.iter();
+    let platforms = platforms.filter(|letter| letter.meaning == Meaning::Platform);
+    let mut platforms: Vec<&str> = platforms.filter_map(|l| l.name.split('.').next()).collect();
+    platforms.dedup();
+    let platforms = platforms.first().map(|first| {
+        let of = if platforms.len() > 1 {
+            "a platform"
+        } else {
+            first
+        };
+        format!("n, s, a and p: axes and origin of {of} in ground")
+    });
+    explained.into_iter().chain(platforms).collect()
 }

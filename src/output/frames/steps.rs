@@ -1,15 +1,10 @@
 //! The fourteen steps of the Denavit–Hartenberg algorithm, with what each of them gave.
 
-use super::super::quantity::{degrees, number, short};
+use super::super::quantity::{degrees, metres, number, triple};
 use super::{relation, sense_of_first};
 use crate::analysis::frames::{PlacedChain, PlacedRow};
 use crate::geometry::Relation;
 use crate::output::document::Section;
-
-fn vector(v: [f64; 3]) -> String {
-    let [x, y, z] = v.map(short);
-    format!("({x}, {y}, {z})")
-}
 
 fn place(v: [f64; 3]) -> String {
     let [x, y, z] = v.map(number);
@@ -78,13 +73,13 @@ pub(super) fn steps(chain: &PlacedChain, modified: bool) -> Section {
         format!(
             "L0 at {}, z0 {} along {}, x0 {}; k = 1",
             place(frame.position),
-            vector(frame.z),
+            triple(&frame.z),
             if modified && chain.starts_at_base {
                 "the base's z"
             } else {
                 "the axis of joint 1"
             },
-            vector(frame.x)
+            triple(&frame.x)
         ),
     );
     let placed = if modified { 1..n + 1 } else { 1..n };
@@ -93,7 +88,7 @@ pub(super) fn steps(chain: &PlacedChain, modified: bool) -> Section {
         let joint = if modified { k } else { k + 1 };
         say(
             3,
-            format!("z{k} along the axis of joint {joint}: {}", vector(frame.z)),
+            format!("z{k} along the axis of joint {joint}: {}", triple(&frame.z)),
         );
         let axes = match normal.relation {
             None => String::new(),
@@ -106,8 +101,8 @@ pub(super) fn steps(chain: &PlacedChain, modified: bool) -> Section {
             Some(sense) => format!("orthogonal to both axes, in the sense: {sense}"),
             None => why_x(normal.relation, k),
         };
-        say(5, format!("x{k} {}: {why}", vector(frame.x)));
-        say(6, format!("y{k} = z{k} × x{k} = {}", vector(frame.y)));
+        say(5, format!("x{k} {}: {why}", triple(&frame.x)));
+        say(6, format!("y{k} = z{k} × x{k} = {}", triple(&frame.y)));
         let on = if k + 1 < placed.end {
             "k < n: go on"
         } else {
@@ -117,7 +112,7 @@ pub(super) fn steps(chain: &PlacedChain, modified: bool) -> Section {
     }
     let last = &chain.frames[n];
     let end = match (modified, chain.ends_at_tool) {
-        (true, _) => format!("L{n} is the last link's; what is left to the tool is the tip"),
+        (true, _) => format!("L{n} is the last link's; the rest, up to the tool, is the tip"),
         (false, true) => format!("L{n} at the tool"),
         (false, false) => format!("L{n} on the last axis, a{n} = α{n} = 0; the rest is the tip"),
     };
@@ -126,9 +121,9 @@ pub(super) fn steps(chain: &PlacedChain, modified: bool) -> Section {
         format!(
             "{end}: {}, x{n} {}, y{n} {}, z{n} {}; k = 1",
             place(last.position),
-            vector(last.x),
-            vector(last.y),
-            vector(last.z)
+            triple(&last.x),
+            triple(&last.y),
+            triple(&last.z)
         ),
     );
     for (k, row) in (1..).zip(&chain.rows) {
@@ -147,14 +142,9 @@ pub(super) fn steps(chain: &PlacedChain, modified: bool) -> Section {
             10,
             format!("θ{k} = {theta}, from x{} to x{k} about z{z}", k - 1),
         );
-        let d = variable(
-            format!("{} m", number(row.d)),
-            row.d == 0.0,
-            row.slide,
-            joint,
-        );
+        let d = variable(metres(row.d), row.d == 0.0, row.slide, joint);
         say(11, format!("d{k} = {d}, along z{z} to b{k}"));
-        say(12, format!("a{link} = {} m, along x{link}", number(row.a)));
+        say(12, format!("a{link} = {}, along x{link}", metres(row.a)));
         let to = link + 1;
         let (from, to) = if modified {
             (link, to)

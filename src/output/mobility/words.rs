@@ -6,17 +6,14 @@ use crate::analysis::mobility::{
 use crate::description::count;
 use crate::description::listed;
 use crate::output::closing;
-use crate::output::quantity::{coarse, number, quantity, signed};
+use crate::output::quantity::{coarse, form, metres, signed, triple, values};
 
 /// The answer: how many freedoms, and why that is not what counting says.
 pub(super) fn explanation(report: &MobilityReport) -> String {
     let mut sentences = vec![mobility(report), counted(report)];
     if !report.redundancies.is_empty() {
         let redundant: Vec<String> = report.redundancies.iter().map(redundancy).collect();
-        let verb = match report.redundant {
-            1 => "is",
-            _ => "are",
-        };
+        let verb = form(report.redundant, "is", "are");
         sentences.push(format!("Redundant {verb}: {}.", redundant.join("; ")));
     }
     let (rods, links): (Vec<&LocalFreedom>, Vec<&LocalFreedom>) =
@@ -43,14 +40,11 @@ pub(super) fn explanation(report: &MobilityReport) -> String {
     }
     let still = still(report);
     if report.mobility > 0 && !still.is_empty() {
-        let stand = match still.len() {
-            1 => "stands",
-            _ => "stand",
-        };
+        let stand = form(still.len(), "stands", "stand");
         sentences.push(format!("{} {stand} still.", listed(&still)));
     }
     sentences.extend((report.elsewhere.iter()).map(|other| elsewhere(report, other)));
-    sentences.extend((report.given.as_ref()).map(|gap| closing::given(gap, report.kept)));
+    sentences.extend(closing::given(report.given.as_ref(), report.kept));
     sentences.join(" ")
 }
 
@@ -82,10 +76,10 @@ pub(super) fn mobility(report: &MobilityReport) -> String {
             None => format!("The mechanism has {}.", freedoms(*mobility)),
             Some(distance) => format!(
                 "The mechanism has {}; the configuration is regular, but only about {} (in rad, and \
-                 lengths over {} m) away from a singular one.",
+                 lengths over {}) away from a singular one.",
                 freedoms(*mobility),
                 coarse(distance),
-                number(report.length)
+                metres(report.length)
             ),
         },
         Character::Shaky => {
@@ -103,7 +97,7 @@ pub(super) fn mobility(report: &MobilityReport) -> String {
             "The mechanism has {} at this singular configuration, where {infinitesimal} {} \
              infinitesimal{}.",
             freedoms(*mobility),
-            if *infinitesimal == 1 { "is" } else { "are" },
+            form(*infinitesimal, "is", "are"),
             match report.branches_complete {
                 true => "",
                 false => "; at least the one branch shown passes through it",
@@ -178,15 +172,12 @@ pub(super) fn idle(freedom: &LocalFreedom) -> String {
             format!("a link spins about its own line in {}", listed(joints))
         }
         LocalFreedom::Platforms { platforms, joints } => {
-            let (spin, line) = match platforms.len() {
-                1 => ("spins", "its own line"),
-                _ => ("spin", "their line"),
-            };
+            let spin = form(platforms.len(), "spins about its own", "spin about their");
             let joints = match joints.is_empty() {
                 true => String::new(),
                 false => format!(" in {}", listed(joints)),
             };
-            format!("{} {spin} about {line}{joints}", listed(platforms))
+            format!("{} {spin} line{joints}", listed(platforms))
         }
         LocalFreedom::Rod(rod) => format!("rod {rod} spins about its own line"),
     }
@@ -194,17 +185,9 @@ pub(super) fn idle(freedom: &LocalFreedom) -> String {
 
 /// Where the mechanism has another mobility.
 pub(super) fn elsewhere(report: &MobilityReport, other: &Elsewhere) -> String {
-    let joints = report.variables.iter().zip(other.joints.values());
-    let joints = joints.map(|(joint, &value)| {
-        format!(
-            "{} = {}",
-            joint.name,
-            quantity(value, joint.unit.is_angle())
-        )
-    });
     format!(
         "The mobility depends on the assembly: near {} the mechanism has {}.",
-        listed(&joints.collect::<Vec<_>>()),
+        listed(&values(&report.variables, other.joints.values())),
         freedoms(other.mobility),
     )
 }
@@ -249,10 +232,7 @@ fn axis(wrench: &Wrench) -> Option<(usize, usize)> {
 
 fn general(wrench: &Wrench) -> String {
     let size = |v: &[f64; 3]| v.iter().map(|x| x * x).sum::<f64>().sqrt();
-    let triple = |v: &[f64; 3], length: f64| {
-        let parts = v.map(|x| crate::output::quantity::short(x / length));
-        format!("({})", parts.join(", "))
-    };
+    let triple = |v: &[f64; 3], length: f64| triple(&v.map(|x| x / length));
     let (force, moment) = (size(&wrench.force), size(&wrench.moment));
     if force == 0.0 {
         return format!("moment about {}", triple(&wrench.moment, moment));

@@ -1,10 +1,10 @@
 //! Singularities along a motion.
 
 use super::{Once, details, note, words};
-use crate::analysis::singularities::AlongReport;
+use crate::analysis::singularities::{AlongEnd, AlongReport};
 use crate::mechanism::Variable;
-use crate::output::csv::{Record, Value};
-use crate::output::document::{Document, Report, Section};
+use crate::output::document::{Document, Section, cells};
+use crate::output::report::{Remarks, Report, Rows};
 
 impl Report for AlongReport {
     fn is_interrupted(&self) -> bool {
@@ -25,38 +25,44 @@ impl Report for AlongReport {
             .sections(crossings)
     }
 
-    fn sentences(&self) -> Vec<(&'static str, Option<String>)> {
-        vec![("note", note(&self.coupled))]
+    fn is_yes(&self) -> bool {
+        use AlongEnd::{Closed, Complete, Returned};
+        matches!(self.ending, Complete | Returned | Closed)
     }
-}
 
-/// The singularities on the way as rows: the names of the columns, then the values in SI units and
-/// rad.
-pub fn along_rows(report: &AlongReport) -> (Vec<String>, impl Iterator<Item = Record<'static>>) {
-    let own = ["number", "part", "type", "zlatanov", "fold", "branches"];
-    let moved = report.moved.iter().map(|m| Variable::new(&m.name, m.unit));
-    let moved: Vec<Variable> = moved.collect();
-    let once = Once::new(&own, moved.iter().chain(&report.variables));
-    let columns = once.columns.clone();
-    let rows = report
-        .crossings
-        .iter()
-        .enumerate()
-        .map(move |(i, crossing)| {
-            let kind = crossing.singularity.gosselin_angeles;
-            let zlatanov = crossing.singularity.zlatanov.iter();
+    fn remarks(&self) -> Remarks {
+        Remarks {
+            note: Some(note(&self.coupled)),
+            ..Remarks::default()
+        }
+    }
+
+    /// The singularities on the way, in SI units and rad.
+    fn rows(&self) -> Option<Rows<'_>> {
+        let own = ["number", "part", "type", "zlatanov", "fold", "branches"];
+        let moved = self.moved.iter().map(|m| Variable::new(&m.name, m.unit));
+        let moved: Vec<Variable> = moved.collect();
+        let once = Once::new(&own, moved.iter().chain(&self.variables));
+        let columns = once.columns.clone();
+        let rows = self.crossings.iter().enumerate();
+        let rows = rows.map(move |(i, crossing)| {
+            let singularity = &crossing.singularity;
+            let zlatanov = singularity.zlatanov.iter();
             let zlatanov: Vec<&str> = zlatanov.map(|kind| words::letters(*kind)).collect();
-            let first = [
-                Value::from(i + 1),
-                Value::from(crossing.part),
-                Value::from(kind.map(usize::from)),
-                Value::from(zlatanov.join(" ")),
-                Value::from(crossing.fold),
-                Value::from(crossing.branches),
+            let mut row = cells![
+                i + 1,
+                crossing.part,
+                singularity.gosselin_angeles.map(usize::from),
+                zlatanov.join(" "),
+                crossing.fold,
+                crossing.branches,
             ];
-            let values = once.values(crossing.moved.iter().chain(&crossing.joints));
-            first.into_iter().chain(values).collect()
+            row.extend(once.values(crossing.moved.iter().chain(&crossing.joints)));
+            row
         });
-    let rows: Vec<Record> = rows.collect();
-    (columns, rows.into_iter())
+        Some(Rows {
+            columns,
+            rows: Box::new(rows),
+        })
+    }
 }

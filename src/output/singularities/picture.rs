@@ -1,24 +1,18 @@
 //! Loci drawn in their box.
 
-use crate::analysis::singularities::{Kind, Locus, LocusReport, Shape};
+use super::kind_word;
+use crate::analysis::singularities::{Locus, LocusReport, Shape};
 use crate::description::listed;
 use crate::output::plot::{self, Chart, Marks, Series};
+use crate::output::quantity;
 
 /// The loci as SVG.
 pub fn svg(report: &LocusReport) -> String {
-    let shown = |k: usize, x: f64| match report.bounds[k].unit.is_angle() {
-        true => x.to_degrees(),
-        false => x,
-    };
+    let shown = |k: usize, x: f64| quantity::shown(x, report.bounds[k].unit);
     let point = |p: &[f64; 2]| (shown(0, p[0]), shown(1, p[1]));
-    let [x, y] = report.bounds.each_ref().map(|bound| {
-        let unit = if bound.unit.is_angle() { "°" } else { "m" };
-        format!("{} ({unit})", bound.name)
-    });
-    let kind = |locus: &Locus| match locus.kind {
-        Kind::Direct => "direct",
-        Kind::Inverse => "inverse",
-    };
+    let bounds = report.bounds.each_ref();
+    let [x, y] = bounds.map(|bound| plot::label(&bound.name, bound.unit));
+    let kind = |locus: &Locus| kind_word(locus.kind);
     let of = |shape: Shape| {
         let loci = report.loci.iter().enumerate();
         loci.filter(move |(_, locus)| locus.shape == shape)

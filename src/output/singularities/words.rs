@@ -6,26 +6,20 @@ use crate::analysis::singularities::{
     Zlatanov,
 };
 use crate::description::{count, listed};
-use crate::output::quantity::quantity;
+use crate::output::quantity::{at, form, range};
 
 /// What is driven and what moves out.
 pub(super) fn split(inputs: &[String], outputs: &[String]) -> String {
-    let number = |names: &[String], word: &str| match names.len() {
-        1 => format!("{word} {}", names[0]),
-        _ => format!("{word}s {}", self::names(names)),
-    };
-    format!(
-        "{}; {}.",
-        number(inputs, "Input"),
-        number(outputs, "output")
-    )
+    let input = form(inputs.len(), "Input", "Inputs");
+    let output = form(outputs.len(), "output", "outputs");
+    format!("{input} {}; {output} {}.", names(inputs), names(outputs))
 }
 
 /// Whether a configuration is singular, and how, in a sentence or two.
 pub(super) fn sentence(singularity: &Singularity, inputs: &[String], outputs: &[String]) -> String {
-    let stand = |names: &[String]| match names.len() {
-        1 => format!("{} stands still", names[0]),
-        _ => format!("{} stand still", names_of(names)),
+    let stand = |of: &[String]| {
+        let stand = form(of.len(), "stands", "stand");
+        format!("{} {stand} still", names(of))
     };
     let mut sentences = Vec::new();
     match singularity.gosselin_angeles {
@@ -65,7 +59,7 @@ pub(super) fn sentence(singularity: &Singularity, inputs: &[String], outputs: &[
     }
     if let Some(idle) = &singularity.idle_inputs {
         let moving: Vec<String> = idle.joints.iter().map(|m| m.joint.clone()).collect();
-        let verb = if moving.len() == 1 { "moves" } else { "move" };
+        let verb = form(moving.len(), "moves", "move");
         sentences.push(format!(
             "{} {verb} while {}.",
             listed(&moving),
@@ -88,13 +82,9 @@ pub(super) fn sentence(singularity: &Singularity, inputs: &[String], outputs: &[
     sentences.join(" ")
 }
 
-fn names_of(names: &[String]) -> String {
-    self::names(names)
-}
-
 fn counted(freedoms: usize) -> String {
-    let verb = if freedoms == 1 { "is" } else { "are" };
-    format!("{} {verb}", count(freedoms, "freedom"))
+    let are = form(freedoms, "is", "are");
+    format!("{} {are}", count(freedoms, "freedom"))
 }
 
 /// The letters of a type.
@@ -127,7 +117,7 @@ pub(super) fn zlatanov(kind: Zlatanov) -> String {
 /// `theta1 = 60° and l2 = 0.5 m`
 pub(super) fn place(report: &AlongReport, moved: &[f64]) -> String {
     let values = report.moved.iter().zip(moved);
-    let values = values.map(|(m, x)| format!("{} = {}", m.name, quantity(*x, m.unit.is_angle())));
+    let values = values.map(|(m, x)| at(&m.name, *x, m.unit));
     listed(&values.collect::<Vec<_>>())
 }
 
@@ -136,11 +126,7 @@ pub(super) fn crossing(crossing: &Crossing, report: &AlongReport) -> String {
     let mut said = sentence(&crossing.singularity, &report.inputs, &report.outputs);
     if crossing.fold {
         let names: Vec<String> = report.moved.iter().map(|m| m.name.clone()).collect();
-        let verb = if names.len() == 1 {
-            "turns back and locks"
-        } else {
-            "turn back and lock"
-        };
+        let verb = form(names.len(), "turns back and locks", "turn back and lock");
         said = format!("{} {verb}, a fold. {said}", listed(&names));
     }
     if crossing.branches {
@@ -150,11 +136,9 @@ pub(super) fn crossing(crossing: &Crossing, report: &AlongReport) -> String {
 }
 
 /// How a motion ended, in a sentence.
-pub fn ending(report: &AlongReport) -> String {
-    let way = report.moved.iter().map(|m| {
-        let value = |x| quantity(x, m.unit.is_angle());
-        format!("{} from {} to {}", m.name, value(m.from), value(m.to))
-    });
+pub(super) fn ending(report: &AlongReport) -> String {
+    let way = report.moved.iter();
+    let way = way.map(|m| range(&m.name, m.from, m.to, m.unit));
     let way = listed(&way.collect::<Vec<_>>());
     let found = match report.crossings.len() {
         0 => "no singularity".to_owned(),
@@ -168,15 +152,15 @@ pub fn ending(report: &AlongReport) -> String {
     match report.ending {
         AlongEnd::Complete => format!("{way}: complete, {found}."),
         AlongEnd::Returned => format!(
-            "{way}: the end is not reached, the curve comes back to where it began; {found}."
+            "{way}: the end is not reached, because the curve comes back to its beginning; {found}."
         ),
         AlongEnd::Closed => format!("{way}: the curve closes, {found}."),
         AlongEnd::Fold => format!(
-            "{way}: it locks at {here}, where this branch ends; {found}. A motion that \
-             follows its curve goes round the fold, back on the other branch."
+            "{way}: it locks at {here}, where this branch ends; {found}. Following \
+             the curve leads round the fold, back on the other branch."
         ),
         AlongEnd::Branches => format!(
-            "{way}: branches cross at {here}; {found}. One that follows its curve goes straight on."
+            "{way}: branches cross at {here}; {found}. Following the curve leads straight on."
         ),
         AlongEnd::Limit => format!("{way}: {joint} reaches its limit at {here}; {found}."),
         AlongEnd::OutsideLimits => format!(
@@ -201,30 +185,16 @@ pub(super) fn loci(report: &LocusReport) -> String {
         loci.filter(|locus| locus.kind == kind && locus.shape == shape)
             .count()
     };
-    let in_box = report.bounds.each_ref().map(|bound| {
-        let value = |x| quantity(x, bound.unit.is_angle());
-        format!(
-            "{} from {} to {}",
-            bound.name,
-            value(bound.from),
-            value(bound.to)
-        )
-    });
+    let bounds = report.bounds.each_ref();
+    let in_box = bounds.map(|of| range(&of.name, of.from, of.to, of.unit));
     let curves = |kind: Kind, word: &str| {
-        let points = match of(kind, Shape::Point) {
-            0 => None,
-            n => Some(count(n, "single point")),
-        };
-        let curves = match of(kind, Shape::Curve) {
-            0 => None,
-            n => Some(count(n, "curve")),
-        };
-        match (curves, points) {
-            (None, None) => format!("no {word} singularities"),
-            (Some(one), None) | (None, Some(one)) => format!("{one} of {word} singularities"),
-            (Some(curves), Some(points)) => {
-                format!("{curves} and {points} of {word} singularities")
-            }
+        let of = [(Shape::Curve, "curve"), (Shape::Point, "single point")]
+            .map(|(shape, noun)| (of(kind, shape), noun));
+        let some = of.into_iter().filter(|(number, _)| *number > 0);
+        let some: Vec<String> = some.map(|(number, noun)| count(number, noun)).collect();
+        match some.is_empty() {
+            true => format!("no {word} singularities"),
+            false => format!("{} of {word} singularities", listed(&some)),
         }
     };
     let inverse = match report.sought[1] {
@@ -241,20 +211,18 @@ pub(super) fn loci(report: &LocusReport) -> String {
 }
 
 /// Which joints were held because their links spin.
-pub fn pinned(report: &LocusReport) -> Option<String> {
-    let (still, links) = match report.pinned.len() {
-        0 => return None,
-        1 => ("stands", "a link spins about its own line"),
-        _ => ("stand", "links spin about their own lines"),
-    };
+pub(super) fn pinned(report: &LocusReport) -> Option<String> {
+    let still = form(
+        report.pinned.len(),
+        "stands still: a link spins about its own line",
+        "stand still: links spin about their own lines",
+    );
     let names = names(&report.pinned);
-    Some(format!(
-        "{names} {still} still: {links}, which changes nothing else."
-    ))
+    (!report.pinned.is_empty()).then(|| format!("{names} {still}, which changes nothing else."))
 }
 
 /// How sure it is that none is missing.
-pub fn completeness(report: &LocusReport) -> String {
+pub(super) fn completeness(report: &LocusReport) -> String {
     let [direct, inverse] = report.arrived;
     let last = report.last_new.iter().flatten().max();
     let last = match last {

@@ -1,9 +1,11 @@
 //! Circuits and branches in words.
 
-use crate::analysis::sweep::{Circuit, CircuitsReport, FourBarClass};
+use crate::algebra::SiUnit;
+use crate::analysis::sweep::{Circuit, CircuitsReport, FourBarClass, JointMotion};
 use crate::description::{count, listed};
-use crate::output::document::{Cell, Column, Document, Report, Section, Table, cells};
-use crate::output::quantity::{number, quantity};
+use crate::output::document::{Cell, Document, Section, Table};
+use crate::output::quantity::{self, metres, number, quantity};
+use crate::output::report::Report;
 
 impl Report for CircuitsReport {
     fn is_interrupted(&self) -> bool {
@@ -24,6 +26,10 @@ impl Report for CircuitsReport {
             .interrupted(self.interrupted, "circuits")
             .sections(self.circuits.iter().map(|circuit| one(self, circuit)))
             .method(seeds)
+    }
+
+    fn is_yes(&self) -> bool {
+        !self.circuits.is_empty() && self.circuits.iter().all(|circuit| circuit.whole)
     }
 }
 
@@ -63,47 +69,33 @@ fn one(report: &CircuitsReport, circuit: &Circuit) -> Section {
         (true, false) => "goes from limit to limit",
     };
     let title = format!(
-        "Circuit {} {shape}; length {} in rad and units of {} m",
+        "Circuit {} {shape}; length {} in rad and units of {}",
         circuit.number,
         number((circuit.length * 1e3).round() / 1e3),
-        number(report.characteristic_length)
+        metres(report.characteristic_length)
     );
-    let mut table = Table::new([
-        Column::words("joint"),
-        Column::numbers("turns"),
-        Column::numbers("lowest"),
-        Column::numbers("highest"),
-    ]);
-    for joint in &circuit.joints {
-        let swings = joint.turns == 0;
-        let range = |x: f64| swings.then(|| Cell::quantity(x, joint.unit));
-        let turns = match swings {
-            true => "swings".into(),
-            false => Cell::Count(joint.turns),
-        };
-        table.row(cells![
-            &joint.name,
-            turns,
-            range(joint.low),
-            range(joint.high)
-        ]);
-    }
+    let range = |of: &JointMotion, x: f64| (of.turns == 0).then(|| Cell::quantity(x, of.unit));
+    let table = Table::of(&circuit.joints)
+        .words("joint", |joint| Cell::from(&joint.name))
+        .numbers("turns", |joint| match joint.turns {
+            0 => "swings".into(),
+            turns => Cell::Count(turns),
+        })
+        .numbers("lowest", |joint| range(joint, joint.low))
+        .numbers("highest", |joint| range(joint, joint.high));
     let input = circuit.joints.iter().position(|j| j.name == report.input);
-    let is_angle = input.is_some_and(|input| circuit.joints[input].unit.is_angle());
+    let unit = input.map_or(SiUnit::ONE, |input| circuit.joints[input].unit);
     let branches = circuit.branches.iter().enumerate();
     let branches = branches.map(|(i, branch)| match branch.turns {
         true => format!("branch {}: {} turns fully", i + 1, report.input),
-        false => format!(
-            "branch {}: {} from {} to {}",
-            i + 1,
-            report.input,
-            quantity(branch.low, is_angle),
-            quantity(branch.high, is_angle)
-        ),
+        false => {
+            let range = quantity::range(&report.input, branch.low, branch.high, unit);
+            format!("branch {}: {range}", i + 1)
+        }
     });
     let crossings = circuit.crossings.iter();
     let crossings = crossings.filter_map(|joints| joints.get(input?).copied());
-    let places = places(crossings, is_angle);
+    let places = places(crossings, unit);
     let others: Vec<String> = circuit.crosses.iter().map(|n| n.to_string()).collect();
     let with = match others.is_empty() {
         true => "other branches".to_owned(),
@@ -118,14 +110,14 @@ fn one(report: &CircuitsReport, circuit: &Circuit) -> Section {
 
 /// Values in order, each once, with the number of crossings there if there are several: they differ
 /// in other joints.
-fn places(values: impl Iterator<Item = f64>, is_angle: bool) -> Vec<String> {
+fn places(values: impl Iterator<Item = f64>, unit: SiUnit) -> Vec<String> {
     const SAME: f64 = 1e-6;
     let mut values: Vec<f64> = values.collect();
     values.sort_by(f64::total_cmp);
     let same = values.chunk_by(|a, b| b - a < SAME);
     let named = same.map(|same| match same.len() {
-        1 => quantity(same[0], is_angle),
-        n => format!("{} ({n} times)", quantity(same[0], is_angle)),
+        1 => quantity(same[0], unit),
+        n => format!("{} ({n} times)", quantity(same[0], unit)),
     });
     named.collect()
 }

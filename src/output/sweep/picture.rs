@@ -1,8 +1,10 @@
 //! Motions drawn: input–output curves, or the paths of points.
 
+use crate::algebra::SiUnit;
 use crate::analysis::sweep::{MetKind, Row, TracedPoint};
 use crate::mechanism::{Configuration, Mechanism};
-use crate::output::plot::{Chart, Marks, Series, svg};
+use crate::output::plot::{self, Chart, Marks, Series, svg};
+use crate::output::quantity;
 use crate::system::{Coordinate, Driven};
 
 /// Collects what is to be drawn; of a long motion only as many points as can be told apart.
@@ -41,8 +43,8 @@ impl Picture {
         let driven = crate::analysis::sweep::CircuitsReport::input_of(mechanism).map(joint);
         let input = inputs.first().copied().or(driven);
         let label = |of: Coordinate| {
-            let unit = if of.is_angle(mechanism) { "°" } else { "m" };
-            format!("{} ({unit})", of.name(mechanism))
+            let unit = SiUnit::of_coordinate(of.is_angle(mechanism));
+            plot::label(&of.name(mechanism), unit)
         };
         let moved = |i: usize| {
             inputs
@@ -64,17 +66,15 @@ impl Picture {
         }
     }
 
-    /// Begins the motion of another mode.
-    pub fn begin(&mut self, mode: Option<usize>) {
-        self.motions.push(Drawn {
-            mode,
-            every: 1,
-            ..Drawn::default()
-        });
-    }
-
-    /// Takes in a row of the motion begun last.
-    pub fn take(&mut self, mechanism: &Mechanism, row: &Row) {
+    /// Takes in a row of the motion in a mode; another mode begins another motion.
+    pub fn take(&mut self, mechanism: &Mechanism, mode: Option<usize>, row: &Row) {
+        if self.motions.last().is_none_or(|drawn| drawn.mode != mode) {
+            self.motions.push(Drawn {
+                mode,
+                every: 1,
+                ..Drawn::default()
+            });
+        }
         let wanted =
             (self.motions.last()).is_some_and(|drawn| drawn.seen.is_multiple_of(drawn.every));
         let values = (wanted || row.special.is_some()).then(|| self.values(mechanism, row));
@@ -107,10 +107,8 @@ impl Picture {
 
     fn values(&self, mechanism: &Mechanism, row: &Row) -> Vec<f64> {
         let at: &Configuration<f64> = row.configuration;
-        let shown = |of: Coordinate| match of.is_angle(mechanism) {
-            true => of.of(at).to_degrees(),
-            false => of.of(at),
-        };
+        let unit = |of: Coordinate| SiUnit::of_coordinate(of.is_angle(mechanism));
+        let shown = |of: Coordinate| quantity::shown(of.of(at), unit(of));
         let input = self.input.map_or(f64::NAN, |input| shown(input.coordinate));
         let outputs = self
             .outputs
@@ -179,17 +177,15 @@ impl Picture {
                 continue;
             }
             let (series, marks) = self.chart(&pairs);
-            let unit = if angles { "°" } else { "m" };
+            let name = match &pairs[..] {
+                [(name, _, _)] => name,
+                _ if angles => "joint angles",
+                _ => "slides",
+            };
             charts.push(Chart {
                 title: self.title.clone(),
                 x: self.input_label.clone(),
-                y: match &pairs[..] {
-                    [(name, _, _)] => format!("{name} ({unit})"),
-                    _ => format!(
-                        "{} ({unit})",
-                        if angles { "joint angles" } else { "slides" }
-                    ),
-                },
+                y: plot::label(name, SiUnit::of_coordinate(angles)),
                 equal: false,
                 heat: None,
                 series,

@@ -1,56 +1,31 @@
 //! What is said about a motion.
 
-use crate::analysis::sweep::{InputReport, Met, MetKind, MotionReport, SweepEnd, SweepReport};
+use crate::analysis::sweep::{Met, MetKind, MotionReport, SweepEnd, SweepReport};
 use crate::description::{count, listed};
-use crate::output::document::{Cell, Column, Section, Table};
-use crate::output::quantity::{number, quantity};
-
-fn at(input: &InputReport, value: f64) -> String {
-    format!(
-        "{} = {}",
-        input.name,
-        quantity(value, input.unit.is_angle())
-    )
-}
+use crate::output::document::{Cell, Section, Table};
+use crate::output::quantity::{at, form, metres, number, quantity, range};
 
 /// `theta1 = 60° and l2 = 0.5 m`
 fn inputs_at(report: &SweepReport, met: &Met) -> String {
     let inputs = report.inputs.iter().zip(&met.inputs);
-    listed(
-        &inputs
-            .map(|(input, value)| at(input, *value))
-            .collect::<Vec<_>>(),
-    )
+    let inputs = inputs.map(|(input, value)| at(&input.name, *value, input.unit));
+    listed(&inputs.collect::<Vec<_>>())
 }
 
 /// How a motion ended, in a sentence or two.
-pub fn sentence(report: &SweepReport) -> String {
+pub(super) fn sentence(report: &SweepReport) -> String {
     let last = report.met.last();
-    let way: Vec<String> = (report.inputs.iter())
-        .map(|input| {
-            let value = |x| quantity(x, input.unit.is_angle());
-            format!(
-                "{} from {} to {}",
-                input.name,
-                value(input.from),
-                value(input.to)
-            )
-        })
+    let inputs = report.inputs.iter();
+    let way: Vec<String> = inputs
+        .map(|input| range(&input.name, input.from, input.to, input.unit))
         .collect();
     let way = match way.is_empty() {
         true => "The whole curve".to_owned(),
         false => listed(&way),
     };
-    let folds = report
-        .met
-        .iter()
-        .filter(|met| matches!(met.kind, MetKind::Fold { .. }))
-        .count();
-    let crossings = report
-        .met
-        .iter()
-        .filter(|met| matches!(met.kind, MetKind::Crossing { .. }));
-    let crossings = crossings.count();
+    let met = |wanted: fn(&MetKind) -> bool| report.met.iter().filter(|m| wanted(&m.kind)).count();
+    let folds = met(|kind| matches!(kind, MetKind::Fold { .. }));
+    let crossings = met(|kind| matches!(kind, MetKind::Crossing { .. }));
     let mut through = Vec::new();
     if folds > 0 {
         through.push(format!("round {}", count(folds, "fold")));
@@ -76,24 +51,18 @@ pub fn sentence(report: &SweepReport) -> String {
             format!("{way} was followed from limit to limit{through}.")
         }
         (SweepEnd::Fold, Some(MetKind::Fold { locked, moving })) => {
-            let verb = if locked.len() == 1 { "locks" } else { "lock" };
-            let moving = match moving {
-                Some(moving) => format!(
-                    "; {moving} moves there while {} not",
-                    match locked.len() {
-                        1 => "it does",
-                        _ => "they do",
-                    }
-                ),
-                None => String::new(),
-            };
+            let verb = form(locked.len(), "locks", "lock");
+            let still = form(locked.len(), "it does not", "they do not");
+            let moving = moving.as_ref();
+            let moving = moving.map(|moving| format!("; {moving} moves there while {still}"));
+            let moving = moving.unwrap_or_default();
             let place = match (&report.inputs[..], last.map(|met| &met.inputs[..])) {
-                ([input], Some([value])) => quantity(*value, input.unit.is_angle()),
+                ([input], Some([value])) => quantity(*value, input.unit),
                 _ => place,
             };
             format!(
-                "{} {verb} at {place}: a dead point, where this branch ends{moving}. A motion \
-                 that follows its curve goes round it, back on the other branch.",
+                "{} {verb} at {place}: a dead point, where this branch ends{moving}. Following \
+                 the curve leads round it, back on the other branch.",
                 listed(locked)
             )
         }
@@ -108,7 +77,7 @@ pub fn sentence(report: &SweepReport) -> String {
         ) => format!(
             "{joint} reaches its {} limit of {}{}.",
             side(*upper),
-            quantity(*limit, unit.is_angle()),
+            quantity(*limit, *unit),
             match report.inputs.iter().any(|input| input.name == *joint) {
                 true => String::new(),
                 false => format!(" at {place}"),
@@ -116,7 +85,7 @@ pub fn sentence(report: &SweepReport) -> String {
         ),
         (SweepEnd::Crossing, Some(MetKind::Crossing { freedoms, branches })) => format!(
             "Branches cross at {place}: there are {} there and {}. The sweep does not choose \
-             between branches; one that follows its curve goes straight on.",
+             between branches; following the curve leads straight on.",
             count(*freedoms, "infinitesimal freedom"),
             match branches.len() {
                 0 => "no branch was found".into(),
@@ -149,7 +118,7 @@ pub fn sentence(report: &SweepReport) -> String {
         ) => format!(
             "{joint} is outside its {} limit of {} at the start: begin elsewhere, or in another mode.",
             side(*upper),
-            quantity(*limit, unit.is_angle())
+            quantity(*limit, *unit)
         ),
         (SweepEnd::Stopped, _) => "Stopped before the end.".into(),
         _ => format!(
@@ -166,11 +135,11 @@ pub fn sentence(report: &SweepReport) -> String {
 /// What the motion took.
 pub(super) fn work(report: &SweepReport) -> String {
     format!(
-        "{} along the curve in {}; its length is {}, in rad and units of {} m",
+        "{} along the curve in {}; its length is {}, in rad and units of {}",
         count(report.rows, "row"),
         count(report.sure_steps, "step"),
         number((report.length * 1e3).round() / 1e3),
-        number(report.characteristic_length)
+        metres(report.characteristic_length)
     )
 }
 
@@ -181,12 +150,9 @@ pub(super) fn met(motion: &MotionReport) -> Option<Section> {
     let worth = |met: &&Met| !matches!(met.kind, MetKind::End | MetKind::Closed);
     let all = report.met.iter().filter(worth).count() + report.more_met;
     let joints = report.met.first()?.joints.len();
-    let joints = motion.columns.get(1..=joints)?;
-    let named = joints.iter().map(|joint| Column::numbers(&joint.name));
-    let first = [Column::words("what"), Column::numbers("type")];
-    let mut table = Table::new(first.into_iter().chain(named));
-    for met in report.met.iter().filter(worth).take(SHOWN) {
-        let what = match &met.kind {
+    let joints = motion.columns.get(1..=joints)?.iter().enumerate();
+    let met = Table::of(report.met.iter().filter(worth).take(SHOWN))
+        .words("what", |met| match &met.kind {
             MetKind::Turning { joint } => format!("{joint} turns back"),
             MetKind::Fold { locked, .. } => format!("dead point of {}", listed(locked)),
             MetKind::Limit { joint, upper, .. } => format!("{} limit of {joint}", side(*upper)),
@@ -195,13 +161,11 @@ pub(super) fn met(motion: &MotionReport) -> Option<Section> {
                 n => format!("{n} branches cross"),
             },
             MetKind::End | MetKind::Closed => String::new(),
-        };
-        let kind = met.singularity.map(|kind| kind.to_string());
-        let values = joints.iter().zip(&met.joints);
-        let values = values.map(|(joint, value)| Cell::quantity(*value, joint.unit));
-        let first = [Cell::from(what), Cell::from(kind)];
-        table.row(first.into_iter().chain(values).collect());
-    }
+        })
+        .numbers("type", |met| met.singularity.map(usize::from));
+    let table = joints.fold(met, |table, (i, joint)| {
+        table.numbers(&joint.name, |met| Cell::quantity(met.joints[i], joint.unit))
+    });
     let more = match all > SHOWN {
         true => format!(", {SHOWN} of {all}"),
         false => String::new(),

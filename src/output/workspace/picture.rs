@@ -1,8 +1,8 @@
 //! Maps drawn: a picture for each mode, with its boundary over its conditioning.
 
 use crate::analysis::workspace::{AxisReport, BoundaryKind, WorkspaceReport};
-use crate::output::plot::{Chart, Heat, Series, sheet};
-use crate::output::quantity::quantity;
+use crate::output::plot::{self, Chart, Heat, Series, sheet};
+use crate::output::quantity;
 
 /// Pictures drawn at most: more make a file that nothing shows.
 const MOST: usize = 120;
@@ -69,15 +69,11 @@ pub fn svg(report: &WorkspaceReport) -> String {
 }
 
 fn shown(axis: &AxisReport, x: f64) -> f64 {
-    match axis.unit.is_angle() {
-        true => x.to_degrees(),
-        false => x,
-    }
+    quantity::shown(x, axis.unit)
 }
 
 fn label(axis: &AxisReport) -> String {
-    let unit = if axis.unit.is_angle() { "°" } else { "m" };
-    format!("{} ({unit})", axis.name)
+    plot::label(&axis.name, axis.unit)
 }
 
 /// Half a cell more at each end, so that cells have their nodes in the middle.
@@ -140,7 +136,7 @@ fn picture(
     }
     let at = slice.map_or(String::new(), |(z, _)| {
         let value = third.unwrap_or(0.0);
-        format!(", {} = {}", z.name, quantity(value, z.unit.is_angle()))
+        format!(", {}", quantity::at(&z.name, value, z.unit))
     });
     Chart {
         title: format!("{}: mode {mode}{at}", report.mechanism),

@@ -1,20 +1,21 @@
 //! What is said about a map of the workspace.
 
-use super::{percent, range};
+use super::percent;
 use crate::analysis::workspace::{AspectReport, BoundaryKind, WorkspaceReport};
 use crate::description::{count, listed};
-use crate::output::quantity::{number, quantity};
+use crate::output::quantity::{at, metres, number, range};
 
 /// What is mapped, and what is held.
 pub(super) fn question(report: &WorkspaceReport) -> String {
     let axes = report.axes.iter();
     let axes: Vec<String> = axes
-        .map(|a| range(&a.name, a.from, a.to, a.unit, a.nodes))
+        .map(|a| {
+            let range = range(&a.name, a.from, a.to, a.unit);
+            format!("{range} in {} nodes", a.nodes)
+        })
         .collect();
     let held = report.held.iter();
-    let held: Vec<String> = held
-        .map(|h| format!("{} = {}", h.name, quantity(h.value, h.unit.is_angle())))
-        .collect();
+    let held: Vec<String> = held.map(|h| at(&h.name, h.value, h.unit)).collect();
     match held.is_empty() {
         true => format!("Map of {}.", listed(&axes)),
         false => format!("Map of {}, with {}.", listed(&axes), listed(&held)),
@@ -37,7 +38,7 @@ pub(super) fn area(report: &WorkspaceReport, size: f64) -> String {
 }
 
 /// What is reached, in a sentence or two.
-pub fn sentence(report: &WorkspaceReport) -> String {
+pub(super) fn sentence(report: &WorkspaceReport) -> String {
     if report.reached == 0 {
         return match report.outside {
             0 => "Nothing in the box is reached.".into(),
@@ -94,20 +95,20 @@ pub(super) fn explanation(report: &WorkspaceReport) -> Vec<String> {
             .into(),
         false => format!(
             "best and worst: condition number of the Jacobian from {} to {}, at nodes, with lengths \
-             over {} m",
+             over {}",
             listed(&report.inputs),
             match report.outputs.is_empty() {
                 true => "what moves".into(),
                 false => listed(&report.outputs),
             },
-            number(report.normalising_length)
+            metres(report.normalising_length)
         ),
     });
     lines
 }
 
 /// How sure the map is.
-pub fn completeness(report: &WorkspaceReport) -> String {
+pub(super) fn completeness(report: &WorkspaceReport) -> String {
     let [nodes, starts] = report.searched;
     let [probed, few] = report.probed;
     let all = if probed == report.nodes { "all " } else { "" };

@@ -50,10 +50,7 @@ pub enum DriveError {
     #[error(transparent)]
     Question(QuestionError),
     /// There is nothing of that name.
-    #[error(
-        "`{name}` is neither a joint nor a coordinate of a platform{}",
-        instead(suggestion, held, "held:")
-    )]
+    #[error("`{name}` is neither a joint nor a coordinate of a platform")]
     UnknownName {
         /// The name.
         name: String,
@@ -63,7 +60,7 @@ pub enum DriveError {
         held: Vec<String>,
     },
     /// The coordinate is not held, so that its rate follows.
-    #[error("`{name}` is not held: its rate follows from the others{}", instead(&None, held, "held:"))]
+    #[error("`{name}` is not held: its rate follows from the others")]
     NotHeld {
         /// The coordinate.
         name: String,
@@ -71,7 +68,7 @@ pub enum DriveError {
         held: Vec<String>,
     },
     /// A single coordinate has a rate, and a whole platform was named.
-    #[error("`{platform}` is a platform: give the rate of one of its coordinates{}", instead(&None, held, "held:"))]
+    #[error("`{platform}` is a platform: give the rate of one of its coordinates")]
     Whole {
         /// The platform.
         platform: String,

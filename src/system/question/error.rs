@@ -202,12 +202,3 @@ fn are(held: usize) -> String {
         _ => format!("{held} coordinates are"),
     }
 }
-
-/// `; did you mean …?`, or `; what there is`.
-pub(super) fn instead(suggestion: &Option<String>, known: &[String], are: &str) -> String {
-    match (suggestion, known) {
-        (Some(meant), _) => format!("; did you mean `{meant}`?"),
-        (None, []) => String::new(),
-        (None, known) => format!("; {are} {}", listed(known)),
-    }
-}

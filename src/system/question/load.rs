@@ -33,7 +33,7 @@ pub enum ForceError {
         name: String,
     },
     /// The frame is fixed to the ground, which nothing moves.
-    #[error("`{name}` is fixed to the ground and cannot be loaded{}", error::instead(&None, instead, "load a body that moves, such as"))]
+    #[error("`{name}` is fixed to the ground and cannot be loaded")]
     OnGround {
         /// The frame.
         name: String,
@@ -47,10 +47,7 @@ pub enum ForceError {
         given: usize,
     },
     /// There is no joint of that name.
-    #[error(
-        "`{name}` is not a joint{}",
-        error::instead(suggestion, known, "the joints are")
-    )]
+    #[error("`{name}` is not a joint")]
     UnknownJoint {
         /// The name.
         name: String,

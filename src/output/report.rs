@@ -1,0 +1,79 @@
+//! What every report can do to be shown.
+
+use serde::{Deserialize, Serialize};
+
+use super::document::{Cell, Document};
+
+/// A report that can be shown. Commands print it as a [`Document`], as JSON or as rows.
+pub trait Report {
+    /// The report in words and tables. It needs nothing but the report.
+    fn document(&self) -> Document;
+
+    /// Whether the answer is yes, or at least not no.
+    fn is_yes(&self) -> bool {
+        true
+    }
+
+    /// Whether the work was stopped before it was done.
+    fn is_interrupted(&self) -> bool {
+        false
+    }
+
+    /// What a reader must not overlook, a line each.
+    fn warnings(&self) -> Vec<String> {
+        Vec::new()
+    }
+
+    /// What JSON says in words beside the answer.
+    fn remarks(&self) -> Remarks {
+        Remarks::default()
+    }
+
+    /// The report as rows for programs, if it has any.
+    fn rows(&self) -> Option<Rows<'_>> {
+        None
+    }
+
+    /// The mechanism file that was made, if one was.
+    fn file(&self) -> Option<Result<String, ron::Error>> {
+        None
+    }
+
+    /// The document, which says first where the work was stopped.
+    fn shown(&self) -> Document {
+        let mut document = self.document();
+        if self.is_interrupted() {
+            let found = "Interrupted: this is what was found until then. ";
+            document.answer.insert_str(0, found);
+        }
+        document
+    }
+}
+
+/// What is said beside the answer; each is absent where the question is another one.
+#[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+pub struct Remarks {
+    /// Why the mobility is not that of Kutzbach's count.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub explanation: Option<String>,
+    /// How sure it is that nothing is missing.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub completeness: Option<String>,
+    /// What outputs that are full poses may hide; `null` if nothing.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub note: Option<Option<String>>,
+    /// What repeats what other closures hold already.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub redundant_constraints: Option<Vec<String>>,
+}
+
+/// The values of a row. Only their values are written: numbers with all their digits, nothing for what is not finite.
+pub type Record = Vec<Cell>;
+
+/// Rows with the names of their columns.
+pub struct Rows<'a> {
+    /// The names of the columns, with units.
+    pub columns: Vec<String>,
+    /// The rows, made as they are asked for.
+    pub rows: Box<dyn Iterator<Item = Record> + 'a>,
+}
