@@ -5,13 +5,15 @@ pub mod question;
 
 use linkwork::analysis::sweep::PointError;
 use linkwork::ask::{AskError, Role};
-use linkwork::description::{count, listed, nearest};
+use linkwork::description::{count, listed};
 use linkwork::mechanism::{self, Mechanism};
 use linkwork::output::complaint::{Complaint, Given, Part};
 use linkwork::output::quantity::number;
 use linkwork::system::QuestionError;
 
-use question::{driven_complaint, load_complaint, quoted, unknown_frame, value};
+use super::words::question::{
+    driven_complaint, load_complaint, meant, quoted, unknown_frame, value,
+};
 
 /// What ranges are for, which decides the words.
 #[derive(Clone, Copy, PartialEq, Eq)]
@@ -179,14 +181,6 @@ pub fn complaint(
         AskError::TooFine { .. } | AskError::TooMany { .. } => said.help(COARSER),
         AskError::TooLarge { .. } => said.help("ask about a part of it"),
         _ => said,
-    }
-}
-
-/// What was meant by a name, or else something more general.
-fn meant(name: &str, known: &[String], other: impl FnOnce() -> String) -> String {
-    match nearest(name, known.iter().map(String::as_str)) {
-        Some(meant) => format!("did you mean `{meant}`?"),
-        None => other(),
     }
 }
 

@@ -754,8 +754,14 @@ fn questions_that_make_no_sense_are_told_what_to_ask_instead() {
             &[hand, "--map", "hand.x=0.2"],
             "write --map hand.x=FROM..TO",
         ),
-        (&[hand, "--map", "hand.x=0.2..0.2"], "the range of `hand.x` is empty"),
-        (&[hand, "--map", "hand.x=0.3..0.2"], "the range of `hand.x` is empty"),
+        (
+            &[hand, "--map", "hand.x=0.2..0.2"],
+            "the range of `hand.x` is empty",
+        ),
+        (
+            &[hand, "--map", "hand.x=0.3..0.2"],
+            "the range of `hand.x` is empty",
+        ),
         (&[hand, "--map", "hand.q=0..1"], "did you mean"),
         (
             &[

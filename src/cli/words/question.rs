@@ -1,12 +1,10 @@
 //! Words for questions that cannot be put, with the options that would put them right.
 
 use linkwork::algebra::Expression;
-use linkwork::description::{ProblemKind, Scope, listed};
+use linkwork::description::{ProblemKind, Scope, listed, nearest};
 use linkwork::mechanism::Mechanism;
 use linkwork::output::complaint::{Complaint, Part};
 use linkwork::system::{Demand, DriveError, ForceError, QuestionError, ValueError};
-
-use super::meant;
 
 /// What is wrong with a question, and with which part of the option that asked it, if one did.
 pub fn complaint(error: &QuestionError) -> Complaint {
@@ -129,6 +127,14 @@ pub fn load_complaint(mechanism: &Mechanism, error: &ForceError, option: &str) -
                 example[..given].join(",")
             ))
         }
+    }
+}
+
+/// What was meant by a name, or else something more general.
+pub fn meant(name: &str, known: &[String], other: impl FnOnce() -> String) -> String {
+    match nearest(name, known.iter().map(String::as_str)) {
+        Some(meant) => format!("did you mean `{meant}`?"),
+        None => other(),
     }
 }
 
