@@ -6,7 +6,7 @@ mod tables;
 use super::closing;
 use super::document::{Document, Section};
 use super::quantity::{at, form, metres};
-use super::report::Report;
+use super::report::{Remarks, Report};
 use crate::analysis::assemblies::{AssembliesReport, ClosestApproach, Continuum, Fit};
 use crate::description::{count, listed};
 use crate::linear::RANK_TOLERANCE;
@@ -17,8 +17,11 @@ impl Report for AssembliesReport {
         self.interrupted
     }
 
-    fn sentences(&self) -> Vec<(&'static str, Option<String>)> {
-        vec![("complete", Some(completeness(self)))]
+    fn remarks(&self) -> Remarks {
+        Remarks {
+            complete: Some(completeness(self)),
+            ..Remarks::default()
+        }
     }
 
     fn document(&self) -> Document {

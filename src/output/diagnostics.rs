@@ -78,7 +78,7 @@ pub fn import(wrong: &WrongFile, style: Style) -> String {
         let page = Page::new(name.clone(), text);
         let said = Complaint {
             help: problem.kind.help(),
-            ..Complaint::new(problem.kind.title())
+            ..Complaint::new(problem.to_string())
         };
         // of an element over many lines the first is shown
         let places = problem.span.as_ref().map(|span| {

@@ -56,7 +56,10 @@ pub struct Remarks {
     /// Why the mobility is not that of Kutzbach's count.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub explanation: Option<String>,
-    /// How sure it is that nothing is missing.
+    /// How sure it is that no assembly is missing.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub complete: Option<String>,
+    /// How sure it is that no singularity or mode is missing.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub completeness: Option<String>,
     /// What outputs that are full poses may hide; `null` if nothing.

@@ -48,7 +48,7 @@ pub fn complaint(error: &QuestionError) -> Complaint {
 
 /// What is wrong with a rate, an acceleration or a force that an option gives.
 pub fn driven_complaint(error: &DriveError, option: &str) -> Complaint {
-    let said = |label| Complaint::new(error.title()).label(label);
+    let said = |label| Complaint::new(error.to_string()).label(label);
     let held_at = |held: &[String]| options(option, held, "=0.1");
     match error {
         DriveError::Question(error) => complaint(error),
@@ -89,7 +89,7 @@ pub fn driven_complaint(error: &DriveError, option: &str) -> Complaint {
 
 /// What is wrong with a load.
 pub fn load_complaint(mechanism: &Mechanism, error: &ForceError, option: &str) -> Complaint {
-    let said = |label| Complaint::new(error.title()).label(label);
+    let said = |label| Complaint::new(error.to_string()).label(label);
     match error {
         ForceError::Value(error) => {
             let said = driven_complaint(error, option);

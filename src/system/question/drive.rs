@@ -3,7 +3,7 @@
 use thiserror::Error;
 
 use super::Question;
-use super::error::{QuestionError, instead};
+use super::error::QuestionError;
 use super::value::Value;
 use crate::algebra::Measure;
 use crate::description::nearest;

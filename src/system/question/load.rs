@@ -4,7 +4,6 @@ use thiserror::Error;
 
 use super::Question;
 use super::drive::{DriveError, number};
-use super::error;
 use super::value::Value;
 use crate::algebra::{Measure, SiUnit};
 use crate::description::nearest;
