@@ -19,11 +19,11 @@ pub use affine::{Affine, NonAffine};
 pub use arrangement::{Arranged, arrange};
 pub use evaluation::{EvaluationError, EvaluationErrorKind, LARGEST};
 pub use measure::{Measure, MeasureError, MeasureErrorKind};
+pub(crate) use parser::shown;
 pub use parser::{MAX_HEIGHT, MAX_NESTING, ParseError, ParseErrorKind};
 pub use si_unit::{SiUnit, SiUnitError};
 pub use symbolic::{Symbolic, with_letters};
 pub use trigonometric::{Atom, Budget, Key, Powers, Trigonometric, Wave};
-pub(crate) use parser::shown;
 pub(crate) use vocabulary::words;
 pub use vocabulary::{Constant, Function, Unit, is_name, is_reserved};
 

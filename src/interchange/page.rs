@@ -25,7 +25,10 @@ pub(super) fn document(text: &str) -> Result<Document<'_>, ImportProblem> {
         let position = error.pos();
         let mut message = error.to_string();
         // the position is reported separately from the text
-        if let Some(end) = message.rfind(" at ").filter(|&at| message[at..].contains(':')) {
+        if let Some(end) = message
+            .rfind(" at ")
+            .filter(|&at| message[at..].contains(':'))
+        {
             message.truncate(end);
         }
         let start = Lines::new(text).offset(position.row as usize, position.col as usize);

@@ -133,7 +133,10 @@ impl Mechanism {
             source: description.source.as_ref().map(|s| s.value.clone()),
             parameters,
             joints,
-            chains: chains.into_iter().filter_map(ResolvedChain::finished).collect(),
+            chains: chains
+                .into_iter()
+                .filter_map(ResolvedChain::finished)
+                .collect(),
             platforms,
             closures,
             closed_forms,

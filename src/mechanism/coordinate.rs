@@ -93,9 +93,7 @@ impl PoseCoordinate {
     pub(crate) fn slope<T: Number>(self, pose: &Pose<T>) -> [T; 6] {
         let mut slope = [T::zero(); 6];
         match self {
-            Self::X | Self::Y | Self::Z => {
-                slope[3 + self as usize] = T::one()
-            }
+            Self::X | Self::Y | Self::Z => slope[3 + self as usize] = T::one(),
             _ => {
                 let ((y, dy), (x, dx)) = self.arguments(pose);
                 let d = (dy.times(x) - dx.times(y)).times(T::one() / (x * x + y * y));

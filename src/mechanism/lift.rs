@@ -119,7 +119,9 @@ impl Mechanism {
         let chains = chains.collect::<Result<_, _>>()?;
         let platforms = self.platforms.iter().map(|platform| {
             let frames = platform.frames.iter();
-            frames.map(|(_, steps)| product(steps, parameters)).collect()
+            frames
+                .map(|(_, steps)| product(steps, parameters))
+                .collect()
         });
         let platforms = platforms.collect::<Result<_, _>>()?;
         let closures = self.closures.iter().map(|closure| {

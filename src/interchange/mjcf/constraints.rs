@@ -242,7 +242,10 @@ impl<'r, 'i> Constraints<'_, 'r, 'i> {
             for term in children(fixed, "joint") {
                 let joint = self.problems.needed(term, "joint")?;
                 let coefficient = term.attribute("coef").map_or(Some(vec![1.0]), parse);
-                let (x0, coefficient) = (self.reference(term, "joint", joint)?, *coefficient?.first()?);
+                let (x0, coefficient) = (
+                    self.reference(term, "joint", joint)?,
+                    *coefficient?.first()?,
+                );
                 length.constant -= c1 * coefficient * x0;
                 length.terms.push((joint.to_owned(), c1 * coefficient));
             }

@@ -199,11 +199,7 @@ impl Page<'_> {
             let inertia = numbers([rounded(1e-3 * self.tree.size * self.tree.size); 3]);
             xml.leaf(
                 "inertial",
-                &[
-                    ("pos", &"0 0 0"),
-                    ("mass", &0.1),
-                    ("diaginertia", &inertia),
-                ],
+                &[("pos", &"0 0 0"), ("mass", &0.1), ("diaginertia", &inertia)],
             );
         }
         for joint in &body.joints {
@@ -328,7 +324,11 @@ fn keyframe(tree: &Tree, order: &[usize]) -> Xml {
         let inputs = numbers(actuated(tree).map(|joint| joint.home));
         xml.leaf(
             "key",
-            &[("name", &"home"), ("qpos", &numbers(values)), ("ctrl", &inputs)],
+            &[
+                ("name", &"home"),
+                ("qpos", &numbers(values)),
+                ("ctrl", &inputs),
+            ],
         );
     }
     xml

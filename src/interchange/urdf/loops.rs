@@ -219,4 +219,3 @@ fn kind_of(word: &str) -> ClosureKind {
         _ => ClosureKind::Revolute,
     }
 }
-

@@ -200,7 +200,8 @@ impl UrdfWriter<'_> {
     }
 
     fn open_joint(&mut self, name: &str, kind: &str, links: [&str; 2], origin: &Pose<f64>) {
-        self.joints.open("joint", &[("name", &name), ("type", &kind)]);
+        self.joints
+            .open("joint", &[("name", &name), ("type", &kind)]);
         write_origin(&mut self.joints, origin);
         self.joints.leaf("parent", &[("link", &links[0])]);
         self.joints.leaf("child", &[("link", &links[1])]);
