@@ -16,7 +16,7 @@ use std::sync::Arc;
 
 use super::Function;
 use super::trigonometric::{Budget, Trigonometric};
-use crate::number::{Number, assigning};
+use crate::number::{Number, operators};
 
 /// A formula, as long as the arena it was made in is open.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -208,7 +208,7 @@ impl Neg for Symbolic {
     }
 }
 
-assigning!(Symbolic);
+operators!([Symbolic]);
 
 impl Number for Symbolic {
     fn from_f64(x: f64) -> Self {
