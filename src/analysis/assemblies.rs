@@ -346,6 +346,7 @@ impl AssemblySolver {
             &self.family,
             (&start, &held_home),
             (asked, held),
+            watch,
         )
     }
 }

@@ -9,7 +9,7 @@ use crate::analysis::assemblies::family::{
     C, Coordinates, Family, LegwiseSolutions, Member, learn,
 };
 use crate::number::Number;
-use crate::solve::{Stage, Tracker, Watch};
+use crate::solve::{Progress, Stage, Tracker, Watch};
 
 /// Ends of all paths, and the work of following them.
 #[derive(Clone, Debug, Default)]
@@ -75,11 +75,14 @@ struct Manner<'a> {
 }
 
 impl Manner<'_> {
-    /// Counts a path that is to be followed; false if the work was stopped.
-    fn goes_on(&self) -> bool {
+    /// Counts a path that is to be followed; `None` if the work was stopped.
+    fn goes_on(&self) -> Option<Progress> {
         let (followed, watch) = self.followed;
-        let done = followed.fetch_add(1, Ordering::Relaxed);
-        !watch.stops(Stage::Paths, done, None)
+        let now = Progress {
+            done: followed.fetch_add(1, Ordering::Relaxed),
+            ..Progress::of(Stage::Paths)
+        };
+        watch.at(now).is_continue().then_some(now)
     }
 
     /// For paths followed again at a higher level.
@@ -190,8 +193,11 @@ fn straight(homotopy: &ParameterHomotopy<'_>, solutions: &[Vec<C>], manner: &Man
         let (tracker, bend) = (manner.tracker(homotopy, level), manner.bend);
         let followed: Vec<Option<Path>> =
             crate::solve::each(waiting.len(), homotopy, |homotopy, k| {
-                let goes_on = manner.goes_on();
-                goes_on.then(|| follow(homotopy, &tracker, bend, &solutions[waiting[k]]))
+                let (now, watch) = (manner.goes_on()?, manner.followed.1);
+                let from = &solutions[waiting[k]];
+                let path = follow(homotopy, &tracker, bend, from, (watch, now));
+                // one that was stopped on its way ends nowhere
+                (!watch.is_stopped()).then_some(path)
             });
         for (&i, path) in waiting.iter().zip(followed) {
             let Some(path) = path else { continue };
