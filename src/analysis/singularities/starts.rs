@@ -7,9 +7,9 @@ use super::SingularitiesSettings;
 use super::arrival::Arrival;
 use super::classify::{Classifier, Kind};
 use crate::mechanism::{Configuration, PlatformPose, turn_near};
-use crate::solve::{Stage, Watch};
+use crate::solve::{Progress, Stage, Watch};
 use crate::system::{
-    Coordinate, Driven, Lock, LocusCurve, LocusEnd, Region, Singular, System, Traced, passes,
+    Coordinate, Driven, Lock, LocusCurve, LocusEnd, Region, Singular, System, Traced, met_at,
     random_configuration, with_coordinates,
 };
 
@@ -77,13 +77,13 @@ impl Search<'_> {
         let mut rng = Pcg64Mcg::seed_from_u64(self.settings.seed);
         for number in 1..=MORE * self.settings.starts {
             let least = number <= self.settings.starts;
-            if !least && !more_is_likely(&found)
-                || (self.watch).stops(
-                    Stage::Loci,
-                    number - 1,
-                    least.then_some(self.settings.starts),
-                )
-            {
+            let now = Progress {
+                stage: Stage::Loci,
+                done: number - 1,
+                of: least.then_some(self.settings.starts),
+            };
+            self.region.now = now;
+            if !least && !more_is_likely(&found) || self.watch.at(now).is_break() {
                 break;
             }
             found.starts = number;
@@ -147,7 +147,7 @@ impl Search<'_> {
         let (Arrival::Curve(place) | Arrival::Point(place)) = &arrival;
         let curve = &mut found.curve;
         let mut curves = found.known.iter();
-        let known = curves.position(|(traced, _)| passes(curve, traced, place, method));
+        let known = curves.position(|(traced, _)| met_at(curve, traced, place, method).is_some());
         if known.is_some() {
             return known;
         }
