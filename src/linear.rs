@@ -58,6 +58,9 @@ pub const BESIDE_A_CROSSING: f64 = 1e-5;
 /// of it: the choice shall be well conditioned, so it is stricter than a decision of rank.
 pub const INDEPENDENT: f64 = 1e-6;
 
+/// A curvature counts as negative from this part of the largest on: it is taken by differences.
+pub const CURVED: f64 = 1e-6;
+
 /// A condition number beyond the inverse of this has no digit in double precision.
 pub const ILL_CONDITIONED: f64 = 1e-12;
 
@@ -79,9 +82,7 @@ pub fn rank_of(rows: usize, columns: usize, entries: &[f64]) -> usize {
         return 0;
     }
     let matrix = nalgebra::DMatrix::from_column_slice(rows, columns, entries);
-    let mut values: Vec<f64> = matrix.singular_values().iter().copied().collect();
-    values.sort_by(|a, b| b.total_cmp(a));
-    rank(&values)
+    rank(matrix.singular_values().as_slice())
 }
 
 /// The most columns whose spectrum is computed: it takes a second for so many, and grows as the cube.
@@ -100,12 +101,6 @@ pub struct Spectrum {
 impl Spectrum {
     /// Of a matrix of the given size.
     pub fn of(rows: usize, columns: usize, entries: &[f64]) -> Self {
-        if columns == 0 {
-            return Spectrum {
-                values: Vec::new(),
-                null_space: Vec::new(),
-            };
-        }
         let Svd { values, right, .. } = Svd::of(rows, columns, entries);
         Spectrum {
             null_space: right[rank(&values)..].to_vec(),

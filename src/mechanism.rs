@@ -39,7 +39,7 @@ pub(crate) use closure::{Closure, Side, needs};
 pub(crate) use coordinate::orientation_rows;
 pub(crate) use kinematics::Mover;
 pub(crate) use letters::{Formal, Letters};
-pub(crate) use turns::{principal, turn_near};
+pub(crate) use turns::{principal, turn_near, turns};
 
 /// A valid mechanism. It is immutable; its existence proves that its description is meaningful.
 #[derive(Clone, Debug)]

@@ -131,32 +131,47 @@ pub trait Number:
     }
 }
 
-/// `+=`, `-=` and `*=` by the operators of a number.
-macro_rules! assigning {
-    ($number:ty $(, $t:ident)?) => {
-        impl$(<$t: crate::number::Number>)? std::ops::AddAssign for $number {
-            #[inline(always)]
-            fn add_assign(&mut self, other: Self) {
-                *self = *self + other;
+/// The operators of a number, `+=`, `-=` and `*=` among them: all that are not given are there already.
+macro_rules! operators {
+    ($number:tt $(#[$inline:meta] $op:ident $name:ident |$a:ident $(, $b:ident)?| $value:expr;)*) => {
+        $($crate::number::operators!(@of $number #[$inline] $op $name |$a $(, $b)?| $value);)*
+        $crate::number::operators!(@assigning $number AddAssign add_assign +);
+        $crate::number::operators!(@assigning $number SubAssign sub_assign -);
+        $crate::number::operators!(@assigning $number MulAssign mul_assign *);
+    };
+    (@of [$number:ty $(; $t:ident)?] #[$inline:meta] $op:ident $name:ident
+     |$a:ident $(, $b:ident)?| $value:expr) => {
+        impl$(<$t: $crate::number::Number>)? std::ops::$op for $number {
+            type Output = Self;
+            #[$inline]
+            fn $name(self $(, $b: Self)?) -> Self {
+                let $a = self;
+                $value
             }
         }
-
-        impl$(<$t: crate::number::Number>)? std::ops::SubAssign for $number {
+    };
+    (@assigning [$number:ty $(; $t:ident)?] $op:ident $name:ident $sign:tt) => {
+        impl$(<$t: $crate::number::Number>)? std::ops::$op for $number {
             #[inline(always)]
-            fn sub_assign(&mut self, other: Self) {
-                *self = *self - other;
-            }
-        }
-
-        impl$(<$t: crate::number::Number>)? std::ops::MulAssign for $number {
-            #[inline(always)]
-            fn mul_assign(&mut self, other: Self) {
-                *self = *self * other;
+            fn $name(&mut self, other: Self) {
+                *self = *self $sign other;
             }
         }
     };
 }
-pub(crate) use assigning;
+pub(crate) use operators;
+
+/// Functions of one number, each by its value.
+macro_rules! functions {
+    (|$x:ident| $($name:ident: $value:expr,)*) => {
+        $(#[inline]
+        fn $name(self) -> Self {
+            let $x = self;
+            $value
+        })*
+    };
+}
+use functions;
 
 /// A number with a conjugate and a size: what orthogonal factorisations need beyond [`Number`].
 ///

@@ -13,7 +13,7 @@ mod threads;
 mod warm;
 mod watch;
 
-pub use branching::{BranchPoint, Contact};
+pub use branching::BranchPoint;
 pub use continuation::{Continuation, Place, SolutionCurve, StepFailure};
 pub use endgame::{PathEnd, Turning, path_end};
 pub use homotopy::{Arrival, Homotopy, Stages, Track, Tracker};

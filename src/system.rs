@@ -15,7 +15,7 @@ mod tangent;
 
 pub use curve::{
     ConfigurationCurve, Curve, Driven, Event, LocusCurve, LocusEnd, Monitor, MotionTracker,
-    NoStart, Region, Segment, Singular, Traced, Walk, met_at, neared, passes, settled,
+    NoStart, Region, Segment, Singular, Traced, Walk, met_at, neared, settled,
 };
 pub use equations::{
     ClosureAxes, ClosureWrenches, Coordinate, Gap, Held, HeldPlatform, System, Unknown, Work,
@@ -29,7 +29,7 @@ pub use question::{
 pub use record::{FormulaNames, FrameRecord, Named, PlatformRecord, infinite_if_null};
 pub use search::{
     Analysed, Attempt, Closed, Closing, NotClosed, Search, Searched, TooLarge, WidestGap, close,
-    fit, random_configuration, sampling_range, too_large,
+    random_configuration, sampling_range, too_large,
 };
 pub use tangent::{
     FiniteStep, FrameMotion, FrameMotions, FrameTwists, Freedoms, Lock, Locked, LoopPart,

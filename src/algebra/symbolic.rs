@@ -17,7 +17,7 @@ use rustc_hash::FxHashMap;
 
 use super::Function;
 use super::trigonometric::{Budget, Trigonometric};
-use crate::number::{Number, assigning};
+use crate::number::{Number, operators};
 
 /// A formula, as long as the arena it was made in is open.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -217,7 +217,7 @@ impl Neg for Symbolic {
     }
 }
 
-assigning!(Symbolic);
+operators!([Symbolic]);
 
 impl Number for Symbolic {
     fn from_f64(x: f64) -> Self {

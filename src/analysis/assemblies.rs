@@ -323,6 +323,7 @@ impl AssemblySolver {
             &self.family,
             (&start, &held_home),
             (asked, held),
+            watch,
         )
     }
 }

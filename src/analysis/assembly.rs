@@ -286,7 +286,7 @@ impl Reporter<'_> {
     }
 
     fn assembled(&self, attempt: Attempt) -> AssemblyReport {
-        let outside = self.search.outside_limits(&attempt.at);
+        let outside: Vec<usize> = (self.mechanism.outside_limits(&attempt.at.joints)).collect();
         let freedoms = Freedoms::at(self.mechanism.dimensions(), self.search.held(), &attempt.at);
         let idle = if freedoms.are_local(self.mechanism, &attempt.at) {
             freedoms.motions.len()

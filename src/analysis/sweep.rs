@@ -26,7 +26,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::algebra::SiUnit;
 use crate::mechanism::{Configuration, Mechanism};
-use crate::solve::{Continuation, Stage, Watch};
+use crate::solve::{Continuation, Progress, Stage, Watch};
 use crate::system::{Curve, Driven, Event, Held, Walk};
 use met::Record;
 use rows::Rows;
@@ -169,10 +169,11 @@ pub fn sweep(
     let sink: &mut Flow = &mut |row| {
         sink(row);
         reached = row.step.unwrap_or(reached);
-        match watch.stops(Stage::Motion, reached, steps) {
-            true => ControlFlow::Break(()),
-            false => ControlFlow::Continue(()),
-        }
+        watch.at(Progress {
+            stage: Stage::Motion,
+            done: reached,
+            of: steps,
+        })
     };
     let interrupted = |report: SweepReport| SweepReport {
         interrupted: watch.is_stopped(),
@@ -186,12 +187,12 @@ pub fn sweep(
         Ok(place) => place,
         Err(why) => return record.no_start(&mut curve, &start, why, method),
     };
-    let (place, rate) = curve.towards_end(place);
+    let (place, turns_back) = curve.towards_end(place);
     let mut rows = Rows::new(mechanism, held, inputs, &place, settings);
     if rows.first(&place, sink).is_break() {
         return interrupted(record.report(SweepEnd::Stopped, 1, 0.0));
     }
-    if rate.abs() < 1e-9 {
+    if turns_back {
         record.meet(&curve, &place, &Event::Fold);
         return record.report(SweepEnd::Fold, 1, 0.0);
     }

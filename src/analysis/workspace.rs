@@ -79,27 +79,17 @@ impl Default for WorkspaceSettings {
 }
 
 /// Why there is no map.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum WorkspaceError {
     /// More nodes in modes were reached than may be kept.
+    #[error(
+        "the map would have more than the {most} nodes that may be kept: use a coarser grid or a smaller box"
+    )]
     TooMany {
         /// How many may be.
         most: usize,
     },
 }
-
-impl std::fmt::Display for WorkspaceError {
-    fn fmt(&self, f: &mut std::fmt::Formatter) -> std::fmt::Result {
-        match self {
-            WorkspaceError::TooMany { most } => write!(
-                f,
-                "the map would have more than the {most} nodes that may be kept: use a coarser grid or a smaller box"
-            ),
-        }
-    }
-}
-
-impl std::error::Error for WorkspaceError {}
 
 /// Bytes that a node in one mode takes at most at a time, roughly.
 pub fn cell_bytes(question: &Question, axes: usize) -> usize {
@@ -109,7 +99,7 @@ pub fn cell_bytes(question: &Question, axes: usize) -> usize {
     let kept = 150 + 8 * joints + size_of::<PlatformPose<f64>>() * platforms;
     // beside it first the motions, later numbers and a row of the table
     let motions = 8 * question.held_coordinates().len() * unknowns;
-    let row = 65 + size_of::<map::Head>() + 8 * (axes + unknowns);
+    let row = 65 + 8 * (6 + axes + unknowns);
     kept + motions.max(row)
 }
 
@@ -188,6 +178,6 @@ fn reached_set<T: Factorable + Packed + Send + Sync>(
     let mut reached_set = reached.reached_set(fill.grid);
     let (aspects, together) = aspects::joined(fill, &steps, &reached_set, watch);
     // what hangs together on a finer grid is of one mode
-    reached_set.connect(together.into_iter());
+    reached_set.connect(together);
     Ok((reached_set, aspects, more.outside))
 }

@@ -50,11 +50,6 @@ impl<T: Field> Qr<T> {
         self.rows
     }
 
-    /// The number of columns to factorise.
-    pub fn pivots(&self) -> usize {
-        self.pivots
-    }
-
     /// The numerical rank found by the last factorisation.
     pub fn rank(&self) -> usize {
         self.rank

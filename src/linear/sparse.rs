@@ -37,10 +37,10 @@ impl<T: Field + ComplexField> SparseStep<T> for SparseNormal<T> {
     fn new(size: usize, blocks: &[Block], extra_rows: usize) -> Self {
         let mut pairs: Vec<Pair<usize, usize>> = Vec::new();
         for block in blocks {
-            pairs.extend(lower(block.columns()).map(|(row, col)| Pair { row, col }));
+            pairs.extend(lower(block.columns()).map(|(_, pair)| pair));
         }
         if extra_rows > 0 {
-            pairs.extend(lower(0..size).map(|(row, col)| Pair { row, col }));
+            pairs.extend(lower(0..size).map(|(_, pair)| pair));
         }
         pairs.extend((0..size).map(|i| Pair { row: i, col: i }));
         let (pattern, order) = SymbolicSparseColMat::try_new_from_indices(size, size, &pairs)
@@ -73,9 +73,9 @@ impl<T: Field + ComplexField> SparseStep<T> for SparseNormal<T> {
         self.damping = damping;
         for (block, entries) in blocks {
             let column = |j: usize| &entries[j * block.rows..(j + 1) * block.rows];
-            let places = lower_places(block.columns());
+            let places = lower(block.columns());
             self.values
-                .extend(places.map(|(i, j)| inner(column(i), column(j))));
+                .extend(places.map(|([i, j], _)| inner(column(i), column(j))));
         }
         if !extra.is_empty() {
             let size = self.size;
@@ -84,7 +84,7 @@ impl<T: Field + ComplexField> SparseStep<T> for SparseNormal<T> {
                 rows.fold(T::zero(), |sum, row| sum + row[i].conjugate() * row[j])
             };
             self.values
-                .extend(lower(0..size).map(|(i, j)| product(i, j)));
+                .extend(lower(0..size).map(|([i, j], _)| product(i, j)));
         }
         let largest = self.values.iter().fold(1.0, |m: f64, x| m.max(x.real()));
         // a freedom that is left makes JᴴJ singular; the least addition that lets the factorisation
@@ -151,26 +151,14 @@ impl<T: Field + ComplexField> SparseStep<T> for SparseNormal<T> {
     }
 }
 
-/// Places (i, j) of two columns whose product stands on or below the diagonal.
-fn lower_places(
+/// Places [i, j] of two columns whose product stands on or below the diagonal, and where it does.
+fn lower(
     columns: impl Iterator<Item = usize> + Clone,
-) -> impl Iterator<Item = (usize, usize)> {
-    let other = columns.clone();
+) -> impl Iterator<Item = ([usize; 2], Pair<usize, usize>)> {
+    let other = columns.clone().enumerate();
     columns.enumerate().flat_map(move |(j, col)| {
-        let rows = other
-            .clone()
-            .enumerate()
-            .filter(move |&(_, row)| row >= col);
-        rows.map(move |(i, _)| (i, j))
-    })
-}
-
-/// The same as unknowns (row, column).
-fn lower(columns: impl Iterator<Item = usize> + Clone) -> impl Iterator<Item = (usize, usize)> {
-    let other = columns.clone();
-    columns.flat_map(move |col| {
-        let rows = other.clone().filter(move |&row| row >= col);
-        rows.map(move |row| (row, col))
+        let rows = other.clone().filter(move |&(_, row)| row >= col);
+        rows.map(move |(i, row)| ([i, j], Pair { row, col }))
     })
 }
 

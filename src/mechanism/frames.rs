@@ -271,16 +271,19 @@ impl Mechanism {
         }
     }
 
-    /// The joints that move one side of a closure or change its length.
+    /// The joints that some closure feels.
     pub(super) fn felt_joints(&self) -> BTreeSet<usize> {
-        let mut felt = BTreeSet::new();
-        for closure in &self.closures {
-            felt.extend(closure.length.iter().flat_map(joints_of));
-            for frame in closure.frames {
-                felt.extend(self.joints_below(frame));
-            }
-        }
-        felt
+        let closures = self.closures.iter();
+        closures.flat_map(|closure| self.felt_by(closure)).collect()
+    }
+
+    /// The joints that move one side of this closure or change its length.
+    pub(crate) fn felt_by(&self, closure: &Closure) -> Vec<usize> {
+        let length = closure.length.iter().flat_map(joints_of);
+        let frames = closure.frames.into_iter();
+        length
+            .chain(frames.flat_map(|frame| self.joints_below(frame)))
+            .collect()
     }
 
     /// The joints that affect no closure: those of open chains.

@@ -11,7 +11,13 @@ const ROUNDING: f64 = 1e-9;
 /// The equivalent of an angle that is nearest to another, in rad.
 #[inline]
 pub(crate) fn turn_near(angle: f64, to: f64) -> f64 {
-    angle - TAU * ((angle - to) / TAU).round()
+    angle - TAU * turns(angle - to)
+}
+
+/// The whole turns nearest to an angle in rad.
+#[inline]
+pub(crate) fn turns(angle: f64) -> f64 {
+    (angle / TAU).round()
 }
 
 /// The equivalent angle in (−π, π], in rad. −π and π are the same angle, and rounding must not decide which
@@ -32,6 +38,12 @@ impl Mechanism {
         let whole = |c: f64| c == c.round();
         self.joints[joint].kind == JointKind::Revolute
             && rows.map(|row| row.turn.coefficient(joint)).all(whole)
+    }
+
+    /// The joints that are outside their limits.
+    pub fn outside_limits(&self, joints: &[f64]) -> impl Iterator<Item = usize> {
+        let joints = self.joints.iter().zip(joints).enumerate();
+        joints.filter_map(|(i, (joint, value))| (!joint.allows(*value)).then_some(i))
     }
 
     /// Brings joints with limits, where full turns change nothing, to the equivalent value nearest the middle of

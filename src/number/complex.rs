@@ -1,4 +1,4 @@
-use super::{Complex, Field, Number, trigonometry};
+use super::{Complex, Field, Number, functions, trigonometry};
 
 impl Number for Complex<f64> {
     const REAL: bool = false;
@@ -21,35 +21,19 @@ impl Number for Complex<f64> {
             Complex::new(cos * cosh, -sin * sinh),
         )
     }
-    #[inline]
-    fn sqrt(self) -> Self {
-        Complex::sqrt(self)
-    }
-    #[inline]
-    fn asin(self) -> Self {
-        Complex::asin(self)
-    }
-    #[inline]
-    fn acos(self) -> Self {
-        Complex::acos(self)
-    }
-    #[inline]
-    fn atan(self) -> Self {
-        Complex::atan(self)
-    }
+    functions!(|z|
+        sqrt: Complex::sqrt(z),
+        asin: Complex::asin(z),
+        acos: Complex::acos(z),
+        atan: Complex::atan(z),
+        exp: Complex::exp(z),
+        ln: Complex::ln(z),
+    );
     /// −i ln((x + iy)/√(x² + y²)), which is the analytic continuation of the real function.
     #[inline]
     fn atan2(self, x: Self) -> Self {
         let i = Complex::new(0.0, 1.0);
         -i * ((x + i * self) / (x * x + self * self).sqrt()).ln()
-    }
-    #[inline]
-    fn exp(self) -> Self {
-        Complex::exp(self)
-    }
-    #[inline]
-    fn ln(self) -> Self {
-        Complex::ln(self)
     }
     #[inline]
     fn is_finite(self) -> bool {

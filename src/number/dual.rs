@@ -1,6 +1,4 @@
-use std::ops::{Add, Div, Mul, Neg, Sub};
-
-use super::{Extent, Field, Number, assigning};
+use super::{Extent, Field, Number, functions, operators};
 
 /// A value with its derivative along one direction: a + a′ε with ε² = 0 (Clifford 1873).
 ///
@@ -38,51 +36,16 @@ impl<T: Number> Dual<T> {
     }
 }
 
-impl<T: Number> Add for Dual<T> {
-    type Output = Self;
-    #[inline]
-    fn add(self, other: Self) -> Self {
-        dual(self.value + other.value, self.slope + other.slope)
-    }
-}
-
-impl<T: Number> Sub for Dual<T> {
-    type Output = Self;
-    #[inline]
-    fn sub(self, other: Self) -> Self {
-        dual(self.value - other.value, self.slope - other.slope)
-    }
-}
-
-impl<T: Number> Mul for Dual<T> {
-    type Output = Self;
-    #[inline]
-    fn mul(self, other: Self) -> Self {
-        dual(
-            self.value * other.value,
-            self.value * other.slope + self.slope * other.value,
-        )
-    }
-}
-
-impl<T: Number> Div for Dual<T> {
-    type Output = Self;
-    #[inline]
-    fn div(self, other: Self) -> Self {
-        let value = self.value / other.value;
-        dual(value, (self.slope - value * other.slope) / other.value)
-    }
-}
-
-impl<T: Number> Neg for Dual<T> {
-    type Output = Self;
-    #[inline]
-    fn neg(self) -> Self {
-        dual(-self.value, -self.slope)
-    }
-}
-
-assigning!(Dual<T>, T);
+operators!([Dual<T>; T]
+    #[inline] Add add |a, b| dual(a.value + b.value, a.slope + b.slope);
+    #[inline] Sub sub |a, b| dual(a.value - b.value, a.slope - b.slope);
+    #[inline] Mul mul |a, b| dual(a.value * b.value, a.value * b.slope + a.slope * b.value);
+    #[inline] Div div |a, b| {
+        let value = a.value / b.value;
+        dual(value, (a.slope - value * b.slope) / b.value)
+    };
+    #[inline] Neg neg |a| dual(-a.value, -a.slope);
+);
 
 impl<T: Number> Number for Dual<T> {
     const REAL: bool = T::REAL;
@@ -100,26 +63,20 @@ impl<T: Number> Number for Dual<T> {
         let (sin, cos) = self.value.sin_cos();
         (self.chain(sin, cos), self.chain(cos, -sin))
     }
-    #[inline]
-    fn sqrt(self) -> Self {
-        let root = self.value.sqrt();
-        self.chain(root, T::from_f64(0.5) / root)
-    }
-    #[inline]
-    fn asin(self) -> Self {
-        let a = self.value;
-        self.chain(a.asin(), T::one() / (T::one() - a * a).sqrt())
-    }
-    #[inline]
-    fn acos(self) -> Self {
-        let a = self.value;
-        self.chain(a.acos(), -(T::one() / (T::one() - a * a).sqrt()))
-    }
-    #[inline]
-    fn atan(self) -> Self {
-        let a = self.value;
-        self.chain(a.atan(), T::one() / (T::one() + a * a))
-    }
+    functions!(|x|
+        sqrt: {
+            let root = x.value.sqrt();
+            x.chain(root, T::from_f64(0.5) / root)
+        },
+        asin: x.chain(x.value.asin(), T::one() / (T::one() - x.value * x.value).sqrt()),
+        acos: x.chain(x.value.acos(), -(T::one() / (T::one() - x.value * x.value).sqrt())),
+        atan: x.chain(x.value.atan(), T::one() / (T::one() + x.value * x.value)),
+        exp: {
+            let e = x.value.exp();
+            x.chain(e, e)
+        },
+        ln: x.chain(x.value.ln(), T::one() / x.value),
+    );
     #[inline]
     fn atan2(self, x: Self) -> Self {
         let (y, r2) = (self, self.value * self.value + x.value * x.value);
@@ -127,15 +84,6 @@ impl<T: Number> Number for Dual<T> {
             y.value.atan2(x.value),
             (x.value * y.slope - y.value * x.slope) / r2,
         )
-    }
-    #[inline]
-    fn exp(self) -> Self {
-        let e = self.value.exp();
-        self.chain(e, e)
-    }
-    #[inline]
-    fn ln(self) -> Self {
-        self.chain(self.value.ln(), T::one() / self.value)
     }
     #[inline]
     fn is_finite(self) -> bool {

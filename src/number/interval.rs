@@ -1,7 +1,6 @@
 use std::f64::consts::{FRAC_PI_2, PI};
-use std::ops::{Add, Div, Mul, Neg, Sub};
 
-use super::{Field, Number, assigning};
+use super::{Field, Number, functions, operators};
 
 /// All reals from `low` to `high`; every operation rounds outwards, so that the true result of the
 /// same operation on any reals in the operands is inside (Moore 1966).
@@ -15,37 +14,25 @@ pub struct Interval {
     pub high: f64,
 }
 
-const WHOLE: Interval = Interval {
-    low: f64::NEG_INFINITY,
-    high: f64::INFINITY,
-};
+const WHOLE: Interval = interval(f64::NEG_INFINITY, f64::INFINITY);
 
 /// The elementary functions of `pxfm` are within half a unit in the last place; two are granted.
 #[inline]
 fn outward(low: f64, high: f64) -> Interval {
-    if low.is_nan() || high.is_nan() {
-        return WHOLE;
-    }
-    Interval {
-        low: low.next_down().next_down(),
-        high: high.next_up().next_up(),
-    }
+    rounded(low.next_down(), high.next_up())
 }
 
 /// The correctly rounded ends of a sum, product, quotient or root, moved by one unit.
 #[inline]
 fn rounded(low: f64, high: f64) -> Interval {
-    if low.is_nan() || high.is_nan() {
-        return WHOLE;
-    }
-    Interval {
-        low: low.next_down(),
-        high: high.next_up(),
+    match low.is_nan() || high.is_nan() {
+        true => WHOLE,
+        false => interval(low.next_down(), high.next_up()),
     }
 }
 
 #[inline]
-fn interval(low: f64, high: f64) -> Interval {
+const fn interval(low: f64, high: f64) -> Interval {
     Interval { low, high }
 }
 
@@ -116,77 +103,29 @@ impl Interval {
     }
 }
 
-impl Add for Interval {
-    type Output = Self;
-    #[inline]
-    fn add(self, other: Self) -> Self {
-        if self.is(0.0) {
-            return other;
-        }
-        if other.is(0.0) {
-            return self;
-        }
-        rounded(self.low + other.low, self.high + other.high)
-    }
-}
-
-impl Neg for Interval {
-    type Output = Self;
-    #[inline]
-    fn neg(self) -> Self {
-        interval(-self.high, -self.low)
-    }
-}
-
-impl Sub for Interval {
-    type Output = Self;
-    #[inline]
-    fn sub(self, other: Self) -> Self {
-        self + -other
-    }
-}
-
-impl Mul for Interval {
-    type Output = Self;
-    #[inline]
-    fn mul(self, other: Self) -> Self {
-        if self.is(0.0) || other.is(0.0) {
-            return Interval::point(0.0);
-        }
-        if self.is(1.0) {
-            return other;
-        }
-        if other.is(1.0) {
-            return self;
-        }
-        if self.is(-1.0) {
-            return -other;
-        }
-        if other.is(-1.0) {
-            return -self;
-        }
-        self.of_ends(other, |a, b| a * b)
-    }
-}
-
-impl Div for Interval {
-    type Output = Self;
-    #[inline]
-    fn div(self, other: Self) -> Self {
-        if other.is(1.0) {
-            return self;
-        }
-        if other.contains(0.0) {
-            return WHOLE;
-        }
-        if self.is(0.0) {
-            return self;
-        }
-        self.of_ends(other, |a, b| a / b)
-    }
-}
-
-assigning!(Interval);
+operators!([Interval]
+    #[inline] Add add |a, b| match (a.is(0.0), b.is(0.0)) {
+        (true, _) => b,
+        (_, true) => a,
+        _ => rounded(a.low + b.low, a.high + b.high),
+    };
+    #[inline] Sub sub |a, b| a + -b;
+    #[inline] Mul mul |a, b| match (a, b) {
+        _ if a.is(0.0) || b.is(0.0) => Interval::point(0.0),
+        _ if a.is(1.0) => b,
+        _ if b.is(1.0) => a,
+        _ if a.is(-1.0) => -b,
+        _ if b.is(-1.0) => -a,
+        _ => a.of_ends(b, |a, b| a * b),
+    };
+    #[inline] Div div |a, b| match (a, b) {
+        _ if b.is(1.0) => a,
+        _ if b.contains(0.0) => WHOLE,
+        _ if a.is(0.0) => a,
+        _ => a.of_ends(b, |a, b| a / b),
+    };
+    #[inline] Neg neg |a| interval(-a.high, -a.low);
+);
 
 impl Number for Interval {
     #[inline]
@@ -223,35 +162,29 @@ impl Number for Interval {
             enclose(low.1, high.1, self.meets(0.0, false), self.meets(0.0, true)),
         )
     }
-    #[inline]
-    fn sqrt(self) -> Self {
-        if self.is(0.0) || self.is(1.0) {
-            return self;
-        }
-        if self.low < 0.0 {
-            return WHOLE;
-        }
-        let root = rounded(self.low.sqrt(), self.high.sqrt());
-        Interval {
-            low: root.low.max(0.0),
-            ..root
-        }
-    }
-    #[inline]
-    fn asin(self) -> Self {
-        outward(pxfm::f_asin(self.low), pxfm::f_asin(self.high))
-    }
-    #[inline]
-    fn acos(self) -> Self {
-        outward(pxfm::f_acos(self.high), pxfm::f_acos(self.low))
-    }
-    #[inline]
-    fn atan(self) -> Self {
-        if self.is(0.0) {
-            return self;
-        }
-        outward(pxfm::f_atan(self.low), pxfm::f_atan(self.high))
-    }
+    functions!(|x|
+        sqrt: match rounded(x.low.sqrt(), x.high.sqrt()) {
+            _ if x.is(0.0) || x.is(1.0) => x,
+            _ if x.low < 0.0 => WHOLE,
+            root => interval(root.low.max(0.0), root.high),
+        },
+        asin: outward(pxfm::f_asin(x.low), pxfm::f_asin(x.high)),
+        acos: outward(pxfm::f_acos(x.high), pxfm::f_acos(x.low)),
+        atan: match x.is(0.0) {
+            true => x,
+            false => outward(pxfm::f_atan(x.low), pxfm::f_atan(x.high)),
+        },
+        exp: outward(pxfm::f_exp(x.low), pxfm::f_exp(x.high)),
+        ln: match x.low <= 0.0 {
+            true => WHOLE,
+            false => outward(pxfm::f_log(x.low), pxfm::f_log(x.high)),
+        },
+        abs: match (x.low >= 0.0, x.high <= 0.0) {
+            (true, _) => x,
+            (_, true) => -x,
+            _ => interval(0.0, x.magnitude()),
+        },
+    );
     #[inline]
     fn atan2(self, x: Self) -> Self {
         let half_pi = interval(FRAC_PI_2, FRAC_PI_2.next_up());
@@ -264,27 +197,6 @@ impl Number for Interval {
         } else {
             let pi = Interval::pi().high;
             interval(-pi, pi)
-        }
-    }
-    #[inline]
-    fn exp(self) -> Self {
-        outward(pxfm::f_exp(self.low), pxfm::f_exp(self.high))
-    }
-    #[inline]
-    fn ln(self) -> Self {
-        if self.low <= 0.0 {
-            return WHOLE;
-        }
-        outward(pxfm::f_log(self.low), pxfm::f_log(self.high))
-    }
-    #[inline]
-    fn abs(self) -> Self {
-        if self.low >= 0.0 {
-            self
-        } else if self.high <= 0.0 {
-            -self
-        } else {
-            interval(0.0, self.magnitude())
         }
     }
     #[inline]

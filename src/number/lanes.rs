@@ -1,8 +1,6 @@
 //! Several real numbers side by side, one in each lane of a vector register.
 
-use std::ops::{Add, AddAssign, Div, Mul, MulAssign, Neg, Sub, SubAssign};
-
-use super::{Extent, Field, Number, Packed, trigonometry};
+use super::{Extent, Field, Number, Packed, functions, operators, trigonometry};
 
 /// How many numbers stand side by side: two registers of AVX2, one of AVX-512.
 pub const LANES: usize = 8;
@@ -43,76 +41,28 @@ impl Lanes {
         Lanes::new(lanes)
     }
 
+    /// One number of all: halves first, which are as many operations, but side by side.
     #[inline(always)]
-    fn with(self, other: Self, f: impl Fn(f64, f64) -> f64) -> Self {
+    fn reduced(self, f: impl Fn(f64, f64) -> f64) -> f64 {
         let mut lanes = self.lanes();
-        for (x, y) in lanes.iter_mut().zip(other.lanes()) {
-            *x = f(*x, y);
+        let mut width = LANES / 2;
+        while width > 0 {
+            for i in 0..width {
+                lanes[i] = f(lanes[i], lanes[i + width]);
+            }
+            width /= 2;
         }
-        Lanes::new(lanes)
+        lanes[0]
     }
 }
 
-impl Add for Lanes {
-    type Output = Self;
-    #[inline(always)]
-    fn add(self, other: Self) -> Self {
-        Lanes(self.0 + other.0)
-    }
-}
-
-impl Sub for Lanes {
-    type Output = Self;
-    #[inline(always)]
-    fn sub(self, other: Self) -> Self {
-        Lanes(self.0 - other.0)
-    }
-}
-
-impl Mul for Lanes {
-    type Output = Self;
-    #[inline(always)]
-    fn mul(self, other: Self) -> Self {
-        Lanes(self.0 * other.0)
-    }
-}
-
-impl Div for Lanes {
-    type Output = Self;
-    #[inline(always)]
-    fn div(self, other: Self) -> Self {
-        Lanes(self.0 / other.0)
-    }
-}
-
-impl Neg for Lanes {
-    type Output = Self;
-    #[inline(always)]
-    fn neg(self) -> Self {
-        Lanes(-self.0)
-    }
-}
-
-impl AddAssign for Lanes {
-    #[inline(always)]
-    fn add_assign(&mut self, other: Self) {
-        *self = *self + other;
-    }
-}
-
-impl SubAssign for Lanes {
-    #[inline(always)]
-    fn sub_assign(&mut self, other: Self) {
-        *self = *self - other;
-    }
-}
-
-impl MulAssign for Lanes {
-    #[inline(always)]
-    fn mul_assign(&mut self, other: Self) {
-        *self = *self * other;
-    }
-}
+operators!([Lanes]
+    #[inline(always)] Add add |a, b| Lanes(a.0 + b.0);
+    #[inline(always)] Sub sub |a, b| Lanes(a.0 - b.0);
+    #[inline(always)] Mul mul |a, b| Lanes(a.0 * b.0);
+    #[inline(always)] Div div |a, b| Lanes(a.0 / b.0);
+    #[inline(always)] Neg neg |a| Lanes(-a.0);
+);
 
 impl Number for Lanes {
     #[inline(always)]
@@ -133,29 +83,16 @@ impl Number for Lanes {
     fn sqrt(self) -> Self {
         Lanes(self.0.sqrt())
     }
-    #[inline]
-    fn asin(self) -> Self {
-        self.each(Number::asin)
-    }
-    #[inline]
-    fn acos(self) -> Self {
-        self.each(Number::acos)
-    }
-    #[inline]
-    fn atan(self) -> Self {
-        self.each(Number::atan)
-    }
+    functions!(|x|
+        asin: x.each(Number::asin),
+        acos: x.each(Number::acos),
+        atan: x.each(Number::atan),
+        exp: x.each(Number::exp),
+        ln: x.each(Number::ln),
+    );
     #[inline]
     fn atan2(self, x: Self) -> Self {
         Lanes::new(trigonometry::atan2_of_each(self.lanes(), x.lanes()))
-    }
-    #[inline]
-    fn exp(self) -> Self {
-        self.each(Number::exp)
-    }
-    #[inline]
-    fn ln(self) -> Self {
-        self.each(Number::ln)
     }
     #[inline(always)]
     fn abs(self) -> Self {
@@ -163,7 +100,7 @@ impl Number for Lanes {
     }
     #[inline]
     fn powf(self, exponent: Self) -> Self {
-        self.with(exponent, Number::powf)
+        Lanes::of_parts(|i| self.part(i).powf(exponent.part(i)))
     }
     #[inline]
     fn is_finite(self) -> bool {
@@ -198,31 +135,12 @@ impl Field for Lanes {
 impl Extent for Lanes {
     #[inline(always)]
     fn least(self) -> f64 {
-        // halves first: as many comparisons, but side by side
-        let mut lanes = self.lanes();
-        let mut width = LANES / 2;
-        while width > 0 {
-            for i in 0..width {
-                let (x, y) = (lanes[i], lanes[i + width]);
-                lanes[i] = if x < y { x } else { y };
-            }
-            width /= 2;
-        }
-        lanes[0]
+        self.reduced(|x, y| if x < y { x } else { y })
     }
     #[inline(always)]
     fn greatest(self) -> f64 {
-        let mut lanes = self.lanes();
-        let mut width = LANES / 2;
-        while width > 0 {
-            for i in 0..width {
-                let (x, y) = (lanes[i], lanes[i + width]);
-                // a NaN stays whichever side it is on
-                lanes[i] = if x <= y || y.is_nan() { y } else { x };
-            }
-            width /= 2;
-        }
-        lanes[0]
+        // a NaN stays whichever side it is on
+        self.reduced(|x, y| if x <= y || y.is_nan() { y } else { x })
     }
     #[inline(always)]
     fn larger(self, other: Self) -> Self {

@@ -1,4 +1,4 @@
-use super::{Extent, Field, Number, Packed, trigonometry};
+use super::{Extent, Field, Number, Packed, functions, trigonometry};
 
 /// Nothing comes from the platform's C library, so that the same input gives the same bytes on every
 /// machine.
@@ -19,29 +19,16 @@ impl Number for f64 {
     fn sqrt(self) -> Self {
         f64::sqrt(self)
     }
-    #[inline]
-    fn asin(self) -> Self {
-        pxfm::f_asin(self)
-    }
-    #[inline]
-    fn acos(self) -> Self {
-        pxfm::f_acos(self)
-    }
-    #[inline]
-    fn atan(self) -> Self {
-        pxfm::f_atan(self)
-    }
+    functions!(|x|
+        asin: pxfm::f_asin(x),
+        acos: pxfm::f_acos(x),
+        atan: pxfm::f_atan(x),
+        exp: pxfm::f_exp(x),
+        ln: pxfm::f_log(x),
+    );
     #[inline]
     fn atan2(self, x: Self) -> Self {
         trigonometry::atan2(self, x)
-    }
-    #[inline]
-    fn exp(self) -> Self {
-        pxfm::f_exp(self)
-    }
-    #[inline]
-    fn ln(self) -> Self {
-        pxfm::f_log(self)
     }
     #[inline]
     fn powf(self, exponent: Self) -> Self {

@@ -1,7 +1,9 @@
 //! Points where branches of a curve of solutions cross: there the Jacobian loses rank.
 
 use super::continuation::{Continuation, Place, SolutionCurve};
-use crate::linear::{Decomposition, add, dot, norm};
+use crate::linear::{
+    BESIDE_A_CROSSING, Decomposition, RANK_TOLERANCE, SINGULAR_PLACE, add, dot, norm,
+};
 
 /// A point where the Jacobian of a curve loses rank.
 #[derive(Clone, Debug)]
@@ -15,28 +17,9 @@ pub struct BranchPoint<P> {
     /// Whether nothing passes: no direction leads on even to second order, and no other solution
     /// is near.
     pub isolated: bool,
-    /// The rank defect that is left there, beside the largest singular value: rounding.
-    pub defect: f64,
-}
-
-/// How the branches at a [`BranchPoint`] meet.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Contact {
-    /// Two branches or more cross.
-    Crossing,
-    /// Only the branch followed was found: others touch it, are complex, or have higher order.
-    Single,
 }
 
 impl<P> BranchPoint<P> {
-    /// How the branches meet.
-    pub fn contact(&self) -> Contact {
-        match self.directions.len() {
-            0 | 1 => Contact::Single,
-            _ => Contact::Crossing,
-        }
-    }
-
     /// The direction of the branch that goes straight on along a tangent, if the point lies ahead:
     /// `step` leads to it from the place with that tangent.
     pub fn straight_on(&self, step: &[f64], tangent: &[f64]) -> Option<Vec<f64>> {
@@ -51,9 +34,6 @@ impl<P> BranchPoint<P> {
         Some(straight.iter().map(|x| sign * x).collect())
     }
 }
-
-/// Forms below this are rounding of the differences.
-const NOTHING: f64 = 1e-7;
 
 /// Step of the differences of the Jacobian: their error, of second order, only delays convergence.
 const STEP: f64 = 1e-5;
@@ -78,7 +58,7 @@ impl Continuation {
         (1..unknowns).take(4).find_map(|lost| {
             let found = self.rank_drop(curve, near, reach, lost)?;
             // of higher order than asked for: Newton's method was slow, and its end uncertain
-            let (free, _) = freedoms(curve, &found, 1e-5);
+            let free = freedoms(curve, &found);
             (free == lost + 1).then(|| self.described(curve, found, free))
         })
     }
@@ -122,7 +102,7 @@ impl Continuation {
             let size = norm(&step);
             let largest = residual.iter().fold(0.0f64, |m, r| m.max(r.abs()));
             let there = largest <= self.tolerance
-                && defect <= 1e-9 * values.first().copied().unwrap_or(1.0).max(1e-9);
+                && defect <= SINGULAR_PLACE * values.first().map_or(1.0, |v| v.max(SINGULAR_PLACE));
             if there && (size < 1e-14 || size >= 0.5 * before) {
                 let gone = norm(&curve.difference(near, &at));
                 return (gone <= reach).then_some(at);
@@ -146,13 +126,10 @@ impl Continuation {
         let (residual, jacobian) = curve.linearise(&at);
         let rows = residual.len();
         let here = Decomposition::of_rank(rows, unknowns, &jacobian, unknowns - freedoms);
-        let values = here.singular_values();
-        let defect = values.get(unknowns - freedoms).copied().unwrap_or(0.0);
-        let largest = values.first().copied().unwrap_or(1.0);
         let (left, right) = (here.left_null_space(), here.null_space());
         let forms = forms(curve, &at, &left, &right);
         let zeros = zeros(&forms, right.len());
-        let isolated = zeros.is_empty() && forms.iter().any(|form| norm(form) > NOTHING);
+        let isolated = zeros.is_empty() && forms.iter().any(|form| norm(form) > RANK_TOLERANCE);
         let directions = zeros.into_iter().map(|weights| {
             let mut direction = vec![0.0; unknowns];
             for (v, weight) in right.iter().zip(&weights) {
@@ -167,7 +144,6 @@ impl Continuation {
             freedoms,
             directions: found,
             isolated,
-            defect: defect / largest.max(f64::MIN_POSITIVE),
         }
     }
 
@@ -216,17 +192,14 @@ impl<P: Clone> BranchPoint<P> {
     }
 }
 
-/// How many directions the Jacobian maps to nearly nothing, and the singular value that counts last.
-fn freedoms<C: SolutionCurve>(curve: &mut C, at: &C::Point, tolerance: f64) -> (usize, f64) {
+/// How many directions the Jacobian maps to nearly nothing.
+fn freedoms<C: SolutionCurve>(curve: &mut C, at: &C::Point) -> usize {
     let unknowns = curve.unknowns();
     let (residual, jacobian) = curve.linearise(at);
     let here = Decomposition::of(residual.len(), unknowns, &jacobian);
     let values = here.singular_values();
-    let largest = values.first().copied().unwrap_or(0.0);
-    let counted = values.iter().take_while(|v| **v > tolerance * largest);
-    let counted = counted.count();
-    let last = counted.checked_sub(1).map_or(0.0, |last| values[last]);
-    (unknowns - counted, last)
+    let least = BESIDE_A_CROSSING * values.first().copied().unwrap_or(0.0);
+    unknowns - values.iter().take_while(|value| **value > least).count()
 }
 
 /// dJ along v, column-major, by central differences.
@@ -285,7 +258,7 @@ fn forms<C: SolutionCurve>(
 /// isolated: Newton's method from points spread over the sphere.
 fn zeros(forms: &[Vec<f64>], n: usize) -> Vec<Vec<f64>> {
     let largest = forms.iter().map(|form| norm(form)).fold(0.0, f64::max);
-    let counts = |form: &&Vec<f64>| norm(form) > NOTHING.max(1e-5 * largest);
+    let counts = |form: &&Vec<f64>| norm(form) > RANK_TOLERANCE.max(BESIDE_A_CROSSING * largest);
     let forms: Vec<&Vec<f64>> = forms.iter().filter(counts).collect();
     if forms.is_empty() || n < 2 {
         return Vec::new();
@@ -327,12 +300,12 @@ fn zeros(forms: &[Vec<f64>], n: usize) -> Vec<Vec<f64>> {
         let size = norm(&a);
         a.iter_mut().for_each(|x| *x /= size);
         let new = found.iter().all(|b| dot(&a, b).abs() < 1.0 - 1e-8);
-        if best < 1e-7 && new && a.iter().all(|x| x.is_finite()) {
+        if best < RANK_TOLERANCE && new && a.iter().all(|x| x.is_finite()) {
             found.push(a);
         }
     }
     for a in &mut found {
-        let first = a.iter().copied().find(|x| x.abs() > 1e-9);
+        let first = a.iter().copied().find(|x| x.abs() > SINGULAR_PLACE);
         if first.is_some_and(|x| x < 0.0) {
             a.iter_mut().for_each(|x| *x = -*x);
         }
@@ -370,7 +343,6 @@ mod tests {
             assert!((x - exact).abs() < 1e-14, "{:?}", point.at);
         }
         assert_eq!((point.freedoms, point.directions.len()), (2, 2));
-        assert_eq!(point.contact(), Contact::Crossing);
         for direction in &point.directions {
             let slope = direction[1] / direction[0];
             assert!(

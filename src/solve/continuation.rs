@@ -85,12 +85,6 @@ impl<P> Place<P> {
             false => self,
         }
     }
-
-    /// The same with the point exchanged for another description of it.
-    pub fn renamed(mut self, rename: impl FnOnce(&mut P)) -> Self {
-        rename(&mut self.at);
-        self
-    }
 }
 
 /// Why there is no regular place.

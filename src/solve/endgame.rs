@@ -56,7 +56,7 @@ pub fn path_end<H: Turning>(
     tracker: &Tracker,
     x: &[C],
     mut radius: f64,
-    stages: &mut Stages,
+    stages: &mut Stages<'_>,
 ) -> PathEnd {
     let mut at = x.to_vec();
     let mut before: Option<(Vec<C>, f64)> = None;
@@ -107,7 +107,7 @@ fn circle<H: Turning>(
     tracker: &Tracker,
     start: &[C],
     radius: f64,
-    stages: &mut Stages,
+    stages: &mut Stages<'_>,
 ) -> Option<(Vec<Vec<C>>, bool)> {
     let mut samples = Vec::new();
     let place = |k: usize| {
@@ -175,6 +175,7 @@ fn norm(x: &[C]) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::solve::{Progress, Stage, Watch};
 
     /// An angle x with e^{ix} (c − s) = 1: at s = c it is infinite.
     struct Exponential {
@@ -211,7 +212,9 @@ mod tests {
     fn end(c: f64) -> PathEnd {
         let radius = 0.03;
         let x = [C::new(0.0, f64::ln(c - 1.0 + radius))];
-        let (tracker, mut stages) = (Tracker::default(), Stages::new(1));
+        let watch = Watch::none();
+        let mut stages = Stages::new(1, (&watch, Progress::of(Stage::Paths)));
+        let tracker = Tracker::default();
         path_end(&mut Exponential { c }, &tracker, &x, radius, &mut stages)
     }
 

@@ -6,6 +6,7 @@
 //! that quotient is what tells Newton's region of quadratic convergence from a neighbour's
 //! (Timme 2021 uses the same measure).
 
+use super::{Progress, Watch};
 use crate::number::Complex;
 
 type C = Complex<f64>;
@@ -76,7 +77,7 @@ impl Tracker {
 pub enum Arrival {
     /// At the end of the way.
     There,
-    /// The steps became too short at this fraction of the way: a singularity is near.
+    /// The steps became too short at this fraction of the way, as near a singularity, or were stopped.
     Stuck(f64),
     /// Coordinates grew beyond bounds at this fraction of the way.
     Diverged(f64),
@@ -93,22 +94,24 @@ pub struct Track {
     pub evaluations: usize,
 }
 
-/// Storage for [`Tracker::track`].
+/// Storage for [`Tracker::track`], which asks a watch before every step whether to go on.
 #[derive(Clone, Debug)]
-pub struct Stages {
+pub struct Stages<'w> {
     k: [Vec<C>; 4],
     stage: Vec<C>,
     next: Vec<C>,
+    watch: (&'w Watch<'w>, Progress),
 }
 
-impl Stages {
+impl<'w> Stages<'w> {
     /// For `n` coordinates.
-    pub fn new(n: usize) -> Self {
+    pub fn new(n: usize, watch: (&'w Watch<'w>, Progress)) -> Self {
         let zeros = vec![C::new(0.0, 0.0); n];
         Stages {
             k: std::array::from_fn(|_| zeros.clone()),
             stage: zeros.clone(),
             next: zeros,
+            watch,
         }
     }
 }
@@ -124,25 +127,33 @@ fn shifted<H: Homotopy>(h: &H, x: &[C], terms: &[(C, &Vec<C>)], out: &mut [C]) {
 }
 
 impl Tracker {
-    /// Follows `x` from `from` along the straight way to `to`. On failure `x` is the last point
-    /// that could be trusted.
+    /// Follows `x` from `from` along the straight way to `to`. On failure, and when it is stopped, `x`
+    /// is the last point that could be trusted.
     pub fn track<H: Homotopy>(
         &self,
         h: &mut H,
         (from, to): (C, C),
         x: &mut [C],
-        stages: &mut Stages,
+        stages: &mut Stages<'_>,
     ) -> Track {
         let way = to - from;
         let (mut done, mut length) = (0.0, self.first);
         let (mut steps, mut evaluations) = (0, 0);
         let mut moving = false;
-        let Stages { k, stage, next } = stages;
+        let Stages {
+            k,
+            stage,
+            next,
+            watch: (watch, now),
+        } = stages;
         // errors grow as the fifth power of the step
         let fitting = |first: f64| (self.correction / first.max(1e-12)).powf(0.2);
         for _ in 0..self.max_steps {
             if done >= 1.0 {
                 return ended(Arrival::There, steps, evaluations);
+            }
+            if watch.at(*now).is_break() {
+                break;
             }
             let left: f64 = 1.0 - done;
             let step = if length >= 0.999 * left { left } else { length };
@@ -221,7 +232,10 @@ fn ended(arrival: Arrival, steps: usize, evaluations: usize) -> Track {
 
 #[cfg(test)]
 mod tests {
+    use std::ops::ControlFlow;
+
     use super::*;
+    use crate::solve::Stage;
 
     /// x² = 1 + s: at s = −1 both solutions meet.
     struct Roots;
@@ -242,12 +256,19 @@ mod tests {
         }
     }
 
+    fn track(way: (C, C), x: &mut [C]) -> Arrival {
+        let (watch, now) = (Watch::none(), Progress::of(Stage::Paths));
+        let mut stages = Stages::new(1, (&watch, now));
+        Tracker::default()
+            .track(&mut Roots, way, x, &mut stages)
+            .arrival
+    }
+
     #[test]
     fn a_regular_way_is_followed_to_the_last_digits() {
         let (zero, end) = (C::new(0.0, 0.0), C::new(8.0, 0.0));
         let mut x = [C::new(-1.0, 0.0)];
-        let track = Tracker::default().track(&mut Roots, (zero, end), &mut x, &mut Stages::new(1));
-        assert_eq!(track.arrival, Arrival::There);
+        assert_eq!(track((zero, end), &mut x), Arrival::There);
         assert!((x[0] + 3.0).norm() < 1e-9, "{x:?}");
     }
 
@@ -263,7 +284,7 @@ mod tests {
         ];
         for pair in corners.windows(2) {
             let way = (C::new(pair[0].0, pair[0].1), C::new(pair[1].0, pair[1].1));
-            Tracker::default().track(&mut Roots, way, &mut x, &mut Stages::new(1));
+            track(way, &mut x);
         }
         assert!((x[0] + 1.0).norm() < 1e-9, "{x:?}");
     }
@@ -272,10 +293,32 @@ mod tests {
     fn a_way_through_a_meeting_point_is_refused() {
         let way = (C::new(0.0, 0.0), C::new(-2.0, 0.0));
         let mut x = [C::new(1.0, 0.0)];
-        let track = Tracker::default().track(&mut Roots, way, &mut x, &mut Stages::new(1));
-        assert!(
-            matches!(track.arrival, Arrival::Stuck(at) if (at - 0.5).abs() < 1e-2),
-            "{track:?}"
-        );
+        let arrival = track(way, &mut x);
+        let refused = matches!(arrival, Arrival::Stuck(at) if (at - 0.5).abs() < 1e-2);
+        assert!(refused, "{arrival:?}");
+    }
+
+    #[test]
+    fn a_way_is_left_where_it_is_stopped() {
+        let steps = std::sync::atomic::AtomicUsize::new(0);
+        let third = |_: Progress| match steps.fetch_add(1, std::sync::atomic::Ordering::Relaxed) {
+            0..2 => ControlFlow::Continue(()),
+            _ => ControlFlow::Break(()),
+        };
+        let watch = Watch::new(&third);
+        let way = (C::new(0.0, 0.0), C::new(8.0, 0.0));
+        let mut x = [C::new(1.0, 0.0)];
+        let mut stages = Stages::new(1, (&watch, Progress::of(Stage::Paths)));
+        let tracker = Tracker {
+            first: 0.01,
+            ..Tracker::default()
+        };
+        let track = tracker.track(&mut Roots, way, &mut x, &mut stages);
+        let Arrival::Stuck(done) = track.arrival else {
+            panic!("{track:?}");
+        };
+        assert!(0.0 < done && done < 1.0 && track.steps == 2, "{track:?}");
+        // the point is on the path as far as that went
+        assert!((x[0] * x[0] - (1.0 + 8.0 * done)).norm() < 1e-9);
     }
 }

@@ -58,6 +58,14 @@ pub struct Progress {
     pub of: Option<usize>,
 }
 
+impl Progress {
+    /// The beginning of a stage.
+    pub fn of(stage: Stage) -> Self {
+        let (done, of) = (0, None);
+        Progress { stage, done, of }
+    }
+}
+
 /// What is called with the progress of long work, from any of its threads, and answers whether to go on.
 pub type Observer<'a> = dyn Fn(Progress) -> ControlFlow<()> + Sync + 'a;
 

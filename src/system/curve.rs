@@ -6,7 +6,7 @@ mod tracker;
 mod walk;
 
 pub use locus::{LocusCurve, Singular};
-pub use trace::{ConfigurationCurve, LocusEnd, Region, Traced, met_at, neared, passes, settled};
+pub use trace::{ConfigurationCurve, LocusEnd, Region, Traced, met_at, neared, settled};
 pub use tracker::MotionTracker;
 pub use walk::{Event, Monitor, Segment, Walk};
 
@@ -142,8 +142,7 @@ impl Curve {
                 start.joints[joint] = input.from;
             }
         }
-        let mut joints = mechanism.joints().iter().zip(&start.joints);
-        if let Some(joint) = joints.position(|(joint, value)| !joint.allows(*value)) {
+        if let Some(joint) = mechanism.outside_limits(&start.joints).next() {
             return Err(NoStart::OutsideLimits(joint));
         }
         match method.settle(self, start.clone()) {
@@ -153,14 +152,16 @@ impl Curve {
         }
     }
 
-    /// A place followed towards the end of the segment, and how fast the part that is gone grows there.
+    /// A place followed towards the end of the segment, and whether the inputs turn back there.
     pub fn towards_end(
         &self,
         place: Place<Configuration<f64>>,
-    ) -> (Place<Configuration<f64>>, f64) {
+    ) -> (Place<Configuration<f64>>, bool) {
+        /// Slower than this they stand still.
+        const STILL: f64 = 1e-9;
         let rate = self.part_rate(&place.at, &place.tangent);
         let place = if rate < 0.0 { place.reversed() } else { place };
-        (place, rate)
+        (place, rate.abs() < STILL)
     }
 
     /// How fast the part of the segment that is gone grows along a tangent; 0 without inputs.

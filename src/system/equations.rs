@@ -19,10 +19,10 @@ pub use wrenches::ClosureWrenches;
 
 use plan::ClosurePlan;
 
-use crate::geometry::Vector3;
 use crate::linear::{Bordered, Factorable};
 use crate::mechanism::{
-    Closure, Configuration, Dimensions, Kinematics, Placement, needs, orientation_rows,
+    Closure, Configuration, Dimensions, Kinematics, Placement, PoseCoordinate, needs,
+    orientation_rows,
 };
 use crate::number::Field;
 use crate::solve::{Equations, Size};
@@ -155,12 +155,7 @@ impl<T: Factorable> System<T> {
     }
 
     /// Asks for another value of a held platform coordinate.
-    pub fn set_target(
-        &mut self,
-        platform: usize,
-        coordinate: crate::mechanism::PoseCoordinate,
-        value: T,
-    ) {
+    pub fn set_target(&mut self, platform: usize, coordinate: PoseCoordinate, value: T) {
         for hold in &mut self.holds {
             if let HoldRow::Coordinate(p, c, target) = hold
                 && (*p, *c) == (platform, coordinate)
@@ -201,18 +196,6 @@ impl<T: Factorable> System<T> {
             }
         }
         dense
-    }
-
-    fn residual_rows(&self, at: &Configuration<T>, work: &mut Work<T>) -> Size {
-        self.kinematics.place(at, &mut work.placement);
-        for (plan, closure) in self.plans.iter().zip(&self.closures) {
-            let out = &mut work.residual[plan.row..plan.row + plan.rows];
-            closure.residual(&work.placement, at, out);
-        }
-        if !self.holds.is_empty() {
-            self.hold_residuals(at, work);
-        }
-        Size::of(&work.residual)
     }
 
     fn hold_residuals(&self, at: &Configuration<T>, work: &mut Work<T>) {
@@ -309,7 +292,15 @@ impl<T: Factorable> Equations for System<T> {
 
     #[inline]
     fn residual(&self, at: &Configuration<T>, work: &mut Work<T>) -> Size {
-        self.residual_rows(at, work)
+        self.kinematics.place(at, &mut work.placement);
+        for (plan, closure) in self.plans.iter().zip(&self.closures) {
+            let out = &mut work.residual[plan.row..plan.row + plan.rows];
+            closure.residual(&work.placement, at, out);
+        }
+        if !self.holds.is_empty() {
+            self.hold_residuals(at, work);
+        }
+        Size::of(&work.residual)
     }
 
     #[inline]
@@ -348,23 +339,6 @@ impl<T: Factorable> Equations for System<T> {
     ) {
         to.joints.copy_from_slice(&from.joints);
         to.platforms.copy_from_slice(&from.platforms);
-        let mut unknown = 0;
-        while let Some(kind) = self.unknowns.get(unknown) {
-            match *kind {
-                Unknown::Joint(joint) => {
-                    let factor = fraction * self.joint_scales[joint];
-                    to.joints[joint] += work.step[unknown].scale(factor);
-                    unknown += 1;
-                }
-                Unknown::Twist { platform, .. } => {
-                    let twist = &work.step[unknown..unknown + 6];
-                    let omega = Vector3([twist[0], twist[1], twist[2]]).scaled(fraction);
-                    let shift = fraction * self.length;
-                    let shift = Vector3([twist[3], twist[4], twist[5]]).scaled(shift);
-                    to.platforms[platform] = from.platforms[platform].moved_by(&omega, shift);
-                    unknown += 6;
-                }
-            }
-        }
+        self.displace_part(to, &work.step, fraction);
     }
 }

@@ -138,7 +138,7 @@ impl<'a> Search<'a> {
     /// Whether another start cannot do better: it cannot change where a held joint is.
     fn settles(&self, attempt: &Attempt) -> bool {
         attempt.report.stop == Stop::Solved
-            && (self.outside_limits(&attempt.at).iter()).all(|&joint| self.held.joints[joint])
+            && (self.mechanism.outside_limits(&attempt.at.joints)).all(|i| self.held.joints[i])
     }
 
     fn normalised(&self, mut attempt: Attempt) -> Attempt {
@@ -173,20 +173,35 @@ impl<'a> Search<'a> {
         self.fit(start, joints, self.question.guessed_platforms())
     }
 
+    /// Brings what is not fixed as near to closing as it can come: the formulation decides success more
+    /// than the method, and a platform that fits its legs is a far better guess than one that does not.
     fn fit(
         &self,
         start: Configuration<f64>,
         joints: Vec<bool>,
         platforms: &[bool],
     ) -> Configuration<f64> {
-        fit(
-            self.mechanism,
-            &self.held,
-            self.newton,
-            start,
+        let poses = self.held.platforms.iter().zip(platforms);
+        let held = Held {
             joints,
-            platforms,
-        )
+            platforms: poses
+                .map(|(held, &fixed)| match fixed {
+                    true => HeldPlatform::Pose,
+                    false => held.clone(),
+                })
+                .collect(),
+        };
+        let system = System::new(self.mechanism.dimensions(), &held);
+        if system.unknowns().is_empty() {
+            return start;
+        }
+        let newton = Newton {
+            max_steps: 20,
+            ..self.newton.clone()
+        };
+        let (mut at, mut trial) = (start.clone(), start);
+        newton.solve(&system, &mut at, &mut trial, &mut system.work());
+        at
     }
 
     fn random_start(&self, rng: &mut Pcg64Mcg) -> Configuration<f64> {
@@ -205,15 +220,6 @@ impl<'a> Search<'a> {
         self.fit(at, joints, &vec![false; self.held.platforms.len()])
     }
 
-    /// The joints that are outside their limits.
-    pub fn outside_limits(&self, at: &Configuration<f64>) -> Vec<usize> {
-        let joints = self.mechanism.joints().iter().zip(&at.joints).enumerate();
-        joints
-            .filter(|(_, (joint, value))| !joint.allows(**value))
-            .map(|(i, _)| i)
-            .collect()
-    }
-
     /// Passive turns found by a long search come back to (−π, π], or into their limits.
     fn normalise_angles(&self, at: &mut Configuration<f64>) {
         for (i, joint) in self.mechanism.joints().iter().enumerate() {
@@ -224,38 +230,4 @@ impl<'a> Search<'a> {
             at.joints[i] = turn_near(at.joints[i], middle);
         }
     }
-}
-
-/// Brings what is not fixed as near to closing as it can come: the formulation decides success more
-/// than the method, and a platform that fits its legs is a far better guess than one that does not.
-pub fn fit(
-    mechanism: &Mechanism,
-    held: &Held<f64>,
-    newton: &Newton,
-    start: Configuration<f64>,
-    joints: Vec<bool>,
-    platforms: &[bool],
-) -> Configuration<f64> {
-    let poses = held.platforms.iter().zip(platforms);
-    let held = Held {
-        joints,
-        platforms: poses
-            .map(|(held, &fixed)| match fixed {
-                true => HeldPlatform::Pose,
-                false => held.clone(),
-            })
-            .collect(),
-    };
-    let system = System::new(mechanism.dimensions(), &held);
-    if system.unknowns().is_empty() {
-        return start;
-    }
-    let mut work = system.work();
-    let newton = Newton {
-        max_steps: 20,
-        ..newton.clone()
-    };
-    let (mut at, mut trial) = (start.clone(), start);
-    newton.solve(&system, &mut at, &mut trial, &mut work);
-    at
 }

@@ -206,3 +206,58 @@ fn loci_and_maps_have_what_was_found() {
         (report.interrupted, within + report.points.len())
     });
 }
+
+/// What is found, and how often was asked whether to go on; the answer is no from some call on.
+fn asked<R>(last: usize, work: impl Fn(&Watch) -> R) -> (R, usize) {
+    let calls = AtomicUsize::new(0);
+    let stop = |_: Progress| match calls.fetch_add(1, Ordering::Relaxed) + 1 {
+        n if n >= last => ControlFlow::Break(()),
+        _ => ControlFlow::Continue(()),
+    };
+    let found = work(&Watch::new(&stop));
+    (found, calls.into_inner())
+}
+
+#[test]
+fn a_curve_is_left_in_the_middle() {
+    let mechanism = mechanism("five_bar");
+    let sides = ["theta1", "theta2"].map(|name| input(&mechanism, name, 0.2, 2.8));
+    let question = Question::new(&mechanism).at_values(sides.map(|side| (side.coordinate, 1.5)));
+    let held = (sides.iter()).fold(question.held(), |held, side| held.without(side.coordinate));
+    let settings = SingularitiesSettings {
+        starts: 10,
+        ..SingularitiesSettings::default()
+    };
+    let points = |last| {
+        let (report, calls) = asked(last, |watch| {
+            let (inputs, start) = (inputs_of(&question), question.start());
+            loci(&mechanism, &held, sides, &inputs, &start, &settings, watch).unwrap()
+        });
+        let points = report.loci.iter().map(|locus| locus.points.len());
+        let starts: usize = report.starts.iter().sum();
+        (
+            points.sum::<usize>(),
+            report.interrupted,
+            calls - starts.min(calls),
+        )
+    };
+    let (whole, interrupted, calls) = points(usize::MAX);
+    // the ends of a curve are located and not stepped to
+    assert!(
+        !interrupted && whole > 50 && calls + 20 > whole,
+        "{calls} for {whole}"
+    );
+    let (some, interrupted, _) = points(50);
+    assert!(interrupted && some <= 50, "{some} of {whole}");
+}
+
+#[test]
+fn a_path_asks_at_every_step() {
+    let mechanism = mechanism("planar_3rpr");
+    let question = Question::new(&mechanism);
+    let (settings, held) = (AssembliesSettings::default(), question.held());
+    let solver = AssemblySolver::new(&mechanism, &held, &settings, &Watch::none()).unwrap();
+    let at = |watch: &Watch| solver.at(&question.start(), Wanted::default(), watch);
+    let (report, calls) = asked(usize::MAX, at);
+    assert!(!report.interrupted && calls > report.steps, "{calls}");
+}

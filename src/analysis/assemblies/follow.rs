@@ -9,7 +9,7 @@ use super::report::Named;
 use super::track::{located, polish};
 use crate::mechanism::{Configuration, Mechanism, Variable};
 use crate::number::Number;
-use crate::solve::{Arrival, Stages, Tracker};
+use crate::solve::{Arrival, Progress, Stage, Stages, Tracker, Watch};
 use crate::system::{Held, System};
 
 /// Where a mode went when its inputs changed.
@@ -104,6 +104,7 @@ pub(super) fn follow(
     family: &Family,
     from: (&Configuration<f64>, &Held<f64>),
     to: (&Configuration<f64>, &Held<f64>),
+    watch: &Watch,
 ) -> Result<Followed, AssembliesError> {
     let c = &family.coordinates;
     let start = c.inputs_of(from.0, from.1);
@@ -135,10 +136,13 @@ pub(super) fn follow(
         max_steps: 20_000,
         ..Tracker::default().tightened(0.05)
     };
-    let mut stages = Stages::new(c.count());
+    let mut stages = Stages::new(c.count(), (watch, Progress::of(Stage::Paths)));
     homotopy.stops_where_open = true;
     let track = tracker.track(&mut homotopy, whole, &mut x, &mut stages);
     homotopy.stops_where_open = false;
+    if watch.is_stopped() {
+        return Err(AssembliesError::Interrupted);
+    }
     let (mut done, mut turns_back) = match track.arrival {
         Arrival::There => (1.0, false),
         Arrival::Stuck(at) | Arrival::Diverged(at) => (at, false),

@@ -162,10 +162,10 @@ pub fn along(
             return report;
         }
     };
-    let (place, rate) = curve.towards_end(place);
-    let first = search.crossing(&curve, &place.at, rate.abs() < 1e-9, false);
+    let (place, turns_back) = curve.towards_end(place);
+    let first = search.crossing(&curve, &place.at, turns_back, false);
     report.crossings.extend(first);
-    if rate.abs() < 1e-9 {
+    if turns_back {
         report.ending = AlongEnd::Fold;
         return report;
     }

@@ -11,7 +11,7 @@ use super::starts::{Found, Search};
 use super::{SingularitiesSettings, names, output_names};
 use crate::algebra::SiUnit;
 use crate::mechanism::{Configuration, Mechanism, Variable};
-use crate::solve::{Place, Watch};
+use crate::solve::{Place, Progress, Stage, Watch};
 use crate::system::{Coordinate, Driven, Held, Lock, LocusEnd, Region, Singular};
 
 type At = Place<Singular>;
@@ -146,6 +146,8 @@ pub fn loci(
             held: &still,
             sides: &sides,
             method: &settings.continuation,
+            watch,
+            now: Progress::of(Stage::Loci),
         },
         sides,
         start: start.clone(),

@@ -5,7 +5,7 @@ use serde::{Deserialize, Serialize};
 use super::classify::Singularity;
 use crate::linear::norm;
 use crate::solve::Place;
-use crate::system::{LocusCurve, Region, Singular, Traced};
+use crate::system::{ConfigurationCurve, LocusCurve, Region, Singular, Traced};
 
 /// What a curve of configurations is in the box.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]

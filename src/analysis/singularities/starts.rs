@@ -6,10 +6,10 @@ use rand_pcg::Pcg64Mcg;
 use super::SingularitiesSettings;
 use super::classify::{Classifier, Kind};
 use crate::mechanism::{Configuration, PlatformPose, turn_near};
-use crate::solve::{Newton, Place, SolutionCurve, Stage, Watch};
+use crate::solve::{Newton, Place, Progress, SolutionCurve, Stage, Watch};
 use crate::system::{
-    Coordinate, Driven, Lock, LocusCurve, LocusEnd, Region, Singular, System, Traced, neared,
-    passes, random_configuration, with_coordinates,
+    Coordinate, Driven, Lock, LocusCurve, LocusEnd, Region, Singular, System, Traced, met_at,
+    neared, random_configuration, with_coordinates,
 };
 
 /// So many times the starts that are asked for are made while more curves are likely.
@@ -87,13 +87,13 @@ impl Search<'_> {
         let mut rng = Pcg64Mcg::seed_from_u64(self.settings.seed);
         for number in 1..=MORE * self.settings.starts {
             let least = number <= self.settings.starts;
-            if !least && !more_is_likely(&found)
-                || (self.watch).stops(
-                    Stage::Loci,
-                    number - 1,
-                    least.then_some(self.settings.starts),
-                )
-            {
+            let now = Progress {
+                stage: Stage::Loci,
+                done: number - 1,
+                of: least.then_some(self.settings.starts),
+            };
+            self.region.now = now;
+            if !least && !more_is_likely(&found) || self.watch.at(now).is_break() {
                 break;
             }
             found.starts = number;
@@ -169,7 +169,7 @@ impl Search<'_> {
         let Arrival { place, isolated } = arrival;
         let curve = &mut found.curve;
         let mut curves = found.known.iter();
-        let known = curves.position(|(traced, _)| passes(curve, traced, &place, method));
+        let known = curves.position(|(traced, _)| met_at(curve, traced, &place, method).is_some());
         if known.is_some() {
             return known;
         }

@@ -7,15 +7,14 @@
 
 mod described;
 
-use std::f64::consts::TAU;
+use std::ops::ControlFlow;
 
 use serde::{Deserialize, Serialize};
 
 use super::follow::forwards;
 use crate::algebra::SiUnit;
-use crate::description::Role;
-use crate::linear::norm;
-use crate::mechanism::{Configuration, Mechanism};
+use crate::linear::{dot, norm};
+use crate::mechanism::{Configuration, Mechanism, Role, turns};
 use crate::solve::{BranchPoint, Continuation, Place, Stage, Watch};
 use crate::system::{Curve, Event, Held, Walk};
 use described::{branches, class};
@@ -128,7 +127,7 @@ pub struct CircuitsReport {
 }
 
 /// One curve as it was followed.
-struct Traced {
+struct Found {
     places: Vec<At>,
     turnings: Vec<(usize, At)>,
     crossings: Vec<BranchPoint<Configuration<f64>>>,
@@ -152,7 +151,7 @@ pub fn circuits(
 ) -> CircuitsReport {
     let mut curve = Curve::new(mechanism, held);
     let method = &settings.continuation;
-    let mut traced: Vec<Traced> = Vec::new();
+    let mut traced: Vec<Found> = Vec::new();
     let mut unusable = 0;
     for seed in seeds {
         if watch.is_stopped() {
@@ -163,14 +162,14 @@ pub fn circuits(
             unusable += 1;
             continue;
         };
-        if let Some(known) = holding(&mut curve, method, &mut traced, &place) {
+        if let Some(known) = holding(&mut curve, method, &traced, &place) {
             traced[known].seeds += 1;
             continue;
         }
         let place = forwards(mechanism, &curve, place);
         let mut waiting = vec![(place, 1)];
         while let Some((place, seeds)) = waiting.pop() {
-            if holding(&mut curve, method, &mut traced, &place).is_some() {
+            if holding(&mut curve, method, &traced, &place).is_some() {
                 continue;
             }
             if watch.is_stopped() {
@@ -206,7 +205,7 @@ pub fn circuits(
 fn holding(
     curve: &mut Curve,
     method: &Continuation,
-    traced: &mut [Traced],
+    traced: &[Found],
     place: &At,
 ) -> Option<usize> {
     const SAME: f64 = 1e-6;
@@ -216,26 +215,49 @@ fn holding(
             if norm(&gap) > 1.5 * method.longest {
                 return false;
             }
-            let along = crate::linear::dot(&gap, &node.tangent);
             let near = |curve: &Curve, at: &At| {
                 norm(&curve.difference_but_turns(&at.at, &place.at)) < SAME
             };
+            let along = dot(&gap, &node.tangent);
             near(curve, node)
                 || (method.step(curve, node, along)).is_ok_and(|(at, _)| near(curve, &at))
         })
     })
 }
 
+/// The curve through a place: round it, or from one end to the other.
 fn trace(
     mechanism: &Mechanism,
     curve: &mut Curve,
     start: At,
+    watched: (&CircuitsSettings, &Watch),
+    seeds: usize,
+) -> Found {
+    // first backwards to an end, if there is one
+    let back = start.clone().reversed();
+    let (mut found, end) = half(mechanism, curve, back, watched, seeds);
+    if !found.closed {
+        let begin = end.map_or(start, Place::reversed);
+        return half(mechanism, curve, begin, watched, seeds).0;
+    }
+    // now in the sense it was to have
+    found.turnings.reverse();
+    found.crossings.reverse();
+    let places = found.places.into_iter().rev();
+    found.places = places.map(Place::reversed).collect();
+    found
+}
+
+/// The curve from a place on until it closes or ends; with the limit that it ends at.
+fn half(
+    mechanism: &Mechanism,
+    curve: &mut Curve,
+    from: At,
     (settings, watch): (&CircuitsSettings, &Watch),
     seeds: usize,
-) -> Traced {
-    let mut begin = start.clone();
-    let mut found = Traced {
-        places: Vec::new(),
+) -> (Found, Option<At>) {
+    let mut found = Found {
+        places: vec![from.clone()],
         turnings: Vec::new(),
         crossings: Vec::new(),
         closed: false,
@@ -243,64 +265,41 @@ fn trace(
         length: 0.0,
         seeds,
     };
-    // first backwards to an end, if there is one
-    for backwards in [true, false] {
-        let from = match backwards {
-            true => begin.clone().reversed(),
-            false => begin.clone(),
-        };
-        found.places = vec![from.clone()];
-        found.turnings.clear();
-        found.crossings.clear();
-        let mut walk = Walk::new(mechanism, curve, from, settings.continuation.clone());
-        let mut end = None;
-        'steps: for step in 0..settings.most_steps {
-            if watch.stops(Stage::Steps, step, None) {
-                break;
-            }
-            let Ok(leg) = walk.advance(curve) else {
-                break;
-            };
-            for (place, event) in leg.events {
-                match event {
-                    Event::Turning(joint) => found.turnings.push((joint, place)),
-                    Event::Branches(point) => found.crossings.push(*point),
-                    Event::Closed | Event::Limit { .. } => {
-                        found.places.push(place.clone());
-                        end = Some((place, matches!(event, Event::Closed)));
-                        break 'steps;
-                    }
-                    _ => {}
+    let mut walk = Walk::new(mechanism, curve, from, settings.continuation.clone());
+    let mut steps = 0;
+    let end = walk.follow(curve, |_, leg| {
+        if watch.stops(Stage::Steps, steps, None) {
+            return ControlFlow::Break(None);
+        }
+        steps += 1;
+        for (place, event) in &leg.events {
+            match event {
+                Event::Turning(joint) => found.turnings.push((*joint, place.clone())),
+                Event::Branches(point) => found.crossings.push((**point).clone()),
+                Event::Closed | Event::Limit { .. } => {
+                    found.places.push(place.clone());
+                    found.whole = true;
+                    found.closed = matches!(event, Event::Closed);
+                    return ControlFlow::Break((!found.closed).then(|| place.clone()));
                 }
+                _ => {}
             }
-            found.places.push(leg.to);
         }
-        found.length = walk.gone();
-        found.whole = end.is_some();
-        match end {
-            Some((place, false)) => begin = place.reversed(),
-            Some((_, true)) => {
-                found.closed = true;
-                break;
-            }
-            None => {}
+        found.places.push(leg.to.clone());
+        match steps == settings.most_steps {
+            true => ControlFlow::Break(None),
+            false => ControlFlow::Continue(()),
         }
-    }
-    if found.closed {
-        // begun backwards: now in the sense it was to have
-        found.places.reverse();
-        found.turnings.reverse();
-        found.crossings.reverse();
-        found.places = (found.places.into_iter()).map(Place::reversed).collect();
-    }
-    found
+    });
+    found.length = walk.gone();
+    (found, end.ok().flatten())
 }
 
 fn described(
     mechanism: &Mechanism,
     curve: &Curve,
     input: usize,
-    traced: &[Traced],
+    traced: &[Found],
     i: usize,
 ) -> Circuit {
     const SAME: f64 = 1e-6;
@@ -308,19 +307,14 @@ fn described(
     let value = |place: &At, joint: usize| place.at.joints[joint];
     let of_joint = |joint: usize| {
         let turnings = found.turnings.iter().filter(|(j, _)| *j == joint);
-        let turnings = turnings.map(|(_, place)| value(place, joint));
-        let all = found
-            .places
-            .iter()
-            .map(|place| value(place, joint))
-            .chain(turnings);
-        let (low, high) = all.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), x| {
-            (low.min(x), high.max(x))
-        });
+        let places = found.places.iter().chain(turnings.map(|(_, place)| place));
+        let all = places.map(|place| value(place, joint));
+        let none = (f64::INFINITY, f64::NEG_INFINITY);
+        let (low, high) = all.fold(none, |(low, high), x| (low.min(x), high.max(x)));
         let ends = found.places.first().zip(found.places.last());
         let net = ends.map_or(0.0, |(a, b)| value(b, joint) - value(a, joint));
         let whole = found.closed && mechanism.repeats(joint);
-        let turns = if whole { (net / TAU).round() as i64 } else { 0 };
+        let turns = if whole { turns(net) as i64 } else { 0 };
         let of = &mechanism.joints()[joint];
         let shift = turned(mechanism, joint, low, high);
         JointMotion {
@@ -337,7 +331,7 @@ fn described(
         .map(of_joint)
         .collect();
     let crossings = &found.crossings;
-    let meets = |other: &Traced| {
+    let meets = |other: &Found| {
         other.crossings.iter().any(|point| {
             (crossings.iter())
                 .any(|own| norm(&curve.difference_but_turns(&own.at, &point.at)) < SAME)
@@ -350,10 +344,9 @@ fn described(
         length: found.length,
         branches: branches(mechanism, input, found),
         joints,
-        crossings: crossings
-            .iter()
-            .map(|point| (0..).zip(&point.at.joints))
-            .map(|joints| {
+        crossings: (crossings.iter())
+            .map(|point| {
+                let joints = point.at.joints.iter().enumerate();
                 joints
                     .map(|(joint, x)| mechanism.as_told(joint, *x))
                     .collect()

@@ -3,10 +3,10 @@
 use std::ops::ControlFlow;
 
 use super::met::Record;
-use super::points::Paths;
-use super::{MetKind, Row, Sink, SweepEnd, SweepReport, SweepSettings};
-use crate::mechanism::{Configuration, Mechanism};
-use crate::solve::{Place, Stage, Watch};
+use super::rows::Sent;
+use super::{Flow, Sink, SweepEnd, SweepReport, SweepSettings};
+use crate::mechanism::{Configuration, Mechanism, Role};
+use crate::solve::{Place, Progress, Stage, Watch};
 use crate::system::{Curve, Event, Held, Walk};
 
 /// Steps after which a curve without end is given up.
@@ -39,24 +39,15 @@ pub fn follow(
     if let Some(end) = first_end(&mut walk, &mut curve, watch) {
         place = end.reversed();
     }
-    let mut paths = Paths::new(mechanism, &settings.points);
-    let mut count = 0;
-    let mut send = |at: &Configuration<f64>, special: Option<&MetKind>| {
-        paths.place(at);
-        count += 1;
-        sink(&Row {
-            number: count - 1,
-            step: None,
-            configuration: at,
-            points: &paths.at,
-            special,
-        });
-        match watch.stops(Stage::Steps, count, None) {
-            true => ControlFlow::Break(()),
-            false => ControlFlow::Continue(()),
-        }
+    let sink: &mut Flow = &mut |row| {
+        sink(row);
+        watch.at(Progress {
+            done: row.number + 1,
+            ..Progress::of(Stage::Steps)
+        })
     };
-    let mut flow = send(&place.at, None);
+    let mut sent = Sent::new(mechanism, &settings.points);
+    let mut flow = sent.row(&place.at, None, None, sink);
     let mut walk = Walk::new(mechanism, &curve, place, method.clone());
     let stopped = |()| SweepEnd::Stopped;
     let ending = walk.follow(&mut curve, |curve, leg| {
@@ -67,7 +58,7 @@ pub fn follow(
         }
         for (place, event) in &leg.events {
             record.meet(curve, place, event);
-            flow = send(&place.at, record.latest());
+            flow = sent.row(&place.at, None, record.latest(), sink);
             match event {
                 Event::Closed => return ControlFlow::Break(SweepEnd::Closed),
                 Event::Limit { .. } => return ControlFlow::Break(SweepEnd::Limits),
@@ -76,14 +67,14 @@ pub fn follow(
         }
         let branches = |(_, event): &(_, Event)| matches!(event, Event::Branches(_));
         if !leg.events.iter().any(branches) {
-            flow = send(&leg.to.at, None);
+            flow = sent.row(&leg.to.at, None, None, sink);
         }
         ControlFlow::Continue(())
     });
     let ending = ending.unwrap_or(SweepEnd::Lost);
     SweepReport {
         interrupted: watch.is_stopped(),
-        ..record.report(ending, count, walk.gone())
+        ..record.report(ending, sent.count, walk.gone())
     }
 }
 
@@ -98,8 +89,7 @@ pub(super) fn forwards(
             .column(joint)
             .map_or(0.0, |column| place.tangent[column])
     };
-    let driven =
-        |joint: &usize| mechanism.joints()[*joint].role == crate::description::Role::Actuated;
+    let driven = |joint: &usize| mechanism.joints()[*joint].role == Role::Actuated;
     let joints = 0..mechanism.joints().len();
     let ordered = joints.clone().filter(driven).chain(joints);
     let first = ordered.map(rate).find(|rate| rate.abs() > 1e-9);
@@ -121,14 +111,11 @@ fn first_end(
             return ControlFlow::Break(None);
         }
         steps += 1;
-        for (place, event) in &leg.events {
-            match event {
-                Event::Closed => return ControlFlow::Break(None),
-                Event::Limit { .. } => return ControlFlow::Break(Some(place.clone())),
-                _ => {}
-            }
-        }
-        ControlFlow::Continue(())
+        (leg.events.iter()).try_for_each(|(place, event)| match event {
+            Event::Closed => ControlFlow::Break(None),
+            Event::Limit { .. } => ControlFlow::Break(Some(place.clone())),
+            _ => ControlFlow::Continue(()),
+        })
     });
     end.ok().flatten()
 }

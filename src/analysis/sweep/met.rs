@@ -4,9 +4,9 @@ use serde::{Deserialize, Serialize};
 
 use super::{InputReport, SweepEnd, SweepReport};
 use crate::algebra::SiUnit;
-use crate::mechanism::{Configuration, Mechanism};
+use crate::mechanism::{Configuration, Mechanism, Role};
 use crate::solve::{Continuation, Place};
-use crate::system::{Curve, Driven, Event, NoStart, Unknown};
+use crate::system::{Coordinate, Curve, Driven, Event, NoStart, Unknown};
 
 /// Something special that was met, with where it is.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -104,25 +104,16 @@ impl<'m> Record<'m> {
         let name = |joint: usize| mechanism.joints()[joint].name.clone();
         let driven = |joint: usize| {
             let mut inputs = self.inputs.iter();
-            inputs.any(|input| input.coordinate == crate::system::Coordinate::Joint(joint))
+            inputs.any(|input| input.coordinate == Coordinate::Joint(joint))
         };
         let (kind, singularity) = match event {
             // told as a fold
             Event::Turning(joint) if driven(*joint) => return,
             Event::Turning(joint) => {
-                let actuated =
-                    mechanism.joints()[*joint].role == crate::description::Role::Actuated;
-                let kind = if actuated && self.inputs.is_empty() {
-                    2
-                } else {
-                    1
-                };
-                (
-                    MetKind::Turning {
-                        joint: name(*joint),
-                    },
-                    Some(kind),
-                )
+                let actuated = mechanism.joints()[*joint].role == Role::Actuated;
+                let locks = actuated && self.inputs.is_empty();
+                let joint = name(*joint);
+                (MetKind::Turning { joint }, Some(if locks { 2 } else { 1 }))
             }
             Event::Fold => {
                 let inputs = self.inputs.iter();
@@ -166,16 +157,7 @@ impl<'m> Record<'m> {
                 (kind, Some(3))
             }
         };
-        self.add(curve, &place.at, kind, singularity);
-    }
-
-    fn add(
-        &mut self,
-        curve: &Curve,
-        at: &Configuration<f64>,
-        kind: MetKind,
-        singularity: Option<u8>,
-    ) {
+        let at = &place.at;
         if self.met.len() >= MOST {
             self.more += 1;
             return;
@@ -237,14 +219,10 @@ impl<'m> Record<'m> {
         if let Some(point) = method.branch_point(curve, start, 1e-3) {
             let place = point.place(curve, &vec![0.0; curve.system().unknowns().len()]);
             self.meet(curve, &place, &Event::Branches(Box::new(point)));
-            if let Some(Met {
-                kind: MetKind::Crossing { branches, .. },
-                ..
-            }) = self.met.last_mut()
+            if let Some(MetKind::Crossing { branches, .. }) =
+                self.met.last_mut().map(|m| &mut m.kind)
             {
-                branches
-                    .iter_mut()
-                    .for_each(|branch| branch.followed = false);
+                branches.iter_mut().for_each(|b| b.followed = false);
             }
         }
         self.report(SweepEnd::SingularStart, 0, 0.0)

@@ -32,11 +32,8 @@ pub struct MotionReport {
 }
 
 /// What the columns of rows are.
-#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
-pub struct Columns {
-    variables: Vec<Variable>,
-    points: usize,
-}
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Columns(Vec<Variable>);
 
 impl Columns {
     /// The number of the step, then all joints, platforms and traced points of a mechanism.
@@ -50,15 +47,12 @@ impl Columns {
                 axes.map(|axis| Variable::new(format!("{}.{axis}", point.name), SiUnit::METRE)),
             );
         }
-        Columns {
-            variables,
-            points: points.len(),
-        }
+        Columns(variables)
     }
 
     /// Their names and units.
     pub fn variables(&self) -> &[Variable] {
-        &self.variables
+        &self.0
     }
 
     /// The values of a row in these columns, but for the number of the step.
@@ -97,31 +91,26 @@ impl KeptRows {
 
     /// Takes in a row.
     pub fn take(&mut self, columns: &Columns, row: &Row) {
-        let values = || {
-            let values = columns.values(row);
-            let values = values.map(|value| value.is_finite().then_some(value));
-            let step = row.step.map(|step| step as f64);
-            std::iter::once(step).chain(values).collect::<Vec<_>>()
-        };
-        if self.seen.is_multiple_of(self.every) {
-            if self.rows.len() == self.most {
-                // every second goes, and from now on twice as many are left out
-                let mut keep = false;
-                self.rows.retain(|_| {
-                    keep = !keep;
-                    keep
-                });
-                self.every *= 2;
-            }
-            if self.seen.is_multiple_of(self.every) {
-                self.rows.push(values());
-                self.last = None;
-            } else {
-                self.last = Some(values());
-            }
-        } else if self.every > 1 {
-            self.last = Some(values());
+        let values = columns.values(row);
+        let values = values.map(|value| value.is_finite().then_some(value));
+        let step = row.step.map(|step| step as f64);
+        let values: Vec<Option<f64>> = std::iter::once(step).chain(values).collect();
+        if self.seen.is_multiple_of(self.every) && self.rows.len() == self.most {
+            // every second goes, and from now on twice as many are left out
+            let mut keep = false;
+            self.rows.retain(|_| {
+                keep = !keep;
+                keep
+            });
+            self.every *= 2;
         }
+        self.last = match self.seen.is_multiple_of(self.every) {
+            true => {
+                self.rows.push(values);
+                None
+            }
+            false => Some(values),
+        };
         self.seen += 1;
     }
 

@@ -1,8 +1,5 @@
 //! Points of bodies whose paths are traced.
 
-use std::error::Error;
-use std::fmt::{self, Display, Formatter};
-
 use crate::algebra::Measure;
 use crate::geometry::Vector3;
 use crate::mechanism::{Configuration, Frame, Kinematics, Mechanism, Placement};
@@ -20,43 +17,23 @@ pub struct TracedPoint {
 }
 
 /// Why a point cannot be traced.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum PointError {
     /// There is no frame of that name.
+    #[error("there is no frame `{0}`")]
     NoFrame(String),
     /// An offset has no value.
+    #[error("`{text}` cannot be an offset: {error}")]
     Value {
         /// The offset as given.
         text: String,
         /// Why.
+        #[source]
         error: ValueError,
     },
     /// There are more than three offsets.
+    #[error("a point has at most three offsets, along x, y and z, but {0} were given")]
     TooMany(usize),
-}
-
-impl Display for PointError {
-    fn fmt(&self, f: &mut Formatter) -> fmt::Result {
-        match self {
-            PointError::NoFrame(name) => write!(f, "there is no frame `{name}`"),
-            PointError::Value { text, error } => {
-                write!(f, "`{text}` cannot be an offset: {error}")
-            }
-            PointError::TooMany(offsets) => write!(
-                f,
-                "a point has at most three offsets, along x, y and z, but {offsets} were given"
-            ),
-        }
-    }
-}
-
-impl Error for PointError {
-    fn source(&self) -> Option<&(dyn Error + 'static)> {
-        match self {
-            PointError::Value { error, .. } => Some(error),
-            PointError::NoFrame(_) | PointError::TooMany(_) => None,
-        }
-    }
 }
 
 impl TracedPoint {
@@ -88,6 +65,11 @@ impl TracedPoint {
             frame,
             offset,
         })
+    }
+
+    /// The offset as a vector, in m.
+    pub fn vector(&self) -> Vector3<f64> {
+        Vector3(self.offset)
     }
 }
 
@@ -122,12 +104,5 @@ impl Paths {
             let [a, b, c] = point.offset;
             *at = (pose.position + x.times(a) + y.times(b) + z.times(c)).0;
         }
-    }
-}
-
-impl TracedPoint {
-    /// The offset as a vector, in m.
-    pub fn vector(&self) -> Vector3<f64> {
-        Vector3(self.offset)
     }
 }

@@ -3,9 +3,9 @@
 use std::ops::ControlFlow;
 
 use super::points::Paths;
-use super::{Flow, MetKind, Row, SweepSettings};
+use super::{Flow, MetKind, Row, SweepSettings, TracedPoint};
 use crate::mechanism::{Configuration, Mechanism};
-use crate::solve::Place;
+use crate::solve::{Continuation, Place};
 use crate::system::{Coordinate, Curve, Driven, Held, HeldPlatform, MotionTracker, System};
 
 type At = Place<Configuration<f64>>;
@@ -21,7 +21,7 @@ pub(super) struct Rows {
     /// Whether the inputs move towards the end of the segment.
     forward: bool,
     sent: Sent,
-    longest: f64,
+    method: Continuation,
 }
 
 impl Rows {
@@ -41,11 +41,11 @@ impl Rows {
             steps: settings.steps,
             next: 1,
             forward: true,
-            sent: Sent {
-                paths: Paths::new(mechanism, &settings.points),
-                count: 0,
+            sent: Sent::new(mechanism, &settings.points),
+            method: Continuation {
+                longest: settings.continuation.longest,
+                ..Continuation::default()
             },
-            longest: settings.continuation.longest,
         }
     }
 
@@ -106,7 +106,7 @@ impl Rows {
             }
             // exactly, from the places themselves
             let mut between = |c: &mut Curve, p: &At| c.part(&p.at) - part;
-            let mut place = self.method().root(curve, from, to, &mut between);
+            let mut place = self.method.root(curve, from, to, &mut between);
             for input in &self.inputs {
                 if let Coordinate::Joint(joint) = input.coordinate {
                     place.at.joints[joint] = input.at(part);
@@ -119,16 +119,9 @@ impl Rows {
         }
     }
 
-    fn method(&self) -> crate::solve::Continuation {
-        crate::solve::Continuation {
-            longest: self.longest,
-            ..Default::default()
-        }
-    }
-
     /// Solves with the inputs held, starting from the row before. True if the solution lies between
     /// the two places: on each plane across the tangent there is only one (see
-    /// [`Continuation`](crate::solve::Continuation)).
+    /// [`Continuation`]).
     #[inline]
     fn track(&mut self, curve: &Curve, from: &At, reach: &Reach, part: f64) -> bool {
         let Some(tracker) = &mut self.tracker else {
@@ -160,14 +153,21 @@ impl Rows {
 }
 
 /// Counts rows as they go out, with the traced points.
-struct Sent {
+pub(super) struct Sent {
     paths: Paths,
-    count: usize,
+    pub count: usize,
 }
 
 impl Sent {
+    pub fn new(mechanism: &Mechanism, points: &[TracedPoint]) -> Self {
+        Sent {
+            paths: Paths::new(mechanism, points),
+            count: 0,
+        }
+    }
+
     #[inline]
-    fn row(
+    pub fn row(
         &mut self,
         at: &Configuration<f64>,
         step: Option<usize>,
@@ -225,9 +225,8 @@ fn holding(held: &Held<f64>, inputs: &[Driven]) -> Option<Held<f64>> {
                     }
                     HeldPlatform::Partly {
                         coordinates,
-                        orientation: None,
-                    } => coordinates.push((coordinate, input.from)),
-                    HeldPlatform::Partly { coordinates, .. } if !coordinate.is_angle() => {
+                        orientation,
+                    } if orientation.is_none() || !coordinate.is_angle() => {
                         coordinates.push((coordinate, input.from));
                     }
                     _ => return None,

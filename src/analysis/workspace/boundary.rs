@@ -10,7 +10,7 @@ pub(super) use kinds::{Crossing, named};
 use super::flood::{Edge, Link, Met, Metric, ReachedSet, Until, walk};
 use super::problem::{Grid, MapProblem};
 use crate::mechanism::Configuration;
-use crate::solve::{Continuation, Stage, Watch, each};
+use crate::solve::{Continuation, Progress, Stage, Watch, each};
 use crate::system::{Coordinate, Curve, Driven, Lock, LocusCurve, Region, Singular, settled};
 use curves::Tracer;
 use kinds::Kind;
@@ -33,6 +33,7 @@ impl Boundary<'_> {
         let limited = joints.iter().any(|joint| joint.limits.is_some());
         let mut wanted: Vec<(usize, usize, Until)> = Vec::new();
         let mut found: Vec<Crossing> = Vec::new();
+        let mut at_nodes = std::collections::HashSet::new();
         let solutions = self.reached_set.solutions();
         for (s, solution) in solutions.filter(|(_, solution)| solution.within) {
             let links = solution.links[..2 * self.grid.dimensions()].iter();
@@ -46,12 +47,23 @@ impl Boundary<'_> {
                     Link::To(t) if d % 2 == 1 => {
                         let t = self.reached_set.number(t);
                         let [a, b] = [s, t].map(|s| &self.reached_set.solution(s).indicators);
-                        let mut parted = |x: f64, y: f64, kind: Kind, until| match (x, y) {
-                            (0.0, 0.0) => {}
-                            (0.0, _) => found.push(self.at_node((s, d), s, 0.0, kind)),
-                            (_, 0.0) => found.push(self.at_node((s, d), t, 1.0, kind)),
-                            _ if (x < 0.0) != (y < 0.0) => wanted.push((s, d, until)),
-                            _ => {}
+                        let mut parted = |x: f64, y: f64, kind: Kind, until| {
+                            // the end of the edge that is singular, if one is
+                            let (singular, part) = match (x, y) {
+                                (0.0, 0.0) => return,
+                                (0.0, _) => (s, 0.0),
+                                (_, 0.0) => (t, 1.0),
+                                _ if (x < 0.0) == (y < 0.0) => return,
+                                _ => return wanted.push((s, d, until)),
+                            };
+                            found.push(Crossing {
+                                solution: s,
+                                direction: d,
+                                kind,
+                                at: self.reached_set.configuration(singular).owned(),
+                                part,
+                                again: !at_nodes.insert((singular, kind)),
+                            });
                         };
                         let until = Until::Singular(&inputs);
                         parted(a.direct, b.direct, Kind::Direct, until);
@@ -61,19 +73,6 @@ impl Boundary<'_> {
                     _ => {}
                 }
             }
-        }
-        let mut at_nodes = std::collections::HashSet::new();
-        for crossing in &mut found {
-            let links = &self.reached_set.solution(crossing.solution).links;
-            let Link::To(t) = links[crossing.direction] else {
-                continue;
-            };
-            let node = if crossing.part > 0.0 {
-                self.reached_set.number(t)
-            } else {
-                crossing.solution
-            };
-            crossing.again = !at_nodes.insert((node, crossing.kind));
         }
         let walked = each(wanted.len(), &(), |(), i| {
             if watch.stops(Stage::Boundary, i, Some(wanted.len())) {
@@ -114,24 +113,6 @@ impl Boundary<'_> {
         found
     }
 
-    /// A singularity at a node, an end of an edge.
-    fn at_node(
-        &self,
-        (solution, direction): (usize, usize),
-        singular: usize,
-        part: f64,
-        kind: Kind,
-    ) -> Crossing {
-        Crossing {
-            solution,
-            direction,
-            kind,
-            at: self.reached_set.configuration(singular).owned(),
-            part,
-            again: false,
-        }
-    }
-
     /// The curves through crossings, of the slices of the first two coordinates one after another.
     pub fn curves(&self, crossings: &[Crossing], watch: &Watch) -> Vec<BoundaryCurve> {
         let slices = match self.grid.dimensions() {
@@ -168,14 +149,19 @@ impl Boundary<'_> {
             }
         }
         let mut curves = Vec::new();
-        for (k, kind) in kinds.iter().copied().enumerate() {
-            if watch.stops(Stage::Curves, k, Some(kinds.len())) {
+        for (done, kind) in kinds.iter().copied().enumerate() {
+            let now = Progress {
+                stage: Stage::Curves,
+                done,
+                of: Some(kinds.len()),
+            };
+            if watch.at(now).is_break() {
                 break;
             }
             let of: Vec<&Crossing> = (here.iter().copied())
                 .filter(|crossing| crossing.kind == kind)
                 .collect();
-            self.of_kind(&problem, kind, &of, third, &mut curves);
+            curves.extend(self.of_kind(&problem, kind, &of, third, (watch, now)));
         }
         curves
     }
@@ -186,8 +172,8 @@ impl Boundary<'_> {
         kind: Kind,
         crossings: &[&Crossing],
         third: Option<f64>,
-        curves: &mut Vec<BoundaryCurve>,
-    ) {
+        watched: (&Watch, Progress),
+    ) -> Vec<BoundaryCurve> {
         let mechanism = problem.mechanism;
         let mapped = problem.axes.iter();
         let still = mapped.fold(problem.question.clone(), |q, axis| {
@@ -199,56 +185,47 @@ impl Boundary<'_> {
             kind,
             third,
         };
-        match kind {
-            Kind::Limit(joint, upper) => {
-                let limits = mechanism.joints()[joint].limits;
-                let Some(limit) = limits.map(|(low, high)| if upper { high } else { low }) else {
-                    return;
-                };
-                let held = still.at_values([(Coordinate::Joint(joint), limit)]).held();
-                // a mapped joint at its limit is a side of the box
-                let free: Vec<Driven> = (problem.axes.iter().copied())
-                    .filter(|axis| axis.coordinate != Coordinate::Joint(joint))
-                    .collect();
-                let mut curve = Curve::new(mechanism, &held);
-                let method = Continuation::default();
-                let place = |curve: &mut Curve, at: &Configuration<f64>| {
-                    let mut at = at.clone();
-                    at.joints[joint] = limit;
-                    method.settle(curve, at).ok()
-                };
-                let region = Region {
-                    mechanism,
-                    held: &held,
-                    sides: &free,
-                    method: &method,
-                };
-                tracer.all(&mut curve, &region, crossings, place, curves);
-            }
-            _ => {
-                let held = still.held();
-                let locks = match kind {
-                    Kind::Direct => MapProblem::locks(&problem.inputs),
-                    Kind::Inverse => MapProblem::locks(&problem.outputs),
-                    _ => MapProblem::locks(&problem.held),
-                };
-                let mut curve = LocusCurve::new(mechanism, &held, &problem.inputs, &locks);
-                let method = Continuation::default();
-                let place = |curve: &mut LocusCurve, at: &Configuration<f64>| {
-                    let columns = curve.locked().columns();
-                    let decomposition = curve.locked().of_rank(at, columns);
-                    let motion = decomposition.weakest()?.1.to_vec();
-                    let at = at.clone();
-                    settled(curve, Singular { at, motion }, &method)
-                };
-                let region = Region {
-                    mechanism,
-                    held: &held,
-                    sides: &problem.axes,
-                    method: &method,
-                };
-                tracer.all(&mut curve, &region, crossings, place, curves);
-            }
+        let method = Continuation::default();
+        let region = |held, sides| Region {
+            mechanism,
+            held,
+            sides,
+            method: &method,
+            watch: watched.0,
+            now: watched.1,
+        };
+        if let Kind::Limit(joint, upper) = kind {
+            let limits = mechanism.joints()[joint].limits;
+            let Some(limit) = limits.map(|(low, high)| if upper { high } else { low }) else {
+                return Vec::new();
+            };
+            let held = still.at_values([(Coordinate::Joint(joint), limit)]).held();
+            // a mapped joint at its limit is a side of the box
+            let free: Vec<Driven> = (problem.axes.iter().copied())
+                .filter(|axis| axis.coordinate != Coordinate::Joint(joint))
+                .collect();
+            let mut curve = Curve::new(mechanism, &held);
+            let place = |curve: &mut Curve, at: &Configuration<f64>| {
+                let mut at = at.clone();
+                at.joints[joint] = limit;
+                method.settle(curve, at).ok()
+            };
+            return tracer.all(&mut curve, &region(&held, &free), crossings, place);
         }
+        let held = still.held();
+        let locks = match kind {
+            Kind::Direct => MapProblem::locks(&problem.inputs),
+            Kind::Inverse => MapProblem::locks(&problem.outputs),
+            _ => MapProblem::locks(&problem.held),
+        };
+        let mut curve = LocusCurve::new(mechanism, &held, &problem.inputs, &locks);
+        let place = |curve: &mut LocusCurve, at: &Configuration<f64>| {
+            let columns = curve.locked().columns();
+            let decomposition = curve.locked().of_rank(at, columns);
+            let motion = decomposition.weakest()?.1.to_vec();
+            let at = at.clone();
+            settled(curve, Singular { at, motion }, &method)
+        };
+        tracer.all(&mut curve, &region(&held, &problem.axes), crossings, place)
     }
 }

@@ -4,7 +4,6 @@ mod cells;
 mod report;
 mod table;
 
-pub(super) use cells::Head;
 pub use cells::{AxisReport, Cell, Cells};
 pub use report::{
     AspectReport, BoundaryPoint, Conditioned, CoordinateReport, HeldReport, ModeReport,

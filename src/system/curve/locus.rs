@@ -1,7 +1,7 @@
 //! Singular configurations with two inputs free, as a curve.
 
-use super::Curve;
-use crate::linear::dot;
+use super::{ConfigurationCurve, Curve};
+use crate::linear::{add, dot};
 use crate::mechanism::{Configuration, Mechanism};
 use crate::solve::SolutionCurve;
 use crate::system::{Coordinate, Held, Lock, Locked, Unknown};
@@ -55,15 +55,6 @@ impl LocusCurve {
         }
     }
 
-    /// The part of a step that concerns platforms and inputs. Legs that are
-    /// folded the other way about their passive joints do not make another locus.
-    pub fn seen(&self, step: &[f64]) -> Vec<f64> {
-        let parts = step.iter().zip(&self.seen);
-        parts
-            .map(|(x, seen)| if *seen { *x } else { 0.0 })
-            .collect()
-    }
-
     /// The assembled configurations with two freedoms.
     pub fn closed(&mut self) -> &mut Curve {
         &mut self.closed
@@ -72,11 +63,6 @@ impl LocusCurve {
     /// M.
     pub fn locked(&mut self) -> &mut Locked {
         &mut self.locked
-    }
-
-    /// The step from one configuration to another, whole turns left out.
-    pub fn apart(&self, from: &Singular, to: &Singular) -> Vec<f64> {
-        self.closed.difference_but_turns(&from.at, &to.at)
     }
 
     fn freedoms(&self) -> usize {
@@ -93,9 +79,28 @@ impl LocusCurve {
 fn product(entries: &[f64], rows: usize, vector: &[f64]) -> Vec<f64> {
     let mut image = vec![0.0; rows];
     for (column, x) in entries.chunks_exact(rows.max(1)).zip(vector) {
-        (image.iter_mut().zip(column)).for_each(|(sum, entry)| *sum += x * entry);
+        add(&mut image, *x, column);
     }
     image
+}
+
+impl ConfigurationCurve for LocusCurve {
+    fn configuration(point: &Singular) -> &Configuration<f64> {
+        &point.at
+    }
+
+    fn apart(&self, from: &Singular, to: &Singular) -> Vec<f64> {
+        self.closed.difference_but_turns(&from.at, &to.at)
+    }
+
+    /// Platforms and inputs: legs that are folded the other way about their passive joints do not
+    /// make another locus.
+    fn seen(&self, step: &[f64]) -> Vec<f64> {
+        let parts = step.iter().zip(&self.seen);
+        parts
+            .map(|(x, seen)| if *seen { *x } else { 0.0 })
+            .collect()
+    }
 }
 
 impl SolutionCurve for LocusCurve {
@@ -133,10 +138,7 @@ impl SolutionCurve for LocusCurve {
             step[k] = -STEP;
             let back = self.closed.displaced(&point.at, &step);
             step[k] = 0.0;
-            let (ahead, back) = (
-                self.image(&ahead, &point.motion),
-                self.image(&back, &point.motion),
-            );
+            let [ahead, back] = [ahead, back].map(|at| self.image(&at, &point.motion));
             for (i, (a, b)) in ahead.into_iter().zip(back).enumerate() {
                 column[first + i] = (a - b) / (2.0 * STEP);
             }

@@ -2,11 +2,10 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::locus::{LocusCurve, Singular};
 use super::{Curve, Driven};
 use crate::linear::{Decomposition, dot, norm};
 use crate::mechanism::{Configuration, Mechanism, turn_near};
-use crate::solve::{Continuation, Place, SolutionCurve};
+use crate::solve::{Continuation, Place, Progress, SolutionCurve, Watch};
 use crate::system::{Coordinate, Held};
 
 /// A curve whose points are, or contain, configurations.
@@ -18,20 +17,6 @@ pub trait ConfigurationCurve: SolutionCurve {
     fn apart(&self, from: &Self::Point, to: &Self::Point) -> Vec<f64>;
     /// The part of such a step that distinguishes curves.
     fn seen(&self, step: &[f64]) -> Vec<f64>;
-}
-
-impl ConfigurationCurve for LocusCurve {
-    fn configuration(point: &Singular) -> &Configuration<f64> {
-        &point.at
-    }
-
-    fn apart(&self, from: &Singular, to: &Singular) -> Vec<f64> {
-        LocusCurve::apart(self, from, to)
-    }
-
-    fn seen(&self, step: &[f64]) -> Vec<f64> {
-        LocusCurve::seen(self, step)
-    }
 }
 
 impl ConfigurationCurve for Curve {
@@ -84,6 +69,10 @@ pub struct Region<'m> {
     pub sides: &'m [Driven],
     /// How carefully curves are followed.
     pub method: &'m Continuation,
+    /// Asked at every step whether to go on; a curve that is not ends there as lost.
+    pub watch: &'m Watch<'m>,
+    /// What it is told.
+    pub now: Progress,
 }
 
 /// A curve that exceeds a bound by less than this, in rad or m, counts as running along it.
@@ -159,6 +148,9 @@ impl Region<'_> {
         let mut place = start.clone();
         let (mut length, mut gone) = (0.1 * method.longest, 0.0);
         for _ in 0..STEPS {
+            if self.watch.at(self.now).is_break() {
+                break;
+            }
             let to = match method.step(curve, &place, length) {
                 Ok((to, changed)) => {
                     length = method.next_length(length, changed);
@@ -269,16 +261,6 @@ pub fn neared<C: SolutionCurve>(
         point = curve.displaced(&point, &step);
     }
     None
-}
-
-/// Whether a curve passes through a place.
-pub fn passes<C: ConfigurationCurve>(
-    curve: &mut C,
-    traced: &Traced<C::Point>,
-    place: &Place<C::Point>,
-    method: &Continuation,
-) -> bool {
-    met_at(curve, traced, place, method).is_some()
 }
 
 /// Where a curve passes through a place: the number of the last point before it, with the part of

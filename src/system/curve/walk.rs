@@ -7,7 +7,6 @@ use super::trace::closed;
 use crate::linear::{dot, norm};
 use crate::mechanism::{Configuration, Mechanism};
 use crate::solve::{BranchPoint, Continuation, Place, SolutionCurve, StepFailure};
-use crate::system::Coordinate;
 
 type At = Place<Configuration<f64>>;
 
@@ -278,14 +277,6 @@ impl Event {
     /// Whether following ends there.
     pub fn ends(&self) -> bool {
         matches!(self, Event::Limit { .. } | Event::End(_) | Event::Closed)
-    }
-
-    /// The coordinate that turns back, if one does.
-    pub fn turning(&self) -> Option<Coordinate> {
-        match self {
-            Event::Turning(joint) => Some(Coordinate::Joint(*joint)),
-            _ => None,
-        }
     }
 }
 

@@ -3,6 +3,7 @@
 use std::cell::RefCell;
 
 use super::{System, Work};
+use crate::linear::CURVED;
 use crate::mechanism::Configuration;
 use crate::solve::{Equations, walk_down};
 
@@ -10,6 +11,8 @@ use crate::solve::{Equations, walk_down};
 /// lengths).
 const WEIGHT: f64 = 10.0;
 const KEPT: f64 = 1e-10;
+/// A gradient this small beside the gaps vanishes.
+const LEVEL: f64 = 1e-6;
 
 /// Comes as close to assembled as possible near a configuration, with what is held kept, and tells
 /// whether no small motion comes closer: the gradient of the squared gaps vanishes and their
@@ -36,7 +39,7 @@ pub fn approach(system: &System<f64>, start: &Configuration<f64>) -> (Configurat
         |at: &Configuration<f64>| system.slope(at, WEIGHT, &multipliers, &mut work.borrow_mut());
     let (gradient, squares) = slope(&at);
     let steepest = gradient.iter().fold(0.0, |m: f64, g| m.max(g.abs()));
-    if steepest > 1e-6 * squares.sqrt() {
+    if steepest > LEVEL * squares.sqrt() {
         return (at, false);
     }
     let step = 1e-5;
@@ -55,7 +58,7 @@ pub fn approach(system: &System<f64>, start: &Configuration<f64>) -> (Configurat
     let symmetric = (&curvature + curvature.transpose()) * 0.5;
     let eigenvalues = symmetric.symmetric_eigenvalues();
     let largest = eigenvalues.iter().fold(0.0, |m: f64, e| m.max(e.abs()));
-    (at, unknowns == 0 || eigenvalues.min() >= -1e-6 * largest)
+    (at, unknowns == 0 || eigenvalues.min() >= -CURVED * largest)
 }
 
 /// Walks down to where the weighted squares no longer fall.

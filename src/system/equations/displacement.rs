@@ -15,22 +15,26 @@ impl<T: Factorable> System<T> {
 
     /// The same in place.
     pub fn displace(&self, at: &mut Configuration<T>, step: &[T]) {
-        for (&unknown, i) in self.unknowns().iter().zip(0..) {
-            match unknown {
+        self.displace_part(at, step, 1.0);
+    }
+
+    /// By a fraction of steps.
+    #[inline]
+    pub(super) fn displace_part(&self, at: &mut Configuration<T>, step: &[T], fraction: f64) {
+        let mut i = 0;
+        while let Some(unknown) = self.unknowns().get(i) {
+            match *unknown {
                 Unknown::Joint(joint) => {
-                    at.joints[joint] += step[i].scale(self.joint_scale(joint));
+                    at.joints[joint] += step[i].scale(fraction * self.joint_scale(joint));
+                    i += 1;
                 }
-                Unknown::Twist {
-                    platform,
-                    component: 0,
-                } => {
-                    let omega = Vector3([step[i], step[i + 1], step[i + 2]]);
-                    let length = self.characteristic_length();
+                Unknown::Twist { platform, .. } => {
+                    let omega = Vector3([step[i], step[i + 1], step[i + 2]]).scaled(fraction);
+                    let length = fraction * self.characteristic_length();
                     let shift = Vector3([step[i + 3], step[i + 4], step[i + 5]]).scaled(length);
-                    let pose = &mut at.platforms[platform];
-                    *pose = pose.moved_by(&omega, shift);
+                    at.platforms[platform] = at.platforms[platform].moved_by(&omega, shift);
+                    i += 6;
                 }
-                Unknown::Twist { .. } => {}
             }
         }
     }

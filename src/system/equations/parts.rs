@@ -1,7 +1,7 @@
 //! Parts of a mechanism that no closure couples.
 
 use super::layout::Unknown;
-use crate::mechanism::{Frame, Mechanism, Symbol};
+use crate::mechanism::Mechanism;
 
 /// For each independent part of a mechanism which of the unknowns are its own.
 ///
@@ -9,18 +9,17 @@ use crate::mechanism::{Frame, Mechanism, Symbol};
 /// product of those of its parts.
 pub fn independent_parts(mechanism: &Mechanism, unknowns: &[Unknown]) -> Vec<Vec<bool>> {
     let mut label: Vec<usize> = (0..unknowns.len()).collect();
-    let platforms = 0..mechanism.platforms().len();
-    let together = platforms
-        .map(|platform| Felt {
-            joints: vec![],
-            platforms: vec![platform],
-        })
-        .chain(closures(mechanism));
-    for felt in together {
+    let platforms = (0..mechanism.platforms().len()).map(|platform| (vec![], vec![platform]));
+    let closures = mechanism.closures().iter().map(|closure| {
+        let carriers = closure.frames.into_iter();
+        let carriers = carriers.filter_map(|frame| mechanism.carrier(frame));
+        (mechanism.felt_by(closure), carriers.collect())
+    });
+    for (joints, platforms) in platforms.chain(closures) {
         let own: Vec<usize> = (0..unknowns.len())
             .filter(|&i| match unknowns[i] {
-                Unknown::Joint(joint) => felt.joints.contains(&joint),
-                Unknown::Twist { platform, .. } => felt.platforms.contains(&platform),
+                Unknown::Joint(joint) => joints.contains(&joint),
+                Unknown::Twist { platform, .. } => platforms.contains(&platform),
             })
             .collect();
         let Some(&first) = own.first() else { continue };
@@ -33,57 +32,8 @@ pub fn independent_parts(mechanism: &Mechanism, unknowns: &[Unknown]) -> Vec<Vec
                 .for_each(|l| *l = to);
         }
     }
-    let mut parts: Vec<Vec<bool>> = Vec::new();
-    for root in 0..unknowns.len() {
-        let own: Vec<bool> = label.iter().map(|l| *l == root).collect();
-        if own.contains(&true) {
-            parts.push(own);
-        }
-    }
+    let parts = (0..unknowns.len()).map(|root| label.iter().map(|l| *l == root).collect());
     parts
-}
-
-/// What a closure feels.
-struct Felt {
-    joints: Vec<usize>,
-    platforms: Vec<usize>,
-}
-
-fn closures(mechanism: &Mechanism) -> impl Iterator<Item = Felt> {
-    mechanism.closures().iter().map(|closure| {
-        let lengths = closure.length.iter().flat_map(|length| &length.terms);
-        let mut felt = Felt {
-            joints: lengths
-                .filter_map(|(symbol, _)| match symbol {
-                    Symbol::Joint(joint) => Some(*joint),
-                    Symbol::Parameter(_) | Symbol::Local(_) => None,
-                })
-                .collect(),
-            platforms: vec![],
-        };
-        for frame in closure.frames {
-            felt.add(mechanism, frame);
-        }
-        felt
-    })
-}
-
-impl Felt {
-    /// All that moves a frame, down to the ground.
-    fn add(&mut self, mechanism: &Mechanism, mut frame: Frame) {
-        loop {
-            let (chain, rows) = match frame {
-                Frame::Ground => return,
-                Frame::Platform { platform } | Frame::OnPlatform { platform, .. } => {
-                    return self.platforms.push(platform);
-                }
-                Frame::Link { chain, row } => (chain, row),
-                Frame::Tip { chain } => (chain, mechanism.chains()[chain].rows.len()),
-            };
-            let chain = &mechanism.chains()[chain];
-            let rows = chain.rows[..rows].iter();
-            self.joints.extend(rows.flat_map(|row| row.joints()));
-            frame = chain.on;
-        }
-    }
+        .filter(|own: &Vec<bool>| own.contains(&true))
+        .collect()
 }

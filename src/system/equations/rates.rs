@@ -99,33 +99,17 @@ impl<T: Factorable> System<T> {
         let (rows, columns) = (self.rows(), self.unknowns().len());
         let mut dense = self.dense_jacobian(work);
         for r in 0..rows {
-            let squares: f64 = (0..columns)
-                .map(|j| dense[j * rows + r].norm_squared().greatest())
-                .sum();
-            if squares > 1.0 {
-                let factor = 1.0 / squares.sqrt();
-                (0..columns).for_each(|j| dense[j * rows + r] = dense[j * rows + r].scale(factor));
-            }
+            shorten(dense.iter_mut().skip(r).step_by(rows));
         }
         for column in dense.chunks_exact_mut(rows.max(1)) {
-            let squares: f64 = column.iter().map(|x| x.norm_squared().greatest()).sum();
-            if squares > 1.0 {
-                let factor = 1.0 / squares.sqrt();
-                column.iter_mut().for_each(|x| *x = x.scale(factor));
-            }
+            shorten(column.iter_mut());
         }
-        let mut qr = Qr::new(rows, columns, 0);
-        qr.reset(rows);
-        for j in 0..columns {
-            (qr.column_mut(j)).copy_from_slice(&dense[j * rows..(j + 1) * rows]);
-        }
-        qr.factorise(0.0);
-        let size = |k: usize| qr.column(k)[k].norm_squared().greatest().sqrt();
-        match (columns, qr.rank()) {
+        let pivots = pivots_of(rows, columns, &dense);
+        match (columns, pivots.len()) {
             (0, _) => (1.0, 1.0),
-            (n, rank) if rank == n => (size(0), size(n - 1)),
+            (n, rank) if rank == n => (pivots[0], pivots[n - 1]),
             (_, 0) => (0.0, 0.0),
-            _ => (size(0), 0.0),
+            _ => (pivots[0], 0.0),
         }
     }
 
@@ -133,15 +117,27 @@ impl<T: Factorable> System<T> {
     /// direction counting as lost when its pivot is this small beside the largest.
     pub fn nullity(&self, tolerance: f64, work: &mut Work<T>) -> usize {
         let (rows, columns) = (self.rows(), self.unknowns().len());
-        let dense = self.dense_jacobian(work);
-        let mut qr = Qr::new(rows, columns, 0);
-        qr.reset(rows);
-        for j in 0..columns {
-            (qr.column_mut(j)).copy_from_slice(&dense[j * rows..(j + 1) * rows]);
-        }
-        qr.factorise(0.0);
-        let size = |k: usize| qr.column(k)[k].norm_squared().greatest().sqrt();
-        let rank = (0..qr.rank()).filter(|&k| size(k) > tolerance * size(0));
-        columns - rank.count()
+        let pivots = pivots_of(rows, columns, &self.dense_jacobian(work));
+        let counts = |pivot: &&f64| **pivot > tolerance * pivots[0];
+        columns - pivots.iter().filter(counts).count()
+    }
+}
+
+/// The pivots of an orthogonal factorisation that count.
+fn pivots_of<T: Factorable>(rows: usize, columns: usize, dense: &[T]) -> Vec<f64> {
+    let mut qr = Qr::new(rows, columns, 0);
+    qr.load(rows, dense);
+    qr.factorise(0.0);
+    let size = |k: usize| qr.column(k)[k].norm_squared().greatest().sqrt();
+    (0..qr.rank()).map(size).collect()
+}
+
+/// Shortens a vector that is longer than 1.
+fn shorten<'a, T: Factorable>(vector: impl Iterator<Item = &'a mut T>) {
+    let mut entries: Vec<&mut T> = vector.collect();
+    let squares: f64 = entries.iter().map(|x| x.norm_squared().greatest()).sum();
+    if squares > 1.0 {
+        let factor = 1.0 / squares.sqrt();
+        entries.iter_mut().for_each(|x| **x = x.scale(factor));
     }
 }

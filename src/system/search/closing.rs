@@ -196,9 +196,10 @@ pub fn close(
 impl Closed {
     /// Names of the joints that are outside their limits.
     pub fn outside_limits(&self, mechanism: &Mechanism) -> Vec<String> {
-        let joints = mechanism.joints().iter().zip(&self.configuration.joints);
-        let outside = joints.filter(|(joint, value)| !joint.allows(**value));
-        outside.map(|(joint, _)| joint.name.clone()).collect()
+        let outside = mechanism.outside_limits(&self.configuration.joints);
+        outside
+            .map(|joint| mechanism.joints()[joint].name.clone())
+            .collect()
     }
 }
 

@@ -19,8 +19,7 @@ impl Search<'_> {
     pub(crate) fn moved_from_home(&self) -> Option<Attempt> {
         let home = self.mechanism.home();
         let to = self.question.start();
-        let longest = self.changes(&home, &to).fold(0.0, f64::max);
-        let steps = (longest / STEP).ceil().max(1.0);
+        let steps = (self.longest_change(&home, &to) / STEP).ceil().max(1.0);
         if steps > MOST {
             return None;
         }
@@ -57,38 +56,33 @@ impl Search<'_> {
         None
     }
 
-    /// How far each held coordinate moves, in rad or characteristic lengths.
-    fn changes(
-        &self,
-        home: &Configuration<f64>,
-        to: &Configuration<f64>,
-    ) -> impl Iterator<Item = f64> {
+    /// How far what is held moves at most, in rad or characteristic lengths.
+    fn longest_change(&self, home: &Configuration<f64>, to: &Configuration<f64>) -> f64 {
         let length = self.mechanism.characteristic_length();
-        let joints = (0..home.joints.len()).filter(|&i| self.held.joints[i]);
-        let joints =
-            joints.map(|i| (to.joints[i] - home.joints[i]).abs() / self.system.joint_scale(i));
-        let platforms = self.held.platforms.iter().enumerate();
-        let platforms = platforms.flat_map(move |(i, held)| {
+        let mut longest: f64 = 0.0;
+        for i in (0..home.joints.len()).filter(|&i| self.held.joints[i]) {
+            let change = (to.joints[i] - home.joints[i]).abs() / self.system.joint_scale(i);
+            longest = longest.max(change);
+        }
+        for (i, held) in self.held.platforms.iter().enumerate() {
             let (home, to) = (&home.platforms[i], &to.platforms[i]);
-            let single = coordinates(held).iter().map(|(coordinate, value)| {
-                let change = (value - coordinate.of(&home.pose())).abs();
-                change
-                    * if coordinate.is_angle() {
-                        1.0
-                    } else {
-                        1.0 / length
-                    }
-            });
-            let whole = (*held == HeldPlatform::Pose).then(|| {
+            for (coordinate, value) in coordinates(held) {
+                let scale = if coordinate.is_angle() {
+                    1.0
+                } else {
+                    1.0 / length
+                };
+                longest = longest.max((value - coordinate.of(&home.pose())).abs() * scale);
+            }
+            if *held == HeldPlatform::Pose {
                 let shift = (to.position - home.position).norm() / length;
                 let turn: f64 = (home.orientation.0.iter().zip(to.orientation.0))
                     .map(|(a, b)| a * b)
                     .sum();
-                shift.max(2.0 * turn.abs().min(1.0).acos())
-            });
-            single.chain(whole).collect::<Vec<f64>>()
-        });
-        joints.chain(platforms).collect::<Vec<f64>>().into_iter()
+                longest = longest.max(shift).max(2.0 * turn.abs().min(1.0).acos());
+            }
+        }
+        longest
     }
 }
 

@@ -28,7 +28,11 @@ pub(crate) fn tracked(
         let ends = crate::solve::each(waiting.len(), homotopy, |homotopy, k| {
             match watch.at(now).is_break() {
                 true => None,
-                false => follow(homotopy, &tracker, starts[waiting[k]].as_ref()?),
+                false => {
+                    let stages =
+                        &mut Stages::new(homotopy.family.coordinates.count(), (watch, now));
+                    follow(homotopy, &tracker, starts[waiting[k]].as_ref()?, stages)
+                }
             }
         });
         for (i, end) in waiting.into_iter().zip(ends) {
@@ -49,10 +53,15 @@ pub(crate) fn tracked(
     }
 }
 
-fn follow(homotopy: &mut ParameterHomotopy<'_>, tracker: &Tracker, from: &[C]) -> Option<Vec<C>> {
+fn follow(
+    homotopy: &mut ParameterHomotopy<'_>,
+    tracker: &Tracker,
+    from: &[C],
+    stages: &mut Stages<'_>,
+) -> Option<Vec<C>> {
     let mut x = from.to_vec();
     let (start, end) = (C::from_f64(0.0), C::from_f64(1.0));
-    let track = tracker.track(homotopy, (start, end), &mut x, &mut Stages::new(from.len()));
+    let track = tracker.track(homotopy, (start, end), &mut x, stages);
     (track.arrival == Arrival::There && polish(homotopy, end, &mut x)).then_some(x)
 }
 

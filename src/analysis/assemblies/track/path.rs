@@ -8,7 +8,9 @@ use super::local::Local;
 use super::simple::{are_one, stands_alone};
 use crate::analysis::assemblies::family::{C, size};
 use crate::number::Number;
-use crate::solve::{Arrival, Homotopy, Newton, PathEnd, Stages, Tracker, path_end};
+use crate::solve::{
+    Arrival, Homotopy, Newton, PathEnd, Progress, Stages, Tracker, Watch, path_end,
+};
 
 /// Endpoint of a path.
 #[derive(Clone, Debug, PartialEq)]
@@ -61,18 +63,22 @@ pub(crate) fn follow(
     tracker: &Tracker,
     bend: f64,
     from: &[C],
+    watch: (&Watch, Progress),
 ) -> Path {
     let (start, end) = (C::from_f64(0.0), C::from_f64(1.0));
-    let mut stages = Stages::new(from.len());
+    let mut stages = Stages::new(from.len(), watch);
     let (mut steps, mut evaluations) = (0, 0);
     let mut x = from.to_vec();
-    let mut leg =
-        |homotopy: &mut ParameterHomotopy<'_>, x: &mut Vec<C>, stages: &mut Stages, a: C, b: C| {
-            let track = tracker.track(homotopy, (a, b), x, stages);
-            steps += track.steps;
-            evaluations += track.evaluations;
-            track.arrival
-        };
+    let mut leg = |homotopy: &mut ParameterHomotopy<'_>,
+                   x: &mut Vec<C>,
+                   stages: &mut Stages<'_>,
+                   a: C,
+                   b: C| {
+        let track = tracker.track(homotopy, (a, b), x, stages);
+        steps += track.steps;
+        evaluations += track.evaluations;
+        track.arrival
+    };
     let mut from_here = start;
     let mut arrival = Arrival::There;
     // each part ten times as long as all before it
@@ -186,7 +192,7 @@ fn go_round(
     tracker: &Tracker,
     far: f64,
     x: &[C],
-    stages: &mut Stages,
+    stages: &mut Stages<'_>,
 ) -> End {
     match path_end(homotopy, tracker, x, NEAR_END, stages) {
         PathEnd::Finite { mut x, winding } => {

@@ -9,7 +9,7 @@ use crate::analysis::assemblies::family::{
     C, Coordinates, Family, LegwiseSolutions, Member, learn,
 };
 use crate::number::Number;
-use crate::solve::{Stage, Tracker, Watch, each};
+use crate::solve::{Progress, Stage, Tracker, Watch, each};
 
 /// Endpoints of all paths, and the work of tracking them.
 #[derive(Clone, Debug, Default)]
@@ -166,9 +166,17 @@ impl Batch<'_, '_> {
             let tracker = self.tracker(level);
             let (bend, followed, watch) = (self.bend, self.followed, self.watch);
             let paths: Vec<Option<Path>> = each(waiting.len(), self.homotopy, |homotopy, k| {
-                let done = followed.fetch_add(1, Ordering::Relaxed);
-                let goes_on = !watch.stops(Stage::Paths, done, None);
-                goes_on.then(|| follow(homotopy, &tracker, bend, &solutions[waiting[k]]))
+                let now = Progress {
+                    done: followed.fetch_add(1, Ordering::Relaxed),
+                    ..Progress::of(Stage::Paths)
+                };
+                if watch.at(now).is_break() {
+                    return None;
+                }
+                let from = &solutions[waiting[k]];
+                let path = follow(homotopy, &tracker, bend, from, (watch, now));
+                // one that was stopped on its way ends nowhere
+                (!watch.is_stopped()).then_some(path)
             });
             for (&i, path) in waiting.iter().zip(paths) {
                 let Some(path) = path else { continue };

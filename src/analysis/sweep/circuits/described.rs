@@ -1,13 +1,13 @@
 //! Branches of a circuit, and the class of a 4-bar.
 
-use super::{At, Branch, Circuit, FourBarClass, Traced, turned};
+use super::{At, Branch, Circuit, Found, FourBarClass, turned};
 use crate::description::ClosureKind;
 use crate::mechanism::{Frame, JointKind, Mechanism};
 
 /// Pieces between turning points of the input.
-pub(super) fn branches(mechanism: &Mechanism, input: usize, found: &Traced) -> Vec<Branch> {
+pub(super) fn branches(mechanism: &Mechanism, input: usize, found: &Found) -> Vec<Branch> {
     let value = |place: &At| place.at.joints[input];
-    let mut cuts: Vec<f64> = (found.turnings.iter())
+    let cuts: Vec<f64> = (found.turnings.iter())
         .filter(|(joint, _)| *joint == input)
         .map(|(_, place)| value(place))
         .collect();
@@ -24,21 +24,14 @@ pub(super) fn branches(mechanism: &Mechanism, input: usize, found: &Traced) -> V
             turns,
         }
     };
-    if found.closed {
-        let Some(&again) = cuts.first() else {
-            return vec![piece((first, last), true)];
-        };
+    let cuts = match (found.closed, cuts.first()) {
+        (true, None) => return vec![piece((first, last), true)],
         // once round, with the turns it made on the way
-        cuts.push(again + last - first);
-        return cuts
-            .windows(2)
-            .map(|pair| piece((pair[0], pair[1]), false))
-            .collect();
-    }
-    let all: Vec<f64> = std::iter::once(first).chain(cuts).chain([last]).collect();
-    all.windows(2)
-        .map(|pair| piece((pair[0], pair[1]), false))
-        .collect()
+        (true, Some(again)) => [&cuts[..], &[again + last - first][..]].concat(),
+        (false, _) => [&[first][..], &cuts[..], &[last][..]].concat(),
+    };
+    let pieces = cuts.windows(2).map(|pair| piece((pair[0], pair[1]), false));
+    pieces.collect()
 }
 
 /// The class of a planar 4-bar whose two joints on ground are joint variables.

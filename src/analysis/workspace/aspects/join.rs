@@ -7,7 +7,7 @@ use crate::analysis::workspace::flood::{Flood, ReachedSet, Spread, Steps, join, 
 use crate::analysis::workspace::problem::Grid;
 use crate::linear::Factorable;
 use crate::number::Packed;
-use crate::solve::{Pool, Watch, each};
+use crate::solve::{Pool, Stage, Watch, each};
 use crate::system::Driven;
 
 /// Aspects of fewer nodes are checked on a finer grid.
@@ -36,23 +36,22 @@ pub(crate) fn joined<T: Factorable + Packed + Send + Sync>(
     for first in found.iter().flatten() {
         counts[*first] += 1;
     }
-    let few = |first: &usize| (1..FEW).contains(&counts[*first]);
-    let few: Vec<usize> = (0..found.len()).filter(few).take(MOST).collect();
+    let mut small: BTreeMap<usize, Vec<usize>> = BTreeMap::new();
+    for (s, aspect) in found.iter().enumerate() {
+        if let Some(first) = aspect.filter(|first| counts[*first] < FEW) {
+            small.entry(first).or_default().push(s);
+        }
+    }
+    let few: Vec<Vec<usize>> = small.into_values().take(MOST).collect();
     if few.is_empty() {
         return (found, Vec::new());
     }
-    let mut solutions: BTreeMap<usize, Vec<usize>> = few.iter().map(|f| (*f, Vec::new())).collect();
-    for (s, aspect) in found.iter().enumerate() {
-        if let Some(first) = aspect.filter(|first| counts[*first] < FEW)
-            && let Some(solutions) = solutions.get_mut(&first)
-        {
-            solutions.push(s);
+    let all = reached_set.len();
+    let others = each(few.len(), &(), |(), i| {
+        match watch.stops(Stage::Reached, all, None) {
+            true => Vec::new(),
+            false => reached(fill, steps, reached_set, &few[i]),
         }
-    }
-    let few: Vec<Vec<usize>> = solutions.into_values().collect();
-    let others = each(few.len(), &(), |(), i| match watch.is_stopped() {
-        true => Vec::new(),
-        false => reached(fill, steps, reached_set, &few[i]),
     });
     let mut pairs = Vec::new();
     for (small, others) in few.iter().zip(others) {
@@ -61,8 +60,7 @@ pub(crate) fn joined<T: Factorable + Packed + Send + Sync>(
             pairs.push([small[0], aspect]);
         }
     }
-    let all = found.into_iter();
-    let all = all.map(|aspect| aspect.map(|first| root(&mut roots, first)));
+    let all = (found.into_iter()).map(|aspect| aspect.map(|first| root(&mut roots, first)));
     (all.collect(), pairs)
 }
 

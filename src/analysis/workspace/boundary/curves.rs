@@ -25,8 +25,7 @@ impl Tracer<'_> {
         region: &Region,
         crossings: &[&Crossing],
         place: impl Fn(&mut C, &Configuration<f64>) -> Option<Place<C::Point>>,
-        curves: &mut Vec<BoundaryCurve>,
-    ) {
+    ) -> Vec<BoundaryCurve> {
         let mut known: Vec<Known<C::Point>> = Vec::new();
         for crossing in crossings {
             let mut at = crossing.at.clone();
@@ -56,11 +55,12 @@ impl Tracer<'_> {
                 }
             }
         }
-        for (traced, met) in known {
+        let told = known.into_iter().map(|(traced, met)| {
             let at = |p: &Place<C::Point>| C::configuration(&p.at).clone();
             let path: Vec<Configuration<f64>> = traced.places.iter().map(at).collect();
-            curves.push(self.curve(region, &path, traced.ends, met));
-        }
+            self.curve(region, &path, traced.ends, met)
+        });
+        told.collect()
     }
 
     fn curve(

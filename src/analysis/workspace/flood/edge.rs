@@ -73,11 +73,10 @@ fn begun(
     if place.is_beside_a_crossing() || !metric.same(place.at.view(), from.view()) {
         return Err(Met::Nothing);
     }
-    let (place, rate) = curve.towards_end(place);
-    if rate.abs() < 1e-9 {
-        return Err(Met::Fold(place.at, 0.0));
+    match curve.towards_end(place) {
+        (place, true) => Err(Met::Fold(place.at, 0.0)),
+        (place, false) => Ok((curve, place)),
     }
-    Ok((curve, place))
 }
 
 /// Whether the neighbour is reached or the mode folds back before it, which is not located.

@@ -1,12 +1,10 @@
 //! Spreading over the grid from seeds: every node in every mode that regular steps lead to.
 
-use rustc_hash::FxHashSet;
-
 use super::super::WorkspaceError;
-use super::arrivals::{Arrival, Arrivals, Moving};
+use super::arrivals::{Arrivals, Moving};
 use super::edge::{Edge, Met, reach};
-use super::neighbour::{Flood, JOB, Step, in_packs};
-use super::pace::Paced;
+use super::neighbour::{Flood, JOB, Step, in_packs, one_each};
+use super::pace::End;
 use super::reached::{Link, Name};
 use super::spread::Spread;
 use super::step::{Start, Steps};
@@ -135,11 +133,12 @@ impl Flood<'_> {
                 None => left.push((from, d)),
             }
         }
-        let mut taken = FxHashSet::with_capacity_and_hasher(left.len(), Default::default());
-        left.into_iter().partition(|&(from, d)| {
+        one_each(left, |&(from, d)| {
             let node = self.grid.neighbour(spread.solution(from).node, d);
-            let root = spread.tiles[from.tile as usize].root(from.solution as usize);
-            taken.insert((node, root))
+            (
+                node,
+                spread.tiles[from.tile as usize].root(from.solution as usize),
+            )
         })
     }
 
@@ -172,14 +171,7 @@ impl Flood<'_> {
         tasks: &[Task],
         watch: &Watch,
     ) -> Vec<End> {
-        let paced = self.paced(steps, spread, tasks).into_iter();
-        let mut ends: Vec<End> = paced
-            .map(|paced| match paced {
-                Paced::Arrived(arrival) => End::Arrived(arrival),
-                Paced::Fold => End::Fold,
-                Paced::Open => End::Stuck,
-            })
-            .collect();
+        let mut ends = self.paced(steps, spread, tasks);
         let open = tasks.iter().zip(&ends);
         let open = open.filter(|(_, end)| matches!(end, End::Stuck));
         let unsure: Vec<Task> = open.map(|(task, _)| *task).collect();
@@ -227,10 +219,4 @@ impl Flood<'_> {
         let to = known.unwrap_or_else(|| spread.add(self, node, arrival));
         spread.link(from, d, to);
     }
-}
-
-enum End {
-    Arrived(Arrival),
-    Fold,
-    Stuck,
 }

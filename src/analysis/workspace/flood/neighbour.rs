@@ -1,5 +1,9 @@
 //! Steps from the nodes of a grid to their neighbours, and which of them are sure.
 
+use std::hash::Hash;
+
+use rustc_hash::FxHashSet;
+
 use super::arrivals::{Arrivals, Moving};
 use super::metric::Metric;
 use super::reached::{Name, NodeSolution, Signs, signs};
@@ -139,6 +143,15 @@ impl Flood<'_> {
             values,
         }
     }
+}
+
+/// One step to each node from each mode known so far; the others wait for what it finds.
+pub(crate) fn one_each<S, R: Eq + Hash>(
+    steps: Vec<S>,
+    mut node_and_mode: impl FnMut(&S) -> (Option<usize>, R),
+) -> (Vec<S>, Vec<S>) {
+    let mut taken = FxHashSet::with_capacity_and_hasher(steps.len(), Default::default());
+    (steps.into_iter()).partition(|step| taken.insert(node_and_mode(step)))
 }
 
 /// What comes of items given to as many lanes as there are, in their order.

@@ -10,14 +10,14 @@ use crate::linear::{Factorable, norm};
 use crate::number::Packed;
 use crate::solve::Pool;
 
-/// What shorter steps find on an edge.
-pub(crate) enum Paced {
-    /// The neighbour.
+/// Where the way along an edge ends.
+pub(crate) enum End {
+    /// At the neighbour.
     Arrived(Arrival),
-    /// The mode folds back before it.
+    /// Where the mode folds back before it.
     Fold,
-    /// Not enough.
-    Open,
+    /// Where no step is certain.
+    Stuck,
 }
 
 /// How far an edge has been gone.
@@ -74,7 +74,7 @@ impl Flood<'_> {
         steps: &Pool<Steps<T>>,
         spread: &Spread,
         tasks: &[Task],
-    ) -> Vec<Paced> {
+    ) -> Vec<End> {
         const ROUNDS: usize = 30;
         /// The shortest step as a part of an edge.
         const SHORTEST: f64 = 1.0 / 256.0;
@@ -82,7 +82,7 @@ impl Flood<'_> {
             let (motion, _) = self.metric.motion(at, axis, 1.0);
             norm(motion).powi(-2)
         };
-        let mut ends: Vec<Paced> = tasks.iter().map(|_| Paced::Open).collect();
+        let mut ends: Vec<End> = tasks.iter().map(|_| End::Stuck).collect();
         let mut ways: Vec<(usize, PacedStep)> = (tasks.iter().enumerate())
             .map(|(i, task)| {
                 let edge = spread.step(self, *task);
@@ -113,12 +113,12 @@ impl Flood<'_> {
                 let sure = arrival.filter(|to| self.metric.alike(from, *to, length, &mut storage));
                 match sure {
                     Some(arrival) if way.step == way.rest() => {
-                        ends[i] = Paced::Arrived(arrival.arrival());
+                        ends[i] = End::Arrived(arrival.arrival());
                     }
                     Some(arrival) => {
                         let slowness = slowness(arrival, way.axis);
                         match way.on(arrival.arrival(), slowness) {
-                            true => ends[i] = Paced::Fold,
+                            true => ends[i] = End::Fold,
                             false => left.push((i, way)),
                         }
                     }

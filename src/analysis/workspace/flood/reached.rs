@@ -68,17 +68,6 @@ pub(crate) struct Band {
     pub numbers: Range<usize>,
 }
 
-/// What is numbered of a band, from zero.
-struct Numbered {
-    /// For each node how many solutions it has.
-    counts: Vec<usize>,
-    names: Vec<Name>,
-    nodes: Vec<usize>,
-    within: Vec<bool>,
-    roots: Vec<usize>,
-    numbers: Vec<Vec<usize>>,
-}
-
 impl ReachedSet {
     /// The solutions of each part of the grid, and for each of them the first of those connected
     /// with it in that part; what else is connected; and for each band how many parts and nodes it
@@ -88,54 +77,53 @@ impl ReachedSet {
         seams: &[[Name; 2]],
         bands: &[(usize, usize)],
     ) -> Self {
-        let mut starts = vec![(0, 0)];
-        for (tiles, nodes) in bands {
-            let (tile, node) = starts[starts.len() - 1];
-            starts.push((tile + tiles, node + nodes));
+        let nodes = bands.iter().map(|(_, nodes)| nodes).sum();
+        let mut counts = vec![0; nodes];
+        let all = || tiles.iter().flat_map(|(solutions, _)| &solutions.all);
+        all().for_each(|solution| counts[solution.node] += 1);
+        let mut firsts = vec![0; nodes + 1];
+        for (node, count) in counts.iter().enumerate() {
+            firsts[node + 1] = firsts[node] + count;
         }
-        let numbered = each(bands.len(), &(), |(), band| {
-            let ((first, node), (end, beyond)) = (starts[band], starts[band + 1]);
-            Numbered::of(first, &tiles[first..end], node..beyond)
-        });
+        let len = firsts[nodes];
         let mut reached_set = ReachedSet {
-            tiles: tiles.into_iter().map(|(solutions, _)| solutions).collect(),
-            names: Vec::new(),
-            numbers: Vec::new(),
-            firsts: Vec::new(),
-            nodes: Vec::new(),
-            within: Vec::new(),
-            roots: Vec::new(),
-            bands: Vec::new(),
+            names: vec![Name::new(0, 0); len],
+            numbers: Vec::with_capacity(tiles.len()),
+            nodes: vec![0; len],
+            within: vec![false; len],
+            roots: vec![0; len],
+            bands: Vec::with_capacity(bands.len()),
+            tiles: Vec::with_capacity(tiles.len()),
+            firsts,
         };
-        for (band, own) in numbered.into_iter().enumerate() {
-            let before = reached_set.names.len();
-            let mut first = before;
-            reached_set.firsts.extend(own.counts.iter().map(|count| {
-                first += count;
-                first - count
-            }));
-            reached_set.names.extend(own.names);
-            reached_set.nodes.extend(own.nodes);
-            reached_set.within.extend(own.within);
-            reached_set
-                .roots
-                .extend(own.roots.iter().map(|root| before + root));
-            reached_set.bands.push(Band {
-                tiles: starts[band].0..starts[band + 1].0,
-                numbers: before..reached_set.names.len(),
-            });
-            let numbers = own.numbers.into_iter().map(|mut numbers| {
-                numbers.iter_mut().for_each(|number| *number += before);
-                numbers
-            });
-            reached_set.numbers.extend(numbers);
+        let mut next = reached_set.firsts.clone();
+        for (tile, (solutions, roots)) in tiles.into_iter().enumerate() {
+            let numbers: Vec<usize> = (solutions.all.iter())
+                .map(|at| {
+                    next[at.node] += 1;
+                    next[at.node] - 1
+                })
+                .collect();
+            for (i, (&number, at)) in numbers.iter().zip(&solutions.all).enumerate() {
+                reached_set.names[number] = Name::new(tile, i);
+                reached_set.nodes[number] = at.node;
+                reached_set.within[number] = at.within;
+                reached_set.roots[number] = numbers[roots[i]];
+            }
+            reached_set.numbers.push(numbers);
+            reached_set.tiles.push(solutions);
         }
-        reached_set.firsts.push(reached_set.names.len());
-        let seams = seams.iter();
-        let seams: Vec<[usize; 2]> = seams
-            .map(|ends| ends.map(|s| reached_set.number(s)))
-            .collect();
-        reached_set.connect(seams.into_iter());
+        let (mut tile, mut node) = (0, 0);
+        for (tiles, nodes) in bands {
+            reached_set.bands.push(Band {
+                tiles: tile..tile + tiles,
+                numbers: reached_set.firsts[node]..reached_set.firsts[node + nodes],
+            });
+            (tile, node) = (tile + tiles, node + nodes);
+        }
+        let seams = seams.iter().map(|ends| ends.map(|s| reached_set.number(s)));
+        let seams: Vec<[usize; 2]> = seams.collect();
+        reached_set.connect(seams);
         reached_set
     }
 
@@ -157,8 +145,8 @@ impl ReachedSet {
     }
 
     /// Takes solutions to be connected.
-    pub fn connect(&mut self, pairs: impl Iterator<Item = [usize; 2]>) {
-        pairs.for_each(|[a, b]| join(&mut self.roots, a, b));
+    pub fn connect(&mut self, pairs: Vec<[usize; 2]>) {
+        (pairs.into_iter()).for_each(|[a, b]| join(&mut self.roots, a, b));
         for s in 0..self.roots.len() {
             self.roots[s] = root(&mut self.roots, s);
         }
@@ -280,52 +268,6 @@ impl ReachedSet {
     pub fn known(&self, metric: &Metric, node: usize, at: ConfigurationRef<f64>) -> Option<usize> {
         let mut solutions = self.at(node);
         solutions.find(|s| metric.same(self.configuration(*s), at))
-    }
-}
-
-impl Numbered {
-    /// Of the parts from `first` on that have these nodes.
-    fn of(first: usize, tiles: &[(NodeSolutions, Vec<usize>)], nodes: Range<usize>) -> Self {
-        let mut counts = vec![0; nodes.len()];
-        for solution in tiles.iter().flat_map(|(solutions, _)| &solutions.all) {
-            counts[solution.node - nodes.start] += 1;
-        }
-        let mut sum = 0;
-        let next = counts.iter().map(|count| {
-            sum += count;
-            sum - count
-        });
-        let mut next: Vec<usize> = next.collect();
-        let mut numbered = Numbered {
-            names: vec![
-                Name {
-                    tile: 0,
-                    solution: 0
-                };
-                sum
-            ],
-            nodes: vec![0; sum],
-            within: vec![false; sum],
-            roots: vec![0; sum],
-            numbers: Vec::with_capacity(tiles.len()),
-            counts,
-        };
-        for (tile, (solutions, roots)) in (first..).zip(tiles) {
-            let numbers = solutions.all.iter().enumerate().map(|(solution, at)| {
-                let place = &mut next[at.node - nodes.start];
-                let number = *place;
-                *place += 1;
-                numbered.names[number] = Name::new(tile, solution);
-                (numbered.nodes[number], numbered.within[number]) = (at.node, at.within);
-                number
-            });
-            let numbers: Vec<usize> = numbers.collect();
-            for (&number, &root) in numbers.iter().zip(roots) {
-                numbered.roots[number] = numbers[root];
-            }
-            numbered.numbers.push(numbers);
-        }
-        numbered
     }
 }
 

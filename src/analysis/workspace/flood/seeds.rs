@@ -24,12 +24,22 @@ pub(crate) struct ModeSeeds {
 }
 
 impl ModeSeeds {
-    fn add(&mut self, problem: &MapProblem, node: usize, mut at: Configuration<f64>) {
-        problem.mechanism.turn_to_limits(&mut at.joints);
-        match problem.allows(&at.joints) {
-            true => self.seeds.push((node, at)),
-            false => self.outside += 1,
+    /// What was found at each node.
+    fn of(
+        problem: &MapProblem,
+        found: impl IntoIterator<Item = (usize, Vec<Configuration<f64>>)>,
+    ) -> Self {
+        let mut mode_seeds = ModeSeeds::default();
+        for (node, found) in found {
+            for mut at in found {
+                problem.mechanism.turn_to_limits(&mut at.joints);
+                match problem.allows(&at.joints) {
+                    true => mode_seeds.seeds.push((node, at)),
+                    false => mode_seeds.outside += 1,
+                }
+            }
         }
+        mode_seeds
     }
 }
 
@@ -76,7 +86,6 @@ pub(crate) fn search_modes(
         }
         (node, found)
     });
-    let mut mode_seeds = ModeSeeds::default();
     let mut last = storage.clone();
     let here = given.iter().filter_map(|at| {
         let node = nearest(problem, grid, at)?;
@@ -86,13 +95,7 @@ pub(crate) fn search_modes(
         take(problem, metric, &mut last, &values, at, &mut found);
         Some((node, found))
     });
-    let all: Vec<_> = found.into_iter().chain(here.collect::<Vec<_>>()).collect();
-    for (node, found) in all {
-        found
-            .into_iter()
-            .for_each(|at| mode_seeds.add(problem, node, at));
-    }
-    mode_seeds
+    ModeSeeds::of(problem, found.into_iter().chain(here))
 }
 
 /// Adds what Newton's method finds from a start, if it is new.
@@ -152,7 +155,7 @@ pub(crate) fn probe<T: Factorable + Packed + Send + Sync>(
         if watch.stops(Stage::Nodes, i, Some(nodes.len())) {
             return (node, Vec::new());
         }
-        // other numbers than those drawn by `sow`
+        // other numbers than those drawn above
         let mut rng = Pcg64Mcg::seed_from_u64(!seed.wrapping_add(node as u64));
         let values = fill.grid.values(node);
         let around = problem.at(&values).start();
@@ -162,14 +165,11 @@ pub(crate) fn probe<T: Factorable + Packed + Send + Sync>(
                 put_in(problem, &values, &at)
             })
             .collect();
-        let starts: Vec<Start> = (drawn.iter())
-            .map(|at| Start {
-                from: at.view(),
-                along: None,
-                reach: f64::INFINITY,
-                values: fill.grid.point(node),
-            })
-            .collect();
+        let anywhere = |at| Start {
+            reach: f64::INFINITY,
+            ..fill.here(node, at)
+        };
+        let starts: Vec<Start> = drawn.iter().map(anywhere).collect();
         let mut new: Vec<Configuration<f64>> = Vec::new();
         let mut arrivals = Arrivals::default();
         for pack in starts.chunks(T::WIDTH) {
@@ -183,13 +183,7 @@ pub(crate) fn probe<T: Factorable + Packed + Send + Sync>(
         }
         (node, new)
     });
-    let mut mode_seeds = ModeSeeds::default();
-    for (node, found) in found {
-        found
-            .into_iter()
-            .for_each(|at| mode_seeds.add(problem, node, at));
-    }
-    mode_seeds
+    ModeSeeds::of(problem, found)
 }
 
 /// The node nearest to a configuration, if it is in the box.

@@ -1,7 +1,9 @@
 //! From a node to its neighbour: several such steps side by side.
 
 use super::arrivals::Arrivals;
-use crate::analysis::workspace::problem::{Indicators, MOST_AXES, MapProblem, Rates, Targets};
+use crate::analysis::workspace::problem::{
+    Indicators, MOST_AXES, MapProblem, Rates, Targets, side_by_side,
+};
 use crate::linear::Factorable;
 use crate::mechanism::{Configuration, ConfigurationRef};
 use crate::number::{LANES, Packed};
@@ -160,13 +162,7 @@ impl<T: Factorable + Packed> Steps<T> {
             *to = T::of_parts(|place| at(place).joints[joint]);
         }
         for (platform, to) in self.point.platforms.iter_mut().enumerate() {
-            let pose = |place: usize| &at(place).platforms[platform];
-            for (k, to) in to.orientation.0.iter_mut().enumerate() {
-                *to = T::of_parts(|place| pose(place).orientation.0[k]);
-            }
-            for (k, to) in to.position.0.iter_mut().enumerate() {
-                *to = T::of_parts(|place| pose(place).position.0[k]);
-            }
+            *to = side_by_side(|place| at(place).platforms[platform]);
         }
         if (0..T::WIDTH).all(|place| start(place).along.is_none()) {
             return;

@@ -1,9 +1,7 @@
 //! Parts of the grid; one thread spreads over each independently.
 
-use rustc_hash::FxHashSet;
-
 use super::arrivals::{Arrivals, Moving};
-use super::neighbour::{Flood, Step};
+use super::neighbour::{Flood, Step, one_each};
 use super::reached::{Link, Name, NodeSolution, NodeSolutions, join, root};
 use super::step::Steps;
 use crate::analysis::workspace::problem::{Grid, MOST_AXES, MOST_DIRECTIONS};
@@ -228,16 +226,6 @@ impl Tile {
         join(&mut self.roots, from, to);
     }
 
-    /// One step to each node from each mode known so far; the others wait for what it finds.
-    fn chosen(&mut self, grid: &Grid, waiting: Vec<(usize, usize)>) -> [Vec<(usize, usize)>; 2] {
-        let mut taken = FxHashSet::with_capacity_and_hasher(waiting.len(), Default::default());
-        let (now, later) = waiting.into_iter().partition(|&(s, d)| {
-            let node = grid.neighbour(self.solutions.all[s].node, d);
-            taken.insert((node, root(&mut self.roots, s)))
-        });
-        [now, later]
-    }
-
     /// Spreads within the part as far as single steps are certain not to change branch.
     pub fn grow<T: Factorable + Packed>(&mut self, fill: &Flood, steps: &mut Steps<T>) {
         let mut storage = Vec::new();
@@ -247,7 +235,10 @@ impl Tile {
             let mut waiting = self.ahead(fill.grid, &front);
             while !waiting.is_empty() {
                 waiting.retain(|&(s, d)| !self.linked(fill, s, d, &mut storage));
-                let [now, later] = self.chosen(fill.grid, waiting);
+                let (now, later) = one_each(waiting, |&(s, d)| {
+                    let node = fill.grid.neighbour(self.solutions.all[s].node, d);
+                    (node, root(&mut self.roots, s))
+                });
                 for pack in now.chunks(T::WIDTH) {
                     let planned = pack.iter().map(|&(s, d)| self.step(fill, s, d));
                     let planned: Vec<Step> = planned.collect();

@@ -35,21 +35,15 @@ pub struct Cells {
 /// Some rows of a table.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(crate) struct Part {
-    pub heads: Vec<Head>,
-    /// The mapped coordinates, the joints and the coordinates that follow of one row after another.
+    /// The node of each row.
+    pub nodes: Vec<usize>,
+    /// The values of one row after another; infinite where one is missing, so that equal tables are equal.
     pub values: Vec<f64>,
 }
 
-/// The indicators of a node in a mode, as in a [`Cell`].
-#[derive(Clone, Debug, Default, PartialEq)]
-pub(crate) struct Head {
-    pub node: usize,
-    pub mode: usize,
-    pub aspect: Option<usize>,
-    pub condition: Option<f64>,
-    pub direct: Option<f64>,
-    pub inverse: Option<f64>,
-}
+/// Between the mapped coordinates and the joints of a row: mode, aspect, condition, and the
+/// determinants of direct and inverse singularities.
+pub(crate) const INDICATORS: usize = 5;
 
 /// A node in a mode.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -74,6 +68,7 @@ pub struct Cell<'a> {
     pub joints: &'a [f64],
     /// The coordinates of platforms that follow, rad or m.
     pub following: &'a [f64],
+    row: &'a [f64],
 }
 
 impl Cell<'_> {
@@ -81,17 +76,12 @@ impl Cell<'_> {
     /// determinants of direct and inverse singularities, joints, coordinates that follow. An aspect
     /// is missing outside limits and on singularities.
     pub fn values(&self) -> impl Iterator<Item = Option<f64>> {
-        let indicators = [
-            Some(self.mode as f64),
-            self.aspect.map(|aspect| aspect as f64),
-            self.condition,
-            self.direct,
-            self.inverse,
-        ];
-        let values = self.joints.iter().chain(self.following);
-        let mapped = self.at.iter().copied().map(Some);
-        mapped.chain(indicators).chain(values.copied().map(Some))
+        self.row.iter().copied().map(known)
     }
+}
+
+fn known(value: f64) -> Option<f64> {
+    value.is_finite().then_some(value)
 }
 
 /// The columns, then the rows.
@@ -105,11 +95,7 @@ impl Serialize for Cells {
     }
 }
 
-/// Mode, aspect, condition and the two determinants: numbers of a row.
-const INDICATORS: usize = 5;
-
-/// The values one after another: what they are is not known before they are
-/// `arranged`.
+/// The rows as they stand: what they are is not known before they are `arranged`.
 impl<'de> Deserialize<'de> for Cells {
     fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
         #[derive(Deserialize)]
@@ -121,59 +107,46 @@ impl<'de> Deserialize<'de> for Cells {
         if values.iter().any(|row| row.len() != columns.len()) {
             return Err(D::Error::custom("a row has too few or too many values"));
         }
-        let values = values.into_iter().flatten();
-        let values = values.map(|value| value.unwrap_or(f64::NAN)).collect();
-        let heads = Vec::new();
+        let part = Part {
+            nodes: vec![0; values.len()],
+            values: (values.into_iter().flatten())
+                .map(|value| value.unwrap_or(f64::INFINITY))
+                .collect(),
+        };
         Ok(Cells {
             columns,
             widths: [0; 3],
-            parts: vec![Part { heads, values }],
+            parts: vec![part],
         })
     }
 }
 
 impl Cells {
     /// Cells that were just deserialised, with what their values are; `None` if they cannot be that.
-    pub(crate) fn arranged(self, widths: [usize; 3], axes: &[AxisReport]) -> Option<Self> {
-        let Cells { columns, parts, .. } = self;
-        if widths.iter().sum::<usize>() + INDICATORS != columns.len() {
+    pub(crate) fn arranged(mut self, widths: [usize; 3], axes: &[AxisReport]) -> Option<Self> {
+        let width = self.columns.len();
+        if widths.iter().sum::<usize>() + INDICATORS != width {
             return None;
         }
-        let mut part = Part::default();
-        let rows = parts.iter();
-        for row in rows.flat_map(|part| part.values.chunks_exact(columns.len())) {
-            let (at, rest) = row.split_at(widths[0]);
-            let (indicators, rest) = rest.split_at(INDICATORS);
-            let count = |x: f64| (x.is_finite() && x >= 0.0).then_some(x as usize);
-            let known = |x: f64| (!x.is_nan()).then_some(x);
-            // the first coordinate runs fastest
-            let mut node = 0;
-            for (x, axis) in at.iter().zip(axes).rev() {
-                let part = (x - axis.from) / (axis.to - axis.from);
-                let place = (part * axis.nodes.saturating_sub(1) as f64).round();
-                node = node * axis.nodes + count(place)?;
+        self.widths = widths;
+        for part in &mut self.parts {
+            for (node, row) in part.nodes.iter_mut().zip(part.values.chunks_exact(width)) {
+                let count = |x: f64| (x.is_finite() && x >= 0.0).then_some(x as usize);
+                count(row[axes.len()])?;
+                // the first coordinate runs fastest
+                for (x, axis) in row.iter().zip(axes).rev() {
+                    let part = (x - axis.from) / (axis.to - axis.from);
+                    let place = (part * axis.nodes.saturating_sub(1) as f64).round();
+                    *node = *node * axis.nodes + count(place)?;
+                }
             }
-            part.heads.push(Head {
-                node,
-                mode: count(indicators[0])?,
-                aspect: count(indicators[1]),
-                condition: known(indicators[2]),
-                direct: known(indicators[3]),
-                inverse: known(indicators[4]),
-            });
-            part.values.extend(at.iter().chain(rest));
         }
-        let parts = vec![part];
-        Some(Cells {
-            columns,
-            widths,
-            parts,
-        })
+        Some(self)
     }
 
     /// How many there are.
     pub fn len(&self) -> usize {
-        self.parts.iter().map(|part| part.heads.len()).sum()
+        self.parts.iter().map(|part| part.nodes.len()).sum()
     }
 
     /// Whether there are none.
@@ -183,32 +156,25 @@ impl Cells {
 
     /// All of them.
     pub fn iter(&self) -> impl Iterator<Item = Cell<'_>> + Clone {
-        let [axes, joints, following] = self.widths;
-        let rows = self.parts.iter().flat_map(move |part| {
-            let values = part.values.chunks_exact(axes + joints + following);
-            part.heads.iter().zip(values)
-        });
-        rows.map(move |(head, values)| {
-            let (at, values) = values.split_at(axes);
-            let (joints, following) = values.split_at(joints);
-            let Head {
-                node,
-                mode,
-                aspect,
-                condition,
-                direct,
-                inverse,
-            } = *head;
+        let [axes, joints, _] = self.widths;
+        let width = self.columns.len().max(1);
+        let rows = (self.parts.iter())
+            .flat_map(move |part| part.nodes.iter().zip(part.values.chunks_exact(width)));
+        rows.map(move |(&node, row)| {
+            let (at, rest) = row.split_at(axes);
+            let (indicators, rest) = rest.split_at(INDICATORS);
+            let (joints, following) = rest.split_at(joints);
             Cell {
                 node,
                 at,
-                mode,
-                aspect,
-                condition,
-                direct,
-                inverse,
+                mode: indicators[0] as usize,
+                aspect: known(indicators[1]).map(|aspect| aspect as usize),
+                condition: known(indicators[2]),
+                direct: known(indicators[3]),
+                inverse: known(indicators[4]),
                 joints,
                 following,
+                row,
             }
         })
     }

@@ -1,6 +1,6 @@
 //! The nodes of a map as a table.
 
-use super::cells::{Cells, Head, Part};
+use super::cells::{Cells, INDICATORS, Part};
 use super::{Map, bring};
 use crate::algebra::SiUnit;
 use crate::analysis::workspace::flood::Band;
@@ -13,10 +13,10 @@ impl Map<'_> {
     pub fn cells(&self, numbers: &[Option<usize>]) -> Cells {
         let following: Vec<(usize, PoseCoordinate)> = self.following().collect();
         let (direct, inverse) = (self.problem.tells_direct(), self.problem.tells_inverse());
-        let known = |x: f64, known: bool| known.then_some(x);
+        let known = |x: f64, known: bool| if known { x } else { f64::INFINITY };
         let axes = self.grid.dimensions();
         let widths = [axes, self.problem.mechanism.joints().len(), following.len()];
-        let width: usize = widths.iter().sum();
+        let width = widths.iter().sum::<usize>() + INDICATORS;
         let bands = self.reached_set.bands();
         let parts = each(bands.len(), &(), |(), i| {
             let first = bands[i].numbers.start;
@@ -26,7 +26,7 @@ impl Map<'_> {
                 places[s - first] = Some((row, *mode));
             }
             let mut part = Part {
-                heads: vec![Head::default(); rows.len()],
+                nodes: vec![0; rows.len()],
                 values: vec![0.0; rows.len() * width],
             };
             // in the order in which they are kept: reading from everywhere takes longer than writing
@@ -35,17 +35,19 @@ impl Map<'_> {
                     continue;
                 };
                 let of = &solution.indicators;
-                part.heads[row] = Head {
-                    node: solution.node,
-                    mode: mode + 1,
-                    aspect: self.aspect[s].and_then(|first| numbers[first]),
-                    condition: of.condition.is_finite().then_some(of.condition),
-                    direct: known(of.direct, direct),
-                    inverse: known(of.inverse, inverse),
-                };
                 let values = &mut part.values[row * width..][..width];
                 let (mapped, values) = values.split_at_mut(axes);
+                let (indicators, values) = values.split_at_mut(INDICATORS);
                 let (joints, values) = values.split_at_mut(widths[1]);
+                part.nodes[row] = solution.node;
+                let aspect = self.aspect[s].and_then(|first| numbers[first]);
+                indicators.copy_from_slice(&[
+                    (mode + 1) as f64,
+                    aspect.map_or(f64::INFINITY, |aspect| aspect as f64),
+                    known(of.condition, of.condition.is_finite()),
+                    known(of.direct, direct),
+                    known(of.inverse, inverse),
+                ]);
                 mapped.copy_from_slice(&self.grid.point(solution.node)[..axes]);
                 joints.copy_from_slice(at.joints);
                 bring(self.problem, joints, false);

@@ -106,15 +106,8 @@ impl Grid {
 
     /// The nodes whose places along each axis are in these ranges, ends included.
     pub fn nodes_within(&self, sides: &[(usize, usize)]) -> Vec<usize> {
-        let mut nodes = vec![0];
-        for (&(low, high), axis) in sides.iter().zip(&self.axes) {
-            let stride = axis.stride;
-            // the first axis runs fastest
-            nodes = (low..=high)
-                .flat_map(|place| nodes.iter().map(move |node| node + stride * place))
-                .collect();
-        }
-        nodes
+        let sides = sides.iter().map(|&(low, high)| (low..=high).collect());
+        self.nodes_at(sides)
     }
 
     /// Nodes spread over the grid, no more than `most`, none of them at its edge if that can be.
@@ -124,20 +117,22 @@ impl Grid {
         }
         let root = (most as f64).powf(1.0 / self.dimensions() as f64).floor();
         let each = (root as usize).max(1);
-        let mut nodes = vec![0];
-        for &Axis {
-            nodes: n, stride, ..
-        } in &self.axes
-        {
+        let mut nodes = self.nodes_at(self.axes.iter().map(|&Axis { nodes: n, .. }| {
             let each = each.min(n);
-            let places: Vec<usize> = (0..each).map(|k| (2 * k + 1) * n / (2 * each)).collect();
-            let further = nodes.iter();
-            nodes = further
-                .flat_map(|node| places.iter().map(move |place| node + stride * place))
-                .collect();
-        }
+            (0..each).map(|k| (2 * k + 1) * n / (2 * each)).collect()
+        }));
         nodes.sort_unstable();
         nodes
+    }
+
+    /// The nodes at all of these places along each axis, the first of which runs fastest.
+    fn nodes_at(&self, places: impl Iterator<Item = Vec<usize>>) -> Vec<usize> {
+        places
+            .zip(&self.axes)
+            .fold(vec![0], |nodes, (places, axis)| {
+                let further = |place| nodes.iter().map(move |node| node + axis.stride * place);
+                places.into_iter().flat_map(further).collect()
+            })
     }
 }
 

@@ -1,6 +1,6 @@
 //! What a map asks at each of its nodes.
 
-use crate::geometry::{Axis, Pose, Rotation, Vector3};
+use crate::geometry::{Pose, Quaternion, Rotation, Vector3};
 use crate::linear::Factorable;
 use crate::mechanism::{Configuration, Mechanism, PlatformPose, PoseCoordinate};
 use crate::number::Packed;
@@ -31,31 +31,23 @@ impl<'m> MapProblem<'m> {
     /// `question` holds the mapped coordinates too.
     pub fn new(question: &Question<'m>, axes: &[Driven], newton: &Newton) -> Self {
         let mechanism = question.mechanism();
-        let mapped = |holdable: &Coordinate| axes.iter().any(|axis| axis.coordinate == *holdable);
+        let mapped = |of: &Coordinate| axes.iter().any(|axis| axis.coordinate == *of);
+        // roll, pitch and yaw of a platform stay what they are where one of them is mapped
+        let turned = |platform: usize| {
+            let of = |c: &Coordinate| matches!(c, Coordinate::Pose(p, c) if *p == platform && c.is_angle());
+            axes.iter().any(|axis| of(&axis.coordinate))
+        };
         let mut held: Vec<Coordinate> = axes.iter().map(|axis| axis.coordinate).collect();
-        for mut holdable in question.held_coordinates() {
-            let angle = match holdable {
-                Coordinate::Pose(platform, c) => c.is_angle().then_some((platform, c)),
-                Coordinate::Joint(_) | Coordinate::Turn(..) => None,
-            };
-            if let Some((platform, c)) = angle {
-                let all = [
-                    PoseCoordinate::Roll,
-                    PoseCoordinate::Pitch,
-                    PoseCoordinate::Yaw,
-                ]
-                .map(|c| Coordinate::Pose(platform, c));
-                let is_held = |c: &Coordinate| question.held_coordinates().contains(c);
-                if all.iter().all(is_held) && !all.iter().any(mapped) {
-                    let turns = [Axis::X, Axis::Y, Axis::Z];
-                    let turn = turns[c as usize - PoseCoordinate::Roll as usize];
-                    holdable = Coordinate::Turn(platform, turn);
-                }
-            }
-            if !mapped(&holdable) {
-                held.push(holdable);
-            }
-        }
+        let asked = question.held_coordinates().into_iter();
+        let asked = asked.zip(question.driven_coordinates());
+        held.extend(
+            asked
+                .filter(|(of, _)| !mapped(of))
+                .map(|(of, driven)| match driven {
+                    Coordinate::Turn(platform, _) if turned(platform) => of,
+                    driven => driven,
+                }),
+        );
         let outputs = coordinate_outputs(mechanism, &held);
         let whole = |set: Vec<Coordinate>| match set.len() == held.len() {
             true => set,
@@ -95,8 +87,7 @@ impl<'m> MapProblem<'m> {
 
     /// Whether all joints are within their limits.
     pub fn allows(&self, joints: &[f64]) -> bool {
-        let mut joints = self.mechanism.joints().iter().zip(joints);
-        joints.all(|(joint, value)| joint.allows(*value))
+        self.mechanism.outside_limits(joints).next().is_none()
     }
 
     /// What stands still in a motion within the map.
@@ -127,6 +118,16 @@ impl<'m> MapProblem<'m> {
     }
 }
 
+/// A pose in each place.
+pub(crate) fn side_by_side<T: Packed>(
+    pose: impl Fn(usize) -> PlatformPose<f64>,
+) -> PlatformPose<T> {
+    PlatformPose {
+        orientation: Quaternion([0, 1, 2, 3].map(|k| T::of_parts(|p| pose(p).orientation.0[k]))),
+        position: Vector3([0, 1, 2].map(|k| T::of_parts(|p| pose(p).position.0[k]))),
+    }
+}
+
 /// The equations at a node, for one node or for several side by side.
 #[derive(Clone, Debug)]
 pub(crate) struct Targets {
@@ -143,13 +144,8 @@ pub(crate) struct Targets {
 struct Whole {
     platform: usize,
     pose: bool,
-    sources: Vec<(PoseCoordinate, Source)>,
-}
-
-#[derive(Clone, Copy, Debug)]
-enum Source {
-    Axis(usize),
-    Value(f64),
+    /// Each coordinate with its axis, or else its value.
+    sources: [(PoseCoordinate, Option<usize>, f64); 6],
 }
 
 impl Targets {
@@ -177,19 +173,14 @@ impl Targets {
                     } else if targets.whole.iter().all(|w| w.platform != platform) {
                         let at = start.platforms[platform].pose();
                         let source = |c: PoseCoordinate| {
-                            let mapped = problem
-                                .axes
-                                .iter()
-                                .position(|axis| axis.coordinate == Coordinate::Pose(platform, c));
-                            match mapped {
-                                Some(axis) => (c, Source::Axis(axis)),
-                                None => (c, Source::Value(c.of(&at))),
-                            }
+                            let of = Coordinate::Pose(platform, c);
+                            let axis = problem.axes.iter().position(|a| a.coordinate == of);
+                            (c, axis, c.of(&at))
                         };
                         targets.whole.push(Whole {
                             platform,
                             pose,
-                            sources: PoseCoordinate::ALL.map(source).to_vec(),
+                            sources: PoseCoordinate::ALL.map(source),
                         });
                     }
                 }
@@ -215,9 +206,8 @@ impl Targets {
         for whole in &self.whole {
             let poses: Vec<Pose<f64>> = (0..T::WIDTH)
                 .map(|place| {
-                    let sources = whole.sources.iter().map(|&(c, source)| match source {
-                        Source::Axis(axis) => (c, values(place)[axis]),
-                        Source::Value(value) => (c, value),
+                    let sources = (whole.sources.iter()).map(|&(c, axis, value)| {
+                        (c, axis.map_or(value, |axis| values(place)[axis]))
                     });
                     with_coordinates(&Pose::identity(), sources)
                 })
@@ -226,13 +216,7 @@ impl Targets {
                 true => {
                     let poses: Vec<PlatformPose<f64>> =
                         poses.iter().map(PlatformPose::from_pose).collect();
-                    let pose = &mut at.platforms[whole.platform];
-                    for k in 0..4 {
-                        pose.orientation.0[k] = T::of_parts(|place| poses[place].orientation.0[k]);
-                    }
-                    for k in 0..3 {
-                        pose.position.0[k] = T::of_parts(|place| poses[place].position.0[k]);
-                    }
+                    at.platforms[whole.platform] = side_by_side(|place| poses[place]);
                 }
                 false => {
                     let part = |column: usize, row: usize| {
