@@ -5,6 +5,7 @@ mod comparison;
 mod conversion;
 mod formulas;
 mod frames;
+mod lengths;
 mod mobility;
 mod modes;
 mod reports;

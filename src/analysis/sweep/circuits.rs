@@ -258,14 +258,16 @@ fn trace(
             if watch.stops(Stage::Steps, step, None) {
                 break;
             }
-            let Ok(leg) = walk.advance(curve) else {
+            let Ok(mut leg) = walk.advance(curve) else {
                 break;
             };
-            for (place, event) in leg.events {
+            let (events, leg) = (std::mem::take(&mut leg.events), leg);
+            for (place, event) in events {
                 match event {
                     Event::Turning(joint) => found.turnings.push((joint, place)),
                     Event::Branches(point) => found.crossings.push(*point),
                     Event::Closed | Event::Limit { .. } => {
+                        found.length = leg.gone_at(curve, &place);
                         found.places.push(place.clone());
                         end = Some((place, matches!(event, Event::Closed)));
                         break 'steps;
@@ -273,9 +275,9 @@ fn trace(
                     _ => {}
                 }
             }
+            found.length = walk.gone();
             found.places.push(leg.to);
         }
-        found.length = walk.gone();
         found.whole = end.is_some();
         match end {
             Some((place, false)) => begin = place.reversed(),

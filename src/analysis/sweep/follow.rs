@@ -59,6 +59,7 @@ pub fn follow(
     let mut flow = send(&place.at, None);
     let mut walk = Walk::new(mechanism, &curve, place, method.clone());
     let stopped = |()| SweepEnd::Stopped;
+    let mut length = 0.0;
     let ending = walk.follow(&mut curve, |curve, leg| {
         flow.map_break(stopped)?;
         record.steps += 1;
@@ -67,6 +68,7 @@ pub fn follow(
         }
         for (place, event) in &leg.events {
             record.meet(curve, place, event);
+            length = leg.gone_at(curve, place);
             flow = send(&place.at, record.latest());
             match event {
                 Event::Closed => return ControlFlow::Break(SweepEnd::Closed),
@@ -78,12 +80,13 @@ pub fn follow(
         if !leg.events.iter().any(branches) {
             flow = send(&leg.to.at, None);
         }
+        length = leg.gone_at(curve, &leg.to);
         ControlFlow::Continue(())
     });
     let ending = ending.unwrap_or(SweepEnd::Lost);
     SweepReport {
         interrupted: watch.is_stopped(),
-        ..record.report(ending, count, walk.gone())
+        ..record.report(ending, count, length)
     }
 }
 
