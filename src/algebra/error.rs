@@ -84,6 +84,13 @@ impl Display for MeasureErrorKind {
             Self::LengthAsAngle(function) => {
                 write!(f, "`{}` takes an angle, not a length", function.word())
             }
+            Self::BareAngle(value) => {
+                let turns = (value / std::f64::consts::TAU).abs();
+                write!(
+                    f,
+                    "{value} without a unit is in rad, which is {turns:.1} turns"
+                )
+            }
         }
     }
 }

@@ -29,6 +29,8 @@ pub struct Parameter {
     pub value: f64,
     /// Its dimension, as far as the units in its definition determine it.
     pub measure: Measure,
+    /// Whether nothing in its definition says in what unit it is if it is an angle.
+    pub bare: bool,
 }
 
 words! {

@@ -320,7 +320,7 @@ impl<'a> Question<'a> {
         if value.is_home() {
             return Ok(of.home(self.mechanism));
         }
-        let number = value.number(self.mechanism, of.measure(self.mechanism));
+        let number = value.coordinate(self.mechanism, of.measure(self.mechanism));
         number.map_err(|error| QuestionError::value(name, value, error))
     }
 

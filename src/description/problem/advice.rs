@@ -72,7 +72,7 @@ impl ProblemKind {
             }
             UnknownName { scope: Scope::Parameters, .. } => "declare it under `parameters`".into(),
             Expression(error) => return expression::help(error),
-            Unit(error) => expression::unit_help(error).into(),
+            Unit(error) => expression::unit_help(error),
             NotAName { .. } => {
                 "a name starts with a letter or `_`, followed by letters, digits or `_`".into()
             }
