@@ -28,6 +28,9 @@ pub struct Import {
     /// Keep the frame of a link or site under its name; `all` keeps all
     #[arg(long, value_name = "NAME")]
     frame: Vec<String>,
+    /// Let included files be read from this folder too; otherwise only from the folder of the model
+    #[arg(long, value_name = "DIR")]
+    include_from: Vec<PathBuf>,
     /// The convention of the tables
     #[arg(long, value_enum, default_value_t = Tables::Modified)]
     convention: Tables,
@@ -64,6 +67,7 @@ impl Import {
             },
             frames: self.frame.clone(),
             all_frames,
+            include_from: self.include_from.clone(),
         };
         let closing = loops.as_ref().map(|(_, description)| description);
         let imported = load(&self.file, closing, &settings).map_err(|error| {
