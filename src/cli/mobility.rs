@@ -39,7 +39,9 @@ impl Mobility {
         let report = report.map_err(|error| posed.refusal(&error))?;
         let yes = report.report();
         let warning = yes.map(|report| analysed::limits_warning(&report.outside_limits));
-        let yes = yes.is_some();
+        let yes = yes.is_some_and(|report| {
+            analysed::is_about_the_file(report.kept, report.given.as_ref(), report.length)
+        });
         Ok(Answer {
             data: self.format.shown(&report),
             remarks: loaded.warnings() + &warning.unwrap_or_default(),

@@ -5,6 +5,7 @@ use std::path::PathBuf;
 use clap::Args;
 use linkwork::analysis::singularities::{AlongEnd, Coupled, SingularitiesSettings};
 use linkwork::ask::{Mode, Role};
+use linkwork::output::closing::is_about_the_file;
 use linkwork::output::singularities as output;
 
 use super::asked::{Asked, Posed, Ranges};
@@ -114,7 +115,10 @@ impl Singularities {
         let found = report.report();
         Ok(Answer {
             remarks: found.map(output::limits_remark).unwrap_or_default(),
-            yes: found.is_some(),
+            yes: found.is_some_and(|report| {
+                let (gap, length) = (report.given_gap.as_ref(), report.normalising_length);
+                is_about_the_file(report.kept, gap, length)
+            }),
             data: self.format.shown(&report),
         })
     }

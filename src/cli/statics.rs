@@ -54,7 +54,10 @@ impl Statics {
         let report = report.map_err(|error| posed.refusal(&error))?;
         let yes = report.report();
         let warning = yes.map(|report| analysed::limits_warning(&report.outside_limits));
-        let yes = yes.is_some_and(|report| report.unbalanced.is_empty());
+        let yes = yes.is_some_and(|report| {
+            let (gap, length) = (report.given_gap.as_ref(), report.normalising_length);
+            report.unbalanced.is_empty() && analysed::is_about_the_file(report.kept, gap, length)
+        });
         Ok(Answer {
             data: self.format.shown(&report),
             remarks: loaded.warnings() + &warning.unwrap_or_default(),

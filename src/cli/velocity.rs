@@ -59,7 +59,10 @@ impl Velocity {
         let report = report.map_err(|error| posed.refusal(&error))?;
         let yes = report.report();
         let warning = yes.map(|report| analysed::limits_warning(&report.outside_limits));
-        let yes = yes.is_some_and(|report| report.is_determined());
+        let yes = yes.is_some_and(|report| {
+            let (gap, length) = (report.given_gap.as_ref(), report.normalising_length);
+            report.is_determined() && analysed::is_about_the_file(report.kept, gap, length)
+        });
         Ok(Answer {
             data: self.format.shown(&report),
             remarks: loaded.warnings() + &warning.unwrap_or_default(),

@@ -64,6 +64,12 @@ impl Mechanism {
         &self.closures
     }
 
+    /// Whether a closure is a rod with a ball at each end.
+    pub(crate) fn has_rods(&self) -> bool {
+        let mut closures = self.closures.iter();
+        closures.any(|closure| closure.kind == super::ClosureKind::Distance)
+    }
+
     /// The closed forms, in the order of the file.
     pub fn closed_forms(&self) -> &[ClosedForm] {
         &self.closed_forms

@@ -183,5 +183,6 @@ fn nearest(report: &AssembliesReport, closest: &ClosestApproach) -> Section {
     let joints = joints.map(|((name, value), joint)| {
         format!("{name} = {}", quantity(*value, joint.unit.is_angle()))
     });
-    Section::new(title).list(gaps).list(joints)
+    let squared = (closest.squared_lengths).then(|| closing::SQUARED_LENGTHS.to_owned());
+    Section::new(title).list(gaps).list(joints).list(squared)
 }

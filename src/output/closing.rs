@@ -17,17 +17,29 @@ pub(super) fn gap(distance: f64, angle: f64) -> String {
     }
 }
 
+/// What is least at a closest approach of a mechanism with rods.
+pub(super) const SQUARED_LENGTHS: &str = "a rod of length L whose ends are d apart counts by (d² − L²)/2, not by d − L: \
+     closest is where the sum of the squares of all closure rows is least";
+
 /// How far the pose given was off.
 pub(super) fn given(given: &WidestGap, kept: bool) -> String {
     let free = match kept {
         true => "",
-        false => ", which moved actuated joints too",
+        false => {
+            ", which moved actuated joints too, because it closes nowhere with their values in the file"
+        }
     };
     format!(
         "The pose given was not assembled: closure `{}` was open by {}; it was assembled first{free}.",
         given.closure,
         gap(given.distance, given.angle)
     )
+}
+
+/// Whether an answer is about the values that the file holds: those of a rounded pose may change a
+/// little, but a file that cannot be assembled was answered for another mechanism.
+pub fn is_about_the_file(kept: bool, given: Option<&WidestGap>, length: f64) -> bool {
+    kept || given.is_none_or(|given| !given.is_wide(length))
 }
 
 /// The remark that joints are outside their limits; empty if none is.

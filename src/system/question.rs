@@ -278,6 +278,13 @@ impl<'a> Question<'a> {
         &self.guessed_joints
     }
 
+    /// The value a joint was to start at, if one was given for it alone.
+    pub(super) fn guess_of(&self, joint: usize) -> Option<f64> {
+        let asked = (self.demands.iter())
+            .any(|(of, demand)| *of == Target::Joint(joint) && demand.verb == Verb::Guess);
+        asked.then(|| self.start.joints[joint])
+    }
+
     /// For each platform whether its starting pose was given with the question.
     pub fn guessed_platforms(&self) -> &[bool] {
         &self.guessed_platforms

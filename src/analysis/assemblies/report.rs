@@ -79,6 +79,10 @@ pub struct ClosestApproach {
     pub worst: String,
     /// Whether no small motion comes closer.
     pub local_minimum: bool,
+    /// Whether rods count by (d² − L²)/2 over the square of the characteristic length, d being the distance of their
+    /// ends and L their length, so that the configuration is not the one where Σ (d − L)² is least.
+    #[serde(default, skip_serializing_if = "std::ops::Not::not")]
+    pub squared_lengths: bool,
     /// Joint values there, rad or m.
     pub joints: Named<f64>,
     /// Platform poses there.
