@@ -172,7 +172,10 @@ fn seeds(
     let (low, high) = match joint.limits {
         Some(limits) => limits,
         None if mechanism.repeats(input) => (joint.home, joint.home + TAU),
-        None => sampling_range(joint, mechanism.characteristic_length()),
+        None => {
+            let home = mechanism.home().joints[input];
+            sampling_range(joint, home, mechanism.characteristic_length())
+        }
     };
     let wanted = Wanted {
         certificates: false,

@@ -207,6 +207,20 @@ impl<'a> Question<'a> {
         self
     }
 
+    /// The lengths that are held, in m.
+    pub(crate) fn held_lengths(&self) -> Vec<f64> {
+        let joints = self.mechanism.joints().iter().enumerate();
+        let joints = joints.filter(|(i, joint)| self.joints[*i] && !joint.kind.is_angle());
+        let positions = self
+            .coordinates
+            .iter()
+            .flat_map(|c| c[..3].iter().flatten());
+        joints
+            .map(|(i, _)| self.start.joints[i])
+            .chain(positions.copied())
+            .collect()
+    }
+
     /// The coordinates of a platform that are held, with their values in m or rad.
     pub fn held_values(&self, platform: usize) -> Vec<(PoseCoordinate, f64)> {
         let given = PoseCoordinate::ALL

@@ -6,6 +6,7 @@ mod large;
 mod printed_assemblies;
 mod questions;
 mod random_mechanisms;
+mod scales;
 mod seeds;
 mod special_inputs;
 mod stores;
