@@ -22,6 +22,7 @@ mod closed;
 mod error;
 mod modes;
 mod ranges;
+mod remedy;
 mod singularities;
 mod sweep;
 mod workspace;
@@ -31,6 +32,7 @@ use std::sync::Arc;
 pub use crate::system::Value;
 pub use error::{AskError, Item, Role};
 pub use modes::{Mode, Modes, Solved, Store};
+pub use remedy::Holdable;
 pub use sweep::Motions;
 pub use workspace::MOST_BYTES;
 

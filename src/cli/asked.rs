@@ -6,10 +6,13 @@ use clap::Args;
 use linkwork::ask::{AskError, Question, Role};
 use linkwork::mechanism::{Frame, Mechanism};
 use linkwork::output::complaint::{Complaint, Given, Part};
-use linkwork::system;
+use linkwork::system::{self, QuestionError};
 
 use super::source::{Assignment, Loaded, once};
-use super::words::question::{complaint, driven_complaint, motionless_frame, unknown_frame};
+use super::words::question::{
+    at_home, complaint, complaint_of, driven_complaint, freed_in_vain, held_at, motionless_frame,
+    unknown_frame,
+};
 use super::words::{load, loci, map, motion};
 use super::{Refusal, style};
 
@@ -141,6 +144,14 @@ impl<'o> Posed<'o> {
         Ok(())
     }
 
+    /// What is wrong with what is held, with options that put it right.
+    pub fn complaint(&self, error: &QuestionError) -> Complaint {
+        let freed = self.given.iter().filter(|(role, _)| *role == Role::Free);
+        let freed: Vec<&str> = freed.map(|(_, given)| given.name).collect();
+        freed_in_vain(error, &freed)
+            .unwrap_or_else(|| complaint_of(error, &|names| held(&self.question, names)))
+    }
+
     /// What is wrong with the question, under the option that says so if one does.
     pub fn refusal(&self, error: &AskError) -> Refusal {
         let mechanism = self.question.mechanism();
@@ -167,7 +178,7 @@ impl<'o> Posed<'o> {
                 };
                 refused(said.at(part), given.as_ref())
             }
-            AskError::Question(error) => whole(complaint(error)),
+            AskError::Question(error) => whole(self.complaint(error)),
             AskError::Mapped {
                 error,
                 mapped,
@@ -249,7 +260,12 @@ impl<'o> Posed<'o> {
                 },
             )),
             AskError::NothingLeft { held } => whole(motion::nothing_left(held)),
-            AskError::NotOneFreedom(error) => whole(motion::not_one_freedom(error)),
+            AskError::NotOneFreedom(error) => {
+                let released = self.question.clone().free("actuated");
+                whole(motion::not_one_freedom(error, &|names| {
+                    held(&released, names)
+                }))
+            }
             AskError::NotAssembled { held } => plain(format!(
                 "the mechanism does not assemble where the motion is to begin\n  \
                  = help: `linkwork solve` says how near it comes: {}",
@@ -269,6 +285,11 @@ impl<'o> Posed<'o> {
             other => plain(other.to_string()),
         }
     }
+}
+
+/// The options that hold coordinates where the mechanism assembles.
+fn held(question: &Question, names: &[String]) -> String {
+    (question.holdable(names)).map_or_else(|| at_home(names), |holdable| held_at(&holdable))
 }
 
 fn refused(said: Complaint, given: Option<&Given>) -> Refusal {

@@ -9,7 +9,6 @@ use super::format::Written;
 use super::search::Search;
 use super::source::Source;
 use super::watched::watched;
-use super::words::question::complaint;
 use super::{Answer, Refusal, style};
 
 /// List all assembled configurations for held inputs, numbered, each with a certificate.
@@ -46,7 +45,7 @@ impl Assemblies {
         let mut remarks = loaded.warnings();
         // samples answer a question that holds too little, but what is missing is said too
         if let Err(AskError::Question(error)) = question.count() {
-            remarks += &complaint(&error).render_warning(style());
+            remarks += &posed.complaint(&error).render_warning(style());
         }
         let wanted = Wanted {
             all_complex: self.all_complex,

@@ -36,7 +36,7 @@ fn sentence(report: &AssembliesReport) -> String {
     let real = count(report.real, "assembly");
     match (&report.fit, report.real) {
         (_, 0) if report.interrupted => "No assembly was found.".into(),
-        _ if report.interrupted => format!("{real} found."),
+        _ if report.interrupted => sampled(report).unwrap_or_else(|| format!("{real} found.")),
         (Fit::FreedomLeft(_), 0) => "No assembly was found.".into(),
         (Fit::FreedomLeft(freedom), _) => {
             let left = match freedom {
@@ -56,7 +56,16 @@ fn sentence(report: &AssembliesReport) -> String {
             };
             format!("Infinitely many assemblies: {left} left with what is held. {listed}.")
         }
-        (Fit::TooManyHeld | Fit::AlwaysMultiple, _) => format!("{real} found."),
+        (Fit::Endless, n) => {
+            let listed = match n {
+                0 => "no real one was met".to_owned(),
+                _ => format!("{real} listed, to which some starts led"),
+            };
+            format!("There is no end of solutions, whatever values are held: {listed}.")
+        }
+        (Fit::TooManyHeld | Fit::AlwaysMultiple, _) => {
+            sampled(report).unwrap_or_else(|| format!("{real} found."))
+        }
         (Fit::Finite, _) if !report.continua.is_empty() => infinitely_many(report),
         (Fit::Finite, 0) => format!("No assembly: 0 real of {} complex.", report.complex),
         (Fit::Finite, _) => format!(
@@ -64,6 +73,22 @@ fn sentence(report: &AssembliesReport) -> String {
             report.real, report.complex
         ),
     }
+}
+
+/// The answer where samples of connected assemblies were met and nothing is known of their sets.
+fn sampled(report: &AssembliesReport) -> Option<String> {
+    let samples = report.assemblies.iter().filter(|a| a.multiplicity == 0);
+    let samples = samples.count();
+    let isolated = match report.real - samples.min(report.real) {
+        0 => String::new(),
+        n => format!(" and {} found", count(n, "isolated assembly")),
+    };
+    (samples > 0).then(|| {
+        format!(
+            "Infinitely many assemblies: {} listed{isolated}.",
+            count(samples, "sample")
+        )
+    })
 }
 
 /// The answer where assemblies are connected at the inputs asked.

@@ -12,6 +12,7 @@ mod reports;
 mod singularities;
 mod statics;
 mod sweep;
+mod told;
 mod velocity;
 mod watched;
 mod workspace;

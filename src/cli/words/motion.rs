@@ -91,7 +91,7 @@ pub fn outside(name: &str, limits: (f64, f64), is_angle: bool) -> Complaint {
 }
 
 /// Not one freedom is left to follow.
-pub fn not_one_freedom(error: &QuestionError) -> Complaint {
+pub fn not_one_freedom(error: &QuestionError, hold_at: &dyn Fn(&[String]) -> String) -> Complaint {
     match error {
         QuestionError::TooFew {
             mobility,
@@ -100,17 +100,13 @@ pub fn not_one_freedom(error: &QuestionError) -> Complaint {
         } => {
             let left = mobility.saturating_sub(*held);
             let most = hold.len().min(left.saturating_sub(1));
-            let options: Vec<String> = hold[..most]
-                .iter()
-                .map(|name| format!("--hold {name}=home"))
-                .collect();
             Complaint::with_help(
                 format!("{} remain, but a curve has one", count(left, "freedom")),
                 "",
                 format!(
                     "hold {}, e.g. {}; or prescribe the inputs with --input",
                     count(left.saturating_sub(1), "coordinate") + " more",
-                    options.join(" ")
+                    hold_at(&hold[..most])
                 ),
             )
         }

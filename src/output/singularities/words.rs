@@ -168,7 +168,7 @@ pub fn ending(report: &AlongReport) -> String {
     match report.ending {
         AlongEnd::Complete => format!("{way}: complete, {found}."),
         AlongEnd::Returned => format!(
-            "{way}: the end is not reached, the curve comes back to where it began; {found}."
+            "{way}: the end is not reached: the inputs come back to where they began, in another configuration; {found}."
         ),
         AlongEnd::Closed => format!("{way}: the curve closes, {found}."),
         AlongEnd::Fold => format!(
