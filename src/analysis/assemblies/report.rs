@@ -100,6 +100,9 @@ pub enum Fit {
     /// No generic solution was found, perhaps because more inputs are held than can be chosen
     /// freely; what is listed was found by starting from many guesses and need not be complete.
     TooManyHeld,
+    /// There was no end of generic solutions, as where a screw or a gear whose ratio is no whole number never comes
+    /// back to the same place. What is listed was found by starting from guesses.
+    Endless,
     /// All generic solutions that were met are multiple, as in a shaky structure. No path follows
     /// them; what is listed was found by starting from many guesses and need not be complete.
     AlwaysMultiple,
@@ -252,6 +255,11 @@ impl AssembliesReport {
                     "{} left: the assemblies are not finite in number and those listed are samples{isolated}; hold {freedom} more for a finite list",
                     count(freedom, "freedom"),
                 );
+            }
+            Fit::Endless => {
+                return "the search met no end of solutions, and none is followed to the values held; \
+                        those listed are what some starts led to"
+                    .into();
             }
             Fit::TooManyHeld => {
                 return format!(
