@@ -22,6 +22,7 @@ mod closed;
 mod error;
 mod modes;
 mod ranges;
+mod remedy;
 mod singularities;
 mod sweep;
 mod workspace;
@@ -31,6 +32,7 @@ use std::sync::Arc;
 pub use crate::system::Value;
 pub use error::{AskError, Item, Role};
 pub use modes::{Mode, Modes, Solved, Store};
+pub use remedy::Holdable;
 pub use sweep::Motions;
 pub use workspace::MOST_BYTES;
 
@@ -104,13 +106,13 @@ impl Question {
     /// free and one actuated joint held.
     pub fn hold(mut self, name: impl Into<String>, value: impl Into<Value>) -> Self {
         self.hold.push((name.into(), value.into()));
-        self
+        self.measured()
     }
 
     /// Lets a joint be solved for; `actuated` frees all actuated joints.
     pub fn free(mut self, name: impl Into<String>) -> Self {
         self.free.push(name.into());
-        self
+        self.measured()
     }
 
     /// Starts the search at a value.
@@ -143,7 +145,7 @@ impl Question {
             from: from.into(),
             to: to.into(),
         });
-        self
+        self.measured()
     }
 
     /// Adds an output of singularities: a joint, a coordinate of a platform, or a frame with its orientation.
@@ -195,6 +197,39 @@ impl Question {
     pub fn store(mut self, store: Arc<dyn Store>) -> Self {
         self.store = Some(store);
         self
+    }
+
+    /// The same question with the mechanism measured by its dimensions and by what is held. What is wrong with values
+    /// is said when the question is asked.
+    fn measured(mut self) -> Self {
+        if let Some(measured) =
+            (self.given_lengths()).and_then(|held| self.mechanism.measured_by(&held))
+        {
+            self.mechanism = Arc::new(measured);
+        }
+        self
+    }
+
+    /// The lengths that are held or that inputs go through, in m, if there is nothing wrong with them.
+    fn given_lengths(&self) -> Option<Vec<f64>> {
+        let plain = system::Question::new(&self.mechanism);
+        let mut inputs = Vec::new();
+        for range in &self.inputs {
+            let (coordinate, from) = plain.value(&range.name, &range.from).ok()?;
+            let (_, to) = plain.value(&range.name, &range.to).ok()?;
+            inputs.push((coordinate, [from, to]));
+        }
+        // where coordinates of platforms move, actuated joints are held only if that is asked for
+        let released = inputs.iter().any(|(c, _)| ranges::of_platform(c));
+        let question = match released {
+            true => self.released().ok()?,
+            false => self.resolved().ok()?,
+        };
+        let moved = inputs.iter().fold(question, |q, (c, _)| q.without(*c));
+        let lengths = inputs.iter().filter(|(c, _)| !c.is_angle(&self.mechanism));
+        let mut lengths: Vec<f64> = lengths.flat_map(|(_, ends)| *ends).collect();
+        lengths.extend(moved.held_lengths());
+        Some(lengths)
     }
 
     /// What is held, free and guessed, resolved.

@@ -17,7 +17,7 @@ mod xml;
 
 pub use cut::tree_of;
 pub use import::{ImportError, ImportSettings, Imported, import, load};
-pub use mjcf::write as write_mjcf;
+pub use mjcf::{NotRead, write as write_mjcf};
 pub use problem::{ImportProblem, ImportProblemKind, WrongFile};
 pub use remark::Remark;
 pub use tree::{Attachment, Body, Coupling, Extent, Joint, Loop, Motion, Tree};

@@ -24,7 +24,7 @@ pub enum Measure {
 }
 
 /// A unit that does not fit, and which part of an expression has it.
-#[derive(Debug, Clone, Error, PartialEq, Eq)]
+#[derive(Debug, Clone, Error, PartialEq)]
 #[error("{kind}")]
 pub struct MeasureError {
     /// The smallest part that is wrong.
@@ -34,7 +34,7 @@ pub struct MeasureError {
 }
 
 /// Why a unit does not fit.
-#[derive(Debug, Clone, Copy, Error, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, Error, PartialEq)]
 #[allow(missing_docs)]
 pub enum MeasureErrorKind {
     #[error("expected {}, found {}", wanted.words(), found.words())]
@@ -43,7 +43,14 @@ pub enum MeasureErrorKind {
     Mixed,
     #[error("`{}` takes an angle, not a length", _0.word())]
     LengthAsAngle(Function),
+    /// A number in rad that is more than two turns, and nothing says that rad is meant.
+    #[error("{_0} without a unit is in rad, which is {:.1} turns", (_0 / std::f64::consts::TAU).abs())]
+    BareAngle(f64),
 }
+
+/// The largest angle, in rad, that a number without a unit may be: what is larger was meant in degrees more often
+/// than in rad.
+const LARGEST_BARE: f64 = 2.0 * std::f64::consts::TAU;
 
 impl Measure {
     /// What it is called: `an angle`.
@@ -122,6 +129,11 @@ impl<N> Expression<N> {
                 let measures = arguments.iter().map(|argument| argument.measure(of));
                 let measures = measures.collect::<Result<Vec<Measure>, _>>()?;
                 let all = (measures.iter()).try_fold(Number, |all, &next| self.same(all, next));
+                if let (Function::Sin | Function::Cos | Function::Tan, Node::Number(x)) =
+                    (function, &arguments[0].node)
+                {
+                    arguments[0].check_angle(*x, &|_| true)?;
+                }
                 match function {
                     Function::Sin | Function::Cos | Function::Tan if measures[0] == Length => {
                         return Err(self.refused(MeasureErrorKind::LengthAsAngle(*function)));
@@ -145,10 +157,42 @@ impl<N> Expression<N> {
         }
     }
 
+    /// Refuses an angle of more than two turns that is a number without a unit; `says` tells whether a unit, or `pi`,
+    /// stands in the definition of a name.
+    ///
+    /// # Errors
+    /// With the whole expression.
+    pub fn check_angle(&self, value: f64, says: &impl Fn(&N) -> bool) -> Result<(), MeasureError> {
+        match is_doubtful(value) && self.is_bare(says) {
+            true => Err(self.refused(MeasureErrorKind::BareAngle(value))),
+            false => Ok(()),
+        }
+    }
+
+    /// Whether nothing in it says what its unit is as an angle: no unit, no `pi`, no inverse function.
+    pub fn is_bare(&self, says: &impl Fn(&N) -> bool) -> bool {
+        match &self.node {
+            Node::Number(_) => true,
+            Node::Quantity(..) | Node::Constant(_) => false,
+            Node::Name(name) => !says(name),
+            Node::Negate(x) => x.is_bare(says),
+            Node::Binary(_, x, y) => x.is_bare(says) && y.is_bare(says),
+            Node::Call(Function::Asin | Function::Acos | Function::Atan | Function::Atan2, _) => {
+                false
+            }
+            Node::Call(_, arguments) => arguments.iter().all(|argument| argument.is_bare(says)),
+        }
+    }
+
     fn refused(&self, kind: MeasureErrorKind) -> MeasureError {
         let span = self.span.clone();
         MeasureError { span, kind }
     }
+}
+
+/// Whether a number in rad is rather one in degrees. Rounding does not decide at two turns.
+fn is_doubtful(radians: f64) -> bool {
+    radians.abs() > LARGEST_BARE * (1.0 + 1e-9)
 }
 
 #[cfg(test)]

@@ -245,6 +245,7 @@ impl AssemblySolver {
             (false, 0) => Fit::Finite,
             // nothing was found yet, and nothing can be said
             (true, 0) if self.interrupted => Fit::Finite,
+            (true, 0) if self.generic.endless => Fit::Endless,
             (true, 0) if self.generic.multiple > 0 => Fit::AlwaysMultiple,
             (true, 0) => Fit::TooManyHeld,
             (_, freedom) => Fit::FreedomLeft(freedom),

@@ -135,6 +135,10 @@ pub struct AssemblyReport {
     pub gaps: Named<Gap>,
     /// The joint variables.
     pub variables: Vec<JointVariable>,
+    /// Whether rods count by (d² − L²)/2 over the square of the characteristic length, d being the distance of their
+    /// ends and L their length, so that the configuration is not the one where Σ (d − L)² is least.
+    #[serde(default, skip_serializing_if = "std::ops::Not::not")]
+    pub squared_lengths: bool,
     /// What is odd about the file or the answer, one sentence each.
     pub warnings: Vec<String>,
     /// Whether the search was stopped before all starts were made.
@@ -264,6 +268,7 @@ impl Reporter<'_> {
                 })
                 .collect(),
             joints: mechanism.named_joints(&at.joints),
+            squared_lengths: false,
             warnings: (mechanism.warnings().iter())
                 .map(|problem| problem.kind.title())
                 .collect(),
@@ -347,6 +352,9 @@ impl Reporter<'_> {
         } else {
             Outcome::GaveUp { worst }
         };
-        self.report(attempt, outcome)
+        AssemblyReport {
+            squared_lengths: self.mechanism.has_rods(),
+            ..self.report(attempt, outcome)
+        }
     }
 }

@@ -285,7 +285,7 @@ pub fn mobility(
         gap_after_step: found.gap,
         interrupted: false,
     };
-    report.elsewhere = elsewhere(&mut near, (settings, watch), &report, &mut rng);
+    report.elsewhere = elsewhere(&mut near, (settings, watch), &report);
     report.interrupted = watch.is_stopped();
     Analysed::Closed(report)
 }
@@ -298,8 +298,9 @@ fn elsewhere(
     near: &mut Neighbourhood,
     (settings, watch): (&MobilitySettings, &Watch),
     here: &MobilityReport,
-    rng: &mut Pcg64Mcg,
 ) -> Vec<Elsewhere> {
+    // always the same starts: whether the mobility depends on the assembly is a property of the mechanism
+    let rng = &mut Pcg64Mcg::seed_from_u64(1);
     let mechanism = near.mechanism();
     let mut found: Vec<Elsewhere> = Vec::new();
     for start in 0..here.elsewhere_starts {

@@ -197,6 +197,7 @@ pub fn sweep(
         return record.report(SweepEnd::Fold, 1, 0.0);
     }
     let mut walk = Walk::new(mechanism, &curve, place, method.clone());
+    let mut length = 0.0;
     let ending = walk.follow(&mut curve, |curve, leg| {
         let done = curve.part(&leg.from.at).clamp(0.0, 1.0) * settings.steps as f64;
         if watch.stops(Stage::Motion, done as usize, steps) {
@@ -214,6 +215,7 @@ pub fn sweep(
             }
             rows.between(curve, from, place, sink).map_break(stopped)?;
             from = place;
+            length = leg.gone_at(curve, place);
             record.meet(curve, place, event);
             let special = matches!(
                 event,
@@ -234,6 +236,7 @@ pub fn sweep(
         }
         rows.between(curve, from, &leg.to, sink)
             .map_break(stopped)?;
+        length = leg.gone_at(curve, &leg.to);
         // an end that was passed unseen is worse than one that was not reached
         match (-1e-6..=1.0 + 1e-6).contains(&curve.part(&leg.to.at)) {
             true => ControlFlow::Continue(()),
@@ -241,5 +244,5 @@ pub fn sweep(
         }
     });
     let ending = ending.unwrap_or(SweepEnd::Lost);
-    interrupted(record.report(ending, rows.count(), walk.gone()))
+    interrupted(record.report(ending, rows.count(), length))
 }

@@ -9,6 +9,7 @@ use crate::analysis::sweep::{
     CircuitsReport, CircuitsSettings, Columns, KeptRows, MotionReport, MotionsReport, Row, Sink,
     SweepReport, SweepSettings, TracedPoint, circuits, follow, sweep,
 };
+use crate::description;
 use crate::mechanism::{Configuration, Mechanism};
 use crate::solve::{Stage, Watch};
 use crate::system::{self, Coordinate, Driven, Held, QuestionError, check_count, sampling_range};
@@ -159,14 +160,7 @@ impl Question {
     pub fn circuits(&self, watch: &Watch) -> Result<CircuitsReport, AskError> {
         let mechanism = &*self.mechanism;
         let released = self.one_freedom()?;
-        let question = self.resolved()?;
-        check_count(&question).map_err(AskError::Question)?;
-        let kept = released.held_coordinates();
-        let let_go = question.held_coordinates();
-        let mut let_go = let_go.into_iter().filter(|held| !kept.contains(held));
-        let (Some(Coordinate::Joint(input)), None) = (let_go.next(), let_go.next()) else {
-            return Err(AskError::NotOneJoint);
-        };
+        let (input, question) = input(mechanism, &released)?;
         let solver = self.solver(&question, watch)?;
         let seeds = seeds(mechanism, &question, &solver, input, watch);
         let (held, settings) = (released.held(), CircuitsSettings::default());
@@ -199,6 +193,27 @@ impl Question {
     }
 }
 
+/// The driven joint that moves where one freedom is left, with the question that holds it too.
+fn input<'q>(
+    mechanism: &Mechanism,
+    released: &system::Question<'q>,
+) -> Result<(usize, system::Question<'q>), AskError> {
+    let held = released.held_coordinates();
+    let driven = |joint: &usize| mechanism.joints()[*joint].role == description::Role::Actuated;
+    let let_go = (0..mechanism.joints().len())
+        .filter(|joint| driven(joint) && !held.contains(&Coordinate::Joint(*joint)));
+    let mut refused = None;
+    for joint in let_go {
+        let home = mechanism.joints()[joint].home;
+        let question = (released.clone()).at_values([(Coordinate::Joint(joint), home)]);
+        match check_count(&question) {
+            Ok(_) => return Ok((joint, question)),
+            Err(error) => refused = refused.or(Some(error)),
+        }
+    }
+    Err(refused.map_or(AskError::NotOneJoint, AskError::Question))
+}
+
 /// All assemblies at home and at values of the input spread over its range.
 fn seeds(
     mechanism: &Mechanism,
@@ -212,7 +227,10 @@ fn seeds(
     let (low, high) = match joint.limits {
         Some(limits) => limits,
         None if mechanism.repeats(input) => (joint.home, joint.home + TAU),
-        None => sampling_range(joint, mechanism.characteristic_length()),
+        None => {
+            let home = mechanism.home().joints[input];
+            sampling_range(joint, home, mechanism.characteristic_length())
+        }
     };
     let wanted = Wanted {
         certificates: false,

@@ -6,12 +6,14 @@ use linkwork::mechanism::{Frame, Mechanism};
 use linkwork::output::JsonReport;
 use linkwork::output::complaint::{Complaint, Given};
 use linkwork::solve::Watch;
-use linkwork::system;
+use linkwork::system::{self, QuestionError};
 
 use super::format::Format;
 use super::source::{Assignment, Loaded, Source, once};
 use super::watched::watched;
-use super::words::question::{complaint, unknown_frame};
+use super::words::question::{
+    at_home, complaint, complaint_of, freed_in_vain, held_at, unknown_frame,
+};
 use super::words::{self, Ranged};
 use super::{Answer, Refusal, style};
 
@@ -161,13 +163,30 @@ impl<'o> Posed<'o> {
         self.loaded.answer(format, &report)
     }
 
+    /// What is wrong with what is held, with options that put it right.
+    pub fn complaint(&self, error: &QuestionError) -> Complaint {
+        let freed = self.given.iter().filter(|(role, _)| *role == Role::Free);
+        let freed: Vec<&str> = freed.map(|(_, given)| given.name).collect();
+        freed_in_vain(error, &freed)
+            .unwrap_or_else(|| complaint_of(error, &|names| held(&self.question, names)))
+    }
+
     /// What is wrong with the question, under the option that says so if one does.
     fn refusal(&self, error: &AskError) -> Refusal {
         if let AskError::Store(said) = error {
             return Refusal(said.clone());
         }
         let given = error.item().and_then(|item| self.given(item));
-        let said = words::complaint(&self.loaded.mechanism, self.ranges, error, given);
+        let said = match error {
+            AskError::Question(error) => self.complaint(error),
+            _ => words::complaint(
+                &self.loaded.mechanism,
+                self.ranges,
+                error,
+                given,
+                &|names| held(&self.question.clone().free("actuated"), names),
+            ),
+        };
         refused(&said, given)
     }
 
@@ -179,6 +198,11 @@ impl<'o> Posed<'o> {
         let mut of_role = self.given.iter().filter(|(of, _)| *of == role);
         of_role.nth(item.index).map(|(_, given)| *given)
     }
+}
+
+/// The options that hold coordinates where the mechanism assembles.
+fn held(question: &Question, names: &[String]) -> String {
+    (question.holdable(names)).map_or_else(|| at_home(names), |holdable| held_at(&holdable))
 }
 
 fn refused(said: &Complaint, given: Option<Given>) -> Refusal {

@@ -8,7 +8,6 @@ use super::asked::Split;
 use super::format::{Format, readable};
 use super::search::Search;
 use super::source::Source;
-use super::words::question::complaint;
 use super::{Answer, Refusal, style};
 
 /// List all assembled configurations for held inputs, numbered, each with a certificate.
@@ -47,7 +46,7 @@ impl Assemblies {
         };
         // samples answer a question that holds too little, but what is missing is said too
         let missing = match posed.question.count() {
-            Err(AskError::Question(error)) => complaint(&error).render_warning(style()),
+            Err(AskError::Question(error)) => posed.complaint(&error).render_warning(style()),
             _ => String::new(),
         };
         let answer = posed.answer(self.format, |question, watch| {

@@ -31,6 +31,9 @@ pub struct Import {
     /// Keep the frame of a link or site under its name; `all` keeps all
     #[arg(long, value_name = "NAME")]
     frame: Vec<String>,
+    /// Let included files be read from this folder too; otherwise only from the folder of the model
+    #[arg(long, value_name = "DIR")]
+    include_from: Vec<PathBuf>,
     /// The convention of the tables
     #[arg(long, value_enum, default_value_t = Tables::Modified)]
     convention: Tables,
@@ -46,6 +49,7 @@ impl Import {
             convention: self.convention.into(),
             frames: self.frame.clone(),
             all_frames: self.frame.iter().any(|name| name == "all"),
+            include_from: self.include_from.clone(),
         };
         let closing = loops.as_ref().map(|(_, description)| description);
         let imported = load(&self.file, closing, &settings).map_err(|error| {

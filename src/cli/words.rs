@@ -40,12 +40,14 @@ impl Ranged {
 const ONE_OF_THEM: &str = "give only one of them";
 const COARSER: &str = "give a coarser --grid, or map a part of the box at a time";
 
-/// What is wrong with a question, and with which part of the option that says so, if one does.
+/// What is wrong with a question, and with which part of the option that says so, if one does. `hold_released` writes
+/// the options that hold coordinates beside free inputs.
 pub fn complaint(
     mechanism: &Mechanism,
     ranged: Ranged,
     error: &AskError,
     given: Option<Given>,
+    hold_released: &dyn Fn(&[String]) -> String,
 ) -> Complaint {
     let said = Complaint::new(error.to_string());
     let written = given.and_then(|given| given.value).unwrap_or_default();
@@ -149,7 +151,7 @@ pub fn complaint(
                 said.help(format!(
                     "hold {} more, e.g. {}; or prescribe the inputs with --input",
                     count(more, "coordinate"),
-                    question::options("--hold", &hold[..most], "=home")
+                    hold_released(&hold[..most])
                 ))
             }
             _ => said.help("hold other coordinates"),

@@ -31,14 +31,22 @@ impl Entry {
         match degrees {
             Some(0.0) => Entry::number(0.0, 0..0),
             Some(degrees) => Entry::degrees(degrees),
+            // many turns need their unit, to be read again
+            None if radians.abs() > 2.0 * std::f64::consts::TAU => {
+                Entry::signed(radians, Unit::Radian)
+            }
             None => Entry::number(radians, 0..0),
         }
     }
 
     /// An angle written in degrees, as the parser reads it: a sign stands before the quantity.
     pub(crate) fn degrees(degrees: f64) -> Self {
-        let size = Node::Quantity(degrees.abs(), Unit::Degree).at(0..0);
-        let expression = match degrees < 0.0 {
+        Entry::signed(degrees, Unit::Degree)
+    }
+
+    fn signed(value: f64, unit: Unit) -> Self {
+        let size = Node::Quantity(value.abs(), unit).at(0..0);
+        let expression = match value < 0.0 {
             true => Node::Negate(Box::new(size)).at(0..0),
             false => size,
         };

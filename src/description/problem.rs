@@ -202,7 +202,13 @@ pub enum ProblemKind {
     UnfeltJoint { name: String },
     /// A link length below zero: the x axis points the other way. Rows count from 1.
     #[error("row {row} of chain `{chain}` has the negative link length {a} m")]
-    NegativeLinkLength { chain: String, row: usize, a: f64 },
+    NegativeLinkLength {
+        chain: String,
+        row: usize,
+        a: f64,
+        /// What else has to turn for the link length to become positive.
+        turned: Option<Turned>,
+    },
     /// A distance of zero, whose equation is singular where it holds.
     #[error("the distance of closure `{closure}` is zero")]
     ZeroDistance { closure: String },
@@ -211,6 +217,26 @@ pub enum ProblemKind {
     Axes(Box<AxesProblem>),
     #[error("nothing is attached to the platform `{name}`")]
     UnusedPlatform { name: String },
+}
+
+/// What turns by 180 deg about its z axis with the x axis of a link frame.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Turned {
+    /// The part beside the row.
+    pub beside: Beside,
+    /// The chains that stand on the frame.
+    pub on_it: Vec<String>,
+}
+
+/// What lies on the other side of a link frame than a row of a table.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Beside {
+    /// The base of the chain.
+    Base,
+    /// A row, from 1.
+    Row(usize),
+    /// The tip of the chain.
+    Tip,
 }
 
 impl ProblemKind {

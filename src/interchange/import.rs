@@ -1,10 +1,10 @@
 //! URDF or MJCF → description.
 
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use thiserror::Error;
 
-use super::mjcf::{self, Files};
+use super::mjcf::{self, Files, NotRead};
 use super::names::fit;
 use super::problem::{ImportProblem, ImportProblemKind, WrongFile};
 use super::remark::Remark;
@@ -22,6 +22,8 @@ pub struct ImportSettings {
     pub frames: Vec<String>,
     /// Whether the frames of all links and sites are kept.
     pub all_frames: bool,
+    /// Folders beside that of the model from which included files may be read.
+    pub include_from: Vec<PathBuf>,
 }
 
 impl Default for ImportSettings {
@@ -30,6 +32,7 @@ impl Default for ImportSettings {
             convention: Convention::Modified,
             frames: Vec::new(),
             all_frames: false,
+            include_from: Vec::new(),
         }
     }
 }
@@ -66,7 +69,8 @@ impl ImportError {
     }
 }
 
-/// Reads a URDF or MJCF file; MJCF with the files it includes.
+/// Reads a URDF or MJCF file; MJCF with the files it includes, which lie in its folder or in those of
+/// [`ImportSettings::include_from`].
 ///
 /// `loops` is the description of a file that closes loops: its closures, chains and platforms refer to links and
 /// sites by their names, its joints override role, home and limits of the imported ones.
@@ -80,13 +84,33 @@ pub fn load(
 ) -> Result<Imported, ImportError> {
     let text = load_text(path).map_err(ImportError::Unreadable)?;
     let folder = path.parent().map(Path::to_owned).unwrap_or_default();
-    let files = |name: &str| match load_text(folder.join(name)) {
-        Ok(text) => Ok(text),
-        Err(LoadError::Unreadable { error, .. }) => Err(error.to_string()),
-        Err(other) => Err(other.to_string()),
+    let files = |name: &str| {
+        let path = folder.join(name);
+        if !is_within(&path, &folder, &settings.include_from) {
+            return Err(NotRead::Outside);
+        }
+        load_text(path).map_err(|error| {
+            NotRead::Failed(match error {
+                LoadError::Unreadable { error, .. } => error.to_string(),
+                other => other.to_string(),
+            })
+        })
     };
     let name = path.display().to_string();
     import(&name, &text, &files, loops, settings).map_err(ImportError::Wrong)
+}
+
+/// Whether a file lies in one of these folders, links followed. Of a file that does not exist the folder decides.
+fn is_within(path: &Path, folder: &Path, more: &[PathBuf]) -> bool {
+    let resolved = |path: &Path| match path.as_os_str().is_empty() {
+        true => Path::new(".").canonicalize(),
+        false => path.canonicalize(),
+    };
+    let Some(place) = path.ancestors().find_map(|part| resolved(part).ok()) else {
+        return false;
+    };
+    let mut allowed = more.iter().map(PathBuf::as_path).chain([folder]);
+    allowed.any(|folder| resolved(folder).is_ok_and(|folder| place.starts_with(folder)))
 }
 
 /// The same for a text; `files` reads the files it includes.

@@ -9,6 +9,7 @@ mod read;
 mod sliders;
 mod write;
 
+pub use include::NotRead;
 pub(crate) use include::{Files, splice};
 pub(crate) use read::read;
 pub use write::write;

@@ -19,6 +19,15 @@ pub(super) fn document(text: &str) -> Result<Document<'_>, ImportProblem> {
     if text.trim_start_matches('\u{feff}').trim().is_empty() {
         return Err(ImportProblemKind::Empty.anywhere());
     }
+    // what is not XML at all may be no model but anything, and is not shown
+    if !text
+        .trim_start_matches('\u{feff}')
+        .trim_start()
+        .starts_with('<')
+    {
+        let message = "it does not begin with `<`".into();
+        return Err(ImportProblemKind::Syntax { message }.anywhere());
+    }
     // the reader recurses for each level too
     check_depth(text)?;
     Document::parse(text).map_err(|error| {

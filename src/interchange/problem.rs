@@ -115,6 +115,8 @@ pub enum ImportProblemKind {
     },
     #[error("`{file}` cannot be included: {reason}")]
     NotIncluded { file: String, reason: String },
+    #[error("`{file}` lies outside the folder of the model and is not read")]
+    Outside { file: String },
     /// The message of the reader of the format.
     #[error("the file cannot be read: {message}")]
     Reader { message: String },
@@ -171,6 +173,9 @@ impl ImportProblemKind {
             Self::FollowsItself { .. } => "let one of these joints follow no other",
             Self::WrongKeyframe { .. } => {
                 "give one value for each hinge and slide, 4 for a ball, 7 for a free joint"
+            }
+            Self::Outside { .. } => {
+                "`--include-from DIR` lets files be read from another folder too"
             }
             Self::NotIncluded { .. } => "put the file there, or its contents here",
             Self::TooLarge { .. } => "lengths are in m and angles in rad",

@@ -51,6 +51,8 @@ pub(super) struct Builder<'a> {
     pub values: Vec<f64>,
     /// The dimensions of the parameters: length, angle or none.
     pub measures: Vec<Measure>,
+    /// For each parameter whether no unit stands in its definition.
+    pub bare: Vec<bool>,
     /// Names whose meaning is uncertain after an error; expressions that use them are not checked further.
     doubtful: &'a HashSet<String>,
 }
@@ -117,6 +119,7 @@ impl Mechanism {
             problems: Vec::new(),
             values: vec![f64::NAN; description.parameters.len()],
             measures: vec![Measure::Open; description.parameters.len()],
+            bare: vec![false; description.parameters.len()],
             doubtful,
         };
         let parameters = builder.parameters(description);

@@ -64,6 +64,12 @@ impl Mechanism {
         &self.closures
     }
 
+    /// Whether a closure is a rod with a ball at each end.
+    pub(crate) fn has_rods(&self) -> bool {
+        let mut closures = self.closures.iter();
+        closures.any(|closure| closure.kind == super::ClosureKind::Distance)
+    }
+
     /// The closed forms, in the order of the file.
     pub fn closed_forms(&self) -> &[ClosedForm] {
         &self.closed_forms
@@ -145,12 +151,22 @@ impl Mechanism {
 
     /// The home configuration of the file; it need not be assembled.
     pub fn home(&self) -> Configuration<f64> {
-        let platforms = self.platforms.iter();
+        let length = self.characteristic_length();
+        let joint = |joint: &Joint| match joint.kind {
+            JointKind::Prismatic => joint.home * within_reach(joint.home, length),
+            JointKind::Revolute | JointKind::Helical => joint.home,
+        };
+        let platform = |platform: &Platform| {
+            let mut home = platform.home;
+            let far = within_reach(home.position.norm(), length);
+            if far < 1.0 {
+                home.position = home.position.times(far);
+            }
+            PlatformPose::from_pose(&home)
+        };
         Configuration {
-            joints: self.joints.iter().map(|joint| joint.home).collect(),
-            platforms: platforms
-                .map(|p| PlatformPose::from_pose(&p.home))
-                .collect(),
+            joints: self.joints.iter().map(joint).collect(),
+            platforms: self.platforms.iter().map(platform).collect(),
         }
     }
 
@@ -321,5 +337,15 @@ impl Row {
     pub fn joints(&self) -> Vec<usize> {
         let joints: BTreeSet<usize> = joints_of(&self.theta).chain(joints_of(&self.d)).collect();
         joints.into_iter().collect()
+    }
+}
+
+/// The factor that brings a guessed length back to the size of the mechanism, both in m, where it is so far off that
+/// it says nothing: then only its sense is kept.
+fn within_reach(guess: f64, length: f64) -> f64 {
+    const FAR: f64 = 1e3;
+    match guess.abs() > FAR * length {
+        true => length / guess.abs(),
+        false => 1.0,
     }
 }

@@ -5,7 +5,9 @@ use std::collections::HashSet;
 use super::frames::joints_of;
 use super::model::{FixedStep, Formula, Given, Symbol};
 use super::{Frame, Mechanism};
-use crate::description::{Description, Problem, ProblemKind};
+use crate::description::{
+    Beside, ClosureKind, Convention, Description, Problem, ProblemKind, Turned,
+};
 
 pub(super) fn inspect(
     mechanism: &Mechanism,
@@ -25,7 +27,8 @@ pub(super) fn inspect(
             problems.push(kind.at(described.value.home.span.clone()));
         }
     }
-    for (chain, described) in mechanism.chains.iter().zip(&description.chains) {
+    let chains = mechanism.chains.iter().zip(&description.chains);
+    for (c, (chain, described)) in chains.enumerate() {
         for (i, (row, described)) in chain.rows.iter().zip(&described.value.rows).enumerate() {
             let a = mechanism.constant(&row.a);
             if a < 0.0 {
@@ -33,6 +36,7 @@ pub(super) fn inspect(
                     chain: chain.name.clone(),
                     row: i + 1,
                     a,
+                    turned: mechanism.turned_with(c, i),
                 };
                 problems.push(kind.at(described.a.span.clone()));
             }
@@ -93,6 +97,36 @@ fn unused(mechanism: &Mechanism, description: &Description, problems: &mut Vec<P
 }
 
 impl Mechanism {
+    /// What turns with the x axis along the link of a row of a chain, counted from 0. `None` if something else is
+    /// written in the frame that turns: a closure that feels its x axis, or a closed form.
+    fn turned_with(&self, chain: usize, row: usize) -> Option<Turned> {
+        let rows = self.chains[chain].rows.len();
+        let (turning, beside) = match self.chains[chain].convention {
+            Convention::Modified if row == 0 => (0, Beside::Base),
+            Convention::Modified => (row, Beside::Row(row)),
+            Convention::Standard if row + 1 == rows => (rows, Beside::Tip),
+            Convention::Standard => (row + 1, Beside::Row(row + 2)),
+        };
+        let frame = Frame::Link {
+            chain,
+            row: turning,
+        };
+        let feels = |kind| matches!(kind, ClosureKind::Rigid | ClosureKind::Prismatic);
+        let mut closures = self.closures.iter();
+        let closed = closures.any(|closure| feels(closure.kind) && closure.frames.contains(&frame));
+        let printed = self.closed_forms.iter().any(|form| match &form.gives {
+            Given::Pose {
+                of, relative_to, ..
+            } => [*of, *relative_to].contains(&frame),
+            Given::Identities(_) => false,
+        });
+        let on_it = self.chains.iter().filter(|chain| chain.on == frame);
+        (!closed && !printed).then(|| Turned {
+            beside,
+            on_it: on_it.map(|chain| chain.name.clone()).collect(),
+        })
+    }
+
     /// Visits every formula of the mechanism.
     fn for_each_formula(&self, visit: &mut impl FnMut(&Formula)) {
         let fixed = |steps: &[FixedStep], visit: &mut dyn FnMut(&Formula)| {

@@ -4,9 +4,9 @@ use super::Mechanism;
 use super::dimensions::{
     ChainDimensions, ClosureDimensions, Dimensions, LinearForm, RowDimensions,
 };
-use super::model::{FixedStep, Formula, JointKind, Row, Symbol};
+use super::model::{FixedStep, Formula, Joint, JointKind, Row, Symbol};
 use crate::algebra::{Affine, EvaluationError};
-use crate::description::Convention;
+use crate::description::{Convention, Role};
 use crate::geometry::{Axis, Pose, Vector3};
 use crate::number::Number;
 
@@ -144,18 +144,42 @@ impl Mechanism {
             platforms,
             closures,
         };
-        let length = self.largest_length(&dimensions);
-        dimensions.characteristic_length = length;
-        for (scale, joint) in dimensions.joint_scales.iter_mut().zip(&self.joints) {
-            if joint.kind == JointKind::Prismatic {
-                *scale = length;
-            }
-        }
+        let length = self.largest_length(&dimensions, &self.driven_lengths());
+        measure(&mut dimensions, length, &self.joints);
         Ok(dimensions)
     }
 
-    /// The largest length in the mechanism, in m; 1 m if there is none.
-    fn largest_length<T: Number>(&self, dimensions: &Dimensions<T>) -> f64 {
+    /// The same mechanism with the characteristic length that belongs to its dimensions and to lengths that are held,
+    /// in m; `None` if it has that already.
+    ///
+    /// Within a factor of ten of the file's own characteristic length the file's is kept, so that figures
+    /// for different values of the inputs can be compared.
+    pub(crate) fn measured_by(&self, held: &[f64]) -> Option<Mechanism> {
+        const COMPARABLE: f64 = 10.0;
+        let own = self.largest_length(&self.dimensions, &self.driven_lengths());
+        let asked = self.largest_length(&self.dimensions, held);
+        let ratio = asked / own;
+        let length = match (1.0 / COMPARABLE..=COMPARABLE).contains(&ratio) {
+            true => own,
+            false => asked,
+        };
+        (length != self.dimensions.characteristic_length).then(|| {
+            let mut measured = self.clone();
+            measure(&mut measured.dimensions, length, &self.joints);
+            measured
+        })
+    }
+
+    /// The lengths that the file holds.
+    fn driven_lengths(&self) -> Vec<f64> {
+        let driven = (self.joints.iter())
+            .filter(|joint| joint.role == Role::Actuated && joint.kind == JointKind::Prismatic);
+        driven.map(|joint| joint.home).collect()
+    }
+
+    /// The largest of the dimensions and of the lengths that are held, in m. Where there are none, the
+    /// home values of slides; 1 m if there are none of these either. A guess decides nothing else.
+    fn largest_length<T: Number>(&self, dimensions: &Dimensions<T>, held: &[f64]) -> f64 {
         let size = |pose: &Pose<T>| {
             let squares = pose.position.0.map(|x| x.real() * x.real());
             squares.iter().sum::<f64>().sqrt()
@@ -167,9 +191,24 @@ impl Mechanism {
         let poses = chains.chain(dimensions.platforms.iter().flatten());
         let closures = dimensions.closures.iter();
         let distances = closures.map(|closure| closure.length.real().abs());
+        let held = held.iter().map(|length| length.abs());
         let slides = self.joints.iter().filter(|joint| !joint.kind.is_angle());
-        let slides = slides.map(|joint| joint.home.abs());
-        let largest = (poses.map(size).chain(distances).chain(slides)).fold(0.0, f64::max);
-        if largest > 0.0 { largest } else { 1.0 }
+        let slides = slides.map(|joint| joint.home.abs()).fold(0.0, f64::max);
+        let largest = (poses.map(size).chain(distances).chain(held)).fold(0.0, f64::max);
+        match (largest > 0.0, slides > 0.0) {
+            (true, _) => largest,
+            (false, true) => slides,
+            (false, false) => 1.0,
+        }
+    }
+}
+
+/// Gives dimensions their characteristic length, in m.
+fn measure<T>(dimensions: &mut Dimensions<T>, length: f64, joints: &[Joint]) {
+    dimensions.characteristic_length = length;
+    for (scale, joint) in dimensions.joint_scales.iter_mut().zip(joints) {
+        if joint.kind == JointKind::Prismatic {
+            *scale = length;
+        }
     }
 }

@@ -29,6 +29,8 @@ pub struct Parameter {
     pub value: f64,
     /// Its dimension, as far as the units in its definition determine it.
     pub measure: Measure,
+    /// Whether nothing in its definition says in what unit it is if it is an angle.
+    pub bare: bool,
 }
 
 words! {
@@ -73,10 +75,14 @@ impl Joint {
         let Some((low, high)) = self.limits else {
             return true;
         };
-        let within = |x: f64| x >= low - ROUNDING && x <= high + ROUNDING;
+        let rounding = match self.kind.is_angle() {
+            true => ROUNDING,
+            false => ROUNDING * low.abs().max(high.abs()),
+        };
+        let within = |x: f64| x >= low - rounding && x <= high + rounding;
         if self.kind.is_angle() && self.kind != JointKind::Helical {
             let turn = std::f64::consts::TAU;
-            let first = value + turn * ((low - ROUNDING - value) / turn).ceil();
+            let first = value + turn * ((low - rounding - value) / turn).ceil();
             within(first)
         } else {
             within(value)

@@ -50,7 +50,7 @@ fn sentence(report: &AssembliesReport) -> String {
     let real = count(report.real, "assembly");
     match (&report.fit, report.real) {
         (_, 0) if report.interrupted => "No assembly was found.".into(),
-        _ if report.interrupted => format!("{real} found."),
+        _ if report.interrupted => sampled(report).unwrap_or_else(|| format!("{real} found.")),
         (Fit::FreedomLeft(_), 0) => "No assembly was found.".into(),
         (Fit::FreedomLeft(freedom), _) => {
             let left = count(*freedom, "freedom");
@@ -68,7 +68,16 @@ fn sentence(report: &AssembliesReport) -> String {
             };
             format!("Infinitely many assemblies: {left} {are} left with what is held. {listed}.")
         }
-        (Fit::TooManyHeld | Fit::AlwaysMultiple, _) => format!("{real} found."),
+        (Fit::Endless, n) => {
+            let listed = match n {
+                0 => "no real one was met".to_owned(),
+                _ => format!("{real} listed, to which some starts led"),
+            };
+            format!("There is no end of solutions, whatever values are held: {listed}.")
+        }
+        (Fit::TooManyHeld | Fit::AlwaysMultiple, _) => {
+            sampled(report).unwrap_or_else(|| format!("{real} found."))
+        }
         (Fit::Finite, _) if !report.continua.is_empty() => infinitely_many(report),
         (Fit::Finite, 0) => format!("No assembly: 0 real of {} complex.", report.complex),
         (Fit::Finite, _) => format!(
@@ -76,6 +85,22 @@ fn sentence(report: &AssembliesReport) -> String {
             report.real, report.complex
         ),
     }
+}
+
+/// The answer where samples of connected assemblies were met and nothing is known of their sets.
+fn sampled(report: &AssembliesReport) -> Option<String> {
+    let samples = report.assemblies.iter().filter(|a| a.multiplicity == 0);
+    let samples = samples.count();
+    let isolated = match report.real - samples.min(report.real) {
+        0 => String::new(),
+        n => format!(" and {} found", count(n, "isolated assembly")),
+    };
+    (samples > 0).then(|| {
+        format!(
+            "Infinitely many assemblies: {} listed{isolated}.",
+            count(samples, "sample")
+        )
+    })
 }
 
 /// The answer where assemblies are connected at the inputs asked.
@@ -146,6 +171,11 @@ pub fn completeness(report: &AssembliesReport) -> String {
                  samples{isolated}; hold {freedom} more for a finite list",
                 count(freedom, "freedom"),
             );
+        }
+        Fit::Endless => {
+            return "the search met no end of solutions, and none is followed to the values held; those \
+                    listed are what some starts led to"
+                .into();
         }
         Fit::TooManyHeld => {
             return format!(
@@ -280,5 +310,6 @@ fn nearest(report: &AssembliesReport, closest: &ClosestApproach) -> Section {
         .map(|(name, gap)| format!("{name}: {}", closing::gap(gap.distance, gap.angle)));
     let joints = report.variables.iter().zip(closest.joints.values());
     let joints = joints.map(|(joint, value)| at(&joint.name, *value, joint.unit));
-    Section::new(title).list(gaps).list(joints)
+    let squared = (closest.squared_lengths).then(|| closing::SQUARED_LENGTHS.to_owned());
+    Section::new(title).list(gaps).list(joints).list(squared)
 }

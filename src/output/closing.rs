@@ -18,11 +18,17 @@ pub(super) fn gap(distance: f64, angle: f64) -> String {
     }
 }
 
+/// What is least at a closest approach of a mechanism with rods.
+pub(super) const SQUARED_LENGTHS: &str = "a rod of length L whose ends are d apart counts by (d² − L²)/2, not by d − L: \
+     closest is where the sum of the squares of all closure rows is least";
+
 /// How far the pose given was off.
 pub(super) fn given(given: Option<&WidestGap>, kept: bool) -> Option<String> {
     let moved = match kept {
         true => "",
-        false => ", which moved actuated joints too",
+        false => {
+            ", which moved actuated joints too, because it closes nowhere with their values in the file"
+        }
     };
     given.map(|given| {
         format!(
@@ -31,6 +37,12 @@ pub(super) fn given(given: Option<&WidestGap>, kept: bool) -> Option<String> {
             gap(given.distance, given.angle)
         )
     })
+}
+
+/// Whether an answer is about the values that the file holds: those of a rounded pose may change a
+/// little, but a file that cannot be assembled was answered for another mechanism.
+pub fn is_about_the_file(kept: bool, given: Option<&WidestGap>, length: f64) -> bool {
+    kept || given.is_none_or(|given| !given.is_wide(length))
 }
 
 /// The warning that joints are outside their limits.

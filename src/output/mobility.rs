@@ -18,6 +18,10 @@ impl Report for MobilityReport {
         self.interrupted
     }
 
+    fn is_yes(&self) -> bool {
+        closing::is_about_the_file(self.kept, self.given.as_ref(), self.length)
+    }
+
     fn document(&self) -> Document {
         let idle = self.idle_freedoms.iter();
         let idle = idle.map(|freedom| format!("not counted: {}", words::idle(freedom)));

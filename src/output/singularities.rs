@@ -37,6 +37,11 @@ impl Report for SingularitiesReport {
             .section(distances(&singularity.distances, self.normalising_length))
     }
 
+    fn is_yes(&self) -> bool {
+        let (gap, length) = (self.given_gap.as_ref(), self.normalising_length);
+        closing::is_about_the_file(self.kept, gap, length)
+    }
+
     fn warnings(&self) -> Vec<String> {
         Vec::from_iter(closing::outside_limits(&self.outside_limits))
     }

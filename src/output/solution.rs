@@ -122,8 +122,12 @@ fn found(report: &AssemblyReport) -> String {
             report.seed
         ),
     };
+    let rods = match report.squared_lengths {
+        true => format!("; {}", closing::SQUARED_LENGTHS),
+        false => String::new(),
+    };
     format!(
-        "{}{restarts}; residual {}, condition number {}",
+        "{}{restarts}; residual {}, condition number {}{rods}",
         count(report.steps, "Newton step"),
         size(report.residual),
         size(report.condition)

@@ -35,7 +35,8 @@ impl Report for StaticsReport {
     }
 
     fn is_yes(&self) -> bool {
-        self.unbalanced.is_empty()
+        let (gap, length) = (self.given_gap.as_ref(), self.normalising_length);
+        self.unbalanced.is_empty() && closing::is_about_the_file(self.kept, gap, length)
     }
 
     fn warnings(&self) -> Vec<String> {

@@ -25,7 +25,8 @@ impl Report for VelocityReport {
     }
 
     fn is_yes(&self) -> bool {
-        self.is_determined()
+        let (gap, length) = (self.given_gap.as_ref(), self.normalising_length);
+        self.is_determined() && closing::is_about_the_file(self.kept, gap, length)
     }
 
     fn warnings(&self) -> Vec<String> {

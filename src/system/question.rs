@@ -196,6 +196,20 @@ impl<'a> Question<'a> {
         self
     }
 
+    /// The lengths that are held, in m.
+    pub(crate) fn held_lengths(&self) -> Vec<f64> {
+        let joints = self.mechanism.joints().iter().enumerate();
+        let joints = joints.filter(|(i, joint)| self.joints[*i] && !joint.kind.is_angle());
+        let positions = self
+            .coordinates
+            .iter()
+            .flat_map(|c| c[..3].iter().flatten());
+        joints
+            .map(|(i, _)| self.start.joints[i])
+            .chain(positions.copied())
+            .collect()
+    }
+
     /// The coordinates of a platform that are held, with their values in m or rad.
     pub fn held_values(&self, platform: usize) -> Vec<(PoseCoordinate, f64)> {
         let given = PoseCoordinate::ALL.into_iter();
@@ -265,6 +279,13 @@ impl<'a> Question<'a> {
         &self.guessed_joints
     }
 
+    /// The value a joint was to start at, if one was given for it alone.
+    pub(super) fn guess_of(&self, joint: usize) -> Option<f64> {
+        let asked = (self.demands.iter())
+            .any(|(of, demand)| *of == Target::Coordinate(Coordinate::Joint(joint)) && demand.verb == Verb::Guess);
+        asked.then(|| self.start.joints[joint])
+    }
+
     /// For each platform whether its starting pose was given with the question.
     pub fn guessed_platforms(&self) -> &[bool] {
         &self.guessed_platforms
@@ -307,7 +328,7 @@ impl<'a> Question<'a> {
         if value.is_home() {
             return Ok(of.home(self.mechanism));
         }
-        let number = value.number(self.mechanism, of.measure(self.mechanism));
+        let number = value.coordinate(self.mechanism, of.measure(self.mechanism));
         number.map_err(|error| QuestionError::value(name, value, error))
     }
 

@@ -220,13 +220,17 @@ impl<'a> Search<'a> {
         self.fit(at, joints, &vec![false; self.held.platforms.len()])
     }
 
-    /// Passive turns found by a long search come back to (−π, π], or into their limits.
+    /// Passive turns found by a long search come back to (−π, π], or into their limits, or to the turn
+    /// that was guessed.
     fn normalise_angles(&self, at: &mut Configuration<f64>) {
         for (i, joint) in self.mechanism.joints().iter().enumerate() {
             if self.held.joints[i] || !self.mechanism.repeats(i) {
                 continue;
             }
-            let middle = joint.limits.map_or(0.0, |(low, high)| 0.5 * (low + high));
+            let guessed = self.question.guess_of(i).unwrap_or(0.0);
+            let middle = joint
+                .limits
+                .map_or(guessed, |(low, high)| 0.5 * (low + high));
             at.joints[i] = turn_near(at.joints[i], middle);
         }
     }

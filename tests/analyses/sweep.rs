@@ -1335,7 +1335,7 @@ fn questions_that_make_no_sense_are_told_what_to_ask_instead() {
                 "--free",
                 "theta2",
             ],
-            "--hold theta2",
+            "leave out --free theta2",
         ),
         (
             &["mechanisms/five_bar.ron", "--follow"],

@@ -2,10 +2,12 @@
 
 mod assemblies;
 mod cold_starts;
+mod endless;
 mod large;
 mod printed_assemblies;
 mod questions;
 mod random_mechanisms;
+mod scales;
 mod seeds;
 mod special_inputs;
 mod stores;

@@ -14,7 +14,9 @@ use linkwork::analysis::assemblies::{AssembliesSettings, AssemblySolver, Wanted}
 use linkwork::analysis::assembly::{AssemblySettings, assemble};
 use linkwork::description::{Convention, Description};
 use linkwork::geometry::{Pose, Quaternion};
-use linkwork::interchange::{ImportSettings, Imported, import, tree_of, write_mjcf, write_urdf};
+use linkwork::interchange::{
+    ImportSettings, Imported, NotRead, import, tree_of, write_mjcf, write_urdf,
+};
 use linkwork::mechanism::{Configuration, Mechanism};
 use linkwork::solve::Newton;
 use linkwork::solve::Watch;
@@ -160,8 +162,8 @@ fn mujoco_finds_every_exported_mechanism_assembled_and_as_free_as_it_is() {
     }
 }
 
-fn no_files(_: &str) -> Result<String, String> {
-    Err("there are no files here".into())
+fn no_files(_: &str) -> Result<String, NotRead> {
+    Err(NotRead::Failed("there are no files here".into()))
 }
 
 /// What a text of another program means. What is read can be written, and read again.

@@ -3,5 +3,8 @@
 mod description;
 mod exchange;
 mod golden;
+mod includes;
 mod mechanisms;
+mod negative_lengths;
 mod numbers;
+mod units;

@@ -173,7 +173,9 @@ impl Question<'_> {
         report.half_a_turn_away = half_a_turn_away.len();
         let isolated = groups.iter().filter(|g| g.dimension == 0);
         report.complex = match fit {
-            Fit::TooManyHeld | Fit::AlwaysMultiple => found.iter().map(|f| f.multiplicity).sum(),
+            Fit::TooManyHeld | Fit::AlwaysMultiple | Fit::Endless => {
+                found.iter().map(|f| f.multiplicity).sum()
+            }
             _ => isolated.clone().map(|g| g.paths).sum(),
         };
         report.continua = continua(&sets, &found);

@@ -77,6 +77,10 @@ pub struct ClosestApproach {
     pub worst: String,
     /// Whether no small motion comes closer.
     pub local_minimum: bool,
+    /// Whether rods count by (d² − L²)/2 over the square of the characteristic length, d being the distance of their
+    /// ends and L their length, so that the configuration is not the one where Σ (d − L)² is least.
+    #[serde(default, skip_serializing_if = "std::ops::Not::not")]
+    pub squared_lengths: bool,
     /// Joint values there, rad or m.
     pub joints: Named<f64>,
     /// Platform poses there.
@@ -95,6 +99,9 @@ pub enum Fit {
     /// No generic solution was found, perhaps because more inputs are held than can be chosen
     /// freely; what is listed was found by starting from many guesses and need not be complete.
     TooManyHeld,
+    /// There was no end of generic solutions, as where a screw or a gear whose ratio is no whole number never comes
+    /// back to the same place. What is listed was found by starting from guesses.
+    Endless,
     /// All generic solutions that were met are multiple, as in a shaky structure. No path follows
     /// them; what is listed was found by starting from many guesses and need not be complete.
     AlwaysMultiple,

@@ -1,9 +1,11 @@
 //! The numbers behind the expressions of a file of axes.
 
 use super::{MOST_JOINTS, problem};
+use crate::algebra::Expression;
 use crate::description::{
-    AxesDescription, AxesProblem, AxisDescription, AxisPlace, Description, Displacement, Entry,
-    JointDescription, Named, PlatformDescription, Problem, ProblemKind, Role,
+    AxesDescription, AxesProblem, AxisDescription, AxisKind, AxisPlace, ChainDescription,
+    Convention, Description, Displacement, Entry, JointDescription, Named, PlatformDescription,
+    Problem, ProblemKind, Role, Row, Severity, Spanned,
 };
 use crate::geometry::{Line, Pose, Vector3};
 use crate::mechanism::Mechanism;
@@ -54,9 +56,11 @@ impl Values {
             name: axes.name.clone(),
             parameters: axes.parameters.clone(),
             joints: axes.joints.iter().map(declared).collect(),
+            chains: vec![Named::new("joints", variables(axes))],
             platforms: vec![Named::new("axes", platform)],
             ..Description::default()
-        })?;
+        })
+        .map_err(own)?;
         let poses = &mechanism.dimensions().platforms[0];
         let at = |frame: usize| poses[frame].position;
         let mut problems = Vec::new();
@@ -81,20 +85,41 @@ impl Values {
         if !problems.is_empty() {
             return Err(problems);
         }
-        let unused = |p: &&Problem| matches!(p.kind, ProblemKind::UnusedParameter { .. });
         Ok(Values {
             lines,
             homes: mechanism.joints().iter().map(|joint| joint.home).collect(),
             limits: mechanism.joints().iter().map(|j| j.limits).collect(),
             base: base.map(|frame| poses[frame]),
             tool: tool.map(|frame| poses[frame]),
-            warnings: mechanism
-                .warnings()
-                .iter()
-                .filter(unused)
-                .cloned()
-                .collect(),
+            warnings: own(mechanism.warnings().to_vec()),
         })
+    }
+}
+
+/// The problems that are about the file of axes: its joints move nothing here, and nothing stands on its points.
+fn own(mut problems: Vec<Problem>) -> Vec<Problem> {
+    problems.retain(|problem| {
+        problem.severity() == Severity::Error
+            || matches!(problem.kind, ProblemKind::UnusedParameter { .. })
+    });
+    problems
+}
+
+/// Rows in which every variable stands as an angle or as a length, so that homes and limits have the units of the
+/// joints.
+fn variables(axes: &AxesDescription) -> ChainDescription {
+    let row = |joint: &Named<AxisDescription>| {
+        let zero = || Entry::number(0.0, 0..0);
+        let variable = Expression::name(joint.name.value.clone()).into();
+        match joint.value.kind {
+            AxisKind::Prismatic => Row::new(zero(), zero(), variable, zero()),
+            AxisKind::Revolute | AxisKind::Spherical => Row::new(zero(), zero(), zero(), variable),
+        }
+    };
+    ChainDescription {
+        convention: Some(Spanned::nowhere(Convention::Modified)),
+        rows: axes.joints.iter().map(row).collect(),
+        ..ChainDescription::default()
     }
 }
 

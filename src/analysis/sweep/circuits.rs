@@ -267,7 +267,7 @@ fn half(
     };
     let mut walk = Walk::new(mechanism, curve, from, settings.continuation.clone());
     let mut steps = 0;
-    let end = walk.follow(curve, |_, leg| {
+    let end = walk.follow(curve, |curve, leg| {
         if watch.stops(Stage::Steps, steps, None) {
             return ControlFlow::Break(None);
         }
@@ -277,6 +277,7 @@ fn half(
                 Event::Turning(joint) => found.turnings.push((*joint, place.clone())),
                 Event::Branches(point) => found.crossings.push((**point).clone()),
                 Event::Closed | Event::Limit { .. } => {
+                    found.length = leg.gone_at(curve, place);
                     found.places.push(place.clone());
                     found.whole = true;
                     found.closed = matches!(event, Event::Closed);
@@ -285,13 +286,13 @@ fn half(
                 _ => {}
             }
         }
+        found.length = leg.gone_at(curve, &leg.to);
         found.places.push(leg.to.clone());
         match steps == settings.most_steps {
             true => ControlFlow::Break(None),
             false => ControlFlow::Continue(()),
         }
     });
-    found.length = walk.gone();
     (found, end.ok().flatten())
 }
 

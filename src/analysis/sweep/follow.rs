@@ -50,6 +50,7 @@ pub fn follow(
     let mut flow = sent.row(&place.at, None, None, sink);
     let mut walk = Walk::new(mechanism, &curve, place, method.clone());
     let stopped = |()| SweepEnd::Stopped;
+    let mut length = 0.0;
     let ending = walk.follow(&mut curve, |curve, leg| {
         flow.map_break(stopped)?;
         record.steps += 1;
@@ -58,6 +59,7 @@ pub fn follow(
         }
         for (place, event) in &leg.events {
             record.meet(curve, place, event);
+            length = leg.gone_at(curve, place);
             flow = sent.row(&place.at, None, record.latest(), sink);
             match event {
                 Event::Closed => return ControlFlow::Break(SweepEnd::Closed),
@@ -69,12 +71,13 @@ pub fn follow(
         if !leg.events.iter().any(branches) {
             flow = sent.row(&leg.to.at, None, None, sink);
         }
+        length = leg.gone_at(curve, &leg.to);
         ControlFlow::Continue(())
     });
     let ending = ending.unwrap_or(SweepEnd::Lost);
     SweepReport {
         interrupted: watch.is_stopped(),
-        ..record.report(ending, sent.count, walk.gone())
+        ..record.report(ending, sent.count, length)
     }
 }
 

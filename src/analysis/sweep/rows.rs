@@ -54,7 +54,10 @@ impl Rows {
     }
 
     pub fn first(&mut self, place: &At, sink: &mut Flow) -> ControlFlow<()> {
-        self.sent.row(&place.at, Some(0), None, sink)
+        // the inputs are where they were put, not where rounding leaves them
+        let mut at = place.at.clone();
+        self.put(&mut at, 0.0);
+        self.sent.row(&at, Some(0), None, sink)
     }
 
     /// A special place, between two rows.
@@ -107,15 +110,20 @@ impl Rows {
             // exactly, from the places themselves
             let mut between = |c: &mut Curve, p: &At| c.part(&p.at) - part;
             let mut place = self.method.root(curve, from, to, &mut between);
-            for input in &self.inputs {
-                if let Coordinate::Joint(joint) = input.coordinate {
-                    place.at.joints[joint] = input.at(part);
-                }
-            }
+            self.put(&mut place.at, part);
             if let Some(tracker) = &mut self.tracker {
                 tracker.restart(&place.at);
             }
             self.sent.row(&place.at, step, None, sink)?;
+        }
+    }
+
+    /// Puts the joints that are inputs where they are at a part of the segment.
+    fn put(&self, at: &mut Configuration<f64>, part: f64) {
+        for input in &self.inputs {
+            if let Coordinate::Joint(joint) = input.coordinate {
+                at.joints[joint] = input.at(part);
+            }
         }
     }
 

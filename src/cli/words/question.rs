@@ -1,6 +1,7 @@
 //! Words for questions that cannot be put, with the options that would put them right.
 
 use linkwork::algebra::Expression;
+use linkwork::ask::Holdable;
 use linkwork::description::{ProblemKind, Scope, listed, nearest};
 use linkwork::mechanism::Mechanism;
 use linkwork::output::complaint::{Complaint, Part};
@@ -8,6 +9,49 @@ use linkwork::system::{Demand, DriveError, ForceError, QuestionError, ValueError
 
 /// What is wrong with a question, and with which part of the option that asked it, if one did.
 pub fn complaint(error: &QuestionError) -> Complaint {
+    complaint_of(error, &at_home)
+}
+
+/// The options that hold coordinates where the file has them.
+pub fn at_home(names: &[String]) -> String {
+    options("--hold", names, "=home")
+}
+
+/// The options that hold coordinates at values.
+pub fn held_at(holdable: &[Holdable]) -> String {
+    let option = |one: &Holdable| {
+        let value = match one.value {
+            None => "home".to_owned(),
+            Some(value) if one.is_angle => format!("{}deg", short(value.to_degrees())),
+            Some(value) => short(value),
+        };
+        format!("--hold {}", quoted(&format!("{}={value}", one.name)))
+    };
+    holdable.iter().map(option).collect::<Vec<_>>().join(" ")
+}
+
+/// Four digits, enough to assemble near an assembly.
+fn short(value: f64) -> String {
+    let rounded: f64 = format!("{value:.3e}").parse().unwrap_or(value);
+    rounded.to_string()
+}
+
+/// What was freed by name but has to be held.
+pub fn freed_in_vain(error: &QuestionError, freed: &[&str]) -> Option<Complaint> {
+    let QuestionError::TooFew { hold, .. } = error else {
+        return None;
+    };
+    let in_vain: Vec<String> = (hold.iter())
+        .filter(|name| freed.contains(&name.as_str()))
+        .cloned()
+        .collect();
+    let help = format!("leave out {}", options("--free", &in_vain, ""));
+    (!in_vain.is_empty() && in_vain.len() == hold.len())
+        .then(|| Complaint::new(error.title()).help(help))
+}
+
+/// The same; `holding` writes the options that hold coordinates.
+pub fn complaint_of(error: &QuestionError, holding: &dyn Fn(&[String]) -> String) -> Complaint {
     let said = Complaint::new(error.title());
     match error {
         QuestionError::UnknownName { suggestion, .. } => said.label("not known").help(match suggestion {
@@ -32,7 +76,7 @@ pub fn complaint(error: &QuestionError) -> Complaint {
         QuestionError::TooFew { hold, .. } => said.help(format!(
             "hold {} too, e.g. {}",
             listed(hold),
-            options("--hold", hold, "=home")
+            holding(hold)
         )),
         QuestionError::AnglesLocked { platform } => said.help(format!(
             "hold joints instead of `{platform}`, or describe `{platform}` by a frame that is turned"

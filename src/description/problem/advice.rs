@@ -4,9 +4,9 @@ mod axes;
 
 use super::*;
 use crate::algebra::EvaluationErrorKind;
-use crate::description::VERSION;
 use crate::description::words::expression;
 use crate::description::words::quoted;
+use crate::description::{VERSION, listed};
 
 impl ProblemKind {
     /// What is wrong, in one sentence without a full stop.
@@ -72,7 +72,7 @@ impl ProblemKind {
             }
             UnknownName { scope: Scope::Parameters, .. } => "declare it under `parameters`".into(),
             Expression(error) => return expression::help(error),
-            Unit(error) => expression::unit_help(error).into(),
+            Unit(error) => expression::unit_help(error),
             NotAName { .. } => {
                 "a name starts with a letter or `_`, followed by letters, digits or `_`".into()
             }
@@ -89,7 +89,8 @@ impl ProblemKind {
             NotAffine => "only theta, d and distances may contain joints, as in `\"pi/2 - 2*phi1\"`".into(),
             SameBody { .. } => "a closure within one body is either always or never satisfied".into(),
             UnfeltJoint { .. } => "its value is arbitrary; remove it, or close the chain that it moves".into(),
-            NegativeLinkLength { .. } => "add 180 deg to theta and change the sign of alpha, or leave it as it is".into(),
+            NegativeLinkLength { turned: None, .. } => "it may stay as it is".into(),
+            NegativeLinkLength { row, turned: Some(turned), .. } => positive(*row, turned),
             ZeroDistance { .. } => "use `Spherical` for two points that coincide".into(),
             LimitsReversed { .. } => "write the lowest value first".into(),
             Axes(problem) => return axes::help(problem),
@@ -113,6 +114,31 @@ impl Note {
             Self::ThenHere => "then here".into(),
         }
     }
+}
+
+/// How the link length of a row becomes positive. Tx(−a) = Rz(180°) Tx(a) Rz(−180°), and Rx(α) Rz(180°) = Rz(180°)
+/// Rx(−α): the frame between the link and its neighbour turns about its own z.
+fn positive(row: usize, turned: &Turned) -> String {
+    let beside = match turned.beside {
+        Beside::Base => "add `Rz(180 deg)` at the end of `base`".into(),
+        Beside::Row(beside) => format!("add 180 deg to theta of row {beside}"),
+        Beside::Tip => "add `Rz(180 deg)` at the beginning of `tip`".into(),
+    };
+    let mut steps = vec![
+        format!("change the signs of a and alpha of row {row}"),
+        format!("add 180 deg to theta of row {row}"),
+        beside,
+    ];
+    if !turned.on_it.is_empty() {
+        let chains = quoted(&turned.on_it);
+        steps.push(format!(
+            "add `Rz(180 deg)` at the beginning of `base` of {chains}"
+        ));
+    }
+    format!(
+        "it may stay as it is; to make it positive, {}",
+        listed(&steps)
+    )
 }
 
 fn wrong_type_help(expected: Expected, found: &Found) -> Option<&'static str> {

@@ -71,11 +71,18 @@ pub(in crate::description) fn unit_label(error: &MeasureErrorKind) -> &'static s
         MeasureErrorKind::Wrong { found, .. } => found.words(),
         MeasureErrorKind::Mixed => "an angle and a length",
         MeasureErrorKind::LengthAsAngle(_) => "a length",
+        MeasureErrorKind::BareAngle(_) => "deg or rad?",
     }
 }
 
-pub(in crate::description) fn unit_help(error: &MeasureErrorKind) -> &'static str {
-    match error {
+pub(in crate::description) fn unit_help(error: &MeasureErrorKind) -> String {
+    let help = match error {
+        MeasureErrorKind::BareAngle(value) => {
+            let radians = value.to_radians();
+            return format!(
+                "write `{value}deg`, which is `{radians:.6}rad`, or `{value}rad` if so many turns are meant"
+            );
+        }
         MeasureErrorKind::Wrong { wanted, .. } => match wanted {
             Measure::Length => "write m, cm, mm or in; a number without unit is in m",
             Measure::Angle => "write deg or rad; a number without unit is in rad",
@@ -87,5 +94,6 @@ pub(in crate::description) fn unit_help(error: &MeasureErrorKind) -> &'static st
         MeasureErrorKind::LengthAsAngle(_) => {
             "write deg or rad, or divide by a length; a number without unit is in rad"
         }
-    }
+    };
+    help.into()
 }

@@ -12,7 +12,16 @@ const MOST_LEVELS: usize = 20;
 const MOST_BYTES: usize = 1 << 23;
 
 /// Reads another file by its name.
-pub(crate) type Files<'a> = &'a dyn Fn(&str) -> Result<String, String>;
+pub(crate) type Files<'a> = &'a dyn Fn(&str) -> Result<String, NotRead>;
+
+/// Why an included file is not read.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum NotRead {
+    /// It lies outside the folders that files may be read from.
+    Outside,
+    /// It cannot be read, for this reason.
+    Failed(String),
+}
 
 /// A text assembled from files.
 pub(crate) struct Spliced {
@@ -94,7 +103,10 @@ fn expand(
         if open.iter().any(is_open) || open.len() > MOST_LEVELS {
             return Err(refuse(failed("it includes itself".into())));
         }
-        let content = files(name).map_err(|reason| refuse(failed(reason)))?;
+        let content = files(name).map_err(|why| match why {
+            NotRead::Outside => refuse(ImportProblemKind::Outside { file: name.into() }),
+            NotRead::Failed(reason) => refuse(failed(reason)),
+        })?;
         if spliced.text.len() + content.len() > MOST_BYTES {
             return Err(refuse(failed("the files together are too large".into())));
         }

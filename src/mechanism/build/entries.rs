@@ -47,6 +47,24 @@ impl Builder<'_> {
         }
     }
 
+    /// Whether a unit, or `pi`, stands in the definition of a name.
+    pub(super) fn says_unit(&self, symbol: &Symbol) -> bool {
+        match *symbol {
+            Symbol::Parameter(i) => !self.bare[i],
+            Symbol::Joint(_) | Symbol::Local(_) => true,
+        }
+    }
+
+    /// Records an angle of many turns without a unit.
+    fn check_bare(&mut self, formula: &Formula, wanted: Measure) {
+        if wanted == Measure::Angle
+            && let Some(value) = self.value(formula)
+            && let Err(error) = formula.check_angle(value, &|symbol| self.says_unit(symbol))
+        {
+            self.refuse(ProblemKind::Unit(error.kind), &error.span);
+        }
+    }
+
     /// Homes and limits are angles or lengths as the joints are.
     pub(super) fn check_joint_units(&mut self, description: &Description, joints: &[Joint]) {
         for (Named { value, .. }, joint) in description.joints.iter().zip(joints) {
@@ -58,6 +76,7 @@ impl Builder<'_> {
             for entry in std::iter::once(&value.home).chain(limits) {
                 if let Some(formula) = self.formula(entry, Scope::Parameters, &HashMap::new()) {
                     self.check_unit(&formula, wanted);
+                    self.check_bare(&formula, wanted);
                 }
             }
         }
@@ -67,6 +86,7 @@ impl Builder<'_> {
     pub(super) fn measured(&mut self, entry: &Entry, wanted: Measure) -> Option<(Formula, f64)> {
         let (formula, value) = self.constant(entry)?;
         self.check_unit(&formula, wanted);
+        self.check_bare(&formula, wanted);
         Some((formula, value))
     }
 
@@ -111,6 +131,7 @@ impl Builder<'_> {
         self.check_unit(&formula, wanted);
         match formula.affine(|symbol| matches!(symbol, Symbol::Joint(_))) {
             Ok(affine) => {
+                self.check_bare(&affine.constant, wanted);
                 let coefficients = affine.terms.iter().map(|(_, coefficient)| coefficient);
                 let parts: Vec<Option<f64>> = (coefficients.chain([&affine.constant]))
                     .map(|part| self.value(part))

@@ -30,16 +30,19 @@ impl Builder<'_> {
             // NaN is the value of what is not known, here and in all that is defined through it
             let value = formulas[i].as_ref().and_then(|formula| self.value(formula));
             self.values[i] = value.unwrap_or(f64::NAN);
+            let bare = |formula: &Formula| formula.is_bare(&|symbol| self.says_unit(symbol));
+            self.bare[i] = formulas[i].as_ref().is_some_and(bare);
         }
-        let known = self.values.iter().zip(&self.measures);
+        let known = self.values.iter().zip(&self.measures).zip(&self.bare);
         let parts = entries.iter().zip(formulas).zip(known);
         parts
-            .filter_map(|((named, definition), (&value, &measure))| {
+            .filter_map(|((named, definition), ((&value, &measure), &bare))| {
                 Some(Parameter {
                     name: named.name.value.clone(),
                     definition: definition?,
                     value,
                     measure,
+                    bare,
                 })
             })
             .collect()

@@ -152,7 +152,7 @@ pub(super) fn ending(report: &AlongReport) -> String {
     match report.ending {
         AlongEnd::Complete => format!("{way}: complete, {found}."),
         AlongEnd::Returned => format!(
-            "{way}: the end is not reached, because the curve comes back to its beginning; {found}."
+            "{way}: the end is not reached: the inputs come back to where they began, in another configuration; {found}."
         ),
         AlongEnd::Closed => format!("{way}: the curve closes, {found}."),
         AlongEnd::Fold => format!(

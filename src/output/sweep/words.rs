@@ -44,7 +44,7 @@ pub(super) fn sentence(report: &SweepReport) -> String {
         }
         (SweepEnd::Complete, _) => format!("{way}: complete{through}."),
         (SweepEnd::Returned, _) => format!(
-            "{way}: the end is not reached. The curve comes back to where the inputs began{through}."
+            "{way}: the end is not reached. The inputs come back to where they began, in another configuration{through}."
         ),
         (SweepEnd::Closed, _) => format!("{way} closes{through}."),
         (SweepEnd::Limits, _) => {

@@ -75,7 +75,7 @@ pub struct Region<'m> {
     pub now: Progress,
 }
 
-/// A curve that exceeds a bound by less than this, in rad or m, counts as running along it.
+/// A curve that exceeds a bound by less than this, in rad or characteristic lengths, counts as running along it.
 const BESIDE: f64 = 1e-9;
 
 impl Region<'_> {
@@ -91,17 +91,22 @@ impl Region<'_> {
         }
     }
 
-    /// How far a configuration is inside each bound, of the box and then of limits.
+    /// How far a configuration is inside each bound, of the box and then of limits, in rad and
+    /// characteristic lengths.
     fn margins(&self, at: &Configuration<f64>) -> Vec<f64> {
+        let length = self.mechanism.characteristic_length();
+        let unit = |is_angle: bool| if is_angle { 1.0 } else { 1.0 / length };
         let mut margins = Vec::new();
         for side in self.sides {
             let x = self.side(at, side);
-            margins.extend([x - side.from, side.to - x]);
+            let unit = unit(side.coordinate.is_angle(self.mechanism));
+            margins.extend([x - side.from, side.to - x].map(|margin| margin * unit));
         }
         for (i, joint) in self.mechanism.joints().iter().enumerate() {
             let held = self.held.joints[i];
             if let Some((low, high)) = joint.limits.filter(|_| !held) {
-                margins.extend([at.joints[i] - low, high - at.joints[i]]);
+                let inside = [at.joints[i] - low, high - at.joints[i]];
+                margins.extend(inside.map(|margin| margin * unit(joint.kind.is_angle())));
             }
         }
         margins

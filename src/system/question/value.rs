@@ -32,6 +32,28 @@ impl Value {
 
     /// The number, in m, rad, N or N·m, and per unit of time for a rate.
     pub(super) fn number(&self, mechanism: &Mechanism, wanted: Measure) -> Result<f64, ValueError> {
+        Ok(self.read(mechanism, wanted)?.0)
+    }
+
+    /// The number of a coordinate: an angle of more than two turns has its unit.
+    pub(super) fn coordinate(
+        &self,
+        mechanism: &Mechanism,
+        wanted: Measure,
+    ) -> Result<f64, ValueError> {
+        let (value, bare) = self.read(mechanism, wanted)?;
+        match bare {
+            Some(error) if wanted == Measure::Angle => Err(ValueError::Unit(error)),
+            _ => Ok(value),
+        }
+    }
+
+    /// The number, and what is wrong with it if it is an angle without unit.
+    fn read(
+        &self,
+        mechanism: &Mechanism,
+        wanted: Measure,
+    ) -> Result<(f64, Option<MeasureErrorKind>), ValueError> {
         match self {
             Value::Number(value) if !value.is_finite() => {
                 Err(ValueError::NoValue(EvaluationErrorKind::NotFinite))
@@ -39,8 +61,8 @@ impl Value {
             Value::Number(value) if value.abs() > LARGEST => {
                 Err(ValueError::NoValue(EvaluationErrorKind::TooLarge(*value)))
             }
-            Value::Number(value) => Ok(*value),
-            Value::Text(text) => number(mechanism, text, wanted),
+            Value::Number(value) => Ok((*value, None)),
+            Value::Text(text) => read(mechanism, text, wanted),
             Value::Home | Value::Pose(_) => Err(ValueError::NotANumber),
         }
     }
@@ -133,6 +155,15 @@ pub enum ValueError {
 /// The value of an expression over the mechanism's parameters, in m, rad, N or N·m, and per unit of
 /// time for a rate.
 pub fn number(mechanism: &Mechanism, text: &str, wanted: Measure) -> Result<f64, ValueError> {
+    Ok(read(mechanism, text, wanted)?.0)
+}
+
+/// The same, with what is wrong with it if it is an angle without unit.
+fn read(
+    mechanism: &Mechanism,
+    text: &str,
+    wanted: Measure,
+) -> Result<(f64, Option<MeasureErrorKind>), ValueError> {
     let expression = Expression::parse(text).map_err(|error| ValueError::Parse(error.kind))?;
     let parameters = mechanism.parameters();
     let resolved = expression.try_resolve(|name, _| {
@@ -143,8 +174,10 @@ pub fn number(mechanism: &Mechanism, text: &str, wanted: Measure) -> Result<f64,
         Ok(resolved) => {
             (resolved.check_measure(wanted, &|parameter| parameter.measure))
                 .map_err(|error| ValueError::Unit(error.kind))?;
-            (resolved.evaluate(&|parameter| parameter.value))
-                .map_err(|error| ValueError::NoValue(error.kind))
+            let value = (resolved.evaluate(&|parameter| parameter.value))
+                .map_err(|error| ValueError::NoValue(error.kind))?;
+            let angle = resolved.check_angle(value, &|parameter| !parameter.bare);
+            Ok((value, angle.err().map(|error| error.kind)))
         }
         Err(names) => {
             let name = names.into_iter().next().unwrap_or_default();
@@ -176,7 +209,7 @@ pub fn pose(mechanism: &Mechanism, text: &str) -> Result<Pose<f64>, ValueError> 
         };
         let values = split_outside_parentheses(arguments)
             .into_iter()
-            .map(|value| number(mechanism, value.trim().trim_matches('"'), wanted))
+            .map(|value| Value::from(value.trim().trim_matches('"')).coordinate(mechanism, wanted))
             .collect::<Result<Vec<f64>, _>>()?;
         let step = match (word, values.as_slice()) {
             ("Tx", &[x]) => Pose::translation(Vector3([x, 0.0, 0.0])),

@@ -24,6 +24,12 @@ impl WidestGap {
     pub fn size(&self, mechanism: &Mechanism) -> f64 {
         (self.distance / mechanism.characteristic_length()).max(self.angle)
     }
+
+    /// Whether it is more than what a pose is rounded by when it is written down; beside a length in m.
+    pub fn is_wide(&self, length: f64) -> bool {
+        const ROUNDED: f64 = 1e-2;
+        self.distance > ROUNDED * length || self.angle > ROUNDED
+    }
 }
 
 /// How to look for the assembled configuration near the start of a question.

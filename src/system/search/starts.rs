@@ -7,11 +7,11 @@ use crate::mechanism::{Configuration, Joint, Mechanism, PlatformPose};
 
 /// Where random values of a joint are drawn from: its limits, or a turn, or a characteristic length
 /// to each side of home.
-pub fn sampling_range(joint: &Joint, length: f64) -> (f64, f64) {
+pub fn sampling_range(joint: &Joint, home: f64, length: f64) -> (f64, f64) {
     match joint.limits {
         Some((low, high)) if low.is_finite() && high.is_finite() => (low, high),
         _ if joint.kind.is_angle() => (-std::f64::consts::PI, std::f64::consts::PI),
-        _ => (joint.home - length, joint.home + length),
+        _ => (home - length, home + length),
     }
 }
 
@@ -23,8 +23,10 @@ pub fn random_configuration(
 ) -> Configuration<f64> {
     let length = mechanism.characteristic_length();
     let mut at = around.clone();
-    for (joint, value) in mechanism.joints().iter().zip(&mut at.joints) {
-        let (low, high) = sampling_range(joint, length);
+    let home = mechanism.home().joints;
+    let joints = mechanism.joints().iter().zip(home);
+    for ((joint, home), value) in joints.zip(&mut at.joints) {
+        let (low, high) = sampling_range(joint, home, length);
         *value = low + (high - low) * rng.random::<f64>();
     }
     for pose in &mut at.platforms {

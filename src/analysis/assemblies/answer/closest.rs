@@ -59,6 +59,7 @@ impl Question<'_> {
             gaps: Named(gaps),
             worst,
             local_minimum,
+            squared_lengths: self.mechanism.has_rods(),
             joints: named_joints(self.mechanism, &point),
             platforms: named_poses(self.mechanism, &point, true),
         })

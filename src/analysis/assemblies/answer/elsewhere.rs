@@ -39,8 +39,10 @@ impl Question<'_> {
         starts: &Starts<'_>,
     ) {
         let many = matches!(fit, Fit::TooManyHeld | Fit::AlwaysMultiple) || generic.multiple > 0;
+        let many = many && *fit != Fit::Endless;
         let first = if many { MANY_STARTS } else { STARTS };
-        if !(many || wanted.starts || matches!(fit, Fit::FreedomLeft(_))) {
+        let samples = matches!(fit, Fit::FreedomLeft(_) | Fit::Endless);
+        if !(many || wanted.starts || samples) {
             return;
         }
         let expected = many || *fit != Fit::Finite;

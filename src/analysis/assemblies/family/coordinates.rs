@@ -47,6 +47,9 @@ pub(crate) struct Coordinates {
     pub length: f64,
     /// For each joint whether its variable counts modulo a turn.
     pub periodic: Vec<bool>,
+    /// Whether a free joint turns something and never comes back to the same place, as a screw or a gear whose ratio is
+    /// no whole number: then solutions need not be finite in number.
+    pub winding: bool,
     /// Free joints, as places among the flat unknowns, by the closures that feel them: two legs meet
     /// in the poses of platforms only.
     pub legs: Vec<Vec<usize>>,
@@ -79,6 +82,9 @@ impl Coordinates {
             inputs: (joints.chain(poses).chain(targets).chain(orientations)).collect(),
             joint_scales: dimensions.joint_scales.clone(),
             length: dimensions.characteristic_length,
+            winding: (mechanism.joints().iter().enumerate()).any(|(j, joint)| {
+                !held.joints[j] && joint.kind.is_angle() && !mechanism.repeats(j)
+            }),
             periodic: (0..mechanism.joints().len())
                 .map(|j| periodic(mechanism, j))
                 .collect(),

@@ -30,6 +30,9 @@ pub struct GenericSolutions {
     pub quiet_seeds: usize,
     /// Loops since the last discovery in which no path was lost.
     pub quiet_loops: usize,
+    /// Whether every seed led to another solution: they are not finite in number, and none is kept.
+    #[serde(default, skip_serializing_if = "std::ops::Not::not")]
+    pub endless: bool,
     /// Whether the search ended at its limits and not because nothing more was found.
     pub exhausted: bool,
     /// The random seed.

@@ -1,0 +1,50 @@
+//! Values at which what is missing from a question can be held.
+
+use super::Question;
+use crate::mechanism::Configuration;
+use crate::solve::{Newton, Watch};
+use crate::system::Search;
+
+/// Random starts for an assembly to take values from.
+const RESTARTS: usize = 20;
+
+/// A coordinate with a value at which it can be held.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Holdable {
+    /// Its name.
+    pub name: String,
+    /// The value, rad or m; `None` for the value in the file.
+    pub value: Option<f64>,
+    /// Whether it is an angle.
+    pub is_angle: bool,
+}
+
+impl Question {
+    /// Values at which coordinates can be held beside what is held: those of the file if the mechanism assembles with
+    /// them, otherwise those that they have where it assembles. `None` if no assembly was found.
+    pub fn holdable(&self, names: &[String]) -> Option<Vec<Holdable>> {
+        let found = |question: &Question| -> Option<Configuration<f64>> {
+            let resolved = question.resolved().ok()?;
+            let newton = Newton::default();
+            let found = Search::new(&resolved, &newton).run(RESTARTS, self.seed, &Watch::none());
+            found.assembles().then_some(found.attempt.at)
+        };
+        let with_home = names
+            .iter()
+            .fold(self.clone(), |question, name| question.hold(name, "home"));
+        let there = match found(&with_home) {
+            Some(_) => None,
+            None => Some(found(self)?),
+        };
+        let resolved = self.resolved().ok()?;
+        let holdable = |name: &String| {
+            let (coordinate, _) = resolved.value(name, "home").ok()?;
+            Some(Holdable {
+                name: name.clone(),
+                value: there.as_ref().map(|at| coordinate.of(at)),
+                is_angle: coordinate.is_angle(&self.mechanism),
+            })
+        };
+        names.iter().map(holdable).collect()
+    }
+}

@@ -1,0 +1,58 @@
+//! Infinitely many generic solutions are noticed instead of collected.
+
+use linkwork::analysis::assemblies::{Fit, Wanted};
+use linkwork::ask::Question;
+use linkwork::description::Description;
+use linkwork::mechanism::Mechanism;
+use linkwork::solve::Watch;
+
+/// A five-bar whose cranks are geared with a ratio; a point of it is held instead of the crank.
+fn geared(ratio: &str) -> Question {
+    let text = format!(
+        r#"Mechanism(
+            version: 1, name: "geared five-bar", convention: Modified,
+            parameters: {{ "l0": 1.0, "l1": 0.4, "l2": 1.1, "n": "{ratio}" }},
+            joints: {{ "q": Actuated(home: "60 deg"), "a": Passive(), "b": Passive(home: "10 deg") }},
+            chains: {{
+                "left": Chain(rows: [(theta: "q"), (a: "l1", theta: "a")], tip: [Tx("l2")]),
+                "right": Chain(
+                    base: [Tx("l0")],
+                    rows: [(theta: "n*q + 100 deg"), (a: "l1", theta: "b")],
+                    tip: [Tx("l2")],
+                ),
+            }},
+            platforms: {{ "p": Platform(home: [T(0.5, 1, 0)]) }},
+            closures: {{
+                "c": Revolute("left", "right"), "on": Spherical("left", "p"), "flat": Planar("p", "ground"),
+            }},
+        )"#
+    );
+    let mechanism = Mechanism::new(&Description::read(&text).unwrap()).unwrap();
+    Question::new(mechanism)
+        .free("q")
+        .hold("p.x", 0.5)
+        .hold("p.yaw", 0.0)
+}
+
+#[test]
+fn a_gear_whose_ratio_is_no_fraction_has_no_finite_number_of_assemblies() {
+    let report = geared("sqrt(2)").assemblies(Wanted::default(), &Watch::none());
+    let report = report.unwrap();
+    assert_eq!(report.fit, Fit::Endless);
+    assert!(report.seeds < 2500, "{} seeds", report.seeds);
+    assert!(report.real > 0);
+}
+
+#[test]
+fn with_the_crank_held_or_a_whole_ratio_their_number_is_finite() {
+    let held = geared("sqrt(2)");
+    let mechanism = (**held.mechanism()).clone();
+    let question = Question::new(mechanism).hold("p.yaw", 0.0);
+    let report = question
+        .assemblies(Wanted::default(), &Watch::none())
+        .unwrap();
+    // two circles meet in two points
+    assert_eq!((report.fit, report.complex), (Fit::Finite, 2));
+    let report = geared("2").assemblies(Wanted::default(), &Watch::none());
+    assert_eq!(report.unwrap().fit, Fit::Finite);
+}
