@@ -523,7 +523,7 @@ fn questions_that_make_no_sense_are_told_what_to_ask_instead() {
         ),
         (
             &["velocity", FOUR_BAR, "--free", "theta1"],
-            "--hold theta1=home",
+            "leave out --free theta1",
         ),
         (&["velocity", FOUR_BAR, "--hold", "phi1=home"], "--free"),
         (
@@ -583,7 +583,7 @@ fn questions_that_make_no_sense_are_told_what_to_ask_instead() {
         (&["statics", FOUR_BAR, "--load", "phi3=1"], "did you mean"),
         (
             &["statics", FOUR_BAR, "--free", "theta1"],
-            "--hold theta1=home",
+            "leave out --free theta1",
         ),
         (
             &["mobility", FOUR_BAR, "--hold", "theta9=1"],

@@ -767,7 +767,7 @@ fn questions_that_make_no_sense_are_told_what_to_ask_instead() {
             &[
                 "mechanisms/planar_2r.ron",
                 "--map",
-                "theta1=0..1e9",
+                "theta1=0..1e9rad",
                 "--hold",
                 "theta2=10deg",
             ],
