@@ -1,4 +1,4 @@
-//! Reports are plain data: what a command prints as JSON is its report type and nothing else.
+//! Reports are plain data: what a command prints as JSON is its report in an envelope of its own type, and nothing else.
 
 use std::path::{Path, PathBuf};
 
@@ -19,6 +19,7 @@ use linkwork::analysis::statics::StaticsReport;
 use linkwork::analysis::sweep::{CircuitsReport, MotionsReport};
 use linkwork::analysis::velocity::VelocityReport;
 use linkwork::analysis::workspace::WorkspaceReport;
+use linkwork::output::json::Answer;
 
 fn shipped(folder: &str) -> Vec<PathBuf> {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join(folder);
@@ -29,26 +30,11 @@ fn shipped(folder: &str) -> Vec<PathBuf> {
     files
 }
 
-/// What is printed beside the report: the program's version and sentences made from the report.
-const SAID: [&str; 6] = [
-    "linkwork",
-    "sentence",
-    "note",
-    "completeness",
-    "explanation",
-    "redundant_constraints",
-];
-
-/// Leaves out sentences, and signs of zeros, which are not printed.
-fn report_only(value: &mut Value) {
+/// Leaves out signs of zeros, which are not printed.
+fn unsigned(value: &mut Value) {
     match value {
-        Value::Object(fields) => {
-            SAID.iter().for_each(|said| {
-                fields.shift_remove(*said);
-            });
-            fields.values_mut().for_each(report_only);
-        }
-        Value::Array(parts) => parts.iter_mut().for_each(report_only),
+        Value::Object(fields) => fields.values_mut().for_each(unsigned),
+        Value::Array(parts) => parts.iter_mut().for_each(unsigned),
         Value::Number(number) if number.as_f64() == Some(0.0) && number.is_f64() => {
             *value = 0.0.into();
         }
@@ -66,17 +52,16 @@ fn round<R: Serialize + DeserializeOwned>(arguments: &[&str]) -> Option<R> {
         return None;
     }
     let text = String::from_utf8(output.stdout).unwrap();
-    let mut printed: Value = serde_json::from_str(&text).unwrap();
+    let printed: Value = serde_json::from_str(&text).unwrap();
     if printed.get("closed").is_some() {
         return None;
     }
     let what = arguments.join(" ");
-    let report: R = serde_json::from_str(&text).unwrap_or_else(|e| panic!("{what}: {e}"));
-    let mut again = serde_json::to_value(&report).unwrap();
-    report_only(&mut printed);
-    report_only(&mut again);
+    let answer: Answer<R> = serde_json::from_str(&text).unwrap_or_else(|e| panic!("{what}: {e}"));
+    let mut again = serde_json::to_value(&answer).unwrap();
+    unsigned(&mut again);
     assert_eq!(printed, again, "{what}");
-    Some(report)
+    Some(answer.report)
 }
 
 /// Every shipped mechanism file through one command, each of which must give some reports.
