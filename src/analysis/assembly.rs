@@ -131,7 +131,7 @@ pub struct AssemblyReport {
     pub platforms: Named<PlatformRecord>,
     /// Tip frames of the chains there.
     pub frames: Named<FrameRecord>,
-    /// For each closure how far it is from being whole.
+    /// For each closure how far it is open.
     pub gaps: Named<Gap>,
     /// The joint variables.
     pub variables: Vec<JointVariable>,

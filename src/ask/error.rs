@@ -36,7 +36,7 @@ pub enum Role {
     Load,
 }
 
-/// A part of a question: the how-manieth of its role, from 0.
+/// A part of a question: its role and its index among those of that role, from 0.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Item {
     /// Its role.
@@ -75,7 +75,7 @@ impl Role {
     }
 }
 
-/// Why a question has no answer as it is posed. Who asks puts it right.
+/// Why a question has no answer as it is posed.
 #[derive(Clone, Debug, PartialEq, Error)]
 #[non_exhaustive]
 pub enum AskError {

@@ -1,5 +1,5 @@
-//! What is said of questions that have no answer as they are posed, with the options that would put them right. What is
-//! wrong the library says; options are named here alone.
+//! Messages for questions that have no answer as posed, with the options that would put them right. The library says
+//! what is wrong; only this module names options.
 
 pub mod question;
 

@@ -1,5 +1,5 @@
 //! Sine and cosine of a real angle and the angle of a point in the plane without branches, and
-//! hyperbolic sisters, the same on every machine.
+//! hyperbolic functions, bit for bit the same on every machine.
 
 /// Beyond this the three-part reduction loses digits, and the correctly rounding library serves.
 const REDUCIBLE: f64 = 1e5;

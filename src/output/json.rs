@@ -28,7 +28,7 @@ pub struct Envelope {
     /// The answer in words; absent where the report is all there is to say.
     #[serde(default, skip_serializing_if = "String::is_empty")]
     pub sentence: String,
-    /// What more is said.
+    /// Further sentences.
     #[serde(flatten)]
     pub remarks: Remarks,
 }

@@ -1,4 +1,4 @@
-//! Numbers as people read them; JSON keeps every digit instead. Here units leave the program.
+//! Numbers as people read them; JSON keeps every digit. Every unit that is printed comes from here.
 
 use crate::algebra::SiUnit;
 use crate::mechanism::Variable;

@@ -33,7 +33,7 @@ pub enum Zlatanov {
     PassiveMotion,
 }
 
-/// What is singular about a configuration; nothing may be.
+/// What is singular about a configuration; empty at a regular one.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Singularity {
     /// The type of Gosselin and Angeles 1990: 1 inverse, 2 direct, 3 both; `None` if neither.

@@ -25,7 +25,11 @@ pub(super) fn with_sliders(tree: &Tree) -> (Tree, Vec<Remark>) {
             ClosureKind::Prismatic => vec![slide("slide", 2, z)],
             ClosureKind::Cylindrical => vec![slide("slide", 2, z), turn()],
             ClosureKind::Planar => vec![slide("x", 0, x), slide("y", 1, y), turn()],
-            _ => continue,
+            ClosureKind::Revolute
+            | ClosureKind::Spherical
+            | ClosureKind::Universal
+            | ClosureKind::Rigid
+            | ClosureKind::Distance => continue,
         };
         let joints = freedoms
             .into_iter()

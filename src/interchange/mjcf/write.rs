@@ -119,8 +119,11 @@ impl Page<'_> {
                 return Some(Remark::ZeroDistance { closure });
             }
             ClosureKind::Distance => self.tendon(name, &sites, &length),
-            // the others were replaced by sliders
-            _ => self.join("weld", name, &sites),
+            // sliders have replaced all but `Rigid`
+            ClosureKind::Rigid
+            | ClosureKind::Prismatic
+            | ClosureKind::Cylindrical
+            | ClosureKind::Planar => self.join("weld", name, &sites),
         }
         None
     }

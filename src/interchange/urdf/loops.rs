@@ -127,7 +127,10 @@ impl LoopReader<'_> {
             self.problems.missing(node, needs.into());
             return None;
         };
-        let mut axes = [Vector3::unit(0); 2];
+        let mut axes = match kind {
+            "universal" => [Vector3::unit(0), Vector3::unit(1)],
+            _ => [Vector3::unit(0); 2],
+        };
         let mut sides = Vec::new();
         for (side, end) in [first, second].into_iter().enumerate() {
             let name = end.tag_name().name();
@@ -193,17 +196,28 @@ impl LoopReader<'_> {
                 return self.problems.unsupported(what, help, part);
             }
         }
-        let mut axis = Vector3::unit(2);
-        if let Some(part) = child(node, "axis").and_then(|axis| child(axis, "xyz")) {
-            let v = numbers(self.problems, part, 3)?;
-            let joint = node.attribute("name").unwrap_or("joint");
-            let (along, example) = ([v[0], v[1], v[2]], "<xyz>0 0 1</xyz>");
-            axis = self.problems.axis(along, joint, example, part)?;
+        // a universal joint has a second axis, which the child carries
+        let names = match kind {
+            "universal" => ["axis", "axis2"],
+            _ => ["axis"; 2],
+        };
+        let mut axes = [Vector3::unit(2); 2];
+        for (axis, name) in axes.iter_mut().zip(names) {
+            if let Some(part) = child(node, name).and_then(|axis| child(axis, "xyz")) {
+                let v = numbers(self.problems, part, 3)?;
+                let joint = node.attribute("name").unwrap_or("joint");
+                let (along, example) = ([v[0], v[1], v[2]], "<xyz>0 0 1</xyz>");
+                *axis = self.problems.axis(along, joint, example, part)?;
+            } else if name == "axis2" {
+                let needs = "a second axis, an element `axis2`".to_owned();
+                self.problems.missing(node, needs);
+                return None;
+            }
         }
         let poses = self.tree.poses(|joint| joint.reference);
-        let frame = pose * along_z(&axis);
-        let on_parent = poses[parent].inverse() * poses[child_body] * frame;
-        let ends = [(parent, on_parent), (child_body, frame)];
+        let [on_parent, on_child] = axes.map(|axis| pose * along_z(&axis));
+        let on_parent = poses[parent].inverse() * poses[child_body] * on_parent;
+        let ends = [(parent, on_parent), (child_body, on_child)];
         Some((kind_of(kind), ends))
     }
 }

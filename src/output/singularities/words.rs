@@ -8,7 +8,7 @@ use crate::analysis::singularities::{
 use crate::description::{count, listed};
 use crate::output::quantity::{at, form, range};
 
-/// What is driven and what moves out.
+/// The inputs and outputs.
 pub(super) fn split(inputs: &[String], outputs: &[String]) -> String {
     let input = form(inputs.len(), "Input", "Inputs");
     let output = form(outputs.len(), "output", "outputs");

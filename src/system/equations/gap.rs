@@ -2,7 +2,7 @@ use crate::description::ClosureKind;
 use crate::geometry::Quaternion;
 use crate::mechanism::{Configuration, Mechanism};
 
-/// How far a closure is from being whole.
+/// How far a closure is open.
 #[derive(Clone, Copy, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
 pub struct Gap {
     /// Distance in m: between the origins, or what a `Distance` differs by, or along the blocked

@@ -1,4 +1,4 @@
-//! What is driven and what moves out, where a question does not name it.
+//! Inputs and outputs of a question that does not name them.
 //!
 //! Velocities have rows for all that is free ([`free_outputs`]); singularities ask what stands still
 //! ([`platform_outputs`], [`default_outputs`]); maps need as many coordinates as are held

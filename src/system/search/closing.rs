@@ -8,7 +8,7 @@ use crate::mechanism::{Configuration, Mechanism};
 use crate::solve::{Equations, Newton, Stop, Watch};
 use crate::system::{Gap, Held, Question, QuestionError, System, check_count};
 
-/// How far a closure of a given pose is from being whole.
+/// How far a closure of a given pose is open.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct WidestGap {
     /// Name of the closure.

@@ -129,7 +129,7 @@ impl Search<'_> {
             {
                 return Some(false);
             }
-            if self.is_stopped_sowing() {
+            if self.is_stopped_in_seeds() {
                 return Some(true);
             }
             self.newton_seeds(&still);
@@ -148,7 +148,7 @@ impl Search<'_> {
                 return Some(false);
             }
             while self.found.quiet_loops > 0 && self.found.quiet_seeds < self.settings.quiet_seeds {
-                if self.found.seeds >= self.settings.most_seeds || self.is_stopped_sowing() {
+                if self.found.seeds >= self.settings.most_seeds || self.is_stopped_in_seeds() {
                     return Some(true);
                 }
                 self.newton_seeds(&still);
@@ -242,7 +242,7 @@ impl Search<'_> {
         }
     }
 
-    fn is_stopped_sowing(&self) -> bool {
+    fn is_stopped_in_seeds(&self) -> bool {
         let found = self.found.count();
         (self.watch).stops(Stage::Seeds { found }, self.found.seeds, None)
     }
