@@ -28,11 +28,11 @@ pub use question::{
 };
 pub use record::{FormulaNames, FrameRecord, Named, PlatformRecord, infinite_if_null};
 pub use search::{
-    Analysed, Attempt, Closed, Closing, NotClosed, Search, Searched, TooLarge, WidestGap, close,
-    random_configuration, sampling_range, too_large,
+    Analysed, Attempt, Closed, Closing, Moved, NotClosed, Search, Searched, TooLarge, WidestGap,
+    close, random_configuration, sampling_range, too_large,
 };
 pub use tangent::{
-    FiniteStep, FrameMotion, FrameMotions, FrameTwists, Freedoms, Lock, Locked, LoopPart,
+    FiniteStep, FrameMotion, FrameMotions, FrameTwists, Freedoms, Lasting, Lock, Locked, LoopPart,
     MechanismLoop, Mobility, Motion, Neighbourhood, STILL, Screw, Tangent, Twist, TwistSpace,
     loops, moving, spin_lines, without, wrench_screws,
 };

@@ -18,7 +18,7 @@ use crate::linear::axis_aligned;
 use crate::mechanism::{ClosureKind, Mechanism, Variable};
 use crate::solve::{Newton, Stage, Watch};
 use crate::system::{
-    Analysed, Closing, Named, Neighbourhood, Question, STILL, Tangent, TwistSpace, Unknown,
+    Analysed, Closing, Lasting, Moved, Named, Neighbourhood, Question, STILL, TwistSpace, Unknown,
     WidestGap, random_configuration,
 };
 
@@ -77,6 +77,13 @@ pub struct MobilityReport {
     pub idle_joints: Vec<String>,
     /// Those of the idle joints that spin a link about its own axis.
     pub spinning_joints: Vec<String>,
+    /// Joints that only turn in place at the configuration, though they move links beside it:
+    /// those in gimbal lock.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub locked_joints: Vec<String>,
+    /// How many freedoms are lost so at the configuration.
+    #[serde(default, skip_serializing_if = "is_zero")]
+    pub locked: usize,
     /// Joints that move.
     pub moving_joints: Vec<String>,
     /// Joint values of the closed configuration, rad or m.
@@ -116,6 +123,10 @@ pub struct MobilityReport {
     /// The widest gap of the pose given, before it was closed.
     #[serde(rename = "given_gap")]
     pub given: Option<WidestGap>,
+    /// What moved most from the values guessed, or from a pose of the file that was more than
+    /// rounded.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub moved: Option<Moved>,
     /// Whether joints held by the file kept their values when the mechanism was closed.
     pub kept: bool,
     /// Names of the joints that are outside their limits.
@@ -217,6 +228,11 @@ pub fn mobility(
     };
     let mut near = Neighbourhood::new(mechanism);
     let tangent = near.tangent(closed.configuration.clone());
+    let Lasting {
+        tangent,
+        locked,
+        idle_beside,
+    } = tangent.lasting(&mut near);
     let mut rng = Pcg64Mcg::seed_from_u64(settings.seed);
     let found = branches::find(&mut near, &tangent, (settings, watch), &mut rng);
     let (rows, unknowns) = (near.system().rows(), near.system().unknowns().len());
@@ -240,7 +256,7 @@ pub fn mobility(
         })
         .collect();
     let redundancies = redundancy::find(&mut near, &tangent);
-    let idle_freedoms = idle_freedoms(mechanism, near.system().unknowns(), &tangent);
+    let idle_freedoms = idle_freedoms(mechanism, near.system().unknowns(), &idle_beside);
     let idle_joints: Vec<String> = (mechanism.joints().iter())
         .map(|joint| joint.name.clone())
         .filter(|name| !moving_joints.contains(name))
@@ -258,6 +274,8 @@ pub fn mobility(
         idle_joints,
         outside_limits: closed.outside_limits(mechanism),
         moving_joints,
+        locked_joints: turning(mechanism, near.system().unknowns(), &locked),
+        locked: locked.len(),
         joints: mechanism.named_joints(&closed.configuration.joints),
         character: found.character,
         branches,
@@ -281,6 +299,7 @@ pub fn mobility(
         },
         length: mechanism.characteristic_length(),
         given: closed.given.filter(|gap| gap.size(mechanism) > 1e-9),
+        moved: closed.moved,
         kept: closed.kept,
         gap_after_step: found.gap,
         interrupted: false,
@@ -314,7 +333,7 @@ fn elsewhere(
         if here.character == Character::Regular && near.rank(&at) == here.rank {
             continue;
         }
-        let tangent = near.tangent(at);
+        let tangent = near.tangent(at).lasting(near).tangent;
         let freedoms = tangent.motions.len();
         if freedoms == here.mobility || found.iter().any(|other| other.mobility == freedoms) {
             continue;
@@ -331,13 +350,30 @@ fn elsewhere(
     found
 }
 
+/// Whether a count is left out of a report.
+fn is_zero(count: &usize) -> bool {
+    *count == 0
+}
+
+/// The joints that turn in any of some motions.
+fn turning(mechanism: &Mechanism, unknowns: &[Unknown], motions: &[Vec<f64>]) -> Vec<String> {
+    /// Below this a component of a unit motion is that of another one, mixed in.
+    const MIXED: f64 = 1e-2;
+    let places = (0..unknowns.len()).filter(|&i| motions.iter().any(|m| m[i].abs() > MIXED));
+    let names = places.filter_map(|i| match unknowns[i] {
+        Unknown::Joint(joint) => Some(mechanism.joints()[joint].name.clone()),
+        Unknown::Twist { .. } => None,
+    });
+    names.collect()
+}
+
 /// The local freedoms of the model, then one for each rod between two balls.
 fn idle_freedoms(
     mechanism: &Mechanism,
     unknowns: &[Unknown],
-    tangent: &Tangent,
+    idle: &[Vec<f64>],
 ) -> Vec<LocalFreedom> {
-    let spins = axis_aligned(&tangent.idle);
+    let spins = axis_aligned(idle);
     let link = |motion: &Vec<f64>| {
         let (mut platforms, mut joints): (Vec<String>, Vec<String>) = (vec![], vec![]);
         let turning = (unknowns.iter().zip(motion)).filter(|(_, rate)| rate.abs() > STILL);

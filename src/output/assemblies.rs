@@ -40,8 +40,7 @@ impl Report for AssembliesReport {
     }
 
     fn is_yes(&self) -> bool {
-        let fits = matches!(self.fit, Fit::Finite | Fit::FreedomLeft(_));
-        self.real > 0 && self.lost == 0 && self.unexpected == 0 && fits
+        self.real > 0 && !self.may_lack_some()
     }
 }
 
@@ -57,9 +56,14 @@ fn sentence(report: &AssembliesReport) -> String {
             let are = form(*freedom, "is", "are");
             let isolated = report.assemblies.iter().filter(|a| a.multiplicity > 0);
             let isolated = isolated.count();
+            if isolated == report.real {
+                return format!(
+                    "{real} found, isolated at the limit of what is possible, while in general {left} \
+                     left with what is held."
+                );
+            }
             let listed = match report.real - isolated {
                 _ if isolated == 0 => format!("{real} listed as samples"),
-                0 => format!("{real} listed, all isolated"),
                 samples => format!(
                     "{} and {} of the others listed",
                     count(isolated, "isolated assembly"),
@@ -231,6 +235,14 @@ pub fn completeness(report: &AssembliesReport) -> String {
         parts.push(format!(
             "no path led to {} found from other starts: the list may be incomplete",
             count(report.unexpected, "assembly")
+        ));
+    }
+    if report.conjugates > 0 {
+        parts.push(format!(
+            "{} to which no path led {} the conjugate of another one: the search missed as many, and \
+             others may be missing",
+            count(report.conjugates, "complex solution"),
+            form(report.conjugates, "is", "are each")
         ));
     }
     if report.lost > 0 {

@@ -1,11 +1,11 @@
 //! Words about closing a mechanism before it is analysed.
 
 use super::document::Document;
-use super::quantity::{degrees, form, metres};
+use super::quantity::{degrees, form, metres, quantity};
 use super::report::{Remarks, Report, Rows};
 use crate::description::listed;
 use crate::linear::SPECTRUM_LIMIT;
-use crate::system::{Analysed, NotClosed, TooLarge, WidestGap};
+use crate::system::{Analysed, Moved, NotClosed, TooLarge, WidestGap};
 
 /// `0.213 m and 4.2°`
 pub(super) fn gap(distance: f64, angle: f64) -> String {
@@ -43,6 +43,34 @@ pub(super) fn given(given: Option<&WidestGap>, kept: bool) -> Option<String> {
 /// little, but a file that cannot be assembled was answered for another mechanism.
 pub fn is_about_the_file(kept: bool, given: Option<&WidestGap>, length: f64) -> bool {
     kept || given.is_none_or(|given| !given.is_wide(length))
+}
+
+/// The answer, which begins with how far the pose given had to move if that is more than rounding.
+pub(super) fn after_moving(moved: Option<&Moved>, answer: String) -> String {
+    match moved.filter(|moved| !moved.is_small()) {
+        Some(moved) => format!(
+            "The pose given is not assembled, and the nearest assembly is not beside it: {}. {answer}",
+            way(moved)
+        ),
+        None => answer,
+    }
+}
+
+/// How far the guesses moved to an assembly beside them.
+pub(super) fn beside(moved: Option<&Moved>) -> Option<String> {
+    let moved = moved.filter(|moved| moved.is_small())?;
+    Some(format!(
+        "assembled beside the pose given: {}, the most",
+        way(moved)
+    ))
+}
+
+fn way(moved: &Moved) -> String {
+    format!(
+        "{} moved by {}",
+        moved.name,
+        quantity(moved.distance, moved.unit)
+    )
 }
 
 /// The warning that joints are outside their limits.

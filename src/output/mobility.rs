@@ -33,12 +33,15 @@ impl Report for MobilityReport {
             false => twist_table(&[]),
         };
         let shown = self.branches.iter().enumerate().take(SHOWN);
-        let document = Document::new(&self.mechanism, words::mobility(self))
+        let answer = closing::after_moving(self.moved.as_ref(), words::mobility(self));
+        let document = Document::new(&self.mechanism, answer)
             .interrupted(self.interrupted, "branches and other assemblies")
             .note(words::counted(self))
             .notes(idle)
+            .notes(words::locked(self))
             .notes(elsewhere)
             .notes(closing::given(self.given.as_ref(), self.kept))
+            .notes(closing::beside(self.moved.as_ref()))
             .section(joints(self))
             .section(
                 Section::new(

@@ -26,12 +26,15 @@ impl Report for SingularitiesReport {
     fn document(&self) -> Document {
         let singularity = &self.singularity;
         let answer = words::sentence(singularity, &self.inputs, &self.outputs);
+        let moved = self.moved.as_ref();
+        let answer = closing::after_moving(moved, answer);
         let at = values(&self.variables, &self.joints);
         let at = (!at.is_empty()).then(|| format!("at {}", at.join(", ")));
         Document::new(&self.mechanism, answer)
             .note(words::split(&self.inputs, &self.outputs))
             .notes(note(&self.coupled))
             .notes(closing::given(self.given_gap.as_ref(), self.kept))
+            .notes(closing::beside(moved))
             .notes(at)
             .sections(details(singularity))
             .section(distances(&singularity.distances, self.normalising_length))

@@ -6,13 +6,14 @@ mod loops;
 mod motion;
 mod neighbourhood;
 mod screws;
+mod shake;
 mod twists;
 
 pub use freedom::{Freedoms, Mobility, moving};
 pub use locked::{Lock, Locked};
 pub use loops::{LoopPart, MechanismLoop, loops};
 pub use motion::{FrameMotion, FrameMotions, Motion};
-pub use neighbourhood::{FiniteStep, Neighbourhood, Tangent};
+pub use neighbourhood::{FiniteStep, Lasting, Neighbourhood, Tangent};
 pub use screws::{Screw, TwistSpace, spin_lines, without, wrench_screws};
 /// Components of a motion of unit norm, in rad and characteristic lengths, below this are rounding: a
 /// null space is known to about [`RANK_TOLERANCE`](crate::linear::RANK_TOLERANCE), with a digit to spare.

@@ -1,15 +1,20 @@
 //! The other analyses, each against closed forms and published values.
 
 mod closed_reports;
+mod closing;
 mod comparison;
 mod conversion;
+mod cylinders;
 mod formulas;
 mod frames;
+mod gimbal_lock;
 mod lengths;
 mod mobility;
 mod modes;
+mod rank;
 mod reports;
 mod singularities;
+mod spins;
 mod statics;
 mod sweep;
 mod told;

@@ -173,6 +173,11 @@ pub struct AssembliesReport {
     pub multiple: usize,
     /// Paths whose end could not be decided. Anything but 0 means that the list may be incomplete.
     pub lost: usize,
+    /// Complex solutions to which no path led, but one to their conjugates, which for real inputs are
+    /// solutions too. Anything but 0 means that the search missed some, and the list may be
+    /// incomplete.
+    #[serde(default, skip_serializing_if = "is_zero")]
+    pub conjugates: usize,
     /// Paths that had to be followed again with greater care.
     pub retried: usize,
     /// Paths followed: as many as generic solutions, or fewer where legs close apart from one
@@ -223,4 +228,17 @@ pub struct ComplexAssembly {
     /// Quotient of the largest and the smallest singular value of the dimensionless closure
     /// Jacobian; `null` where solutions meet.
     pub condition: Option<f64>,
+}
+
+fn is_zero(count: &usize) -> bool {
+    *count == 0
+}
+
+impl AssembliesReport {
+    /// Whether an isolated assembly may be missing.
+    pub fn may_lack_some(&self) -> bool {
+        let missed = [self.lost, self.unexpected, self.multiple, self.conjugates];
+        let listed = matches!(self.fit, Fit::Finite | Fit::FreedomLeft(_));
+        !listed || missed != [0; 4] || self.exhausted && self.fit == Fit::Finite
+    }
 }

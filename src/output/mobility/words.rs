@@ -10,7 +10,8 @@ use crate::output::quantity::{coarse, form, metres, signed, triple, values};
 
 /// The answer: how many freedoms, and why that is not what counting says.
 pub(super) fn explanation(report: &MobilityReport) -> String {
-    let mut sentences = vec![mobility(report), counted(report)];
+    let answer = closing::after_moving(report.moved.as_ref(), mobility(report));
+    let mut sentences = vec![answer, counted(report)];
     if !report.redundancies.is_empty() {
         let redundant: Vec<String> = report.redundancies.iter().map(redundancy).collect();
         let verb = form(report.redundant, "is", "are");
@@ -43,9 +44,27 @@ pub(super) fn explanation(report: &MobilityReport) -> String {
         let stand = form(still.len(), "stands", "stand");
         sentences.push(format!("{} {stand} still.", listed(&still)));
     }
+    sentences.extend(locked(report));
     sentences.extend((report.elsewhere.iter()).map(|other| elsewhere(report, other)));
     sentences.extend(closing::given(report.given.as_ref(), report.kept));
     sentences.join(" ")
+}
+
+/// What is special about the configuration though its freedoms are all there.
+pub(super) fn locked(report: &MobilityReport) -> Option<String> {
+    let (locked, all) = (report.locked, report.infinitesimal);
+    let turn = match report.locked_joints.len() {
+        1 => "turns",
+        _ => "turn",
+    };
+    (locked > 0).then(|| {
+        format!(
+            "The configuration is special, as in gimbal lock: {} {turn} there without moving \
+             anything else, so that links move with {} of the {all} freedoms only.",
+            listed(&report.locked_joints),
+            all - locked.min(all),
+        )
+    })
 }
 
 /// Joints that stand still in every motion, idle ones too.
