@@ -4,6 +4,7 @@ mod closed_reports;
 mod comparison;
 mod conversion;
 mod formulas;
+mod cylinders;
 mod frames;
 mod mobility;
 mod modes;

@@ -41,7 +41,7 @@ impl Flood<'_> {
         let settled = settled.iter().flat_map(Arrivals::iter);
         for ((node, _), arrival) in seeds.iter().zip(settled) {
             if let Some(arrival) = arrival
-                && spread.known(self, *node, arrival.at).is_none()
+                && spread.known(self, *node, arrival).is_none()
             {
                 spread.add(self, *node, arrival);
             }
@@ -223,7 +223,7 @@ impl Flood<'_> {
         let Some(node) = self.grid.neighbour(spread.solution(from).node, d) else {
             return;
         };
-        let known = spread.known(self, node, arrival.at);
+        let known = spread.known(self, node, arrival);
         let to = known.unwrap_or_else(|| spread.add(self, node, arrival));
         spread.link(from, d, to);
     }

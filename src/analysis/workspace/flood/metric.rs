@@ -6,6 +6,7 @@ use std::f64::consts::PI;
 use super::arrivals::Moving;
 use super::step::SURE;
 use crate::analysis::workspace::problem::MapProblem;
+use crate::linear::norm;
 use crate::mechanism::{ConfigurationRef, Role, turn_near};
 use crate::solve::SolutionCurve;
 use crate::system::{Coordinate, Curve, Held, Unknown};
@@ -103,6 +104,34 @@ impl Metric {
         self.seen_length(step.into_iter()) < SAME
     }
 
+    /// Whether two configurations of one node are the same, so far as modes are concerned, and not
+    /// of two modes that meet there by chance, as the lengths of cylinders are equal for an arm
+    /// bent to the one and to the other side: from there these go on in different ways.
+    pub fn meets(&self, a: Moving, b: Moving) -> bool {
+        /// What conditioning leaves of the motions of one mode.
+        const ALIKE: f64 = 1e-4;
+        if !self.same(a.at, b.at) {
+            return false;
+        }
+        if self.apart(a.at, b.at) < SAME {
+            return true;
+        }
+        let (mut change, mut size) = (0.0, 0.0);
+        let of_modes = self.seen.iter().cycle();
+        for ((a, b), seen) in a.motions.iter().zip(b.motions).zip(of_modes) {
+            change += seen * (a - b) * (a - b);
+            size += seen * f64::max(a * a, b * b);
+        }
+        change <= ALIKE * ALIKE * size
+    }
+
+    /// How far two configurations are apart in all unknowns.
+    pub fn apart(&self, a: ConfigurationRef<f64>, b: ConfigurationRef<f64>) -> f64 {
+        let mut step = vec![0.0; self.free.unknowns()];
+        self.free.difference_but_turns_into(a, b, &mut step);
+        norm(&step)
+    }
+
     fn seen_length(&self, step: impl Iterator<Item = f64>) -> f64 {
         let squares = step.zip(&self.seen).map(|(x, seen)| seen * x * x);
         squares.sum::<f64>().sqrt()
@@ -132,6 +161,10 @@ impl Metric {
 
     /// Whether each of two configurations lies where the tangent of the other predicts it
     /// of that, and the motions are [alike](Self::alike).
+    ///
+    /// All joints must lie there, also those that do not distinguish modes: what does may be near
+    /// by chance, as the lengths of two cylinders are about the same on both sides of the arm that
+    /// they move. Where legs are folded otherwise, a step decides.
     pub fn linked(&self, ahead: &Ahead, to: Moving, storage: &mut Vec<f64>) -> bool {
         let from = ahead.from;
         // most that lie elsewhere are recognised by one joint
@@ -147,8 +180,14 @@ impl Metric {
         let step = &mut storage[..];
         self.free.difference_but_turns_into(from.at, to.at, step);
         let near = |ahead: &Ahead| {
-            let both = ahead.motion.iter().zip(&*step);
-            self.seen_length(both.map(|(x, d)| d - x * ahead.factor)) <= ahead.miss
+            let (mut seen, mut all) = (0.0, 0.0);
+            for ((x, d), of_modes) in ahead.motion.iter().zip(&*step).zip(&self.seen) {
+                let squared = (d - x * ahead.factor).powi(2);
+                seen += of_modes * squared;
+                all += squared;
+            }
+            let reach = SURE * ahead.factor.abs() * norm(ahead.motion) + SAME;
+            seen <= ahead.miss * ahead.miss && all <= reach * reach
         };
         near(ahead)
             && near(&self.ahead(to, ahead.axis, ahead.change))

@@ -6,7 +6,7 @@ use super::reached::{Name, NodeSolution, Signs, signs};
 use super::step::{SURE, Start, Steps};
 use crate::analysis::workspace::problem::{Grid, MOST_AXES, MapProblem};
 use crate::linear::{Factorable, norm};
-use crate::mechanism::{Configuration, ConfigurationRef};
+use crate::mechanism::Configuration;
 use crate::number::Packed;
 use crate::solve::Pool;
 
@@ -66,10 +66,10 @@ impl Flood<'_> {
     /// Which of the solutions of a node has this configuration.
     pub(crate) fn known<'s>(
         &self,
-        mut solutions: impl Iterator<Item = (Name, ConfigurationRef<'s, f64>)>,
-        at: ConfigurationRef<f64>,
+        mut solutions: impl Iterator<Item = (Name, Moving<'s>)>,
+        at: Moving,
     ) -> Option<Name> {
-        let known = solutions.find(|(_, known)| self.metric.same(*known, at));
+        let known = solutions.find(|(_, known)| self.metric.meets(*known, at));
         known.map(|(name, _)| name)
     }
 

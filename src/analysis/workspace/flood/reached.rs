@@ -278,8 +278,11 @@ impl ReachedSet {
 
     /// The solution of a node with this configuration.
     pub fn known(&self, metric: &Metric, node: usize, at: ConfigurationRef<f64>) -> Option<usize> {
-        let mut solutions = self.at(node);
-        solutions.find(|s| metric.same(self.configuration(*s), at))
+        let solutions = self.at(node);
+        let same = solutions.filter(|s| metric.same(self.configuration(*s), at));
+        let apart = |s: &usize| metric.apart(self.configuration(*s), at);
+        // two modes may meet there
+        same.min_by(|a, b| apart(a).total_cmp(&apart(b)))
     }
 }
 

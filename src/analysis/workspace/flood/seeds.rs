@@ -176,7 +176,7 @@ pub(crate) fn probe<T: Factorable + Packed + Send + Sync>(
             steps.settle(pack, &mut arrivals);
             for arrival in arrivals.iter().flatten() {
                 let known = |of: &Configuration<f64>| fill.metric.same(of.view(), arrival.at);
-                if reached.known(fill, node, arrival.at).is_none() && !new.iter().any(known) {
+                if reached.known(fill, node, arrival).is_none() && !new.iter().any(known) {
                     new.push(arrival.at.owned());
                 }
             }

@@ -5,7 +5,6 @@ use super::neighbour::{Flood, Step};
 use super::reached::{Link, Name, NodeSolution, ReachedSet};
 use super::tile::{Task, Tile, Tiling};
 use crate::analysis::workspace::problem::Grid;
-use crate::mechanism::ConfigurationRef;
 
 /// What was reached so far.
 pub(crate) struct Spread {
@@ -49,9 +48,9 @@ impl Spread {
     }
 
     /// The solution of a node with this configuration.
-    pub fn known(&self, fill: &Flood, node: usize, at: ConfigurationRef<f64>) -> Option<Name> {
+    pub fn known(&self, fill: &Flood, node: usize, at: Moving) -> Option<Name> {
         let tile = &self.tiles[self.tiling.of(fill.grid, node)];
-        fill.known(tile.at(fill.grid, node), at)
+        fill.known(tile.moving_at(fill.grid, node), at)
     }
 
     pub fn len(&self) -> usize {

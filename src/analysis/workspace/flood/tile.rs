@@ -8,7 +8,6 @@ use super::reached::{Link, Name, NodeSolution, NodeSolutions, join, root};
 use super::step::Steps;
 use crate::analysis::workspace::problem::{Grid, MOST_AXES, MOST_DIRECTIONS};
 use crate::linear::Factorable;
-use crate::mechanism::ConfigurationRef;
 use crate::number::Packed;
 
 /// How the grid is parted.
@@ -137,17 +136,7 @@ impl Tile {
         solutions.map(|solution| solution as usize)
     }
 
-    /// The solutions at a node with their configurations.
-    pub fn at(
-        &self,
-        grid: &Grid,
-        node: usize,
-    ) -> impl Iterator<Item = (Name, ConfigurationRef<'_, f64>)> {
-        let solutions = self.solutions_at(grid, node);
-        solutions.map(|solution| (self.name(solution), self.solutions.at(solution)))
-    }
-
-    /// The same with their motions.
+    /// The solutions at a node with their configurations and motions.
     pub fn moving_at(&self, grid: &Grid, node: usize) -> impl Iterator<Item = (Name, Moving<'_>)> {
         let solutions = self.solutions_at(grid, node);
         solutions.map(|solution| (self.name(solution), self.moving(solution)))
@@ -304,7 +293,7 @@ impl Tile {
         let Some(node) = fill.grid.neighbour(self.solutions.all[s].node, d) else {
             return;
         };
-        let known = fill.known(self.at(fill.grid, node), arrival.at);
+        let known = fill.known(self.moving_at(fill.grid, node), arrival);
         let to = known.unwrap_or_else(|| self.add(fill, node, arrival));
         self.link(s, d, to.solution as usize);
     }
