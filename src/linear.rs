@@ -66,10 +66,15 @@ pub const ILL_CONDITIONED: f64 = 1e-12;
 /// faster with sparse ones).
 pub const DENSE_LIMIT: usize = 30;
 
-/// How many singular values, largest first, count beside the largest.
+/// What rounding leaves of a sum of numbers about 1 that cancel: dimensionless matrices whose entries
+/// are no larger are zero.
+pub const CANCELLED: f64 = 1e-14;
+
+/// How many singular values, largest first, count beside the largest. None does if the largest is
+/// rounding itself, as in the equation of a rod from the centre of a ball to a point of its link.
 pub fn rank(singular_values: &[f64]) -> usize {
     let largest = singular_values.first().copied().unwrap_or(0.0);
-    let threshold = RANK_TOLERANCE * largest.max(f64::MIN_POSITIVE);
+    let threshold = (RANK_TOLERANCE * largest).max(CANCELLED);
     singular_values.iter().filter(|&&s| s > threshold).count()
 }
 

@@ -10,6 +10,7 @@ mod mobility;
 mod modes;
 mod reports;
 mod singularities;
+mod rank;
 mod statics;
 mod sweep;
 mod velocity;
