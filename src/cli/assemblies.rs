@@ -1,7 +1,7 @@
 //! `linkwork assemblies`
 
 use clap::Args;
-use linkwork::analysis::assemblies::{Fit, Wanted};
+use linkwork::analysis::assemblies::Wanted;
 use linkwork::ask::AskError;
 
 use super::asked::Split;
@@ -56,10 +56,7 @@ impl Assemblies {
         Ok(Answer {
             data: self.format.shown(&report),
             remarks,
-            yes: report.real > 0
-                && report.lost == 0
-                && report.unexpected == 0
-                && matches!(report.fit, Fit::Finite | Fit::FreedomLeft(_)),
+            yes: report.real > 0 && !report.may_lack_some(),
         })
     }
 }

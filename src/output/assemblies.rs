@@ -45,9 +45,14 @@ fn sentence(report: &AssembliesReport) -> String {
             };
             let isolated = report.assemblies.iter().filter(|a| a.multiplicity > 0);
             let isolated = isolated.count();
+            if isolated == report.real {
+                return format!(
+                    "{real} found, isolated at the limit of what is possible, while in general {left} \
+                     left with what is held."
+                );
+            }
             let listed = match report.real - isolated {
                 _ if isolated == 0 => format!("{real} listed as samples"),
-                0 => format!("{real} listed, all isolated"),
                 samples => format!(
                     "{} and {} of the others listed",
                     count(isolated, "isolated assembly"),

@@ -2,6 +2,7 @@
 
 mod assemblies;
 mod cold_starts;
+mod conjugates;
 mod large;
 mod printed_assemblies;
 mod questions;

@@ -4,6 +4,7 @@ mod certificate;
 mod closest;
 mod describe;
 mod elsewhere;
+mod paired;
 mod real;
 
 pub(super) use real::{named_joints, real_solution};
@@ -88,7 +89,13 @@ impl Question<'_> {
         let mut work = self.system.work();
         let (asked, half_a_turn_away): (Vec<&End>, Vec<&End>) =
             (ends.ends.iter()).partition(|end| end.point().is_none_or(|x| self.has_held_angles(x)));
-        let groups = self.grouped(&asked, homotopy.as_mut());
+        let mut groups = self.grouped(&asked, homotopy.as_mut());
+        let conjugates = match &mut homotopy {
+            Some(homotopy) if fit == Fit::Finite && !self.interrupted => {
+                self.pair(&mut groups, homotopy, &mut work)
+            }
+            _ => 0,
+        };
         let mut gathered = Gathered::default();
         for group in groups.iter().filter(|g| g.dimension == 0) {
             match self.real(&group.x, group.singular, &mut work) {
@@ -170,7 +177,10 @@ impl Question<'_> {
         };
         report.fit = fit;
         report.at_infinity = ends.ends.iter().filter(infinite).count();
-        report.lost = ends.ends.iter().filter(|e| **e == End::Lost).count();
+        // what was added is where paths led that were lost
+        let lost = ends.ends.iter().filter(|e| **e == End::Lost).count();
+        report.lost = lost.saturating_sub(conjugates);
+        report.conjugates = conjugates.saturating_sub(lost);
         report.singular = isolated.filter(|g| g.paths > 1).count() + merged + multiple;
         report.retried = ends.retries;
         report.paths = ends.paths;
@@ -279,6 +289,7 @@ impl Question<'_> {
             unexpected: 0,
             multiple: generic.multiple,
             lost: 0,
+            conjugates: 0,
             retried: 0,
             paths: 0,
             generic: generic.count(),

@@ -167,6 +167,11 @@ pub struct AssembliesReport {
     pub multiple: usize,
     /// Paths whose end could not be decided. Anything but 0 means that the list may be incomplete.
     pub lost: usize,
+    /// Complex solutions to which no path led, but one to their conjugates, which for real inputs are
+    /// solutions too. Anything but 0 means that the search missed some, and the list may be
+    /// incomplete.
+    #[serde(default, skip_serializing_if = "is_zero")]
+    pub conjugates: usize,
     /// Paths that had to be followed again with greater care.
     pub retried: usize,
     /// Paths followed: as many as generic solutions, or fewer where legs close apart from one
@@ -221,7 +226,18 @@ pub struct ComplexAssembly {
     pub condition: Option<f64>,
 }
 
+fn is_zero(count: &usize) -> bool {
+    *count == 0
+}
+
 impl AssembliesReport {
+    /// Whether an isolated assembly may be missing, as [`complete`](Self::complete) says.
+    pub fn may_lack_some(&self) -> bool {
+        let missed = [self.lost, self.unexpected, self.multiple, self.conjugates];
+        let listed = matches!(self.fit, Fit::Finite | Fit::FreedomLeft(_));
+        !listed || missed != [0; 4] || self.exhausted && self.fit == Fit::Finite
+    }
+
     /// How complete the list is and why, in a sentence.
     pub(super) fn completeness(&self, length: f64) -> String {
         if self.interrupted {
@@ -295,6 +311,16 @@ impl AssembliesReport {
             sentence += &format!(
                 "; no path led to {} found from other starts: the list may be incomplete",
                 count(self.unexpected, "assembly")
+            );
+        }
+        if self.conjugates > 0 {
+            sentence += &format!(
+                "; {} to which no path led {} the conjugate of another one: the search missed as many, and others may be missing",
+                count(self.conjugates, "complex solution"),
+                match self.conjugates {
+                    1 => "is",
+                    _ => "are each",
+                }
             );
         }
         if self.lost > 0 {
