@@ -28,7 +28,7 @@ pub use question::{
 };
 pub use record::{FormulaNames, FrameRecord, Named, PlatformRecord, infinite_if_null};
 pub use search::{
-    Analysed, Attempt, Closed, NotClosed, Search, Searched, TooLarge, WidestGap, close, fit,
+    Analysed, Attempt, Closed, Moved, NotClosed, Search, Searched, TooLarge, WidestGap, close, fit,
     random_configuration, sampling_range, too_large,
 };
 pub use tangent::{

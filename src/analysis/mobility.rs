@@ -18,8 +18,8 @@ use crate::linear::axis_aligned;
 use crate::mechanism::{ClosureKind, Mechanism, Variable};
 use crate::solve::{Newton, Stage, Watch};
 use crate::system::{
-    Analysed, Named, Neighbourhood, Question, Tangent, TwistSpace, Unknown, WidestGap, close,
-    random_configuration, too_large,
+    Analysed, Moved, Named, Neighbourhood, Question, Tangent, TwistSpace, Unknown, WidestGap,
+    close, random_configuration, too_large,
 };
 
 pub use loops::LoopCount;
@@ -124,6 +124,10 @@ pub struct MobilityReport {
     /// The widest gap of the pose given, before it was closed.
     #[serde(rename = "given_gap")]
     pub given: Option<WidestGap>,
+    /// What moved most from the values guessed, or from a pose of the file that was more than
+    /// rounded.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub moved: Option<Moved>,
     /// Whether joints held by the file kept their values when the mechanism was closed.
     pub kept: bool,
     /// Names of the joints that are outside their limits.
@@ -298,6 +302,7 @@ pub fn mobility(
         },
         length: mechanism.characteristic_length(),
         given: closed.given.filter(|gap| gap.size(mechanism) > 1e-9),
+        moved: closed.moved,
         kept: closed.kept,
         gap_after_step: found.gap,
         interrupted: false,

@@ -28,8 +28,8 @@ use crate::linear::RANK_TOLERANCE;
 use crate::mechanism::{Configuration, Mechanism, Variable};
 use crate::solve::{Continuation, Newton, Watch};
 use crate::system::{
-    Analysed, Coordinate, Lock, Question, QuestionError, WidestGap, check_angles, check_count,
-    close, too_large,
+    Analysed, Coordinate, Lock, Moved, Question, QuestionError, WidestGap, check_angles,
+    check_count, close, too_large,
 };
 use classify::Classifier;
 use outputs::{coupled, outputs_of};
@@ -90,6 +90,10 @@ pub struct SingularitiesReport {
     pub normalising_length: f64,
     /// The widest gap of the pose given, before it was closed.
     pub given_gap: Option<WidestGap>,
+    /// What moved most from the values guessed, or from a pose of the file that was more than
+    /// rounded.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub moved: Option<Moved>,
     /// Whether what the file holds kept its values when the mechanism was closed.
     pub kept: bool,
     /// Names of the joints that are outside their limits.
@@ -157,6 +161,7 @@ pub fn singularities(
         normalising_length: mechanism.characteristic_length(),
         outside_limits: closed.outside_limits(mechanism),
         given_gap: closed.given.filter(|gap| gap.size(mechanism) > 1e-9),
+        moved: closed.moved,
         kept: closed.kept,
     }))
 }

@@ -9,8 +9,8 @@ use crate::linear::{Decomposition, RANK_TOLERANCE, add, norm};
 use crate::mechanism::{Configuration, Frame, Mechanism};
 use crate::solve::{Newton, Watch};
 use crate::system::{
-    Analysed, Coordinate, FrameTwists, Load, Neighbourhood, Question, QuestionError, Unknown,
-    WidestGap, check_angles, check_count, close, too_large,
+    Analysed, Coordinate, FrameTwists, Load, Moved, Neighbourhood, Question, QuestionError,
+    Unknown, WidestGap, check_angles, check_count, close, too_large,
 };
 
 pub use reactions::Reaction;
@@ -69,6 +69,10 @@ pub struct StaticsReport {
     pub normalising_length: f64,
     /// The widest gap of the pose given, before it was closed.
     pub given_gap: Option<WidestGap>,
+    /// What moved most from the values guessed, or from a pose of the file that was more than
+    /// rounded.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub moved: Option<Moved>,
     /// Whether what the file holds kept its values when the mechanism was closed.
     pub kept: bool,
     /// Names of the joints that are outside their limits.
@@ -206,6 +210,7 @@ pub fn statics(
         normalising_length: mechanism.characteristic_length(),
         outside_limits: closed.outside_limits(mechanism),
         given_gap: closed.given.filter(|gap| gap.size(mechanism) > 1e-9),
+        moved: closed.moved,
         kept: closed.kept,
     }))
 }

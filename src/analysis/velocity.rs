@@ -12,8 +12,8 @@ use crate::linear::RANK_TOLERANCE;
 use crate::mechanism::{Frame, Mechanism};
 use crate::solve::{Newton, Watch};
 use crate::system::{
-    Analysed, Coordinate, Drive, Motion, Neighbourhood, Question, QuestionError, Tangent, Unknown,
-    WidestGap, check_angles, check_count, close, free_outputs, moving, too_large,
+    Analysed, Coordinate, Drive, Motion, Moved, Neighbourhood, Question, QuestionError, Tangent,
+    Unknown, WidestGap, check_angles, check_count, close, free_outputs, moving, too_large,
 };
 
 use frames::Spins;
@@ -75,6 +75,10 @@ pub struct VelocityReport {
     pub mismatch: Option<f64>,
     /// The widest gap of the pose given, before it was closed.
     pub given_gap: Option<WidestGap>,
+    /// What moved most from the values guessed, or from a pose of the file that was more than
+    /// rounded.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub moved: Option<Moved>,
     /// Whether what the file holds kept its values when the mechanism was closed.
     pub kept: bool,
     /// Names of the joints that are outside their limits.
@@ -294,6 +298,7 @@ pub fn velocity(
         mismatch,
         outside_limits: closed.outside_limits(mechanism),
         given_gap: closed.given.filter(|gap| gap.size(mechanism) > 1e-9),
+        moved: closed.moved,
         kept: closed.kept,
     }))
 }

@@ -4,7 +4,7 @@ use super::document::{Document, Report};
 use super::quantity::{degrees, quantity};
 use crate::description::listed;
 use crate::linear::SPECTRUM_LIMIT;
-use crate::system::{Analysed, NotClosed, WidestGap};
+use crate::system::{Analysed, Moved, NotClosed, WidestGap};
 
 /// `0.213 m and 4.2°`
 pub(super) fn gap(distance: f64, angle: f64) -> String {
@@ -28,6 +28,32 @@ pub(super) fn given(given: &WidestGap, kept: bool) -> String {
         given.closure,
         gap(given.distance, given.angle)
     )
+}
+
+/// The answer, which begins with how far the pose given had to move if that is more than rounding.
+pub(super) fn after_moving(moved: Option<&Moved>, answer: String) -> String {
+    match moved.filter(|moved| !moved.is_small()) {
+        Some(moved) => format!(
+            "The pose given is not assembled, and the assembly found is not beside it: {}. {answer}",
+            way(moved)
+        ),
+        None => answer,
+    }
+}
+
+/// How far the guesses moved to an assembly beside them.
+pub(super) fn beside(moved: Option<&Moved>) -> Option<String> {
+    let moved = moved.filter(|moved| moved.is_small())?;
+    Some(format!(
+        "assembled beside the pose given: {}, the most",
+        way(moved)
+    ))
+}
+
+fn way(moved: &Moved) -> String {
+    let is_angle = moved.unit.is_angle();
+    let distance = quantity(moved.distance, is_angle);
+    format!("{} moved by {distance}", moved.name)
 }
 
 /// The remark that joints are outside their limits; empty if none is.

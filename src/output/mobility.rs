@@ -29,13 +29,15 @@ impl Report for MobilityReport {
             false => twist_table(&[]),
         };
         let shown = self.branches.iter().enumerate().take(SHOWN);
-        let document = Document::new(&self.mechanism, words::mobility(self))
+        let answer = closing::after_moving(self.moved.as_ref(), words::mobility(self));
+        let document = Document::new(&self.mechanism, answer)
             .interrupted(self.interrupted, "branches and other assemblies")
             .note(words::counted(self))
             .notes(idle)
             .notes(elsewhere)
             .notes(given.map(|gap| closing::given(gap, self.kept)))
             .section(joints(self))
+            .notes(closing::beside(self.moved.as_ref()))
             .section(
                 Section::new(
                     "Redundant constraints, in the first frame of each closure, moments about its point",

@@ -28,6 +28,8 @@ impl Report for SingularitiesReport {
     fn document(&self) -> Document {
         let singularity = &self.singularity;
         let answer = words::sentence(singularity, &self.inputs, &self.outputs);
+        let moved = self.moved.as_ref();
+        let answer = super::closing::after_moving(moved, answer);
         let gap = self.given_gap.as_ref();
         let at = self.variables.iter().zip(&self.joints);
         let at = at.map(|(of, x)| format!("{} = {}", of.name, quantity(*x, of.unit.is_angle())));
@@ -37,6 +39,7 @@ impl Report for SingularitiesReport {
             .note(words::split(&self.inputs, &self.outputs))
             .notes(note(&self.coupled))
             .notes(gap.map(|gap| super::closing::given(gap, self.kept)))
+            .notes(super::closing::beside(moved))
             .notes(at)
             .sections(details(singularity))
             .section(distances(&singularity.distances, self.normalising_length))

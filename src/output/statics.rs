@@ -20,13 +20,15 @@ impl Report for StaticsReport {
             "Joints, axes of ground, moments about the point given, the origin of the frame after the joint",
         );
         let length = self.normalising_length;
-        Document::new(&self.mechanism, sentence(self))
+        let answer = closing::after_moving(self.moved.as_ref(), sentence(self));
+        Document::new(&self.mechanism, answer)
             .note(format!(
                 "without weight and friction; condition number {}, forces times {} m compared with moments",
                 size(self.condition),
                 number(length)
             ))
             .notes(gap)
+            .notes(closing::beside(self.moved.as_ref()))
             .sections([loads, on_joints, held])
             .section(closures.table(reactions(&self.closures, length)))
             .section(joints.table(reactions(&self.joints, length)))

@@ -12,8 +12,10 @@ impl Report for VelocityReport {
     fn document(&self) -> Document {
         let gap = (self.given_gap.as_ref()).map(|gap| closing::given(gap, self.kept));
         let jacobian = self.jacobian.as_ref();
-        Document::new(&self.mechanism, sentence(self))
+        let answer = closing::after_moving(self.moved.as_ref(), sentence(self));
+        Document::new(&self.mechanism, answer)
             .notes(gap)
+            .notes(closing::beside(self.moved.as_ref()))
             .section(Section::new("Joints").table(joints(self)))
             .sections(self.frames.iter().map(frame))
             .sections(jacobian.map(|j| matrix(j, self.normalising_length)))

@@ -123,8 +123,15 @@ impl<'a> Question<'a> {
         let value = &value.into();
         match self.demand(Verb::Guess, name, Some(value))? {
             Target::Joint(joint) => {
+    ///
+    /// A joint that the file holds at home is held at the guess instead; what is held by
+    /// [`hold`](Self::hold) keeps its value.
+    ///
+    /// # Errors
+    /// If there is no such joint or coordinate, the value has none, or something else was guessed
+    /// of it before.
                 let value = self.number(name, value, Coordinate::Joint(joint))?;
-                if !self.joints[joint] {
+                if !self.asked[joint] {
                     self.start.joints[joint] = value;
                     self.guessed_joints[joint] = true;
                     self.changed = true;

@@ -4,7 +4,7 @@ mod closing;
 mod starts;
 mod way;
 
-pub use closing::{Analysed, Closed, NotClosed, TooLarge, WidestGap, close, too_large};
+pub use closing::{Analysed, Closed, Moved, NotClosed, TooLarge, WidestGap, close, too_large};
 pub use starts::{random_configuration, sampling_range};
 
 use rand::SeedableRng;

@@ -1,6 +1,7 @@
 //! The other analyses, each against closed forms and published values.
 
 mod closed_reports;
+mod closing;
 mod comparison;
 mod conversion;
 mod formulas;

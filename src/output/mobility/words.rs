@@ -10,7 +10,8 @@ use crate::output::quantity::{coarse, number, quantity, signed};
 
 /// The answer: how many freedoms, and why that is not what counting says.
 pub(super) fn explanation(report: &MobilityReport) -> String {
-    let mut sentences = vec![mobility(report), counted(report)];
+    let answer = closing::after_moving(report.moved.as_ref(), mobility(report));
+    let mut sentences = vec![answer, counted(report)];
     if !report.redundancies.is_empty() {
         let redundant: Vec<String> = report.redundancies.iter().map(redundancy).collect();
         let verb = match report.redundant {

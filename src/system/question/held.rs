@@ -3,7 +3,7 @@
 use super::{Question, with_coordinates};
 use crate::geometry::{Axis, Pose, RollPitchYaw};
 use crate::mechanism::PoseCoordinate;
-use crate::system::Coordinate;
+use crate::system::{Coordinate, HeldPlatform};
 
 impl Question<'_> {
     /// The held coordinates, those asked for before the joints that are held only because the file
@@ -55,6 +55,22 @@ impl Question<'_> {
             pitch: value(PoseCoordinate::Pitch)?,
             yaw: value(PoseCoordinate::Yaw)?,
         })
+    }
+
+    /// For each joint whether it is held by the asker rather than by the file.
+    pub fn asked_joints(&self) -> &[bool] {
+        &self.asked
+    }
+
+    /// Whether a whole pose is given: that of the file, or a guess for all that is to be found.
+    pub fn gives_pose(&self) -> bool {
+        let known = |(held, guessed): (&bool, &bool)| *held || *guessed;
+        let platforms = self.held().platforms;
+        let mut platforms = platforms.iter().zip(&self.guessed_platforms);
+        !self.changed
+            || self.guessed_joints.contains(&true)
+                && self.joints.iter().zip(&self.guessed_joints).all(known)
+                && platforms.all(|(held, guessed)| *held == HeldPlatform::Pose || *guessed)
     }
 
     /// The names of the held coordinates.

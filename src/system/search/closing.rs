@@ -3,8 +3,9 @@
 use serde::{Deserialize, Serialize};
 
 use super::Search;
+use crate::algebra::SiUnit;
 use crate::linear::SPECTRUM_LIMIT;
-use crate::mechanism::{Configuration, Mechanism};
+use crate::mechanism::{Configuration, Mechanism, turn_near};
 use crate::solve::{Equations, Newton, Stop, Watch};
 use crate::system::{Gap, Held, Question, System};
 
@@ -26,6 +27,33 @@ impl WidestGap {
     }
 }
 
+/// A pose that moves no more than this, in rad or characteristic lengths, is only rounded.
+const SMALL: f64 = 0.1;
+
+/// An assembly is much nearer than another one if it is no farther than this part of the way.
+const MUCH_NEARER: f64 = 0.1;
+
+/// The joint or platform that moved most when a given pose was closed.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Moved {
+    /// Its name.
+    pub name: String,
+    /// The unit of the distance, rad or m.
+    pub unit: SiUnit,
+    /// How far it moved, in rad or m.
+    pub distance: f64,
+    /// The same in rad or characteristic lengths.
+    pub size: f64,
+}
+
+impl Moved {
+    /// Whether the pose given is only rounded: nothing moved by more than a small part of a radian
+    /// or of the characteristic length.
+    pub fn is_small(&self) -> bool {
+        self.size <= SMALL
+    }
+}
+
 /// A mechanism closed near the pose a question starts from.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Closed {
@@ -34,6 +62,9 @@ pub struct Closed {
     /// The widest gap of the file's pose; `None` if the mechanism has no closures or the question
     /// starts from other values.
     pub given: Option<WidestGap>,
+    /// What moved most from the values that were guessed, or from the file's pose if that is not
+    /// merely rounded.
+    pub moved: Option<Moved>,
     /// Whether what the question holds kept its values.
     pub kept: bool,
 }
@@ -96,8 +127,10 @@ pub struct TooLarge {
 
 /// Closes a mechanism as a question asks, the same way as for the question itself.
 ///
-/// What is held keeps its values. If nothing was asked for beyond the file and that fails, the
-/// actuated joints may move too, because the file's pose may be rounded or overdetermined.
+/// What is held keeps its values. Where the question gives a whole pose, an assembly beside it is
+/// taken before one far from it: if none there has the values that the file holds, those may move
+/// too, because the pose may be rounded or overdetermined. If the file's own pose leads nowhere else,
+/// they may move in the end however far that is.
 pub fn close(
     question: &Question,
     newton: &Newton,
@@ -107,30 +140,48 @@ pub fn close(
     let mechanism = question.mechanism();
     let start = question.start();
     // values that were asked for move the mechanism: that says nothing about the file
-    let given = match question.differs_from_home() {
-        true => None,
-        false => widest(mechanism, &start),
+    let given = match question.gives_pose() {
+        true => widest(mechanism, &start),
+        false => None,
     };
-    let closed = |configuration, kept| Closed {
-        configuration,
+    let closed = |configuration: Configuration<f64>, kept| Closed {
+        moved: moved(question, &start, &configuration),
         given: given.clone(),
+        configuration,
         kept,
     };
-    if !question.differs_from_home() && is_exact(mechanism, &start) {
-        return Ok(closed(start, true));
+    if question.gives_pose() && is_exact(mechanism, &start) {
+        return Ok(closed(start.clone(), true));
     }
-    let found = Search::new(question, newton).run(restarts, seed, watch);
+    let mut search = Search::new(question, newton);
+    let way = |at: &Configuration<f64>| {
+        let moved = farthest(question, &start, at, |_| true);
+        moved.map_or(0.0, |moved| moved.size)
+    };
+    let mut loose = None;
+    if question.gives_pose() {
+        let first = search.run(0, seed, &Watch::none());
+        let with_all = match first.assembles() {
+            true => way(&first.attempt.at),
+            false => f64::INFINITY,
+        };
+        if with_all > SMALL {
+            loose = with_file_loose(question, newton, &start);
+        }
+        if let Some(at) = &loose
+            && way(at) <= SMALL.min(MUCH_NEARER * with_all)
+        {
+            return Ok(closed(at.clone(), false));
+        }
+    }
+    let found = search.run(restarts, seed, watch);
     if found.assembles() {
         return Ok(closed(found.attempt.at, true));
     }
-    if !question.differs_from_home() && !question.split_changed() {
-        let nothing = Held::nothing(mechanism);
-        let system = System::new(mechanism.dimensions(), &nothing);
-        let (mut at, mut trial) = (start.clone(), start);
-        let report = newton.solve(&system, &mut at, &mut trial, &mut system.work());
-        if report.stop == Stop::Solved {
-            return Ok(closed(at, false));
-        }
+    if let Some(at) = loose
+        && !question.differs_from_home()
+    {
+        return Ok(closed(at, false));
     }
     Err(NotClosed {
         mechanism: mechanism.name().to_owned(),
@@ -148,6 +199,103 @@ impl Closed {
         let outside = joints.filter(|(joint, value)| !joint.allows(**value));
         outside.map(|(joint, _)| joint.name.clone()).collect()
     }
+}
+
+/// The assembly that a start leads to if only what was asked for keeps its values.
+fn with_file_loose(
+    question: &Question,
+    newton: &Newton,
+    start: &Configuration<f64>,
+) -> Option<Configuration<f64>> {
+    if question.split_changed() {
+        return None;
+    }
+    let held = Held {
+        joints: question.asked_joints().to_vec(),
+        ..question.held()
+    };
+    let system = System::new(question.mechanism().dimensions(), &held);
+    let (mut at, mut trial) = (start.clone(), start.clone());
+    let report = newton.solve(&system, &mut at, &mut trial, &mut system.work());
+    (report.stop == Stop::Solved).then_some(at)
+}
+
+/// What is told of the way from the pose given: how far guesses moved, and how far the file's pose
+/// if that is more than rounding.
+fn moved(
+    question: &Question,
+    start: &Configuration<f64>,
+    to: &Configuration<f64>,
+) -> Option<Moved> {
+    let joints = question.guessed_joints();
+    let guessed = joints.contains(&true) || question.guessed_platforms().contains(&true);
+    match guessed {
+        true => farthest(question, start, to, |part| match part {
+            Part::Joint(joint) => joints[joint],
+            Part::Platform(platform) => question.guessed_platforms()[platform],
+        }),
+        false if question.gives_pose() => {
+            farthest(question, start, to, |_| true).filter(|moved| !moved.is_small())
+        }
+        false => None,
+    }
+}
+
+/// A joint or a platform by its number.
+#[derive(Clone, Copy)]
+enum Part {
+    Joint(usize),
+    Platform(usize),
+}
+
+/// What moves most between two configurations, beyond rounding. Whole turns that change nothing are
+/// no motion.
+fn farthest(
+    question: &Question,
+    from: &Configuration<f64>,
+    to: &Configuration<f64>,
+    counts: impl Fn(Part) -> bool,
+) -> Option<Moved> {
+    const ROUNDING: f64 = 1e-9;
+    let mechanism = question.mechanism();
+    let length = mechanism.characteristic_length();
+    let moved = |name: &str, is_angle: bool, distance: f64| Moved {
+        name: name.to_owned(),
+        unit: SiUnit::of_coordinate(is_angle),
+        distance,
+        size: if is_angle {
+            distance
+        } else {
+            distance / length
+        },
+    };
+    let joints = mechanism.joints().iter().enumerate();
+    let joints = joints.filter(|(i, _)| counts(Part::Joint(*i)));
+    let joints = joints.map(|(i, joint)| {
+        let change = to.joints[i] - from.joints[i];
+        let change = match mechanism.repeats(i) {
+            true => turn_near(change, 0.0),
+            false => change,
+        };
+        moved(&joint.name, joint.kind.is_angle(), change.abs())
+    });
+    let platforms = mechanism.platforms().iter().enumerate();
+    let platforms = platforms.filter(|(i, _)| counts(Part::Platform(*i)));
+    let platforms = platforms.flat_map(|(i, platform)| {
+        let (a, b) = (&from.platforms[i], &to.platforms[i]);
+        let shift = (b.position - a.position).norm();
+        let cos: f64 = (a.orientation.0.iter().zip(b.orientation.0))
+            .map(|(a, b)| a * b)
+            .sum();
+        let turn = 2.0 * cos.abs().min(1.0).acos();
+        [
+            moved(&platform.name, false, shift),
+            moved(&platform.name, true, turn),
+        ]
+    });
+    let all = joints.chain(platforms);
+    let all = all.filter(|moved| moved.size > ROUNDING);
+    all.max_by(|a, b| a.size.total_cmp(&b.size))
 }
 
 /// What is to be said if there are more unknowns than the whole spectrum is computed for.
