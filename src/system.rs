@@ -32,7 +32,7 @@ pub use search::{
     random_configuration, sampling_range, too_large,
 };
 pub use tangent::{
-    FiniteStep, FrameMotion, FrameMotions, FrameTwists, Freedoms, Lock, Locked, LoopPart,
+    FiniteStep, FrameMotion, FrameMotions, FrameTwists, Freedoms, Lasting, Lock, Locked, LoopPart,
     MechanismLoop, Mobility, Motion, Neighbourhood, Screw, Tangent, Twist, TwistSpace, loops,
     moving, spin_lines, without, wrench_screws,
 };

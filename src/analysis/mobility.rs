@@ -18,7 +18,7 @@ use crate::linear::axis_aligned;
 use crate::mechanism::{ClosureKind, Mechanism, Variable};
 use crate::solve::{Newton, Stage, Watch};
 use crate::system::{
-    Analysed, Moved, Named, Neighbourhood, Question, Tangent, TwistSpace, Unknown, WidestGap,
+    Analysed, Lasting, Moved, Named, Neighbourhood, Question, TwistSpace, Unknown, WidestGap,
     close, random_configuration, too_large,
 };
 
@@ -83,6 +83,13 @@ pub struct MobilityReport {
     pub idle_joints: Vec<String>,
     /// Those of the idle joints that spin a link about its own line.
     pub spinning_joints: Vec<String>,
+    /// Joints that only turn in place at the configuration, though they move links beside it:
+    /// those in gimbal lock.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub locked_joints: Vec<String>,
+    /// How many freedoms are lost so at the configuration.
+    #[serde(default, skip_serializing_if = "is_zero")]
+    pub locked: usize,
     /// Joints that move.
     pub moving_joints: Vec<String>,
     /// Joint values of the closed configuration, rad or m.
@@ -237,6 +244,11 @@ pub fn mobility(
     };
     let mut near = Neighbourhood::new(mechanism);
     let tangent = near.tangent(closed.configuration.clone());
+    let Lasting {
+        tangent,
+        locked,
+        idle_beside,
+    } = tangent.lasting(&mut near);
     let mut rng = Pcg64Mcg::seed_from_u64(settings.seed);
     let found = branches::find(&mut near, &tangent, (settings, watch), &mut rng);
     let (rows, unknowns) = (near.system().rows(), near.system().unknowns().len());
@@ -260,7 +272,7 @@ pub fn mobility(
         })
         .collect();
     let redundancies = redundancy::find(&mut near, &tangent);
-    let idle_freedoms = idle_freedoms(mechanism, near.system().unknowns(), &tangent);
+    let idle_freedoms = idle_freedoms(mechanism, near.system().unknowns(), &idle_beside);
     let idle_joints: Vec<String> = (mechanism.joints().iter())
         .map(|joint| joint.name.clone())
         .filter(|name| !moving_joints.contains(name))
@@ -278,6 +290,8 @@ pub fn mobility(
         idle_joints,
         outside_limits: closed.outside_limits(mechanism),
         moving_joints,
+        locked_joints: turning(mechanism, near.system().unknowns(), &locked),
+        locked: locked.len(),
         joints: mechanism.named_joints(&closed.configuration.joints),
         character: found.character,
         branches,
@@ -336,7 +350,7 @@ fn elsewhere(
         if here.character == Character::Regular && near.rank(&at) == here.rank {
             continue;
         }
-        let tangent = near.tangent(at);
+        let tangent = near.tangent(at).lasting(near).tangent;
         let freedoms = tangent.motions.len();
         if freedoms == here.mobility || found.iter().any(|other| other.mobility == freedoms) {
             continue;
@@ -353,15 +367,32 @@ fn elsewhere(
     found
 }
 
+/// Whether a count is left out of a report.
+fn is_zero(count: &usize) -> bool {
+    *count == 0
+}
+
+/// The joints that turn in any of some motions.
+fn turning(mechanism: &Mechanism, unknowns: &[Unknown], motions: &[Vec<f64>]) -> Vec<String> {
+    /// Below this a component of a unit motion is that of another one, mixed in.
+    const MIXED: f64 = 1e-2;
+    let places = (0..unknowns.len()).filter(|&i| motions.iter().any(|m| m[i].abs() > MIXED));
+    let names = places.filter_map(|i| match unknowns[i] {
+        Unknown::Joint(joint) => Some(mechanism.joints()[joint].name.clone()),
+        Unknown::Twist { .. } => None,
+    });
+    names.collect()
+}
+
 /// The idle freedoms of the model, then one for each rod between two balls.
 fn idle_freedoms(
     mechanism: &Mechanism,
     unknowns: &[Unknown],
-    tangent: &Tangent,
+    idle: &[Vec<f64>],
 ) -> Vec<LocalFreedom> {
     /// Below this a component of a unit motion is rounding.
     const ROUNDING: f64 = 1e-6;
-    let spins = axis_aligned(&tangent.idle);
+    let spins = axis_aligned(idle);
     let link = |motion: &Vec<f64>| {
         let (mut platforms, mut joints): (Vec<String>, Vec<String>) = (vec![], vec![]);
         let turning = (unknowns.iter().zip(motion)).filter(|(_, rate)| rate.abs() > ROUNDING);

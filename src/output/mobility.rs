@@ -34,10 +34,11 @@ impl Report for MobilityReport {
             .interrupted(self.interrupted, "branches and other assemblies")
             .note(words::counted(self))
             .notes(idle)
+            .notes(words::locked(self))
             .notes(elsewhere)
             .notes(given.map(|gap| closing::given(gap, self.kept)))
-            .section(joints(self))
             .notes(closing::beside(self.moved.as_ref()))
+            .section(joints(self))
             .section(
                 Section::new(
                     "Redundant constraints, in the first frame of each closure, moments about its point",

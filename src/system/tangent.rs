@@ -6,12 +6,13 @@ mod loops;
 mod motion;
 mod neighbourhood;
 mod screws;
+mod shake;
 mod twists;
 
 pub use freedom::{Freedoms, Mobility, moving};
 pub use locked::{Lock, Locked};
 pub use loops::{LoopPart, MechanismLoop, loops};
 pub use motion::{FrameMotion, FrameMotions, Motion};
-pub use neighbourhood::{FiniteStep, Neighbourhood, Tangent};
+pub use neighbourhood::{FiniteStep, Lasting, Neighbourhood, Tangent};
 pub use screws::{Screw, TwistSpace, spin_lines, without, wrench_screws};
 pub use twists::{FrameTwists, Twist};

@@ -7,6 +7,7 @@ mod conversion;
 mod formulas;
 mod cylinders;
 mod frames;
+mod gimbal_lock;
 mod mobility;
 mod modes;
 mod reports;

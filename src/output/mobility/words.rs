@@ -50,9 +50,27 @@ pub(super) fn explanation(report: &MobilityReport) -> String {
         };
         sentences.push(format!("{} {stand} still.", listed(&still)));
     }
+    sentences.extend(locked(report));
     sentences.extend((report.elsewhere.iter()).map(|other| elsewhere(report, other)));
     sentences.extend((report.given.as_ref()).map(|gap| closing::given(gap, report.kept)));
     sentences.join(" ")
+}
+
+/// What is special about the configuration though its freedoms are all there.
+pub(super) fn locked(report: &MobilityReport) -> Option<String> {
+    let (locked, all) = (report.locked, report.infinitesimal);
+    let turn = match report.locked_joints.len() {
+        1 => "turns",
+        _ => "turn",
+    };
+    (locked > 0).then(|| {
+        format!(
+            "The configuration is special, as in gimbal lock: {} {turn} there without moving \
+             anything else, so that links move with {} of the {all} freedoms only.",
+            listed(&report.locked_joints),
+            all - locked.min(all),
+        )
+    })
 }
 
 /// Joints that stand still in every motion, idle ones too.

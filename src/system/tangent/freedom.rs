@@ -1,5 +1,6 @@
 use super::neighbourhood::Neighbourhood;
-use crate::geometry::{RollPitchYaw, Vector3};
+use super::shake::shaken;
+use crate::geometry::RollPitchYaw;
 use crate::linear::{INDEPENDENT, SPECTRUM_LIMIT, Spectrum, rank};
 use crate::mechanism::{Configuration, Dimensions, Mechanism, PoseCoordinate};
 use crate::solve::{Equations, Newton, Stop};
@@ -130,8 +131,9 @@ pub struct Mobility {
 }
 
 impl Mobility {
-    /// Looks near a configuration for assembled ones and takes the one with the fewest freedoms:
-    /// what is lost or gained at a special configuration does not count. `None` if the mechanism
+    /// Looks near a configuration for assembled ones and takes the one with the fewest freedoms,
+    /// and of these with the fewest idle ones: what is lost or gained at a special configuration
+    /// does not count, such as the turn in place that joints have in gimbal lock. `None` if the mechanism
     /// does not assemble near there, or has too many unknowns to tell.
     pub fn near(mechanism: &Mechanism, start: &Configuration<f64>) -> Option<Self> {
         Mobility::among(mechanism, start, 0..4)
@@ -154,37 +156,28 @@ impl Mobility {
             return None;
         }
         let mut work = system.work();
-        let mut fewest: Option<(Freedoms, Configuration<f64>)> = None;
-        // the start itself, and three points beside it in directions that have no symmetry
+        let mut found: Vec<(Freedoms, Configuration<f64>)> = Vec::new();
         for k in shakes {
-            let mut at = start.clone();
-            for (joint, value) in at.joints.iter_mut().enumerate() {
-                let shake = 0.05 * f64::from(k) * (1.7 * (joint as f64 + 1.0) * f64::from(k)).sin();
-                *value += shake * dimensions.joint_scales[joint];
-            }
-            for (platform, pose) in at.platforms.iter_mut().enumerate() {
-                let shake = |i: usize| {
-                    let phase = 2.3 * (6 * platform + i + 1) as f64 * f64::from(k);
-                    0.05 * f64::from(k) * phase.sin()
-                };
-                let shift = [3, 4, 5].map(|i| shake(i) * dimensions.characteristic_length);
-                *pose = pose.moved_by(&Vector3([0, 1, 2].map(shake)), Vector3(shift));
-            }
+            let mut at = shaken(mechanism, start, k);
             let mut trial = at.clone();
             let report = Newton::default().solve(&system, &mut at, &mut trial, &mut work);
-            if report.stop != Stop::Solved {
-                continue;
-            }
-            let freedoms = Freedoms::at(dimensions, &all_free, &at);
-            if fewest
-                .as_ref()
-                .is_none_or(|(f, _)| freedoms.motions.len() < f.motions.len())
-            {
-                fewest = Some((freedoms, at));
+            if report.stop == Stop::Solved {
+                found.push((Freedoms::at(dimensions, &all_free, &at), at));
             }
         }
-        let (freedoms, at) = fewest?;
-        let idle = Neighbourhood::new(mechanism).tangent(at.clone()).idle.len();
+        let fewest = found.iter().map(|(f, _)| f.motions.len()).min()?;
+        let mut near = Neighbourhood::new(mechanism);
+        let mut best: Option<(Freedoms, Configuration<f64>, usize)> = None;
+        for (freedoms, at) in found.into_iter().filter(|(f, _)| f.motions.len() == fewest) {
+            let idle = near.tangent(at.clone()).idle.len();
+            if best.as_ref().is_none_or(|(_, _, least)| idle < *least) {
+                best = Some((freedoms, at, idle));
+            }
+            if idle == 0 {
+                break;
+            }
+        }
+        let (freedoms, at, idle) = best?;
         Some(Mobility { freedoms, at, idle })
     }
 

@@ -1,6 +1,7 @@
 //! The motions of a mechanism near an assembled configuration.
 
 mod follow;
+mod lasting;
 
 use super::twists::FrameTwists;
 use crate::description::{ClosureKind, Role};
@@ -10,6 +11,7 @@ use crate::solve::{Equations, Newton, Stop};
 use crate::system::{ClosureWrenches, Held, System, Unknown, Work};
 
 pub use follow::FiniteStep;
+pub use lasting::Lasting;
 
 /// Rates of motions of unit norm below this are rounding.
 const ROUNDING: f64 = 1e-6;

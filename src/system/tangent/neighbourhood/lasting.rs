@@ -1,0 +1,80 @@
+//! Telling idle freedoms from those that are idle at one configuration only.
+
+use super::{Neighbourhood, Tangent};
+use crate::linear::{complement, dot, orthonormal};
+use crate::solve::Newton;
+use crate::system::tangent::shake::shaken;
+
+/// The motions at a configuration by what they are beside it.
+#[derive(Clone, Debug)]
+pub struct Lasting {
+    /// The motions, where only what lasts counts as idle.
+    pub tangent: Tangent,
+    /// Those of the motions that are idle at the configuration only.
+    pub locked: Vec<Vec<f64>>,
+    /// Orthonormal basis of the idle motions at a configuration beside it.
+    pub idle_beside: Vec<Vec<f64>>,
+}
+
+impl Tangent {
+    /// The same motions, where only so many idle ones count as idle as are so beside the
+    /// configuration too. In gimbal lock, where the axes of the first and the last
+    /// of three joints are one line, these turn against each other and move nothing; a little
+    /// further on the same freedom moves links. Those that turn so are told too.
+    ///
+    /// The number of idle freedoms is the least that any configuration near has, so it does not
+    /// depend on which of them is looked at: the rank of what idle freedoms leave at rest is lower
+    /// on special configurations only.
+    pub fn lasting(self, near: &mut Neighbourhood) -> Lasting {
+        let unlocked = |tangent: Tangent| Lasting {
+            idle_beside: tangent.idle.clone(),
+            locked: Vec::new(),
+            tangent,
+        };
+        if self.idle.is_empty() {
+            return unlocked(self);
+        }
+        let newton = Newton::default();
+        let mut lasting: Option<Vec<Vec<f64>>> = None;
+        for k in 1..4 {
+            let start = shaken(near.mechanism(), &self.at, k);
+            let Some(at) = near.solve(&newton, start) else {
+                continue;
+            };
+            let beside = near.tangent(at);
+            let least = lasting.as_ref().map_or(self.idle.len(), Vec::len);
+            if beside.idle.len() < least {
+                lasting = Some(beside.idle);
+            }
+        }
+        let Some(idle_beside) = lasting else {
+            return unlocked(self);
+        };
+        // the directions among the idle ones that are nearest to those that last
+        let count = self.idle.len();
+        let weights = idle_beside.iter().map(|direction| {
+            let shares = self.idle.iter().map(|idle| dot(idle, direction));
+            shares.collect()
+        });
+        let kept = orthonormal(&weights.collect::<Vec<Vec<f64>>>(), DISTINCT);
+        let combined = |weights: &Vec<f64>| -> Vec<f64> {
+            let along = |i: usize| self.idle.iter().zip(weights).map(|(m, w)| m[i] * w).sum();
+            (0..self.columns()).map(along).collect()
+        };
+        let locked: Vec<Vec<f64>> = complement(&kept, count).iter().map(combined).collect();
+        let idle = kept.iter().map(combined).collect();
+        let motions = self.motions.iter().chain(&locked).cloned().collect();
+        Lasting {
+            tangent: Tangent {
+                idle,
+                motions,
+                ..self
+            },
+            locked,
+            idle_beside,
+        }
+    }
+}
+
+/// Below this a part of a unit vector does not tell one direction from another.
+const DISTINCT: f64 = 1e-3;
