@@ -87,7 +87,7 @@ impl Question {
             starts: true,
             ..wanted
         };
-        self.all(&question, wanted, watch)
+        self.all(&question.with_spins_still(), wanted, watch)
     }
 
     /// The assembled configuration near the start; where a mode is asked for, that of the home configuration, followed
@@ -103,8 +103,9 @@ impl Question {
         };
         if let Mode::Number(mode) = self.mode {
             check_count(&question).map_err(AskError::Question)?;
-            let solver = self.solver(&question, watch)?;
-            let followed = solver.follow(mode, &question.start(), &question.held(), watch);
+            let still = question.clone().with_spins_still();
+            let solver = self.solver(&still, watch)?;
+            let followed = solver.follow(mode, &still.start(), &still.held(), watch);
             match followed?.arrived(&self.mechanism, mode) {
                 Ok(at) => question = question.near(&at),
                 Err(lost) => return Ok(Solved::Lost(lost)),

@@ -46,7 +46,8 @@ impl Question {
         let begin: Vec<f64> = moved.iter().map(|input| input.from).collect();
         let (question, held) = self.holding(&begin)?;
         let inputs = inputs(&question)?;
-        let held = still(held, &moved);
+        let question = question.with_spins_still();
+        let held = still(question.with_still(held), &moved);
         let start = self.start(&question, watch)?;
         let mechanism = &self.mechanism;
         Ok(along(

@@ -76,7 +76,7 @@ impl Question {
         }
         let inputs = self.driven(|from, to| from == to)?;
         let begin: Vec<f64> = inputs.iter().map(|input| input.from).collect();
-        let question = self.with_inputs(self.resolved()?, &begin)?;
+        let mut question = self.with_inputs(self.resolved()?, &begin)?;
         for (index, input) in inputs.iter().enumerate() {
             if let Coordinate::Joint(joint) = input.coordinate
                 && let joint = &mechanism.joints()[joint]
@@ -95,9 +95,13 @@ impl Question {
         let held = match inputs.is_empty() {
             false => {
                 check_count(&question).map_err(AskError::Question)?;
-                still(self.resolved()?.held(), &inputs)
+                question = question.with_spins_still();
+                still(question.with_still(self.resolved()?.held()), &inputs)
             }
-            true => self.one_freedom()?.held(),
+            true => {
+                question = question.with_spins_still();
+                question.with_still(self.one_freedom()?.held())
+            }
         };
         let settings = SweepSettings {
             points: [&settings.points[..], &self.traced()?].concat(),
@@ -121,6 +125,7 @@ impl Question {
         let released = self.one_freedom()?;
         let question = self.resolved()?;
         check_count(&question).map_err(AskError::Question)?;
+        let question = question.with_spins_still();
         let kept = released.held_coordinates();
         let let_go = question.held_coordinates();
         let mut let_go = let_go.into_iter().filter(|held| !kept.contains(held));
@@ -129,7 +134,8 @@ impl Question {
         };
         let solver = self.solver(&question, watch)?;
         let seeds = seeds(mechanism, &question, &solver, input, watch);
-        let (held, settings) = (released.held(), CircuitsSettings::default());
+        let held = question.with_still(released.held());
+        let settings = CircuitsSettings::default();
         Ok(circuits(mechanism, &held, input, &seeds, &settings, watch))
     }
 

@@ -33,7 +33,7 @@ impl Question {
         watch: &Watch,
     ) -> Result<WorkspaceReport, AskError> {
         let axes = self.axes()?;
-        let question = self.mapped(&axes)?;
+        let question = self.mapped(&axes)?.with_spins_still();
         let bytes = cell_bytes(&question, axes.len()) as f64;
         let nodes = nodes(&settings.nodes, axes.len(), bytes)?;
         for given in [settings.starts, settings.searched] {

@@ -6,6 +6,7 @@ mod error_words;
 mod held;
 mod load;
 mod outputs;
+mod spins;
 mod value;
 
 pub use count::{Count, check_angles, check_count};
@@ -41,6 +42,8 @@ pub struct Question<'a> {
     guessed_platforms: Vec<bool>,
     changed: bool,
     split_changed: bool,
+    /// What stands still so that links do not spin about their own lines, with its values.
+    still: Vec<(Coordinate, f64)>,
     /// The demands made by name so far.
     demands: Vec<(Target, Demand)>,
 }
@@ -60,6 +63,7 @@ impl<'a> Question<'a> {
             guessed_platforms: vec![false; platforms],
             changed: false,
             split_changed: false,
+            still: Vec::new(),
             demands: Vec::new(),
             mechanism,
         }
@@ -119,10 +123,6 @@ impl<'a> Question<'a> {
     }
 
     /// Starts the search at another value of a joint, a platform coordinate or a whole pose.
-    pub fn guess(mut self, name: &str, value: impl Into<Value>) -> Result<Self, QuestionError> {
-        let value = &value.into();
-        match self.demand(Verb::Guess, name, Some(value))? {
-            Target::Joint(joint) => {
     ///
     /// A joint that the file holds at home is held at the guess instead; what is held by
     /// [`hold`](Self::hold) keeps its value.
@@ -130,6 +130,10 @@ impl<'a> Question<'a> {
     /// # Errors
     /// If there is no such joint or coordinate, the value has none, or something else was guessed
     /// of it before.
+    pub fn guess(mut self, name: &str, value: impl Into<Value>) -> Result<Self, QuestionError> {
+        let value = &value.into();
+        match self.demand(Verb::Guess, name, Some(value))? {
+            Target::Joint(joint) => {
                 let value = self.number(name, value, Coordinate::Joint(joint))?;
                 if !self.asked[joint] {
                     self.start.joints[joint] = value;
@@ -229,7 +233,7 @@ impl<'a> Question<'a> {
         self.mechanism
     }
 
-    /// What is held, in the form the solver takes.
+    /// What is held, in the form the solver takes; what stands still too.
     pub fn held(&self) -> Held<f64> {
         let platforms = (0..self.coordinates.len()).map(|platform| {
             let given = self.held_values(platform);
@@ -250,10 +254,10 @@ impl<'a> Question<'a> {
                 },
             }
         });
-        Held {
+        self.with_still(Held {
             joints: self.joints.clone(),
             platforms: platforms.collect(),
-        }
+        })
     }
 
     /// The equations of the question.

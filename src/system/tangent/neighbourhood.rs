@@ -151,12 +151,27 @@ impl<'a> Neighbourhood<'a> {
         self.frames.place(at, &mut placement);
         let scale = 1.0 / mechanism.characteristic_length();
         let frames: Vec<Frame> = self.frames.frames().collect();
+        let apart = |i: usize, j: usize| {
+            let [a, b] = [i, j].map(|k| self.frames.origin(k, &placement));
+            (a - b).norm() > 1e-6 / scale
+        };
+        // what leaves two points of a link at rest turns it about the line of these, and a link that
+        // is cut in two turns as one
+        let has_line = |frame: Frame, place: usize| {
+            let on_it = |k: &usize| mechanism.body(frames[*k]) == mechanism.body(frame);
+            let mut others = (0..frames.len()).filter(on_it);
+            others.any(|other| apart(place, other))
+        };
         let turning: Vec<usize> = (mechanism.closures().iter())
             .filter(|closure| {
                 !matches!(closure.kind, ClosureKind::Spherical | ClosureKind::Distance)
             })
-            .flat_map(|closure| closure.frames)
-            .filter_map(|frame| frames.iter().position(|f| *f == frame))
+            .flat_map(|closure| closure.frames.map(|frame| (closure.kind, frame)))
+            .filter_map(|(kind, frame)| {
+                let place = frames.iter().position(|f| *f == frame)?;
+                let cut = kind == ClosureKind::Rigid && has_line(frame, place);
+                (!cut).then_some(place)
+            })
             .collect();
         let unfelt = mechanism.unfelt_joints();
         // platforms on balls apart: what leaves the balls at rest turns them about the line of
@@ -167,10 +182,6 @@ impl<'a> Neighbourhood<'a> {
                 .flat_map(|closure| closure.frames)
                 .filter(move |frame| mechanism.body(*frame) == Body::Platform(platform));
             balls.filter_map(|frame| frames.iter().position(|f| *f == frame))
-        };
-        let apart = |i: usize, j: usize| {
-            let [a, b] = [i, j].map(|k| self.frames.origin(k, &placement));
-            (a - b).norm() > 1e-6 / scale
         };
         let rods: Vec<usize> = (0..mechanism.platforms().len())
             .filter(|&platform| balls(platform).any(|i| balls(platform).any(|j| apart(i, j))))
