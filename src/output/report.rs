@@ -1,6 +1,6 @@
 //! What every report can do to be shown.
 
-use serde::{Deserialize, Serialize};
+use serde::{Deserialize, Deserializer, Serialize};
 
 use super::document::{Cell, Document};
 
@@ -64,10 +64,16 @@ pub struct Remarks {
     pub completeness: Option<String>,
     /// What outputs that are full poses may hide; `null` if nothing.
     #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[serde(deserialize_with = "present")]
     pub note: Option<Option<String>>,
     /// What repeats what other closures hold already.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub redundant_constraints: Option<Vec<String>>,
+}
+
+/// A field that is there, though it may be `null`.
+fn present<'de, D: Deserializer<'de>>(from: D) -> Result<Option<Option<String>>, D::Error> {
+    Option::deserialize(from).map(Some)
 }
 
 /// The values of a row. Only their values are written: numbers with all their digits, nothing for what is not finite.
