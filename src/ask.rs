@@ -64,6 +64,7 @@ pub struct Question {
     hold: Vec<(String, Value)>,
     free: Vec<String>,
     guess: Vec<(String, Value)>,
+    lock: Vec<String>,
     mode: Mode,
     seed: u64,
     inputs: Vec<Range>,
@@ -84,6 +85,7 @@ impl Question {
             hold: Vec::new(),
             free: Vec::new(),
             guess: Vec::new(),
+            lock: Vec::new(),
             mode: Mode::Nearest,
             seed: 1,
             inputs: Vec::new(),
@@ -118,6 +120,13 @@ impl Question {
     /// Starts the search at a value.
     pub fn guess(mut self, name: impl Into<String>, value: impl Into<Value>) -> Self {
         self.guess.push((name.into(), value.into()));
+        self
+    }
+
+    /// For mobilities: makes a joint, a coordinate of a platform or a whole platform stand still where the mechanism is
+    /// closed; `actuated` locks all actuated joints.
+    pub fn lock(mut self, name: impl Into<String>) -> Self {
+        self.lock.push(name.into());
         self
     }
 

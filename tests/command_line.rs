@@ -223,11 +223,11 @@ fn wrong_values_of_options_are_underlined() {
         &["--guess", "joint3=0"],
         &["--free", "phi"],
     ] {
-        said += &refusal(&[&["solve", FOUR_BAR], options].concat());
+        said += &refusal(&[&["velocity", FOUR_BAR], options].concat());
         said += "\n";
     }
     for options in [&["--hold", "top=[Tz(1), Rw(2)]"][..], &["--free", "top"]] {
-        said += &refusal(&[&["solve", THREE_RPS], options].concat());
+        said += &refusal(&[&["velocity", THREE_RPS], options].concat());
         said += "\n";
     }
     insta::assert_snapshot!(said);
@@ -241,7 +241,7 @@ fn a_wrong_count_says_what_would_do() {
         &["--free", "theta1"],
         &["--free", "theta1", "--free", "phi1"],
     ] {
-        said += &refusal(&[&["solve", FOUR_BAR], options].concat());
+        said += &refusal(&[&["velocity", FOUR_BAR], options].concat());
         said += "\n";
     }
     for options in [
@@ -249,7 +249,7 @@ fn a_wrong_count_says_what_would_do() {
         &["--free", "l1", "--free", "l3"],
         &["--free", "actuated", "--hold", "top=home"],
     ] {
-        said += &refusal(&[&["solve", THREE_RPS], options].concat());
+        said += &refusal(&[&["velocity", THREE_RPS], options].concat());
         said += "\n";
     }
     insta::assert_snapshot!(said);

@@ -7,10 +7,11 @@ use serde::{Deserialize, Serialize};
 use crate::algebra::SiUnit;
 use crate::description::Role;
 use crate::geometry::{Quaternion, Vector3};
-use crate::mechanism::{Configuration, Frame, Mechanism, PlatformPose};
+use crate::mechanism::{Configuration, Frame, Mechanism, PlatformPose, turn_near};
 use crate::solve::{Equations, Newton, Report, Stop, Watch};
 use crate::system::{
-    Attempt, Freedoms, Question, QuestionError, Search, approach, check_count, infinite_if_null,
+    Attempt, Freedoms, Neighbourhood, Question, QuestionError, Search, approach, check_count,
+    infinite_if_null,
 };
 pub use crate::system::{Count, FrameRecord, Gap, Named, PlatformRecord};
 
@@ -36,6 +37,17 @@ impl Default for AssemblySettings {
             poor_condition: 1e4,
         }
     }
+}
+
+/// Freedoms that nothing held decides.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Left {
+    /// How many.
+    pub freedoms: usize,
+    /// Coordinates that decide them if they are held too.
+    pub hold: Vec<String>,
+    /// How many more are free to first order because the configuration is singular.
+    pub singular: usize,
 }
 
 /// How the search ended. Joints, platforms and closures are given by name.
@@ -123,6 +135,10 @@ pub struct AssemblyReport {
     pub mobility: Option<usize>,
     /// Local (passive) freedoms: a link turns about its own axis.
     pub idle: usize,
+    /// Freedoms left where they were, if less is held than the mechanism has freedoms: the configuration
+    /// is then the one nearest to the start.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub left: Option<Left>,
     /// Names of what is held.
     pub held: Vec<String>,
     /// Joint values of the assembled configuration, or of the closest approach, rad or m.
@@ -183,24 +199,48 @@ impl AssemblyReport {
 /// Finds the assembled configuration near the start of a question.
 ///
 /// Newton's method on the loop closure from the guess; if that fails, or ends outside the limits,
-/// from seeded random starts within the limits.
+/// from seeded random starts within the limits. Where less is held than the mechanism has freedoms,
+/// the others change as little as closing it allows.
 ///
 /// # Errors
-/// If more or less is held than the mechanism has freedoms, or what is held depends on itself.
+/// If more is held than the mechanism has freedoms, or what is held depends on itself.
 pub fn assemble(
     question: &Question,
     settings: &AssemblySettings,
     watch: &Watch,
 ) -> Result<AssemblyReport, QuestionError> {
-    let count = check_count(question)?;
+    let (count, left) = match check_count(question) {
+        Ok(count) => (count, None),
+        Err(QuestionError::TooFew {
+            mobility,
+            held,
+            hold,
+        }) => {
+            let count = Count {
+                mobility: Some(mobility),
+                held,
+            };
+            let left = Left {
+                freedoms: mobility - held,
+                hold,
+                singular: 0,
+            };
+            (count, Some(left))
+        }
+        Err(error) => return Err(error),
+    };
     let mut search = Search::new(question, &settings.newton);
-    let found = search.run(settings.restarts, settings.seed, watch);
+    let mut found = search.run(settings.restarts, settings.seed, watch);
+    if left.is_some() && found.assembles() {
+        found.attempt.at = nearest(question, &search, found.attempt.at);
+    }
     let reporter = Reporter {
         question,
         mechanism: question.mechanism(),
         settings,
         search,
         count,
+        left,
         restarts: found.restarts,
         interrupted: watch.is_stopped(),
     };
@@ -211,6 +251,23 @@ pub fn assemble(
     })
 }
 
+/// The assembled configuration nearest to the start of a question that leaves freedoms, downhill from
+/// one that was found. It does not leave limits that this one is within.
+fn nearest(question: &Question, search: &Search, found: Configuration<f64>) -> Configuration<f64> {
+    let mechanism = question.mechanism();
+    let mut start = question.start();
+    for joint in (0..start.joints.len()).filter(|&joint| mechanism.repeats(joint)) {
+        start.joints[joint] = turn_near(start.joints[joint], found.joints[joint]);
+    }
+    let mut near = Neighbourhood::holding(mechanism, search.held());
+    let nearest = near.nearest(&start, found.clone());
+    let outside = |at: &Configuration<f64>| mechanism.outside_limits(&at.joints).count();
+    match outside(&nearest) > outside(&found) {
+        true => found,
+        false => nearest,
+    }
+}
+
 /// Says what an attempt means.
 struct Reporter<'a> {
     question: &'a Question<'a>,
@@ -218,6 +275,7 @@ struct Reporter<'a> {
     settings: &'a AssemblySettings,
     search: Search<'a>,
     count: Count,
+    left: Option<Left>,
     restarts: usize,
     interrupted: bool,
 }
@@ -248,6 +306,7 @@ impl Reporter<'_> {
             residual: attempt.report.size.largest,
             mobility: self.count.mobility,
             idle: 0,
+            left: self.left.clone(),
             held: self.question.held_names(),
             frames: frames.collect(),
             platforms: platforms
@@ -298,14 +357,13 @@ impl Reporter<'_> {
         } else {
             0
         };
+        if let Some(left) = &self.left {
+            return self.with_freedoms(attempt, &outside, left);
+        }
         let outcome = if freedoms.motions.len() > idle {
             singular::blame(self.mechanism, self.search.held(), &attempt.at, &freedoms)
-        } else if outside.is_empty() {
-            Outcome::Converged
         } else {
-            Outcome::ConvergedOutsideLimits {
-                joints: self.joint_names(&outside),
-            }
+            self.converged(&outside)
         };
         let mut report = self.report(attempt, outcome);
         if idle > 0 {
@@ -314,6 +372,37 @@ impl Reporter<'_> {
             report.near_singular = report.condition > self.settings.poor_condition;
             report.idle = idle;
         }
+        report.warnings.extend(report.warning());
+        report
+    }
+
+    fn converged(&self, outside: &[usize]) -> Outcome {
+        match outside.is_empty() {
+            true => Outcome::Converged,
+            false => Outcome::ConvergedOutsideLimits {
+                joints: self.joint_names(outside),
+            },
+        }
+    }
+
+    /// Where freedoms are left, they are no singularity.
+    fn with_freedoms(&self, attempt: Attempt, outside: &[usize], left: &Left) -> AssemblyReport {
+        let freedoms = Freedoms::at(self.mechanism.dimensions(), self.search.held(), &attempt.at);
+        let mut near = Neighbourhood::holding(self.mechanism, self.search.held());
+        let residual = near.residual(&attempt.at);
+        let tangent = near.tangent(attempt.at.clone());
+        let condition = freedoms.condition_of_determined();
+        let mut report = AssemblyReport {
+            residual,
+            condition,
+            near_singular: condition > self.settings.poor_condition,
+            idle: tangent.idle.len(),
+            left: Some(Left {
+                singular: tangent.motions.len().saturating_sub(left.freedoms),
+                ..left.clone()
+            }),
+            ..self.report(attempt, self.converged(outside))
+        };
         report.warnings.extend(report.warning());
         report
     }
@@ -354,6 +443,7 @@ impl Reporter<'_> {
         };
         AssemblyReport {
             squared_lengths: self.mechanism.has_rods(),
+            left: None,
             ..self.report(attempt, outcome)
         }
     }

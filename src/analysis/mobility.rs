@@ -15,11 +15,11 @@ use rand_pcg::Pcg64Mcg;
 use serde::{Deserialize, Serialize};
 
 use crate::linear::axis_aligned;
-use crate::mechanism::{ClosureKind, Mechanism, Variable};
+use crate::mechanism::{ClosureKind, Configuration, Mechanism, Variable};
 use crate::solve::{Newton, Stage, Watch};
 use crate::system::{
-    Analysed, Closing, Lasting, Moved, Named, Neighbourhood, Question, STILL, TwistSpace, Unknown,
-    WidestGap, random_configuration,
+    Analysed, Closing, Coordinate, Held, HeldPlatform, Lasting, Moved, Named, Neighbourhood,
+    Question, STILL, TwistSpace, Unknown, WidestGap, random_configuration,
 };
 
 pub use loops::LoopCount;
@@ -41,6 +41,8 @@ pub struct MobilitySettings {
     pub elsewhere: usize,
     /// Seed of all random directions and starts.
     pub seed: u64,
+    /// Coordinates that stand still where the mechanism is closed, as those of actuators that are locked.
+    pub locked: Vec<Coordinate>,
 }
 
 impl Default for MobilitySettings {
@@ -52,6 +54,7 @@ impl Default for MobilitySettings {
             branch_trials: 8,
             elsewhere: 8,
             seed: 1,
+            locked: Vec::new(),
         }
     }
 }
@@ -63,11 +66,15 @@ pub struct MobilityReport {
     pub mechanism: String,
     /// The joint variables with their units, in the order of the file.
     pub variables: Vec<Variable>,
+    /// Names of what is locked: everything else in the report is about the mechanism in which these stand still.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub locked: Vec<String>,
     /// Finite freedoms at the configuration without local ones: the largest dimension of a branch.
     pub mobility: usize,
-    /// Kutzbach's count: joint variables and 6 for each platform less closure equations.
+    /// Kutzbach's count: joint variables and 6 for each platform less closure equations, where what is
+    /// locked is no variable.
     pub kutzbach: i64,
-    /// Rank of the closure Jacobian with nothing held.
+    /// Rank of the closure Jacobian with nothing held but what is locked.
     pub rank: usize,
     /// Infinitesimal freedoms without local ones.
     pub infinitesimal: usize,
@@ -102,8 +109,11 @@ pub struct MobilityReport {
     pub elsewhere_starts: usize,
     /// Joint variables and six for each platform.
     pub unknowns: usize,
-    /// Closure equations.
+    /// Closure equations, and one for each coordinate of a platform that is locked by itself.
     pub equations: usize,
+    /// How many of the equations lock coordinates of platforms.
+    #[serde(default, skip_serializing_if = "is_zero")]
+    pub locking: usize,
     /// Local (passive) freedoms: a link turns about its own axis and nothing else moves.
     pub idle_freedoms: Vec<LocalFreedom>,
     /// Kutzbach's count loop by loop.
@@ -213,7 +223,9 @@ pub struct Elsewhere {
 
 /// Counts the freedoms of a mechanism, closed near the start of a question.
 ///
-/// What the question holds only decides which configuration is looked at: all is free then. The
+/// What the question holds only decides which configuration is looked at. Then all is free but what the
+/// settings lock: that stands still where it is, a joint as one variable less and a coordinate of a
+/// platform as one equation more, so that all counts are those of the mechanism with it locked. The
 /// finite mobility follows from a reduction of Lyapunov and Schmidt; where that finds the
 /// configuration singular, from the branches that small steps in many directions settle on.
 pub fn mobility(
@@ -226,7 +238,9 @@ pub fn mobility(
         Ok(closed) => closed,
         Err(answer) => return answer,
     };
-    let mut near = Neighbourhood::new(mechanism);
+    let locking = Question::locking(mechanism, &settings.locked, &closed.configuration);
+    let held = locking.held();
+    let mut near = Neighbourhood::holding(mechanism, &held);
     let tangent = near.tangent(closed.configuration.clone());
     let Lasting {
         tangent,
@@ -257,14 +271,16 @@ pub fn mobility(
         .collect();
     let redundancies = redundancy::find(&mut near, &tangent);
     let idle_freedoms = idle_freedoms(mechanism, near.system().unknowns(), &idle_beside);
-    let idle_joints: Vec<String> = (mechanism.joints().iter())
-        .map(|joint| joint.name.clone())
+    let idle_joints: Vec<String> = (mechanism.joints().iter().zip(&held.joints))
+        .filter(|(_, locked)| !**locked)
+        .map(|(joint, _)| joint.name.clone())
         .filter(|name| !moving_joints.contains(name))
         .collect();
     let spins = |name: &&String| idle_freedoms.iter().any(|freedom| freedom.moves(name));
     let mut report = MobilityReport {
         mechanism: mechanism.name().into(),
         variables: Variable::joints(mechanism),
+        locked: names(mechanism, &held, &locking),
         mobility: found.freedoms,
         kutzbach: unknowns as i64 - rows as i64,
         rank: tangent.decomposition.rank(),
@@ -288,6 +304,7 @@ pub fn mobility(
         },
         unknowns,
         equations: rows,
+        locking: near.system().hold_rows().len(),
         idle_freedoms,
         loops: loops::count(&mut near, &closed.configuration),
         redundancies,
@@ -304,7 +321,12 @@ pub fn mobility(
         gap_after_step: found.gap,
         interrupted: false,
     };
-    report.elsewhere = elsewhere(&mut near, (settings, watch), &report);
+    report.elsewhere = elsewhere(
+        &mut near,
+        (&held, &closed.configuration),
+        (settings, watch),
+        &report,
+    );
     report.interrupted = watch.is_stopped();
     Analysed::Closed(report)
 }
@@ -315,6 +337,7 @@ const ELSEWHERE_LIMIT: usize = 100;
 /// Regular assemblies of another mobility than `here`, one for each.
 fn elsewhere(
     near: &mut Neighbourhood,
+    (held, locked_at): (&Held<f64>, &Configuration<f64>),
     (settings, watch): (&MobilitySettings, &Watch),
     here: &MobilityReport,
 ) -> Vec<Elsewhere> {
@@ -326,7 +349,8 @@ fn elsewhere(
         if watch.stops(Stage::Starts, start, Some(here.elsewhere_starts)) {
             break;
         }
-        let start = random_configuration(mechanism, &mechanism.home(), rng);
+        let mut start = random_configuration(mechanism, &mechanism.home(), rng);
+        held.keep(locked_at, &mut start);
         let Some(at) = near.solve(&Newton::default(), start) else {
             continue;
         };
@@ -350,9 +374,24 @@ fn elsewhere(
     found
 }
 
+/// What is locked, a platform that stands still as a whole by its own name.
+fn names(mechanism: &Mechanism, held: &Held<f64>, locking: &Question) -> Vec<String> {
+    let joints = locking.held_names().into_iter();
+    let joints = joints.take(held.joints.iter().filter(|locked| **locked).count());
+    let platforms = mechanism.platforms().iter().enumerate();
+    let platforms = platforms.flat_map(|(i, platform)| match held.platforms[i] {
+        HeldPlatform::Pose => vec![platform.name.clone()],
+        _ => (locking.held_values(i).into_iter())
+            .map(|(c, _)| Coordinate::Pose(i, c).name(mechanism))
+            .collect(),
+    });
+    joints.chain(platforms).collect()
+}
+
 /// Whether a count is left out of a report.
-fn is_zero(count: &usize) -> bool {
-    *count == 0
+#[allow(clippy::trivially_copy_pass_by_ref)] // serde passes it so
+fn is_zero(number: &usize) -> bool {
+    *number == 0
 }
 
 /// The joints that turn in any of some motions.

@@ -7,9 +7,11 @@ use crate::analysis::formulas::{FormulasReport, FormulasSettings, formulas};
 use crate::analysis::mobility::{MobilityReport, MobilitySettings, mobility};
 use crate::analysis::statics::{StaticsReport, StaticsSettings, statics};
 use crate::analysis::velocity::{VelocityReport, VelocitySettings, velocity};
-use crate::mechanism::{Body, Frame};
+use crate::mechanism::{Body, Frame, PoseCoordinate};
 use crate::solve::Watch;
-use crate::system::{self, Analysed, Closed, Closing, Drive, Load, NotClosed, close};
+use crate::system::{
+    self, Analysed, Closed, Closing, Coordinate, Drive, Load, NotClosed, check_angle, close,
+};
 
 impl Question {
     /// The mechanism closed near the start, as all analyses of one configuration close it.
@@ -23,13 +25,14 @@ impl Question {
         Ok(close(&question, &closing.newton, starts, watch))
     }
 
-    /// The freedoms of the assembled mechanism.
+    /// The freedoms of the assembled mechanism, with what the question locks standing still.
     ///
     /// # Errors
-    /// If a name or a value is wrong.
+    /// If a name or a value is wrong, or an angle is locked of a platform whose pitch is ±90°.
     pub fn mobility(&self, watch: &Watch) -> Result<Analysed<MobilityReport>, AskError> {
         let settings = MobilitySettings {
             seed: self.seed,
+            locked: self.locked(watch)?,
             ..MobilitySettings::default()
         };
         Ok(mobility(&self.resolved()?, &settings, watch))
@@ -69,6 +72,33 @@ impl Question {
         }
         let settings = StaticsSettings::default();
         statics(&question, &load, &settings, watch).map_err(AskError::Question)
+    }
+
+    /// What is locked.
+    fn locked(&self, watch: &Watch) -> Result<Vec<Coordinate>, AskError> {
+        let plain = system::Question::new(&self.mechanism);
+        let mut locked: Vec<Coordinate> = Vec::new();
+        for (index, name) in self.lock.iter().enumerate() {
+            locked.extend(plain.coordinates(name).map_err(Role::Lock.named(index))?);
+        }
+        // three angles at once are an orientation, which has no gimbal lock
+        let single = |coordinate: &&Coordinate| match **coordinate {
+            Coordinate::Pose(platform, c) if c.is_angle() => !PoseCoordinate::ALL
+                .into_iter()
+                .filter(|c| c.is_angle())
+                .all(|c| locked.contains(&Coordinate::Pose(platform, c))),
+            _ => false,
+        };
+        let mut angles = locked.iter().filter(single).peekable();
+        if angles.peek().is_some()
+            && let Ok(closed) = self.closed(watch)?
+        {
+            for &angle in angles {
+                let checked = check_angle(&self.mechanism, &closed.configuration, angle);
+                checked.map_err(AskError::Question)?;
+            }
+        }
+        Ok(locked)
     }
 
     /// The closed forms of the file against its chains.

@@ -16,6 +16,8 @@ pub enum Role {
     Free,
     /// A start of the search.
     Guess,
+    /// Something locked.
+    Lock,
     /// A coordinate that moves or is mapped: its name or its whole range.
     Input,
     /// The beginning of its range.

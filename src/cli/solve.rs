@@ -14,7 +14,9 @@ use super::{Answer, Refusal};
 ///
 /// The actuated joints are held at home and the rest is solved, unless --hold and --free say otherwise. What is held is
 /// a joint, a coordinate of a platform (top.x, top.y, top.z, top.roll, top.pitch, top.yaw) or a whole platform. Values
-/// are expressions as in the file, or `home`; a platform takes a list of displacements.
+/// are expressions as in the file, or `home`; a platform takes a list of displacements. Where less is held than the
+/// mechanism has freedoms, the rest changes as little from the start as closing allows, in rad and characteristic
+/// lengths, and the answer says how many freedoms nothing holds.
 #[derive(Args)]
 #[command(after_help = "Examples:\n  \
     linkwork solve mechanisms/four_bar.ron --hold theta1=\"60 deg\"\n  \

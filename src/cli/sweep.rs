@@ -9,7 +9,7 @@ use linkwork::output::Report;
 use linkwork::output::csv::Csv;
 use linkwork::output::sweep::{Picture, row_columns, row_values, worded};
 
-use super::asked::{Posed, Ranges, Split};
+use super::asked::{Asked, Posed, Ranges};
 use super::format::{Format, with_rows};
 use super::search::{Search, mode};
 use super::source::{Assignment, Source};
@@ -20,8 +20,8 @@ use super::{Answer, Refusal, lines, style};
 
 /// Move the inputs and see what happens, without ever switching branch silently.
 ///
-/// The motion begins assembled near home, or in the mode that `assemblies` lists under that number where the inputs
-/// begin. It ends at the end of the ranges, at a limit, at a dead point of the inputs, or where branches
+/// The motion begins assembled near home or near the values of --guess, or in the mode that `assemblies` lists under
+/// that number where the inputs begin. It ends at the end of the ranges, at a limit, at a dead point of the inputs, or where branches
 /// cross. With --follow it goes round dead points and straight through crossings; --follow without --input follows the
 /// whole curve of a mechanism with one freedom, and --circuits lists all of them.
 #[derive(Args)]
@@ -29,6 +29,7 @@ use super::{Answer, Refusal, lines, style};
     linkwork sweep mechanisms/four_bar.ron --input theta1=0deg..360deg --steps 36\n  \
     linkwork sweep mechanisms/four_bar.ron --input theta1=0deg..360deg --of left+0.5,0.2 --format csv\n  \
     linkwork sweep mechanisms/three_rps.ron --input l1=0.6..0.8 --input l2=0.6..0.7 --mode 3\n  \
+    linkwork sweep mechanisms/four_bar.ron --input theta1=60deg..90deg --guess phi1=\"-130 deg\"\n  \
     linkwork sweep mechanisms/slider_crank.ron --follow --svg slider.svg\n  \
     linkwork sweep mechanisms/four_bar.ron --circuits")]
 pub struct Sweep {
@@ -38,22 +39,22 @@ pub struct Sweep {
     #[arg(long, value_name = "NAME=FROM..TO")]
     input: Vec<Assignment>,
     #[command(flatten)]
-    split: Split,
+    asked: Asked,
     /// Number of equal steps into which the ranges of the inputs are divided
     #[arg(long, value_name = "NUMBER", default_value_t = SweepSettings::default().steps)]
     steps: usize,
     /// Begin in this mode, numbered as `assemblies` lists it where the inputs begin
-    #[arg(long, value_name = "NUMBER", conflicts_with = "all_modes")]
+    #[arg(long, value_name = "NUMBER", conflicts_with_all = ["all_modes", "guess"])]
     #[arg(value_parser = mode, allow_negative_numbers = true)]
     mode: Option<usize>,
     /// Move every mode there is where the inputs begin
-    #[arg(long)]
+    #[arg(long, conflicts_with = "guess")]
     all_modes: bool,
     /// Go round dead points and straight through crossings; without --input the whole curve
     #[arg(long)]
     follow: bool,
     /// List all circuits and branches of a mechanism with one freedom
-    #[arg(long, conflicts_with_all = ["input", "follow", "mode", "all_modes", "svg"])]
+    #[arg(long, conflicts_with_all = ["input", "follow", "mode", "all_modes", "guess", "svg"])]
     circuits: bool,
     /// Trace a frame's origin, or a point beside it in its axes, e.g. --of left+0.5,0.2
     #[arg(long, value_name = "FRAME[+X,Y,Z]")]
@@ -75,7 +76,7 @@ const SHOWN: usize = 37;
 
 impl Sweep {
     pub fn run(&self) -> Result<Answer, Refusal> {
-        let mut posed = self.split.pose(&self.source)?;
+        let mut posed = self.asked.pose(&self.source)?;
         self.search.pose(&mut posed)?;
         posed.ranges(Ranges::Input, &self.input)?;
         posed.names(Role::Point, "--of", &self.of, Question::point);

@@ -95,6 +95,9 @@ fn joints(report: &MobilityReport) -> Section {
     if !report.spinning_joints.is_empty() {
         rows.push(("spinning", listed(&report.spinning_joints)));
     }
+    if !report.locked.is_empty() {
+        rows.push(("locked", listed(&report.locked)));
+    }
     let table = Table::of(&rows)
         .words("", |(what, _)| *what)
         .words("", |(_, names)| names);

@@ -19,6 +19,7 @@ impl Report for AssemblyReport {
         let gaps = (!self.is_assembled()).then(|| Section::new("Gaps").table(gaps(self)));
         Document::new(&self.mechanism, sentence(self))
             .interrupted(self.interrupted, "other starts")
+            .notes(left(self))
             .notes(idle(self))
             .notes(others(self))
             .section(Section::new("Joints").table(joints(self)))
@@ -44,7 +45,18 @@ fn sentence(report: &AssemblyReport) -> String {
         None => "0 m".into(),
     };
     match &report.outcome {
-        Outcome::Converged => "Assembled.".into(),
+        Outcome::Converged => match &report.left {
+            None => "Assembled.".into(),
+            Some(left) if report.restarts > 0 => format!(
+                "Assembled from a random start, with {} left undecided.",
+                count(left.freedoms, "freedom")
+            ),
+            Some(left) => format!(
+                "Assembled as near to the start as it closes; {} that nothing holds {} left there.",
+                count(left.freedoms, "freedom"),
+                form(left.freedoms, "was", "were")
+            ),
+        },
         Outcome::ConvergedOutsideLimits { joints } => {
             let outside = closing::outside_limits(joints).unwrap_or_default();
             format!("Assembled, but {outside}.")
@@ -89,6 +101,29 @@ fn sentence(report: &AssemblyReport) -> String {
     }
 }
 
+/// Freedoms that nothing held decides, and what would.
+fn left(report: &AssemblyReport) -> Vec<String> {
+    let Some(left) = &report.left else {
+        return vec![];
+    };
+    let held = match &report.held[..] {
+        [] => "nothing is held".into(),
+        held => format!(
+            "only {} {} held",
+            listed(held),
+            form(held.len(), "is", "are")
+        ),
+    };
+    let mut notes = vec![format!("{held}; {} would decide the rest", listed(&left.hold))];
+    if left.singular > 0 {
+        notes.push(format!(
+            "a singular configuration: to first order {} more can move",
+            count(left.singular, "freedom")
+        ));
+    }
+    notes
+}
+
 /// Freedoms that do not matter.
 fn idle(report: &AssemblyReport) -> Option<String> {
     let spin = form(
@@ -102,7 +137,8 @@ fn idle(report: &AssemblyReport) -> Option<String> {
 /// What is not known of other configurations with the same inputs.
 fn others(report: &AssemblyReport) -> Option<String> {
     let solved = report.variables.iter().any(|joint| !joint.held);
-    let may_differ = report.is_assembled() && solved && !report.gaps.is_empty();
+    let decided = report.left.is_none();
+    let may_differ = report.is_assembled() && decided && solved && !report.gaps.is_empty();
     let another = match report.restarts {
         0 => "other assemblies with the same inputs were not looked for",
         _ => {

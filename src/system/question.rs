@@ -163,6 +163,25 @@ impl<'a> Question<'a> {
         self
     }
 
+    /// The coordinates that a name stands for: one, the six of a platform, or all actuated joints for
+    /// `actuated`.
+    ///
+    /// # Errors
+    /// If there is no such joint or coordinate.
+    pub fn coordinates(&self, name: &str) -> Result<Vec<Coordinate>, QuestionError> {
+        if name == "actuated" && self.mechanism.joint(name).is_none() {
+            let joints = self.mechanism.joints().iter().enumerate();
+            let actuated = joints.filter(|(_, joint)| joint.role == Role::Actuated);
+            return Ok(actuated.map(|(i, _)| Coordinate::Joint(i)).collect());
+        }
+        Ok(match self.target(name)? {
+            Target::Coordinate(coordinate) => vec![coordinate],
+            Target::Pose(platform) => PoseCoordinate::ALL
+                .map(|c| Coordinate::Pose(platform, c))
+                .to_vec(),
+        })
+    }
+
     /// The joint or platform coordinate of that name, and the value of an expression for it, in m
     /// or rad.
     ///
@@ -195,6 +214,21 @@ impl<'a> Question<'a> {
             }
         }
         self
+    }
+
+    /// These coordinates held where they are in a configuration, and nothing else.
+    pub fn locking(
+        mechanism: &'a Mechanism,
+        locked: &[Coordinate],
+        at: &Configuration<f64>,
+    ) -> Self {
+        let joints = (0..mechanism.joints().len()).map(Coordinate::Joint);
+        let nothing = joints.fold(Question::new(mechanism), Question::without);
+        (nothing.near(at)).at_values(
+            locked
+                .iter()
+                .map(|coordinate| (*coordinate, coordinate.of(at))),
+        )
     }
 
     /// The same question with one coordinate not held.

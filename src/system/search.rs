@@ -210,14 +210,7 @@ impl<'a> Search<'a> {
         let start = self.question.start();
         // drawn for what is held too, so that the draws of the rest do not depend on the split
         let mut at = random_configuration(self.mechanism, &start, rng);
-        for (i, _) in self.held.joints.iter().enumerate().filter(|(_, h)| **h) {
-            at.joints[i] = start.joints[i];
-        }
-        for (i, held) in self.held.platforms.iter().enumerate() {
-            if *held == HeldPlatform::Pose {
-                at.platforms[i] = start.platforms[i];
-            }
-        }
+        self.held.keep(&start, &mut at);
         let joints = vec![true; at.joints.len()];
         self.fit(at, joints, &vec![false; self.held.platforms.len()])
     }

@@ -7,6 +7,7 @@ use linkwork::analysis::assembly::{AssemblySettings, assemble};
 use linkwork::analysis::mobility::{
     Character, LocalFreedom, MobilityReport, MobilitySettings, Wrench, mobility,
 };
+use linkwork::ask;
 use linkwork::description::Description;
 use linkwork::geometry::Vector3;
 use linkwork::mechanism::Mechanism;
@@ -759,4 +760,100 @@ fn the_same_question_has_the_same_answer() {
     for name in ["two_rhombi", "three_parallel_cranks", "three_rps"] {
         assert_eq!(report(name), report(name));
     }
+}
+
+fn locked(name: &str, locks: &[&str]) -> MobilityReport {
+    let asked = locks
+        .iter()
+        .fold(ask::Question::new(load(name)), |q, lock| q.lock(*lock));
+    let answer = asked.mobility(&Watch::none()).unwrap();
+    answer
+        .closed()
+        .unwrap_or_else(|| panic!("{name} does not close"))
+}
+
+#[test]
+fn a_lock_takes_the_freedom_it_drives() {
+    // mechanism, what is locked, freedoms, Kutzbach's count: each lock that is independent takes one of both
+    let known = [
+        ("three_rps", &[][..], 3, 3),
+        ("three_rps", &["l1"], 2, 2),
+        ("three_rps", &["l1", "l2"], 1, 1),
+        ("three_rps", &["l1", "l2", "l3"], 0, 0),
+        ("three_rps", &["actuated"], 0, 0),
+        // the legs are given by their angles too
+        ("three_rps", &["l1", "phi1", "l2"], 0, 0),
+        ("stewart_gough_6ups", &["actuated"], 0, 0),
+        ("stewart_gough_6ups", &["l1", "l2", "l3", "l4", "l5"], 1, 1),
+        ("stewart_gough_6ups", &["top"], 0, 0),
+        ("four_bar", &["theta1"], 0, -3),
+        ("five_bar", &["theta1"], 1, -2),
+        ("five_bar", &["actuated"], 0, -3),
+        ("puma560_corke", &["theta4", "theta5", "theta6"], 3, 3),
+        ("delta", &["actuated"], 0, 0),
+        // two locks of one freedom: one of them is redundant
+        ("four_bar", &["theta1", "phi1"], 0, -4),
+    ];
+    for (name, locks, freedoms, kutzbach) in known {
+        let report = locked(name, locks);
+        let counts = (report.mobility, report.infinitesimal, report.kutzbach);
+        assert_eq!(counts, (freedoms, freedoms, kutzbach), "{name} {locks:?}");
+        let character = match freedoms {
+            0 => Character::Structure,
+            _ => Character::Regular,
+        };
+        assert_eq!(report.character, character, "{name} {locks:?}");
+        let still = report.moving_joints.iter().chain(&report.idle_joints);
+        assert!(
+            still
+                .into_iter()
+                .all(|joint| !locks.contains(&joint.as_str())),
+            "{name}"
+        );
+        assert_eq!(
+            report.unknowns as i64 - report.equations as i64,
+            kutzbach,
+            "{name}"
+        );
+    }
+}
+
+#[test]
+fn coordinates_of_platforms_are_locked_too() {
+    // Lee and Shah 1988: a 3-RPS commands z, roll and pitch; the others follow
+    let report = locked("three_rps", &["top.z", "top.roll"]);
+    assert_eq!((report.mobility, report.locking), (1, 2));
+    assert_eq!(report.locked, ["top.z", "top.roll"]);
+    assert_eq!(
+        locked("three_rps", &["top.z", "top.roll", "top.pitch"]).mobility,
+        0
+    );
+    assert_eq!(locked("three_rps", &["top"]).locked, ["top"]);
+    // with z locked no motion of the platform's origin goes along z
+    let report = locked("stewart_gough_6ups", &["top.z"]);
+    assert_eq!(
+        (report.mobility, report.kutzbach, report.redundant),
+        (5, 5, 0)
+    );
+}
+
+#[test]
+fn what_is_locked_stands_where_the_mechanism_is_closed() {
+    let held = ask::Question::new(load("four_bar")).hold("theta1", "100 deg");
+    let count =
+        |question: &ask::Question| question.mobility(&Watch::none()).unwrap().closed().unwrap();
+    // what is held chooses the configuration, and moves
+    assert_eq!((count(&held).mobility, count(&held).locked.len()), (1, 0));
+    let report = count(&held.lock("phi1"));
+    assert_eq!(report.mobility, 0);
+    assert_eq!(report.locked, ["phi1"]);
+    let theta1 = report.joints.get("theta1").unwrap();
+    assert!((theta1 - 100f64.to_radians()).abs() < 1e-12, "{theta1}");
+    // what does not exist is not locked
+    let unknown = ask::Question::new(load("four_bar")).lock("theta9");
+    let refused = unknown.mobility(&Watch::none());
+    let Err(ask::AskError::Named { item, .. }) = refused else {
+        panic!("{refused:?}");
+    };
+    assert_eq!((item.role, item.index), (ask::Role::Lock, 0));
 }

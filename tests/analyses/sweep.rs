@@ -1458,3 +1458,41 @@ fn an_interrupted_run_leaves_whole_rows() {
             .all(|line| line.split(',').count() == columns)
     );
 }
+
+#[test]
+fn a_guess_chooses_the_assembly_that_a_motion_begins_in() {
+    // 4-bar of links 1, 3, 4 on a base of 5: the rocker's angle is one of two intersections of circles
+    let (l0, l1, l2, l3) = (5.0f64, 1.0, 3.0, 4.0);
+    let rocker = |crank: f64, side: f64| {
+        let (x, y) = (l1 * crank.cos() - l0, l1 * crank.sin());
+        let d = x.hypot(y);
+        y.atan2(x) + side * ((l3 * l3 + d * d - l2 * l2) / (2.0 * l3 * d)).acos()
+    };
+    let question = || ask::Question::new(mechanism("four_bar")).input("theta1", "60 deg", "90 deg");
+    let settings = SweepSettings {
+        steps: 3,
+        ..SweepSettings::default()
+    };
+    let ends = |question: ask::Question| -> Vec<f64> {
+        let motions = question.motions(&settings, &Watch::none()).unwrap();
+        let report = motions.report(10, &mut |_, _| {}, &Watch::none());
+        assert_eq!(report.motions.len(), 1);
+        let columns = &report.motions[0].columns;
+        let phi1 = columns.iter().position(|column| column.name == "phi1");
+        let rows = &report.motions[0].values;
+        let values = [&rows[0], rows.last().unwrap()];
+        values.map(|row| row[phi1.unwrap()].unwrap()).to_vec()
+    };
+    let off = |a: f64, b: f64| ((a - b + 3.0 * PI).rem_euclid(TAU) - PI).abs();
+    for (guess, side) in [(None, -1.0), (Some("-150 deg"), 1.0)] {
+        let asked = match guess {
+            None => question(),
+            Some(guess) => question().guess("phi1", guess),
+        };
+        let found = ends(asked);
+        for (found, degrees) in found.iter().zip([60f64, 90.0]) {
+            let expected = rocker(degrees.to_radians(), side);
+            assert!(off(*found, expected) < 1e-9, "{found} for {expected}");
+        }
+    }
+}

@@ -208,22 +208,9 @@ fn a_body_that_turns_about_a_point_is_not_idle() {
             platforms: { "p": Platform(home: [Rx("90 deg")]) },
             closures: { "cross": Universal("p", "ground") })"#,
     );
-    let refused = assemble(
-        &Question::new(&universal),
-        &AssemblySettings::default(),
-        &Watch::none(),
-    );
-    assert!(
-        matches!(
-            refused,
-            Err(QuestionError::TooFew {
-                mobility: 2,
-                held: 0,
-                ..
-            })
-        ),
-        "{refused:?}"
-    );
+    let report = answer(&Question::new(&universal));
+    let left = report.left.expect("a cross turns about two lines");
+    assert_eq!((left.freedoms, left.singular, report.idle), (2, 0, 0));
     // a rod between two balls does spin idly
     let rod = read(
         r#"Mechanism(version: 1, name: "rod", convention: Modified,
@@ -265,4 +252,79 @@ fn a_guess_decides_against_the_mode_of_home() {
     let report = answer(&question);
     assert_eq!(report.outcome, Outcome::Converged);
     assert!(joint(&mechanism, &report, "phi1") < 0.0);
+}
+
+#[test]
+fn what_nothing_holds_changes_as_little_as_closing_allows() {
+    // a point that slides in x and y on the end of a rod of 1 m: on the unit circle, nearest along the radius
+    let sliding = |x: &str, y: &str| {
+        read(&format!(
+            r#"Mechanism(version: 1, name: "point on a circle", convention: Modified,
+                joints: {{ "x": Actuated(home: "{x}"), "y": Passive(home: "{y}") }},
+                chains: {{ "point": Chain(base: [Ry("90 deg")], rows: [(d: "x"), (alpha: "90 deg", d: "y")]) }},
+                closures: {{ "rod": Distance("point", "ground", "1") }})"#
+        ))
+    };
+    for (x, y) in [(3.0, 4.0), (4.0, 3.0), (0.3, -0.4)] {
+        let mechanism = sliding(&x.to_string(), &y.to_string());
+        let free = Question::new(&mechanism).free("x").unwrap();
+        let report = answer(&free);
+        let r = f64::hypot(x, y);
+        for (name, expected) in [("x", x / r), ("y", y / r)] {
+            let value = joint(&mechanism, &report, name);
+            assert!((value - expected).abs() < 1e-9, "{name} = {value}");
+        }
+        let left = report.left.expect("one freedom is left");
+        assert_eq!((left.freedoms, left.hold), (1, vec!["x".to_owned()]));
+        // what is held as it should be is as it was
+        let held = Question::new(&mechanism).hold("x", 0.6).unwrap();
+        let report = answer(&held);
+        assert_eq!(report.left, None);
+        assert!((joint(&mechanism, &report, "y").abs() - 0.8).abs() < 1e-12);
+    }
+    // a rod of 1 m does not reach 2 m, whatever is left
+    let far = sliding("0.6", "0.8");
+    let far = Question::new(&far).hold("x", 2.0).unwrap();
+    let report = answer(&far);
+    assert!(matches!(report.outcome, Outcome::CannotBeAssembled { .. }));
+    assert_eq!(report.left, None);
+}
+
+#[test]
+fn no_assembly_beside_the_one_found_is_nearer_to_the_start() {
+    for (name, freed, freedoms) in [
+        ("four_bar", &["theta1"][..], 1),
+        ("five_bar", &["theta1"], 1),
+        ("planar_3rpr", &["rho2", "rho3"], 2),
+    ] {
+        let mechanism = load(name);
+        let home = mechanism.home();
+        let freed = |question| (freed.iter()).fold(question, |q: Question, f| q.free(f).unwrap());
+        let report = answer(&freed(Question::new(&mechanism)));
+        assert_eq!(
+            report.left.as_ref().map(|l| l.freedoms),
+            Some(freedoms),
+            "{name}"
+        );
+        let nothing = linkwork::system::Held::nothing(&mechanism);
+        let system = linkwork::system::System::<f64>::new(mechanism.dimensions(), &nothing);
+        let distance = |report: &AssemblyReport| {
+            let way = system.difference(&home, &report.configuration());
+            way.iter().map(|x| x * x).sum::<f64>().sqrt()
+        };
+        let least = distance(&report);
+        let found = report.configuration();
+        for by in [-0.02, -0.002, 0.002, 0.02] {
+            // the freed joints held beside where they came to
+            let mut beside = Question::new(&mechanism).near(&found);
+            let left = report.left.as_ref().unwrap();
+            for name in &left.hold {
+                let value = joint(&mechanism, &report, name) + by;
+                beside = beside.hold(name, value).unwrap();
+            }
+            let beside = answer(&beside);
+            assert!(beside.is_assembled() && beside.left.is_none(), "{name}");
+            assert!(distance(&beside) > least, "{name} by {by}");
+        }
+    }
 }

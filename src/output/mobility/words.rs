@@ -89,12 +89,21 @@ pub(super) fn mobility(report: &MobilityReport) -> String {
         infinitesimal,
         ..
     } = report;
+    let locked = &report.locked;
+    let the_mechanism = match locked.is_empty() {
+        true => "The mechanism".into(),
+        false => format!("With {} locked the mechanism", listed(locked)),
+    };
     match report.character {
+        Character::Structure if !locked.is_empty() => format!(
+            "With {} locked nothing can move, not even infinitesimally.",
+            listed(locked)
+        ),
         Character::Structure => "A structure: nothing can move, not even infinitesimally.".into(),
         Character::Regular => match report.singular_at {
-            None => format!("The mechanism has {}.", freedoms(*mobility)),
+            None => format!("{the_mechanism} has {}.", freedoms(*mobility)),
             Some(distance) => format!(
-                "The mechanism has {}; the configuration is regular, but only about {} (in rad, and \
+                "{the_mechanism} has {}; the configuration is regular, but only about {} (in rad, and \
                  lengths over {}) away from a singular one.",
                 freedoms(*mobility),
                 coarse(distance),
@@ -106,14 +115,18 @@ pub(super) fn mobility(report: &MobilityReport) -> String {
                 Some(gap) => format!("a finite step leaves the closures open by {gap:.1e}"),
                 None => "no finite step closes".into(),
             };
+            let shaky = match locked.is_empty() {
+                true => "Infinitesimally flexible (shaky): it".into(),
+                false => format!("{the_mechanism} is infinitesimally flexible (shaky): it"),
+            };
             format!(
-                "Infinitesimally flexible (shaky): it has {} to first order, none of them finite ({gap}), \
+                "{shaky} has {} to first order, none of them finite ({gap}), \
                  so it cannot move.",
                 freedoms(*infinitesimal)
             )
         }
         Character::Singular => format!(
-            "The mechanism has {} at this singular configuration, where {infinitesimal} {} \
+            "{the_mechanism} has {} at this singular configuration, where {infinitesimal} {} \
              infinitesimal{}.",
             freedoms(*mobility),
             form(*infinitesimal, "is", "are"),
@@ -123,8 +136,12 @@ pub(super) fn mobility(report: &MobilityReport) -> String {
             }
         ),
         Character::Bifurcation => format!(
-            "Bifurcation: {}{} branches of {} each meet here, where {infinitesimal} freedoms are \
+            "{}ifurcation: {}{} branches of {} each meet here, where {infinitesimal} freedoms are \
              infinitesimal; the motion can pass from one to the other.",
+            match locked.is_empty() {
+                true => "B".into(),
+                false => format!("With {} locked a b", listed(locked)),
+            },
             at_least(report),
             report.branch_count,
             freedoms(*mobility)
@@ -142,8 +159,12 @@ pub(super) fn mobility(report: &MobilityReport) -> String {
                 _ => of,
             };
             format!(
-                "Kinematotropic: {}{of} freedoms meet here, where {infinitesimal} are \
+                "{}inematotropic: {}{of} freedoms meet here, where {infinitesimal} are \
                  infinitesimal, so the mobility depends on the branch.",
+                match locked.is_empty() {
+                    true => "K".into(),
+                    false => format!("{the_mechanism} is k"),
+                },
                 at_least(report),
             )
         }
@@ -167,13 +188,28 @@ pub(super) fn counted(report: &MobilityReport) -> String {
         ..
     } = report;
     if *equations == 0 {
-        return format!("There are no closures: all {unknowns} joint variables are free.");
+        let not_locked = match report.locked.is_empty() {
+            true => "",
+            false => " that are not locked",
+        };
+        return format!(
+            "There are no closures: all {unknowns} joint variables{not_locked} are free."
+        );
     }
     let independent = match report.redundant {
         0 => "all of them independent".into(),
         redundant => format!("{redundant} of them redundant"),
     };
     let equations_said = match equations {
+        _ if report.locking > 0 => format!(
+            "the {equations} equations, {} of which {}, have",
+            report.locking,
+            form(
+                report.locking,
+                "locks a coordinate of a platform",
+                "lock coordinates of platforms"
+            )
+        ),
         1 => "the closure equation has".into(),
         _ => format!("the {equations} closure equations have"),
     };

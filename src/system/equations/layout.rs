@@ -1,6 +1,6 @@
 use crate::geometry::Rotation;
 use crate::linear::{Block, DENSE_LIMIT, Factorable, SparseStep};
-use crate::mechanism::{Closure, Mechanism, PoseCoordinate};
+use crate::mechanism::{Closure, Configuration, Mechanism, PoseCoordinate};
 use crate::number::Number;
 
 /// What is held of a platform.
@@ -73,6 +73,18 @@ impl<T: Number> Held<T> {
 }
 
 impl Held<f64> {
+    /// Puts what is held without an equation of its own where it is in a configuration.
+    pub fn keep(&self, at: &Configuration<f64>, to: &mut Configuration<f64>) {
+        for (i, _) in self.joints.iter().enumerate().filter(|(_, held)| **held) {
+            to.joints[i] = at.joints[i];
+        }
+        for (i, held) in self.platforms.iter().enumerate() {
+            if *held == HeldPlatform::Pose {
+                to.platforms[i] = at.platforms[i];
+            }
+        }
+    }
+
     /// Nothing held: all joints and platforms are to be found.
     pub fn nothing(mechanism: &Mechanism) -> Self {
         Held {

@@ -109,15 +109,18 @@ fn rows(near: &Neighbourhood, at: &Configuration<f64>) -> Vec<LoopPart> {
     let mut edges = Vec::new();
     for (chain, part) in mechanism.chains().iter().enumerate() {
         for (i, row) in part.rows.iter().enumerate() {
-            let joints = row.joints();
+            // a joint that is locked joins two bodies without a freedom
+            let all = row.joints();
+            let is_free = |joint: &usize| unknowns.contains(&Unknown::Joint(*joint));
+            let joints: Vec<usize> = all.iter().copied().filter(is_free).collect();
             let [before, after] = [i, i + 1].map(|row| Frame::Link { chain, row });
-            let (Some(b), Some(a), false) = (place(before), place(after), joints.is_empty()) else {
+            let (Some(b), Some(a), false) = (place(before), place(after), all.is_empty()) else {
                 continue;
             };
             let columns = joints.iter().map(|joint| {
                 let mut rates = vec![0.0; unknowns.len()];
                 let column = unknowns.iter().position(|u| *u == Unknown::Joint(*joint));
-                rates[column.expect("every joint is free")] = 1.0;
+                rates[column.expect("only free joints are left")] = 1.0;
                 let [a, b] = [a, b].map(|frame| {
                     let twist = twists.twist(frame, &placement, &rates);
                     twist.at_ground(&twists.origin(frame, &placement), length)
@@ -143,6 +146,7 @@ fn closures(near: &mut Neighbourhood, at: &Configuration<f64>) -> Vec<LoopPart> 
     let mechanism = near.mechanism();
     let length = mechanism.characteristic_length();
     let wrenches = near.closure_wrenches(at);
+    let unknowns = near.system().unknowns();
     let closures = mechanism.closures().iter().zip(wrenches);
     closures
         .map(|(closure, wrenches)| {
@@ -161,7 +165,9 @@ fn closures(near: &mut Neighbourhood, at: &Configuration<f64>) -> Vec<LoopPart> 
             let (mut names, mut joints) = (vec![closure.name.clone()], vec![]);
             // a length that a joint drives is one freedom more: that along the rod
             for (symbol, _) in closure.length.iter().flat_map(|length| &length.terms) {
-                if let Symbol::Joint(joint) = symbol {
+                if let Symbol::Joint(joint) = symbol
+                    && unknowns.contains(&Unknown::Joint(*joint))
+                {
                     names.push(mechanism.joints()[*joint].name.clone());
                     joints.push(*joint);
                     let along = &wrenches.rows[0];

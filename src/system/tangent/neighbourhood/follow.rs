@@ -160,6 +160,47 @@ impl Neighbourhood<'_> {
         sums.iter().map(|sum| sum / (STEP * STEP)).collect()
     }
 
+    /// The assembled configuration nearest to a point, downhill from an assembled one: where no motion
+    /// brings it nearer, distances being in rad and characteristic lengths.
+    ///
+    /// The change away from the point less its part along the motions ξ is what closing asks for; that
+    /// part is taken back: x ← x ⊖ Σ ξ (ξ · (x ⊖ point)), shortened until it does bring it nearer.
+    pub fn nearest(
+        &mut self,
+        point: &Configuration<f64>,
+        mut at: Configuration<f64>,
+    ) -> Configuration<f64> {
+        const STEPS: usize = 200;
+        /// A step that is shorter changes nothing that is printed.
+        const ARRIVED: f64 = 1e-10;
+        let mut part = 1.0;
+        let mut away = self.system.difference(point, &at);
+        for _ in 0..STEPS {
+            let tangent = self.tangent(at.clone());
+            let mut back = vec![0.0; away.len()];
+            for motion in &tangent.motions {
+                add(&mut back, -part * dot(motion, &away), motion);
+            }
+            let size = norm(&back);
+            if size < ARRIVED {
+                break;
+            }
+            let ahead = self.system.displaced(&at, &back);
+            let settled = self.settle(ahead, size).map(|settled| {
+                let away = self.system.difference(point, &settled);
+                (settled, away)
+            });
+            match settled {
+                Some((settled, nearer)) if norm(&nearer) < norm(&away) => {
+                    (at, away) = (settled, nearer);
+                    part = (2.0 * part).min(1.0);
+                }
+                _ => part *= 0.5,
+            }
+        }
+        at
+    }
+
     /// The assembled configuration that Gauss–Newton steps of least length reach from a point, to
     /// rounding; `None` if they go further than `reach` or do not arrive.
     pub fn settle(&mut self, mut at: Configuration<f64>, reach: f64) -> Option<Configuration<f64>> {
