@@ -201,7 +201,7 @@ fn loci_and_maps_have_what_was_found() {
             nodes: vec![12, 12],
             ..WorkspaceSettings::default()
         };
-        let report = workspace(&question, &sides, &[], &settings, watch).unwrap();
+        let report = workspace(&question, &sides, (&[], None), &settings, watch).unwrap();
         let within: usize = report.modes.iter().map(|mode| mode.within).sum();
         (report.interrupted, within + report.points.len())
     });
