@@ -281,8 +281,9 @@ impl<'a> Question<'a> {
 
     /// The value a joint was to start at, if one was given for it alone.
     pub(super) fn guess_of(&self, joint: usize) -> Option<f64> {
-        let asked = (self.demands.iter())
-            .any(|(of, demand)| *of == Target::Coordinate(Coordinate::Joint(joint)) && demand.verb == Verb::Guess);
+        let asked = (self.demands.iter()).any(|(of, demand)| {
+            *of == Target::Coordinate(Coordinate::Joint(joint)) && demand.verb == Verb::Guess
+        });
         asked.then(|| self.start.joints[joint])
     }
 

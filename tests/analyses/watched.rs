@@ -155,7 +155,7 @@ fn a_motion_ends_where_it_was_stopped() {
         let report = circuits(
             &mechanism,
             &still,
-            0,
+            Coordinate::Joint(0),
             std::slice::from_ref(&start),
             &settings,
             watch,
