@@ -97,7 +97,7 @@ fn compare(criterion: &mut Criterion, work: &Work) {
             boundaries: false,
             ..WorkspaceSettings::default()
         };
-        let run = || workspace(&question, &axes, &[], &settings, &Watch::none());
+        let run = || workspace(&question, &axes, (&[], None), &settings, &Watch::none());
         let report = match side_by_side {
             true => run(),
             false => one.install(run),

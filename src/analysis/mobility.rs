@@ -87,10 +87,10 @@ pub struct MobilityReport {
     /// Joints that only turn in place at the configuration, though they move links beside it:
     /// those in gimbal lock.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
-    pub locked_joints: Vec<String>,
+    pub gimbal_locked_joints: Vec<String>,
     /// How many freedoms are lost so at the configuration.
     #[serde(default, skip_serializing_if = "is_zero")]
-    pub locked: usize,
+    pub gimbal_locked: usize,
     /// Joints that move.
     pub moving_joints: Vec<String>,
     /// Joint values of the closed configuration, rad or m.
@@ -290,8 +290,8 @@ pub fn mobility(
         idle_joints,
         outside_limits: closed.outside_limits(mechanism),
         moving_joints,
-        locked_joints: turning(mechanism, near.system().unknowns(), &locked),
-        locked: locked.len(),
+        gimbal_locked_joints: turning(mechanism, near.system().unknowns(), &locked),
+        gimbal_locked: locked.len(),
         joints: mechanism.named_joints(&closed.configuration.joints),
         character: found.character,
         branches,

@@ -19,13 +19,14 @@
 mod aspects;
 mod boundary;
 mod flood;
+mod home;
 mod map;
 mod problem;
 
 pub use boundary::{BoundaryCurve, BoundaryKind, Piece};
 pub use map::{
     AspectReport, AxisReport, BoundaryPoint, Cell, Cells, Conditioned, CoordinateReport,
-    HeldReport, ModeReport, WorkspaceReport,
+    HeldReport, HomeReport, ModeReport, WorkspaceReport,
 };
 
 use crate::linear::Factorable;
@@ -35,6 +36,7 @@ use crate::solve::{Newton, Pool, Watch};
 use crate::system::{Driven, Question};
 use boundary::Boundary;
 use flood::{Flood, Metric, ModeSeeds, ReachedSet, Spread, Steps};
+use home::Home;
 use map::Map;
 use problem::{Grid, MapProblem};
 
@@ -107,14 +109,15 @@ pub fn cell_bytes(question: &Question, axes: usize) -> usize {
 ///
 /// `question` holds the mapped coordinates and all others that must be, at any values of the mapped
 /// ones; it must leave no freedom. `known` are assembled configurations to begin with besides those
-/// that random starts lead to.
+/// that random starts lead to; `home`, if it is assembled with what is held, is the configuration
+/// whose mode and aspect are told.
 ///
 /// # Errors
 /// If more is reached than may be kept.
 pub fn workspace(
     question: &Question,
     axes: &[Driven],
-    known: &[Configuration<f64>],
+    (known, home): (&[Configuration<f64>], Option<&Configuration<f64>>),
     settings: &WorkspaceSettings,
     watch: &Watch,
 ) -> Result<WorkspaceReport, WorkspaceError> {
@@ -135,9 +138,11 @@ pub fn workspace(
         only: None,
     };
     let probed = grid.spread(settings.probed);
+    let home = home.map(|at| Home::new(&problem, &grid, &metric, at));
+    let seeds = (&mode_seeds, home.as_ref());
     let (reached_set, aspects, outside) = match settings.side_by_side {
-        true => reached_set::<Lanes>(&fill, &mode_seeds, (&probed, settings.seed), watch),
-        false => reached_set::<f64>(&fill, &mode_seeds, (&probed, settings.seed), watch),
+        true => reached_set::<Lanes>(&fill, seeds, (&probed, settings.seed), watch),
+        false => reached_set::<f64>(&fill, seeds, (&probed, settings.seed), watch),
     }?;
     let map = Map::new(&problem, &grid, &reached_set, aspects);
     let boundary = Boundary {
@@ -152,7 +157,7 @@ pub fn workspace(
         false => Vec::new(),
     };
     let curves = boundary.curves(&crossings, watch);
-    let mut report = map.report(&crossings);
+    let mut report = map.report(&crossings, home.as_ref());
     report.curves = curves;
     report.searched = [nodes.len(), settings.starts];
     report.probed = [probed.len(), flood::PROBES];
@@ -166,14 +171,19 @@ pub fn workspace(
 /// aspect; and how much of what was found in between is outside limits.
 fn reached_set<T: Factorable + Packed + Send + Sync>(
     fill: &Flood,
-    mode_seeds: &ModeSeeds,
+    (mode_seeds, home): (&ModeSeeds, Option<&Home>),
     (probed, seed): (&[usize], u64),
     watch: &Watch,
 ) -> Result<(ReachedSet, Vec<Option<usize>>, usize), WorkspaceError> {
     let steps: Pool<Steps<T>> = Pool::new(Steps::new(fill.problem));
     let mut reached = Spread::new(fill.grid);
     fill.spread(&mut reached, &steps, &mode_seeds.seeds, watch)?;
-    let more = flood::probe(fill, &reached, &steps, (probed, seed), watch);
+    let mut more = flood::probe(fill, &reached, &steps, (probed, seed), watch);
+    if let Some(home) = home {
+        let new = |(node, at): &(usize, Configuration<f64>)| !reached.has(fill, *node, at.view());
+        let seeds = home.seeds(fill.problem).seeds.into_iter();
+        more.seeds.extend(seeds.filter(new));
+    }
     fill.spread(&mut reached, &steps, &more.seeds, watch)?;
     let mut reached_set = reached.reached_set(fill.grid);
     let (aspects, together) = aspects::joined(fill, &steps, &reached_set, watch);

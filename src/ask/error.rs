@@ -233,9 +233,9 @@ pub enum AskError {
     /// More than one freedom is left.
     #[error("{}", not_one_freedom(.0))]
     NotOneFreedom(QuestionError),
-    /// The freedom is not that of one joint.
-    #[error("the freedom that is left is not that of one joint")]
-    NotOneJoint,
+    /// The freedom is not that of one joint or of one coordinate of a platform.
+    #[error("the freedom that is left is not that of one joint or one coordinate of a platform")]
+    NotOneCoordinate,
     /// The mechanism does not assemble where the work is to begin.
     #[error("the mechanism does not assemble where the motion begins: {}", held.join(", "))]
     NotAssembled {

@@ -1,6 +1,6 @@
 //! Motions and circuits.
 
-use std::f64::consts::TAU;
+use std::f64::consts::{FRAC_PI_2, TAU};
 
 use super::ranges::still;
 use super::{AskError, Question, Role};
@@ -10,7 +10,7 @@ use crate::analysis::sweep::{
     SweepReport, SweepSettings, TracedPoint, circuits, follow, sweep,
 };
 use crate::description;
-use crate::mechanism::{Configuration, Mechanism};
+use crate::mechanism::{Configuration, Mechanism, PoseCoordinate};
 use crate::solve::{Stage, Watch};
 use crate::system::{self, Coordinate, Driven, Held, QuestionError, check_count, sampling_range};
 
@@ -199,25 +199,37 @@ impl Question {
     }
 }
 
-/// The driven joint that moves where one freedom is left, with the question that holds it too.
+/// The coordinate that moves where one freedom is left, with the question that holds it too: a driven joint, else a
+/// passive one, else a coordinate of a platform.
 fn input<'q>(
     mechanism: &Mechanism,
     released: &system::Question<'q>,
-) -> Result<(usize, system::Question<'q>), AskError> {
+) -> Result<(Coordinate, system::Question<'q>), AskError> {
     let held = released.held_coordinates();
-    let driven = |joint: &usize| mechanism.joints()[*joint].role == description::Role::Actuated;
-    let let_go = (0..mechanism.joints().len())
-        .filter(|joint| driven(joint) && !held.contains(&Coordinate::Joint(*joint)));
+    let driven = |of: &Coordinate| match of {
+        Coordinate::Joint(joint) => mechanism.joints()[*joint].role == description::Role::Actuated,
+        _ => false,
+    };
+    // an angle beside a whole orientation that is held does not move
+    let turned = |of: &Coordinate| {
+        let whole =
+            |h: &Coordinate| matches!(h, Coordinate::Turn(p, _) if of.platform() == Some(*p));
+        of.platform().is_some() && of.is_angle(mechanism) && held.iter().any(whole)
+    };
+    let (first, rest): (Vec<Coordinate>, Vec<Coordinate>) = Coordinate::all(mechanism)
+        .filter(|of| !held.contains(of) && !turned(of))
+        .partition(driven);
+    let home = mechanism.home();
     let mut refused = None;
-    for joint in let_go {
-        let home = mechanism.joints()[joint].home;
-        let question = (released.clone()).at_values([(Coordinate::Joint(joint), home)]);
+    for of in first.iter().chain(&rest) {
+        let question = (released.clone()).at_values([(*of, of.of(&home))]);
         match check_count(&question) {
-            Ok(_) => return Ok((joint, question)),
-            Err(error) => refused = refused.or(Some(error)),
+            Ok(_) => return Ok((*of, question)),
+            Err(error) if driven(of) => refused = refused.or(Some(error)),
+            Err(_) => {}
         }
     }
-    Err(refused.map_or(AskError::NotOneJoint, AskError::Question))
+    Err(refused.map_or(AskError::NotOneCoordinate, AskError::Question))
 }
 
 /// All assemblies at home and at values of the input spread over its range.
@@ -225,18 +237,21 @@ fn seeds(
     mechanism: &Mechanism,
     question: &system::Question,
     solver: &AssemblySolver,
-    input: usize,
+    input: Coordinate,
     watch: &Watch,
 ) -> Vec<Configuration<f64>> {
     const VALUES: u32 = 12;
-    let joint = &mechanism.joints()[input];
-    let (low, high) = match joint.limits {
-        Some(limits) => limits,
-        None if mechanism.repeats(input) => (joint.home, joint.home + TAU),
-        None => {
-            let home = mechanism.home().joints[input];
-            sampling_range(joint, home, mechanism.characteristic_length())
-        }
+    let home = input.of(&mechanism.home());
+    let length = mechanism.characteristic_length();
+    let (low, high) = match input {
+        Coordinate::Joint(joint) => match mechanism.joints()[joint].limits {
+            Some(limits) => limits,
+            None if mechanism.repeats(joint) => (home, home + TAU),
+            None => sampling_range(&mechanism.joints()[joint], home, length),
+        },
+        Coordinate::Pose(_, PoseCoordinate::Pitch) => (-FRAC_PI_2, FRAC_PI_2),
+        of if of.is_angle(mechanism) => (home, home + TAU),
+        _ => (home - 2.0 * length, home + 2.0 * length),
     };
     let wanted = Wanted {
         certificates: false,
@@ -247,12 +262,15 @@ fn seeds(
         if watch.stops(Stage::Inputs, k as usize, Some(VALUES as usize + 1)) {
             break;
         }
-        let mut at = question.start();
-        if k > 0 {
-            // uneven, so that nothing special is hit
-            let part = (f64::from(k) - 0.618_034) / f64::from(VALUES);
-            at.joints[input] = low + part * (high - low);
-        }
+        // uneven, so that nothing special is hit
+        let part = (f64::from(k) - 0.618_034) / f64::from(VALUES);
+        let value = if k > 0 {
+            low + part * (high - low)
+        } else {
+            home
+        };
+        let question = question.clone().at_values([(input, value)]);
+        let at = question.start();
         let report = solver.at_targets(&at, &question.held(), wanted, watch);
         let found = report.assemblies.iter();
         seeds.extend(found.map(|assembly| assembly.configuration(&at)));

@@ -7,13 +7,16 @@ use super::{AskError, Mode, Question, Role};
 use crate::analysis::workspace::{
     WorkspaceError, WorkspaceReport, WorkspaceSettings, cell_bytes, workspace,
 };
-use crate::solve::Watch;
+use crate::mechanism::Configuration;
+use crate::solve::{Newton, Watch};
 use crate::system::{
-    self, Coordinate, Driven, Mobility, QuestionError, TooLarge, check_count, too_large,
+    self, Coordinate, Driven, Mobility, QuestionError, Search, TooLarge, check_count, too_large,
 };
 
 /// Bytes that a map takes at most.
 pub const MOST_BYTES: f64 = 4e9;
+/// Random starts where the home assembly is wanted.
+const RESTARTS: usize = 20;
 /// Random starts made at most.
 const MOST_STARTS: usize = 1_000_000;
 
@@ -55,13 +58,53 @@ impl Question {
             most: settings.most.min((MOST_BYTES / bytes) as usize),
             ..settings.clone()
         };
-        let report = workspace(&question, &axes, &known, &settings, watch);
+        let home = self.home(&axes, watch)?;
+        let begun = (&known[..], home.as_ref());
+        let report = workspace(&question, &axes, begun, &settings, watch);
         report.map_err(|error| match error {
             WorkspaceError::TooMany { most: cells } => AskError::TooMany {
                 cells,
                 most: cells as f64 * bytes,
             },
         })
+    }
+
+    /// The assembly near home, or near the guess, with the mapped coordinates where it has them.
+    ///
+    /// Where actuated joints are free on the map, that is the one with the actuated joints at home, and what else is
+    /// held moves from there to its values.
+    fn home(&self, axes: &[Driven], watch: &Watch) -> Result<Option<Configuration<f64>>, AskError> {
+        let closed = |question: &system::Question, restarts: usize| {
+            let newton = Newton::default();
+            let found = Search::new(question, &newton).run(restarts, self.seed, watch);
+            found.assembles().then_some(found.attempt.at)
+        };
+        if !self.is_inverse(axes)? {
+            return Ok(closed(&self.resolved()?, RESTARTS));
+        }
+        let own = Question {
+            hold: Vec::new(),
+            free: Vec::new(),
+            ..self.clone()
+        };
+        let Some(home) = closed(&own.resolved()?, RESTARTS) else {
+            return Ok(None);
+        };
+        let values: Vec<f64> = axes.iter().map(|axis| axis.coordinate.of(&home)).collect();
+        let question = self.with_inputs(self.released()?, &values)?;
+        let question = match self.hold.is_empty() {
+            true => question.near(&home),
+            false => question,
+        };
+        // what a random start leads to is not home
+        Ok(closed(&question, 0))
+    }
+
+    /// Whether coordinates of platforms are mapped or held, so that actuated joints are free.
+    fn is_inverse(&self, axes: &[Driven]) -> Result<bool, AskError> {
+        let held = self.resolved()?.held_coordinates();
+        let mapped = axes.iter().map(|axis| axis.coordinate);
+        Ok(mapped.chain(held).any(|h| of_platform(&h)))
     }
 
     /// The mapped coordinates with their ranges.
@@ -95,12 +138,10 @@ impl Question {
     /// The question with the mapped coordinates in the middle of their ranges.
     fn mapped(&self, axes: &[Driven]) -> Result<system::Question<'_>, AskError> {
         let mechanism = &self.mechanism;
-        let held = self.resolved()?;
-        let mapped = axes.iter().map(|axis| axis.coordinate);
-        let inverse = (mapped.chain(held.held_coordinates())).any(|h| of_platform(&h));
+        let inverse = self.is_inverse(axes)?;
         let question = match inverse {
             true => self.released()?,
-            false => held,
+            false => self.resolved()?,
         };
         let demanded = self.hold.iter().map(|(name, _)| name).chain(&self.free);
         for (index, (input, axis)) in self.inputs.iter().zip(axes).enumerate() {

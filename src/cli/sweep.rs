@@ -53,7 +53,8 @@ pub struct Sweep {
     /// Go round dead points and straight through crossings; without --input the whole curve
     #[arg(long)]
     follow: bool,
-    /// List all circuits and branches of a mechanism with one freedom
+    /// List all circuits and branches of a mechanism with one freedom; a coordinate of a platform is the input where no
+    /// joint moves
     #[arg(long, conflicts_with_all = ["input", "follow", "mode", "all_modes", "guess", "svg"])]
     circuits: bool,
     /// Trace a frame's origin, or a point beside it in its axes, e.g. --of left+0.5,0.2

@@ -130,7 +130,7 @@ pub fn complaint(
                  with --follow; or list circuits with --circuits"
             ))
         }
-        AskError::NotOneJoint => said.help("move the inputs with --input"),
+        AskError::NotOneCoordinate => said.help("move the inputs with --input"),
         AskError::Steps { given, most } => steps(*given, *most, false),
         AskError::Starts { most, .. } => said.help(match ranged {
             Ranged::Map => format!("give --starts and --search from 1 to {most}"),

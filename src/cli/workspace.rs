@@ -20,7 +20,8 @@ use super::{Answer, Refusal, lines, style};
 /// One, two or three coordinates are mapped on a grid, the others held: coordinates of platforms, which frees the
 /// actuated joints, or joints. What regular motion in the box connects is a mode: a working mode where platforms are
 /// mapped, an assembly mode where the actuated joints are. Modes end at singularities and at limits of joints; regions
-/// of one mode without singularities inside are its aspects. Every node tells its condition number.
+/// of one mode without singularities inside are its aspects. The mode and aspect of the home assembly, or of the one
+/// that --guess leads to, are marked. Every node tells its condition number.
 #[derive(Args)]
 #[command(after_help = "Examples:\n  \
     linkwork workspace mechanisms/five_bar_hand.ron --map hand.x=-0.6..0.8 --map hand.y=-0.1..0.7 --svg map.svg\n  \

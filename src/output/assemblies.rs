@@ -10,7 +10,7 @@ use super::report::{Remarks, Report};
 use crate::analysis::assemblies::{AssembliesReport, ClosestApproach, Continuum, Fit};
 use crate::description::{count, listed};
 use crate::linear::RANK_TOLERANCE;
-use tables::{complex, joints, overview, platforms, reasons, times};
+use tables::{by_pose, complex, joints, overview, platforms, poses, reasons, times};
 
 impl Report for AssembliesReport {
     fn is_interrupted(&self) -> bool {
@@ -28,7 +28,7 @@ impl Report for AssembliesReport {
         let nearest = self.closest.iter().map(|closest| nearest(self, closest));
         let document = Document::new(&self.mechanism, sentence(self))
             .notes(meeting(self))
-            .section(Section::new("Assemblies").table(overview(self)))
+            .section(listing(self))
             .sections(joints(self))
             .sections(platforms(self))
             .section(reasons(self))
@@ -41,6 +41,18 @@ impl Report for AssembliesReport {
 
     fn is_yes(&self) -> bool {
         self.real > 0 && !self.may_lack_some()
+    }
+}
+
+/// One row for each assembly, or for each pose where assemblies share poses.
+fn listing(report: &AssembliesReport) -> Section {
+    match poses(report) {
+        Some(poses) => Section::new(format!(
+            "Assemblies by the {} of the platforms",
+            count(poses.len(), "pose")
+        ))
+        .table(by_pose(&poses)),
+        None => Section::new("Assemblies").table(overview(report)),
     }
 }
 

@@ -12,7 +12,7 @@ use super::document::{Cell, Document, Section, Table, cells};
 use super::quantity::{number, quantity};
 use super::report::{Remarks, Report, Rows};
 use crate::analysis::workspace::{
-    AspectReport, BoundaryKind, Conditioned, ModeReport, WorkspaceReport,
+    AspectReport, BoundaryKind, Conditioned, HomeReport, ModeReport, WorkspaceReport,
 };
 use crate::description::count;
 use crate::mechanism::Variable;
@@ -28,6 +28,7 @@ impl Report for WorkspaceReport {
     fn document(&self) -> Document {
         Document::new(&self.mechanism, sentence(self))
             .note(words::question(self))
+            .note(words::home(self))
             .interrupted(self.interrupted, "nodes, modes and boundaries")
             .section(modes(self))
             .section(aspects(self))
@@ -94,7 +95,10 @@ fn modes(report: &WorkspaceReport) -> Section {
         .numbers("nodes", |mode| mode.nodes)
         .numbers("within limits", |mode| mode.within)
         .words("size", |mode| words::area(report, mode.size))
-        .words("aspects", aspects);
+        .words("aspects", aspects)
+        .words("", |mode| {
+            mark(at_home(report, |home| home.mode), mode.mode)
+        });
     let repeated = report.modes.iter().filter(|mode| mode.repeated > 0);
     let repeated = repeated.map(|mode| {
         format!(
@@ -106,6 +110,16 @@ fn modes(report: &WorkspaceReport) -> Section {
     Section::new(format!("Modes{}", more(report.modes.len())))
         .table(table)
         .list(repeated)
+}
+
+/// What the home assembly stands in, if it does.
+fn at_home(report: &WorkspaceReport, of: impl Fn(&HomeReport) -> Option<usize>) -> Option<usize> {
+    report.home.as_ref().and_then(of)
+}
+
+/// The mark behind the row of home.
+fn mark(home: Option<usize>, number: usize) -> Option<&'static str> {
+    (home == Some(number)).then_some("home")
 }
 
 fn more(all: usize) -> String {
@@ -143,7 +157,10 @@ fn aspects(report: &WorkspaceReport) -> Section {
         .numbers("best", |aspect| condition(aspect.best.as_ref()))
         .words("at", |aspect| at(aspect.best.as_ref()))
         .numbers("worst", |aspect| condition(aspect.worst.as_ref()))
-        .words("at", |aspect| at(aspect.worst.as_ref()));
+        .words("at", |aspect| at(aspect.worst.as_ref()))
+        .words("", |aspect| {
+            mark(at_home(report, |home| home.aspect), aspect.aspect)
+        });
     let few = (!small.is_empty()).then(|| {
         let and = if large.is_empty() { "" } else { "and " };
         let few = count(small.len(), "aspect");

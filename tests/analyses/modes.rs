@@ -8,7 +8,9 @@ use linkwork::analysis::assembly::AssemblySettings;
 use linkwork::analysis::singularities::SingularitiesSettings;
 use linkwork::analysis::sweep::SweepSettings;
 use linkwork::ask::{AskError, Mode, Question, Solved};
+use linkwork::description::Description;
 use linkwork::mechanism::{Mechanism, Role};
+use linkwork::output::Report;
 use linkwork::solve::Watch;
 
 fn load(path: &Path) -> Arc<Mechanism> {
@@ -135,4 +137,96 @@ fn every_command_numbers_modes_of_every_shipped_file_alike() {
             compare(&path, seed);
         }
     }
+}
+
+/// A platform on a crank, its other end on a rod to the ground, with or without a leg of two links to a third point.
+fn rodded(with_leg: bool) -> Mechanism {
+    let (joints, chain, closure) = match with_leg {
+        true => (
+            r#""q1": Passive(), "q2": Passive(),"#,
+            r#""leg": Chain(base: [T(1, -1, 0)], rows: [(theta: "q1"), (a: 1.5, theta: "q2")], tip: [Tx(1.5)]),"#,
+            r#""C": Revolute("leg", "cup.C"),"#,
+        ),
+        false => ("", "", ""),
+    };
+    let text = format!(
+        r#"Mechanism(version: 1, name: "cup", convention: Modified,
+            joints: {{ "theta": Actuated(home: "60 deg"), {joints} }},
+            chains: {{ "crank": Chain(rows: [(theta: "theta")], tip: [Tx(1)]),
+                "anchor": Chain(base: [Tx(2)], rows: []), {chain} }},
+            platforms: {{ "cup": Platform(home: [T(0.5, 0.8, 0)],
+                frames: {{ "A": [], "B": [Tx(1)], "C": [T(0.5, 0.5, 0)] }}) }},
+            closures: {{ "A": Revolute("crank", "cup.A"), "B": Distance("anchor", "cup.B", 1.2), {closure} }})"#
+    );
+    Mechanism::new(&Description::read(&text).unwrap())
+        .unwrap_or_else(|problems| panic!("{problems:?}"))
+}
+
+/// The rod places the platform in two ways, where two circles meet, and in each of them the leg's elbow has two more:
+/// law of cosines.
+#[test]
+fn assemblies_that_share_a_pose_of_the_platform_are_listed_by_pose() {
+    let all = |with_leg: bool| {
+        let question = Question::new(rodded(with_leg));
+        let report = question
+            .assemblies(Default::default(), &Watch::none())
+            .unwrap();
+        let text = linkwork::output::text::render(&report.document());
+        (report, text)
+    };
+    let (report, text) = all(true);
+    assert_eq!((report.real, report.poses.len()), (4, 2));
+    let (crank, anchor) = ([0.5, 0.75f64.sqrt()], [2.0, 0.0]);
+    let apart = [anchor[0] - crank[0], anchor[1] - crank[1]];
+    let distance = apart[0].hypot(apart[1]);
+    let between = ((1.0 + distance * distance - 1.44) / (2.0 * distance)).acos();
+    let bearing = apart[1].atan2(apart[0]);
+    for (modes, yaw) in report
+        .poses
+        .iter()
+        .zip([bearing - between, bearing + between])
+    {
+        assert_eq!(modes.len(), 2);
+        let reach = {
+            let [c, s] = [yaw.cos(), yaw.sin()];
+            let at = [crank[0] + 0.5 * (c - s), crank[1] + 0.5 * (s + c)];
+            (at[0] - 1.0).hypot(at[1] + 1.0)
+        };
+        let elbow = (reach * reach / 4.5 - 1.0).acos();
+        let mut elbows = Vec::new();
+        for mode in modes {
+            let assembly = &report.assemblies[mode - 1];
+            let pose = assembly.platforms.get("cup").unwrap();
+            assert!((pose.roll_pitch_yaw[2] - yaw).abs() < 1e-9, "{mode}: {yaw}");
+            let q2 = *assembly.joints.get("q2").unwrap();
+            assert!((q2.abs() - elbow).abs() < 1e-9, "{mode}: {elbow}");
+            elbows.push(q2 > 0.0);
+        }
+        assert_ne!(elbows[0], elbows[1]);
+    }
+    let rows: Vec<Vec<&str>> = text
+        .lines()
+        .map(|line| line.split_whitespace().collect())
+        .collect();
+    let title = rows
+        .iter()
+        .position(|row| row.first() == Some(&"pose"))
+        .unwrap();
+    assert!(
+        text.contains("Assemblies by the 2 poses of the platforms"),
+        "{text}"
+    );
+    assert_eq!(
+        (rows[title + 1][..2].to_vec(), rows[title + 2][..2].to_vec()),
+        (vec!["1", "2"], vec!["2", "2"])
+    );
+    // each pose of its own: a row for each assembly as ever
+    let (report, text) = all(false);
+    assert_eq!(report.poses, [[1], [2]]);
+    assert!(
+        !text.contains("poses of the platforms")
+            && !text
+                .lines()
+                .any(|line| line.trim_start().starts_with("pose"))
+    );
 }

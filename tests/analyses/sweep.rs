@@ -864,7 +864,7 @@ fn circuits_of(lengths: [f64; 4]) -> CircuitsReport {
     circuits(
         &mechanism,
         &held,
-        0,
+        Coordinate::Joint(0),
         &seeds,
         &CircuitsSettings::default(),
         &Watch::none(),
@@ -1002,7 +1002,7 @@ fn a_swing_through_a_half_turn_is_told_where_its_values_are() {
         let report = circuits(
             mechanism,
             &held,
-            0,
+            Coordinate::Joint(0),
             seeds,
             &CircuitsSettings::default(),
             &Watch::none(),
@@ -1060,7 +1060,7 @@ fn seeds_of_one_circuit_find_only_that_one() {
     let report = circuits(
         &mechanism,
         &held,
-        0,
+        Coordinate::Joint(0),
         &[at],
         &CircuitsSettings::default(),
         &Watch::none(),
@@ -1495,4 +1495,80 @@ fn a_guess_chooses_the_assembly_that_a_motion_begins_in() {
             assert!(off(*found, expected) < 1e-9, "{found} for {expected}");
         }
     }
+}
+
+/// A 4-bar of two platforms on hinges and a rod between them: no joint at all.
+fn four_bar_of_platforms([l0, l1, l2, l3]: [f64; 4]) -> Mechanism {
+    let text = format!(
+        r#"Mechanism(version: 1, name: "4-bar of platforms", convention: Modified,
+            chains: {{ "left": Chain(rows: []), "right": Chain(base: [Tx({l0})], rows: []) }},
+            platforms: {{
+                "crank": Platform(home: [Rz("60 deg")], frames: {{ "O": [], "P": [Tx({l1})] }}),
+                "rocker": Platform(home: [Tx({l0}), Rz("80 deg")], frames: {{ "O": [], "P": [Tx({l3})] }}),
+            }},
+            closures: {{ "O": Revolute("left", "crank.O"), "R": Revolute("right", "rocker.O"),
+                "coupler": Distance("crank.P", "rocker.P", {l2}) }})"#
+    );
+    Mechanism::new(&Description::read(&text).unwrap())
+        .unwrap_or_else(|problems| panic!("{problems:?}"))
+}
+
+/// Grashof's rule tells circuits and what turns, the law of cosines how far the rocker swings.
+#[test]
+fn circuits_of_a_mechanism_of_platforms_are_those_of_the_same_one_with_joints() {
+    let lengths = [4.0, 1.5, 3.5, 3.0];
+    let [l0, l1, l2, l3] = lengths;
+    let of = |lengths| {
+        ask::Question::new(four_bar_of_platforms(lengths))
+            .circuits(&Watch::none())
+            .unwrap()
+    };
+    let report = of(lengths);
+    assert_eq!(
+        (report.input.as_str(), report.circuits.len()),
+        ("crank.yaw", 2)
+    );
+    assert_eq!(circuits_of(lengths).circuits.len(), 2);
+    let inner = |side: f64| ((l0 * l0 + l3 * l3 - side * side) / (2.0 * l0 * l3)).acos();
+    // the angle of the rocker from the line of the hinges, on one side or the other
+    let swing = [PI - inner(l2 + l1), PI - inner(l2 - l1)];
+    let mut sides = Vec::new();
+    for circuit in &report.circuits {
+        assert!(circuit.closed && circuit.whole && circuit.joints.is_empty());
+        let motion = |name: &str| circuit.platforms.iter().find(|of| of.name == name);
+        assert_eq!(motion("crank.yaw").unwrap().turns.abs(), 1);
+        let rocker = motion("rocker.yaw").unwrap();
+        assert_eq!(rocker.turns, 0);
+        let side = rocker.low.signum();
+        let told = if side > 0.0 {
+            [rocker.low, rocker.high]
+        } else {
+            [-rocker.high, -rocker.low]
+        };
+        for (value, exact) in told.into_iter().zip(swing) {
+            assert!((value - exact).abs() < 1e-8, "{value} {exact}");
+        }
+        sides.push(side);
+        assert_eq!(circuit.branches.len(), 1);
+        // hinges do not move
+        assert!(motion("crank.x").is_none() && motion("rocker.z").is_none());
+    }
+    assert_ne!(sides[0], sides[1]);
+    // the longest and the shortest are together longer than the others: nothing turns fully, one circuit
+    let report = of([4.0, 2.0, 1.8, 3.0]);
+    let [circuit] = &report.circuits[..] else {
+        panic!("{report:#?}")
+    };
+    assert!(circuit.platforms.iter().all(|of| of.turns == 0));
+    assert_eq!(circuit.branches.len(), 2);
+    let most = ((16.0 + 4.0 - 4.8f64.powi(2)) / 16.0).acos();
+    let crank = circuit
+        .platforms
+        .iter()
+        .find(|of| of.name == "crank.yaw")
+        .unwrap();
+    assert!((crank.high - most).abs() < 1e-8 && (crank.low + most).abs() < 1e-8);
+    // a triangle of rods does not move
+    let stiff = ask::Question::new(four_bar_of_platforms(lengths)).hold("crank.yaw", 1.0);
+    assert!(stiff.circuits(&Watch::none()).is_err());
 }

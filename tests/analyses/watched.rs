@@ -155,7 +155,7 @@ fn a_motion_ends_where_it_was_stopped() {
         let report = circuits(
             &mechanism,
             &still,
-            0,
+            Coordinate::Joint(0),
             std::slice::from_ref(&start),
             &settings,
             watch,
@@ -201,7 +201,7 @@ fn loci_and_maps_have_what_was_found() {
             nodes: vec![12, 12],
             ..WorkspaceSettings::default()
         };
-        let report = workspace(&question, &sides, &[], &settings, watch).unwrap();
+        let report = workspace(&question, &sides, (&[], None), &settings, watch).unwrap();
         let within: usize = report.modes.iter().map(|mode| mode.within).sum();
         (report.interrupted, within + report.points.len())
     });

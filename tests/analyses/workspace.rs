@@ -1009,3 +1009,79 @@ fn an_interrupted_map_leaves_whole_rows_and_says_so() {
     let mut lines = written.lines();
     assert!(lines.all(|line| line.split(',').count() == columns));
 }
+
+/// Home of the five-bar with a hand by its elbows: ψ₁ < 0 < ψ₂ in one working mode alone, and P above the middle of
+/// the motors where the circles of the couplers about the elbows meet.
+#[test]
+fn home_is_in_the_mode_in_which_its_elbows_point_as_they_do_at_home() {
+    let mechanism = five_bar(&[]);
+    let whole = [("hand.x", -0.6, 0.8), ("hand.y", -0.1, 0.7)];
+    let settings = WorkspaceSettings {
+        nodes: vec![36],
+        ..WorkspaceSettings::default()
+    };
+    let report = asked(&mechanism, &whole, &[], &settings);
+    let home = report.home.as_ref().unwrap();
+    let (elbow, half) = (0.3 * (PI / 3.0).sin(), 0.1 + 0.3 * (PI / 3.0).cos());
+    let top = [0.1, elbow + (0.4f64 * 0.4 - half * half).sqrt()];
+    assert!((home.at[0] - top[0]).abs() < 1e-9 && (home.at[1] - top[1]).abs() < 1e-9);
+    let folded = |joints: &[f64]| joints[2] < 0.0 && joints[3] > 0.0;
+    let mode = home.mode.unwrap();
+    let node_near = |at: &[f64]| (0..2).all(|k| (at[k] - top[k]).abs() < 0.05);
+    let mut near = 0;
+    for (at, cells) in nodes(&report) {
+        for cell in cells {
+            if cell.mode == mode {
+                assert!(folded(cell.joints), "{at:?}: {:?}", cell.joints);
+            } else if node_near(&at) {
+                assert!(!folded(cell.joints), "{at:?}: {:?}", cell.joints);
+            }
+            // nothing is singular so near home
+            if cell.mode == mode && node_near(&at) {
+                assert_eq!(cell.aspect, home.aspect, "{at:?}");
+                near += 1;
+            }
+        }
+    }
+    assert!(near > 2);
+    // the box beside it, which the same mode reaches
+    let beside = [("hand.x", -0.6, 0.05), ("hand.y", -0.1, 0.3)];
+    let home = asked(&mechanism, &beside, &[], &settings).home.unwrap();
+    assert!((home.mode, home.aspect) == (None, None) && (home.at[1] - top[1]).abs() < 1e-9);
+    // legs of 0.7 m never reach 5 m
+    let report = asked(&mechanism, &whole[..1], &[("hand.y", 5.0)], &settings);
+    assert_eq!((report.home, report.reached), (None, 0));
+}
+
+/// Of two assemblies at the same inputs the guess says which is meant, also where home is given a turn further on.
+#[test]
+fn the_mode_of_what_is_guessed_is_told_instead_of_that_of_home() {
+    let mechanism = written(&text("five_bar"), &[]);
+    let settings = WorkspaceSettings {
+        nodes: vec![9, 9],
+        ..WorkspaceSettings::default()
+    };
+    let up = |guess: Option<f64>, turn: f64| {
+        let question = Question::new(mechanism.clone())
+            .input("theta1", turn + 0.9, turn + 1.2)
+            .input("theta2", turn + 1.9, turn + 2.2);
+        let question = match guess {
+            Some(side) => (question.guess("psi1", side)).guess("psi2", -side),
+            None => question,
+        };
+        let report = question.workspace(&settings, &Watch::none()).unwrap();
+        let home = report.home.clone().unwrap();
+        let at = [turn + PI / 3.0, turn + 2.0 * PI / 3.0];
+        assert!((0..2).all(|k| (home.at[k] - at[k]).abs() < 1e-9));
+        assert_eq!(report.modes.len(), 2);
+        let mode = home.mode.unwrap();
+        let cells = nodes(&report).into_iter().flat_map(|(_, cells)| {
+            let cells = cells.into_iter().filter(|cell| cell.mode == mode);
+            cells.map(|cell| cell.joints[2].sin() > 0.0)
+        });
+        let sides: Vec<bool> = cells.collect();
+        assert!(sides.iter().all(|side| *side == sides[0]) && sides.len() == 81);
+        sides[0]
+    };
+    assert!(up(None, 0.0) && up(None, 2.0 * PI) && !up(Some(-2.0), 0.0));
+}

@@ -145,6 +145,10 @@ pub struct AssembliesReport {
     pub characteristic_length: f64,
     /// The real assemblies in the order of their numbers.
     pub assemblies: Vec<Assembly>,
+    /// The numbers of the assemblies in each pose of all platforms together, poses in the order of
+    /// their first assemblies. Empty if no pose of a platform is to be found.
+    #[serde(default)]
+    pub poses: Vec<Vec<usize>>,
     /// Complex assemblies that are not real, if they were asked for: unknown joints and platforms
     /// as pairs of real and imaginary part.
     pub complex_assemblies: Vec<ComplexAssembly>,

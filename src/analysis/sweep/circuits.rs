@@ -5,6 +5,7 @@
 //! Source: T. R. Chase and J. A. Mirth, Circuits and branches of single-degree-of-freedom planar
 //! linkages, 1993.
 
+mod course;
 mod described;
 
 use std::ops::ControlFlow;
@@ -16,7 +17,8 @@ use crate::algebra::SiUnit;
 use crate::linear::{dot, norm};
 use crate::mechanism::{Configuration, Mechanism, Role, turns};
 use crate::solve::{BranchPoint, Continuation, Place, Stage, Watch};
-use crate::system::{Curve, Event, Held, Walk};
+use crate::system::{Coordinate, Curve, Event, Held, Walk};
+use course::platform_courses;
 use described::{branches, class};
 
 type At = Place<Configuration<f64>>;
@@ -39,7 +41,7 @@ impl Default for CircuitsSettings {
     }
 }
 
-/// How a joint moves over a circuit or branch.
+/// How a joint, or a coordinate of a platform, moves over a circuit or branch.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct JointMotion {
     /// Its name.
@@ -78,6 +80,9 @@ pub struct Circuit {
     pub length: f64,
     /// The joints.
     pub joints: Vec<JointMotion>,
+    /// The coordinates of platforms that move, where one of them is the input.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub platforms: Vec<JointMotion>,
     /// Its branches for the input.
     pub branches: Vec<Branch>,
     /// Values of all joints, in the order of the file, where it crosses another curve or itself.
@@ -109,7 +114,7 @@ pub enum FourBarClass {
 pub struct CircuitsReport {
     /// The mechanism's name.
     pub mechanism: String,
-    /// The joint that is the input.
+    /// The joint that is the input, or a coordinate of a platform where no joint moves.
     pub input: String,
     /// The circuits in the order of their first seeds.
     pub circuits: Vec<Circuit>,
@@ -144,7 +149,7 @@ struct Found {
 pub fn circuits(
     mechanism: &Mechanism,
     held: &Held<f64>,
-    input: usize,
+    input: Coordinate,
     seeds: &[Configuration<f64>],
     settings: &CircuitsSettings,
     watch: &Watch,
@@ -187,11 +192,11 @@ pub fn circuits(
         }
     }
     let all: Vec<Circuit> = (0..traced.len())
-        .map(|i| described(mechanism, &curve, input, &traced, i))
+        .map(|i| described(mechanism, (&mut curve, method), input, &traced, i))
         .collect();
     CircuitsReport {
         mechanism: mechanism.name().to_owned(),
-        input: mechanism.joints()[input].name.clone(),
+        input: input.name(mechanism),
         class: class(mechanism, &all),
         circuits: all,
         seeds: seeds.len(),
@@ -298,13 +303,23 @@ fn half(
 
 fn described(
     mechanism: &Mechanism,
-    curve: &Curve,
-    input: usize,
+    (curve, method): (&mut Curve, &Continuation),
+    input: Coordinate,
     traced: &[Found],
     i: usize,
 ) -> Circuit {
     const SAME: f64 = 1e-6;
     let found = &traced[i];
+    let platforms = match input {
+        Coordinate::Joint(_) => Vec::new(),
+        _ => platform_courses(mechanism, curve, method, found),
+    };
+    let branches = match input {
+        Coordinate::Joint(joint) => branches(mechanism, joint, found),
+        of => (platforms.iter().find(|(moved, _)| *moved == of))
+            .map_or(Vec::new(), |(_, course)| course.branches(found.closed)),
+    };
+    let curve = &*curve;
     let value = |place: &At, joint: usize| place.at.joints[joint];
     let of_joint = |joint: usize| {
         let turnings = found.turnings.iter().filter(|(j, _)| *j == joint);
@@ -343,8 +358,11 @@ fn described(
         closed: found.closed,
         whole: found.whole,
         length: found.length,
-        branches: branches(mechanism, input, found),
+        branches,
         joints,
+        platforms: (platforms.iter())
+            .map(|(of, course)| course.motion(of.name(mechanism), found.closed))
+            .collect(),
         crossings: (crossings.iter())
             .map(|point| {
                 let joints = point.at.joints.iter().enumerate();

@@ -7,7 +7,7 @@ use super::rows::Sent;
 use super::{Flow, Sink, SweepEnd, SweepReport, SweepSettings};
 use crate::mechanism::{Configuration, Mechanism, Role};
 use crate::solve::{Place, Progress, Stage, Watch};
-use crate::system::{Curve, Event, Held, Walk};
+use crate::system::{Coordinate, Curve, Event, Held, Walk};
 
 /// Steps after which a curve without end is given up.
 const MOST_STEPS: usize = 100_000;
@@ -81,7 +81,8 @@ pub fn follow(
     }
 }
 
-/// In the sense in which the first joint that is driven, or else the first that moves, grows.
+/// In the sense in which the first joint that is driven, or else the first that moves, grows; where
+/// none moves, the first coordinate of a platform.
 pub(super) fn forwards(
     mechanism: &Mechanism,
     curve: &Curve,
@@ -95,7 +96,10 @@ pub(super) fn forwards(
     let driven = |joint: &usize| mechanism.joints()[*joint].role == Role::Actuated;
     let joints = 0..mechanism.joints().len();
     let ordered = joints.clone().filter(driven).chain(joints);
-    let first = ordered.map(rate).find(|rate| rate.abs() > 1e-9);
+    let platforms = Coordinate::all(mechanism).filter(|of| of.platform().is_some());
+    let of_platform = |of| curve.rate(&place.at, &place.tangent, of);
+    let mut rates = ordered.map(rate).chain(platforms.map(of_platform));
+    let first = rates.find(|rate| rate.abs() > 1e-9);
     match first.is_some_and(|rate| rate < 0.0) {
         true => place.reversed(),
         false => place,

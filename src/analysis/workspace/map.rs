@@ -6,7 +6,7 @@ mod table;
 
 pub use cells::{AxisReport, Cell, Cells};
 pub use report::{
-    AspectReport, BoundaryPoint, Conditioned, CoordinateReport, HeldReport, ModeReport,
+    AspectReport, BoundaryPoint, Conditioned, CoordinateReport, HeldReport, HomeReport, ModeReport,
     WorkspaceReport,
 };
 
@@ -15,6 +15,7 @@ use std::collections::HashMap;
 use super::aspects::{self, Region};
 use super::boundary::{Crossing, named};
 use super::flood::{Link, ReachedSet};
+use super::home::Home;
 use super::problem::{Grid, MapProblem};
 use crate::algebra::SiUnit;
 use crate::mechanism::{PoseCoordinate, Variable, turn_near};
@@ -92,7 +93,7 @@ impl<'a> Map<'a> {
         }
     }
 
-    pub fn report(&self, crossings: &[Crossing]) -> WorkspaceReport {
+    pub fn report(&self, crossings: &[Crossing], home: Option<&Home>) -> WorkspaceReport {
         let mechanism = self.problem.mechanism;
         let unit = |of: Coordinate| SiUnit::of_coordinate(of.is_angle(mechanism));
         let name = |of: &Coordinate| of.name(mechanism);
@@ -211,6 +212,7 @@ impl<'a> Map<'a> {
             probed: [0; 2],
             outside: 0,
             seed: 0,
+            home: home.map(|home| home.report(self, &numbers)),
             interrupted: false,
             normalising_length: mechanism.characteristic_length(),
         }

@@ -16,6 +16,78 @@ pub(super) fn times(multiplicity: usize) -> String {
     }
 }
 
+/// Assemblies in one pose of the platforms.
+pub(super) struct Pose<'r> {
+    number: usize,
+    modes: Vec<&'r Assembly>,
+}
+
+/// The poses of the platforms, where there are several and assemblies share them; otherwise a row
+/// for each assembly tells as much.
+pub(super) fn poses(report: &AssembliesReport) -> Option<Vec<Pose<'_>>> {
+    let shared = (2..report.assemblies.len()).contains(&report.poses.len());
+    let poses = (1..).zip(&report.poses).map(|(number, modes)| Pose {
+        number,
+        modes: (report.assemblies.iter())
+            .filter(|a| modes.contains(&a.mode))
+            .collect(),
+    });
+    let all: Vec<Pose> = shared.then(|| poses.collect())?;
+    (all.iter().all(|pose| !pose.modes.is_empty())).then_some(all)
+}
+
+/// One row for each pose.
+pub(super) fn by_pose<'p>(poses: &'p [Pose<'_>]) -> Table {
+    let numbers = |pose: &Pose| {
+        let modes: Vec<usize> = pose.modes.iter().map(|a| a.mode).collect();
+        ranges(&modes)
+    };
+    let condition = |pose: &Pose| {
+        let of = pose.modes.iter();
+        let of = of.map(|a| a.condition.unwrap_or(f64::INFINITY));
+        let least = of.clone().fold(f64::INFINITY, f64::min);
+        let ends = [least, of.fold(0.0, f64::max)].map(size);
+        match ends[0] == ends[1] {
+            true => ends[0].clone(),
+            false => format!("{} to {}", ends[0], ends[1]),
+        }
+    };
+    let part = |pose: &Pose, of: fn(&Assembly) -> bool, words: &str, none: &str| {
+        let n = pose.modes.iter().filter(|a| of(a)).count();
+        match n {
+            0 => none.to_owned(),
+            n if n == pose.modes.len() => words.to_owned(),
+            n => format!("{n} {words}"),
+        }
+    };
+    Table::of(poses)
+        .numbers("pose", |pose: &'p Pose| pose.number)
+        .numbers("modes", |pose| pose.modes.len())
+        .words("which", numbers)
+        .words("condition", condition)
+        .words("limits", |pose| {
+            part(pose, |a| a.within_limits, "within", "outside")
+        })
+        .words("certificate", |pose| {
+            part(pose, |a| a.certified, "unique", "none")
+        })
+        .into()
+}
+
+/// Numbers in ascending order, those that follow one another as `1 to 4`.
+fn ranges(numbers: &[usize]) -> String {
+    let runs = numbers.chunk_by(|a, b| *b == a + 1);
+    let runs = runs.map(|run| match run {
+        [first, _, .., last] => format!("{first} to {last}"),
+        few => few
+            .iter()
+            .map(usize::to_string)
+            .collect::<Vec<_>>()
+            .join(", "),
+    });
+    runs.collect::<Vec<_>>().join(", ")
+}
+
 pub(super) fn overview(report: &AssembliesReport) -> TableOf<&Assembly> {
     let certificate = |a: &Assembly| match (a.radius, a.multiplicity) {
         (Some(radius), _) => format!("unique within {radius:.1e}"),
@@ -82,10 +154,22 @@ pub(super) fn platforms(report: &AssembliesReport) -> Vec<Section> {
     };
     let parts = first.platforms.0.iter().enumerate();
     let parts = parts.filter(|(_, (name, _))| !report.held_platforms.contains(name));
+    let poses = poses(report);
+    // the first assembly of a pose stands for all
+    let (title, rows): (&str, Vec<(usize, &Assembly)>) = match &poses {
+        Some(poses) => {
+            let first = poses.iter().map(|pose| (pose.number, pose.modes[0]));
+            ("pose", first.collect())
+        }
+        None => {
+            let all = report.assemblies.iter();
+            ("mode", all.map(|a| (a.mode, a)).collect())
+        }
+    };
     let parts = parts.map(|(p, (name, _))| {
-        let modes = Table::of(&report.assemblies).numbers("mode", |a| a.mode);
-        let table = (0..).zip(HEADER).fold(modes, |table, (i, title)| {
-            table.numbers(title, |a| {
+        let numbered = Table::of(rows.iter().copied()).numbers(title, |(number, _)| number);
+        let table = (0..).zip(HEADER).fold(numbered, |table, (i, title)| {
+            table.numbers(title, |(_, a)| {
                 let (_, pose) = &a.platforms.0[p];
                 let (value, unit) = match i {
                     0..3 => (pose.position[i], SiUnit::METRE),

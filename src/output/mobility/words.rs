@@ -52,8 +52,8 @@ pub(super) fn explanation(report: &MobilityReport) -> String {
 
 /// What is special about the configuration though its freedoms are all there.
 pub(super) fn locked(report: &MobilityReport) -> Option<String> {
-    let (locked, all) = (report.locked, report.infinitesimal);
-    let turn = match report.locked_joints.len() {
+    let (locked, all) = (report.gimbal_locked, report.infinitesimal);
+    let turn = match report.gimbal_locked_joints.len() {
         1 => "turns",
         _ => "turn",
     };
@@ -61,7 +61,7 @@ pub(super) fn locked(report: &MobilityReport) -> Option<String> {
         format!(
             "The configuration is special, as in gimbal lock: {} {turn} there without moving \
              anything else, so that links move with {} of the {all} freedoms only.",
-            listed(&report.locked_joints),
+            listed(&report.gimbal_locked_joints),
             all - locked.min(all),
         )
     })

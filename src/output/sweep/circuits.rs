@@ -75,8 +75,12 @@ fn one(report: &CircuitsReport, circuit: &Circuit) -> Section {
         metres(report.characteristic_length)
     );
     let range = |of: &JointMotion, x: f64| (of.turns == 0).then(|| Cell::quantity(x, of.unit));
-    let table = Table::of(&circuit.joints)
-        .words("joint", |joint| Cell::from(&joint.name))
+    let what = match circuit.joints.is_empty() {
+        true => "coordinate",
+        false => "joint",
+    };
+    let table = Table::of(circuit.joints.iter().chain(&circuit.platforms))
+        .words(what, |joint| Cell::from(&joint.name))
         .numbers("turns", |joint| match joint.turns {
             0 => "swings".into(),
             turns => Cell::Count(turns),
@@ -84,7 +88,9 @@ fn one(report: &CircuitsReport, circuit: &Circuit) -> Section {
         .numbers("lowest", |joint| range(joint, joint.low))
         .numbers("highest", |joint| range(joint, joint.high));
     let input = circuit.joints.iter().position(|j| j.name == report.input);
-    let unit = input.map_or(SiUnit::ONE, |input| circuit.joints[input].unit);
+    let mut moved = circuit.joints.iter().chain(&circuit.platforms);
+    let moved = moved.find(|of| of.name == report.input);
+    let unit = moved.map_or(SiUnit::ONE, |of| of.unit);
     let branches = circuit.branches.iter().enumerate();
     let branches = branches.map(|(i, branch)| match branch.turns {
         true => format!("branch {}: {} turns fully", i + 1, report.input),
@@ -102,7 +108,11 @@ fn one(report: &CircuitsReport, circuit: &Circuit) -> Section {
         false => format!("circuit {}", listed(&others)),
     };
     let crosses = format!("crosses {with} at {} = {}", report.input, listed(&places));
-    let crosses = (!places.is_empty()).then_some(crosses);
+    let crosses = match (places.is_empty(), circuit.crossings.len()) {
+        (false, _) => Some(crosses),
+        (true, 0) => None,
+        (true, n) => Some(format!("crosses {with} at {}", count(n, "configuration"))),
+    };
     Section::new(title)
         .table(table)
         .list(branches.chain(crosses))

@@ -1,7 +1,7 @@
 //! What is said about a map of the workspace.
 
 use super::percent;
-use crate::analysis::workspace::{AspectReport, BoundaryKind, WorkspaceReport};
+use crate::analysis::workspace::{AspectReport, AxisReport, BoundaryKind, WorkspaceReport};
 use crate::description::{count, listed};
 use crate::output::quantity::{at, metres, number, range};
 
@@ -19,6 +19,30 @@ pub(super) fn question(report: &WorkspaceReport) -> String {
     match held.is_empty() {
         true => format!("Map of {}.", listed(&axes)),
         false => format!("Map of {}, with {}.", listed(&axes), listed(&held)),
+    }
+}
+
+/// Where the home assembly stands.
+pub(super) fn home(report: &WorkspaceReport) -> String {
+    let Some(home) = &report.home else {
+        return "Home does not assemble with what is held: no mode is marked.".into();
+    };
+    let axes = report.axes.iter().zip(&home.at);
+    let values: Vec<String> = axes.map(|(a, x)| at(&a.name, *x, a.unit)).collect();
+    let there = format!("Home, at {},", listed(&values));
+    let outside = |(axis, x): (&AxisReport, &f64)| !(axis.from..=axis.to).contains(x);
+    match (home.mode, home.aspect) {
+        (Some(mode), Some(aspect)) => format!("{there} is in mode {mode}, aspect {aspect}."),
+        (Some(mode), None) => format!(
+            "{there} is in mode {mode}, in none of the aspects: it is outside limits, on a singularity or \
+             behind one from every node around it."
+        ),
+        (None, _) if report.axes.iter().zip(&home.at).any(outside) => {
+            format!("{there} is outside the box.")
+        }
+        (None, _) => {
+            format!("{there} is in no mode: no regular motion leads from it to a node around it.")
+        }
     }
 }
 

@@ -45,6 +45,7 @@ impl Question<'_> {
         };
         let flat = |f: &Found| self.coordinates.flat(&f.point);
         let flat: Vec<Vec<C>> = found.iter().map(flat).collect();
+        let poses = poses(self.coordinates, &flat);
         for (k, (f, dense)) in found.iter().zip(&jacobians).enumerate() {
             let stopped = (self.watch).stops(Stage::Certificates, k, Some(found.len()));
             let condition = match f.multiplicity == 1 || columns == 0 {
@@ -93,20 +94,32 @@ impl Question<'_> {
                 }),
                 within_limits: outside_limits.is_empty(),
                 outside_limits,
-                shares_platform_pose_with: (0..found.len())
-                    .filter(|&i| i != k && shares_pose(self.coordinates, &f.key, &found[i].key))
-                    .map(|i| i + 1)
+                shares_platform_pose_with: (poses.iter())
+                    .filter(|modes| modes.contains(&(k + 1)))
+                    .flat_map(|modes| modes.iter().copied().filter(|mode| *mode != k + 1))
                     .collect(),
             });
         }
+        report.poses = poses;
         report.real = report.assemblies.len();
     }
 }
 
-fn shares_pose(coordinates: &Coordinates, a: &[f64], b: &[f64]) -> bool {
-    let joints = coordinates.free_joints.len();
-    !coordinates.free_platforms.is_empty()
-        && (a[joints..].iter().zip(&b[joints..])).all(|(a, b)| (a - b).abs() < 1e-6)
+/// Numbers, from 1, of the solutions in each pose of the platforms.
+fn poses(coordinates: &Coordinates, flat: &[Vec<C>]) -> Vec<Vec<usize>> {
+    let mut poses: Vec<Vec<usize>> = Vec::new();
+    if coordinates.free_platforms.is_empty() {
+        return poses;
+    }
+    let pose = |mode: usize| coordinates.pose_of(&flat[mode - 1]);
+    for mode in 1..=flat.len() {
+        let same = |known: &&mut Vec<usize>| coordinates.same_pose(pose(known[0]), pose(mode));
+        match poses.iter_mut().find(same) {
+            Some(known) => known.push(mode),
+            None => poses.push(vec![mode]),
+        }
+    }
+    poses
 }
 
 /// Quotient of the largest and the smallest singular value of a column-major matrix; `None` if its

@@ -242,6 +242,11 @@ impl ReachedSet {
         self.within[number]
     }
 
+    /// The signs of a solution; none outside limits and on singularities.
+    pub fn signs(&self, number: usize) -> Option<Signs> {
+        signs(self.solution(number))
+    }
+
     /// All solutions by their numbers.
     pub fn solutions(&self) -> impl Iterator<Item = (usize, &NodeSolution)> + Clone {
         (0..self.len()).map(|s| (s, self.solution(s)))
@@ -327,7 +332,11 @@ pub(crate) type Signs = [bool; 2];
 
 /// The signs of a solution; none outside limits and on singularities.
 pub(crate) fn signs(solution: &NodeSolution) -> Option<Signs> {
-    let indicators = &solution.indicators;
-    let inside = solution.within && indicators.direct != 0.0 && indicators.inverse != 0.0;
+    signs_of(&solution.indicators, solution.within)
+}
+
+/// The same of indicators, within limits or not.
+pub(crate) fn signs_of(indicators: &Indicators, within: bool) -> Option<Signs> {
+    let inside = within && indicators.direct != 0.0 && indicators.inverse != 0.0;
     inside.then_some([indicators.direct < 0.0, indicators.inverse < 0.0])
 }

@@ -25,7 +25,7 @@ pub(crate) struct ModeSeeds {
 
 impl ModeSeeds {
     /// What was found at each node.
-    fn of(
+    pub fn of(
         problem: &MapProblem,
         found: impl IntoIterator<Item = (usize, Vec<Configuration<f64>>)>,
     ) -> Self {

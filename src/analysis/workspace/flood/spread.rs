@@ -5,6 +5,7 @@ use super::neighbour::{Flood, Step};
 use super::reached::{Link, Name, NodeSolution, ReachedSet};
 use super::tile::{Task, Tile, Tiling};
 use crate::analysis::workspace::problem::Grid;
+use crate::mechanism::ConfigurationRef;
 
 /// What was reached so far.
 pub(crate) struct Spread {
@@ -51,6 +52,13 @@ impl Spread {
     pub fn known(&self, fill: &Flood, node: usize, at: Moving) -> Option<Name> {
         let tile = &self.tiles[self.tiling.of(fill.grid, node)];
         fill.known(tile.moving_at(fill.grid, node), at)
+    }
+
+    /// Whether a solution of a node has this configuration, whatever its motions.
+    pub fn has(&self, fill: &Flood, node: usize, at: ConfigurationRef<f64>) -> bool {
+        let tile = &self.tiles[self.tiling.of(fill.grid, node)];
+        let mut solutions = tile.moving_at(fill.grid, node);
+        solutions.any(|(_, known)| fill.metric.same(known.at, at))
     }
 
     pub fn len(&self) -> usize {

@@ -39,6 +39,9 @@ pub struct WorkspaceReport {
     pub reached_size: f64,
     /// The modes.
     pub modes: Vec<ModeReport>,
+    /// Where the home assembly stands; none if it does not assemble with what is held.
+    #[serde(default)]
+    pub home: Option<HomeReport>,
     /// The aspects, numbered through all modes.
     pub aspects: Vec<AspectReport>,
     /// The boundary of modes and aspects: curves through the points found on edges of the grid.
@@ -124,6 +127,17 @@ pub struct ModeReport {
     pub repeated: usize,
     /// Joint values at its first node, rad or m, in the order of the file.
     pub joints: Vec<f64>,
+}
+
+/// Where the assembly near home, or near what was guessed, stands on a map.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct HomeReport {
+    /// The mapped coordinates, rad or m.
+    pub at: Vec<f64>,
+    /// The mode that regular motion leads to from there; none outside the box.
+    pub mode: Option<usize>,
+    /// Its aspect; none outside limits and on a singularity.
+    pub aspect: Option<usize>,
 }
 
 /// A region of one mode within limits that no singularity parts.

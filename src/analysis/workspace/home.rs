@@ -1,0 +1,156 @@
+//! Where the home assembly stands on a map: in which mode, in which aspect.
+
+use std::f64::consts::TAU;
+
+use super::flood::{Edge, Met, Metric, ModeSeeds, Signs, Steps, Until, signs_of, walk};
+use super::map::{HomeReport, Map};
+use super::problem::{Grid, MapProblem};
+use crate::mechanism::Configuration;
+use crate::system::Coordinate;
+
+/// The home assembly, followed to nodes of the grid.
+pub(super) struct Home<'m> {
+    metric: &'m Metric,
+    /// The mapped coordinates, brought into the box by whole turns where that can be.
+    at: Vec<f64>,
+    /// The signs of its determinants; none outside limits and on singularities.
+    signs: Option<Signs>,
+    /// The nodes around it that regular motion leads to, the nearest first, with the configuration
+    /// there.
+    nodes: Vec<(usize, Configuration<f64>)>,
+}
+
+impl<'m> Home<'m> {
+    /// Follows the home assembly along one mapped coordinate after the other to the corners of the
+    /// cell of the grid in which it stands.
+    pub fn new(
+        problem: &MapProblem,
+        grid: &Grid,
+        metric: &'m Metric,
+        home: &Configuration<f64>,
+    ) -> Self {
+        let at: Vec<f64> = (0..grid.dimensions())
+            .map(|axis| within(problem, grid, axis, home))
+            .collect();
+        let indicators = Steps::<f64>::new(problem).indicators(home, &at);
+        let signs = signs_of(&indicators, problem.allows(&home.joints));
+        let mut nodes = Vec::new();
+        for node in corners(grid, &at) {
+            let to = grid.values(node);
+            // another order goes round a fold that one meets
+            let forth: Vec<usize> = (0..to.len()).collect();
+            let back: Vec<usize> = (0..to.len()).rev().collect();
+            let mut ways = [forth, back].into_iter();
+            let end = ways.find_map(|order| along(problem, metric, home, (&at, &to), &order));
+            nodes.extend(end.map(|end| (node, end)));
+        }
+        Home {
+            metric,
+            at,
+            signs,
+            nodes,
+        }
+    }
+
+    /// Starts at its nodes, so that its mode is on the map whatever random starts find.
+    pub fn seeds(&self, problem: &MapProblem) -> ModeSeeds {
+        ModeSeeds::of(
+            problem,
+            self.nodes
+                .iter()
+                .map(|(node, at)| (*node, vec![at.clone()])),
+        )
+    }
+
+    /// Its mode and aspect, given for the first solution of each aspect its number.
+    pub fn report(&self, map: &Map, numbers: &[Option<usize>]) -> HomeReport {
+        let reached_set = map.reached_set;
+        let nodes = self.nodes.iter();
+        let known = nodes.filter_map(|(node, at)| reached_set.known(self.metric, *node, at.view()));
+        let known: Vec<usize> = known.filter(|s| map.mode[*s].is_some()).collect();
+        // between home and a node with other signs an aspect ends
+        let same = |s: &&usize| self.signs.is_some() && reached_set.signs(**s) == self.signs;
+        let within = known.iter().find(same).copied();
+        HomeReport {
+            at: self.at.clone(),
+            mode: (within.or(known.first().copied())).and_then(|s| Some(map.mode[s]? + 1)),
+            aspect: within.and_then(|s| numbers[map.aspect[s]?]),
+        }
+    }
+}
+
+/// A mapped coordinate of a configuration, in the box if whole turns bring it there.
+fn within(problem: &MapProblem, grid: &Grid, axis: usize, at: &Configuration<f64>) -> f64 {
+    /// Part of an edge that is rounding.
+    const ROUNDING: f64 = 1e-9;
+    let coordinate = problem.axes[axis].coordinate;
+    let value = coordinate.of(at);
+    let low = grid.coordinate(axis, 0);
+    let high = grid.coordinate(axis, grid.count(axis) - 1);
+    let margin = ROUNDING * grid.spacing(axis);
+    let turns = match coordinate {
+        Coordinate::Joint(joint) => problem.mechanism.repeats(joint),
+        of => of.is_angle(problem.mechanism),
+    };
+    let value = match turns {
+        true => value - TAU * ((value - low + margin) / TAU).floor(),
+        false => value,
+    };
+    // an end itself but for rounding is in the box
+    let inside = value >= low - margin && value <= high + margin;
+    if inside {
+        value.clamp(low, high)
+    } else {
+        value
+    }
+}
+
+/// The nodes around a point of the box, the nearest first; none for a point outside.
+fn corners(grid: &Grid, at: &[f64]) -> Vec<usize> {
+    let places = at.iter().enumerate().map(|(axis, value)| {
+        let place = (value - grid.coordinate(axis, 0)) / grid.spacing(axis);
+        let last = (grid.count(axis) - 1) as f64;
+        (0.0..=last)
+            .contains(&place)
+            .then(|| (place.floor() as usize, place.ceil() as usize))
+    });
+    let Some(sides) = places.collect::<Option<Vec<_>>>() else {
+        return Vec::new();
+    };
+    let distance = |node: &usize| -> f64 {
+        let values = grid.values(*node).into_iter().zip(at).enumerate();
+        let parts = values.map(|(axis, (x, at))| (x - at) / grid.spacing(axis));
+        parts.map(|part| part * part).sum()
+    };
+    let mut nodes = grid.nodes_within(&sides);
+    nodes.sort_by(|a, b| distance(a).total_cmp(&distance(b)));
+    nodes
+}
+
+/// The configuration that regular motion leads to, from one point of the box to another, along one
+/// mapped coordinate after the other.
+fn along(
+    problem: &MapProblem,
+    metric: &Metric,
+    home: &Configuration<f64>,
+    (from, to): (&[f64], &[f64]),
+    order: &[usize],
+) -> Option<Configuration<f64>> {
+    let (mut at, mut values) = (home.clone(), from.to_vec());
+    for &axis in order {
+        if values[axis] == to[axis] {
+            continue;
+        }
+        let edge = Edge {
+            axis,
+            values: values.clone(),
+            to: to[axis],
+        };
+        match walk(problem, metric, &edge, &at, Until::End) {
+            Met::Neighbour(there) => at = there,
+            _ => return None,
+        }
+        values[axis] = to[axis];
+    }
+    Some(at)
+}
