@@ -105,11 +105,9 @@ impl Question<'_> {
         let (asked, half_a_turn_away): (Vec<&End>, Vec<&End>) =
             (ends.ends.iter()).partition(|end| end.point().is_none_or(|x| self.has_held_angles(x)));
         let mut groups = self.grouped(&asked, homotopy.as_mut());
-        let conjugates = match &mut homotopy {
-            Some(homotopy) if fit == Fit::Finite && !self.interrupted => {
-                self.pair(&mut groups, homotopy, &mut work)
-            }
-            _ => 0,
+        let conjugates = match fit == Fit::Finite && homotopy.is_some() && !self.interrupted {
+            true => self.pair(&mut groups, &mut work),
+            false => 0,
         };
         let mut gathered = Gathered::default();
         for group in groups.iter().filter(|g| g.dimension == 0) {

@@ -1,41 +1,46 @@
 //! Solutions for real inputs that are not real come in conjugate pairs.
 
-use super::{END, Group, Question};
+use super::{Group, Question};
 use crate::analysis::assemblies::family::{C, size};
-use crate::analysis::assemblies::track::{ParameterHomotopy, are_one};
 use crate::system::Work;
 
 impl Question<'_> {
     /// Adds the conjugates of solutions that are not real where no path led to them: for real
     /// inputs they are solutions too. How many there were.
-    pub(super) fn pair(
-        &self,
-        groups: &mut Vec<Group>,
-        homotopy: &mut ParameterHomotopy<'_>,
-        work: &mut Work<f64>,
-    ) -> usize {
+    ///
+    /// Each solution has one partner, the nearest to its conjugate of those that have none yet.
+    pub(super) fn pair(&self, groups: &mut Vec<Group>, work: &mut Work<f64>) -> usize {
+        let mut alone: Vec<usize> = (0..groups.len())
+            .filter(|&i| {
+                let Group { x, singular, .. } = &groups[i];
+                groups[i].dimension == 0 && self.real(x, *singular, work).is_none()
+            })
+            .collect();
         let mut added = 0;
-        for i in 0..groups.len() {
-            let (singular, paths) = (groups[i].singular, groups[i].paths);
-            if groups[i].dimension > 0 || self.real(&groups[i].x, singular, work).is_some() {
-                continue;
-            }
+        while let Some(i) = alone.pop() {
             let conjugate: Vec<C> = groups[i].x.iter().map(|z| z.conj()).collect();
-            let near = 1e-5 * (1.0 + size(&conjugate));
-            let known = groups.iter().any(|group| match group.singular || singular {
-                true => self.coordinates.within(near, &group.x, &conjugate),
-                false => are_one(homotopy, END, &group.x, &conjugate),
+            let apart = |k: usize| self.coordinates.difference(&conjugate, &groups[k].x);
+            let limit = NEAR * (1.0 + size(&conjugate));
+            let nearest = (0..alone.len()).min_by(|&a, &b| {
+                let [a, b] = [a, b].map(|place| apart(alone[place]));
+                a.total_cmp(&b)
             });
-            if !known {
-                added += paths;
-                groups.push(Group {
-                    x: conjugate,
-                    paths,
-                    singular,
-                    dimension: 0,
-                });
+            match nearest.filter(|&place| apart(alone[place]) <= limit) {
+                Some(place) => drop(alone.swap_remove(place)),
+                // real but for what rounding leaves where solutions meet
+                None if apart(i) <= limit => {}
+                None => {
+                    added += groups[i].paths;
+                    groups.push(Group {
+                        x: conjugate,
+                        ..groups[i]
+                    });
+                }
             }
         }
         added
     }
 }
+
+/// How far two paths may end from one solution, beside its size.
+const NEAR: f64 = 1e-5;
