@@ -114,7 +114,10 @@ fn left(report: &AssemblyReport) -> Vec<String> {
             form(held.len(), "is", "are")
         ),
     };
-    let mut notes = vec![format!("{held}; {} would decide the rest", listed(&left.hold))];
+    let mut notes = vec![format!(
+        "{held}; {} would decide the rest",
+        listed(&left.hold)
+    )];
     if left.singular > 0 {
         notes.push(format!(
             "a singular configuration: to first order {} more can move",
