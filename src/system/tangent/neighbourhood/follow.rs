@@ -173,32 +173,47 @@ impl Neighbourhood<'_> {
         const STEPS: usize = 200;
         /// A step that is shorter changes nothing that is printed.
         const ARRIVED: f64 = 1e-10;
+        /// Distances that differ by less than this part of them are equal but for rounding.
+        const ROUNDED: f64 = 1e-12;
         let mut part = 1.0;
         let mut away = self.system.difference(point, &at);
+        let mut along = self.along_motions(&at, &away);
         for _ in 0..STEPS {
-            let tangent = self.tangent(at.clone());
-            let mut back = vec![0.0; away.len()];
-            for motion in &tangent.motions {
-                add(&mut back, -part * dot(motion, &away), motion);
-            }
-            let size = norm(&back);
+            let size = part * norm(&along);
             if size < ARRIVED {
                 break;
             }
+            let back: Vec<f64> = along.iter().map(|x| -part * x).collect();
             let ahead = self.system.displaced(&at, &back);
-            let settled = self.settle(ahead, size).map(|settled| {
-                let away = self.system.difference(point, &settled);
-                (settled, away)
+            let nearer = self.settle(ahead, size).and_then(|settled| {
+                let further = self.system.difference(point, &settled);
+                let left = self.along_motions(&settled, &further);
+                let (before, after) = (norm(&away), norm(&further));
+                // a distance is flat where it is least: there its slope tells more
+                let nearer = match (after - before).abs() <= ROUNDED * before {
+                    true => norm(&left) < norm(&along),
+                    false => after < before,
+                };
+                nearer.then_some((settled, further, left))
             });
-            match settled {
-                Some((settled, nearer)) if norm(&nearer) < norm(&away) => {
-                    (at, away) = (settled, nearer);
-                    part = (2.0 * part).min(1.0);
+            match nearer {
+                Some(nearer) => {
+                    (at, away, along) = nearer;
+                    part = f64::min(2.0 * part, 1.0);
                 }
-                _ => part *= 0.5,
+                None => part *= 0.5,
             }
         }
         at
+    }
+
+    /// The part of a change that is along the motions at a configuration.
+    fn along_motions(&mut self, at: &Configuration<f64>, change: &[f64]) -> Vec<f64> {
+        let mut along = vec![0.0; change.len()];
+        for motion in &self.tangent(at.clone()).motions {
+            add(&mut along, dot(motion, change), motion);
+        }
+        along
     }
 
     /// The assembled configuration that Gauss–Newton steps of least length reach from a point, to
