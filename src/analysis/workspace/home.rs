@@ -2,8 +2,7 @@
 
 use std::f64::consts::TAU;
 
-use super::flood::{Edge, Met, Metric, ModeSeeds, Signs, Steps, Until, signs_of, walk};
-use super::map::{HomeReport, Map};
+use super::flood::{Edge, Met, Metric, ModeSeeds, ReachedSet, Signs, Steps, Until, signs_of, walk};
 use super::problem::{Grid, MapProblem};
 use crate::mechanism::Configuration;
 use crate::system::Coordinate;
@@ -12,7 +11,7 @@ use crate::system::Coordinate;
 pub(super) struct Home<'m> {
     metric: &'m Metric,
     /// The mapped coordinates, brought into the box by whole turns where that can be.
-    at: Vec<f64>,
+    pub at: Vec<f64>,
     /// The signs of its determinants; none outside limits and on singularities.
     signs: Option<Signs>,
     /// The nodes around it that regular motion leads to, the nearest first, with the configuration
@@ -62,20 +61,19 @@ impl<'m> Home<'m> {
         )
     }
 
-    /// Its mode and aspect, given for the first solution of each aspect its number.
-    pub fn report(&self, map: &Map, numbers: &[Option<usize>]) -> HomeReport {
-        let reached_set = map.reached_set;
+    /// Solutions of a reached set that continue it: any of a mode, and the first within its aspect.
+    pub fn solutions(
+        &self,
+        reached_set: &ReachedSet,
+        mode: &[Option<usize>],
+    ) -> [Option<usize>; 2] {
         let nodes = self.nodes.iter();
         let known = nodes.filter_map(|(node, at)| reached_set.known(self.metric, *node, at.view()));
-        let known: Vec<usize> = known.filter(|s| map.mode[*s].is_some()).collect();
+        let known: Vec<usize> = known.filter(|s| mode[*s].is_some()).collect();
         // between home and a node with other signs an aspect ends
         let same = |s: &&usize| self.signs.is_some() && reached_set.signs(**s) == self.signs;
         let within = known.iter().find(same).copied();
-        HomeReport {
-            at: self.at.clone(),
-            mode: (within.or(known.first().copied())).and_then(|s| Some(map.mode[s]? + 1)),
-            aspect: within.and_then(|s| numbers[map.aspect[s]?]),
-        }
+        [within.or(known.first().copied()), within]
     }
 }
 

@@ -124,6 +124,15 @@ impl<'a> Map<'a> {
             if solution.within { stuck.count() } else { 0 }
         });
         let (aspects, numbers) = self.aspects(&cuts);
+        let home_report = |home: &Home| {
+            let [known, within] = home.solutions(self.reached_set, &self.mode);
+            HomeReport {
+                at: home.at.clone(),
+                mode: known.and_then(|s| Some(self.mode[s]? + 1)),
+                // an aspect is numbered by its first solution
+                aspect: within.and_then(|s| numbers[self.aspect[s]?]),
+            }
+        };
         WorkspaceReport {
             mechanism: mechanism.name().to_owned(),
             variables: Variable::joints(mechanism),
@@ -212,7 +221,7 @@ impl<'a> Map<'a> {
             probed: [0; 2],
             outside: 0,
             seed: 0,
-            home: home.map(|home| home.report(self, &numbers)),
+            home: home.map(home_report),
             interrupted: false,
             normalising_length: mechanism.characteristic_length(),
         }
