@@ -18,7 +18,7 @@
 //! # }
 //! ```
 
-mod closed;
+mod at_configuration;
 mod error;
 mod modes;
 mod ranges;

@@ -1,8 +1,8 @@
 mod approach;
 mod axes;
+mod closure_gap;
 mod coordinate;
 mod displacement;
-mod gap;
 mod layout;
 mod parts;
 mod plan;
@@ -11,8 +11,8 @@ mod wrenches;
 
 pub use approach::approach;
 pub use axes::ClosureAxes;
+pub use closure_gap::Gap;
 pub use coordinate::Coordinate;
-pub use gap::Gap;
 pub use layout::{Held, HeldPlatform, Unknown};
 pub use parts::independent_parts;
 pub use wrenches::ClosureWrenches;

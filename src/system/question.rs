@@ -2,8 +2,8 @@ mod count;
 mod demand;
 mod drive;
 mod error;
+mod forces;
 mod held;
-mod load;
 mod outputs;
 mod spins;
 mod value;
@@ -12,7 +12,7 @@ pub use count::{Count, check_angle, check_angles, check_count};
 pub use demand::{Demand, Verb};
 pub use drive::{Drive, DriveError};
 pub use error::QuestionError;
-pub use load::{ForceError, Load};
+pub use forces::{ForceError, Load};
 pub use outputs::{
     actuated, coordinate_outputs, default_outputs, free_outputs, inputs_of, platform_outputs,
 };

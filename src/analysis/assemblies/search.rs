@@ -1,12 +1,12 @@
 //! The search for all solutions of one generic member of the family.
 
-mod generic;
-mod seed;
+mod monodromy;
+mod newton_starts;
 mod solutions;
 mod starts;
 mod store;
 
-pub(super) use generic::search;
+pub(super) use monodromy::search;
 pub use solutions::GenericSolutions;
 pub(super) use starts::solved;
 pub use store::StoredError;

@@ -10,8 +10,8 @@
 //!
 //! and `chain_front` and `chain_back` are joined by the joint of row r.
 
+mod closure_rows;
 mod error;
-mod motion;
 
 use super::references::{Substitute, exchange, free_name, link_of};
 use super::{Conversion, ConversionNote, doing_something, link, negated, undone, zero};
@@ -21,7 +21,7 @@ use crate::description::{
     Entry, Named, Role, Row, Spanned, first_free, names_of, nearest, place_of,
 };
 use crate::mechanism::{Frame, JointKind, Mechanism};
-use motion::Motion;
+use closure_rows::ClosureRows;
 
 pub use error::CutError;
 
@@ -50,7 +50,7 @@ pub(super) fn cut(
 ) -> Result<Conversion, CutError> {
     let place = find(mechanism, description, joint)?;
     let (closure, side) = closing(mechanism, &place, joint)?;
-    let motion = Motion::of(mechanism, description, closure, side);
+    let motion = ClosureRows::of(mechanism, description, closure, side);
     let (old, new) = rebuild(mechanism, description, &place, closure, side, &motion);
     let mut conversion = new;
     let renamed = |(from, to)| ConversionNote::Renamed { from, to };
@@ -131,7 +131,7 @@ fn closing(mechanism: &Mechanism, place: &Place, joint: &str) -> Result<(usize, 
             [false, true] => 1,
             _ => continue,
         };
-        match Motion::variables(closure.kind) {
+        match ClosureRows::variables(closure.kind) {
             Some(number) if ends(closure.frames[side]) => found.push((number, index, side)),
             _ => others.push(closure.name.clone()),
         }
@@ -164,7 +164,7 @@ fn rebuild(
     place: &Place,
     closure: usize,
     side: usize,
-    motion: &Motion,
+    motion: &ClosureRows,
 ) -> (Vec<(String, String)>, Conversion) {
     let convention = mechanism.chains()[place.chain].convention;
     let Named { name, value: chain } = &description.chains[place.chain];

@@ -14,7 +14,7 @@ use rand::SeedableRng;
 use rand_pcg::Pcg64;
 
 use super::super::AssembliesSettings;
-use super::seed::{Seed, newton, newton_seeds, solution};
+use super::newton_starts::{Seed, newton, newton_seeds, solution};
 use super::solutions::GenericSolutions;
 use crate::analysis::assemblies::family::{C, Family, Member, learn};
 use crate::analysis::assemblies::track::{ParameterHomotopy, stands_alone, tracked};

@@ -21,7 +21,7 @@ use crate::mechanism::Mechanism;
 use crate::number::Number;
 
 /// The rows that take the place of a closure, from its other frame to the frame behind the cut.
-pub(super) struct Motion {
+pub(super) struct ClosureRows {
     pub joints: Vec<Named<JointDescription>>,
     /// Twist before each row, its slide and its turn.
     parts: Vec<(Entry, Entry, Entry)>,
@@ -32,7 +32,7 @@ fn right_angle(sign: f64) -> Entry {
     Entry::degrees(sign * 90.0)
 }
 
-impl Motion {
+impl ClosureRows {
     /// How many variables a closure becomes; `None` if it cannot become rows.
     pub fn variables(kind: ClosureKind) -> Option<usize> {
         match kind {
@@ -54,7 +54,7 @@ impl Motion {
         let model = &mechanism.closures()[closure];
         let [from, to] = [model.frames[1 - side], model.frames[side]];
         let pose = mechanism.transform(from, to, &mechanism.home());
-        let mut motion = Motion {
+        let mut motion = ClosureRows {
             joints: Vec::new(),
             parts: Vec::new(),
             tip: Vec::new(),
