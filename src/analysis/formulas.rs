@@ -278,11 +278,7 @@ impl Writer<'_> {
             identically_zero,
             distance: vector,
             same_axes,
-            admits_flipped: !same_axes
-                && !matches!(
-                    own.kind,
-                    ClosureKind::Spherical | ClosureKind::Universal | ClosureKind::Distance
-                ),
+            admits_flipped: !same_axes && own.kind.aligns_axes(),
         });
         Ok(())
     }

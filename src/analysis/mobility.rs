@@ -15,7 +15,7 @@ use rand_pcg::Pcg64Mcg;
 use serde::{Deserialize, Serialize};
 
 use crate::linear::axis_aligned;
-use crate::mechanism::{ClosureKind, Configuration, Mechanism, Variable};
+use crate::mechanism::{Configuration, Mechanism, Variable};
 use crate::solve::{Newton, Stage, Watch};
 use crate::system::{
     Analysed, Closing, Coordinate, Held, HeldPlatform, Lasting, Moved, Named, Neighbourhood,
@@ -429,7 +429,7 @@ fn idle_freedoms(
             false => LocalFreedom::Platforms { platforms, joints },
         }
     };
-    let rods = (mechanism.closures().iter()).filter(|c| c.kind == ClosureKind::Distance);
+    let rods = (mechanism.closures().iter()).filter(|c| c.kind.has_length());
     let rods = rods.map(|rod| LocalFreedom::Rod(rod.name.clone()));
     (spins.iter().map(link)).chain(rods).collect()
 }

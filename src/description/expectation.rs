@@ -1,5 +1,6 @@
 //! The values expected at each place of a mechanism file.
 
+use super::parts::ClosureKind;
 use crate::algebra::words;
 
 /// The kinds of named items.
@@ -59,7 +60,7 @@ pub enum Expected {
     Convention,
     Closure,
     /// The frames of the closure of that word, and the length of a distance.
-    ClosureFrames(&'static str),
+    ClosureFrames(ClosureKind),
     Vector,
     RotationRows,
     RotationRow,

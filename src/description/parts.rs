@@ -96,6 +96,65 @@ words! {
     }
 }
 
+impl ClosureKind {
+    /// Whether it brings the origins of the two frames together.
+    pub fn joins_origins(self) -> bool {
+        match self {
+            Self::Spherical | Self::Revolute | Self::Universal | Self::Rigid => true,
+            Self::Prismatic | Self::Cylindrical | Self::Planar | Self::Distance => false,
+        }
+    }
+
+    /// Whether it brings the z axes together.
+    pub fn joins_axes(self) -> bool {
+        match self {
+            Self::Revolute | Self::Prismatic | Self::Cylindrical | Self::Rigid => true,
+            Self::Spherical | Self::Universal | Self::Planar | Self::Distance => false,
+        }
+    }
+
+    /// Whether it makes the z axes parallel.
+    pub fn aligns_axes(self) -> bool {
+        match self {
+            Self::Revolute | Self::Prismatic | Self::Cylindrical | Self::Planar | Self::Rigid => {
+                true
+            }
+            Self::Spherical | Self::Universal | Self::Distance => false,
+        }
+    }
+
+    /// Whether it holds the orientation of one frame against the other.
+    pub fn holds_orientation(self) -> bool {
+        match self {
+            Self::Prismatic | Self::Rigid => true,
+            Self::Spherical
+            | Self::Revolute
+            | Self::Universal
+            | Self::Cylindrical
+            | Self::Planar
+            | Self::Distance => false,
+        }
+    }
+
+    /// Whether nothing but the origins of its frames matters.
+    pub fn leaves_orientation(self) -> bool {
+        match self {
+            Self::Spherical | Self::Distance => true,
+            Self::Revolute
+            | Self::Prismatic
+            | Self::Universal
+            | Self::Cylindrical
+            | Self::Planar
+            | Self::Rigid => false,
+        }
+    }
+
+    /// Whether it has a given length, as a rod with a ball at each end.
+    pub fn has_length(self) -> bool {
+        self == Self::Distance
+    }
+}
+
 /// A joint variable.
 #[derive(Debug, Clone)]
 pub struct JointDescription {

@@ -212,13 +212,12 @@ impl Reader {
     fn closure(&mut self, piece: Piece) -> Option<ClosureDescription> {
         let (known, word) = (&ClosureKind::ALL, ClosureKind::word);
         let (kind, content) = self.word(piece, Expected::Closure, known, word)?;
-        let expected = Expected::ClosureFrames(kind.word());
-        let (frames, length) = match kind {
-            ClosureKind::Distance => {
-                let [from, to, length] = self.content(piece, content, expected)?;
-                ([from, to], Some(length))
-            }
-            _ => (self.content(piece, content, expected)?, None),
+        let expected = Expected::ClosureFrames(kind);
+        let (frames, length) = if kind.has_length() {
+            let [from, to, length] = self.content(piece, content, expected)?;
+            ([from, to], Some(length))
+        } else {
+            (self.content(piece, content, expected)?, None)
         };
         let [from, to] = frames.map(|frame| self.text(frame, Expected::Frame));
         let length = length.map(|length| self.entry(length));

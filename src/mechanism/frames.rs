@@ -67,7 +67,7 @@ impl Mechanism {
     /// Whether a closure is a rod with a ball at each end.
     pub(crate) fn has_rods(&self) -> bool {
         let mut closures = self.closures.iter();
-        closures.any(|closure| closure.kind == super::ClosureKind::Distance)
+        closures.any(|closure| closure.kind.has_length())
     }
 
     /// The closed forms, in the order of the file.

@@ -5,9 +5,7 @@ use std::collections::HashSet;
 use super::frames::joints_of;
 use super::model::{FixedStep, Formula, Given, Symbol};
 use super::{Frame, Mechanism};
-use crate::description::{
-    Beside, ClosureKind, Convention, Description, Problem, ProblemKind, Turned,
-};
+use crate::description::{Beside, Convention, Description, Problem, ProblemKind, Turned};
 
 pub(super) fn inspect(
     mechanism: &Mechanism,
@@ -111,9 +109,9 @@ impl Mechanism {
             chain,
             row: turning,
         };
-        let feels = |kind| matches!(kind, ClosureKind::Rigid | ClosureKind::Prismatic);
         let mut closures = self.closures.iter();
-        let closed = closures.any(|closure| feels(closure.kind) && closure.frames.contains(&frame));
+        let closed = closures
+            .any(|closure| closure.kind.holds_orientation() && closure.frames.contains(&frame));
         let printed = self.closed_forms.iter().any(|form| match &form.gives {
             Given::Pose {
                 of, relative_to, ..

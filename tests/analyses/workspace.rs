@@ -841,7 +841,7 @@ fn drawn(map: &[&str]) -> (Vec<String>, String, String) {
     let svg = std::fs::read_to_string(path).unwrap();
     let texts = svg.split("<text").skip(1).map(|text| {
         let text = text.split_once('>').unwrap().1;
-        text.split_once('<').unwrap().0.to_owned()
+        text.split_once('<').unwrap().0.trim().to_owned()
     });
     (texts.collect(), svg, err)
 }
@@ -857,16 +857,27 @@ fn axes_of_a_picture_end_where_the_map_does_and_what_is_not_reached_is_left_open
         .iter()
         .filter_map(|text| text.replace('−', "-").parse::<f64>().ok());
     let numbers: Vec<f64> = numbers.collect();
-    assert!(numbers.len() > 20 && numbers.contains(&-0.5), "{numbers:?}");
+    assert!(
+        numbers.len() > 20 && numbers.contains(&-0.6) && numbers.contains(&0.8),
+        "{numbers:?}"
+    );
     assert!(
         numbers.iter().all(|x| (-0.65..=1.0).contains(x)),
         "{numbers:?}"
     );
-    // white are only the boxes of the legends; each picture has cells that are not reached
+    // beside the sheet and 40 colours of the scale of each picture, one square for each node that is reached
     let pictures = texts.iter().filter(|text| text.contains(": mode ")).count();
-    let filled = |with: &str| svg.matches(&format!("fill=\"{with}\"")).count();
-    assert!(pictures > 0 && filled("#ffffff") <= pictures);
-    assert!(filled("none") > 20 * pictures && !svg.contains("NaN"));
+    let json = [
+        &["workspace"],
+        &map[..],
+        &["--starts", "8", "--format", "json"],
+    ]
+    .concat();
+    let report: serde_json::Value = serde_json::from_str(&linkwork(&json).1).unwrap();
+    let cells = report["cells"].as_array().unwrap().iter();
+    let reached = cells.filter(|cell| !cell["aspect"].is_null()).count();
+    assert!(pictures > 0 && reached < (135 - 20) * pictures && !svg.contains("NaN"));
+    assert_eq!(svg.matches("<rect").count(), 1 + 40 * pictures + reached);
 }
 
 #[test]

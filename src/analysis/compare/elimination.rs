@@ -15,7 +15,6 @@ use num_traits::{One, Signed, Zero};
 
 use super::consequence::Span;
 use crate::algebra::{Atom, Budget, Key, Symbolic, Trigonometric, Wave};
-use crate::description::ClosureKind;
 use crate::geometry::Axis;
 use crate::mechanism::{Formal, Frame, Mechanism};
 
@@ -36,12 +35,7 @@ pub(super) fn equations(mechanism: &Mechanism, formal: &Formal) -> Vec<Trigonome
         if closure.frames.iter().any(carried) {
             continue;
         }
-        let (origin, axis) = match closure.kind {
-            ClosureKind::Revolute | ClosureKind::Rigid => (true, true),
-            ClosureKind::Spherical | ClosureKind::Universal => (true, false),
-            ClosureKind::Cylindrical | ClosureKind::Prismatic => (false, true),
-            ClosureKind::Planar | ClosureKind::Distance => (false, false),
-        };
+        let (origin, axis) = (closure.kind.joins_origins(), closure.kind.joins_axes());
         let stands = closure.frames.map(|frame| mechanism.stands_on(frame));
         let mut links: Vec<Frame> = Vec::new();
         for frame in stands.into_iter().flatten() {

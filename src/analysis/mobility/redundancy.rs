@@ -2,7 +2,6 @@
 
 use serde::{Deserialize, Serialize};
 
-use crate::description::ClosureKind;
 use crate::geometry::Vector3;
 use crate::linear::{add, axis_aligned, complement, orthonormal};
 use crate::system::{Neighbourhood, Tangent};
@@ -83,7 +82,7 @@ pub(super) fn find(near: &mut Neighbourhood, tangent: &Tangent) -> Vec<Redundanc
                     moment: [w[3], w[4], w[5]].map(|m| m * mechanism.characteristic_length()),
                 })
                 .collect(),
-            rod: closure.kind == ClosureKind::Distance,
+            rod: closure.kind.has_length(),
         });
         dependencies = (rest.iter())
             .map(|weights| {

@@ -108,13 +108,9 @@ fn planar_equations(mechanism: &Mechanism) -> Option<usize> {
         }
     }
     // a platform that hangs on balls alone may tilt out of the plane
-    let balls = [ClosureKind::Spherical, ClosureKind::Distance];
-    let may_tilt = |kind| balls.contains(&kind) && !mechanism.platforms().is_empty();
-    if mechanism
-        .closures()
-        .iter()
-        .any(|closure| may_tilt(closure.kind))
-    {
+    let mut closures = mechanism.closures().iter();
+    let may_tilt = closures.any(|closure| closure.kind.leaves_orientation());
+    if may_tilt && !mechanism.platforms().is_empty() {
         return None;
     }
     let mut equations = 0;

@@ -53,7 +53,7 @@ impl Expected {
     /// What a tuple is made of.
     pub(in crate::description) fn unit(self) -> &'static str {
         match self {
-            Self::ClosureFrames("Distance") => "value",
+            Self::ClosureFrames(kind) if kind.has_length() => "value",
             Self::ClosureFrames(_) => "frame",
             Self::RotationRows | Self::TransformRows => "row",
             Self::TwoPoints => "point",
@@ -76,8 +76,10 @@ impl Display for Expected {
                 );
             }
             Self::DisplacementEntries(word) => return write!(f, "`{word}(…)`"),
-            Self::ClosureFrames("Distance") => "`Distance(frame, frame, length)`",
-            Self::ClosureFrames(word) => return write!(f, "`{word}(frame, frame)`"),
+            Self::ClosureFrames(kind) if kind.has_length() => {
+                return write!(f, "`{}(frame, frame, length)`", kind.word());
+            }
+            Self::ClosureFrames(kind) => return write!(f, "`{}(frame, frame)`", kind.word()),
             Self::Version => "the number of the file format",
             Self::Text => "a string",
             Self::Frame => "the name of a frame",

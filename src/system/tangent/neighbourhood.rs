@@ -159,9 +159,7 @@ impl<'a> Neighbourhood<'a> {
             others.any(|other| apart(place, other))
         };
         let turning: Vec<usize> = (mechanism.closures().iter())
-            .filter(|closure| {
-                !matches!(closure.kind, ClosureKind::Spherical | ClosureKind::Distance)
-            })
+            .filter(|closure| !closure.kind.leaves_orientation())
             .flat_map(|closure| closure.frames.map(|frame| (closure.kind, frame)))
             .filter_map(|(kind, frame)| {
                 let place = frames.iter().position(|f| *f == frame)?;
