@@ -5,6 +5,7 @@ mod assemblies;
 mod check;
 mod compare;
 mod convert;
+mod draw;
 mod export;
 mod format;
 mod formulas;
@@ -49,6 +50,7 @@ enum Command {
     Assemblies(assemblies::Assemblies),
     Compare(compare::Compare),
     Convert(convert::Convert),
+    Draw(draw::Draw),
     Frames(frames::Frames),
     Export(export::Export),
     Import(import::Import),
@@ -105,6 +107,7 @@ pub fn run() -> ExitCode {
         Command::Assemblies(assemblies) => assemblies.run(),
         Command::Compare(compare) => compare.run(),
         Command::Convert(convert) => convert.run(),
+        Command::Draw(draw) => draw.run(),
         Command::Frames(frames) => frames.run(),
         Command::Export(export) => export.run(),
         Command::Import(import) => import.run(),

@@ -12,6 +12,7 @@
 //! | [`singularities`] | singular configurations and loci |
 //! | [`workspace`] | workspace maps, modes and aspects |
 //! | [`formulas`] | closed forms derived and checked |
+//! | [`drawing`] | pictures of the mechanism |
 //! | [`frames`] | tables from joint axes and back, conventions and cuts |
 //! | [`exchange`] | URDF and MJCF |
 //! | [`conventions`] | units, frames, angles, names, exit status |
@@ -28,6 +29,10 @@ pub mod assemblies {}
 /// Units, frames, tables, angles, names, exit status.
 #[cfg_attr(doc, doc = "", doc = include_str!("guide/links.txt"), doc = "", doc = include_str!("guide/conventions.md"))]
 pub mod conventions {}
+
+/// Pictures of the mechanism in any configuration.
+#[cfg_attr(doc, doc = "", doc = include_str!("guide/links.txt"), doc = "", doc = include_str!("guide/drawing.md"))]
+pub mod drawing {}
 
 /// Exchange with other programs: URDF and MJCF.
 #[cfg_attr(doc, doc = "", doc = include_str!("guide/links.txt"), doc = "", doc = include_str!("guide/exchange.md"))]

@@ -37,6 +37,7 @@
 //! | [`system`] | equations, Jacobians and curves of one question about a mechanism |
 //! | [`analysis`] | the analyses: a mechanism, a question and settings in, a report out |
 //! | [`ask`] | questions that own their mechanism, and every analysis as a method of them |
+//! | [`scene`] | a configuration as named shapes |
 //! | [`output`] | reports as text, JSON, CSV, Markdown, HTML and pictures |
 
 pub mod algebra;
@@ -51,6 +52,7 @@ pub mod linear;
 pub mod mechanism;
 pub mod number;
 pub mod output;
+pub mod scene;
 pub mod solve;
 pub mod system;
 

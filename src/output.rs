@@ -23,6 +23,8 @@ pub mod complaint;
 pub mod conversion;
 #[cfg(feature = "cli")]
 pub mod diagnostics;
+#[cfg(feature = "plot")]
+pub mod drawing;
 pub mod formulas;
 pub mod frames;
 pub mod mobility;

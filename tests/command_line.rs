@@ -768,3 +768,17 @@ fn formulas_are_written_in_every_script_and_unknown_frames_are_refused() {
         assert!(stderr(&output).contains(complaint), "{}", stderr(&output));
     }
 }
+
+#[test]
+fn a_drawing_goes_to_stdout_and_shows_every_mode() {
+    let held = ["--hold", "theta1=60deg"];
+    let one = answer(&[&["draw", FOUR_BAR], &held[..]].concat());
+    assert!(one.starts_with("<svg") && one.trim_end().ends_with("</svg>"));
+    let both = answer(&[&["draw", FOUR_BAR, "--all-modes"], &held[..]].concat());
+    assert!(both.contains(": mode 1") && both.contains(": mode 2") && !both.contains(": mode 3"));
+    let second = answer(&[&["draw", FOUR_BAR, "--mode", "2"], &held[..]].concat());
+    assert!(second.contains(": mode 2") && !second.contains(": mode 1"));
+    let refused = refusal(&["draw", FOUR_BAR, "--mode", "3"]);
+    assert!(refused.contains("2 assemblies"), "{refused}");
+    assert!(refusal(&["draw", FOUR_BAR, "--view", "left"]).contains("a view is `iso`"));
+}

@@ -7,7 +7,7 @@ use std::path::{Path, PathBuf};
 ///
 /// `interchange` makes descriptions from files of other programs and such files from mechanisms: it knows both and
 /// nothing of systems and analyses.
-const ORDER: [&str; 12] = [
+const ORDER: [&str; 13] = [
     "number",
     "linear",
     "algebra",
@@ -19,6 +19,7 @@ const ORDER: [&str; 12] = [
     "system",
     "analysis",
     "ask",
+    "scene",
     "output",
 ];
 

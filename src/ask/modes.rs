@@ -117,6 +117,15 @@ impl Question {
         Ok(Solved::Ended(Box::new(report)))
     }
 
+    /// The assembled configuration near the start, or those of the modes asked for, with their numbers.
+    ///
+    /// # Errors
+    /// If the question is wrong, nothing assembles, or there is no such mode.
+    pub fn configurations(&self, watch: &Watch) -> Result<Modes, AskError> {
+        let question = self.resolved()?;
+        self.starts(&question.with_spins_still(), watch)
+    }
+
     /// Where work begins: near the start, or in the mode or modes asked for.
     pub(super) fn starts(
         &self,

@@ -7,4 +7,6 @@ mod includes;
 mod mechanisms;
 mod negative_lengths;
 mod numbers;
+#[cfg(feature = "plot")]
+mod scene;
 mod units;

@@ -3,8 +3,7 @@
 use serde::{Deserialize, Serialize};
 
 use crate::description::ClosureKind;
-use crate::geometry::Vector3;
-use crate::mechanism::{Frame, Mechanism};
+use crate::mechanism::Mechanism;
 
 /// The terms of M = 6·(N − 1) − Σ (6 − f) + (joint variables that are not driven row by row) − Σ equations.
 ///
@@ -81,59 +80,18 @@ pub(super) fn count(mechanism: &Mechanism) -> MobilityCount {
     }
 }
 
-/// How far from 0 or 1 the cosine between axes may be that are perpendicular or parallel.
-const STRAIGHT: f64 = 1e-9;
-
-/// The equations that the closures set in the plane, if at home all joints move parallel to one plane.
+/// The equations that the closures set in the plane, if all joints move parallel to one plane.
 fn planar_equations(mechanism: &Mechanism) -> Option<usize> {
-    let home = mechanism.home();
-    // z of the frame after a row is the joint axis in the modified convention, z of the frame before in the standard
-    let axis = |frame| mechanism.transform(Frame::Ground, frame, &home).rotation.0[2];
-    let mut turning: Vec<Vector3<f64>> = Vec::new();
-    let mut sliding: Vec<Vector3<f64>> = Vec::new();
-    for (chain, part) in mechanism.chains().iter().enumerate() {
-        for (i, row) in part.rows.iter().enumerate() {
-            let standard = part.convention == crate::mechanism::Convention::Standard;
-            let row_number = if standard { i } else { i + 1 };
-            let frame = Frame::Link {
-                chain,
-                row: row_number,
-            };
-            match (row.theta.terms.is_empty(), row.d.terms.is_empty()) {
-                (true, true) => {}
-                (false, true) => turning.push(axis(frame)),
-                (true, false) => sliding.push(axis(frame)),
-                (false, false) => return None,
-            }
+    mechanism.plane_of_motion()?;
+    let closures = mechanism.closures().iter();
+    let equations = closures.map(|closure| match closure.kind {
+        ClosureKind::Planar => 0,
+        ClosureKind::Distance => 1,
+        ClosureKind::Spherical | ClosureKind::Revolute | ClosureKind::Prismatic => 2,
+        ClosureKind::Rigid => 3,
+        ClosureKind::Universal | ClosureKind::Cylindrical => {
+            unreachable!("a mechanism with such a closure is spatial")
         }
-    }
-    // a platform that hangs on balls alone may tilt out of the plane
-    let mut closures = mechanism.closures().iter();
-    let may_tilt = closures.any(|closure| closure.kind.leaves_orientation());
-    if may_tilt && !mechanism.platforms().is_empty() {
-        return None;
-    }
-    let mut equations = 0;
-    for closure in mechanism.closures() {
-        let [from, to] = closure.frames.map(axis);
-        match closure.kind {
-            ClosureKind::Spherical => equations += 2,
-            ClosureKind::Revolute => {
-                turning.extend([from, to]);
-                equations += 2;
-            }
-            ClosureKind::Prismatic => {
-                sliding.extend([from, to]);
-                equations += 2;
-            }
-            ClosureKind::Planar => turning.extend([from, to]),
-            ClosureKind::Rigid => equations += 3,
-            ClosureKind::Distance => equations += 1,
-            ClosureKind::Universal | ClosureKind::Cylindrical => return None,
-        }
-    }
-    let normal = *turning.first()?;
-    let parallel = |v: &Vector3<f64>| v.dot(&normal).abs() > 1.0 - STRAIGHT;
-    let perpendicular = |v: &Vector3<f64>| v.dot(&normal).abs() < STRAIGHT;
-    (turning.iter().all(parallel) && sliding.iter().all(perpendicular)).then_some(equations)
+    });
+    Some(equations.sum())
 }
