@@ -779,6 +779,6 @@ fn a_drawing_goes_to_stdout_and_shows_every_mode() {
     let second = answer(&[&["draw", FOUR_BAR, "--mode", "2"], &held[..]].concat());
     assert!(second.contains(": mode 2") && !second.contains(": mode 1"));
     let refused = refusal(&["draw", FOUR_BAR, "--mode", "3"]);
-    assert!(refused.contains("2 assemblies"), "{refused}");
+    assert!(refused.contains("modes 1 to 2"), "{refused}");
     assert!(refusal(&["draw", FOUR_BAR, "--view", "left"]).contains("a view is `iso`"));
 }
