@@ -18,13 +18,13 @@ pub use curve::{
     NoStart, Region, Segment, Singular, Traced, Walk, met_at, neared, settled,
 };
 pub use equations::{
-    ClosureAxes, ClosureWrenches, Coordinate, Gap, Held, HeldPlatform, System, Unknown, Work,
+    ClosureAxes, ClosureWrenches, Coordinate, Gap, Held, HeldPlatform, Spin, System, Unknown, Work,
     approach, independent_parts,
 };
 pub use question::{
-    Count, Demand, Drive, DriveError, ForceError, Load, Question, QuestionError, Value, ValueError,
-    Verb, actuated, check_angle, check_angles, check_count, coordinate_outputs, default_outputs,
-    free_outputs, inputs_of, number_of, platform_outputs, with_coordinates,
+    Count, Demand, Drive, DriveError, ForceError, Load, Question, QuestionError, Still, Value,
+    ValueError, Verb, actuated, check_angle, check_angles, check_count, coordinate_outputs,
+    default_outputs, free_outputs, inputs_of, number_of, platform_outputs, with_coordinates,
 };
 pub use record::{FormulaNames, FrameRecord, Named, PlatformRecord, infinite_if_null};
 pub use search::{

@@ -337,6 +337,7 @@ fn held_at_home(mechanism: &Mechanism, held: &Held<f64>) -> Held<f64> {
         if let HeldPlatform::Partly {
             coordinates,
             orientation,
+            ..
         } = held
         {
             let pose = pose.pose();

@@ -10,7 +10,6 @@ mod drops;
 mod extents;
 mod locus;
 mod outputs;
-mod pins;
 mod projected;
 mod starts;
 

@@ -74,10 +74,9 @@ impl Question {
             return Err(AskError::TooLarge { unknowns });
         }
         let inputs = inputs(&question)?;
-        let (held, start) = (still(held, &sides), question.start());
-        let mechanism = &self.mechanism;
-        loci(mechanism, &held, [a, b], &inputs, &start, &settings, watch)
-            .map_err(AskError::Spinning)
+        let question = question.with_spins_still();
+        let held = still(question.with_still(held), &sides);
+        loci(&question, &held, [a, b], &inputs, &settings, watch).map_err(AskError::Spinning)
     }
 
     /// Settings with the outputs and points of the question.

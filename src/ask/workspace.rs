@@ -74,20 +74,20 @@ impl Question {
     /// Where actuated joints are free on the map, that is the one with the actuated joints at home, and what else is
     /// held moves from there to its values.
     fn home(&self, axes: &[Driven], watch: &Watch) -> Result<Option<Configuration<f64>>, AskError> {
-        let closed = |question: &system::Question, restarts: usize| {
-            let newton = Newton::default();
-            let found = Search::new(question, &newton).run(restarts, self.seed, watch);
+        let closed = |question: system::Question, restarts: usize| {
+            let (question, newton) = (question.with_spins_still(), Newton::default());
+            let found = Search::new(&question, &newton).run(restarts, self.seed, watch);
             found.assembles().then_some(found.attempt.at)
         };
         if !self.is_inverse(axes)? {
-            return Ok(closed(&self.resolved()?, RESTARTS));
+            return Ok(closed(self.resolved()?, RESTARTS));
         }
         let own = Question {
             hold: Vec::new(),
             free: Vec::new(),
             ..self.clone()
         };
-        let Some(home) = closed(&own.resolved()?, RESTARTS) else {
+        let Some(home) = closed(own.resolved()?, RESTARTS) else {
             return Ok(None);
         };
         let values: Vec<f64> = axes.iter().map(|axis| axis.coordinate.of(&home)).collect();
@@ -97,7 +97,7 @@ impl Question {
             false => question,
         };
         // what a random start leads to is not home
-        Ok(closed(&question, 0))
+        Ok(closed(question, 0))
     }
 
     /// Whether coordinates of platforms are mapped or held, so that actuated joints are free.

@@ -72,6 +72,15 @@ impl<P> Place<P> {
         self.least() <= SINGULAR_PLACE * self.largest()
     }
 
+    /// The same place without its Jacobian, from which steps are made: most of what it takes.
+    pub fn thinned(self) -> Self {
+        Place {
+            jacobian: Vec::new(),
+            decomposition: Decomposition::of(0, 0, &[]),
+            ..self
+        }
+    }
+
     /// The same place, followed the other way.
     pub fn reversed(mut self) -> Self {
         self.tangent.iter_mut().for_each(|x| *x = -*x);
@@ -177,6 +186,18 @@ impl Continuation {
             at = curve.displaced(&at, &step);
         }
         Err(StepFailure::NotClosed)
+    }
+
+    /// A place from which steps can be made, although it may have been [thinned](Place::thinned).
+    pub fn restored<C: SolutionCurve>(
+        &self,
+        curve: &mut C,
+        place: &Place<C::Point>,
+    ) -> Option<Place<C::Point>> {
+        match place.jacobian.is_empty() {
+            true => Some((self.settle(curve, place.at.clone()).ok()?).towards(&place.tangent)),
+            false => Some(place.clone()),
+        }
     }
 
     /// The place at the distance `length` along the tangent, if the way there is sure.

@@ -346,10 +346,11 @@ impl Held<f64> {
                 if let HeldPlatform::Partly {
                     coordinates,
                     orientation,
+                    spins,
                 } = part
                 {
                     coordinates.retain(|(c, _): &(PoseCoordinate, f64)| *c != without);
-                    if coordinates.is_empty() && orientation.is_none() {
+                    if coordinates.is_empty() && orientation.is_none() && spins.is_empty() {
                         *part = HeldPlatform::Free;
                     }
                 }

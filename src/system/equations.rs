@@ -7,6 +7,7 @@ mod layout;
 mod parts;
 mod plan;
 mod rates;
+mod spin;
 mod wrenches;
 
 pub use approach::approach;
@@ -15,6 +16,7 @@ pub use closure_gap::Gap;
 pub use coordinate::Coordinate;
 pub use layout::{Held, HeldPlatform, Unknown};
 pub use parts::independent_parts;
+pub use spin::Spin;
 pub use wrenches::ClosureWrenches;
 
 use plan::ClosurePlan;
@@ -219,6 +221,12 @@ impl<T: Factorable> System<T> {
                     let place = row * width + twist_place(*platform);
                     work.hold_rows[place..place + 6].copy_from_slice(&slope);
                 }
+                HoldRow::Spin(spin) => {
+                    let (gap, slope) = spin.row(&at.platforms[spin.platform].orientation);
+                    work.residual[first + row] = gap;
+                    let place = row * width + twist_place(spin.platform);
+                    work.hold_rows[place..place + 3].copy_from_slice(&slope);
+                }
                 HoldRow::Orientation(platform, wanted) => {
                     let actual = at.platforms[*platform].orientation.rotation();
                     let (gaps, slopes) = orientation_rows(&actual, wanted);
@@ -275,11 +283,13 @@ fn hold_rows<T: Field>(held: &Held<T>) -> Vec<HoldRow<T>> {
         if let HeldPlatform::Partly {
             coordinates,
             orientation,
+            spins,
         } = held
         {
             let single = coordinates.iter();
             rows.extend(single.map(|&(c, value)| HoldRow::Coordinate(platform, c, value)));
             rows.extend(orientation.map(|wanted| HoldRow::Orientation(platform, wanted)));
+            rows.extend(spins.iter().copied().map(HoldRow::Spin));
         }
     }
     rows

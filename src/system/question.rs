@@ -16,6 +16,7 @@ pub use forces::{ForceError, Load};
 pub use outputs::{
     actuated, coordinate_outputs, default_outputs, free_outputs, inputs_of, platform_outputs,
 };
+pub use spins::Still;
 pub use value::{Value, ValueError, number as number_of};
 
 use super::equations::System;
@@ -43,8 +44,8 @@ pub struct Question<'a> {
     guessed_platforms: Vec<bool>,
     changed: bool,
     split_changed: bool,
-    /// What stands still so that links do not spin about their own lines, with its values.
-    still: Vec<(Coordinate, f64)>,
+    /// What stands still so that links do not spin about their own lines.
+    still: Vec<Still>,
     /// The demands made by name so far.
     demands: Vec<(Target, Demand)>,
 }
@@ -283,10 +284,12 @@ impl<'a> Question<'a> {
                         with_coordinates(&Pose::identity(), given.iter().copied()).rotation,
                     ),
                     coordinates: given.into_iter().filter(|(c, _)| !c.is_angle()).collect(),
+                    spins: Vec::new(),
                 },
                 _ => HeldPlatform::Partly {
                     coordinates: given,
                     orientation: None,
+                    spins: Vec::new(),
                 },
             }
         });

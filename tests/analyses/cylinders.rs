@@ -123,3 +123,157 @@ fn a_dyad_folded_the_other_way_makes_no_other_mode() {
         assert_modes(&map(&mechanism, nodes, shift), 2, nodes, shift);
     }
 }
+
+/// Boom, stick and bucket of an excavator, the tip of the bucket mapped. The bucket is moved by a
+/// cylinder; boom and stick are driven themselves, or by cylinders too.
+fn excavator(by_cylinders: bool, limits: &str) -> Mechanism {
+    let (joints, chains, closures) = match by_cylinders {
+        true => (
+            format!(
+                r#""boom": Passive(home: "30 deg"), "stick": Passive(home: "-80 deg"),
+                "cb": Actuated(home: 2.7{limits}), "pb": Passive(home: "50 deg"),
+                "cs": Actuated(home: 2.8{limits}), "ps": Passive(home: "-5 deg"),"#
+            ),
+            r#""boomcylinder": Chain(
+                base: [T(0.6, -0.5, 0)],
+                rows: [(theta: "pb - 90 deg"), (alpha: "-90 deg", d: "cb")],
+                tip: [Rx("90 deg")],
+            ),
+            "stickcylinder": Chain(
+                on: "arm.1",
+                base: [T(3, 1, 0)],
+                rows: [(theta: "ps - 90 deg"), (alpha: "-90 deg", d: "cs")],
+                tip: [Rx("90 deg")],
+            ),
+            "boompin": Chain(on: "arm.1", base: [T(2.6, 0.6, 0)]),
+            "stickpin": Chain(on: "arm.2", base: [T(-0.75, 0.25, 0)]),"#,
+            r#""boomrod": Revolute("boomcylinder", "boompin"),
+            "stickrod": Revolute("stickcylinder", "stickpin"),"#,
+        ),
+        false => (
+            r#""boom": Actuated(home: "30 deg"), "stick": Actuated(home: "-80 deg"),"#.to_owned(),
+            "",
+            "",
+        ),
+    };
+    let text = format!(
+        r#"Mechanism(
+            version: 1,
+            name: "excavator",
+            convention: Modified,
+            joints: {{
+                {joints}
+                "bucket": Passive(home: "-40 deg"),
+                "ck": Actuated(home: 2.2{limits}), "pk": Passive(home: 0),
+            }},
+            chains: {{
+                "arm": Chain(
+                    rows: [(theta: "boom"), (a: 5.7, theta: "stick"), (a: 2.9, theta: "bucket")],
+                    tip: [Tx(1.5)],
+                ),
+                {chains}
+                "bucketcylinder": Chain(
+                    on: "arm.2",
+                    base: [T(0.6, 0.5, 0)],
+                    rows: [(theta: "pk - 90 deg"), (alpha: "-90 deg", d: "ck")],
+                    tip: [Rx("90 deg")],
+                ),
+                "bucketpin": Chain(on: "arm.3", base: [T(-0.2, 0.4, 0)]),
+            }},
+            platforms: {{ "tip": Platform(home: [T(7, -1, 0)]) }},
+            closures: {{
+                "point": Rigid("arm", "tip"),
+                {closures}
+                "bucketrod": Revolute("bucketcylinder", "bucketpin"),
+            }},
+        )"#
+    );
+    let description = Description::read(&text).unwrap();
+    Mechanism::new(&description).unwrap_or_else(|problems| panic!("{problems:?}"))
+}
+
+const CYLINDER: f64 = 2.0;
+
+/// The tip's nodes that boom and stick reach for each of the two angles that the cylinder leaves to
+/// the bucket: stick and bucket are one link then, and reach a ring with the boom.
+fn in_rings(nodes: usize) -> Vec<usize> {
+    // the pin on the bucket, on a circle about its hinge and on one about the cylinder's other end
+    let (near, far) = (0.2f64.hypot(0.4), 2.3f64.hypot(0.5));
+    let between = (near * near + far * far - CYLINDER * CYLINDER) / (2.0 * near * far);
+    let (to_end, of_pin) = (0.5f64.atan2(-2.3), 0.4f64.atan2(-0.2));
+    let at = |from: f64, to: f64, i: usize| from + (to - from) * i as f64 / (nodes - 1) as f64;
+    let counts = [1.0, -1.0].map(|side| {
+        let bucket = to_end + side * between.acos() - of_pin;
+        let link = (2.9 + 1.5 * bucket.cos()).hypot(1.5 * bucket.sin());
+        let reach = (5.7 - link).abs()..=5.7 + link;
+        let all =
+            (0..nodes * nodes).map(|k| at(-2.0, 11.0, k % nodes).hypot(at(-9.0, 9.0, k / nodes)));
+        all.filter(|r| reach.contains(r)).count()
+    });
+    counts.to_vec()
+}
+
+fn dug(mechanism: &Mechanism, nodes: usize, boundaries: bool) -> WorkspaceReport {
+    let settings = WorkspaceSettings {
+        nodes: vec![nodes; 2],
+        boundaries,
+        ..WorkspaceSettings::default()
+    };
+    let question = Question::new(mechanism.clone())
+        .input("tip.x", -2.0, 11.0)
+        .input("tip.y", -9.0, 9.0)
+        .hold("ck", CYLINDER);
+    question.workspace(&settings, &Watch::none()).unwrap()
+}
+
+/// How many modes have how many nodes.
+fn sizes(report: &WorkspaceReport) -> Vec<usize> {
+    assert!(report.modes.iter().all(|mode| mode.repeated == 0));
+    let mut sizes: Vec<usize> = report.modes.iter().map(|mode| mode.nodes).collect();
+    sizes.sort_unstable();
+    sizes
+}
+
+#[test]
+fn an_excavator_driven_by_cylinders_has_the_modes_of_one_with_driven_joints() {
+    let pushed = ", limits: (0.1, 10)";
+    for nodes in [9, 16] {
+        let rings = in_rings(nodes);
+        // two bends of the arm for each angle of the bucket
+        let mut expected: Vec<usize> = rings.iter().flat_map(|n| [*n; 2]).collect();
+        expected.sort_unstable();
+        assert_ne!(rings[0], rings[1]);
+        let driven = dug(&excavator(false, pushed), nodes, false);
+        let cylinders = dug(&excavator(true, pushed), nodes, false);
+        assert_eq!(sizes(&driven), expected);
+        assert_eq!(sizes(&cylinders), expected);
+        // cylinders of any sign: two of them tell four modes where there was one
+        let mut all: Vec<usize> = expected.iter().flat_map(|n| [*n; 4]).collect();
+        all.sort_unstable();
+        assert_eq!(sizes(&dug(&excavator(true, ""), nodes, false)), all);
+    }
+}
+
+#[test]
+fn each_boundary_curve_is_followed_once() {
+    let report = dug(&excavator(true, ", limits: (0.1, 10)"), 16, true);
+    assert!(report.curves.len() > 5);
+    let apart = |a: &[f64], b: &[f64]| -> f64 {
+        let squares = a.iter().zip(b).map(|(x, y)| {
+            let change = x - y;
+            let turns = (change / std::f64::consts::TAU).round();
+            (change - turns * std::f64::consts::TAU).powi(2)
+        });
+        squares.sum::<f64>().sqrt()
+    };
+    for (i, one) in report.curves.iter().enumerate() {
+        let middle = &one.joints[one.joints.len() / 2];
+        for other in report.curves[..i].iter().filter(|c| c.kind == one.kind) {
+            let nearest = other.joints.iter().map(|at| apart(at, middle));
+            let nearest = nearest.fold(f64::INFINITY, f64::min);
+            assert!(nearest > 0.06, "{i}: {nearest}");
+        }
+    }
+    // folds end the modes of both rings at the bounds that the rings have
+    assert!(report.curves.iter().any(|curve| curve.ends_reach));
+}

@@ -16,6 +16,7 @@ mod reports;
 mod singularities;
 mod spins;
 mod statics;
+mod suspension;
 mod sweep;
 mod told;
 mod velocity;

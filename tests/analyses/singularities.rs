@@ -122,16 +122,9 @@ fn seeded_locus(
         seed,
         ..SingularitiesSettings::default()
     };
-    loci(
-        mechanism,
-        &question.held(),
-        sides,
-        &inputs,
-        &question.start(),
-        &settings,
-        &Watch::none(),
-    )
-    .unwrap()
+    let question = question.with_spins_still();
+    let held = question.held();
+    loci(&question, &held, sides, &inputs, &settings, &Watch::none()).unwrap()
 }
 
 /// The smallest singular value of lines through points along directions, beside the largest.
@@ -541,39 +534,18 @@ fn legs_that_may_spin_have_the_loci_of_those_that_may_not() {
 }
 
 #[test]
-fn what_spins_without_a_joint_of_its_own_is_refused() {
-    // the coupler of an RSSR linkage, a platform between two balls
-    let linkage = written(
-        r#"Mechanism(version: 1, name: "RSSR", convention: Standard,
-        joints: { "a": Actuated(home: "60 deg"), "b": Passive(home: "110 deg") },
-        chains: {
-            "crank": Chain(rows: [(theta: "a", a: 1)]),
-            "rocker": Chain(base: [Tx(3), Rx("90 deg")], rows: [(theta: "b", a: 2)]),
-        },
-        platforms: { "rod": Platform(home: [T(1, 1, 0.5)], frames: { "A": [], "B": [Tx("2.8")] }) },
-        closures: { "A": Spherical("crank", "rod.A"), "B": Spherical("rod.B", "rocker") })"#,
-    );
-    let question = Question::new(&linkage);
-    let start = assembled(&question);
-    let side = |name: &str| Driven {
+fn spins_that_nobody_stopped_are_refused() {
+    let mechanism = with_swivels(&[1, 2, 3]);
+    let question = Question::new(&mechanism);
+    let [a, b] = ["l1", "l2"].map(|name| Driven {
         coordinate: question.value(name, "0").unwrap().0,
-        from: 0.0,
+        from: 0.4,
         to: 1.0,
-    };
-    let held = question.held().without(side("a").coordinate);
-    let settings = SingularitiesSettings::default();
-    let inputs = inputs_of(&question);
-    let sides = [side("a"), side("b")];
-    let refused = loci(
-        &linkage,
-        &held,
-        sides,
-        &inputs,
-        &start,
-        &settings,
-        &Watch::none(),
-    );
-    assert_eq!(refused.unwrap_err(), 1);
+    });
+    let held = question.held().without(a.coordinate).without(b.coordinate);
+    let (inputs, settings) = (inputs_of(&question), SingularitiesSettings::default());
+    let refused = loci(&question, &held, [a, b], &inputs, &settings, &Watch::none());
+    assert_eq!(refused.unwrap_err(), 3);
 }
 
 /// Radial and vertical component of a leg of the 3-RPS at its hinge angle.
@@ -1339,17 +1311,8 @@ fn a_closed_locus_is_known_where_it_begins_and_ends() {
             starts: 200,
             ..SingularitiesSettings::default()
         };
-        let start = question.start();
-        let report = loci(
-            &arm,
-            &free.held(),
-            sides,
-            &inputs,
-            &start,
-            &settings,
-            &Watch::none(),
-        )
-        .unwrap();
+        let held = free.held();
+        let report = loci(&question, &held, sides, &inputs, &settings, &Watch::none()).unwrap();
         assert_eq!(report.loci.len(), 1);
         assert_eq!(report.loci[0].configurations, 1, "{seed}");
         assert!(report.loci[0].closed && report.loci[0].met > 10);

@@ -192,8 +192,7 @@ fn loci_and_maps_have_what_was_found() {
         };
         let held = (sides.iter()).fold(question.held(), |held, side| held.without(side.coordinate));
         let inputs = inputs_of(&question);
-        let start = question.start();
-        let report = loci(&mechanism, &held, sides, &inputs, &start, &settings, watch).unwrap();
+        let report = loci(&question, &held, sides, &inputs, &settings, watch).unwrap();
         (report.interrupted, report.loci.len())
     });
     stopped("workspace", &|watch| {
@@ -230,8 +229,8 @@ fn a_curve_is_left_in_the_middle() {
     };
     let points = |last| {
         let (report, calls) = asked(last, |watch| {
-            let (inputs, start) = (inputs_of(&question), question.start());
-            loci(&mechanism, &held, sides, &inputs, &start, &settings, watch).unwrap()
+            let inputs = inputs_of(&question);
+            loci(&question, &held, sides, &inputs, &settings, watch).unwrap()
         });
         let points = report.loci.iter().map(|locus| locus.points.len());
         let starts: usize = report.starts.iter().sum();

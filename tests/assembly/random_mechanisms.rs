@@ -361,6 +361,7 @@ fn rows_of_held_coordinates_are_differentiated_rightly() {
                 platforms: vec![HeldPlatform::Partly {
                     coordinates: coordinates.clone(),
                     orientation: Some(wanted),
+                    spins: vec![],
                 }],
             };
             let system = System::new(dimensions, &held);
@@ -395,6 +396,7 @@ fn rows_of_held_coordinates_are_differentiated_rightly() {
                         .map(|(c, value)| (c, Dual::constant(value)))
                         .collect(),
                     orientation: Some(Rotation(wanted.0.map(|v| Vector3(v.0.map(Dual::constant))))),
+                    spins: vec![],
                 }],
             };
             let over_duals = System::new(&duals, &held);

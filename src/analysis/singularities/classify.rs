@@ -166,12 +166,6 @@ impl<'m> Classifier<'m> {
         [DIRECT, INVERSE].map(|k| self.unknowns().len() - self.generic[k])
     }
 
-    /// The local freedoms at a regular configuration.
-    pub fn idle(&mut self, at: &Configuration<f64>) -> Vec<Vec<f64>> {
-        let at = self.beside.as_ref().unwrap_or(at).clone();
-        self.near.tangent(at).idle
-    }
-
     fn decompositions(&mut self, at: &Configuration<f64>) -> [Decomposition; 4] {
         self.matrices
             .each_mut()

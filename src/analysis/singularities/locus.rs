@@ -5,14 +5,13 @@ use serde::{Deserialize, Serialize};
 use super::classify::{Classifier, Kind, Singularity};
 use super::extents::extents;
 use super::outputs::{Coupled, coupled, outputs_of};
-use super::pins::pins;
 use super::projected::{Projection, Shape, groups};
 use super::starts::{Found, Search};
 use super::{SingularitiesSettings, names, output_names};
 use crate::algebra::SiUnit;
-use crate::mechanism::{Configuration, Mechanism, Variable};
+use crate::mechanism::{Configuration, Variable};
 use crate::solve::{Place, Progress, Stage, Watch};
-use crate::system::{Coordinate, Driven, Held, Lock, LocusEnd, Region, Singular};
+use crate::system::{Coordinate, Driven, Held, Lock, LocusEnd, Question, Region, Singular};
 
 type At = Place<Singular>;
 
@@ -31,7 +30,8 @@ pub struct LocusReport {
     pub outputs: Vec<String>,
     /// Outputs that may hide what their positions lose.
     pub coupled: Vec<Coupled>,
-    /// Passive joints held to suppress the spin of links about their own axes.
+    /// Passive joints that stand still so that links do not spin about their own lines, and platforms
+    /// that do not spin without such a joint.
     pub pinned: Vec<String>,
     /// The box.
     pub bounds: [Bound; 2],
@@ -99,51 +99,40 @@ pub struct Locus {
 
 /// Finds the singularity loci in a box of two coordinates.
 ///
-/// `held` holds what stands still and leaves the two coordinates free; `inputs` are those that
-/// singularities refer to. Random configurations are brought onto the augmented system closure and
+/// The question holds the two coordinates in the middle of the box, `held` leaves them free; `inputs`
+/// are those that singularities refer to. Random configurations are brought onto the augmented system closure and
 /// singularity condition by Gauss–Newton steps, and the curve through each that is not on a known one
 /// is followed both ways: to its own beginning, an edge of the box or a limit. Singular points through
 /// which no curve passes are found too. Where inverse loci cross there may be a direct singularity that
 /// random starts hardly meet, and the other way round: crossings are starts as well.
 ///
-/// Links may spin about their own lines. For the motion that is gained to be unique one passive joint
-/// of each stands still; what is singular with these at rest only is left out.
+/// Links may spin about their own lines. For the motion that is gained to be unique their spins are to
+/// stand still in the question; what is singular with these at rest only is left out.
 ///
 /// # Errors
-/// If some link spins without a joint that could be held. The number of such freedoms is given.
+/// If links spin all the same. The number of freedoms of links that spin is given.
 pub fn loci(
-    mechanism: &Mechanism,
+    question: &Question,
     held: &Held<f64>,
     sides: [Driven; 2],
     inputs: &[Coordinate],
-    start: &Configuration<f64>,
     settings: &SingularitiesSettings,
     watch: &Watch,
 ) -> Result<LocusReport, usize> {
+    let (mechanism, start) = (question.mechanism(), question.start());
     let outputs = outputs_of(mechanism, held, &sides, inputs, settings);
-    let mut classifier = Classifier::new(mechanism, inputs, &outputs, start);
+    let classifier = Classifier::new(mechanism, inputs, &outputs, &start);
     let columns = classifier.unknowns().len();
     let regular = classifier.regular_ranks();
     let spins = columns - regular[0];
-    let idle = match spins {
-        0 => Vec::new(),
-        _ => classifier.idle(start),
-    };
-    let taken = |joint: usize| {
-        let asked = |of: &Coordinate| *of == Coordinate::Joint(joint);
-        held.joints[joint] || inputs.iter().any(asked) || sides.iter().any(|s| asked(&s.coordinate))
-    };
-    let pinned = match idle.len() == spins {
-        true => pins(mechanism, classifier.unknowns(), idle, taken),
-        false => None,
-    };
-    let pinned = pinned.ok_or(spins)?;
-    let mut still = held.clone();
-    pinned.iter().for_each(|pin| still.joints[*pin] = true);
+    let still = question.still();
+    if still.len() != spins {
+        return Err(spins);
+    }
     let mut search = Search {
         region: Region {
             mechanism,
-            held: &still,
+            held,
             sides: &sides,
             method: &settings.continuation,
             watch,
@@ -163,9 +152,9 @@ pub fn loci(
         pose_variables: Variable::poses(mechanism),
         inputs: names(mechanism, inputs),
         outputs: output_names(mechanism, &outputs),
-        coupled: coupled(mechanism, inputs, &outputs, start, settings, false),
-        pinned: (pinned.iter())
-            .map(|pin| mechanism.joints()[*pin].name.clone())
+        coupled: coupled(mechanism, inputs, &outputs, &start, settings, false),
+        pinned: (still.iter())
+            .map(|still| still.name(mechanism).to_owned())
             .collect(),
         bounds: sides.map(|side| Bound {
             name: side.coordinate.name(mechanism),
@@ -182,11 +171,13 @@ pub fn loci(
         normalising_length: mechanism.characteristic_length(),
         interrupted: false,
     };
-    let pinned = pinned.iter().copied().map(Coordinate::Joint);
-    let pinned: Vec<Lock> = pinned.map(Lock::Coordinate).collect();
+    // the platforms do not spin in `held`
+    let joints = still.iter().filter_map(|still| still.joint());
+    let joints: Vec<Lock> =
+        (joints.map(|joint| Lock::Coordinate(Coordinate::Joint(joint)))).collect();
     let inputs = inputs.iter().copied().map(Lock::Coordinate);
-    let direct: Vec<Lock> = inputs.chain(pinned.iter().copied()).collect();
-    let inverse = [&outputs[..], &pinned].concat();
+    let direct: Vec<Lock> = inputs.chain(joints.iter().copied()).collect();
+    let inverse = [&outputs[..], &joints].concat();
     let mut found: Vec<(usize, Found)> = Vec::new();
     let kinds = [(Kind::Direct, &direct), (Kind::Inverse, &inverse)];
     for (i, (kind, locks)) in kinds.into_iter().enumerate() {

@@ -229,11 +229,13 @@ fn holding(held: &Held<f64>, inputs: &[Driven]) -> Option<Held<f64>> {
                         *part = HeldPlatform::Partly {
                             coordinates: vec![(coordinate, input.from)],
                             orientation: None,
+                            spins: Vec::new(),
                         };
                     }
                     HeldPlatform::Partly {
                         coordinates,
                         orientation,
+                        ..
                     } if orientation.is_none() || !coordinate.is_angle() => {
                         coordinates.push((coordinate, input.from));
                     }

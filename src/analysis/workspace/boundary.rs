@@ -27,8 +27,8 @@ pub(super) struct Boundary<'a> {
 impl Boundary<'_> {
     /// Where solutions within limits end on the edges of the grid, and where signs change.
     pub fn crossings(&self, watch: &Watch) -> Vec<Crossing> {
-        let inputs = MapProblem::locks(&self.problem.inputs);
-        let outputs = MapProblem::locks(&self.problem.outputs);
+        let inputs = self.problem.locks(&self.problem.inputs);
+        let outputs = self.problem.locks(&self.problem.outputs);
         let joints = self.problem.mechanism.joints();
         let limited = joints.iter().any(|joint| joint.limits.is_some());
         let mut wanted: Vec<(usize, usize, Until)> = Vec::new();
@@ -214,9 +214,9 @@ impl Boundary<'_> {
         }
         let held = still.held();
         let locks = match kind {
-            Kind::Direct => MapProblem::locks(&problem.inputs),
-            Kind::Inverse => MapProblem::locks(&problem.outputs),
-            _ => MapProblem::locks(&problem.held),
+            Kind::Direct => problem.locks(&problem.inputs),
+            Kind::Inverse => problem.locks(&problem.outputs),
+            _ => problem.locks(&problem.held),
         };
         let mut curve = LocusCurve::new(mechanism, &held, &problem.inputs, &locks);
         let place = |curve: &mut LocusCurve, at: &Configuration<f64>| {

@@ -210,15 +210,14 @@ pub(super) fn loci(report: &LocusReport) -> String {
     )
 }
 
-/// Which joints were held because their links spin.
+/// What was held because links spin.
 pub(super) fn pinned(report: &LocusReport) -> Option<String> {
-    let still = form(
-        report.pinned.len(),
-        "stands still: a link spins about its own line",
-        "stand still: links spin about their own lines",
-    );
-    let names = names(&report.pinned);
-    (!report.pinned.is_empty()).then(|| format!("{names} {still}, which changes nothing else."))
+    let names = listed(&report.pinned);
+    (!report.pinned.is_empty()).then(|| {
+        format!(
+            "Links spin about their own lines, which changes nothing else; kept from it: {names}."
+        )
+    })
 }
 
 /// How sure it is that none is missing.

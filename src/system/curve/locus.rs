@@ -51,7 +51,7 @@ impl LocusCurve {
         LocusCurve {
             seen: seen.collect(),
             closed,
-            locked: Locked::new(mechanism, locks),
+            locked: Locked::without_spins(mechanism, held, locks),
         }
     }
 

@@ -288,7 +288,8 @@ pub fn met_at<C: ConfigurationCurve>(
     }
     // the foot of the place on the pieces beside the nearest point
     let foot = |curve: &mut C, i: usize| {
-        let (from, to) = (&traced.places[i], &traced.places[i + 1]);
+        let from = &method.restored(curve, &traced.places[i])?;
+        let to = &method.restored(curve, &traced.places[i + 1])?;
         let way = curve.apart(&from.at, &to.at);
         let tangent = curve.seen(&from.tangent[..way.len()]);
         let mut ahead =

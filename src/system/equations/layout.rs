@@ -1,3 +1,4 @@
+use super::Spin;
 use crate::geometry::Rotation;
 use crate::linear::{Block, DENSE_LIMIT, Factorable, SparseStep};
 use crate::mechanism::{Closure, Configuration, Mechanism, PoseCoordinate};
@@ -16,6 +17,8 @@ pub enum HeldPlatform<T> {
         coordinates: Vec<(PoseCoordinate, T)>,
         /// A wanted orientation: ground from platform.
         orientation: Option<Rotation<T>>,
+        /// Lines of its own about which it does not spin.
+        spins: Vec<Spin>,
     },
 }
 
@@ -27,6 +30,29 @@ impl<T: Copy> HeldPlatform<T> {
                 .find(|(held, _)| *held == coordinate)
                 .map(|(_, value)| *value),
             _ => None,
+        }
+    }
+
+    /// Lines of its own about which it does not spin.
+    pub fn spins(&self) -> &[Spin] {
+        match self {
+            HeldPlatform::Partly { spins, .. } => spins,
+            _ => &[],
+        }
+    }
+
+    /// Makes it spin about no more lines of its own.
+    pub fn stop(&mut self, more: &[Spin]) {
+        match self {
+            HeldPlatform::Partly { spins, .. } => spins.extend(more),
+            HeldPlatform::Free if !more.is_empty() => {
+                *self = HeldPlatform::Partly {
+                    coordinates: Vec::new(),
+                    orientation: None,
+                    spins: more.to_vec(),
+                };
+            }
+            HeldPlatform::Free | HeldPlatform::Pose => {}
         }
     }
 
@@ -57,12 +83,14 @@ impl<T: Number> Held<T> {
             HeldPlatform::Partly {
                 coordinates,
                 orientation,
+                spins,
             } => HeldPlatform::Partly {
                 coordinates: coordinates.iter().map(|&(c, x)| (c, f(x))).collect(),
                 orientation: orientation.map(|r| {
                     let [x, y, z] = r.0;
                     Rotation([x.map(&mut f), y.map(&mut f), z.map(&mut f)])
                 }),
+                spins: spins.clone(),
             },
         });
         Held {
@@ -118,17 +146,18 @@ impl Unknown {
     }
 }
 
-/// A row below the blocks: a platform coordinate held at a value.
+/// A row below the blocks: a platform coordinate held at a value, or a spin.
 #[derive(Clone, Debug)]
 pub(crate) enum HoldRow<T> {
     Coordinate(usize, PoseCoordinate, T),
     Orientation(usize, Rotation<T>),
+    Spin(Spin),
 }
 
 impl<T> HoldRow<T> {
     pub(crate) fn rows(&self) -> usize {
         match self {
-            HoldRow::Coordinate(..) => 1,
+            HoldRow::Coordinate(..) | HoldRow::Spin(_) => 1,
             HoldRow::Orientation(..) => 3,
         }
     }

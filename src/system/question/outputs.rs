@@ -91,6 +91,7 @@ pub fn platform_outputs(
                 HeldPlatform::Partly {
                     coordinates,
                     orientation,
+                    ..
                 } => {
                     coordinates.iter().any(|(held, _)| *held == c)
                         || orientation.is_some() && c.is_angle()

@@ -2,97 +2,150 @@
 
 use super::Question;
 use crate::description::Role;
-use crate::geometry::RollPitchYaw;
-use crate::mechanism::PoseCoordinate;
-use crate::system::{Coordinate, Held, HeldPlatform, Mobility, Neighbourhood, Unknown};
+use crate::geometry::Vector3;
+use crate::mechanism::{Configuration, Mechanism};
+use crate::system::{Coordinate, Held, Mobility, Neighbourhood, Spin, System, Unknown};
+
+/// What stands still so that a link does not spin about its own line.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Still {
+    /// A passive joint of the link.
+    Joint(usize),
+    /// A platform that has no such joint.
+    Platform(Spin),
+}
+
+impl Still {
+    /// The joint.
+    pub fn joint(self) -> Option<usize> {
+        match self {
+            Still::Joint(joint) => Some(joint),
+            Still::Platform(_) => None,
+        }
+    }
+
+    /// The name of the joint or platform.
+    pub fn name(self, mechanism: &Mechanism) -> &str {
+        match self {
+            Still::Joint(joint) => &mechanism.joints()[joint].name,
+            Still::Platform(spin) => &mechanism.platforms()[spin.platform].name,
+        }
+    }
+
+    /// Its derivative by the unknowns of a system.
+    fn slope_in(self, system: &System<f64>, at: &Configuration<f64>) -> Vec<(usize, f64)> {
+        match self {
+            Still::Joint(joint) => Coordinate::Joint(joint).slope_in(system, at),
+            Still::Platform(spin) => {
+                let first = Unknown::Twist {
+                    platform: spin.platform,
+                    component: 0,
+                };
+                let first = system.unknowns().iter().position(|u| *u == first);
+                let (_, slope) = spin.row(&at.platforms[spin.platform].orientation);
+                let places = first.into_iter().flat_map(|first| first..first + 3);
+                places.zip(slope).collect()
+            }
+        }
+    }
+}
 
 impl Question<'_> {
     /// The same question where links that only spin about their own lines, as a rod between two
     /// balls, do not: each such freedom is taken away by one coordinate that stays where it is, a
-    /// passive joint of the link, or an angle of a platform that has no such joint. These
-    /// coordinates do not count as held: nobody chose them, and nothing else depends on them.
+    /// passive joint of the link, or the spin of a platform that has no such joint. These do not
+    /// count as held: nobody chose them, and nothing else depends on them.
     ///
     /// Without it a finite number of assemblies would be infinite, and each configuration of a curve
     /// one of a surface.
     pub fn with_spins_still(mut self) -> Self {
         let mechanism = self.mechanism;
-        let start = self.start();
-        let Some(mobility) = Mobility::near(mechanism, &start) else {
+        // near home, so that questions that differ in values make the same choice
+        let near = |at| Mobility::near(mechanism, &at);
+        let Some(mobility) = near(mechanism.home()).or_else(|| near(self.start())) else {
             return self;
         };
         if mobility.idle() == 0 {
             return self;
         }
-        let held = self.held();
-        let mut near = Neighbourhood::holding(mechanism, &held);
-        let tangent = near.tangent(mobility.at().clone());
-        let unknowns = near.system().unknowns();
-        let joints = unknowns.iter().filter_map(|unknown| match *unknown {
+        let mut near = Neighbourhood::holding(mechanism, &self.held());
+        let at = mobility.at();
+        let mut idle = near.tangent(at.clone()).idle;
+        let joints = near.system().unknowns().iter();
+        let joints = joints.filter_map(|unknown| match *unknown {
             Unknown::Joint(joint) if mechanism.joints()[joint].role == Role::Passive => {
-                Some(Coordinate::Joint(joint))
+                Some(Still::Joint(joint))
             }
             _ => None,
         });
-        let angles = |platform: usize| {
-            let rotation = mobility.at().platforms[platform].pose().rotation;
-            let all = match held.platforms[platform] {
-                HeldPlatform::Free if !RollPitchYaw::is_locked(&rotation) => &ANGLES[..],
-                _ => &[],
-            };
-            all.iter().map(move |c| Coordinate::Pose(platform, *c))
-        };
-        let angles = (0..mechanism.platforms().len()).flat_map(angles);
-        let mut idle = tangent.idle;
-        // a joint is as good at all configurations as at one, an angle is not
-        for candidates in [joints.collect(), angles.collect::<Vec<Coordinate>>()] {
-            let rows: Vec<(Coordinate, Vec<(usize, f64)>)> = (candidates.into_iter())
-                .map(|c| (c, c.slope_in(near.system(), mobility.at())))
+        // a joint is as good at all configurations as at one
+        let joints: Vec<Still> = joints.collect();
+        for candidates in [joints, platforms(mechanism, near.system(), at, &idle)] {
+            let rows: Vec<(Still, Vec<(usize, f64)>)> = (candidates.into_iter())
+                .map(|still| (still, still.slope_in(near.system(), at)))
                 .collect();
-            for chosen in pivots(&mut idle, &rows) {
-                let value = chosen.of(&start);
-                self.still.push((chosen, value));
-            }
+            self.still.extend(pivots(&mut idle, &rows));
         }
         self
     }
 
+    /// What stands still in this question so that links do not spin.
+    pub fn still(&self) -> &[Still] {
+        &self.still
+    }
+
     /// What is held, and what stands still in this question too.
     pub fn with_still(&self, mut held: Held<f64>) -> Held<f64> {
-        for &(still, value) in &self.still {
-            match still {
-                Coordinate::Joint(joint) => held.joints[joint] = true,
-                Coordinate::Pose(platform, c) => match &mut held.platforms[platform] {
-                    HeldPlatform::Partly { coordinates, .. } => coordinates.push((c, value)),
-                    free @ HeldPlatform::Free => {
-                        *free = HeldPlatform::Partly {
-                            coordinates: vec![(c, value)],
-                            orientation: None,
-                        };
-                    }
-                    HeldPlatform::Pose => {}
-                },
-                Coordinate::Turn(..) => {}
+        for still in &self.still {
+            match *still {
+                Still::Joint(joint) => held.joints[joint] = true,
+                Still::Platform(spin) => held.platforms[spin.platform].stop(&[spin]),
             }
         }
         held
     }
 }
 
-const ANGLES: [PoseCoordinate; 3] = [
-    PoseCoordinate::Roll,
-    PoseCoordinate::Pitch,
-    PoseCoordinate::Yaw,
-];
+/// For each platform the spin that is largest in one of the motions.
+fn platforms(
+    mechanism: &Mechanism,
+    system: &System<f64>,
+    at: &Configuration<f64>,
+    motions: &[Vec<f64>],
+) -> Vec<Still> {
+    let firsts = system.unknowns().iter().enumerate();
+    let firsts = firsts.filter_map(|(first, unknown)| match *unknown {
+        Unknown::Twist {
+            platform,
+            component: 0,
+        } => Some((first, platform)),
+        _ => None,
+    });
+    let spins = firsts.filter_map(|(first, platform)| {
+        let omegas = (motions.iter()).map(|m| Vector3([m[first], m[first + 1], m[first + 2]]));
+        let omega = omegas.max_by(|a, b| a.norm().total_cmp(&b.norm()))?;
+        let line = at.platforms[platform]
+            .pose()
+            .rotation
+            .inverse_rotate(&omega);
+        // rounding must not choose another line at every start
+        let line = line
+            .times(1.0 / line.norm())
+            .map(|x| (x * 1e9).round() * 1e-9);
+        let home = mechanism.home().platforms[platform].orientation;
+        let spin = Spin::about(&line.times(1.0 / line.norm()), platform, &home);
+        (omega.norm() >= LEAST).then_some(Still::Platform(spin))
+    });
+    spins.collect()
+}
 
-/// Coordinates, given by their derivatives, that tell motions apart, each with the motion that it
-/// tells best. The others of the motions are left, without parts that the coordinates tell:
+/// What changes less in a motion of unit norm does not tell it.
+const LEAST: f64 = 0.1;
+
+/// Of what can stand still, given by its derivatives, so much that tells motions apart, each with the
+/// motion that it tells best. The others of the motions are left, without parts that are told:
 /// elimination with the largest pivot first.
-fn pivots(
-    motions: &mut Vec<Vec<f64>>,
-    rows: &[(Coordinate, Vec<(usize, f64)>)],
-) -> Vec<Coordinate> {
-    /// Coordinates that change less in a motion of unit norm do not tell it.
-    const LEAST: f64 = 0.1;
+fn pivots(motions: &mut Vec<Vec<f64>>, rows: &[(Still, Vec<(usize, f64)>)]) -> Vec<Still> {
     let rate = |motion: &Vec<f64>, row: &Vec<(usize, f64)>| -> f64 {
         row.iter()
             .map(|(place, slope)| motion[*place] * slope)
@@ -108,15 +161,16 @@ fn pivots(
             false => best,
         });
         let Some((m, r)) = best.filter(|pair| size(*pair) >= LEAST) else {
-            return chosen;
+            chosen.sort_unstable();
+            return chosen.into_iter().map(|r: usize| rows[r].0).collect();
         };
         let pivot = motions.swap_remove(m);
-        let (coordinate, row) = &rows[r];
+        let (_, row) = &rows[r];
         for other in motions.iter_mut() {
             let factor = rate(other, row) / rate(&pivot, row);
             let both = other.iter_mut().zip(&pivot);
             both.for_each(|(x, p)| *x -= factor * p);
         }
-        chosen.push(*coordinate);
+        chosen.push(r);
     }
 }

@@ -64,7 +64,16 @@ impl Lock {
 impl Locked {
     /// For these inputs or outputs.
     pub fn new(mechanism: &Mechanism, locks: &[Lock]) -> Self {
-        let system = System::new(mechanism.dimensions(), &Held::nothing(mechanism));
+        Locked::without_spins(mechanism, &Held::nothing(mechanism), locks)
+    }
+
+    /// The same where platforms that do not spin in `held` do not spin.
+    pub fn without_spins(mechanism: &Mechanism, held: &Held<f64>, locks: &[Lock]) -> Self {
+        let mut still = Held::nothing(mechanism);
+        for (still, held) in still.platforms.iter_mut().zip(&held.platforms) {
+            still.stop(held.spins());
+        }
+        let system = System::new(mechanism.dimensions(), &still);
         let frames = locks.iter().filter_map(|lock| match lock {
             Lock::Frame(frame) | Lock::Point(frame) => Some(*frame),
             Lock::Coordinate(_) => None,

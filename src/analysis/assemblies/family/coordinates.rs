@@ -66,6 +66,7 @@ impl Coordinates {
             if let HeldPlatform::Partly {
                 coordinates,
                 orientation,
+                ..
             } = held
             {
                 targets.extend(coordinates.iter().map(|(c, _)| Input::Target(p, *c)));

@@ -2,12 +2,18 @@
 
 use super::kinds::{BoundaryCurve, Crossing, Kind, Piece, named};
 use crate::analysis::workspace::problem::MapProblem;
+use crate::linear::{dot, norm};
 use crate::mechanism::Configuration;
 use crate::solve::Place;
-use crate::system::{ConfigurationCurve, Locked, LocusEnd, Region, Traced, met_at};
+use crate::system::{ConfigurationCurve, Curve, Held, Locked, LocusEnd, Region, Traced, met_at};
 
 /// A curve with the places along it where modes meet it.
-type Known<P> = (Traced<P>, Vec<(f64, usize)>);
+struct Known<P> {
+    traced: Traced<P>,
+    /// The mapped coordinates of its places.
+    points: Vec<[f64; 2]>,
+    met: Vec<(f64, usize)>,
+}
 
 /// Curves of one kind.
 pub(crate) struct Tracer<'a> {
@@ -27,9 +33,46 @@ impl Tracer<'_> {
         place: impl Fn(&mut C, &Configuration<f64>) -> Option<Place<C::Point>>,
     ) -> Vec<BoundaryCurve> {
         let mut known: Vec<Known<C::Point>> = Vec::new();
+        // no piece is longer than a step
+        let reach = [0, 1].map(|i| {
+            let scale = self.problem.axes[i]
+                .coordinate
+                .scale(self.problem.mechanism);
+            3.0 * region.method.longest * scale
+        });
+        let all = Curve::new(
+            self.problem.mechanism,
+            &Held::nothing(self.problem.mechanism),
+        );
         for crossing in crossings {
             let mut at = crossing.at.clone();
             self.problem.mechanism.turn_to_limits(&mut at.joints);
+            let Some(mode) = self.mode[crossing.solution] else {
+                continue;
+            };
+            let point = self.point(region, &at);
+            let near = |known: &Known<C::Point>| {
+                let at_place = |i: usize| C::configuration(&known.traced.places[i].at);
+                let apart = |from: usize, to: &Configuration<f64>| {
+                    all.difference_but_turns(at_place(from), to)
+                };
+                let in_reach =
+                    |i: usize| (0..2).all(|k| (known.points[i][k] - point[k]).abs() < reach[k]);
+                beside(
+                    in_reach,
+                    |i| [apart(i, at_place(i + 1)), apart(i, &at)],
+                    known,
+                )
+            };
+            let mut beside = known
+                .iter()
+                .enumerate()
+                .filter_map(|(k, known)| Some((k, near(known)?)));
+            // where curves are near one another a point is followed to the one that it is on
+            if let (Some((k, Some(along))), None) = (beside.next(), beside.next()) {
+                known[k].met.push((along, mode));
+                continue;
+            }
             // a point that lies on no regular curve is reported as a single point
             let Some(place) = place(curve, &at) else {
                 continue;
@@ -37,48 +80,54 @@ impl Tracer<'_> {
             if !region.inside(C::configuration(&place.at)) {
                 continue;
             }
-            let Some(mode) = self.mode[crossing.solution] else {
-                continue;
-            };
             let mut met = known.iter_mut();
-            let found = met.find_map(|(traced, met)| {
-                Some((met_at(curve, traced, &place, region.method)?, met))
+            let found = met.find_map(|known| {
+                let along = met_at(curve, &known.traced, &place, region.method)?;
+                Some((along, &mut known.met))
             });
             match found {
                 Some((along, met)) => met.push((along, mode)),
                 None => {
-                    let traced = region.traced(curve, place.clone());
+                    let mut traced = region.traced(curve, place.clone());
                     let along = met_at(curve, &traced, &place, region.method).unwrap_or(0.0);
                     if traced.places.len() > 1 {
-                        known.push((traced, vec![(along, mode)]));
+                        traced.places = traced.places.into_iter().map(Place::thinned).collect();
+                        let places = traced.places.iter();
+                        known.push(Known {
+                            points: places
+                                .map(|p| self.point(region, C::configuration(&p.at)))
+                                .collect(),
+                            traced,
+                            met: vec![(along, mode)],
+                        });
                     }
                 }
             }
         }
-        let told = known.into_iter().map(|(traced, met)| {
+        let told = known.into_iter().map(|known| {
             let at = |p: &Place<C::Point>| C::configuration(&p.at).clone();
-            let path: Vec<Configuration<f64>> = traced.places.iter().map(at).collect();
-            self.curve(region, &path, traced.ends, met)
+            let path: Vec<Configuration<f64>> = known.traced.places.iter().map(at).collect();
+            self.curve(path, known.points, known.traced.ends, known.met)
         });
         told.collect()
     }
 
+    /// The mapped coordinates.
+    fn point(&self, region: &Region, at: &Configuration<f64>) -> [f64; 2] {
+        [0, 1].map(|i| region.side(at, &self.problem.axes[i]))
+    }
+
     fn curve(
         &self,
-        region: &Region,
-        path: &[Configuration<f64>],
+        path: Vec<Configuration<f64>>,
+        points: Vec<[f64; 2]>,
         ends: [LocusEnd; 2],
         mut met: Vec<(f64, usize)>,
     ) -> BoundaryCurve {
-        let problem = self.problem;
-        let point = |at: &Configuration<f64>| -> [f64; 2] {
-            [0, 1].map(|i| region.side(at, &problem.axes[i]))
-        };
-        let points: Vec<[f64; 2]> = path.iter().map(point).collect();
         met.sort_by(|a, b| a.0.total_cmp(&b.0));
         let closed = ends[1] == LocusEnd::Closed;
         let mut pieces: Vec<Piece> = Vec::new();
-        for (range, points) in parts(&points, &self.cuts(path, &points), closed) {
+        for (range, points) in parts(&points, &self.cuts(&path, &points), closed) {
             let here = met
                 .iter()
                 .filter(|(along, _)| range.iter().any(|r| r.contains(along)));
@@ -112,16 +161,52 @@ impl Tracer<'_> {
             });
             return turns.collect();
         }
-        let mut locked = Locked::new(
-            self.problem.mechanism,
-            &MapProblem::locks(&self.problem.held),
-        );
+        let held = self.problem.question.held();
+        let locks = self.problem.locks(&self.problem.held);
+        let mut locked = Locked::without_spins(self.problem.mechanism, &held, &locks);
         let changes = (1..path.len()).filter(|&i| {
             let near = locked.decomposition(&path[i - 1]);
             locked.orientation(&near, &path[i]) < 0.0
         });
         changes.collect()
     }
+}
+
+/// Where a configuration is along a curve, if it is near: some place, or none where that must be looked
+/// at closely.
+///
+/// The tangent turns by less than a quarter of a radian from one place to the next, so that the curve
+/// is off the chord by less than a thirtieth of its length.
+fn beside<P>(
+    near: impl Fn(usize) -> bool,
+    apart: impl Fn(usize) -> [Vec<f64>; 2],
+    known: &Known<P>,
+) -> Option<Option<f64>> {
+    /// Parts of the chord.
+    const ON_IT: f64 = 0.1;
+    const NEAR: f64 = 1.0;
+    /// Pieces that are near one another because they follow one another.
+    const NEXT: usize = 4;
+    let pieces = known.points.len() - 1;
+    let mut beside: Vec<(usize, f64, f64)> = Vec::new();
+    for i in (0..pieces).filter(|i| near(*i)) {
+        let [chord, to] = apart(i);
+        let length = norm(&chord);
+        let part = (dot(&chord, &to) / (length * length)).clamp(0.0, 1.0);
+        let off = chord.iter().zip(&to).map(|(c, x)| (x - part * c).powi(2));
+        let off = off.sum::<f64>().sqrt() / length;
+        if off <= NEAR {
+            beside.push((i, part, off));
+        }
+    }
+    let &(i, part, off) = beside.iter().min_by(|a, b| a.2.total_cmp(&b.2))?;
+    let round = known.traced.ends[1] == LocusEnd::Closed;
+    let next = |j: usize| {
+        let between = i.abs_diff(j);
+        between <= NEXT || (round && pieces - between <= NEXT)
+    };
+    let alone = beside.iter().all(|&(j, ..)| next(j));
+    Some((alone && off <= ON_IT).then_some(i as f64 + part))
 }
 
 /// A part of a curve: where it is along the curve, and its points.

@@ -153,7 +153,7 @@ pub(crate) fn walk(
     };
     let monitors: Vec<Monitor> = match until {
         Until::Singular(locks) => {
-            let mut locked = Locked::new(mechanism, locks);
+            let mut locked = Locked::without_spins(mechanism, &problem.question.held(), locks);
             let near: Decomposition = locked.decomposition(&place.at);
             let sign = move |_: &mut Curve, place: &Place<Configuration<f64>>| {
                 locked.orientation(&near, &place.at)

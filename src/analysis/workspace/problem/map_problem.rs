@@ -90,9 +90,13 @@ impl<'m> MapProblem<'m> {
         self.mechanism.outside_limits(joints).next().is_none()
     }
 
-    /// What stands still in a motion within the map.
-    pub fn locks(of: &[Coordinate]) -> Vec<Lock> {
-        of.iter().copied().map(Lock::Coordinate).collect()
+    /// What stands still in a motion: coordinates, and joints because links would spin.
+    pub fn locks(&self, of: &[Coordinate]) -> Vec<Lock> {
+        let still = self.question.still().iter();
+        let joints = still
+            .filter_map(|still| still.joint())
+            .map(Coordinate::Joint);
+        (of.iter().copied().chain(joints).map(Lock::Coordinate)).collect()
     }
 
     /// Whether exactly these are held.

@@ -48,12 +48,14 @@ fn partly(
         *held = HeldPlatform::Partly {
             coordinates: Vec::new(),
             orientation: None,
+            spins: Vec::new(),
         };
     }
     match held {
         HeldPlatform::Partly {
             coordinates,
             orientation,
+            ..
         } => (coordinates, orientation),
         HeldPlatform::Free | HeldPlatform::Pose => unreachable!("made so above"),
     }
