@@ -13,6 +13,7 @@ mod lift;
 mod model;
 mod names;
 mod parameters;
+mod point;
 mod serial_axes;
 mod turns;
 mod variable;
@@ -23,6 +24,7 @@ pub use dimensions::{ChainDimensions, ClosureDimensions, Dimensions, LinearForm,
 pub use frames::Body;
 pub use kinematics::{Kinematics, Placement};
 
+pub use point::Point;
 pub use variable::Variable;
 
 pub use serial_axes::{Assignment, JointAxis, Normal, SerialAxes, Table, TableRow};

@@ -22,7 +22,7 @@ pub use equations::{
     approach, independent_parts,
 };
 pub use question::{
-    Count, Demand, Drive, DriveError, ForceError, Load, Question, QuestionError, Value, ValueError,
+    Count, Demand, Drive, DriveError, ForceError, Load, PointError, Question, QuestionError, Value, ValueError,
     Verb, actuated, check_angle, check_angles, check_count, coordinate_outputs, default_outputs,
     free_outputs, inputs_of, number_of, platform_outputs, with_coordinates,
 };
