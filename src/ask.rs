@@ -47,7 +47,7 @@ struct Range {
     to: Value,
 }
 
-/// A force and a moment at the origin of a frame.
+/// A force and a moment at a point.
 #[derive(Clone, Debug, PartialEq)]
 enum Wrench {
     Numbers([f64; 3], [f64; 3]),
@@ -163,8 +163,8 @@ impl Question {
         self
     }
 
-    /// Adds a point: for singularities the origin of a frame as an output, for velocities one that is followed, for a
-    /// motion one whose path is traced, there with an offset as in `left+0.5,0.2`.
+    /// Adds a point ([`Point::read`](crate::mechanism::Point::read)), such as `left` or `left+0.5,0.2`: for singularities
+    /// an output, for velocities one that is followed, for a motion one whose path is traced.
     pub fn point(mut self, name: impl Into<String>) -> Self {
         self.points.push(name.into());
         self
@@ -182,7 +182,7 @@ impl Question {
         self
     }
 
-    /// Applies a force (N) and a moment (N·m) at the origin of a frame, in ground.
+    /// Applies a force (N) and a moment (N·m) at a point, in ground.
     pub fn wrench(mut self, frame: impl Into<String>, force: [f64; 3], moment: [f64; 3]) -> Self {
         let wrench = Wrench::Numbers(force, moment);
         self.wrenches.push((frame.into(), wrench));

@@ -14,6 +14,7 @@ mod model;
 mod names;
 mod parameters;
 mod plane;
+mod point;
 mod serial_axes;
 mod turns;
 mod variable;
@@ -24,6 +25,7 @@ pub use dimensions::{ChainDimensions, ClosureDimensions, Dimensions, LinearForm,
 pub use frames::Body;
 pub use kinematics::{Kinematics, Placement};
 
+pub use point::Point;
 pub use variable::Variable;
 
 pub use serial_axes::{Assignment, JointAxis, Normal, SerialAxes, Table, TableRow};

@@ -22,8 +22,8 @@ pub use equations::{
     approach, independent_parts,
 };
 pub use question::{
-    Count, Demand, Drive, DriveError, ForceError, Load, Question, QuestionError, Still, Value,
-    ValueError, Verb, actuated, check_angle, check_angles, check_count, coordinate_outputs,
+    Count, Demand, Drive, DriveError, ForceError, Load, PointError, Question, QuestionError, Still,
+    Value, ValueError, Verb, actuated, check_angle, check_angles, check_count, coordinate_outputs,
     default_outputs, free_outputs, inputs_of, number_of, platform_outputs, with_coordinates,
 };
 pub use record::{FormulaNames, FrameRecord, Named, PlatformRecord, infinite_if_null};

@@ -6,7 +6,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::algebra::SiUnit;
 use crate::linear::{Decomposition, RANK_TOLERANCE, add, dot, norm};
-use crate::mechanism::{Configuration, Frame, Mechanism};
+use crate::mechanism::{Configuration, Mechanism, Point};
 use crate::solve::Watch;
 use crate::system::{
     Analysed, Closing, Coordinate, FrameTwists, Load, Moved, Neighbourhood, Question,
@@ -61,12 +61,12 @@ pub struct StaticsReport {
     pub outside_limits: Vec<String>,
 }
 
-/// A wrench on a frame.
+/// A wrench at a point.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct AppliedWrench {
-    /// The frame.
+    /// The point: a frame stands for its origin.
     pub frame: String,
-    /// Force at its origin, in N.
+    /// Force at it, in N.
     pub force: [f64; 3],
     /// Moment, in N·m.
     pub moment: [f64; 3],
@@ -160,8 +160,8 @@ pub fn statics(
         mechanism: mechanism.name().to_owned(),
         balanced: unbalanced.is_empty(),
         loads: (load.wrenches.iter())
-            .map(|&(frame, force, moment)| AppliedWrench {
-                frame: mechanism.frame_name(frame),
+            .map(|&(point, force, moment)| AppliedWrench {
+                frame: point.name(mechanism),
                 force,
                 moment,
             })
@@ -197,8 +197,8 @@ fn generalised(
     unknowns: &[Unknown],
     load: &Load,
 ) -> Vec<f64> {
-    let frames: Vec<Frame> = load.wrenches.iter().map(|(frame, ..)| *frame).collect();
-    let twists = FrameTwists::new(mechanism.dimensions(), near.system().unknowns(), &frames);
+    let points: Vec<Point> = load.wrenches.iter().map(|(point, ..)| *point).collect();
+    let twists = FrameTwists::new(mechanism.dimensions(), near.system().unknowns(), &points);
     let placement = twists.placed(at);
     let mut rates = vec![0.0; unknowns.len()];
     let mut work = vec![0.0; unknowns.len()];

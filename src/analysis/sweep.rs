@@ -18,14 +18,13 @@ pub use circuits::{
 pub use follow::follow;
 pub use met::{Met, MetKind, Passing};
 pub use motion::{Columns, KeptRows, MotionReport, MotionsReport};
-pub use points::{PointError, TracedPoint};
 
 use std::ops::ControlFlow;
 
 use serde::{Deserialize, Serialize};
 
 use crate::algebra::SiUnit;
-use crate::mechanism::{Configuration, Mechanism};
+use crate::mechanism::{Configuration, Mechanism, Point};
 use crate::solve::{Continuation, Progress, Stage, Watch};
 use crate::system::{Curve, Driven, Event, Held, Walk};
 use met::Record;
@@ -41,7 +40,7 @@ pub struct SweepSettings {
     /// How carefully the curve is followed.
     pub continuation: Continuation,
     /// Points whose path is wanted.
-    pub points: Vec<TracedPoint>,
+    pub points: Vec<Point>,
 }
 
 impl Default for SweepSettings {

@@ -9,7 +9,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::algebra::SiUnit;
 use crate::linear::RANK_TOLERANCE;
-use crate::mechanism::{Frame, Mechanism};
+use crate::mechanism::{Mechanism, Point};
 use crate::solve::Watch;
 use crate::system::{
     Analysed, Closing, Coordinate, Drive, Motion, Moved, Neighbourhood, Question, QuestionError,
@@ -25,8 +25,8 @@ pub use planar::{InstantCentre, Transmission};
 pub struct VelocitySettings {
     /// How to close the mechanism.
     pub closing: Closing,
-    /// Frames beside the platforms whose origins are followed.
-    pub points: Vec<Frame>,
+    /// Points beside the origins of the platforms that are followed.
+    pub points: Vec<Point>,
 }
 
 /// How an assembled mechanism moves. All vectors are in ground; angles in rad, lengths in m, time
@@ -111,17 +111,17 @@ pub struct JointRate {
 /// How a frame moves.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct FrameRate {
-    /// The frame.
+    /// The frame, or a point of one.
     pub name: String,
-    /// Where its origin is, in m.
+    /// Where the point is, in m.
     pub position: [f64; 3],
     /// ω in rad/s.
     pub angular_velocity: [f64; 3],
-    /// Velocity of the origin in m/s.
+    /// Velocity of the point in m/s.
     pub velocity: [f64; 3],
     /// ω̇ in rad/s²; `None` where accelerations are not known.
     pub angular_acceleration: Option<[f64; 3]>,
-    /// Acceleration of the origin in m/s².
+    /// Acceleration of the point in m/s².
     pub acceleration: Option<[f64; 3]>,
     /// Unit vectors of the axes about which its link spins in local freedoms: ω and ω̇ leave the spin out.
     pub spins: Vec<[f64; 3]>,

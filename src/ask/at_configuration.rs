@@ -7,7 +7,7 @@ use crate::analysis::formulas::{FormulasReport, FormulasSettings, formulas};
 use crate::analysis::mobility::{MobilityReport, MobilitySettings, mobility};
 use crate::analysis::statics::{StaticsReport, StaticsSettings, statics};
 use crate::analysis::velocity::{VelocityReport, VelocitySettings, velocity};
-use crate::mechanism::{Body, Frame, PoseCoordinate};
+use crate::mechanism::{Body, Point, PoseCoordinate};
 use crate::solve::Watch;
 use crate::system::{
     self, Analysed, Closed, Closing, Coordinate, Drive, Load, NotClosed, check_angle, close,
@@ -131,27 +131,27 @@ impl Question {
         Ok(drive)
     }
 
-    /// The frames of the points, which must move.
-    fn followed(&self) -> Result<Vec<Frame>, AskError> {
-        let frames = self.points.iter().enumerate().map(|(index, name)| {
-            let frame = self.frame(index)?;
-            match self.mechanism.body(frame) {
-                Body::Ground => Err(AskError::Motionless {
-                    item: Role::Point.item(index),
-                    name: name.clone(),
-                }),
-                _ => Ok(frame),
-            }
-        });
-        frames.collect()
+    /// The points of the question, which must move.
+    fn followed(&self) -> Result<Vec<Point>, AskError> {
+        let points = self.asked_points()?;
+        let still = |point: &Point| self.mechanism.body(point.frame) == Body::Ground;
+        match points.iter().position(still) {
+            Some(index) => Err(AskError::Motionless {
+                item: Role::Point.item(index),
+                name: self.points[index].clone(),
+            }),
+            None => Ok(points),
+        }
     }
 
-    /// The frame of a point.
-    pub(super) fn frame(&self, index: usize) -> Result<Frame, AskError> {
-        let name = &self.points[index];
-        (self.mechanism.frame(name)).ok_or_else(|| AskError::UnknownFrame {
-            item: Role::Point.item(index),
-            name: name.clone(),
-        })
+    /// The points of the question.
+    pub(super) fn asked_points(&self) -> Result<Vec<Point>, AskError> {
+        let points = self.points.iter().enumerate().map(|(index, text)| {
+            Point::read(&self.mechanism, text).map_err(|error| AskError::Point {
+                item: Role::Point.item(index),
+                error,
+            })
+        });
+        points.collect()
     }
 }

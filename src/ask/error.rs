@@ -3,9 +3,8 @@
 use thiserror::Error;
 
 use crate::analysis::assemblies::AssembliesError;
-use crate::analysis::sweep::PointError;
 use crate::description::{count, listed};
-use crate::system::{DriveError, ForceError, QuestionError};
+use crate::system::{DriveError, ForceError, PointError, QuestionError};
 
 /// What a name or a value is in a question.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -126,14 +125,6 @@ pub enum AskError {
         /// What is wrong with it.
         error: Box<ForceError>,
     },
-    /// There is no frame of that name.
-    #[error("`{name}` is not a frame")]
-    UnknownFrame {
-        /// Which point.
-        item: Item,
-        /// Its name.
-        name: String,
-    },
     /// The frame stands still.
     #[error("`{name}` does not move")]
     Motionless {
@@ -150,9 +141,9 @@ pub enum AskError {
         /// Its name.
         name: String,
     },
-    /// A traced point is wrong.
+    /// A point is wrong.
     #[error("{error}")]
-    Traced {
+    Point {
         /// Which point.
         item: Item,
         /// What is wrong with it.
@@ -323,10 +314,9 @@ impl AskError {
             | AskError::NotMapped { item, .. }
             | AskError::Drive { item, .. }
             | AskError::Load { item, .. }
-            | AskError::UnknownFrame { item, .. }
             | AskError::Motionless { item, .. }
             | AskError::UnknownOutput { item, .. }
-            | AskError::Traced { item, .. }
+            | AskError::Point { item, .. }
             | AskError::Twice { item, .. }
             | AskError::EmptyRange { item, .. }
             | AskError::OutsideLimits { item, .. }

@@ -6,8 +6,11 @@ use crate::analysis::singularities::{
     AlongReport, LocusReport, SingularitiesReport, SingularitiesSettings, along, inputs_of, loci,
     singularities,
 };
+use crate::mechanism::Point;
 use crate::solve::Watch;
-use crate::system::{self, Analysed, Coordinate, Held, Lock, TooLarge, check_count, too_large};
+use crate::system::{
+    self, Analysed, Coordinate, Held, Lock, PointError, TooLarge, check_count, too_large,
+};
 
 /// Random starts made at most.
 const MOST_STARTS: usize = 1_000_000;
@@ -95,14 +98,17 @@ impl Question {
             if let Ok((coordinate, _)) = question.value(name, "home") {
                 return Ok(Lock::Coordinate(coordinate));
             }
-            let frame = self.mechanism.frame(name).map(Lock::Frame);
-            frame.ok_or_else(|| AskError::UnknownOutput {
-                item: Role::Output.item(index),
-                name: name.clone(),
-            })
+            let item = Role::Output.item(index);
+            match Point::read(&self.mechanism, name) {
+                // beside an origin the orientation is not meant
+                Ok(point) if !point.is_origin() => Ok(Lock::Point(point)),
+                Ok(point) => Ok(Lock::Frame(point.frame)),
+                Err(PointError::NoFrame(name)) => Err(AskError::UnknownOutput { item, name }),
+                Err(error) => Err(AskError::Point { item, error }),
+            }
         });
-        let points = 0..self.points.len();
-        let points = points.map(|index| self.frame(index).map(Lock::Point));
+        let points = self.asked_points()?.into_iter();
+        let points = points.map(|point| Ok(Lock::Point(point)));
         Ok(SingularitiesSettings {
             seed: self.seed,
             outputs: named.chain(points).collect::<Result<_, _>>()?,

@@ -7,10 +7,10 @@ use super::{AskError, Question, Role};
 use crate::analysis::assemblies::{AssemblySolver, Wanted};
 use crate::analysis::sweep::{
     CircuitsReport, CircuitsSettings, Columns, KeptRows, MotionReport, MotionsReport, Row, Sink,
-    SweepReport, SweepSettings, TracedPoint, circuits, follow, sweep,
+    SweepReport, SweepSettings, circuits, follow, sweep,
 };
 use crate::description;
-use crate::mechanism::{Configuration, Mechanism, PoseCoordinate};
+use crate::mechanism::{Configuration, Mechanism, Point, PoseCoordinate};
 use crate::solve::{Stage, Watch};
 use crate::system::{self, Coordinate, Driven, Held, QuestionError, check_count, sampling_range};
 
@@ -31,7 +31,7 @@ pub struct Motions<'q> {
 
 impl Motions<'_> {
     /// The points that are traced.
-    pub fn points(&self) -> &[TracedPoint] {
+    pub fn points(&self) -> &[Point] {
         &self.settings.points
     }
 
@@ -145,7 +145,7 @@ impl Question {
             }
         };
         let settings = SweepSettings {
-            points: [&settings.points[..], &self.traced()?].concat(),
+            points: [&settings.points[..], &self.asked_points()?].concat(),
             ..settings.clone()
         };
         Ok(Motions {
@@ -186,16 +186,6 @@ impl Question {
             Err(error @ QuestionError::TooFew { .. }) => Err(AskError::NotOneFreedom(error)),
             Err(error) => Err(AskError::Question(error)),
         }
-    }
-
-    fn traced(&self) -> Result<Vec<TracedPoint>, AskError> {
-        let points = self.points.iter().enumerate().map(|(index, text)| {
-            TracedPoint::read(&self.mechanism, text).map_err(|error| AskError::Traced {
-                item: Role::Point.item(index),
-                error,
-            })
-        });
-        points.collect()
     }
 }
 

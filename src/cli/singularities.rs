@@ -37,11 +37,11 @@ pub struct Singularities {
     /// A range of the two coordinates in which loci are sought; give it twice, e.g. --locus l1=0.4..1 --locus l2=0.4..1
     #[arg(long, value_name = "NAME=FROM..TO", conflicts_with_all = ["input", "mode", "follow"])]
     locus: Vec<Assignment>,
-    /// An output: a joint, a platform coordinate or a frame with its orientation
+    /// An output: a joint, a platform coordinate, a frame with its orientation, or a point beside one, left+0.5,0.2
     #[arg(long, value_name = "NAME")]
     output: Vec<String>,
-    /// An output: the origin of a frame alone
-    #[arg(long, value_name = "FRAME")]
+    /// An output: the origin of a frame alone, or a point beside it
+    #[arg(long, value_name = "FRAME[+X,Y,Z]")]
     point: Vec<String>,
     /// Begin in this mode, numbered as `assemblies` lists it where the inputs begin
     #[arg(long, value_name = "NUMBER")]

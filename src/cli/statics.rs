@@ -22,10 +22,11 @@ pub struct Statics {
     source: Source,
     #[command(flatten)]
     asked: Asked,
-    /// Force in N and moment in N·m at the origin of a frame, in ground, e.g. --wrench top=0,0,-100,0,0,5
+    /// Force in N and moment in N·m, in ground, at a frame's origin or at a point beside it in its axes, e.g. --wrench
+    /// top=0,0,-100,0,0,5 or --wrench left+0.5,0.2=0,-10,0
     #[arg(
         long,
-        value_name = "FRAME=Fx,Fy,Fz[,Mx,My,Mz]",
+        value_name = "FRAME[+X,Y,Z]=Fx,Fy,Fz[,Mx,My,Mz]",
         allow_hyphen_values = true
     )]
     wrench: Vec<Assignment>,

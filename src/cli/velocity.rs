@@ -15,7 +15,7 @@ use super::{Answer, Refusal};
 #[derive(Args)]
 #[command(after_help = "Examples:\n  \
     linkwork velocity mechanisms/three_rps.ron --rate l1=0.1\n  \
-    linkwork velocity mechanisms/four_bar.ron --rate theta1=1 --point left")]
+    linkwork velocity mechanisms/four_bar.ron --rate theta1=1 --point left+0.5,0.2")]
 pub struct Velocity {
     #[command(flatten)]
     source: Source,
@@ -28,8 +28,8 @@ pub struct Velocity {
     /// Acceleration of a held joint or coordinate, e.g. --acceleration l1=0.02
     #[arg(long, value_name = "NAME=ACCELERATION")]
     acceleration: Vec<Assignment>,
-    /// Follow the origin of a frame too, e.g. --point top.S1
-    #[arg(long, value_name = "FRAME")]
+    /// Follow a frame's origin too, or a point beside it in its axes, e.g. --point left+0.5,0.2
+    #[arg(long, value_name = "FRAME[+X,Y,Z]")]
     point: Vec<String>,
     /// How to write the answer; where there is none, stderr says why as text
     #[arg(long, value_name = "FORMAT", default_value = "text", value_parser = readable())]

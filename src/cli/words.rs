@@ -3,7 +3,6 @@
 
 pub mod question;
 
-use linkwork::analysis::sweep::PointError;
 use linkwork::ask::{AskError, Role};
 use linkwork::description::{count, listed};
 use linkwork::mechanism::{self, Mechanism};
@@ -11,9 +10,7 @@ use linkwork::output::complaint::{Complaint, Given, Part};
 use linkwork::output::quantity::number;
 use linkwork::system::QuestionError;
 
-use super::words::question::{
-    driven_complaint, load_complaint, meant, quoted, unknown_frame, value,
-};
+use super::words::question::{driven_complaint, load_complaint, meant, no_point, quoted};
 
 /// What ranges are for, which decides the words.
 #[derive(Clone, Copy, PartialEq, Eq)]
@@ -73,7 +70,6 @@ pub fn complaint(
         }
         AskError::Drive { error, .. } => driven_complaint(error, option("--rate")),
         AskError::Load { error, .. } => load_complaint(mechanism, error, option("--load")),
-        AskError::UnknownFrame { name, .. } => unknown_frame(mechanism, name),
         AskError::Motionless { .. } => said.label("stands still").help(
             "follow a frame of a link or of a platform, e.g. the tip of a chain by its name",
         ),
@@ -83,16 +79,12 @@ pub fn complaint(
             let joints = mechanism.joints().iter().map(|joint| joint.name.clone());
             let known: Vec<String> = frames.chain(joints).collect();
             said.label("not known").help(meant(name, &known, || {
-                "an output is a joint, a platform coordinate such as `top.x`, or a frame".into()
+                "an output is a joint, a platform coordinate such as `top.x`, a frame, or a point \
+                 such as `left+0.5,0.2`"
+                    .into()
             }))
         }
-        AskError::Traced { error, .. } => match error {
-            PointError::NoFrame(name) => unknown_frame(mechanism, name),
-            PointError::Value { text, error } => value(text, error).at(Part::Name),
-            PointError::TooMany(_) => Complaint::new(error.to_string())
-                .label("too many")
-                .help("write FRAME+X,Y,Z, e.g. --of left+0.5,0.2,0"),
-        },
+        AskError::Point { error, .. } => no_point(mechanism, error),
         AskError::EmptyRange { name, .. } => said.label("empty").at(Part::WholeValue).help(
             match ranged {
                 Ranged::Input => {

@@ -5,6 +5,7 @@ mod error;
 mod forces;
 mod held;
 mod outputs;
+mod point;
 mod spins;
 mod value;
 
@@ -16,6 +17,7 @@ pub use forces::{ForceError, Load};
 pub use outputs::{
     actuated, coordinate_outputs, default_outputs, free_outputs, inputs_of, platform_outputs,
 };
+pub use point::PointError;
 pub use spins::Still;
 pub use value::{Value, ValueError, number as number_of};
 

@@ -5,7 +5,7 @@ use std::path::Path;
 use linkwork::analysis::mobility::{MobilitySettings, mobility};
 use linkwork::analysis::statics::{StaticsSettings, statics};
 use linkwork::analysis::velocity::{VelocityReport, VelocitySettings, velocity};
-use linkwork::mechanism::Mechanism;
+use linkwork::mechanism::{Mechanism, Point};
 use linkwork::solve::Watch;
 use linkwork::system::{Drive, Load, Question};
 
@@ -41,7 +41,7 @@ fn moving(mechanism: &Mechanism, points: &[&str]) -> VelocityReport {
     let question = Question::new(mechanism);
     let settings = VelocitySettings {
         points: (points.iter())
-            .map(|name| mechanism.frame(name).unwrap())
+            .map(|name| Point::read(mechanism, name).unwrap())
             .collect(),
         ..VelocitySettings::default()
     };

@@ -198,7 +198,7 @@ fn errors_are_errors_with_words() {
     is_error::<analysis::convert::ConvertError>();
     is_error::<analysis::convert::CutError>();
     is_error::<analysis::frames::AxesError>();
-    is_error::<analysis::sweep::PointError>();
+    is_error::<system::PointError>();
     is_error::<analysis::workspace::WorkspaceError>();
     is_error::<linkwork::ask::AskError>();
 }

@@ -692,7 +692,7 @@ fn an_orthogonal_3r_arm_is_regular_at_its_published_solutions_and_singular_betwe
         ], tip: [Tx(1.5)]) })"#,
     );
     let settings = SingularitiesSettings {
-        outputs: vec![Lock::Point(mechanism.frame("arm").unwrap())],
+        outputs: vec![Lock::Point(mechanism.frame("arm").unwrap().into())],
         ..SingularitiesSettings::default()
     };
     let at = |q: [f64; 3]| {

@@ -6,9 +6,9 @@ use linkwork::algebra::SiUnit;
 use linkwork::analysis::statics::{Reaction, StaticsReport, StaticsSettings, statics};
 use linkwork::analysis::velocity::{VelocitySettings, velocity};
 use linkwork::geometry::Vector3;
-use linkwork::mechanism::{Body, Configuration, Convention, Frame, Mechanism};
+use linkwork::mechanism::{Body, Configuration, Convention, Frame, Mechanism, Point};
 use linkwork::solve::Watch;
-use linkwork::system::{Drive, ForceError, Load, Question};
+use linkwork::system::{Drive, ForceError, Load, PointError, Question};
 
 fn folder() -> std::path::PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("mechanisms")
@@ -43,7 +43,9 @@ fn loads(mechanism: &Mechanism) -> Load {
         .filter(|&f| mechanism.body(f) != Body::Ground);
     let wrenches = frames.enumerate().map(|(i, frame)| {
         let k = i as f64;
-        (frame, [3.0 - k, -7.0 + k, 5.0], [0.4, 0.3 * k, -0.2])
+        let offset = [0.1 * k, -0.2 * k, 0.05 * k];
+        let point = Point { frame, offset };
+        (point, [3.0 - k, -7.0 + k, 5.0], [0.4, 0.3 * k, -0.2])
     });
     Load {
         wrenches: wrenches.collect(),
@@ -87,10 +89,10 @@ fn every_body_is_in_equilibrium() {
                 moment += (m + point.cross(&f)).times(sign);
                 size += f.norm() * (1.0 + point.norm()) + m.norm();
             };
-            for &(frame, f, m) in &load.wrenches {
-                if mechanism.body(frame) == body {
-                    let point = mechanism.poses([frame], &at)[0].position;
-                    add(1.0, point, Vector3(f), Vector3(m));
+            for &(point, f, m) in &load.wrenches {
+                if mechanism.body(point.frame) == body {
+                    let pose = mechanism.poses([point.frame], &at)[0];
+                    add(1.0, pose * Vector3(point.offset), Vector3(f), Vector3(m));
                 }
             }
             for reaction in found.closures.iter().chain(&found.joints) {
@@ -198,7 +200,7 @@ fn drives_and_loads_do_no_work_together_in_any_motion() {
         let question = Question::new(&mechanism);
         let load = loads(&mechanism);
         let settings = VelocitySettings {
-            points: load.wrenches.iter().map(|(frame, ..)| *frame).collect(),
+            points: load.wrenches.iter().map(|(point, ..)| *point).collect(),
             ..VelocitySettings::default()
         };
         let mut drive = Drive::still(&question);
@@ -216,8 +218,8 @@ fn drives_and_loads_do_no_work_together_in_any_motion() {
             assert_eq!(found.unbalanced, [""; 0], "{}", mechanism.name());
             let mut work = found.actuators[input].force;
             let mut size = work.abs();
-            for &(frame, force, moment) in &load.wrenches {
-                let name = mechanism.frame_name(frame);
+            for &(point, force, moment) in &load.wrenches {
+                let name = point.name(&mechanism);
                 let frame = moving.frames.iter().find(|f| f.name == name).unwrap();
                 let power = Vector3(force).dot(&Vector3(frame.velocity))
                     + Vector3(moment).dot(&Vector3(frame.angular_velocity));
@@ -405,7 +407,7 @@ fn loads_that_make_no_sense_are_refused() {
     ));
     assert!(matches!(
         refused("tip", "0,0,1"),
-        ForceError::UnknownFrame { .. }
+        ForceError::Point(PointError::NoFrame(_))
     ));
     assert_eq!(refused("top", "1,2"), ForceError::Components { given: 2 });
     assert!(matches!(refused("top", "1,2,x"), ForceError::Value(_)));

@@ -8,11 +8,11 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 
 use linkwork::analysis::sweep::{
     CircuitsReport, CircuitsSettings, FourBarClass, MetKind, Row, SweepEnd, SweepReport,
-    SweepSettings, TracedPoint, circuits, follow, sweep,
+    SweepSettings, circuits, follow, sweep,
 };
 use linkwork::ask;
 use linkwork::description::Description;
-use linkwork::mechanism::{Configuration, Mechanism};
+use linkwork::mechanism::{Configuration, Mechanism, Point};
 use linkwork::solve::Watch;
 use linkwork::solve::{Equations, Newton, Stop};
 use linkwork::system::{Coordinate, Curve, Driven, Held, Question, Search, System, Walk};
@@ -126,7 +126,7 @@ fn steps(steps: usize) -> SweepSettings {
 
 fn tracing(mechanism: &Mechanism, steps: usize, point: &str) -> SweepSettings {
     SweepSettings {
-        points: vec![TracedPoint::read(mechanism, point).unwrap()],
+        points: vec![Point::read(mechanism, point).unwrap()],
         ..self::steps(steps)
     }
 }
@@ -821,7 +821,7 @@ fn klanns_leg_closes_as_its_table_says() {
     let inputs = [joint(&mechanism, "theta", PI / 2.0, PI / 2.0 + TAU)];
     let settings = SweepSettings {
         points: ["knee", "first.2"]
-            .map(|p| TracedPoint::read(&mechanism, p).unwrap())
+            .map(|p| Point::read(&mechanism, p).unwrap())
             .to_vec(),
         ..steps(360)
     };

@@ -77,7 +77,7 @@ pub(super) fn coupled(
                 _ => Vec::new(),
             };
             let independent = first.independent(mechanism, &own).into_iter();
-            let origin = [Lock::Point(frame)];
+            let origin = [Lock::Point(frame.into())];
             let origin = || Classifier::new(mechanism, inputs, &origin, at).at(at).loss;
             Coupled {
                 output: mechanism.frame_name(frame),

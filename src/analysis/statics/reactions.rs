@@ -63,10 +63,9 @@ pub(super) fn of(
     let mechanism = near.mechanism();
     let length = mechanism.characteristic_length();
     let mut acting: Vec<(Body, AtOrigin)> = Vec::new();
-    for &(frame, force, moment) in &load.wrenches {
-        let point = mechanism.poses([frame], at)[0].position;
-        let wrench = AtOrigin::new(point, Vector3(force), Vector3(moment));
-        acting.push((mechanism.body(frame), wrench));
+    for &(point, force, moment) in &load.wrenches {
+        let wrench = AtOrigin::new(point.at(mechanism, at), Vector3(force), Vector3(moment));
+        acting.push((mechanism.body(point.frame), wrench));
     }
     let mut closures = Vec::new();
     let wrenches = near.closure_wrenches(at);

@@ -2,9 +2,9 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::{Row, SweepReport, TracedPoint};
+use super::{Row, SweepReport};
 use crate::algebra::SiUnit;
-use crate::mechanism::{Mechanism, Variable};
+use crate::mechanism::{Mechanism, Point, Variable};
 
 /// The motions of one question: one, or one in each mode.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -37,15 +37,14 @@ pub struct Columns(Vec<Variable>);
 
 impl Columns {
     /// The number of the step, then all joints, platforms and traced points of a mechanism.
-    pub fn new(mechanism: &Mechanism, points: &[TracedPoint]) -> Self {
+    pub fn new(mechanism: &Mechanism, points: &[Point]) -> Self {
         let mut variables = vec![Variable::plain("step")];
         variables.extend(Variable::joints(mechanism));
         variables.extend(Variable::poses(mechanism));
         for point in points {
-            let axes = ["x", "y", "z"];
-            variables.extend(
-                axes.map(|axis| Variable::new(format!("{}.{axis}", point.name), SiUnit::METRE)),
-            );
+            let (axes, name) = (["x", "y", "z"], point.name(mechanism));
+            let variable = |axis| Variable::new(format!("{name}.{axis}"), SiUnit::METRE);
+            variables.extend(axes.map(variable));
         }
         Columns(variables)
     }

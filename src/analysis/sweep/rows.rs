@@ -3,8 +3,8 @@
 use std::ops::ControlFlow;
 
 use super::points::Paths;
-use super::{Flow, MetKind, Row, SweepSettings, TracedPoint};
-use crate::mechanism::{Configuration, Mechanism};
+use super::{Flow, MetKind, Row, SweepSettings};
+use crate::mechanism::{Configuration, Mechanism, Point};
 use crate::solve::{Continuation, Place};
 use crate::system::{Coordinate, Curve, Driven, Held, HeldPlatform, MotionTracker, System};
 
@@ -167,7 +167,7 @@ pub(super) struct Sent {
 }
 
 impl Sent {
-    pub fn new(mechanism: &Mechanism, points: &[TracedPoint]) -> Self {
+    pub fn new(mechanism: &Mechanism, points: &[Point]) -> Self {
         Sent {
             paths: Paths::new(mechanism, points),
             count: 0,

@@ -2,7 +2,7 @@
 
 use super::FrameRate;
 use crate::geometry::Vector3;
-use crate::mechanism::{Configuration, Frame, Mechanism};
+use crate::mechanism::{Configuration, Frame, Mechanism, Point};
 use crate::system::{
     FrameMotion, FrameMotions, Motion, Neighbourhood, Tangent, spin_lines, without,
 };
@@ -41,41 +41,61 @@ pub(super) fn rates(
     mechanism: &Mechanism,
     motion: &mut Motion,
     at: &Configuration<f64>,
-    points: &[Frame],
+    points: &[Point],
     spins: &Spins,
     accelerations: bool,
 ) -> Vec<FrameRate> {
     let platforms = 0..mechanism.platforms().len();
-    let platforms = platforms.map(|platform| Frame::Platform { platform });
-    let mut frames: Vec<Frame> = platforms.collect();
-    frames.extend(
-        points
-            .iter()
-            .filter(|point| !matches!(point, Frame::Platform { .. })),
-    );
-    let mut motions = FrameMotions::new(mechanism, motion, &frames);
+    let platforms = platforms.map(|platform| Frame::Platform { platform }.into());
+    let mut all: Vec<Point> = platforms.collect();
+    let platforms = all.len();
+    for point in points {
+        if !all[..platforms].contains(point) {
+            all.push(*point);
+        }
+    }
+    let mut motions = FrameMotions::new(mechanism, motion, &all);
     motions.place(motion, at);
-    let named = frames.iter().enumerate();
+    let named = all.iter().enumerate();
     named
-        .map(|(i, &frame)| {
-            let lines = spins.lines_of(frame);
+        .map(|(i, point)| {
+            let lines = spins.lines_of(point.frame);
             let FrameMotion {
                 position,
                 twist,
                 change,
             } = motions.motion(i);
             let (omega, turning) = unspun(&twist.omega, &change.omega, lines);
+            let (mut velocity, mut acceleration) = (twist.velocity, change.velocity);
+            if !lines.is_empty() {
+                // the origin is on the line and does not move by the spin
+                let arm = point.arm(mechanism, at);
+                let [with, without] = [(twist.omega, change.omega), (omega, turning)]
+                    .map(|(omega, turning)| carried(&omega, &turning, &arm));
+                velocity += without.0 - with.0;
+                acceleration += without.1 - with.1;
+            }
             FrameRate {
-                name: mechanism.frame_name(frame),
+                name: point.name(mechanism),
                 position: position.0,
                 angular_velocity: omega.0,
-                velocity: twist.velocity.0,
+                velocity: velocity.0,
                 angular_acceleration: accelerations.then_some(turning.0),
-                acceleration: accelerations.then_some(change.velocity.0),
+                acceleration: accelerations.then_some(acceleration.0),
                 spins: lines.iter().map(|line| line.0).collect(),
             }
         })
         .collect()
+}
+
+/// Velocity and acceleration of a point relative to another of its body: ω × r and ω̇ × r + ω × (ω × r).
+fn carried(
+    omega: &Vector3<f64>,
+    turning: &Vector3<f64>,
+    arm: &Vector3<f64>,
+) -> (Vector3<f64>, Vector3<f64>) {
+    let velocity = omega.cross(arm);
+    (velocity, turning.cross(arm) + omega.cross(&velocity))
 }
 
 /// ω and ω̇ of a link that spins about a line u of its own, without the spin s: u turns with the

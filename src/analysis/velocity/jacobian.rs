@@ -5,7 +5,7 @@ use serde::{Deserialize, Serialize};
 use super::frames::Spins;
 use crate::algebra::SiUnit;
 use crate::linear::{Decomposition, rank};
-use crate::mechanism::{Configuration, Frame, Mechanism};
+use crate::mechanism::{Configuration, Mechanism, Point};
 use crate::system::{Coordinate, FrameTwists, Lock, Motion, Twist, without};
 
 /// Rates of outputs for unit rates of the inputs, one at a time.
@@ -48,10 +48,11 @@ impl Axis {
 }
 
 /// The points followed that are no outputs already, each once.
-pub(super) fn followed(outputs: &[Lock], points: &[Frame]) -> Vec<Lock> {
+pub(super) fn followed(outputs: &[Lock], points: &[Point]) -> Vec<Lock> {
     let mut followed: Vec<Lock> = Vec::new();
     for &point in points {
-        if !followed.contains(&Lock::Point(point)) && !outputs.contains(&Lock::Frame(point)) {
+        let is_output = point.is_origin() && outputs.contains(&Lock::Frame(point.frame));
+        if !followed.contains(&Lock::Point(point)) && !is_output {
             followed.push(Lock::Point(point));
         }
     }
@@ -60,15 +61,17 @@ pub(super) fn followed(outputs: &[Lock], points: &[Frame]) -> Vec<Lock> {
 
 /// Names of the rows of an output, and whether they are rates of angles.
 fn rows_of(mechanism: &Mechanism, output: Lock) -> Vec<(String, bool)> {
-    let components = |frame, kind: &str| {
+    let components = |point: Point, kind: &str| {
         ["x", "y", "z"].map(|axis| {
-            let name = format!("{} {kind}{axis}", mechanism.frame_name(frame));
+            let name = format!("{} {kind}{axis}", point.name(mechanism));
             (name, kind == "ω")
         })
     };
     match output {
-        Lock::Frame(frame) => [components(frame, "ω"), components(frame, "v")].concat(),
-        Lock::Point(frame) => components(frame, "v").to_vec(),
+        Lock::Frame(frame) => ["ω", "v"]
+            .map(|kind| components(frame.into(), kind))
+            .concat(),
+        Lock::Point(point) => components(point, "v").to_vec(),
         Lock::Coordinate(Coordinate::Turn(platform, axis)) => {
             let name = &mechanism.platforms()[platform].name;
             vec![(format!("{name} ω{}", axis.letter()), true)]
@@ -84,8 +87,8 @@ pub(super) fn input_output(
     outputs: &[Lock],
     spins: &Spins,
 ) -> InputOutput {
-    let frames: Vec<Frame> = outputs.iter().filter_map(|output| output.frame()).collect();
-    let twists = FrameTwists::new(mechanism.dimensions(), motion.unknowns(), &frames);
+    let points: Vec<Point> = outputs.iter().filter_map(|output| output.point()).collect();
+    let twists = FrameTwists::new(mechanism.dimensions(), motion.unknowns(), &points);
     let placement = twists.placed(at);
     let length = mechanism.characteristic_length();
     let scale = |is_angle: bool| if is_angle { 1.0 } else { length };
@@ -107,15 +110,19 @@ pub(super) fn input_output(
         given[i] = 1.0;
         let rates = motion.rates(&given);
         let mut column = Vec::with_capacity(rows.len());
-        let mut moving = (0..frames.len()).map(|i| twists.twist(i, &placement, rates));
+        let mut moving = (0..points.len()).map(|i| twists.twist(i, &placement, rates));
         for output in outputs {
-            let twist = output.frame().and_then(|_| moving.next());
+            let twist = output.point().and_then(|_| moving.next());
             match (*output, twist) {
                 (Lock::Frame(of), Some(Twist { omega, velocity })) => {
                     column.extend(without(&omega, spins.lines_of(of)).0);
                     column.extend(velocity.0);
                 }
-                (Lock::Point(_), Some(twist)) => column.extend(twist.velocity.0),
+                (Lock::Point(point), Some(Twist { omega, velocity })) => {
+                    let spin = omega - without(&omega, spins.lines_of(point.frame));
+                    let velocity = velocity - spin.cross(&point.arm(mechanism, at));
+                    column.extend(velocity.0);
+                }
                 (Lock::Coordinate(Coordinate::Turn(_, axis)), Some(twist)) => {
                     column.push(twist.omega.0[axis as usize]);
                 }

@@ -5,7 +5,7 @@ use linkwork::ask::Holdable;
 use linkwork::description::{ProblemKind, Scope, listed, nearest};
 use linkwork::mechanism::Mechanism;
 use linkwork::output::complaint::{Complaint, Part};
-use linkwork::system::{Demand, DriveError, ForceError, QuestionError, ValueError};
+use linkwork::system::{Demand, DriveError, ForceError, PointError, QuestionError, ValueError};
 
 /// What is wrong with a question, and with which part of the option that asked it, if one did.
 pub fn complaint(error: &QuestionError) -> Complaint {
@@ -143,7 +143,7 @@ pub fn load_complaint(mechanism: &Mechanism, error: &ForceError, option: &str) -
                 _ => said,
             }
         }
-        ForceError::UnknownFrame { name } => unknown_frame(mechanism, name),
+        ForceError::Point(error) => no_point(mechanism, error),
         ForceError::OnGround { instead, .. } => said("on the ground").help(format!(
             "load a body that moves, such as {}",
             listed(instead)
@@ -190,6 +190,17 @@ pub fn unknown_frame(mechanism: &Mechanism, name: &str) -> Complaint {
     said.help(meant(name, &known, || {
         format!("the frames are {}", listed(&known))
     }))
+}
+
+/// What is wrong with a point.
+pub fn no_point(mechanism: &Mechanism, error: &PointError) -> Complaint {
+    match error {
+        PointError::NoFrame(name) => unknown_frame(mechanism, name),
+        PointError::Value { text, error } => value(text, error).at(Part::Name),
+        PointError::TooMany(_) => Complaint::new(error.to_string())
+            .label("too many")
+            .help("write FRAME+X,Y,Z, e.g. left+0.5,0.2,0"),
+    }
 }
 
 /// The options that hold a platform and nothing else.

@@ -1,8 +1,8 @@
 //! Motions drawn: input–output curves, or the paths of points.
 
 use crate::algebra::SiUnit;
-use crate::analysis::sweep::{MetKind, Row, TracedPoint};
-use crate::mechanism::{Configuration, Mechanism};
+use crate::analysis::sweep::{MetKind, Row};
+use crate::mechanism::{Configuration, Mechanism, Point};
 use crate::output::plot::{self, Chart, Marks, Series, svg};
 use crate::output::quantity;
 use crate::system::{Coordinate, Driven};
@@ -11,7 +11,7 @@ use crate::system::{Coordinate, Driven};
 #[derive(Clone, Debug)]
 pub struct Picture {
     title: String,
-    points: Vec<TracedPoint>,
+    points: Vec<String>,
     input: Option<Driven>,
     input_label: String,
     /// Joints that are drawn over the input: index, name, whether it is an angle.
@@ -34,7 +34,7 @@ const MOST: usize = 4000;
 
 impl Picture {
     /// Of a motion of these inputs; without points, joints are drawn over the first input.
-    pub fn new(mechanism: &Mechanism, inputs: &[Driven], points: &[TracedPoint]) -> Self {
+    pub fn new(mechanism: &Mechanism, inputs: &[Driven], points: &[Point]) -> Self {
         let joint = |joint: usize| Driven {
             coordinate: Coordinate::Joint(joint),
             from: 0.0,
@@ -55,7 +55,7 @@ impl Picture {
         let joints = mechanism.joints().iter().enumerate();
         Picture {
             title: mechanism.name().to_owned(),
-            points: points.to_vec(),
+            points: points.iter().map(|point| point.name(mechanism)).collect(),
             input_label: input.map_or(String::new(), |input| label(input.coordinate)),
             input,
             outputs: joints
@@ -216,7 +216,7 @@ impl Picture {
             _ => (0, 1),
         };
         let pairs: Vec<(String, usize, usize)> = (self.points.iter().enumerate())
-            .map(|(i, point)| (point.name.clone(), first + 3 * i + x, first + 3 * i + y))
+            .map(|(i, point)| (point.clone(), first + 3 * i + x, first + 3 * i + y))
             .collect();
         let (series, marks) = self.chart(&pairs);
         let axis = ["x (m)", "y (m)", "z (m)"];

@@ -4,17 +4,18 @@ use thiserror::Error;
 
 use super::Question;
 use super::drive::{DriveError, number};
+use super::point::PointError;
 use super::value::Value;
 use crate::algebra::{Measure, SiUnit};
 use crate::description::nearest;
-use crate::mechanism::{Body, Frame, PoseCoordinate};
+use crate::mechanism::{Body, Frame, Point, PoseCoordinate};
 use crate::system::Coordinate;
 
 /// Wrenches on frames and loads on joints, in N and N·m.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Load {
-    /// Frame, force at its origin and moment, in ground.
-    pub wrenches: Vec<(Frame, [f64; 3], [f64; 3])>,
+    /// Point, force at it and moment, in ground.
+    pub wrenches: Vec<(Point, [f64; 3], [f64; 3])>,
     /// Joint, and the force (N) or moment (N·m) that acts along its variable.
     pub joints: Vec<(usize, f64)>,
 }
@@ -25,12 +26,9 @@ pub enum ForceError {
     /// The value is wrong.
     #[error(transparent)]
     Value(DriveError),
-    /// There is no frame of that name.
-    #[error("there is no frame `{name}`")]
-    UnknownFrame {
-        /// The name.
-        name: String,
-    },
+    /// There is no such point.
+    #[error(transparent)]
+    Point(PointError),
     /// The frame is fixed to the ground, which nothing moves.
     #[error("`{name}` is fixed to the ground and cannot be loaded")]
     OnGround {
@@ -68,14 +66,14 @@ pub enum ForceError {
 }
 
 impl Load {
-    /// Adds a wrench: `Fx, Fy, Fz` in N, or these and `Mx, My, Mz` in N·m, at the origin of a frame
-    /// in directions of ground; components are expressions as in the file.
+    /// Adds a wrench: `Fx, Fy, Fz` in N, or these and `Mx, My, Mz` in N·m, at a point
+    /// ([`Point::read`]) in directions of ground; components are expressions as in the file.
     ///
     /// # Errors
-    /// If the frame does not exist or does not move, or the components are not three or six values.
+    /// If the point does not exist or does not move, or the components are not three or six values.
     pub fn wrench(self, question: &Question, name: &str, text: &str) -> Result<Self, ForceError> {
-        // the frame is the first thing to be wrong
-        moving_frame(question, name)?;
+        // the point is the first thing to be wrong
+        moving_point(question, name)?;
         let inside = text.trim();
         let inside = inside.strip_prefix(['[', '(']).unwrap_or(inside);
         let inside = inside.strip_suffix([']', ')']).unwrap_or(inside);
@@ -100,18 +98,18 @@ impl Load {
         }
     }
 
-    /// Adds a wrench: force in N and moment in N·m at the origin of a frame in directions of ground.
+    /// Adds a wrench: force in N and moment in N·m at a point in directions of ground.
     ///
     /// # Errors
-    /// If the frame does not exist or does not move.
+    /// If the point does not exist or does not move.
     pub fn forces(
         mut self,
         question: &Question,
         name: &str,
         (force, moment): ([f64; 3], [f64; 3]),
     ) -> Result<Self, ForceError> {
-        let frame = moving_frame(question, name)?;
-        self.wrenches.push((frame, force, moment));
+        let point = moving_point(question, name)?;
+        self.wrenches.push((point, force, moment));
         Ok(self)
     }
 
@@ -160,13 +158,11 @@ impl Load {
     }
 }
 
-/// The frame of that name, if something moves it.
-fn moving_frame(question: &Question, name: &str) -> Result<Frame, ForceError> {
+/// The point of that name, if something moves it.
+fn moving_point(question: &Question, name: &str) -> Result<Point, ForceError> {
     let mechanism = question.mechanism();
-    let Some(frame) = mechanism.frame(name) else {
-        return Err(ForceError::UnknownFrame { name: name.into() });
-    };
-    if mechanism.body(frame) == Body::Ground {
+    let point = Point::read(mechanism, name).map_err(ForceError::Point)?;
+    if mechanism.body(point.frame) == Body::Ground {
         let platforms = mechanism.platforms().iter().map(|p| p.name.clone());
         let mut instead: Vec<String> = platforms.collect();
         if instead.is_empty() {
@@ -180,7 +176,7 @@ fn moving_frame(question: &Question, name: &str) -> Result<Frame, ForceError> {
             instead,
         });
     }
-    Ok(frame)
+    Ok(point)
 }
 
 impl Coordinate {

@@ -65,7 +65,7 @@ pub fn default_outputs(mechanism: &Mechanism, inputs: &[Coordinate]) -> Vec<Lock
     }
     let closures = mechanism.closures().iter();
     closures
-        .map(|closure| Lock::Point(closure.frames[0]))
+        .map(|closure| Lock::Point(closure.frames[0].into()))
         .collect()
 }
 

@@ -2,7 +2,7 @@
 
 use super::twists::FrameTwists;
 use crate::linear::{Decomposition, add};
-use crate::mechanism::{Configuration, Frame, Mechanism};
+use crate::mechanism::{Configuration, Frame, Mechanism, Point};
 use crate::solve::Equations;
 use crate::system::{Coordinate, Held, System, Work};
 
@@ -13,8 +13,8 @@ pub enum Lock {
     Coordinate(Coordinate),
     /// A frame: it neither turns nor moves.
     Frame(Frame),
-    /// The origin of a frame: the frame may turn about it.
-    Point(Frame),
+    /// A point of a frame: the frame may turn about it.
+    Point(Point),
 }
 
 /// M = [J; A]: the closure Jacobian J with nothing held, above the rates A of inputs or outputs. Its
@@ -40,12 +40,13 @@ impl Lock {
         }
     }
 
-    /// The frame on whose twist its rate depends; none for a joint.
-    pub fn frame(self) -> Option<Frame> {
+    /// The point on whose twist its rate depends; none for a joint.
+    pub fn point(self) -> Option<Point> {
         match self {
-            Lock::Frame(frame) | Lock::Point(frame) => Some(frame),
+            Lock::Frame(frame) => Some(frame.into()),
+            Lock::Point(point) => Some(point),
             Lock::Coordinate(Coordinate::Pose(platform, _) | Coordinate::Turn(platform, _)) => {
-                Some(Frame::Platform { platform })
+                Some(Frame::Platform { platform }.into())
             }
             Lock::Coordinate(Coordinate::Joint(_)) => None,
         }
@@ -56,7 +57,7 @@ impl Lock {
         match self {
             Lock::Coordinate(coordinate) => coordinate.name(mechanism),
             Lock::Frame(frame) => mechanism.frame_name(frame),
-            Lock::Point(frame) => format!("point {}", mechanism.frame_name(frame)),
+            Lock::Point(point) => format!("point {}", point.name(mechanism)),
         }
     }
 }
@@ -74,13 +75,10 @@ impl Locked {
             still.stop(held.spins());
         }
         let system = System::new(mechanism.dimensions(), &still);
-        let frames = locks.iter().filter_map(|lock| match lock {
-            Lock::Frame(frame) | Lock::Point(frame) => Some(*frame),
-            Lock::Coordinate(_) => None,
-        });
-        let frames: Vec<Frame> = frames.collect();
+        let placed = (locks.iter()).filter(|lock| !matches!(lock, Lock::Coordinate(_)));
+        let points: Vec<Point> = placed.filter_map(|lock| lock.point()).collect();
         Locked {
-            twists: FrameTwists::new(mechanism.dimensions(), system.unknowns(), &frames),
+            twists: FrameTwists::new(mechanism.dimensions(), system.unknowns(), &points),
             work: system.work(),
             system,
             locks: locks.to_vec(),

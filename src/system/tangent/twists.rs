@@ -1,21 +1,21 @@
 //! Twists of frames from the rates of all unknowns.
 
 use crate::geometry::Vector3;
-use crate::mechanism::{Configuration, Dimensions, Frame, Kinematics, Mover, Placement};
+use crate::mechanism::{Configuration, Dimensions, Frame, Kinematics, Mover, Placement, Point};
 use crate::number::Number;
 use crate::system::Unknown;
 
-/// The motion of a frame at an instant, in ground.
+/// The motion of a frame at an instant, in ground, at its origin or another point of it.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Twist<T> {
     /// Rotation rate, in rad per unit of time.
     pub omega: Vector3<T>,
-    /// Velocity of the frame's origin, in m per unit of time.
+    /// Velocity of the point, in m per unit of time.
     pub velocity: Vector3<T>,
 }
 
 impl Twist<f64> {
-    /// (ω; v/L) of the point of the body at the origin of ground; `point` is the frame's origin.
+    /// (ω; v/L) of the point of the body at the origin of ground; `point` is where the twist's point is.
     pub fn at_ground(&self, point: &Vector3<f64>, length: f64) -> [f64; 6] {
         let velocity = self.velocity - self.omega.cross(point);
         let ([a, b, c], [x, y, z]) = (self.omega.0, velocity.times(1.0 / length).0);
@@ -23,7 +23,7 @@ impl Twist<f64> {
     }
 }
 
-/// Twists of chosen frames for rates of all joints and platforms, in dimensionless unknowns.
+/// Twists of chosen frames at chosen points for rates of all joints and platforms, in dimensionless unknowns.
 ///
 /// ω = Σ z q̇ and v = Σ z × (p − o) q̇ (or z q̇ for a slide) over the joints on the way to the frame,
 /// beside the twist of the platform it stands on.
@@ -36,7 +36,7 @@ pub struct FrameTwists<T> {
 
 #[derive(Clone, Debug)]
 struct Plan<T> {
-    frame: Frame,
+    point: Point,
     /// Joints on the way with the columns of their rates.
     movers: Vec<(Mover<T>, usize)>,
     /// The platform it stands on and the column of its first twist component.
@@ -44,15 +44,21 @@ struct Plan<T> {
 }
 
 impl<T: Number> FrameTwists<T> {
-    /// For frames of a mechanism whose unknowns are all free, in the given order.
-    pub fn new(dimensions: &Dimensions<T>, unknowns: &[Unknown], frames: &[Frame]) -> Self {
-        let kinematics = Kinematics::new(dimensions, frames.iter().copied());
+    /// For points, or origins of frames, of a mechanism whose unknowns are all free, in the given order.
+    pub fn new<P>(dimensions: &Dimensions<T>, unknowns: &[Unknown], points: &[P]) -> Self
+    where
+        for<'p> &'p P: Into<Point>,
+    {
+        let points: Vec<Point> = points.iter().map(Into::into).collect();
+        let kinematics = Kinematics::new(dimensions, points.iter().map(|point| point.frame));
         let column = |unknown| unknowns.iter().position(|u| *u == unknown);
-        let plans = frames.iter().map(|&frame| {
-            let slot = kinematics.slot(frame).expect("the plan was made for it");
+        let plans = points.into_iter().map(|point| {
+            let slot = kinematics
+                .slot(point.frame)
+                .expect("the plan was made for it");
             let (movers, platform) = kinematics.movers(slot, &dimensions.joint_scales);
             Plan {
-                frame,
+                point,
                 movers: (movers.into_iter())
                     .filter_map(|mover| Some((mover, column(Unknown::Joint(mover.joint))?)))
                     .collect(),
@@ -74,7 +80,7 @@ impl<T: Number> FrameTwists<T> {
 
     /// The frames.
     pub fn frames(&self) -> impl ExactSizeIterator<Item = Frame> {
-        self.plans.iter().map(|plan| plan.frame)
+        self.plans.iter().map(|plan| plan.point.frame)
     }
 
     /// Room for poses.
@@ -94,21 +100,19 @@ impl<T: Number> FrameTwists<T> {
         placement
     }
 
-    /// The origin of frame `i` of those asked for, in ground, in m.
+    /// Point `i` of those asked for, in ground, in m.
     pub fn origin(&self, i: usize, placement: &Placement<T>) -> Vector3<T> {
-        let pose = self.kinematics.pose(self.plans[i].frame, placement);
-        pose.expect("the plan was made for it").position
+        let point = &self.plans[i].point;
+        let pose = self.kinematics.pose(point.frame, placement);
+        point.placed(pose.expect("the plan was made for it"))
     }
 
-    /// The twist of frame `i` of those asked for. Nothing allocates.
+    /// The twist at point `i` of those asked for. Nothing allocates.
     pub fn twist(&self, i: usize, placement: &Placement<T>, rates: &[T]) -> Twist<T> {
         let Plan {
-            frame,
-            movers,
-            platform,
+            movers, platform, ..
         } = &self.plans[i];
-        let pose = self.kinematics.pose(*frame, placement);
-        let point = pose.expect("the plan was made for it").position;
+        let point = self.origin(i, placement);
         let mut twist = Twist {
             omega: Vector3::zero(),
             velocity: Vector3::zero(),

@@ -3,13 +3,12 @@
 use super::{CLOSURES, Classifier, INVERSE, Resisted};
 use crate::geometry::Vector3;
 use crate::linear::{RANK_TOLERANCE, add, complement, dot, norm, orthonormal, remove};
-use crate::mechanism::{Configuration, Frame};
+use crate::mechanism::{Configuration, Point};
 use crate::system::{Coordinate, Lock, wrench_screws};
 
-/// An output, or the coordinates of one platform, with its wrenches (m/L; f) about the origin of the
-/// frame.
+/// An output, or the coordinates of one platform, with its wrenches (m/L; f) about the point.
 struct Part {
-    frame: Frame,
+    point: Point,
     name: String,
     wrenches: Vec<[f64; 6]>,
 }
@@ -65,16 +64,16 @@ impl Classifier<'_> {
                 }
                 Lock::Coordinate(Coordinate::Joint(_)) => vec![[0.0; 6]],
             };
-            if let Some(frame) = output.frame() {
+            if let Some(point) = output.point() {
                 let of_platform = matches!(output, Lock::Coordinate(_));
                 let known = parts
                     .iter()
-                    .position(|part| of_platform && part.frame == frame);
+                    .position(|part| of_platform && part.point == point);
                 let place = known.unwrap_or_else(|| {
                     parts.push(Part {
-                        frame,
+                        point,
                         name: match of_platform {
-                            true => mechanism.frame_name(frame),
+                            true => mechanism.frame_name(point.frame),
                             false => output.name(mechanism),
                         },
                         wrenches: vec![[0.0; 6]; within.len()],
@@ -90,7 +89,7 @@ impl Classifier<'_> {
             row += slopes.len();
         }
         let resisted = parts.into_iter().map(|part| {
-            let origin = mechanism.poses([part.frame; 2], at)[0].position;
+            let origin = part.point.at(mechanism, at);
             let wrenches = part.wrenches.iter().map(|&[a, b, c, d, e, f]| {
                 let (moment, force) = (Vector3([a, b, c]), Vector3([d, e, f]));
                 let moment = moment + origin.cross(&force).times(1.0 / length);

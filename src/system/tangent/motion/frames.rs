@@ -3,7 +3,7 @@
 use super::super::twists::{FrameTwists, Twist};
 use super::Motion;
 use crate::geometry::Vector3;
-use crate::mechanism::{Configuration, Frame, Mechanism, Placement};
+use crate::mechanism::{Configuration, Mechanism, Placement, Point};
 use crate::number::Dual;
 
 /// How frames move: positions, twists and their rates of change.
@@ -17,19 +17,22 @@ pub struct FrameMotions {
 /// The motion of a frame in ground, to second order.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct FrameMotion {
-    /// Where its origin is, in m.
+    /// Where its point is, in m.
     pub position: Vector3<f64>,
-    /// Its twist.
+    /// Its twist at the point.
     pub twist: Twist<f64>,
-    /// Angular acceleration, and acceleration of the origin.
+    /// Angular acceleration, and acceleration of the point.
     pub change: Twist<f64>,
 }
 
 impl FrameMotions {
-    /// For frames of a mechanism.
-    pub fn new(mechanism: &Mechanism, motion: &Motion, frames: &[Frame]) -> Self {
+    /// For points, or origins of frames, of a mechanism.
+    pub fn new<P>(mechanism: &Mechanism, motion: &Motion, points: &[P]) -> Self
+    where
+        for<'p> &'p P: Into<Point>,
+    {
         let dimensions = mechanism.dimensions().map(&mut Dual::constant);
-        let twists = FrameTwists::new(&dimensions, motion.unknowns(), frames);
+        let twists = FrameTwists::new(&dimensions, motion.unknowns(), points);
         FrameMotions {
             placement: twists.placement(),
             rates: vec![Dual::constant(0.0); motion.unknowns().len()],
@@ -47,7 +50,7 @@ impl FrameMotions {
         }
     }
 
-    /// The motion of frame `i` of those asked for. Nothing allocates.
+    /// The motion at point `i` of those asked for. Nothing allocates.
     pub fn motion(&self, i: usize) -> FrameMotion {
         let twist = self.twists.twist(i, &self.placement, &self.rates);
         let value = |v: Vector3<Dual<f64>>| Vector3(v.0.map(|x| x.value));
