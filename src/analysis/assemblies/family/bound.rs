@@ -260,6 +260,11 @@ impl<'a> Structure<'a> {
         let hinged = |link: &Link| link.feels.len() == 1 && self.turns(&link.feels);
         let all = |kind: ClosureKind| self.links.iter().all(|link| link.kind == kind);
         match self.links.len() {
+            1 if self.links[0].feels.is_empty() && all(ClosureKind::Rigid) => bound(
+                1,
+                "a body fixed to what is held",
+                "its pose is the product of the displacements that lead to it",
+            ),
             3 if self.links.iter().all(hinged) && all(ClosureKind::Spherical) => bound(
                 16,
                 "a rigid triangle on three circles: three hinged legs with balls on a platform",
