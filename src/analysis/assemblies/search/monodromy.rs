@@ -157,7 +157,7 @@ impl Search<'_> {
                 }
                 self.newton_seeds(&still);
             }
-            if self.found.quiet_loops > 0 && !self.close_legs(&still) {
+            if self.found.quiet_loops > 0 && !self.mirror(&still) && !self.close_legs(&still) {
                 return Some(false);
             }
         }
@@ -190,6 +190,33 @@ impl Search<'_> {
         }
         self.found.endless = ends >= ENDS && known <= ends / ENDS;
         self.found.endless
+    }
+
+    /// Every known solution tracked to the member with conjugate inputs: its solutions are the conjugates of those here,
+    /// for the equations have real coefficients. Whether one of them has a conjugate that is new.
+    ///
+    /// So a solution for real inputs and its conjugate are found both or not at all.
+    fn mirror(&mut self, still: &ParameterHomotopy<'_>) -> bool {
+        let conjugate = |of: &[C]| -> Vec<C> { of.iter().map(|z| z.conj()).collect() };
+        let mirrored = Member {
+            parameters: conjugate(&self.base.parameters),
+            inputs: conjugate(&self.base.inputs),
+        };
+        let Some(way) = self.family.homotopy(&self.base, &mirrored) else {
+            return false;
+        };
+        let mut points: Vec<Option<Vec<C>>> = self.spanning().into_iter().map(Some).collect();
+        tracked(&way, &mut points, (self.watch, self.in_loops()));
+        let (mut still, mut new) = (still.clone(), false);
+        for x in points.into_iter().flatten().map(|x| conjugate(&x)) {
+            if stands_alone(&mut still, C::from_f64(0.0), &x) {
+                new |= learn(&mut self.found.legwise, &self.family.coordinates, &x);
+            }
+        }
+        if new {
+            self.found.quiet_loops = 0;
+        }
+        new
     }
 
     /// Newton iterations for the joints of one leg from random values, with all else as in a known
