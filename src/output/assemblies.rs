@@ -10,7 +10,7 @@ use super::report::{Remarks, Report};
 use crate::analysis::assemblies::{AssembliesReport, ClosestApproach, Continuum, Fit};
 use crate::description::{count, listed};
 use crate::linear::RANK_TOLERANCE;
-use tables::{by_pose, complex, joints, overview, platforms, poses, reasons, times};
+use tables::{by_pose, complex, joints, met, overview, platforms, poses, reasons};
 
 impl Report for AssembliesReport {
     fn is_interrupted(&self) -> bool {
@@ -148,14 +148,15 @@ fn infinitely_many(report: &AssembliesReport) -> String {
 /// Where solutions meet.
 fn meeting(report: &AssembliesReport) -> Option<String> {
     let mut doubles: Vec<String> = (report.assemblies.iter().filter(|a| a.multiplicity > 1))
-        .map(|a| format!("mode {} is {}", a.mode, times(a.multiplicity)))
+        .map(|a| format!("mode {} is {}", a.mode, met(report, a.multiplicity)))
         .collect();
     match report.singular.saturating_sub(doubles.len()) {
         0 => {}
         1 => doubles.push("1 is complex".into()),
         n => doubles.push(format!("{n} are complex")),
     }
-    (report.singular > 0).then(|| {
+    let counted = !matches!(report.fit, Fit::FreedomLeft(_));
+    (report.singular > 0 && counted).then(|| {
         format!(
             "solutions coincide at {}: {}",
             count(report.singular, "singular point"),

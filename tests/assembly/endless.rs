@@ -1,6 +1,6 @@
 //! Infinitely many generic solutions are noticed instead of collected.
 
-use linkwork::analysis::assemblies::{Fit, Wanted};
+use linkwork::analysis::assemblies::{AssembliesSettings, AssemblySolver, Fit, Wanted};
 use linkwork::ask::Question;
 use linkwork::description::Description;
 use linkwork::mechanism::Mechanism;
@@ -55,4 +55,45 @@ fn with_the_crank_held_or_a_whole_ratio_their_number_is_finite() {
     assert_eq!((report.fit, report.complex), (Fit::Finite, 2));
     let report = geared("2").assemblies(Wanted::default(), &Watch::none());
     assert_eq!(report.unwrap().fit, Fit::Finite);
+}
+
+/// A link whose ball lies on the axis of its hinge, to rounding: whatever the hinge does, the rod fits.
+fn on_its_axis(beside: f64) -> Mechanism {
+    let text = format!(
+        r#"Mechanism(
+            version: 1, name: "a ball on the axis of a hinge", convention: Modified,
+            joints: {{ "t": Actuated(home: "20 deg"), "q": Passive(home: "40 deg") }},
+            chains: {{
+                "arm": Chain(
+                    base: [Rx("17 deg"), Ry("23 deg")],
+                    rows: [(theta: "t"), (alpha: "33 deg", a: 0.7, theta: "q")],
+                    tip: [
+                        Tx(0.6), Rz("-41 deg"), Tx("-0.6*cos(41 deg)"), Ty("-0.6*sin(41 deg)"), Rz("41 deg"),
+                        T({beside:?}, 0, 0.3),
+                    ],
+                ),
+                "post": Chain(on: "arm.1", base: [Rx("33 deg"), T(0.2, 0.5, 1)]),
+            }},
+            closures: {{ "rod": Distance("arm", "post", "sqrt(0.5^2 + 0.5^2 + 0.7^2)") }},
+        )"#
+    );
+    Mechanism::new(&Description::read(&text).unwrap()).unwrap()
+}
+
+#[test]
+fn where_nearly_every_seed_gives_a_new_solution_the_family_has_a_dimension() {
+    let found = |mechanism: &Mechanism| {
+        // asked of the solver itself: questions hold such spins still
+        let held = linkwork::system::Question::new(mechanism).held();
+        let settings = AssembliesSettings::default();
+        let solver = AssemblySolver::new(mechanism, &held, &settings, &Watch::none()).unwrap();
+        let report = solver.at(&mechanism.home(), Wanted::default(), &Watch::none());
+        (report.fit, report.generic, report.seeds)
+    };
+    let (fit, generic, seeds) = found(&on_its_axis(0.0));
+    assert_eq!((fit, generic), (Fit::FreedomLeft(1), 0));
+    assert!(seeds < 500, "{seeds} seeds");
+    // a ball beside the axis goes round a circle, which meets the rod's sphere twice
+    let (fit, generic, _) = found(&on_its_axis(0.1));
+    assert_eq!((fit, generic), (Fit::Finite, 2));
 }

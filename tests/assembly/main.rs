@@ -1,6 +1,7 @@
 //! Assembled configurations: the one near a guess, and all of them.
 
 mod assemblies;
+mod certain;
 mod cold_starts;
 mod conjugates;
 mod endless;
@@ -12,4 +13,5 @@ mod scales;
 mod seeds;
 mod special_inputs;
 mod stores;
+mod straight;
 mod witness;

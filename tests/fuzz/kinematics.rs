@@ -109,6 +109,27 @@ impl Placed<'_> {
         gaps.fold(0.0, f64::max)
     }
 
+    /// After how many turns of a joint everything is where it was.
+    fn turns(&self, joint: usize) -> Option<f64> {
+        let rows = self.mechanism.chains().iter().flat_map(|chain| &chain.rows);
+        let factor = |of: &Affine<Symbol>| -> f64 {
+            let terms = of
+                .terms
+                .iter()
+                .filter(|(symbol, _)| *symbol == Symbol::Joint(joint));
+            terms.map(|(_, factor)| self.value(factor)).sum()
+        };
+        let factors: Vec<(f64, f64)> = rows
+            .map(|row| (factor(&row.theta), factor(&row.d)))
+            .collect();
+        let whole = |x: f64| (x - x.round()).abs() < 1e-12;
+        (1..9).map(f64::from).find(|n| {
+            factors
+                .iter()
+                .all(|(turn, slide)| whole(n * turn) && *slide == 0.0)
+        })
+    }
+
     /// How far another configuration is away: the largest difference of joints, whole turns left out, of positions and
     /// of rotations, in rad and characteristic lengths.
     pub fn apart(&self, other: &Configuration<f64>) -> f64 {
@@ -121,10 +142,7 @@ impl Placed<'_> {
             .map(|(j, joint)| {
                 let between = self.at.joints[j] - other.joints[j];
                 match joint.kind.is_angle() {
-                    true if self.mechanism.repeats(j) => (between
-                        - std::f64::consts::TAU * (between / std::f64::consts::TAU).round())
-                    .abs(),
-                    true => between.abs(),
+                    true => within_turns(between, self.turns(j)).abs(),
                     false => between.abs() / length,
                 }
             });
@@ -156,4 +174,11 @@ pub fn shift(by: Vector3<f64>) -> Isometry3<f64> {
 pub fn turn(axis: Axis, angle: f64) -> Isometry3<f64> {
     let by = UnitQuaternion::from_axis_angle(&nalgebra::Unit::new_normalize(unit(axis)), angle);
     Isometry3::from_parts(Translation3::identity(), by)
+}
+
+fn within_turns(angle: f64, turns: Option<f64>) -> f64 {
+    match turns.map(|n| n * std::f64::consts::TAU) {
+        Some(turn) => angle - turn * (angle / turn).round(),
+        None => angle,
+    }
 }

@@ -14,39 +14,38 @@ use std::time::Instant;
 
 use generator::Dice;
 use invariants::{Budget, check, read};
+use linkwork::mechanism::Mechanism;
 use questions::{Asked, asked};
 
-/// One case: its text with the question, and what it breaks.
-fn case(seed: u64, size: usize, budget: &Budget) -> (String, Result<(), String>) {
+/// A case: a mechanism with a question about it, and the file of both.
+fn posed(seed: u64, size: usize) -> (String, Result<(Mechanism, Asked), String>) {
     let text = generator::mechanism(seed, size);
     let mechanism = match read(&text) {
         Ok(mechanism) => mechanism,
         Err(broken) => return (text, Err(broken)),
     };
     let home = mechanism.home();
-    let gap = kinematics::Placed {
+    let placed = kinematics::Placed {
         mechanism: &mechanism,
         at: &home,
-    }
-    .gap();
+    };
+    let gap = placed.gap();
     assert!(
         gap < 1e-9,
         "seed {seed} is open by {gap:e} where it was made:\n{text}"
     );
-    let asked = match asked(&mechanism, &mut Dice::new(!seed)) {
-        Ok(asked) => asked,
-        Err(broken) => return (text, Err(broken)),
-    };
-    let text = format!("{}\n{text}", asked.line());
-    let checked = check(&mechanism, &asked, budget);
-    (text, checked)
+    match asked(&mechanism, &mut Dice::new(!seed)) {
+        Ok(asked) => (format!("{}\n{text}", asked.line()), Ok((mechanism, asked))),
+        Err(broken) => (text, Err(broken)),
+    }
 }
 
 #[test]
 fn answers_about_random_mechanisms_keep_the_invariants() {
     let budget = Budget { steps: 300 };
     for seed in 0..24 {
-        let (text, checked) = case(seed, 5, &budget);
+        let (text, posed) = posed(seed, 5);
+        let checked = posed.and_then(|(mechanism, asked)| check(&mechanism, &asked, &budget));
         if let Err(broken) = checked {
             panic!("seed {seed}: {broken}\n{text}");
         }
@@ -71,21 +70,30 @@ fn answers_about_many_random_mechanisms_keep_the_invariants() {
     for seed in seeds {
         let start = Instant::now();
         let size = 3 + (seed % 7) as usize;
-        let ended = std::panic::catch_unwind(|| case(seed, size, &budget));
-        let (text, said) = match ended {
-            Ok((text, Ok(()))) => (text, None),
-            Ok((text, Err(broken))) => (text, Some(broken)),
-            Err(_) => (generator::mechanism(seed, size), Some("panics".into())),
+        let (text, posed) = posed(seed, size);
+        // there beforehand, should it never end
+        let file = (folder.as_ref()).map(|folder| folder.join(format!("{seed}.ron")));
+        if let Some(file) = &file {
+            std::fs::write(file, text).unwrap();
+        }
+        let ended = std::panic::catch_unwind(|| {
+            posed.and_then(|(mechanism, asked)| check(&mechanism, &asked, &budget))
+        });
+        let said = match ended {
+            Ok(checked) => checked.err(),
+            Err(_) => Some("panics".into()),
         };
         let seconds = start.elapsed().as_secs_f64();
         if seconds > 20.0 {
             println!("seed {seed}: {seconds:.0} s");
         }
-        let Some(said) = said else { continue };
-        broken += 1;
-        println!("seed {seed} ({seconds:.1} s): {said}");
-        if let Some(folder) = &folder {
-            std::fs::write(folder.join(format!("{seed}.ron")), text).unwrap();
+        match (said, &file) {
+            (Some(said), _) => {
+                broken += 1;
+                println!("seed {seed} ({seconds:.1} s): {said}");
+            }
+            (None, Some(file)) => std::fs::remove_file(file).unwrap(),
+            (None, None) => {}
         }
     }
     assert_eq!(broken, 0);

@@ -166,14 +166,10 @@ impl Question<'_> {
             mut complex,
             ..
         } = gathered;
-        // what is isolated comes first
-        found.sort_by(|a, b| {
-            let sample = |f: &Found| f.multiplicity == 0;
-            (sample(a).cmp(&sample(b)))
-                .then(b.dimension.cmp(&a.dimension))
-                .then_with(|| order(&a.key, &b.key))
-        });
-        complex.sort_by(|a, b| order(&a.0, &b.0));
+        // what is isolated comes first, then samples of the largest sets
+        order(&mut found, |f| &f.key);
+        found.sort_by_key(|f| (f.multiplicity == 0, std::cmp::Reverse(f.dimension)));
+        order(&mut complex, |solution| &solution.0);
         let infinite = |e: &&End| **e == End::Infinite;
         report.half_a_turn_away = half_a_turn_away.len();
         let isolated = groups.iter().filter(|g| g.dimension == 0);

@@ -153,7 +153,7 @@ impl Family {
         for &j in &c.free_joints {
             x.push(match self.mechanism.joints()[j].kind.is_angle() {
                 true => C::new(
-                    std::f64::consts::PI * uniform(rng),
+                    std::f64::consts::PI * c.turns[j].unwrap_or(1.0) * uniform(rng),
                     0.8 * reach.sqrt() * uniform(rng),
                 ),
                 false => {

@@ -35,7 +35,9 @@ pub struct Assembly {
     /// Sign of the determinant of the closure Jacobian on its independent rows: assemblies of
     /// opposite signs lie on different sides of a singularity. 0 where solutions meet.
     pub determinant_sign: i8,
-    /// How many solutions meet here: 1, or 2 at a dead point; 0 for a sample of infinitely many.
+    /// How many solutions meet here: 1, or 2 at a dead point; 0 for a sample of infinitely many. Where no paths are
+    /// counted ([`Fit`]) it is the least number that the equations allow, and where freedoms are left anything above
+    /// 1 says only that the assembly is singular.
     pub multiplicity: usize,
     /// The dimension of the set of assemblies that this one is a sample of; 0 if it is isolated.
     pub dimension: usize,

@@ -1,7 +1,7 @@
 //! Tables of assemblies.
 
 use crate::algebra::SiUnit;
-use crate::analysis::assemblies::{AssembliesReport, Assembly, ComplexAssembly, ListedJoint};
+use crate::analysis::assemblies::{AssembliesReport, Assembly, ComplexAssembly, Fit, ListedJoint};
 use crate::description::listed;
 use crate::output::document::{Cell, Section, Table, TableOf};
 use crate::output::quantity::{number, quantity, shown, size, with_unit};
@@ -13,6 +13,16 @@ pub(super) fn times(multiplicity: usize) -> String {
     match multiplicity {
         2 => "double".into(),
         n => format!("{n}-fold"),
+    }
+}
+
+/// How many solutions meet in an assembly. Where freedoms are left it lies on a set of complex solutions and has no such
+/// number; where no paths are counted, its equations give the least one.
+pub(super) fn met(report: &AssembliesReport, multiplicity: usize) -> String {
+    match report.fit {
+        Fit::FreedomLeft(_) => "singular".into(),
+        Fit::Finite if report.multiple == 0 => times(multiplicity),
+        _ => format!("at least {}", times(multiplicity)),
     }
 }
 
@@ -96,7 +106,7 @@ pub(super) fn overview(report: &AssembliesReport) -> TableOf<&Assembly> {
         }
         (None, 0) => "none: a sample".into(),
         (None, 1) => "none".into(),
-        (None, n) => format!("none: {}", times(n)),
+        (None, n) => format!("none: {}", met(report, n)),
     };
     let sign = |a: &Assembly| match a.determinant_sign {
         1 => "+",

@@ -3,7 +3,7 @@
 use super::layout::HoldRow;
 use super::{System, Work};
 use crate::geometry::Rotation;
-use crate::linear::{Factorable, Qr};
+use crate::linear::{CANCELLED, Factorable, Qr};
 use crate::mechanism::PoseCoordinate;
 use crate::number::Extent;
 use crate::solve::Equations;
@@ -114,11 +114,11 @@ impl<T: Factorable> System<T> {
     }
 
     /// How many independent directions the Jacobian last evaluated maps to nothing, with a
-    /// direction counting as lost when its pivot is this small beside the largest.
+    /// direction counting as lost when its pivot is this small beside the largest, or rounding.
     pub fn nullity(&self, tolerance: f64, work: &mut Work<T>) -> usize {
         let (rows, columns) = (self.rows(), self.unknowns().len());
         let pivots = pivots_of(rows, columns, &self.dense_jacobian(work));
-        let counts = |pivot: &&f64| **pivot > tolerance * pivots[0];
+        let counts = |pivot: &&f64| **pivot > (tolerance * pivots[0]).max(CANCELLED);
         columns - pivots.iter().filter(counts).count()
     }
 }

@@ -2,7 +2,7 @@
 
 use crate::analysis::assemblies::family::{C, Coordinates, Input, size};
 use crate::geometry::RollPitchYaw;
-use crate::mechanism::{Configuration, Mechanism, PoseCoordinate, principal};
+use crate::mechanism::{Configuration, Mechanism, PoseCoordinate};
 use crate::solve::{Equations, Newton, Stop};
 use crate::system::{System, Work};
 
@@ -76,10 +76,7 @@ pub(crate) fn tidied(
 ) -> Configuration<f64> {
     let rounding = rounding(sure);
     for &j in &coordinates.free_joints {
-        let value = &mut point.joints[j];
-        if coordinates.periodic[j] {
-            *value = principal(*value, rounding);
-        }
+        point.joints[j] = coordinates.principal(j, point.joints[j], rounding);
     }
     for &p in &coordinates.free_platforms {
         let q = &mut point.platforms[p].orientation;
@@ -97,9 +94,7 @@ pub(crate) fn tidied_complex(x: &[C], coordinates: &Coordinates) -> Vec<C> {
     const ROUNDING: f64 = 1e-7;
     let mut x = x.to_vec();
     for (z, &j) in x.iter_mut().zip(&coordinates.free_joints) {
-        if coordinates.periodic[j] {
-            z.re = principal(z.re, ROUNDING);
-        }
+        z.re = coordinates.principal(j, z.re, ROUNDING);
     }
     for pose in x[coordinates.free_joints.len()..].chunks_exact_mut(7) {
         let first = pose[..4].iter().find(|z| z.norm() > ROUNDING);
@@ -134,11 +129,26 @@ pub(crate) fn key(point: &Configuration<f64>, coordinates: &Coordinates) -> Vec<
     joints.chain(poses).collect()
 }
 
-/// Ascending from the first coordinate on; values within 1e-7 of each other count as equal, so that
-/// rounding does not decide.
-pub(crate) fn order(a: &[f64], b: &[f64]) -> std::cmp::Ordering {
-    let different = a.iter().zip(b).find(|(a, b)| (*a - *b).abs() > 1e-7);
-    different.map_or(std::cmp::Ordering::Equal, |(a, b)| a.total_cmp(b))
+/// Ascending from the first coordinate on; values within 1e-7 of the next ones count as equal, so that rounding does not
+/// decide.
+///
+/// Comparing pairs in that manner would be no order: of three values the outer ones may differ although the middle one
+/// equals both.
+pub(crate) fn order<T>(found: &mut [T], key: impl Fn(&T) -> &[f64]) {
+    order_from(0, found, &key);
+}
+
+fn order_from<T>(place: usize, found: &mut [T], key: &impl Fn(&T) -> &[f64]) {
+    const ALIKE: f64 = 1e-7;
+    let at = |x: &T| key(x).get(place).copied();
+    if found.len() < 2 || found.iter().any(|x| at(x).is_none()) {
+        return;
+    }
+    let value = |x: &T| at(x).unwrap_or_default();
+    found.sort_by(|a, b| value(a).total_cmp(&value(b)));
+    for alike in found.chunk_by_mut(|a, b| value(b) - value(a) <= ALIKE) {
+        order_from(place + 1, alike, key);
+    }
 }
 
 /// Joint values by name, angles by the turn that is within their limits if one is.

@@ -216,22 +216,34 @@ impl<'a> Structure<'a> {
         }
     }
 
-    /// One loop of six revolute joints, a pin that closes it among them; or three that bring a point
-    /// to a place.
+    /// One loop of six revolute joints, a pin that closes it among them, of which one may slide; or three that bring a
+    /// point to a place.
     fn arm(&self) -> Option<KnownBound> {
         let [link] = self.links.as_slice() else {
             return None;
         };
-        if !self.turns(&link.feels) {
+        let is = |kind: JointKind| {
+            let joints = link.feels.iter().map(|j| self.mechanism.joints()[*j].kind);
+            joints.filter(|of| *of == kind).count()
+        };
+        let turning = is(JointKind::Revolute);
+        if turning + is(JointKind::Prismatic) != link.feels.len() {
             return None;
         }
-        match (link.kind, link.feels.len()) {
-            (ClosureKind::Rigid, 6) | (ClosureKind::Revolute, 5) => bound(
+        match (link.kind, link.feels.len(), link.feels.len() - turning) {
+            (ClosureKind::Rigid, 6, 0) | (ClosureKind::Revolute, 5, 0) => bound(
                 16,
                 "six revolute joints in one loop",
                 "Primrose 1986; Lee and Liang 1988",
             ),
-            (ClosureKind::Spherical, 3) => bound(
+            (ClosureKind::Rigid, 6, 1)
+            | (ClosureKind::Revolute, 5, 1)
+            | (ClosureKind::Prismatic, 5, 0) => bound(
+                16,
+                "five revolute joints and a prismatic one in one loop",
+                "Raghavan and Roth 1993",
+            ),
+            (ClosureKind::Spherical, 3, 0) => bound(
                 4,
                 "three revolute joints that bring a point to a place",
                 "Pieper 1968",
@@ -260,6 +272,11 @@ impl<'a> Structure<'a> {
         let hinged = |link: &Link| link.feels.len() == 1 && self.turns(&link.feels);
         let all = |kind: ClosureKind| self.links.iter().all(|link| link.kind == kind);
         match self.links.len() {
+            1 if self.links[0].feels.is_empty() && all(ClosureKind::Rigid) => bound(
+                1,
+                "a body fixed to what is held",
+                "its pose is the product of the displacements that lead to it",
+            ),
             3 if self.links.iter().all(hinged) && all(ClosureKind::Spherical) => bound(
                 16,
                 "a rigid triangle on three circles: three hinged legs with balls on a platform",

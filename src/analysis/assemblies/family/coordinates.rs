@@ -1,9 +1,9 @@
 //! Configurations as flat complex coordinates, and when two of them are the same.
 
-use std::f64::consts::{PI, TAU};
+use std::f64::consts::PI;
 
 use crate::geometry::{Quaternion, Vector3};
-use crate::mechanism::{Configuration, Mechanism, PlatformPose, PoseCoordinate};
+use crate::mechanism::{Configuration, Mechanism, PlatformPose, PoseCoordinate, principal};
 use crate::number::{Complex, Number};
 use crate::system::{Held, HeldPlatform, System};
 
@@ -45,10 +45,11 @@ pub(crate) struct Coordinates {
     pub inputs: Vec<Input>,
     pub joint_scales: Vec<f64>,
     pub length: f64,
-    /// For each joint whether its variable counts modulo a turn.
-    pub periodic: Vec<bool>,
+    /// For each joint after how many turns everything is where it was: more than one where a gear turns something by a
+    /// fraction, `None` for slides and screws and for a ratio that is no fraction.
+    pub turns: Vec<Option<f64>>,
     /// Whether a free joint turns something and never comes back to the same place, as a screw or a gear whose ratio is
-    /// no whole number: then solutions need not be finite in number.
+    /// no fraction: then solutions need not be finite in number.
     pub winding: bool,
     /// Free joints, as places among the flat unknowns, by the closures that feel them: two legs meet
     /// in the poses of platforms only.
@@ -76,6 +77,9 @@ impl Coordinates {
         let joints = held_joints.into_iter().map(Input::Joint);
         let poses = held_poses.into_iter().map(Input::Pose);
         let dimensions = mechanism.dimensions();
+        let turns: Vec<Option<f64>> = (0..mechanism.joints().len())
+            .map(|j| turns_to_repeat(mechanism, j))
+            .collect();
         Coordinates {
             legs: legs(&free_joints, &System::new(dimensions, held)),
             free_joints,
@@ -83,12 +87,9 @@ impl Coordinates {
             inputs: (joints.chain(poses).chain(targets).chain(orientations)).collect(),
             joint_scales: dimensions.joint_scales.clone(),
             length: dimensions.characteristic_length,
-            winding: (mechanism.joints().iter().enumerate()).any(|(j, joint)| {
-                !held.joints[j] && joint.kind.is_angle() && !mechanism.repeats(j)
-            }),
-            periodic: (0..mechanism.joints().len())
-                .map(|j| periodic(mechanism, j))
-                .collect(),
+            winding: (mechanism.joints().iter().enumerate())
+                .any(|(j, joint)| !held.joints[j] && joint.kind.is_angle() && turns[j].is_none()),
+            turns,
         }
     }
 
@@ -159,6 +160,14 @@ impl Coordinates {
         }
     }
 
+    /// The equivalent value of a joint nearest to zero; an angle this near to the lower end becomes that near the upper.
+    pub fn principal(&self, joint: usize, value: f64, rounding: f64) -> f64 {
+        match self.turns[joint] {
+            Some(turns) => turns * principal(value / turns, rounding),
+            None => value,
+        }
+    }
+
     /// The inputs of a question: what a configuration holds, and what is asked of platforms.
     pub fn inputs_of<T: Number>(&self, at: &Configuration<T>, held: &Held<T>) -> Vec<T> {
         let mut inputs = Vec::with_capacity(self.input_count());
@@ -193,8 +202,8 @@ impl Coordinates {
     ) -> impl Iterator<Item = f64> + 'a {
         places.zip(x.iter().zip(y)).map(|(place, (x, y))| {
             let mut gap = x - y;
-            if gap.re.abs() > PI && self.periodic[self.free_joints[place]] {
-                gap.re -= TAU * (gap.re / TAU).round();
+            if gap.re.abs() > PI {
+                gap.re = self.principal(self.free_joints[place], gap.re, 0.0);
             }
             gap.norm_sqr()
         })
@@ -218,9 +227,7 @@ impl Coordinates {
         let mut y = y.to_vec();
         let joints = self.free_joints.len();
         for ((x, y), &j) in x.iter().zip(&mut y).zip(&self.free_joints) {
-            if self.periodic[j] {
-                y.re -= TAU * ((y.re - x.re) / TAU).round();
-            }
+            y.re = x.re + self.principal(j, y.re - x.re, 0.0);
         }
         let poses = x[joints..].chunks_exact(7);
         for (x, y) in poses.zip(y[joints..].chunks_exact_mut(7)) {
@@ -302,17 +309,26 @@ pub(crate) fn size(x: &[C]) -> f64 {
     x.iter().map(|z| z.norm_sqr()).fold(0.0, f64::max).sqrt()
 }
 
-/// Whether a turn more of a joint changes nothing: it only turns, and in whole multiples.
-fn periodic(mechanism: &Mechanism, joint: usize) -> bool {
+/// After how many turns of a joint everything is where it was, if it only turns, and by fractions.
+fn turns_to_repeat(mechanism: &Mechanism, joint: usize) -> Option<f64> {
+    /// Gears have some dozen teeth.
+    const MOST: u32 = 120;
+    const ROUNDING: f64 = 1e-12;
     let dimensions = mechanism.dimensions();
     let slides = dimensions
         .closures
         .iter()
         .any(|c| c.extension.coefficient(joint) != 0.0);
-    let mut rows = dimensions.chains.iter().flat_map(|chain| &chain.rows);
-    !slides
-        && rows.all(|row| {
-            let turn = row.turn.coefficient(joint);
-            turn == turn.round() && row.slide.coefficient(joint) == 0.0
-        })
+    let mut ratios = Vec::new();
+    for row in dimensions.chains.iter().flat_map(|chain| &chain.rows) {
+        if slides || row.slide.coefficient(joint) != 0.0 {
+            return None;
+        }
+        ratios.push(row.turn.coefficient(joint));
+    }
+    let whole = |x: f64| (x - x.round()).abs() <= ROUNDING * x.abs();
+    let turns = (1..=MOST).map(f64::from);
+    turns
+        .into_iter()
+        .find(|n| ratios.iter().all(|ratio| whole(n * ratio)))
 }

@@ -16,7 +16,7 @@ use rand_pcg::Pcg64;
 use super::super::AssembliesSettings;
 use super::newton_starts::{Seed, newton, newton_seeds, solution};
 use super::solutions::GenericSolutions;
-use crate::analysis::assemblies::family::{C, Family, Member, learn};
+use crate::analysis::assemblies::family::{C, Family, Member, learn, size};
 use crate::analysis::assemblies::track::{ParameterHomotopy, stands_alone, tracked};
 use crate::number::Number;
 use crate::solve::{Progress, Stage, Watch};
@@ -104,6 +104,10 @@ fn search_one(
         },
     };
     search.found.exhausted = search.run()?;
+    if bound == Some(search.found.count()) {
+        // no more are possible, so that what seemed to be others were these
+        search.found.multiple = 0;
+    }
     if search.found.endless {
         search.found.legwise.clear();
     }
@@ -153,7 +157,7 @@ impl Search<'_> {
                 }
                 self.newton_seeds(&still);
             }
-            if self.found.quiet_loops > 0 && !self.close_legs(&still) {
+            if self.found.quiet_loops > 0 && !self.mirror(&still) && !self.close_legs(&still) {
                 return Some(false);
             }
         }
@@ -175,7 +179,7 @@ impl Search<'_> {
         self.doubtful = 2 * self.found.legwise.len();
         let (mut ends, mut known) = (0, 0);
         for _ in 0..BATCHES {
-            for x in self.seeds(still, 1.0, true) {
+            for x in self.seeds(still, 1.0, None) {
                 ends += 1;
                 known += usize::from(!learn(
                     &mut self.found.legwise,
@@ -186,6 +190,33 @@ impl Search<'_> {
         }
         self.found.endless = ends >= ENDS && known <= ends / ENDS;
         self.found.endless
+    }
+
+    /// Every known solution tracked to the member with conjugate inputs: its solutions are the conjugates of those here,
+    /// for the equations have real coefficients. Whether one of them has a conjugate that is new.
+    ///
+    /// So a solution for real inputs and its conjugate are found both or not at all.
+    fn mirror(&mut self, still: &ParameterHomotopy<'_>) -> bool {
+        let conjugate = |of: &[C]| -> Vec<C> { of.iter().map(|z| z.conj()).collect() };
+        let mirrored = Member {
+            parameters: conjugate(&self.base.parameters),
+            inputs: conjugate(&self.base.inputs),
+        };
+        let Some(way) = self.family.homotopy(&self.base, &mirrored) else {
+            return false;
+        };
+        let mut points: Vec<Option<Vec<C>>> = self.spanning().into_iter().map(Some).collect();
+        tracked(&way, &mut points, (self.watch, self.in_loops()));
+        let (mut still, mut new) = (still.clone(), false);
+        for x in points.into_iter().flatten().map(|x| conjugate(&x)) {
+            if stands_alone(&mut still, C::from_f64(0.0), &x) {
+                new |= learn(&mut self.found.legwise, &self.family.coordinates, &x);
+            }
+        }
+        if new {
+            self.found.quiet_loops = 0;
+        }
+        new
     }
 
     /// Newton iterations for the joints of one leg from random values, with all else as in a known
@@ -262,9 +293,17 @@ impl Search<'_> {
     }
 
     /// Newton iterations from random complex points at the member where a way starts; the isolated
-    /// solutions they ended at. `reach` is that of the member's inputs; only what is multiple with the
-    /// mechanism's `own` dimensions counts.
-    fn seeds(&mut self, still: &ParameterHomotopy<'_>, reach: f64, own: bool) -> Vec<Vec<C>> {
+    /// solutions they ended at. `reach` is that of the member's inputs.
+    ///
+    /// What seems multiple counts if the simple solutions there are all `known` and it is none of them: far out
+    /// rounding makes simple ones look so, for complex rotations grow with every joint.
+    fn seeds(
+        &mut self,
+        still: &ParameterHomotopy<'_>,
+        reach: f64,
+        known: Option<&[Vec<C>]>,
+    ) -> Vec<Vec<C>> {
+        const BLURRED: f64 = 1e-3;
         let (first, seed) = (self.found.seeds, self.settings.seed);
         let ends = crate::solve::each(BATCH, still, |homotopy, i| {
             let mut rng = generator(seed, 1 + (((first + i) as u64) << 1));
@@ -277,7 +316,14 @@ impl Search<'_> {
         for end in ends {
             match end {
                 Seed::Nothing => {}
-                Seed::Multiple => self.found.multiple += usize::from(own),
+                Seed::Multiple(x) => {
+                    let near = |y: &Vec<C>| {
+                        let limit = BLURRED * (1.0 + size(y));
+                        self.family.coordinates.within(limit, &x, y)
+                    };
+                    let other = known.is_some_and(|known| !known.iter().any(near));
+                    self.found.multiple += usize::from(other);
+                }
                 Seed::Isolated(x) => isolated.push(x),
                 Seed::Free(freedom) => {
                     let found = &mut self.found;
@@ -295,7 +341,8 @@ impl Search<'_> {
 
     /// Seeds at the generic member.
     fn newton_seeds(&mut self, still: &ParameterHomotopy<'_>) {
-        for x in self.seeds(still, 1.0, true) {
+        let known = self.spanning();
+        for x in self.seeds(still, 1.0, Some(&known)) {
             match learn(&mut self.found.legwise, &self.family.coordinates, &x) {
                 true => (self.found.quiet_seeds, self.found.quiet_loops) = (0, 0),
                 false => self.found.quiet_seeds += 1,
@@ -321,10 +368,7 @@ impl Search<'_> {
         };
         let corners = [self.base.clone(), member(), member(), self.base.clone()];
         let coordinates = &self.family.coordinates;
-        let mut points: Vec<Option<Vec<C>>> = (self.found.legwise.iter())
-            .flat_map(|solutions_at_pose| solutions_at_pose.spanning_points(coordinates))
-            .map(Some)
-            .collect();
+        let mut points: Vec<Option<Vec<C>>> = self.spanning().into_iter().map(Some).collect();
         for pair in corners.windows(2) {
             let Some(homotopy) = self.family.homotopy(&pair[0], &pair[1]) else {
                 return;
@@ -354,7 +398,17 @@ impl Search<'_> {
         }
     }
 
-    /// Seeds at a corner of a loop, where these solutions are known already.
+    /// Points that show every solution known.
+    fn spanning(&self) -> Vec<Vec<C>> {
+        let coordinates = &self.family.coordinates;
+        let points = self.found.legwise.iter();
+        points
+            .flat_map(|s| s.spanning_points(coordinates))
+            .collect()
+    }
+
+    /// Seeds at a corner of a loop, where these solutions are known already. Only what is multiple with the
+    /// mechanism's `own` dimensions counts.
     fn newton_seeds_beside(
         &mut self,
         homotopy: &ParameterHomotopy<'_>,
@@ -366,7 +420,9 @@ impl Search<'_> {
         for x in points.iter().flatten() {
             learn(&mut known, coordinates, x);
         }
-        for x in self.seeds(homotopy, reach, own) {
+        let all: Option<Vec<Vec<C>>> = points.iter().cloned().collect();
+        let all = all.filter(|_| own);
+        for x in self.seeds(homotopy, reach, all.as_deref()) {
             match learn(&mut known, coordinates, &x) {
                 true => {
                     self.found.quiet_seeds = 0;

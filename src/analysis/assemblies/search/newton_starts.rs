@@ -16,8 +16,8 @@ pub(crate) enum Seed {
     Nothing,
     /// A simple isolated solution.
     Isolated(Vec<C>),
-    /// Solutions that coincide.
-    Multiple,
+    /// Solutions that coincide, or that rounding does not tell apart.
+    Multiple(Vec<C>),
     /// A set of solutions with so much freedom.
     Free(usize),
 }
@@ -88,7 +88,7 @@ pub(crate) fn newton_seeds(
     let apart = homotopy.family.coordinates.difference(&x, &beside);
     match (report.stop == Stop::Solved, apart) {
         (true, 1e-3..1.0) => Seed::Free(homotopy.freedom(zero, &x, 1e-5)),
-        (true, ..1e-3) => Seed::Multiple,
+        (true, ..1e-3) => Seed::Multiple(x),
         _ => Seed::Nothing,
     }
 }

@@ -54,16 +54,13 @@ impl ParameterHomotopy<'_> {
         largest
     }
 
-    /// Quotient of the smallest and the largest pivot of the Jacobian at a point.
+    /// Quotient of the smallest and the largest pivot of the Jacobian at a point, or the smallest where none reaches 1: all
+    /// of them may be rounding.
     pub fn regularity(&mut self, s: C, x: &[C]) -> f64 {
         self.load(s, x);
         self.here.linearise();
         let (largest, smallest) = self.here.system.pivots(&mut self.here.work);
-        if largest > 0.0 {
-            smallest / largest
-        } else {
-            0.0
-        }
+        smallest / largest.max(1.0)
     }
 
     /// How far it is: the largest change of an input, in rad or characteristic lengths.
@@ -298,10 +295,10 @@ impl crate::solve::Turning for ParameterHomotopy<'_> {
         let mut largest = 0.0f64;
         for (k, (x, y)) in x.iter().zip(y).enumerate() {
             let mut gap = x - y;
-            if c.free_joints.get(k).is_some_and(|&j| c.periodic[j]) {
-                let turns = (gap.re / std::f64::consts::TAU).round();
-                turned |= turns != 0.0;
-                gap.re -= std::f64::consts::TAU * turns;
+            if let Some(&j) = c.free_joints.get(k) {
+                let within = c.principal(j, gap.re, 0.0);
+                turned |= (within - gap.re).abs() > std::f64::consts::PI;
+                gap.re = within;
             }
             largest = largest.max(gap.norm());
         }

@@ -8,7 +8,7 @@ use nalgebra::{DMatrix, DVector};
 
 use super::homotopy::ParameterHomotopy;
 use crate::analysis::assemblies::family::{C, size};
-use crate::linear::Svd;
+use crate::linear::{CANCELLED, RANK_TOLERANCE, Svd};
 use crate::number::Number;
 
 /// Singular values this small relative to the largest may be zero.
@@ -38,11 +38,11 @@ struct Linear {
 }
 
 impl Linear {
-    /// How many singular values count beside the largest.
+    /// How many singular values count beside the largest; none if that is rounding itself.
     fn rank(&self, tolerance: f64) -> usize {
         let largest = self.values.first().copied().unwrap_or(0.0);
-        let counts = |value: &&f64| **value > tolerance * largest.max(f64::MIN_POSITIVE);
-        self.values.iter().filter(counts).count()
+        let threshold = (tolerance * largest).max(CANCELLED);
+        self.values.iter().filter(|v| **v > threshold).count()
     }
 
     /// J⁺ b with `rank` singular values.
@@ -217,7 +217,8 @@ impl<'a, 'f> Local<'a, 'f> {
     pub fn settled(&mut self, mut at: Vec<C>) -> Option<Vec<C>> {
         const STEPS: usize = 80;
         const LONGEST: f64 = 0.1;
-        const TOLERANCE: f64 = 2e-15;
+        /// What is left of equations that only touch zero when their singular values are lost.
+        const TOLERANCE: f64 = RANK_TOLERANCE * RANK_TOLERANCE;
         let mut best: Option<(f64, Vec<C>)> = None;
         let mut stale = 0;
         for _ in 0..STEPS {
@@ -237,7 +238,7 @@ impl<'a, 'f> Local<'a, 'f> {
             if error == 0.0 || stale > 8 || (stale > 2 && error < TOLERANCE) {
                 break;
             }
-            let rank = linear.rank(crate::linear::RANK_TOLERANCE);
+            let rank = linear.rank(RANK_TOLERANCE);
             let mut step = -linear.solve(&linear.residual, rank);
             let longest = step.amax();
             if longest > LONGEST {

@@ -1,0 +1,106 @@
+//! Rods stretched straight: at the limit of what is possible a few real assemblies are left of many complex ones.
+
+use linkwork::analysis::assemblies::{AssembliesReport, Fit, Wanted};
+use linkwork::ask::Question;
+use linkwork::description::Description;
+use linkwork::mechanism::Mechanism;
+use linkwork::output::{Report, text};
+use linkwork::solve::Watch;
+
+fn report(text: &str) -> AssembliesReport {
+    let mechanism = Mechanism::new(&Description::read(text).unwrap()).unwrap();
+    let report = Question::new(mechanism).assemblies(Wanted::default(), &Watch::none());
+    report.unwrap()
+}
+
+/// A bead of 0.2 m on its own x axis between two rods, `post` away from ground.
+fn bead(post: f64) -> AssembliesReport {
+    report(&format!(
+        r#"Mechanism(
+            version: 1, name: "bead between rods", convention: Modified,
+            platforms: {{ "p": Platform(home: [Tx(1)], frames: {{ "A": [Tx(0.1)], "B": [Tx(-0.1)] }}) }},
+            chains: {{ "post": Chain(base: [Tx({post:?})]) }},
+            closures: {{ "r1": Distance("ground", "p.B", 0.9), "r2": Distance("p.A", "post", 0.9) }},
+        )"#
+    ))
+}
+
+#[test]
+fn rods_stretched_straight_leave_one_assembly() {
+    let report = bead(2.0);
+    assert!(
+        matches!(report.fit, Fit::FreedomLeft(_)),
+        "{:?}",
+        report.fit
+    );
+    assert_eq!((report.real, report.assemblies[0].dimension), (1, 0));
+    // 0.9 + 0.2 + 0.9 = 2: the bead is in the middle
+    let [x, y, z] = report.assemblies[0].platforms.get("p").unwrap().position;
+    let off = (x - 1.0).abs().max(y.abs()).max(z.abs());
+    assert!(off < 1e-6, "{off}");
+    let said = text::render(&report.document());
+    let sentence = "1 assembly found, isolated at the limit of what is possible, while in general 3 freedoms left";
+    assert!(said.contains(sentence), "{said}");
+    // infinitely many complex solutions pass through it: it has no multiplicity
+    assert!(
+        !said.contains("-fold") && !said.contains("is double"),
+        "{said}"
+    );
+}
+
+#[test]
+fn a_little_slack_leaves_infinitely_many() {
+    let report = bead(1.9);
+    assert!(report.assemblies.iter().all(|a| a.multiplicity == 0));
+    assert!(report.document().answer.contains("Infinitely many"));
+}
+
+#[test]
+fn rods_as_long_as_two_planes_are_apart_leave_a_set_of_two_dimensions() {
+    // each end moves in a plane of its own, and the rod stands upright wherever it stands
+    let report = report(
+        r#"Mechanism(
+            version: 1, name: "points of two planes", convention: Modified,
+            joints: { "a": Passive(), "b": Passive(), "c": Passive(home: 0.3), "d": Passive() },
+            chains: {
+                "below": Chain(base: [Ry("90 deg")], rows: [(d: "a"), (alpha: "90 deg", d: "b")]),
+                "above": Chain(base: [Tz(1), Ry("90 deg")], rows: [(d: "c"), (alpha: "90 deg", d: "d")]),
+            },
+            closures: { "rod": Distance("below", "above", 1) },
+        )"#,
+    );
+    assert!(report.real > 0);
+    for assembly in &report.assemblies {
+        assert_eq!((assembly.multiplicity, assembly.dimension), (0, 2));
+        let [a, b, c, d] = ["a", "b", "c", "d"].map(|q| assembly.joints.get(q).unwrap());
+        assert!((a - c).abs() < 1e-5 && (b - d).abs() < 1e-5);
+    }
+    assert!(!report.document().answer.contains("isolated"));
+}
+
+#[test]
+fn bodies_that_turn_about_the_line_of_stretched_rods_are_not_isolated() {
+    // the line of the rods passes beside the origins of both bodies, which may turn about it
+    let report = report(
+        r#"Mechanism(
+            version: 1, name: "two bodies between rods", convention: Modified,
+            platforms: {
+                "p": Platform(home: [T(1, -0.2, 0)], frames: { "A": [T(0.1, 0.2, 0)], "B": [T(-0.1, 0.2, 0)] }),
+                "q": Platform(home: [T(2, -0.2, 0)], frames: { "A": [T(0.1, 0.2, 0)], "B": [T(-0.1, 0.2, 0)] }),
+            },
+            chains: { "post": Chain(base: [Tx(3)]) },
+            closures: {
+                "r1": Distance("ground", "p.B", 0.9), "r2": Distance("p.A", "q.B", 0.8), "r3": Distance("q.A", "post", 0.9),
+            },
+        )"#,
+    );
+    // with each body's turn held still, or as samples of a set of two dimensions
+    for assembly in &report.assemblies {
+        let place = |body: &str| assembly.platforms.get(body).unwrap();
+        let still = ["p", "q"].map(|body| place(body).roll_pitch_yaw[0].abs() < 1e-6);
+        assert!(
+            assembly.dimension == 2 || still == [true; 2] && report.real == 1,
+            "{assembly:?}"
+        );
+    }
+}
