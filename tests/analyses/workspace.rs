@@ -874,8 +874,10 @@ fn axes_of_a_picture_end_where_the_map_does_and_what_is_not_reached_is_left_open
     ]
     .concat();
     let report: serde_json::Value = serde_json::from_str(&linkwork(&json).1).unwrap();
-    let cells = report["cells"].as_array().unwrap().iter();
-    let reached = cells.filter(|cell| !cell["aspect"].is_null()).count();
+    let columns = report["columns"].as_array().unwrap();
+    let aspect = columns.iter().position(|name| name == "aspect").unwrap();
+    let cells = report["values"].as_array().unwrap().iter();
+    let reached = cells.filter(|cell| !cell[aspect].is_null()).count();
     assert!(pictures > 0 && reached < (135 - 20) * pictures && !svg.contains("NaN"));
     assert_eq!(svg.matches("<rect").count(), 1 + 40 * pictures + reached);
 }
