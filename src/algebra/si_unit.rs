@@ -37,6 +37,8 @@ impl SiUnit {
     pub const METRE: Self = SiUnit([0, 0, 1, 0]);
     /// A force.
     pub const NEWTON: Self = SiUnit([0, 1, 0, 0]);
+    /// A time.
+    pub const SECOND: Self = SiUnit([0, 0, 0, 1]);
     /// A moment.
     pub const NEWTON_METRE: Self = SiUnit([0, 1, 1, 0]);
 
@@ -61,6 +63,34 @@ impl SiUnit {
     /// The unit of a rate of change.
     pub fn per_second(self) -> Self {
         self.times(SiUnit([0, 0, 0, -1]))
+    }
+
+    /// The unit of a power, if its powers are still single digits.
+    pub fn powi(self, power: i32) -> Option<Self> {
+        let powers = self.0.map(|own| i32::from(own) * power);
+        let digit = |power: i32| i8::try_from(power).ok().filter(|p| p.unsigned_abs() < 10);
+        let [rad, n, m, s] = powers.map(digit);
+        Some(SiUnit([rad?, n?, m?, s?]))
+    }
+
+    /// The unit of a square root, if it has whole powers.
+    pub fn sqrt(self) -> Option<Self> {
+        let even = self.0.iter().all(|power| power % 2 == 0);
+        even.then(|| SiUnit(self.0.map(|power| power / 2)))
+    }
+
+    /// The same without angles, which are ratios of lengths: an angular velocity times an arm is in m/s.
+    pub fn without_angle(self) -> Self {
+        let [_, n, m, s] = self.0;
+        SiUnit([0, n, m, s])
+    }
+
+    /// The unit as it is written for a result: rad stands only in angles and their rates.
+    pub fn of_result(self) -> Self {
+        match self.0 {
+            [1, 0, 0, ..=0] => self,
+            _ => self.without_angle(),
+        }
     }
 
     /// The unit of a product.

@@ -18,6 +18,7 @@ pub enum Noun {
     LocalName,
     MatrixEntry,
     Identity,
+    Output,
 }
 
 words! {
@@ -107,6 +108,7 @@ impl Structure {
                 "platforms",
                 "closures",
                 "closed_forms",
+                "outputs",
             ],
             Self::Passive | Self::Actuated => &["home", "limits"],
             Self::Axes => &[

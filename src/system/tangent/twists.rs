@@ -53,7 +53,9 @@ impl<T: Number> FrameTwists<T> {
         let kinematics = Kinematics::new(dimensions, points.iter().map(|point| point.frame));
         let column = |unknown| unknowns.iter().position(|u| *u == unknown);
         let plans = points.into_iter().map(|point| {
-            let slot = kinematics.slot(point.frame).expect("the plan was made for it");
+            let slot = kinematics
+                .slot(point.frame)
+                .expect("the plan was made for it");
             let (movers, platform) = kinematics.movers(slot, &dimensions.joint_scales);
             Plan {
                 point,
