@@ -65,6 +65,17 @@ fn named(unit: SiUnit) -> String {
 }
 
 impl Measure {
+    /// The unit of its values in reports, if it has one.
+    pub fn si_unit(self) -> Option<SiUnit> {
+        match self {
+            Measure::Number | Measure::Open => None,
+            Measure::Angle => Some(SiUnit::RADIAN),
+            Measure::Length => Some(SiUnit::METRE),
+            Measure::Force => Some(SiUnit::NEWTON),
+            Measure::Moment => Some(SiUnit::NEWTON_METRE),
+        }
+    }
+
     /// What it is called: `an angle`.
     pub fn words(self) -> &'static str {
         match self {

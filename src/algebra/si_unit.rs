@@ -6,8 +6,6 @@ use std::str::FromStr;
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
 use thiserror::Error;
 
-use super::Measure;
-
 /// A unit made of rad, N, m and s, each to a whole power.
 ///
 /// It is written, printed and serialised as text: `rad`, `m`, `N·m`, `rad/s`, `m/s²`, `rad·m²`.
@@ -96,19 +94,6 @@ impl SiUnit {
     /// The unit of a product.
     pub fn times(self, other: Self) -> Self {
         SiUnit(std::array::from_fn(|i| self.0[i] + other.0[i]))
-    }
-}
-
-impl Measure {
-    /// The unit of its values in reports, if it has one.
-    pub fn si_unit(self) -> Option<SiUnit> {
-        match self {
-            Measure::Number | Measure::Open => None,
-            Measure::Angle => Some(SiUnit::RADIAN),
-            Measure::Length => Some(SiUnit::METRE),
-            Measure::Force => Some(SiUnit::NEWTON),
-            Measure::Moment => Some(SiUnit::NEWTON_METRE),
-        }
     }
 }
 
