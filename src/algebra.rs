@@ -13,6 +13,7 @@ mod parser;
 mod si_unit;
 mod symbolic;
 mod trigonometric;
+mod units;
 mod vocabulary;
 
 pub use affine::{Affine, NonAffine};
@@ -84,6 +85,11 @@ impl Expression<String> {
     /// Reads an expression. Spans count bytes of `text`.
     pub fn parse(text: &str) -> Result<Self, ParseError> {
         parser::parse(text)
+    }
+
+    /// The same where names are those of quantities, such as `top.x`, `velocity:l1` or `[left+0.5,0.2].x`.
+    pub fn parse_quantity(text: &str) -> Result<Self, ParseError> {
+        parser::parse_quantity(text)
     }
 }
 

@@ -21,6 +21,7 @@
 mod at_configuration;
 mod error;
 mod modes;
+mod quantities;
 mod ranges;
 mod remedy;
 mod singularities;
@@ -30,7 +31,7 @@ mod workspace;
 use std::sync::Arc;
 
 pub use crate::system::Value;
-pub use error::{AskError, Item, Role};
+pub use error::{AskError, Item, Role, Unmeasured};
 pub use modes::{Mode, Modes, Solved, Store};
 pub use remedy::Holdable;
 pub use sweep::Motions;
@@ -70,6 +71,7 @@ pub struct Question {
     inputs: Vec<Range>,
     outputs: Vec<String>,
     points: Vec<String>,
+    reports: Vec<String>,
     rates: Vec<(String, Value)>,
     accelerations: Vec<(String, Value)>,
     wrenches: Vec<(String, Wrench)>,
@@ -91,6 +93,7 @@ impl Question {
             inputs: Vec::new(),
             outputs: Vec::new(),
             points: Vec::new(),
+            reports: Vec::new(),
             rates: Vec::new(),
             accelerations: Vec::new(),
             wrenches: Vec::new(),
@@ -167,6 +170,13 @@ impl Question {
     /// an output, for velocities one that is followed, for a motion one whose path is traced.
     pub fn point(mut self, name: impl Into<String>) -> Self {
         self.points.push(name.into());
+        self
+    }
+
+    /// Adds quantities that motions report ([`Quantity::read`](crate::mechanism::Quantity::read)): a list such as
+    /// `transmission, velocity:left+1, reach=hypot(left.x, left.y)`, with names of the file's `outputs` too.
+    pub fn report(mut self, list: impl Into<String>) -> Self {
+        self.reports.push(list.into());
         self
     }
 

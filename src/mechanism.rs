@@ -15,8 +15,10 @@ mod names;
 mod parameters;
 mod plane;
 mod point;
+mod quantity;
 mod serial_axes;
 mod turns;
+mod value;
 mod variable;
 
 pub use configuration::{Configuration, ConfigurationRef, PlatformPose};
@@ -25,7 +27,9 @@ pub use dimensions::{ChainDimensions, ClosureDimensions, Dimensions, LinearForm,
 pub use frames::Body;
 pub use kinematics::{Kinematics, Placement};
 
-pub use point::Point;
+pub use point::{Point, PointError};
+pub use quantity::{Figure, Measured, Order, Quantity, QuantityError};
+pub use value::{Value, ValueError, number_of};
 pub use variable::Variable;
 
 pub use serial_axes::{Assignment, JointAxis, Normal, SerialAxes, Table, TableRow};
@@ -55,6 +59,7 @@ pub struct Mechanism {
     platforms: Vec<Platform>,
     closures: Vec<model::Closure>,
     closed_forms: Vec<ClosedForm>,
+    outputs: Vec<Quantity>,
     dimensions: Dimensions<f64>,
     warnings: Vec<Problem>,
 }

@@ -13,6 +13,7 @@ mod record;
 mod search;
 mod tangent;
 
+pub use crate::mechanism::{PointError, Value, ValueError};
 pub use curve::{
     ConfigurationCurve, Curve, Driven, Event, LocusCurve, LocusEnd, Monitor, MotionTracker,
     NoStart, Region, Segment, Singular, Traced, Walk, met_at, neared, settled,
@@ -22,9 +23,9 @@ pub use equations::{
     approach, independent_parts,
 };
 pub use question::{
-    Count, Demand, Drive, DriveError, ForceError, Load, PointError, Question, QuestionError, Still,
-    Value, ValueError, Verb, actuated, check_angle, check_angles, check_count, coordinate_outputs,
-    default_outputs, free_outputs, inputs_of, number_of, platform_outputs, with_coordinates,
+    Count, Demand, Drive, DriveError, Equilibrium, ForceError, Load, Question, QuestionError,
+    Still, Verb, actuated, check_angle, check_angles, check_count, coordinate_outputs,
+    default_outputs, free_outputs, inputs_of, platform_outputs, with_coordinates,
 };
 pub use record::{FormulaNames, FrameRecord, Named, PlatformRecord, infinite_if_null};
 pub use search::{

@@ -5,7 +5,7 @@ use std::fmt::{self, Display, Formatter};
 use serde::de::Error;
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
 
-use super::parser::parse_dotted;
+use super::parser::parse_quantity;
 use super::{Expression, Node, Operator};
 
 /// The precedence of the outermost operation of an expression.
@@ -133,7 +133,7 @@ impl<'de> Deserialize<'de> for Expression {
         }
         match Written::deserialize(deserializer)? {
             Written::Number(value) => Ok(Expression::number(value)),
-            Written::Text(text) => parse_dotted(&text).map_err(Error::custom),
+            Written::Text(text) => parse_quantity(&text).map_err(Error::custom),
         }
     }
 }

@@ -4,7 +4,7 @@ use std::ops::Range;
 
 use thiserror::Error;
 
-use super::{Constant, Expression, Function, Node, Operator, Unit};
+use super::{Constant, Expression, Function, Node, Operator, SiUnit, Unit};
 
 /// The dimension of a value.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
@@ -41,6 +41,10 @@ pub enum MeasureErrorKind {
     Wrong { wanted: Measure, found: Measure },
     #[error("an angle and a length are mixed")]
     Mixed,
+    #[error("{} and {} are mixed", named(*_0), named(*_1))]
+    Units(SiUnit, SiUnit),
+    #[error("`{}` takes {}, not {}", _0.word(), if _0.takes_angle() { "an angle" } else { "a plain number" }, named(*_1))]
+    Argument(Function, SiUnit),
     #[error("`{}` takes an angle, not a length", _0.word())]
     LengthAsAngle(Function),
     /// A number in rad that is more than two turns, and nothing says that rad is meant.
@@ -52,7 +56,26 @@ pub enum MeasureErrorKind {
 /// than in rad.
 const LARGEST_BARE: f64 = 2.0 * std::f64::consts::TAU;
 
+/// A unit in a sentence.
+fn named(unit: SiUnit) -> String {
+    match unit {
+        SiUnit::ONE => "a plain number".into(),
+        unit => unit.to_string(),
+    }
+}
+
 impl Measure {
+    /// The unit of its values in reports, if it has one.
+    pub fn si_unit(self) -> Option<SiUnit> {
+        match self {
+            Measure::Number | Measure::Open => None,
+            Measure::Angle => Some(SiUnit::RADIAN),
+            Measure::Length => Some(SiUnit::METRE),
+            Measure::Force => Some(SiUnit::NEWTON),
+            Measure::Moment => Some(SiUnit::NEWTON_METRE),
+        }
+    }
+
     /// What it is called: `an angle`.
     pub fn words(self) -> &'static str {
         match self {
@@ -184,7 +207,7 @@ impl<N> Expression<N> {
         }
     }
 
-    fn refused(&self, kind: MeasureErrorKind) -> MeasureError {
+    pub(super) fn refused(&self, kind: MeasureErrorKind) -> MeasureError {
         let span = self.span.clone();
         MeasureError { span, kind }
     }

@@ -89,8 +89,9 @@ pub(super) fn parse(text: &str) -> Result<Expression, ParseError> {
     read(text, false)
 }
 
-/// The same where names may have dots, as those of the components of a platform's pose have.
-pub(super) fn parse_dotted(text: &str) -> Result<Expression, ParseError> {
+/// The same where names are those of quantities: with dots, `top.x`, after a kind, `velocity:l1`, and with what stands
+/// in brackets, `[left+0.5,0.2].x`.
+pub(super) fn parse_quantity(text: &str) -> Result<Expression, ParseError> {
     read(text, true)
 }
 
@@ -221,7 +222,7 @@ impl Parser<'_> {
                 self.advance(1);
                 self.deeper(SIGN)
             }
-            Some(c) if starts_name(c) => self.name(),
+            Some(c) if starts_name(c) || self.dotted && c == '[' => self.name(),
             Some('*' | '/' | '^' | ')' | ',') | None => {
                 Err(ParseErrorKind::ExpectedOperand.at(self.here()))
             }
@@ -265,7 +266,12 @@ impl Parser<'_> {
 
     fn word(&self) -> &str {
         let rest = self.rest();
-        let ends = |c: char| !(continues_name(c) || self.dotted && c == '.');
+        let mut bracketed = false;
+        let ends = |c: char| {
+            let inside = bracketed;
+            bracketed = self.dotted && (c == '[' || inside && c != ']');
+            !(continues_name(c) || inside || self.dotted && ['.', ':', '['].contains(&c))
+        };
         &rest[..rest.find(ends).unwrap_or(rest.len())]
     }
 

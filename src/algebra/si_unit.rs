@@ -6,8 +6,6 @@ use std::str::FromStr;
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
 use thiserror::Error;
 
-use super::Measure;
-
 /// A unit made of rad, N, m and s, each to a whole power.
 ///
 /// It is written, printed and serialised as text: `rad`, `m`, `N·m`, `rad/s`, `m/s²`, `rad·m²`.
@@ -37,6 +35,8 @@ impl SiUnit {
     pub const METRE: Self = SiUnit([0, 0, 1, 0]);
     /// A force.
     pub const NEWTON: Self = SiUnit([0, 1, 0, 0]);
+    /// A time.
+    pub const SECOND: Self = SiUnit([0, 0, 0, 1]);
     /// A moment.
     pub const NEWTON_METRE: Self = SiUnit([0, 1, 1, 0]);
 
@@ -63,22 +63,37 @@ impl SiUnit {
         self.times(SiUnit([0, 0, 0, -1]))
     }
 
+    /// The unit of a power, if its powers are still single digits.
+    pub fn powi(self, power: i32) -> Option<Self> {
+        let powers = self.0.map(|own| i32::from(own) * power);
+        let digit = |power: i32| i8::try_from(power).ok().filter(|p| p.unsigned_abs() < 10);
+        let [rad, n, m, s] = powers.map(digit);
+        Some(SiUnit([rad?, n?, m?, s?]))
+    }
+
+    /// The unit of a square root, if it has whole powers.
+    pub fn sqrt(self) -> Option<Self> {
+        let even = self.0.iter().all(|power| power % 2 == 0);
+        even.then(|| SiUnit(self.0.map(|power| power / 2)))
+    }
+
+    /// The same without angles, which are ratios of lengths: an angular velocity times an arm is in m/s.
+    pub fn without_angle(self) -> Self {
+        let [_, n, m, s] = self.0;
+        SiUnit([0, n, m, s])
+    }
+
+    /// The unit as it is written for a result: rad stands only in angles and their rates.
+    pub fn of_result(self) -> Self {
+        match self.0 {
+            [1, 0, 0, ..=0] => self,
+            _ => self.without_angle(),
+        }
+    }
+
     /// The unit of a product.
     pub fn times(self, other: Self) -> Self {
         SiUnit(std::array::from_fn(|i| self.0[i] + other.0[i]))
-    }
-}
-
-impl Measure {
-    /// The unit of its values in reports, if it has one.
-    pub fn si_unit(self) -> Option<SiUnit> {
-        match self {
-            Measure::Number | Measure::Open => None,
-            Measure::Angle => Some(SiUnit::RADIAN),
-            Measure::Length => Some(SiUnit::METRE),
-            Measure::Force => Some(SiUnit::NEWTON),
-            Measure::Moment => Some(SiUnit::NEWTON_METRE),
-        }
     }
 }
 

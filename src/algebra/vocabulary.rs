@@ -129,6 +129,11 @@ impl Unit {
 }
 
 impl Function {
+    /// Whether its argument is an angle.
+    pub fn takes_angle(self) -> bool {
+        matches!(self, Self::Sin | Self::Cos | Self::Tan)
+    }
+
     /// How many arguments it takes.
     pub fn arity(self) -> usize {
         match self {

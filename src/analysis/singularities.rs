@@ -29,6 +29,7 @@ use crate::system::{
     check_angles,
 };
 use classify::Classifier;
+pub(crate) use classify::SingularityMeter;
 use outputs::{coupled, outputs_of};
 
 /// How to look for singularities.

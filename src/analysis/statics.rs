@@ -5,11 +5,11 @@ mod reactions;
 use serde::{Deserialize, Serialize};
 
 use crate::algebra::SiUnit;
-use crate::linear::{Decomposition, RANK_TOLERANCE, add, dot, norm};
-use crate::mechanism::{Configuration, Mechanism, Point};
+use crate::linear::{RANK_TOLERANCE, add, norm};
+use crate::mechanism::Mechanism;
 use crate::solve::Watch;
 use crate::system::{
-    Analysed, Closing, Coordinate, FrameTwists, Load, Moved, Neighbourhood, Question,
+    Analysed, Closing, Coordinate, Equilibrium, Load, Moved, Neighbourhood, Question,
     QuestionError, Unknown, WidestGap, check_angles,
 };
 
@@ -114,27 +114,12 @@ pub fn statics(
     let rows = near.system().rows();
     let held = question.driven_coordinates();
 
-    // Jᵀ and Sᵀ beside one another, column by column
-    let mut entries = Vec::with_capacity(unknowns.len() * (rows + held.len()));
-    for row in 0..rows {
-        let columns = tangent.jacobian.chunks_exact(rows);
-        entries.extend(columns.map(|column| column[row]));
-    }
-    for coordinate in &held {
-        let first = entries.len();
-        entries.resize(first + unknowns.len(), 0.0);
-        for (place, slope) in coordinate.slope_in(near.system(), at) {
-            entries[first + place] = slope;
-        }
-    }
-    let equations = Decomposition::of(unknowns.len(), rows + held.len(), &entries);
-    let generalised = generalised(mechanism, &near, at, &unknowns, load);
-    let opposite: Vec<f64> = generalised.iter().map(|g| -g).collect();
-    let mut forces = equations.solve(&opposite);
-    let mut left = generalised.clone();
-    for (column, force) in entries.chunks_exact(unknowns.len().max(1)).zip(&forces) {
-        add(&mut left, *force, column);
-    }
+    let Equilibrium {
+        equations,
+        generalised,
+        mut forces,
+        left,
+    } = Equilibrium::of(&near, &tangent, &held, load);
     let stresses = equations.null_space();
     let none = Load::default();
     let changes: Vec<reactions::Reactions> = (stresses.iter())
@@ -187,35 +172,6 @@ pub fn statics(
         moved: closed.moved,
         kept: closed.kept,
     }))
-}
-
-/// The work of a load for a unit of each unknown, in N·m.
-fn generalised(
-    mechanism: &Mechanism,
-    near: &Neighbourhood,
-    at: &Configuration<f64>,
-    unknowns: &[Unknown],
-    load: &Load,
-) -> Vec<f64> {
-    let points: Vec<Point> = load.wrenches.iter().map(|(point, ..)| *point).collect();
-    let twists = FrameTwists::new(mechanism.dimensions(), near.system().unknowns(), &points);
-    let placement = twists.placed(at);
-    let mut rates = vec![0.0; unknowns.len()];
-    let mut work = vec![0.0; unknowns.len()];
-    for (k, unknown) in unknowns.iter().enumerate() {
-        rates[k] = 1.0;
-        for (i, (_, force, moment)) in load.wrenches.iter().enumerate() {
-            let twist = twists.twist(i, &placement, &rates);
-            work[k] += dot(force, &twist.velocity.0) + dot(moment, &twist.omega.0);
-        }
-        rates[k] = 0.0;
-        if let Unknown::Joint(joint) = *unknown {
-            let loads = load.joints.iter().filter(|(loaded, _)| *loaded == joint);
-            let sum: f64 = loads.map(|(_, force)| force).sum();
-            work[k] += sum * mechanism.dimensions().joint_scales[joint];
-        }
-    }
-    work
 }
 
 /// The joints and platforms that forces without counterpart would move.

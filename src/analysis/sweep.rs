@@ -5,19 +5,23 @@
 //! this leads through, and each is checked to lie between the two it belongs to. So a sweep ends where
 //! its branch ends, or where branches cross, and never goes on elsewhere.
 
+mod between;
 mod circuits;
 mod follow;
+mod law;
 mod met;
 mod motion;
 mod points;
 mod rows;
 
+pub(crate) use between::Between;
 pub use circuits::{
     Branch, Circuit, CircuitsReport, CircuitsSettings, FourBarClass, JointMotion, circuits,
 };
 pub use follow::follow;
+pub use law::{Law, Pace};
 pub use met::{Met, MetKind, Passing};
-pub use motion::{Columns, KeptRows, MotionReport, MotionsReport};
+pub use motion::{Columns, Extreme, Extremum, KeptRows, MotionReport, MotionsReport};
 
 use std::ops::ControlFlow;
 
@@ -33,12 +37,14 @@ use rows::Rows;
 /// How to sweep.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SweepSettings {
-    /// Into how many equal steps the segment of the inputs is divided: rows are one more.
+    /// Into how many steps, equal in time, the segment of the inputs is divided: rows are one more.
     pub steps: usize,
     /// Whether to go round a fold, where the inputs turn back, and straight through a crossing.
     pub follow: bool,
     /// How carefully the curve is followed.
     pub continuation: Continuation,
+    /// How the inputs go through their ranges in time; rows are equal parts of it.
+    pub pace: Pace,
     /// Points whose path is wanted.
     pub points: Vec<Point>,
 }
@@ -49,6 +55,7 @@ impl Default for SweepSettings {
             steps: 100,
             follow: false,
             continuation: Continuation::default(),
+            pace: Pace::default(),
             points: Vec::new(),
         }
     }
@@ -65,6 +72,8 @@ pub struct Row<'a> {
     pub configuration: &'a Configuration<f64>,
     /// Where the traced points are, in ground, in m.
     pub points: &'a [[f64; 3]],
+    /// The quantities asked for, none where they are not determined.
+    pub quantities: &'a [Option<f64>],
     /// What is special here: what was met in this very place.
     pub special: Option<&'a MetKind>,
 }

@@ -4,12 +4,14 @@ mod accuracy;
 mod frames;
 mod jacobian;
 mod planar;
+mod plane;
+mod rods;
 
 use serde::{Deserialize, Serialize};
 
 use crate::algebra::SiUnit;
 use crate::linear::RANK_TOLERANCE;
-use crate::mechanism::{Mechanism, Point};
+use crate::mechanism::{Configuration, Mechanism, Point};
 use crate::solve::Watch;
 use crate::system::{
     Analysed, Closing, Coordinate, Drive, Motion, Moved, Neighbourhood, Question, QuestionError,
@@ -18,6 +20,7 @@ use crate::system::{
 
 use frames::Spins;
 pub use jacobian::{Axis, InputOutput};
+pub(crate) use planar::transmission;
 pub use planar::{InstantCentre, Transmission};
 
 /// How to look for the assembled configuration, and which points to follow.
@@ -275,6 +278,21 @@ pub fn velocity(
         moved: closed.moved,
         kept: closed.kept,
     }))
+}
+
+/// The input–output Jacobian of the default outputs, where the inputs determine them; `motion` is factorised at the
+/// configuration, and `held` holds what drives it.
+pub(crate) fn input_output(
+    mechanism: &Mechanism,
+    motion: &mut Motion,
+    held: &mut Neighbourhood,
+    at: &Configuration<f64>,
+) -> Option<InputOutput> {
+    let rest = held.tangent(at.clone());
+    let outputs = free_outputs(mechanism, motion.coordinates(), &spinning(held, &rest));
+    let spins = Spins::of(held, &rest);
+    (rest.motions.is_empty())
+        .then(|| jacobian::input_output(mechanism, motion, at, &outputs, &spins))
 }
 
 /// What is free although everything held stands still.

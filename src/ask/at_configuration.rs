@@ -59,19 +59,25 @@ impl Question {
     /// If the question is wrong.
     pub fn statics(&self, watch: &Watch) -> Result<Analysed<StaticsReport>, AskError> {
         let question = self.resolved()?;
+        let load = self.load_of(&question)?;
+        let settings = StaticsSettings::default();
+        statics(&question, &load, &settings, watch).map_err(AskError::Question)
+    }
+
+    /// The wrenches and loads.
+    pub(super) fn load_of(&self, question: &system::Question) -> Result<Load, AskError> {
         let mut load = Load::default();
         for (index, (frame, wrench)) in self.wrenches.iter().enumerate() {
             let loaded = match wrench {
-                Wrench::Numbers(force, moment) => load.forces(&question, frame, (*force, *moment)),
-                Wrench::Text(text) => load.wrench(&question, frame, text),
+                Wrench::Numbers(force, moment) => load.forces(question, frame, (*force, *moment)),
+                Wrench::Text(text) => load.wrench(question, frame, text),
             };
             load = loaded.map_err(Role::Wrench.loaded(index))?;
         }
         for (index, (joint, value)) in self.loads.iter().enumerate() {
-            load = (load.joint(&question, joint, value)).map_err(Role::Load.loaded(index))?;
+            load = (load.joint(question, joint, value)).map_err(Role::Load.loaded(index))?;
         }
-        let settings = StaticsSettings::default();
-        statics(&question, &load, &settings, watch).map_err(AskError::Question)
+        Ok(load)
     }
 
     /// What is locked.

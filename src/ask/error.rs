@@ -4,6 +4,7 @@ use thiserror::Error;
 
 use crate::analysis::assemblies::AssembliesError;
 use crate::description::{count, listed};
+use crate::mechanism::QuantityError;
 use crate::system::{DriveError, ForceError, PointError, QuestionError};
 
 /// What a name or a value is in a question.
@@ -35,6 +36,8 @@ pub enum Role {
     Wrench,
     /// A load on a joint.
     Load,
+    /// Quantities that a motion reports.
+    Quantity,
 }
 
 /// A part of a question: its role and its index among those of that role, from 0.
@@ -149,6 +152,29 @@ pub enum AskError {
         /// What is wrong with it.
         error: PointError,
     },
+    /// A quantity is wrong.
+    #[error("{error}")]
+    Quantity {
+        /// Which list it stands in.
+        item: Item,
+        /// The expression.
+        text: String,
+        /// What is wrong with it.
+        error: Box<QuantityError>,
+    },
+    /// A quantity cannot be known on the motion.
+    #[error("`{quantity}` is not known: {error}")]
+    Unmeasured {
+        /// Which list it stands in.
+        item: Item,
+        /// Its name.
+        quantity: String,
+        /// Why.
+        error: Unmeasured,
+    },
+    /// The time of a motion is none.
+    #[error("a motion takes a time above zero, not {0} s")]
+    Duration(f64),
     /// A range is given to one coordinate twice.
     #[error("`{name}` has two ranges")]
     Twice {
@@ -306,6 +332,25 @@ pub enum AskError {
     Interrupted,
 }
 
+/// Why a quantity cannot be known on a motion.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+pub enum Unmeasured {
+    /// It depends on what is driven, and nothing is.
+    #[error("it depends on how the inputs move, and the motion has none")]
+    NoInput,
+    /// The coordinate is not held, so that no force holds it.
+    #[error("`{name}` is not held, so that no force holds it")]
+    NotHeld {
+        /// The coordinate.
+        name: String,
+        /// What is held or moved as an input.
+        held: Vec<String>,
+    },
+    /// Nothing is loaded.
+    #[error("without a load all forces are zero")]
+    NoLoad,
+}
+
 impl AskError {
     /// The part of the question that is wrong, if it is one.
     pub fn item(&self) -> Option<Item> {
@@ -317,6 +362,8 @@ impl AskError {
             | AskError::Motionless { item, .. }
             | AskError::UnknownOutput { item, .. }
             | AskError::Point { item, .. }
+            | AskError::Quantity { item, .. }
+            | AskError::Unmeasured { item, .. }
             | AskError::Twice { item, .. }
             | AskError::EmptyRange { item, .. }
             | AskError::OutsideLimits { item, .. }

@@ -93,6 +93,15 @@ impl Question {
                 most: MOST_STARTS,
             });
         }
+        Ok(SingularitiesSettings {
+            seed: self.seed,
+            outputs: self.asked_outputs()?,
+            ..settings.clone()
+        })
+    }
+
+    /// The outputs that are asked for.
+    pub(super) fn asked_outputs(&self) -> Result<Vec<Lock>, AskError> {
         let question = system::Question::new(&self.mechanism);
         let named = self.outputs.iter().enumerate().map(|(index, name)| {
             if let Ok((coordinate, _)) = question.value(name, "home") {
@@ -109,11 +118,7 @@ impl Question {
         });
         let points = self.asked_points()?.into_iter();
         let points = points.map(|point| Ok(Lock::Point(point)));
-        Ok(SingularitiesSettings {
-            seed: self.seed,
-            outputs: named.chain(points).collect::<Result<_, _>>()?,
-            ..settings.clone()
-        })
+        named.chain(points).collect()
     }
 
     /// The question with the inputs held at values, which must leave no freedom, and what it holds without them. Where

@@ -1,18 +1,22 @@
 //! Motions and circuits.
 
-use std::f64::consts::{FRAC_PI_2, TAU};
+use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
+use super::quantities::{Extremes, Meter, Metered};
 use super::ranges::still;
 use super::{AskError, Question, Role};
+use crate::algebra::SiUnit;
 use crate::analysis::assemblies::{AssemblySolver, Wanted};
 use crate::analysis::sweep::{
-    CircuitsReport, CircuitsSettings, Columns, KeptRows, MotionReport, MotionsReport, Row, Sink,
-    SweepReport, SweepSettings, circuits, follow, sweep,
+    CircuitsReport, CircuitsSettings, Columns, Extremum, KeptRows, MotionReport, MotionsReport,
+    Row, Sink, SweepReport, SweepSettings, circuits, follow, sweep,
 };
 use crate::description;
-use crate::mechanism::{Configuration, Mechanism, Point, PoseCoordinate};
+use crate::mechanism::{Configuration, Mechanism, Point, PoseCoordinate, Quantity, Variable};
 use crate::solve::{Stage, Watch};
-use crate::system::{self, Coordinate, Driven, Held, QuestionError, check_count, sampling_range};
+use crate::system::{
+    self, Coordinate, Driven, Held, Load, Lock, QuestionError, check_count, sampling_range,
+};
 
 /// Steps made at most.
 const MOST_STEPS: usize = 1_000_000_000;
@@ -23,6 +27,11 @@ pub struct Motions<'q> {
     mechanism: &'q Mechanism,
     held: Held<f64>,
     settings: SweepSettings,
+    /// With the inputs held.
+    question: system::Question<'q>,
+    quantities: Vec<Quantity>,
+    load: Load,
+    outputs: Vec<Lock>,
     /// The inputs; none where the whole curve is followed.
     pub inputs: Vec<Driven>,
     /// Where each begins, with the number of its mode if one was asked for.
@@ -37,7 +46,36 @@ impl Motions<'_> {
 
     /// What the columns of rows are.
     pub fn columns(&self) -> Columns {
-        Columns::new(self.mechanism, self.points())
+        Columns::new(self.mechanism, self.points(), self.quantities())
+    }
+
+    /// What the columns of quantities are: the time if any is asked for and inputs move, then these.
+    pub fn quantities(&self) -> Vec<Variable> {
+        let of = |quantity: &Quantity| Variable::new(&quantity.name, quantity.unit);
+        let quantities: Vec<Variable> = self.quantities.iter().map(of).collect();
+        let timed = !quantities.is_empty() && !self.inputs.is_empty();
+        let time = timed.then(|| Variable::new("time", SiUnit::SECOND));
+        time.into_iter().chain(quantities).collect()
+    }
+
+    /// The part of the time that is gone where the inputs are.
+    fn time(&self, at: &Configuration<f64>) -> f64 {
+        let joint = |input: &&Driven| matches!(input.coordinate, Coordinate::Joint(_));
+        let measure = self.inputs.iter().find(joint).or(self.inputs.first());
+        let part = measure.map_or(0.0, |input| {
+            let way = input.to - input.from;
+            let gone = input.coordinate.of(at) - input.from;
+            match input.coordinate {
+                Coordinate::Joint(_) => gone / way,
+                // an angle of a platform is told modulo a turn
+                of if of.is_angle(self.mechanism) => {
+                    let middle = 0.5 * way;
+                    (middle + (gone - middle + PI).rem_euclid(TAU) - PI) / way
+                }
+                _ => gone / way,
+            }
+        });
+        self.settings.pace.law.inverse(part.clamp(0.0, 1.0))
     }
 
     /// Moves from every start and keeps no more than `most` rows of each motion. All rows go to `sink` as they are
@@ -56,12 +94,14 @@ impl Motions<'_> {
                 rows.take(&columns, row);
                 sink(*mode, row);
             };
-            let sweep = self.run(start, &mut take, watch);
+            let (sweep, extremes) = self.measured(start, &mut take, watch);
             let interrupted = sweep.interrupted;
             motions.push(MotionReport {
                 mode: *mode,
                 sentence: String::new(),
                 sweep,
+                pace: (!self.inputs.is_empty()).then_some(self.settings.pace),
+                extremes,
                 columns: columns.variables().to_vec(),
                 values: rows.finished(),
             });
@@ -77,6 +117,59 @@ impl Motions<'_> {
 
     /// Moves from one of the starts. Rows go to `sink` as they are found.
     pub fn run(&self, start: &Configuration<f64>, sink: &mut Sink, watch: &Watch) -> SweepReport {
+        self.measured(start, sink, watch).0
+    }
+
+    /// The same with the extremes of the quantities, which are sought between rows too.
+    fn measured(
+        &self,
+        start: &Configuration<f64>,
+        sink: &mut Sink,
+        watch: &Watch,
+    ) -> (SweepReport, Vec<Extremum>) {
+        if self.quantities.is_empty() {
+            return (self.moved(start, sink, watch), Vec::new());
+        }
+        let metered = Metered {
+            quantities: &self.quantities,
+            question: &self.question,
+            inputs: &self.inputs,
+            pace: self.settings.pace,
+            load: &self.load,
+            outputs: &self.outputs,
+        };
+        let mut meter = Meter::new(metered, start);
+        let mut extremes = Extremes::new(self.quantities.len());
+        let timed = !self.inputs.is_empty();
+        let mut values = Vec::new();
+        let steps = self.settings.steps as f64;
+        let mut measured = |row: &Row| {
+            let at = row.configuration;
+            let time = row
+                .step
+                .map_or_else(|| self.time(at), |step| step as f64 / steps);
+            let found = meter.read(at, time);
+            extremes.take(at, found);
+            values.clear();
+            values.extend(timed.then_some(Some(time * self.settings.pace.duration)));
+            values.extend_from_slice(found);
+            sink(&Row {
+                quantities: &values,
+                ..*row
+            });
+        };
+        let report = self.moved(start, &mut measured, watch);
+        let found = extremes.located(
+            &self.quantities,
+            self.mechanism,
+            (&self.held, &self.inputs),
+            &mut meter,
+            &|at| self.time(at),
+        );
+        (report, found)
+    }
+
+    fn moved(&self, start: &Configuration<f64>, sink: &mut Sink, watch: &Watch) -> SweepReport {
         let Motions {
             mechanism,
             held,
@@ -132,6 +225,7 @@ impl Question {
                 });
             }
         }
+        let posed = question.clone();
         // everything but the inputs stands still; where none is given, the freedom is let go
         let held = match inputs.is_empty() {
             false => {
@@ -144,13 +238,22 @@ impl Question {
                 question.with_still(self.one_freedom()?.held())
             }
         };
+        let duration = settings.pace.duration;
+        if !(duration > 0.0 && duration.is_finite()) {
+            return Err(AskError::Duration(duration));
+        }
         let settings = SweepSettings {
             points: [&settings.points[..], &self.asked_points()?].concat(),
             ..settings.clone()
         };
+        let quantities = self.quantities(&posed, &settings.points)?;
         Ok(Motions {
             mechanism,
             held,
+            quantities,
+            load: self.load_of(&posed)?,
+            outputs: self.asked_outputs()?,
+            question: posed,
             settings,
             inputs,
             starts: self.starts(&question, watch)?,

@@ -3,7 +3,8 @@
 use std::path::PathBuf;
 
 use clap::Args;
-use linkwork::analysis::sweep::{Row, SweepSettings};
+use clap::builder::TypedValueParser;
+use linkwork::analysis::sweep::{Law, Pace, Row, SweepSettings};
 use linkwork::ask::{Mode, Question, Role};
 use linkwork::output::Report;
 use linkwork::output::csv::Csv;
@@ -28,6 +29,7 @@ use super::{Answer, Refusal, lines, style};
 #[command(after_help = "Examples:\n  \
     linkwork sweep mechanisms/four_bar.ron --input theta1=0deg..360deg --steps 36\n  \
     linkwork sweep mechanisms/four_bar.ron --input theta1=0deg..360deg --of left+0.5,0.2 --format csv\n  \
+    linkwork sweep mechanisms/four_bar.ron --input theta1=0deg..360deg --report transmission,velocity:phi1\n  \
     linkwork sweep mechanisms/three_rps.ron --input l1=0.6..0.8 --input l2=0.6..0.7 --mode 3\n  \
     linkwork sweep mechanisms/four_bar.ron --input theta1=60deg..90deg --guess phi1=\"-130 deg\"\n  \
     linkwork sweep mechanisms/slider_crank.ron --follow --svg slider.svg\n  \
@@ -60,14 +62,46 @@ pub struct Sweep {
     /// Trace a frame's origin, or a point beside it in its axes, e.g. --of left+0.5,0.2
     #[arg(long, value_name = "FRAME[+X,Y,Z]")]
     of: Vec<String>,
+    /// Report quantities, e.g. --report transmission,velocity:left+1,"atan2(left.y, left.x)": expressions over joints,
+    /// coordinates of points, rates and forces; without it the `outputs` of the file
+    #[arg(
+        long,
+        value_name = "QUANTITIES",
+        conflicts_with = "circuits",
+        allow_hyphen_values = true
+    )]
+    report: Vec<String>,
+    /// The law by which the inputs go through their ranges; rows are equal parts of the time
+    #[arg(long, value_name = "LAW", default_value = "constant", value_parser = law())]
+    law: Law,
+    /// The time that takes, in s
+    #[arg(long, value_name = "SECONDS", default_value_t = Pace::default().duration)]
+    #[arg(allow_negative_numbers = true)]
+    duration: f64,
+    /// Force in N and moment in N·m that a reported `force:` balances, as for `linkwork statics`
+    #[arg(
+        long,
+        value_name = "FRAME[+X,Y,Z]=Fx,Fy,Fz[,Mx,My,Mz]",
+        allow_hyphen_values = true
+    )]
+    wrench: Vec<Assignment>,
+    /// Force in N or moment in N·m along a joint variable, e.g. --load phi1=2
+    #[arg(long, value_name = "JOINT=FORCE")]
+    load: Vec<Assignment>,
     #[command(flatten)]
     search: Search,
     /// How to write the answer
     #[arg(long, value_name = "FORMAT", default_value = "text", value_parser = with_rows())]
     format: Format,
-    /// Draw the traced paths, or else the joints over the input, to a file
+    /// Draw the traced paths and the quantities, or else the joints over the input, to a file
     #[arg(long, value_name = "FILE")]
     svg: Option<PathBuf>,
+}
+
+/// The laws by their names.
+fn law() -> impl clap::builder::TypedValueParser<Value = Law> {
+    let words = clap::builder::PossibleValuesParser::new(Law::ALL.map(Law::word));
+    words.map(|word| Law::from_word(&word).unwrap_or(Law::Constant))
 }
 
 /// Rows kept at most.
@@ -81,6 +115,14 @@ impl Sweep {
         self.search.pose(&mut posed)?;
         posed.ranges(Ranges::Input, &self.input)?;
         posed.names(Role::Point, "--of", &self.of, Question::point);
+        posed.names(Role::Quantity, "--report", &self.report, Question::report);
+        posed.values(
+            Role::Wrench,
+            "--wrench",
+            &self.wrench,
+            Question::wrench_text,
+        );
+        posed.values(Role::Load, "--load", &self.load, Question::load);
         posed.mode(self.mode);
         if self.all_modes {
             posed.ask_with(|question| question.mode(Mode::All));
@@ -99,11 +141,16 @@ impl Sweep {
         let settings = SweepSettings {
             steps: self.steps,
             follow: self.follow,
+            pace: Pace {
+                law: self.law,
+                duration: self.duration,
+            },
             ..SweepSettings::default()
         };
         let all = posed.ask(|question, watch| question.motions(&settings, watch))?;
         let (mechanism, columns) = (&*posed.loaded.mechanism, all.columns());
-        let mut picture = Picture::new(mechanism, &all.inputs, all.points());
+        let quantities = all.quantities();
+        let mut picture = Picture::new(mechanism, &all.inputs, all.points(), &quantities);
         let out = Lines::new(self.format == Format::Csv);
         let mut csv = Csv::new(out, row_columns(&columns)).map_err(unwritten)?;
         let mut sink = |mode: Option<usize>, row: &Row| {

@@ -3,14 +3,16 @@
 
 pub mod question;
 
-use linkwork::ask::{AskError, Role};
+use linkwork::ask::{AskError, Role, Unmeasured};
 use linkwork::description::{count, listed};
 use linkwork::mechanism::{self, Mechanism};
 use linkwork::output::complaint::{Complaint, Given, Part};
 use linkwork::output::quantity::number;
 use linkwork::system::QuestionError;
 
-use super::words::question::{driven_complaint, load_complaint, meant, no_point, quoted};
+use super::words::question::{
+    driven_complaint, load_complaint, meant, no_point, no_quantity, quoted,
+};
 
 /// What ranges are for, which decides the words.
 #[derive(Clone, Copy, PartialEq, Eq)]
@@ -85,6 +87,20 @@ pub fn complaint(
             }))
         }
         AskError::Point { error, .. } => no_point(mechanism, error),
+        AskError::Quantity { text, error, .. } => no_quantity(mechanism, text, error),
+        AskError::Unmeasured { error, .. } => match error {
+            Unmeasured::NoInput => said.label("nothing moves").help(
+                "move an input, e.g. --input NAME=0deg..360deg, or report positions and angles only",
+            ),
+            Unmeasured::NotHeld { held, .. } => said.label("not held").help(match held.is_empty() {
+                true => "forces are those of inputs and of what is held".into(),
+                false => format!("forces that can be reported are those that hold {}", listed(held)),
+            }),
+            Unmeasured::NoLoad => said
+                .label("no load")
+                .help("give a load with --wrench FRAME=Fx,Fy,Fz or --load JOINT=FORCE"),
+        },
+        AskError::Duration(_) => said.help("give the time in s, e.g. --duration 2"),
         AskError::EmptyRange { name, .. } => said.label("empty").at(Part::WholeValue).help(
             match ranged {
                 Ranged::Input => {

@@ -20,7 +20,8 @@ pub(super) fn check(description: &Description, problems: &mut Vec<Problem>) {
     let frames = description.platforms.iter();
     let frames = frames.flat_map(|p| names(Noun::PlatformFrame, &p.value.frames));
     let labels = names(Noun::Closure, &description.closures)
-        .chain(names(Noun::ClosedForm, &description.closed_forms));
+        .chain(names(Noun::ClosedForm, &description.closed_forms))
+        .chain(names(Noun::Output, &description.outputs));
     for (noun, name) in labels.chain(frames) {
         check_not_empty(noun, name, problems);
     }

@@ -19,6 +19,7 @@ pub enum Noun {
     LocalName,
     MatrixEntry,
     Identity,
+    Output,
 }
 
 words! {
@@ -108,6 +109,7 @@ impl Structure {
                 "platforms",
                 "closures",
                 "closed_forms",
+                "outputs",
             ],
             Self::Passive | Self::Actuated => &["home", "limits"],
             Self::Axes => &[

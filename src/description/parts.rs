@@ -56,6 +56,8 @@ pub struct Description {
     pub closures: Vec<Named<ClosureDescription>>,
     /// Formulas to be checked against the chains.
     pub closed_forms: Vec<Named<ClosedFormDescription>>,
+    /// Quantities of interest, over joints, coordinates of points, rates and forces.
+    pub outputs: Vec<Named<Entry>>,
 }
 
 words! {

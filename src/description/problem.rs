@@ -56,6 +56,8 @@ pub enum Scope {
     ParametersAndJoints,
     /// Parameters, joint variables and the local names of a closed form.
     ClosedForm,
+    /// Parameters, joint variables, coordinates of points, rates, forces and figures.
+    Outputs,
 }
 
 /// What is wrong, said in one sentence without a full stop. Lengths are in m, angles in rad.

@@ -107,6 +107,7 @@ impl Reader {
             platforms: self.named(f, "platforms", Noun::Platform, Self::platform),
             closures: self.named(f, "closures", Noun::Closure, Self::closure),
             closed_forms: self.named(f, "closed_forms", Noun::ClosedForm, Self::closed_form),
+            outputs: self.named(f, "outputs", Noun::Output, Self::quantity),
         })
     }
 

@@ -102,7 +102,7 @@ impl<T: Serialize> Serialize for Bare<'_, T> {
 impl Serialize for Description {
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
         // A variant is named in every layout, a structure is not.
-        fields!(serializer.serialize_struct_variant("File", 0, "Mechanism", 10),
+        fields!(serializer.serialize_struct_variant("File", 0, "Mechanism", 11),
             "version": &VERSION, if true;
             "name": &self.name, if true;
             "source": &Bare(&self.source), if self.source.is_some();
@@ -113,6 +113,7 @@ impl Serialize for Description {
             "platforms": &Map(&self.platforms), if !self.platforms.is_empty();
             "closures": &Map(&self.closures), if !self.closures.is_empty();
             "closed_forms": &Map(&self.closed_forms), if !self.closed_forms.is_empty();
+            "outputs": &Map(&self.outputs), if !self.outputs.is_empty();
         )
     }
 }

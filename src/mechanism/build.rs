@@ -3,6 +3,7 @@
 mod closed_form;
 mod closures;
 mod entries;
+mod outputs;
 mod parameters;
 
 use std::collections::HashSet;
@@ -143,6 +144,7 @@ impl Mechanism {
             platforms,
             closures,
             closed_forms,
+            outputs: Vec::new(),
             dimensions: super::Dimensions::empty(),
             warnings: Vec::new(),
         };
@@ -150,6 +152,7 @@ impl Mechanism {
         if !builder.problems.iter().any(refused) {
             mechanism.infer_kinds();
             builder.check_joint_units(description, &mechanism.joints);
+            mechanism.outputs = builder.outputs(description, &mechanism);
             inspect::inspect(&mechanism, description, &mut builder.problems);
         }
         if !builder.problems.iter().any(refused) {

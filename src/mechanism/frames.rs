@@ -7,7 +7,7 @@ use super::kinematics::Kinematics;
 use super::model::{
     Chain, ClosedForm, Closure, Formula, Joint, JointKind, Parameter, Platform, Row, Symbol,
 };
-use super::{Dimensions, Frame, Mechanism};
+use super::{Dimensions, Frame, Mechanism, Quantity};
 use crate::algebra::Affine;
 use crate::description::{GROUND, Problem};
 use crate::geometry::Pose;
@@ -73,6 +73,11 @@ impl Mechanism {
     /// The closed forms, in the order of the file.
     pub fn closed_forms(&self) -> &[ClosedForm] {
         &self.closed_forms
+    }
+
+    /// The quantities that the file names, in its order.
+    pub fn outputs(&self) -> &[Quantity] {
+        &self.outputs
     }
 
     /// Warnings: peculiarities that do not prevent an analysis.

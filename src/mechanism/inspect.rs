@@ -59,7 +59,8 @@ fn unused(mechanism: &Mechanism, description: &Description, problems: &mut Vec<P
     });
     let platform_homes = description.platforms.iter();
     let platform_homes = platform_homes.flat_map(|p| p.value.home.iter().flat_map(|d| d.entries()));
-    let evaluated: HashSet<&str> = (homes_and_limits.chain(platform_homes))
+    let outputs = description.outputs.iter().map(|output| &output.value);
+    let evaluated: HashSet<&str> = (homes_and_limits.chain(platform_homes).chain(outputs))
         .flat_map(|entry| entry.expression.names().map(|(name, _)| name.as_str()))
         .collect();
     for (i, named) in description.parameters.iter().enumerate() {

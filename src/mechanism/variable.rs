@@ -38,9 +38,9 @@ impl Variable {
             .collect()
     }
 
-    /// The poses of its platforms: position and quaternion.
+    /// The poses of its platforms: position, quaternion, and roll, pitch and yaw.
     pub fn poses(mechanism: &Mechanism) -> Vec<Self> {
-        const PARTS: [(&str, SiUnit); 7] = [
+        const PARTS: [(&str, SiUnit); 10] = [
             ("x", SiUnit::METRE),
             ("y", SiUnit::METRE),
             ("z", SiUnit::METRE),
@@ -48,6 +48,9 @@ impl Variable {
             ("qx", SiUnit::ONE),
             ("qy", SiUnit::ONE),
             ("qz", SiUnit::ONE),
+            ("roll", SiUnit::RADIAN),
+            ("pitch", SiUnit::RADIAN),
+            ("yaw", SiUnit::RADIAN),
         ];
         let platforms = mechanism.platforms().iter();
         let parts =

@@ -11,7 +11,7 @@ use crate::description::{count, listed};
 impl Report for StaticsReport {
     fn document(&self) -> Document {
         let gap = closing::given(self.given_gap.as_ref(), self.kept);
-        let loads = Section::new("Loads, at the frame's origin").table(loads(self));
+        let loads = Section::new("Loads").table(loads(self));
         let on_joints = Section::new("Loads on joints").table(forces(&self.joint_loads));
         let held =
             Section::new("Held, with the force that holds it").table(forces(&self.actuators));
@@ -102,11 +102,22 @@ fn loads(report: &StaticsReport) -> TableOf<&AppliedWrench> {
 }
 
 fn forces(forces: &[Force]) -> TableOf<&Force> {
-    Table::of(forces)
+    let table = Table::of(forces)
         .words("name", |force| &force.name)
         .numbers("force", |force| {
             Cell::quantity(force.force, force.unit).starred(!force.unique)
-        })
+        });
+    // a slide is a cylinder, a coordinate of a platform is none
+    let slides = |force: &Force| force.unit == SiUnit::NEWTON && !force.name.contains('.');
+    match forces.iter().any(slides) {
+        true => table.words("", move |force| match force.force {
+            _ if !slides(force) => "",
+            sense if sense > 0.0 => "pushes",
+            sense if sense < 0.0 => "pulls",
+            _ => "",
+        }),
+        false => table,
+    }
 }
 
 fn reactions(reactions: &[Reaction], length: f64) -> TableOf<&Reaction> {

@@ -9,9 +9,12 @@ mod words;
 pub use picture::Picture;
 
 use super::document::{Cell, Document, Section, Table};
+use super::quantity::quantity;
 use super::report::Report;
 use crate::algebra::SiUnit;
-use crate::analysis::sweep::{Columns, MetKind, MotionReport, MotionsReport, Row};
+use crate::analysis::sweep::{
+    Columns, Extreme, Extremum, MetKind, MotionReport, MotionsReport, Row,
+};
 use crate::mechanism::Variable;
 use words::sentence;
 
@@ -25,6 +28,8 @@ impl Report for MotionsReport {
             [one] => {
                 let (mode, sentence) = (mode(one), sentence(&one.sweep));
                 let document = Document::new(&self.mechanism, mode + &sentence);
+                let document = document.notes(words::paced(one));
+                let document = document.section(extremes(one));
                 let document = document.sections(words::met(one)).section(rows(one));
                 document.method(words::work(&one.sweep))
             }
@@ -37,6 +42,7 @@ impl Report for MotionsReport {
                 let sections = several.iter().map(|motion| {
                     let section = Section::new(mode(motion).trim_end_matches(": "));
                     let section = section.text(sentence(&motion.sweep));
+                    let section = section.list(words::paced(motion)).section(extremes(motion));
                     let met = words::met(motion).into_iter();
                     let section = met.fold(section, Section::section);
                     section
@@ -67,6 +73,40 @@ fn mode(motion: &MotionReport) -> String {
     mode.unwrap_or_default()
 }
 
+/// The least and greatest values of the quantities, and where they are.
+fn extremes(motion: &MotionReport) -> Section {
+    let sides: [(&str, fn(&Extremum) -> &Option<Extreme>); 2] =
+        [("least", |of| &of.least), ("greatest", |of| &of.greatest)];
+    // without inputs the first joint says where
+    let driven: Vec<(&str, SiUnit)> = match &motion.sweep.inputs[..] {
+        [] => (motion.columns.get(1).iter().take(1))
+            .map(|of| (of.name.as_str(), of.unit))
+            .collect(),
+        inputs => inputs
+            .iter()
+            .map(|input| (input.name.as_str(), input.unit))
+            .collect(),
+    };
+    let table = Table::of(&motion.extremes).words("quantity", |of| &of.name);
+    let table = sides.into_iter().fold(table, |table, (word, side)| {
+        let table = table.words(word, move |of| match side(of) {
+            Some(found) => quantity(found.value, of.unit),
+            None => "not determined".into(),
+        });
+        driven
+            .iter()
+            .enumerate()
+            .fold(table, |table, (i, &(name, unit))| {
+                table.numbers(&format!("at {name}"), move |of| {
+                    let found = side(of).as_ref()?;
+                    let place = found.inputs.get(i).or(found.joints.first());
+                    place.map(|x| Cell::quantity(*x, unit))
+                })
+            })
+    });
+    Section::new("Extremes").table(table)
+}
+
 /// Some of the rows of a motion.
 fn rows(motion: &MotionReport) -> Section {
     /// Rows shown, but for the last.
@@ -78,7 +118,8 @@ fn rows(motion: &MotionReport) -> Section {
     let shown = shown.filter(|(i, _)| i.is_multiple_of(every) || *i == last);
     // quaternions are for programs
     let columns = motion.columns.iter().enumerate().skip(1);
-    let columns = columns.filter(|(_, of)| of.unit != SiUnit::ONE);
+    let places = motion.columns.len() - motion.extremes.len();
+    let columns = columns.filter(|(i, of)| of.unit != SiUnit::ONE || *i >= places);
     let steps = Table::of(shown.map(|(_, row)| row)).words("step", |row| row[0]);
     let table = columns.fold(steps, |table, (i, of)| {
         table.numbers(&of.name, |row| row[i].map(|x| Cell::quantity(x, of.unit)))

@@ -1,31 +1,29 @@
 mod count;
 mod demand;
 mod drive;
+mod equilibrium;
 mod error;
 mod forces;
 mod held;
 mod outputs;
-mod point;
 mod spins;
-mod value;
 
 pub use count::{Count, check_angle, check_angles, check_count};
 pub use demand::{Demand, Verb};
 pub use drive::{Drive, DriveError};
+pub use equilibrium::Equilibrium;
 pub use error::QuestionError;
 pub use forces::{ForceError, Load};
 pub use outputs::{
     actuated, coordinate_outputs, default_outputs, free_outputs, inputs_of, platform_outputs,
 };
-pub use point::PointError;
 pub use spins::Still;
-pub use value::{Value, ValueError, number as number_of};
 
 use super::equations::System;
 use crate::description::{Role, nearest};
 use crate::geometry::{Pose, RollPitchYaw};
 use crate::linear::Factorable;
-use crate::mechanism::{Configuration, Mechanism, PlatformPose, PoseCoordinate};
+use crate::mechanism::{Configuration, Mechanism, PlatformPose, PoseCoordinate, Value};
 use crate::system::{Coordinate, Held, HeldPlatform};
 use demand::Target;
 

@@ -11,6 +11,7 @@ mod gimbal_lock;
 mod lengths;
 mod mobility;
 mod modes;
+mod quantities;
 mod rank;
 mod reports;
 mod singularities;

@@ -886,6 +886,26 @@ fn grashof([l0, l1, l2, l3]: [f64; 4]) -> FourBarClass {
     }
 }
 
+/// A 5-bar whose cranks are geared to turn against one another.
+const GEARED: &str = r#"Mechanism(version: 1, name: "geared", convention: Modified,
+    joints: { "crank": Actuated(home: "60 deg"), "p": Passive(home: "0 deg"), "q": Passive(home: "60 deg") },
+    chains: {
+        "left": Chain(rows: [(theta: "crank"), (a: 1, theta: "p")], tip: [Tx(3)]),
+        "right": Chain(base: [Tx(2)], rows: [(theta: "180 deg - crank"), (a: 1, theta: "q")], tip: [Tx(3)]),
+    },
+    closures: { "pin": Revolute("left", "right") },
+)"#;
+
+#[test]
+fn a_geared_five_bar_is_no_four_bar() {
+    let mechanism = Mechanism::new(&Description::read(GEARED).unwrap()).unwrap();
+    let report = ask::Question::new(mechanism)
+        .circuits(&Watch::none())
+        .unwrap();
+    assert!(report.circuits.iter().all(|circuit| circuit.whole));
+    assert_eq!(report.class, Some(FourBarClass::GearedFiveBar));
+}
+
 #[test]
 fn the_class_of_a_four_bar_follows_from_its_circuits_and_agrees_with_grashof() {
     let mut classes = Vec::new();

@@ -1,8 +1,12 @@
 //! Frames that other parts of a file refer to, when they are called otherwise or stand elsewhere.
 
+use std::convert::Infallible;
+use std::ops::Range;
+
 use crate::description::{
     ChainDescription, Description, Displacement, Named, Spanned, first_free, place_of,
 };
+use crate::mechanism::PoseCoordinate;
 
 /// What stands for a frame in the new file: a frame and a displacement from it.
 pub(super) struct Substitute {
@@ -36,9 +40,13 @@ pub(super) fn exchange(
     let closures = description.closures.iter().flat_map(|c| &c.value.frames);
     let forms = description.closed_forms.iter();
     let forms = forms.flat_map(|form| form.value.of.iter().chain(&form.value.relative_to));
-    for frame in closures.chain(forms) {
-        if !wanted.contains(&frame.value) {
-            wanted.push(frame.value.clone());
+    let outputs = description.outputs.iter();
+    let outputs = outputs.flat_map(|output| output.value.expression.names());
+    let outputs = outputs.map(|(name, _)| &name[frame_in(name)]);
+    let frames = closures.chain(forms).map(|frame| frame.value.as_str());
+    for frame in frames.chain(outputs) {
+        if !wanted.iter().any(|known| known == frame) {
+            wanted.push(frame.to_owned());
         }
     }
     for frame in wanted {
@@ -75,7 +83,32 @@ pub(super) fn exchange(
         let frames = form.value.of.iter_mut().chain(&mut form.value.relative_to);
         frames.for_each(|frame| new_name(&mut frame.value));
     }
+    for output in &mut description.outputs {
+        let exchanged = output.value.expression.try_resolve(|name, _| {
+            let (place, mut name) = (frame_in(name), name.clone());
+            let mut frame = name[place.clone()].to_owned();
+            new_name(&mut frame);
+            name.replace_range(place, &frame);
+            Ok::<String, Infallible>(name)
+        });
+        output.value.expression = exchanged.expect("every name is kept or exchanged");
+    }
     renamed
+}
+
+/// Where the name of a quantity, such as `velocity:[left+1].x`, names a frame, if it does.
+fn frame_in(name: &str) -> Range<usize> {
+    let start = name.find(':').map_or(0, |colon| colon + 1);
+    if let Some(inside) = name[start..].strip_prefix('[') {
+        let end = inside.find(['+', ']']).unwrap_or(inside.len());
+        return start + 1..start + 1 + end;
+    }
+    match name.rsplit_once('.') {
+        Some((frame, word)) if PoseCoordinate::from_word(word).is_some() && frame.len() > start => {
+            start..frame.len()
+        }
+        _ => start..name.len(),
+    }
 }
 
 /// The number of a link frame of a chain, `name.k`.

@@ -8,6 +8,7 @@ use crate::linear::{Decomposition, orthonormal, remove};
 use crate::mechanism::{Configuration, Mechanism};
 use crate::system::{
     Coordinate, Lock, Locked, Mobility, Neighbourhood, STILL, Screw, TwistSpace, Unknown,
+    default_outputs,
 };
 
 /// The types of D. Zlatanov, R. G. Fenton and B. Benhabib 1994.
@@ -108,6 +109,32 @@ impl Singularity {
     }
 }
 
+/// The distances from singularities along a motion.
+pub(crate) struct SingularityMeter<'m>(Classifier<'m>);
+
+impl<'m> SingularityMeter<'m> {
+    /// For inputs and outputs; without outputs those of the [default](crate::system::default_outputs). What vanishes
+    /// everywhere is told near an assembled configuration.
+    pub fn new(
+        mechanism: &'m Mechanism,
+        inputs: &[Coordinate],
+        outputs: &[Lock],
+        at: &Configuration<f64>,
+    ) -> Self {
+        let outputs = match outputs {
+            [] => default_outputs(mechanism, inputs),
+            outputs => outputs.to_vec(),
+        };
+        SingularityMeter(Classifier::new(mechanism, inputs, &outputs, at))
+    }
+
+    /// The distances at another.
+    pub fn at(&mut self, at: &Configuration<f64>) -> Distances {
+        let matrices = self.0.decompositions(at);
+        self.0.distances(&matrices)
+    }
+}
+
 /// The dimensions of the null spaces of the four matrices.
 type Nullities = [usize; 4];
 
@@ -201,17 +228,6 @@ impl<'m> Classifier<'m> {
         ];
         let inverse = idle_inputs > 0 || loss > 0;
         let direct = gain > 0 || lost_inputs > 0;
-        // the smallest singular value that does not vanish everywhere
-        let least = |k: usize| {
-            let last = (columns - generic[k]).checked_sub(1)?;
-            Some(
-                matrices[k]
-                    .singular_values()
-                    .get(last)
-                    .copied()
-                    .unwrap_or(0.0),
-            )
-        };
         Singularity {
             gosselin_angeles: match (inverse, direct) {
                 (true, true) => Some(3),
@@ -237,12 +253,23 @@ impl<'m> Classifier<'m> {
                 0 => Vec::new(),
                 _ => self.resisted(at),
             },
-            distances: Distances {
-                constraint: least(CLOSURES),
-                direct: least(DIRECT),
-                inverse: least(INVERSE),
-            },
+            distances: self.distances(&matrices),
             compared: self.beside.is_some(),
+        }
+    }
+
+    /// The smallest singular values that do not vanish everywhere.
+    fn distances(&self, matrices: &[Decomposition; 4]) -> Distances {
+        let columns = self.unknowns().len();
+        let least = |k: usize| {
+            let last = (columns - self.generic[k]).checked_sub(1)?;
+            let values = matrices[k].singular_values();
+            Some(values.get(last).copied().unwrap_or(0.0))
+        };
+        Distances {
+            constraint: least(CLOSURES),
+            direct: least(DIRECT),
+            inverse: least(INVERSE),
         }
     }
 

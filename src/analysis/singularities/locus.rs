@@ -9,7 +9,7 @@ use super::projected::{Projection, Shape, groups};
 use super::starts::{Found, Search};
 use super::{SingularitiesSettings, names, output_names};
 use crate::algebra::SiUnit;
-use crate::mechanism::{Configuration, Variable};
+use crate::mechanism::{Configuration, PoseCoordinate, Variable};
 use crate::solve::{Place, Progress, Stage, Watch};
 use crate::system::{Coordinate, Driven, Held, Lock, LocusEnd, Question, Region, Singular};
 
@@ -22,7 +22,7 @@ pub struct LocusReport {
     pub mechanism: String,
     /// The joints, in the order of the file.
     pub variables: Vec<Variable>,
-    /// The poses of platforms, in the order of the file: position and quaternion.
+    /// The poses of platforms, in the order of the file: position, quaternion, and roll, pitch and yaw.
     pub pose_variables: Vec<Variable>,
     /// The inputs that singularities refer to.
     pub inputs: Vec<String>,
@@ -90,7 +90,7 @@ pub struct Locus {
     /// The joints at its points, rad or m, in the order of the file.
     pub joints: Vec<Vec<f64>>,
     /// Positions (m) and quaternions (w, x, y, z) of the platforms at its points.
-    pub poses: Vec<Vec<[f64; 7]>>,
+    pub poses: Vec<Vec<[f64; 10]>>,
     /// What is singular in its middle.
     pub singularity: Singularity,
     /// Where other loci cross it: the two coordinates.
@@ -278,12 +278,13 @@ impl Search<'_> {
     }
 }
 
-/// Positions and quaternions of the platforms.
-fn poses(place: &At) -> Vec<[f64; 7]> {
+/// Positions of the platforms, with quaternions and with roll, pitch and yaw.
+fn poses(place: &At) -> Vec<[f64; 10]> {
     let platforms = place.at.at.platforms.iter();
     let poses = platforms.map(|pose| {
-        let ([x, y, z], [w, i, j, k]) = (pose.position.0, pose.orientation.0);
-        [x, y, z, w, i, j, k]
+        let [x, y, z, roll, pitch, yaw] = PoseCoordinate::all_of(&pose.pose());
+        let [w, i, j, k] = pose.orientation.0;
+        [x, y, z, w, i, j, k, roll, pitch, yaw]
     });
     poses.collect()
 }

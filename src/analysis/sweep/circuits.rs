@@ -107,6 +107,8 @@ pub enum FourBarClass {
     TripleRocker,
     /// Branches cross: all links can lie in one line.
     ChangePoint,
+    /// It is a 5-bar of which gears couple two links.
+    GearedFiveBar,
 }
 
 /// The circuits of a mechanism.

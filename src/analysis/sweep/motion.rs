@@ -2,9 +2,9 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::{Row, SweepReport};
+use super::{Pace, Row, SweepReport};
 use crate::algebra::SiUnit;
-use crate::mechanism::{Mechanism, Point, Variable};
+use crate::mechanism::{Mechanism, Point, PoseCoordinate, Variable};
 
 /// The motions of one question: one, or one in each mode.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -25,10 +25,43 @@ pub struct MotionReport {
     /// What it came to.
     #[serde(flatten)]
     pub sweep: SweepReport,
-    /// What the columns are: the number of the step, joints, platforms, traced points.
+    /// How the inputs went through their ranges; none without inputs.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub pace: Option<Pace>,
+    /// The least and greatest values of the quantities asked for.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub extremes: Vec<Extremum>,
+    /// What the columns are: the number of the step, joints, platforms, traced points, the time if quantities were
+    /// asked for, and these.
     pub columns: Vec<Variable>,
     /// The rows in SI units and rad; what is not known is `None`.
     pub values: Vec<Vec<Option<f64>>>,
+}
+
+/// The least and the greatest value of a quantity over a motion; none where it has no value.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Extremum {
+    /// The quantity.
+    pub name: String,
+    /// Its unit.
+    pub unit: SiUnit,
+    /// Where it is least.
+    pub least: Option<Extreme>,
+    /// Where it is greatest.
+    pub greatest: Option<Extreme>,
+}
+
+/// A value of a quantity and where it has it.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Extreme {
+    /// The value.
+    pub value: f64,
+    /// The part of the time that is gone there, if there are inputs.
+    pub time: Option<f64>,
+    /// The inputs there, in m or rad.
+    pub inputs: Vec<f64>,
+    /// The joints there, in m or rad, in the order of the file.
+    pub joints: Vec<f64>,
 }
 
 /// What the columns of rows are.
@@ -36,8 +69,8 @@ pub struct MotionReport {
 pub struct Columns(Vec<Variable>);
 
 impl Columns {
-    /// The number of the step, then all joints, platforms and traced points of a mechanism.
-    pub fn new(mechanism: &Mechanism, points: &[Point]) -> Self {
+    /// The number of the step, then all joints, platforms and traced points of a mechanism, then quantities.
+    pub fn new(mechanism: &Mechanism, points: &[Point], quantities: Vec<Variable>) -> Self {
         let mut variables = vec![Variable::plain("step")];
         variables.extend(Variable::joints(mechanism));
         variables.extend(Variable::poses(mechanism));
@@ -46,6 +79,7 @@ impl Columns {
             let variable = |axis| Variable::new(format!("{name}.{axis}"), SiUnit::METRE);
             variables.extend(axes.map(variable));
         }
+        variables.extend(quantities);
         Columns(variables)
     }
 
@@ -58,11 +92,14 @@ impl Columns {
     pub fn values<'a>(&self, row: &Row<'a>) -> impl Iterator<Item = f64> + use<'a> {
         let at = row.configuration;
         let poses = at.platforms.iter().flat_map(|platform| {
-            let position = platform.position.0.into_iter();
-            position.chain(platform.orientation.0)
+            let [x, y, z, angles @ ..] = PoseCoordinate::all_of(&platform.pose());
+            let quaternion = platform.orientation.0.into_iter();
+            [x, y, z].into_iter().chain(quaternion).chain(angles)
         });
         let points = row.points.iter().flatten().copied();
-        at.joints.iter().copied().chain(poses).chain(points)
+        let quantities = row.quantities.iter().map(|value| value.unwrap_or(f64::NAN));
+        let places = at.joints.iter().copied().chain(poses).chain(points);
+        places.chain(quantities)
     }
 }
 

@@ -3,7 +3,7 @@
 use std::ops::ControlFlow;
 
 use super::points::Paths;
-use super::{Flow, MetKind, Row, SweepSettings};
+use super::{Flow, Law, MetKind, Row, SweepSettings};
 use crate::mechanism::{Configuration, Mechanism, Point};
 use crate::solve::{Continuation, Place};
 use crate::system::{Coordinate, Curve, Driven, Held, HeldPlatform, MotionTracker, System};
@@ -16,6 +16,7 @@ pub(super) struct Rows {
     tracker: Option<MotionTracker>,
     inputs: Vec<Driven>,
     steps: usize,
+    law: Law,
     /// The next row ahead, as a number of steps from the start of the segment.
     next: i64,
     /// Whether the inputs move towards the end of the segment.
@@ -39,6 +40,7 @@ impl Rows {
             tracker,
             inputs: inputs.to_vec(),
             steps: settings.steps,
+            law: settings.pace.law,
             next: 1,
             forward: true,
             sent: Sent::new(mechanism, &settings.points),
@@ -90,7 +92,7 @@ impl Rows {
         let steps = self.steps as f64;
         let mut reach = None;
         loop {
-            let part = self.next as f64 / steps;
+            let part = self.law.at(self.next as f64 / steps)[0];
             let ahead = match self.forward {
                 true => part <= last + SAME,
                 false => part >= last - SAME,
@@ -190,6 +192,7 @@ impl Sent {
             step,
             configuration: at,
             points: &self.paths.at,
+            quantities: &[],
             special,
         })
     }
@@ -217,7 +220,7 @@ impl Reach {
 }
 
 /// What is held with the inputs held too; `None` where a coordinate belongs to a whole orientation.
-fn holding(held: &Held<f64>, inputs: &[Driven]) -> Option<Held<f64>> {
+pub(super) fn holding(held: &Held<f64>, inputs: &[Driven]) -> Option<Held<f64>> {
     let mut held = held.clone();
     for input in inputs {
         match input.coordinate {

@@ -29,6 +29,9 @@ pub struct InputOutput {
     pub condition: Option<f64>,
     /// Product of its singular values, √det(J Jᵀ) or √det(Jᵀ J) (Yoshikawa 1985).
     pub manipulability: f64,
+    /// Its determinant if it is square, which changes sign at a singular configuration.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub determinant: Option<f64>,
 }
 
 /// A row or column.
@@ -78,6 +81,33 @@ fn rows_of(mechanism: &Mechanism, output: Lock) -> Vec<(String, bool)> {
         }
         Lock::Coordinate(of) => vec![(of.name(mechanism), of.is_angle(mechanism))],
     }
+}
+
+/// The determinant of a square matrix, by elimination with the largest pivot of each column.
+fn determinant(size: usize, entries: &[f64]) -> f64 {
+    let mut matrix = entries.to_vec();
+    let mut product = 1.0;
+    for k in 0..size {
+        let size_of = |row: &usize| matrix[k * size + row].abs();
+        let pivot = (k..size).max_by(|a, b| size_of(a).total_cmp(&size_of(b)));
+        let pivot = pivot.unwrap_or(k);
+        if pivot != k {
+            (0..size).for_each(|column| matrix.swap(column * size + k, column * size + pivot));
+            product = -product;
+        }
+        let top = matrix[k * size + k];
+        product *= top;
+        if top == 0.0 {
+            return 0.0;
+        }
+        for row in k + 1..size {
+            let factor = matrix[k * size + row] / top;
+            for column in k..size {
+                matrix[column * size + row] -= factor * matrix[column * size + k];
+            }
+        }
+    }
+    product
 }
 
 pub(super) fn input_output(
@@ -165,6 +195,7 @@ pub(super) fn input_output(
         loss: smaller - rank,
         condition: (rank == smaller).then(|| decomposition.condition()),
         manipulability: values.iter().product(),
+        determinant: (counted == columns.len()).then(|| determinant(counted, &normalised)),
         rank,
         rows,
         columns,

@@ -4,6 +4,8 @@ use std::f64::consts::FRAC_PI_2;
 
 use serde::{Deserialize, Serialize};
 
+use super::plane::{ZERO, normal, split};
+use super::rods::with_rods;
 use crate::geometry::Vector3;
 use crate::linear::{dot, norm};
 use crate::mechanism::{Body, Configuration, Frame, Mechanism};
@@ -43,22 +45,26 @@ pub struct InstantCentre {
     pub at_infinity: Option<[f64; 3]>,
 }
 
-/// What counts as zero beside one, dimensionless.
-const ZERO: f64 = 1e-9;
-
 /// Beyond so many bodies only centres relative to the ground are listed.
 const MANY_BODIES: usize = 12;
 
 /// Of each loop in which three joints are left when the held ones, and those that other such loops
 /// settle, are given: the dyads of which planar linkages are built up.
-pub(super) fn transmission(
+pub(crate) fn transmission(
     near: &mut Neighbourhood,
     at: &Configuration<f64>,
     held: &[Coordinate],
 ) -> Vec<Transmission> {
     let mechanism = near.mechanism();
     let length = mechanism.characteristic_length();
-    let found: Vec<HingedLoop> = loops(near, at).into_iter().map(HingedLoop::new).collect();
+    let ends = near
+        .closure_wrenches(at)
+        .into_iter()
+        .map(|wrenches| wrenches.points);
+    let ends: Vec<[Vector3<f64>; 2]> = ends.collect();
+    let found = loops(near, at).into_iter();
+    let found = found.map(|one| HingedLoop::new(with_rods(mechanism, one, &ends)));
+    let found: Vec<HingedLoop> = found.collect();
     let joints = 0..mechanism.joints().len();
     let mut known = Known {
         joints: (joints.map(|joint| held.contains(&Coordinate::Joint(joint)))).collect(),
@@ -246,29 +252,6 @@ fn of_loop(
             })
         });
     driven.collect()
-}
-
-fn split(twist: &[f64; 6]) -> (Vector3<f64>, Vector3<f64>) {
-    let [a, b, c, x, y, z] = *twist;
-    (Vector3([a, b, c]), Vector3([x, y, z]))
-}
-
-/// The unit normal of the plane in which all twists (ω; v/L) move; `None` if there is none.
-fn normal<'a>(twists: impl Iterator<Item = &'a [f64; 6]> + Clone) -> Option<Vector3<f64>> {
-    let largest = twists.clone().map(|twist| norm(twist)).fold(0.0, f64::max);
-    let turning = twists.clone().map(|twist| split(twist).0);
-    let most = turning.max_by(|a, b| a.norm().total_cmp(&b.norm()))?;
-    if most.norm() <= ZERO * largest {
-        return None;
-    }
-    let normal = most.times(1.0 / most.norm());
-    let in_plane = |twist: &[f64; 6]| {
-        let (omega, velocity) = split(twist);
-        let across = omega.cross(&normal).norm();
-        across.max(velocity.dot(&normal).abs()) <= ZERO * largest
-    };
-    let mut twists = twists;
-    twists.all(in_plane).then_some(normal)
 }
 
 /// Instant centres for the rates given; without any for the one input there is.

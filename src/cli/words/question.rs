@@ -3,7 +3,7 @@
 use linkwork::algebra::Expression;
 use linkwork::ask::Holdable;
 use linkwork::description::{ProblemKind, Scope, listed, nearest};
-use linkwork::mechanism::Mechanism;
+use linkwork::mechanism::{Mechanism, QuantityError};
 use linkwork::output::complaint::{Complaint, Part};
 use linkwork::system::{Demand, DriveError, ForceError, PointError, QuestionError, ValueError};
 
@@ -200,6 +200,28 @@ pub fn no_point(mechanism: &Mechanism, error: &PointError) -> Complaint {
         PointError::TooMany(_) => Complaint::new(error.to_string())
             .label("too many")
             .help("write FRAME+X,Y,Z, e.g. left+0.5,0.2,0"),
+    }
+}
+
+/// What is wrong with a quantity.
+pub fn no_quantity(mechanism: &Mechanism, text: &str, error: &QuantityError) -> Complaint {
+    let kind = match error {
+        QuantityError::Parse(error) => ProblemKind::Expression(error.kind.clone()),
+        QuantityError::Unit(error) => ProblemKind::Unit(error.kind),
+        QuantityError::Unknown { name, suggestion } => ProblemKind::UnknownName {
+            name: name.clone(),
+            suggestion: suggestion.clone(),
+            scope: Scope::Outputs,
+        },
+        QuantityError::Point { error, .. } => return no_point(mechanism, error),
+    };
+    let said = Complaint::kind(&kind);
+    match error {
+        QuantityError::Unknown { name, .. } if name == text => said,
+        _ => Complaint {
+            title: format!("in `{text}`: {}", said.title),
+            ..said
+        },
     }
 }
 

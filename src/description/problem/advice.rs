@@ -67,6 +67,9 @@ impl ProblemKind {
                 "a frame is `ground`, a chain, `chain.k`, a platform, or `platform.frame`".into()
             }
             UnknownName { scope: Scope::ClosedForm, .. } => "declare it under `where`, `parameters` or `joints`".into(),
+            UnknownName { scope: Scope::Outputs, .. } => {
+                "write a joint, a coordinate such as `hand.x`, a rate such as `velocity:hand`, `force:l1`, `transmission` or `condition`".into()
+            }
             UnknownName { scope: Scope::ParametersAndJoints, .. } => {
                 "declare it under `parameters` or `joints`".into()
             }

@@ -18,6 +18,7 @@ impl Display for Noun {
             Self::LocalName => "a local name",
             Self::MatrixEntry => "an entry of a pose",
             Self::Identity => "an identity",
+            Self::Output => "an output",
         })
     }
 }
@@ -45,6 +46,7 @@ impl Display for Scope {
             Self::Parameters => "not a parameter",
             Self::ParametersAndJoints => "neither a parameter nor a joint",
             Self::ClosedForm => "neither a parameter nor a joint nor a local name",
+            Self::Outputs => "neither a parameter, a joint, a coordinate of a point nor a quantity",
         })
     }
 }
@@ -108,7 +110,7 @@ impl Display for Expected {
 
 fn content(noun: Noun) -> &'static str {
     match noun {
-        Noun::Parameter | Noun::LocalName | Noun::MatrixEntry | Noun::Identity => {
+        Noun::Parameter | Noun::LocalName | Noun::MatrixEntry | Noun::Identity | Noun::Output => {
             "a number or an expression"
         }
         Noun::Joint => "`Passive(…)` or `Actuated(…)`",

@@ -1,7 +1,7 @@
 //! What has no fields of its own: texts, entries, conventions, transforms.
 
 use super::*;
-use crate::algebra::Expression;
+use crate::algebra::{Expression, ParseError};
 
 impl Reader {
     pub(super) fn text(&mut self, piece: Piece, expected: Expected) -> Option<Spanned<String>> {
@@ -34,6 +34,19 @@ impl Reader {
     }
 
     pub(super) fn entry(&mut self, piece: Piece) -> Option<Entry> {
+        self.entry_of(piece, Expression::parse)
+    }
+
+    /// An entry over quantities.
+    pub(super) fn quantity(&mut self, piece: Piece) -> Option<Entry> {
+        self.entry_of(piece, Expression::parse_quantity)
+    }
+
+    fn entry_of(
+        &mut self,
+        piece: Piece,
+        parse: fn(&str) -> Result<Expression, ParseError>,
+    ) -> Option<Entry> {
         match piece.shape() {
             Shape::Number => match piece.number() {
                 Ok(value) if value.is_finite() => return Some(Entry::number(value, piece.span())),
@@ -42,7 +55,7 @@ impl Reader {
             },
             Shape::Text => {
                 let literal = self.split(piece, piece.text())?;
-                match Expression::parse(&literal.text) {
+                match parse(&literal.text) {
                     Ok(expression) => {
                         let expression = expression.relocate(&|span| literal.place(span));
                         let span = piece.span();

@@ -71,6 +71,8 @@ pub(in crate::description) fn unit_label(error: &MeasureErrorKind) -> &'static s
         MeasureErrorKind::Wrong { found, .. } => found.words(),
         MeasureErrorKind::Mixed => "an angle and a length",
         MeasureErrorKind::LengthAsAngle(_) => "a length",
+        MeasureErrorKind::Units(..) => "different units",
+        MeasureErrorKind::Argument(..) => "wrong unit",
         MeasureErrorKind::BareAngle(_) => "deg or rad?",
     }
 }
@@ -91,6 +93,13 @@ pub(in crate::description) fn unit_help(error: &MeasureErrorKind) -> String {
             Measure::Number | Measure::Open => "write the number alone",
         },
         MeasureErrorKind::Mixed => "give both the same unit, or none",
+        MeasureErrorKind::Units(..) => {
+            "only what has the same unit can be added or compared: divide one by something"
+        }
+        MeasureErrorKind::Argument(function, _) if function.takes_angle() => {
+            "divide by a length, or give it an angle"
+        }
+        MeasureErrorKind::Argument(..) => "divide by something that has the same unit",
         MeasureErrorKind::LengthAsAngle(_) => {
             "write deg or rad, or divide by a length; a number without unit is in rad"
         }

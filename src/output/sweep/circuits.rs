@@ -40,6 +40,7 @@ fn class(class: FourBarClass) -> &'static str {
         FourBarClass::DoubleRocker => "double rocker whose coupler turns fully",
         FourBarClass::TripleRocker => "triple rocker",
         FourBarClass::ChangePoint => "4-bar with change points",
+        FourBarClass::GearedFiveBar => "geared 5-bar",
     }
 }
 

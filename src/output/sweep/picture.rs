@@ -2,7 +2,7 @@
 
 use crate::algebra::SiUnit;
 use crate::analysis::sweep::{MetKind, Row};
-use crate::mechanism::{Configuration, Mechanism, Point};
+use crate::mechanism::{Configuration, Mechanism, Point, Variable};
 use crate::output::plot::{self, Chart, Marks, Series, svg};
 use crate::output::quantity;
 use crate::system::{Coordinate, Driven};
@@ -16,6 +16,8 @@ pub struct Picture {
     input_label: String,
     /// Joints that are drawn over the input: index, name, whether it is an angle.
     outputs: Vec<(usize, String, bool)>,
+    /// Quantities, drawn over the first input in a panel for each unit.
+    quantities: Vec<Variable>,
     motions: Vec<Drawn>,
 }
 
@@ -34,7 +36,12 @@ const MOST: usize = 4000;
 
 impl Picture {
     /// Of a motion of these inputs; without points, joints are drawn over the first input.
-    pub fn new(mechanism: &Mechanism, inputs: &[Driven], points: &[Point]) -> Self {
+    pub fn new(
+        mechanism: &Mechanism,
+        inputs: &[Driven],
+        points: &[Point],
+        quantities: &[Variable],
+    ) -> Self {
         let joint = |joint: usize| Driven {
             coordinate: Coordinate::Joint(joint),
             from: 0.0,
@@ -62,6 +69,7 @@ impl Picture {
                 .filter(|(i, _)| !moved(*i))
                 .map(|(i, joint)| (i, joint.name.clone(), joint.kind.is_angle()))
                 .collect(),
+            quantities: quantities.to_vec(),
             motions: Vec::new(),
         }
     }
@@ -115,17 +123,27 @@ impl Picture {
             .iter()
             .map(|(joint, _, _)| shown(Coordinate::Joint(*joint)));
         let points = row.points.iter().flatten().copied();
+        let quantities = self.quantities.iter().zip(row.quantities);
+        let quantities =
+            quantities.map(|(of, value)| value.map_or(f64::NAN, |x| quantity::shown(x, of.unit)));
         std::iter::once(input)
             .chain(outputs)
             .chain(points)
+            .chain(quantities)
             .collect()
     }
 
     /// The picture as SVG.
     pub fn svg(&self) -> String {
-        let charts = match self.points.is_empty() {
-            true => self.outputs_over_input(),
-            false => vec![self.paths()],
+        let charts = match (self.points.is_empty(), self.quantities.is_empty()) {
+            (true, true) => self.outputs_over_input(),
+            (true, false) => self.quantities_over_input(),
+            (false, true) => vec![self.paths()],
+            (false, false) => {
+                let mut charts = vec![self.paths()];
+                charts.extend(self.quantities_over_input());
+                charts
+            }
         };
         svg(&charts)
     }
@@ -176,31 +194,65 @@ impl Picture {
             if pairs.is_empty() {
                 continue;
             }
-            let (series, marks) = self.chart(&pairs);
             let name = match &pairs[..] {
                 [(name, _, _)] => name,
                 _ if angles => "joint angles",
                 _ => "slides",
             };
-            charts.push(Chart {
-                title: self.title.clone(),
-                x: self.input_label.clone(),
-                y: plot::label(name, SiUnit::of_coordinate(angles)),
-                equal: false,
-                heat: None,
-                series,
-                marks,
-            });
+            charts.push(self.over_input(&pairs, plot::label(name, SiUnit::of_coordinate(angles))));
         }
         charts
+    }
+
+    /// One panel a unit; the time is none of the quantities.
+    fn quantities_over_input(&self) -> Vec<Chart> {
+        let first = 1 + self.outputs.len() + 3 * self.points.len();
+        let timed = usize::from(
+            self.quantities
+                .first()
+                .is_some_and(|of| of.unit == SiUnit::SECOND),
+        );
+        let all = || self.quantities.iter().enumerate().skip(timed);
+        let mut units: Vec<SiUnit> = Vec::new();
+        for (_, of) in all() {
+            if !units.contains(&of.unit) {
+                units.push(of.unit);
+            }
+        }
+        let chart = |unit: SiUnit| {
+            let of_it = all().filter(|(_, of)| of.unit == unit);
+            let pairs: Vec<(String, usize, usize)> = of_it
+                .map(|(i, of)| (of.name.clone(), 0, first + i))
+                .collect();
+            let name = match &pairs[..] {
+                [(name, _, _)] => name.clone(),
+                _ => "quantities".into(),
+            };
+            self.over_input(&pairs, plot::label(&name, unit))
+        };
+        units.into_iter().map(chart).collect()
+    }
+
+    fn over_input(&self, pairs: &[(String, usize, usize)], label: String) -> Chart {
+        let (series, marks) = self.chart(pairs);
+        Chart {
+            title: self.title.clone(),
+            x: self.input_label.clone(),
+            y: label,
+            equal: false,
+            heat: None,
+            series,
+            marks,
+        }
     }
 
     /// Paths seen along the axis along which they extend least.
     fn paths(&self) -> Chart {
         let first = 1 + self.outputs.len();
         let extent = |axis: usize| {
+            let last = first + 3 * self.points.len();
             let values = self.motions.iter().flat_map(|drawn| &drawn.rows);
-            let values = values.flat_map(|row| row[first..].iter().skip(axis).step_by(3));
+            let values = values.flat_map(|row| row[first..last].iter().skip(axis).step_by(3));
             let (low, high) = values.fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), x| {
                 (l.min(*x), h.max(*x))
             });

@@ -1,6 +1,7 @@
 //! What is said about a motion.
 
-use crate::analysis::sweep::{Met, MetKind, MotionReport, SweepEnd, SweepReport};
+use crate::algebra::SiUnit;
+use crate::analysis::sweep::{Law, Met, MetKind, MotionReport, SweepEnd, SweepReport};
 use crate::description::{count, listed};
 use crate::output::document::{Cell, Section, Table};
 use crate::output::quantity::{at, form, metres, number, quantity, range};
@@ -130,6 +131,23 @@ pub(super) fn sentence(report: &SweepReport) -> String {
             }
         ),
     }
+}
+
+/// How the inputs went through their ranges in time, where quantities depend on it.
+pub(super) fn paced(motion: &MotionReport) -> Option<String> {
+    let pace = motion.pace.filter(|_| !motion.extremes.is_empty())?;
+    let law = match pace.law {
+        Law::Constant => "at constant rates".into(),
+        law => format!("by the {} law", law.word()),
+    };
+    let time = quantity(pace.duration, SiUnit::SECOND);
+    let inputs: Vec<String> = motion.sweep.inputs.iter().map(|i| i.name.clone()).collect();
+    let go = form(inputs.len(), "goes", "go");
+    let range = form(inputs.len(), "its range", "their ranges");
+    Some(format!(
+        "{} {go} through {range} in {time} {law}",
+        listed(&inputs)
+    ))
 }
 
 /// What the motion took.

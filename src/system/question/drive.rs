@@ -4,11 +4,10 @@ use thiserror::Error;
 
 use super::Question;
 use super::error::QuestionError;
-use super::value::Value;
 use crate::algebra::Measure;
 use crate::description::nearest;
 use crate::geometry::Axis;
-use crate::mechanism::PoseCoordinate;
+use crate::mechanism::{PoseCoordinate, Value};
 use crate::system::{Coordinate, Mobility};
 
 /// Rates and accelerations of the held coordinates of a question, in m and rad and seconds.

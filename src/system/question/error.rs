@@ -4,8 +4,8 @@ use std::error::Error;
 use std::fmt::{self, Display, Formatter};
 
 use super::demand::{Demand, Verb};
-use super::value::{Value, ValueError};
-use crate::description::{ProblemKind, Scope, count, listed};
+use crate::description::{count, listed};
+use crate::mechanism::{Value, ValueError};
 
 /// Why a question cannot be put.
 #[derive(Clone, Debug, PartialEq)]
@@ -167,26 +167,6 @@ impl Display for Demand {
         }
     }
 }
-
-impl Display for ValueError {
-    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
-        let kind = match self {
-            ValueError::Parse(kind) => ProblemKind::Expression(kind.clone()),
-            ValueError::NoValue(kind) => ProblemKind::NoValue(*kind),
-            ValueError::Unit(kind) => ProblemKind::Unit(*kind),
-            ValueError::UnknownName { name, suggestion } => ProblemKind::UnknownName {
-                name: name.clone(),
-                suggestion: suggestion.clone(),
-                scope: Scope::Parameters,
-            },
-            ValueError::NotAPose { part } => return write!(f, "`{part}` is not a pose"),
-            ValueError::NotANumber => return write!(f, "a number or an expression is expected"),
-        };
-        f.write_str(&kind.title())
-    }
-}
-
-impl Error for ValueError {}
 
 fn freedoms(number: usize) -> String {
     match number {

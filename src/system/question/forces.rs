@@ -4,11 +4,9 @@ use thiserror::Error;
 
 use super::Question;
 use super::drive::{DriveError, number};
-use super::point::PointError;
-use super::value::Value;
 use crate::algebra::{Measure, SiUnit};
 use crate::description::nearest;
-use crate::mechanism::{Body, Frame, Point, PoseCoordinate};
+use crate::mechanism::{Body, Frame, Point, PointError, PoseCoordinate, Value};
 use crate::system::Coordinate;
 
 /// Wrenches on frames and loads on joints, in N and N·m.

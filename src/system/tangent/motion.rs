@@ -245,6 +245,18 @@ impl Motion {
             .fold(0.0, |most: f64, row| most.max(row.slope.slope.abs()))
     }
 
+    /// The path with the rates and accelerations last computed, in m, rad and s: what is computed along it has these
+    /// as derivatives.
+    pub fn path(&mut self, at: &Configuration<f64>) -> &Configuration<Dual<Dual<f64>>> {
+        self.follow_accelerations(at);
+        &self.second_path
+    }
+
+    /// Whether rates and accelerations are determined where it was last factorised.
+    pub fn is_determined(&self) -> bool {
+        self.system.undetermined(&self.work) == 0
+    }
+
     /// The path x ⊕ t ẋ + t²/2 ẍ for the rates and accelerations known.
     fn follow_accelerations(&mut self, at: &Configuration<f64>) {
         for (joint, path) in self.second_path.joints.iter_mut().enumerate() {

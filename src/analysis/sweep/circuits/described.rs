@@ -63,6 +63,12 @@ pub(super) fn class(mechanism: &Mechanism, circuits: &[Circuit]) -> Option<FourB
     if !planar || grounded.len() != 2 || circuits.iter().any(|c| !c.whole) || circuits.is_empty() {
         return None;
     }
+    // ground and three links; with one more, a joint variable moves two of them
+    match mechanism.bodies().len() {
+        4 => {}
+        5 => return Some(FourBarClass::GearedFiveBar),
+        _ => return None,
+    }
     if circuits.iter().any(|circuit| !circuit.crossings.is_empty()) {
         return Some(FourBarClass::ChangePoint);
     }

@@ -1,11 +1,14 @@
 //! Values of coordinates as they are written in a file.
 
+use std::error::Error;
+use std::fmt::{self, Display, Formatter};
+
+use super::Mechanism;
 use crate::algebra::{
     EvaluationErrorKind, Expression, LARGEST, Measure, MeasureErrorKind, ParseErrorKind,
 };
-use crate::description::nearest;
+use crate::description::{ProblemKind, Scope, nearest};
 use crate::geometry::{Axis, Pose, Vector3};
-use crate::mechanism::Mechanism;
 
 /// A value that is given to a coordinate or a pose.
 #[derive(Clone, Debug, PartialEq)]
@@ -22,7 +25,7 @@ pub enum Value {
 }
 
 impl Value {
-    pub(super) fn is_home(&self) -> bool {
+    pub(crate) fn is_home(&self) -> bool {
         match self {
             Value::Home => true,
             Value::Text(text) => text.trim() == "home",
@@ -31,12 +34,12 @@ impl Value {
     }
 
     /// The number, in m, rad, N or N·m, and per unit of time for a rate.
-    pub(super) fn number(&self, mechanism: &Mechanism, wanted: Measure) -> Result<f64, ValueError> {
+    pub(crate) fn number(&self, mechanism: &Mechanism, wanted: Measure) -> Result<f64, ValueError> {
         Ok(self.read(mechanism, wanted)?.0)
     }
 
     /// The number of a coordinate: an angle of more than two turns has its unit.
-    pub(super) fn coordinate(
+    pub(crate) fn coordinate(
         &self,
         mechanism: &Mechanism,
         wanted: Measure,
@@ -68,7 +71,7 @@ impl Value {
     }
 
     /// The pose.
-    pub(super) fn pose(&self, mechanism: &Mechanism) -> Result<Pose<f64>, ValueError> {
+    pub(crate) fn pose(&self, mechanism: &Mechanism) -> Result<Pose<f64>, ValueError> {
         match self {
             Value::Pose(at) => Ok(*at),
             Value::Text(text) => pose(mechanism, text),
@@ -152,9 +155,38 @@ pub enum ValueError {
     NotANumber,
 }
 
+impl ValueError {
+    /// The problem that it would be in a file, where a number or an expression stands.
+    pub(super) fn problem(&self) -> Option<ProblemKind> {
+        Some(match self {
+            ValueError::Parse(kind) => ProblemKind::Expression(kind.clone()),
+            ValueError::NoValue(kind) => ProblemKind::NoValue(*kind),
+            ValueError::Unit(kind) => ProblemKind::Unit(*kind),
+            ValueError::UnknownName { name, suggestion } => ProblemKind::UnknownName {
+                name: name.clone(),
+                suggestion: suggestion.clone(),
+                scope: Scope::Parameters,
+            },
+            ValueError::NotAPose { .. } | ValueError::NotANumber => return None,
+        })
+    }
+}
+
+impl Display for ValueError {
+    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
+        match (self, self.problem()) {
+            (_, Some(problem)) => f.write_str(&problem.title()),
+            (ValueError::NotAPose { part }, None) => write!(f, "`{part}` is not a pose"),
+            (_, None) => write!(f, "a number or an expression is expected"),
+        }
+    }
+}
+
+impl Error for ValueError {}
+
 /// The value of an expression over the mechanism's parameters, in m, rad, N or N·m, and per unit of
 /// time for a rate.
-pub fn number(mechanism: &Mechanism, text: &str, wanted: Measure) -> Result<f64, ValueError> {
+pub fn number_of(mechanism: &Mechanism, text: &str, wanted: Measure) -> Result<f64, ValueError> {
     Ok(read(mechanism, text, wanted)?.0)
 }
 

@@ -1,0 +1,203 @@
+//! The unit of an expression over quantities of which each has one.
+
+use super::{
+    Constant, Expression, Function, MeasureError, MeasureErrorKind, Node, Operator, SiUnit, Unit,
+};
+
+/// What is known of the unit of a part of an expression.
+#[derive(Clone, Copy, Debug, PartialEq)]
+enum Known {
+    /// A number as it is written: it may have any unit in a sum, and has none in a product.
+    Number,
+    /// This unit.
+    Unit(SiUnit),
+    /// Nothing: a parameter without unit is in it, or a power that is no whole number.
+    Open,
+}
+
+impl<N> Expression<N> {
+    /// The unit of the value in rad, N, m and s, if it follows; `of` gives that of each name, if it has one.
+    ///
+    /// # Errors
+    /// If parts of a sum have different units, or a function does not take the unit of its argument.
+    pub fn unit(&self, of: &impl Fn(&N) -> Option<SiUnit>) -> Result<Option<SiUnit>, MeasureError> {
+        Ok(match self.known(of)? {
+            Known::Unit(unit) => Some(unit.of_result()),
+            Known::Number | Known::Open => None,
+        })
+    }
+
+    fn known(&self, of: &impl Fn(&N) -> Option<SiUnit>) -> Result<Known, MeasureError> {
+        use Known::{Number, Open};
+        Ok(match &self.node {
+            Node::Number(_) | Node::Constant(Constant::Pi) => Number,
+            Node::Constant(Constant::Degree | Constant::Radian)
+            | Node::Quantity(_, Unit::Degree | Unit::Radian) => Known::Unit(SiUnit::RADIAN),
+            Node::Quantity(..) => Known::Unit(SiUnit::METRE),
+            Node::Name(name) => of(name).map_or(Open, Known::Unit),
+            Node::Negate(x) => x.known(of)?,
+            Node::Binary(operator, x, y) => {
+                let (left, right) = (x.known(of)?, y.known(of)?);
+                match operator {
+                    Operator::Add | Operator::Subtract => self.alike(left, right)?,
+                    Operator::Multiply => product(left, right, 1),
+                    Operator::Divide => product(left, right, -1),
+                    Operator::Power => match (left, y.whole()) {
+                        (Number, _) => Number,
+                        (Known::Unit(unit), Some(power)) => {
+                            unit.powi(power).map_or(Open, Known::Unit)
+                        }
+                        _ => Open,
+                    },
+                }
+            }
+            Node::Call(function, arguments) => {
+                let known = arguments.iter().map(|argument| argument.known(of));
+                let known = known.collect::<Result<Vec<Known>, _>>()?;
+                let all = || (known.iter()).try_fold(Number, |all, next| self.alike(all, *next));
+                match function {
+                    Function::Abs | Function::Hypot | Function::Min | Function::Max => all()?,
+                    Function::Atan2 => all().map(|_| Known::Unit(SiUnit::RADIAN))?,
+                    Function::Sqrt => match known[0] {
+                        Known::Unit(unit) => unit.sqrt().map_or(Open, Known::Unit),
+                        other => other,
+                    },
+                    _ => {
+                        if let Known::Unit(unit) = known[0]
+                            && unit.without_angle() != SiUnit::ONE
+                        {
+                            let kind = MeasureErrorKind::Argument(*function, unit);
+                            return Err(self.refused(kind));
+                        }
+                        match function {
+                            Function::Asin | Function::Acos | Function::Atan => {
+                                Known::Unit(SiUnit::RADIAN)
+                            }
+                            _ => Known::Unit(SiUnit::ONE),
+                        }
+                    }
+                }
+            }
+        })
+    }
+
+    /// The whole number that it is written as.
+    fn whole(&self) -> Option<i32> {
+        let value = match &self.node {
+            Node::Number(value) => *value,
+            Node::Negate(x) => -f64::from(x.whole()?),
+            _ => return None,
+        };
+        (value.fract() == 0.0 && value.abs() < 10.0).then_some(value as i32)
+    }
+
+    /// The unit of two parts that must have the same.
+    fn alike(&self, left: Known, right: Known) -> Result<Known, MeasureError> {
+        match (left, right) {
+            (Known::Unit(left), Known::Unit(right)) => {
+                match left.without_angle() == right.without_angle() {
+                    true if left == right => Ok(Known::Unit(left)),
+                    true => Ok(Known::Unit(left.without_angle())),
+                    false => {
+                        let kind = MeasureErrorKind::Units(left.of_result(), right.of_result());
+                        Err(self.refused(kind))
+                    }
+                }
+            }
+            (unit @ Known::Unit(_), _) | (_, unit @ Known::Unit(_)) => Ok(unit),
+            (Known::Open, _) | (_, Known::Open) => Ok(Known::Open),
+            (Known::Number, Known::Number) => Ok(Known::Number),
+        }
+    }
+}
+
+/// The unit of left · right^power.
+fn product(left: Known, right: Known, power: i32) -> Known {
+    let unit = |known: Known| match known {
+        Known::Number => Some(SiUnit::ONE),
+        Known::Unit(unit) => Some(unit),
+        Known::Open => None,
+    };
+    if (left, right) == (Known::Number, Known::Number) {
+        return Known::Number;
+    }
+    let (Some(left), Some(right)) = (unit(left), unit(right)) else {
+        return Known::Open;
+    };
+    // a sum of digits fits, one of nines is cut off here
+    let right = right.powi(power);
+    let all = right.and_then(|right| left.times(right).powi(1));
+    all.map_or(Known::Open, Known::Unit)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn unit(text: &str) -> Result<String, String> {
+        let of = |name: &String| match name.as_str() {
+            "x" => Some(SiUnit::METRE),
+            "a" => Some(SiUnit::RADIAN),
+            "velocity:a" => Some(SiUnit::RADIAN.per_second()),
+            "velocity:x" => Some(SiUnit::METRE.per_second()),
+            "force:x" => Some(SiUnit::NEWTON),
+            "force:a" => Some(SiUnit::NEWTON_METRE),
+            _ => None,
+        };
+        let unit = Expression::parse_quantity(text).unwrap().unit(&of);
+        let unit = unit.map_err(|error| format!("{} at {:?}", error.kind, error.span))?;
+        Ok(unit.map_or("?".into(), |unit| unit.to_string()))
+    }
+
+    #[test]
+    fn products_powers_and_roots_have_the_units_of_their_factors() {
+        for (text, expected) in [
+            ("2*x", "m"),
+            ("x^2", "m²"),
+            ("sqrt(x^2 + (3 mm)^2)", "m"),
+            ("x/a", "m"),
+            ("velocity:a*x", "m/s"),
+            ("velocity:x/velocity:a", "m"),
+            ("force:a*velocity:a + force:x*velocity:x", "N·m/s"),
+            ("1/force:x", "1/N"),
+            ("atan2(x, 2)", "rad"),
+            ("a - 30 deg", "rad"),
+            ("x + 1", "m"),
+            ("x/(2 m)", ""),
+            ("b*x", "?"),
+            ("cos(a)", ""),
+            ("x^99", "?"),
+            ("1/x^9/x^9", "?"),
+        ] {
+            assert_eq!(unit(text).as_deref(), Ok(expected), "{text}");
+        }
+    }
+
+    #[test]
+    fn what_has_different_units_is_not_added() {
+        let wrong = |text| unit(text).unwrap_err();
+        assert_eq!(wrong("x + a"), "m and rad are mixed at 0..5");
+        assert_eq!(
+            wrong("1 + (velocity:x - x)"),
+            "m/s and m are mixed at 4..20"
+        );
+        assert_eq!(wrong("sin(x)"), "`sin` takes an angle, not m at 0..6");
+        assert_eq!(
+            wrong("exp(force:x)"),
+            "`exp` takes a plain number, not N at 0..12"
+        );
+        assert_eq!(
+            wrong("atan2(x, velocity:x)"),
+            "m and m/s are mixed at 0..20"
+        );
+    }
+
+    #[test]
+    fn names_of_quantities_have_colons_and_brackets() {
+        let text = "velocity:[left+0.5,0.2].x*2 - [a,b].y";
+        let expression = Expression::parse_quantity(text).unwrap();
+        let names: Vec<&str> = expression.names().map(|(name, _)| name.as_str()).collect();
+        assert_eq!(names, ["velocity:[left+0.5,0.2].x", "[a,b].y"]);
+        assert!(Expression::parse("velocity:l1").is_err());
+    }
+}

@@ -1,0 +1,118 @@
+//! How inputs go through their ranges in time.
+
+use serde::{Deserialize, Serialize};
+
+use crate::algebra::words;
+
+words! {
+    /// The way from 0 to 1 of a part s of the segment over a part u of the time.
+    Law {
+        /// s = u: a constant rate.
+        Constant = "constant",
+        /// s = 3u² − 2u³: at rest at both ends.
+        Cubic = "cubic",
+        /// s = 10u³ − 15u⁴ + 6u⁵: rate and acceleration vanish at both ends (the 3-4-5 polynomial).
+        Quintic = "quintic",
+        /// s = 35u⁴ − 84u⁵ + 70u⁶ − 20u⁷: the change of acceleration does too (the 4-5-6-7 polynomial).
+        Septic = "septic",
+        /// s = u − sin(2πu)/2π: the acceleration is a sine.
+        Cycloidal = "cycloidal",
+    }
+}
+
+/// A law with the time that the whole segment takes.
+///
+/// Source: Norton, Design of Machinery, chapter 8, on the laws; they are those of cams.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Pace {
+    /// The law.
+    pub law: Law,
+    /// The time, in s.
+    pub duration: f64,
+}
+
+impl Default for Pace {
+    fn default() -> Self {
+        Pace {
+            law: Law::Constant,
+            duration: 1.0,
+        }
+    }
+}
+
+impl Law {
+    /// s, s′ and s″ at u.
+    pub fn at(self, u: f64) -> [f64; 3] {
+        use std::f64::consts::TAU;
+        match self {
+            Law::Constant => [u, 1.0, 0.0],
+            Law::Cubic => [u * u * (3.0 - 2.0 * u), 6.0 * u * (1.0 - u), 6.0 - 12.0 * u],
+            Law::Quintic => [
+                u.powi(3) * (10.0 - 15.0 * u + 6.0 * u * u),
+                30.0 * (u * (1.0 - u)).powi(2),
+                60.0 * u * (1.0 - u) * (1.0 - 2.0 * u),
+            ],
+            Law::Septic => [
+                u.powi(4) * (35.0 - 84.0 * u + 70.0 * u * u - 20.0 * u.powi(3)),
+                140.0 * (u * (1.0 - u)).powi(3),
+                420.0 * (u * (1.0 - u)).powi(2) * (1.0 - 2.0 * u),
+            ],
+            Law::Cycloidal => {
+                let (sin, cos) = (TAU * u).sin_cos();
+                [u - sin / TAU, 1.0 - cos, TAU * sin]
+            }
+        }
+    }
+
+    /// The u at which s has a value from 0 to 1: all laws rise.
+    pub fn inverse(self, s: f64) -> f64 {
+        if self == Law::Constant {
+            return s;
+        }
+        let (mut low, mut high) = (0.0, 1.0);
+        // halved until two neighbouring numbers are left
+        for _ in 0..1100 {
+            let middle = 0.5 * (low + high);
+            if middle <= low || middle >= high {
+                break;
+            }
+            match self.at(middle)[0] < s {
+                true => low = middle,
+                false => high = middle,
+            }
+        }
+        0.5 * (low + high)
+    }
+}
+
+impl Pace {
+    /// The part of the segment that is gone, its rate per s and its acceleration per s², where a part of the time is.
+    pub fn at(&self, u: f64) -> [f64; 3] {
+        let [s, rate, change] = self.law.at(u);
+        [s, rate / self.duration, change / self.duration.powi(2)]
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::Law;
+
+    #[test]
+    fn rates_and_accelerations_are_derivatives_of_the_laws() {
+        let h = 1e-5;
+        for law in Law::ALL {
+            assert_eq!(law.at(0.0)[0], 0.0, "{}", law.word());
+            assert!((law.at(1.0)[0] - 1.0).abs() < 1e-15);
+            for u in [0.1, 0.37, 0.5, 0.81] {
+                let [before, here, after] = [u - h, u, u + h].map(|u| law.at(u));
+                assert!(((after[0] - before[0]) / (2.0 * h) - here[1]).abs() < 1e-8);
+                assert!(((after[1] - before[1]) / (2.0 * h) - here[2]).abs() < 1e-7);
+                assert!((law.inverse(here[0]) - u).abs() < 1e-14, "{}", law.word());
+            }
+        }
+        let rest = |law: Law| [0.0, 1.0].map(|u| law.at(u)[1]);
+        for law in [Law::Cubic, Law::Quintic, Law::Septic, Law::Cycloidal] {
+            assert_eq!(rest(law), [0.0, 0.0], "{}", law.word());
+        }
+    }
+}

@@ -1,0 +1,350 @@
+//! Quantities of a moving mechanism: expressions over joints, coordinates of points, rates and forces.
+
+use thiserror::Error;
+
+use super::{Frame, Mechanism, Point, PointError, PoseCoordinate};
+use crate::algebra::{Expression, MeasureError, ParseError, SiUnit, words};
+use crate::description::nearest;
+
+/// A quantity with its unit, which is known before it is evaluated anywhere.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Quantity {
+    /// What it is called.
+    pub name: String,
+    /// Its value in SI units and rad.
+    pub expression: Expression<Measured>,
+    /// Its unit; [`SiUnit::ONE`] if it has none, or where a parameter without unit hides it.
+    pub unit: SiUnit,
+}
+
+/// What a name in a quantity stands for.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Measured {
+    /// The parameter of that index.
+    Parameter(usize),
+    /// The variable of the joint of that index, or its rate.
+    Joint(usize, Order),
+    /// A coordinate of a point, or of the orientation of its frame, in ground, or its rate.
+    Place(Point, PoseCoordinate, Order),
+    /// The size of the velocity or acceleration of a point.
+    Size(Point, Order),
+    /// The force or moment that holds a joint.
+    Force(usize),
+    /// The force or moment that holds a coordinate of a platform.
+    PlatformForce(usize, PoseCoordinate),
+    /// The least transmission angle: of all loops, or of that of a closure.
+    Transmission(Option<usize>),
+    /// A figure of the Jacobian between inputs and outputs, or of how near a singularity is.
+    Figure(Figure),
+}
+
+/// How often a coordinate is differentiated by time.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Order {
+    /// The coordinate itself.
+    Value,
+    /// Its rate.
+    Velocity,
+    /// Its acceleration.
+    Acceleration,
+}
+
+words! {
+    /// A figure that tells how well the inputs drive the outputs; none has a unit.
+    Figure {
+        /// Condition number of the input–output Jacobian.
+        Condition = "condition",
+        /// Determinant of the input–output Jacobian, where it is square.
+        Determinant = "determinant",
+        /// Product of its singular values.
+        Manipulability = "manipulability",
+        /// Least singular value of the closures with the inputs at rest.
+        Direct = "distance:direct",
+        /// The same with the outputs at rest.
+        Inverse = "distance:inverse",
+        /// The same with nothing held.
+        Constraint = "distance:constraint",
+    }
+}
+
+/// Why a text is not a quantity.
+#[derive(Clone, Debug, Error, PartialEq)]
+pub enum QuantityError {
+    /// It is no expression.
+    #[error("{0}")]
+    Parse(ParseError),
+    /// A name in it stands for nothing.
+    #[error("`{name}` is neither a joint, a parameter, a coordinate of a point nor a quantity")]
+    Unknown {
+        /// The name.
+        name: String,
+        /// The name that was probably meant.
+        suggestion: Option<String>,
+    },
+    /// A point in it is wrong.
+    #[error("{error}")]
+    Point {
+        /// The name with the point.
+        name: String,
+        /// What is wrong with it.
+        error: PointError,
+    },
+    /// Its units do not fit.
+    #[error("{0}")]
+    Unit(MeasureError),
+}
+
+const TRANSMISSION: &str = "transmission";
+
+impl Order {
+    /// The kind before the colon: `velocity:l1`.
+    fn of_kind(kind: &str) -> Option<Self> {
+        match kind {
+            "velocity" => Some(Order::Velocity),
+            "acceleration" => Some(Order::Acceleration),
+            _ => None,
+        }
+    }
+
+    fn of(self, unit: SiUnit) -> SiUnit {
+        (0..self as usize).fold(unit, |unit, _| unit.per_second())
+    }
+}
+
+impl Quantity {
+    /// An expression as in the file in which names also stand for quantities ([`Measured::read`]). A velocity or an
+    /// acceleration alone may be that of a point beside the origin of a frame: `velocity:left+0.5,0.2`.
+    ///
+    /// # Errors
+    /// If it is no expression, a name stands for nothing, or units do not fit.
+    pub fn read(mechanism: &Mechanism, name: &str, text: &str) -> Result<Self, QuantityError> {
+        let text = text.trim();
+        let beside = text.split_once(':').and_then(|(kind, of)| {
+            let order = Order::of_kind(kind)?;
+            (of.contains('+') && !of.contains('[')).then_some(())?;
+            moving(mechanism, of, order).ok()
+        });
+        let expression = match beside {
+            Some(measured) => Expression::name(measured),
+            None => {
+                let parsed = Expression::parse_quantity(text).map_err(QuantityError::Parse)?;
+                let named = parsed.try_resolve(|name, _| Measured::read(mechanism, name));
+                named.map_err(|errors| errors.into_iter().next().expect("there is an error"))?
+            }
+        };
+        Quantity::new(mechanism, name, expression).map_err(QuantityError::Unit)
+    }
+
+    /// The quantity of an expression.
+    ///
+    /// # Errors
+    /// If units do not fit.
+    pub fn new(
+        mechanism: &Mechanism,
+        name: &str,
+        expression: Expression<Measured>,
+    ) -> Result<Self, MeasureError> {
+        let unit = expression.unit(&|of| of.unit(mechanism))?;
+        Ok(Quantity {
+            name: name.trim().to_owned(),
+            expression,
+            unit: unit.unwrap_or(SiUnit::ONE),
+        })
+    }
+
+    /// What its names stand for.
+    pub fn measured(&self) -> impl Iterator<Item = &Measured> {
+        self.expression.names().map(|(measured, _)| measured)
+    }
+
+    /// The parts of a list between commas that stand in no brackets. A number cannot be a quantity, so that one that
+    /// follows a point belongs to its offsets: `velocity:left+0.5,0.2, transmission` are two.
+    pub fn split(list: &str) -> Vec<String> {
+        let mut parts: Vec<String> = Vec::new();
+        let (mut depth, mut start) = (0i32, 0);
+        let ends = list.char_indices().chain([(list.len(), ',')]);
+        for (at, c) in ends {
+            match c {
+                '(' | '[' => depth += 1,
+                ')' | ']' => depth -= 1,
+                ',' if depth <= 0 || at == list.len() => {
+                    let part = list[start..at].trim();
+                    start = (at + 1).min(list.len());
+                    match parts.last_mut() {
+                        Some(last) if last.contains('+') && part.parse::<f64>().is_ok() => {
+                            *last += &format!(",{part}");
+                        }
+                        _ => parts.push(part.to_owned()),
+                    }
+                }
+                _ => {}
+            }
+        }
+        parts.retain(|part| !part.is_empty());
+        parts
+    }
+}
+
+impl Measured {
+    /// What a name stands for: a joint, a parameter, a coordinate of a point, `left.x`, `top.yaw` or
+    /// `[left+0.5,0.2].y`, of the only platform also by its word alone; a rate, `velocity:l1`, `velocity:top.x`,
+    /// `acceleration:left`; a force, `force:l1`; `transmission`, or `transmission:B` of the loop of closure B; a
+    /// [`Figure`].
+    ///
+    /// # Errors
+    /// If it stands for nothing.
+    pub fn read(mechanism: &Mechanism, name: &str) -> Result<Self, QuantityError> {
+        let parameters = mechanism.parameters();
+        if let Some(parameter) = parameters.iter().position(|known| known.name == name) {
+            return Ok(Measured::Parameter(parameter));
+        }
+        if let Some(joint) = mechanism.joint(name) {
+            return Ok(Measured::Joint(joint, Order::Value));
+        }
+        if let Some(figure) = Figure::from_word(name) {
+            return Ok(Measured::Figure(figure));
+        }
+        if name == TRANSMISSION {
+            return Ok(Measured::Transmission(None));
+        }
+        if let ([_], Some(coordinate)) = (mechanism.platforms(), PoseCoordinate::from_word(name)) {
+            let platform = Frame::Platform { platform: 0 };
+            return Ok(Measured::Place(platform.into(), coordinate, Order::Value));
+        }
+        let unknown = || QuantityError::Unknown {
+            name: name.into(),
+            suggestion: suggestion(mechanism, name),
+        };
+        let Some((kind, of)) = name.split_once(':') else {
+            // a point alone is no number
+            return match coordinate(mechanism, name, Order::Value) {
+                Some(Ok(measured)) => Ok(measured),
+                Some(Err(error @ PointError::NoFrame(_)))
+                    if suggestion(mechanism, name).is_none() =>
+                {
+                    let name = name.into();
+                    Err(QuantityError::Point { name, error })
+                }
+                _ => Err(unknown()),
+            };
+        };
+        if let Some(order) = Order::of_kind(kind) {
+            return moving(mechanism, of, order).map_err(|error| QuantityError::Point {
+                name: name.into(),
+                error,
+            });
+        }
+        let measured = match kind {
+            "force" => {
+                let (platform, part) = of.rsplit_once('.').unwrap_or((of, ""));
+                let joint = mechanism.joint(of).map(Measured::Force);
+                joint.or_else(|| {
+                    let platform = mechanism.platform(platform)?;
+                    let coordinate = PoseCoordinate::from_word(part)?;
+                    Some(Measured::PlatformForce(platform, coordinate))
+                })
+            }
+            TRANSMISSION => {
+                let closure = mechanism
+                    .closures()
+                    .iter()
+                    .position(|closure| closure.name == of);
+                closure.map(|closure| Measured::Transmission(Some(closure)))
+            }
+            _ => None,
+        };
+        measured.ok_or_else(unknown)
+    }
+
+    /// Its unit, if it has one: parameters may have none.
+    pub fn unit(&self, mechanism: &Mechanism) -> Option<SiUnit> {
+        let turns = |joint: usize| mechanism.joints()[joint].kind.is_angle();
+        Some(match *self {
+            Measured::Parameter(parameter) => {
+                return mechanism.parameters()[parameter].measure.si_unit();
+            }
+            Measured::Joint(joint, order) => order.of(SiUnit::of_coordinate(turns(joint))),
+            Measured::Place(_, c, order) => order.of(SiUnit::of_coordinate(c.is_angle())),
+            Measured::Size(_, order) => order.of(SiUnit::METRE),
+            Measured::Force(joint) => SiUnit::of_effort(turns(joint)),
+            Measured::PlatformForce(_, c) => SiUnit::of_effort(c.is_angle()),
+            Measured::Transmission(_) => SiUnit::RADIAN,
+            Measured::Figure(_) => SiUnit::ONE,
+        })
+    }
+}
+
+/// The point of a name, with or without brackets.
+fn point(mechanism: &Mechanism, name: &str) -> Result<Point, PointError> {
+    let inside = name
+        .strip_prefix('[')
+        .and_then(|rest| rest.strip_suffix(']'));
+    Point::read(mechanism, inside.unwrap_or(name))
+}
+
+/// The coordinate of a name that ends as one.
+fn coordinate(
+    mechanism: &Mechanism,
+    name: &str,
+    order: Order,
+) -> Option<Result<Measured, PointError>> {
+    let (of, word) = name.rsplit_once('.')?;
+    let coordinate = PoseCoordinate::from_word(word)?;
+    Some(point(mechanism, of).map(|point| Measured::Place(point, coordinate, order)))
+}
+
+/// What moves at a rate: a joint, a coordinate, or a point.
+fn moving(mechanism: &Mechanism, name: &str, order: Order) -> Result<Measured, PointError> {
+    if let Some(joint) = mechanism.joint(name) {
+        return Ok(Measured::Joint(joint, order));
+    }
+    match coordinate(mechanism, name, order) {
+        Some(Ok(coordinate)) => Ok(coordinate),
+        _ => point(mechanism, name).map(|point| Measured::Size(point, order)),
+    }
+}
+
+/// The name that was probably meant.
+fn suggestion(mechanism: &Mechanism, name: &str) -> Option<String> {
+    let mut known: Vec<String> = mechanism
+        .parameters()
+        .iter()
+        .map(|p| p.name.clone())
+        .collect();
+    known.push(TRANSMISSION.into());
+    known.extend(Figure::ALL.map(|figure| figure.word().to_owned()));
+    for joint in mechanism.joints() {
+        let kinds = ["", "velocity:", "acceleration:", "force:"];
+        known.extend(kinds.map(|kind| format!("{kind}{}", joint.name)));
+    }
+    for closure in mechanism.closures() {
+        known.push(format!("{TRANSMISSION}:{}", closure.name));
+    }
+    for frame in mechanism.frames() {
+        let frame = mechanism.frame_name(frame);
+        known.extend(PoseCoordinate::ALL.map(|c| format!("{frame}.{}", c.word())));
+        known.extend(["velocity", "acceleration"].map(|kind| format!("{kind}:{frame}")));
+    }
+    nearest(name, known.iter().map(String::as_str)).map(str::to_owned)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_list_is_cut_at_commas_outside_brackets_and_points() {
+        let split = |text| Quantity::split(text);
+        assert_eq!(
+            split("transmission, velocity:left+1,0.5 ,atan2(a, b),[left+1,2].x"),
+            [
+                "transmission",
+                "velocity:left+1,0.5",
+                "atan2(a, b)",
+                "[left+1,2].x"
+            ]
+        );
+        assert_eq!(split("a"), ["a"]);
+        assert_eq!(split(""), [""; 0]);
+    }
+}

@@ -1,0 +1,85 @@
+//! The equations of equilibrium of an assembled mechanism.
+
+use super::Load;
+use crate::linear::{Decomposition, RANK_TOLERANCE, add, dot};
+use crate::mechanism::{Configuration, Point};
+use crate::system::{Coordinate, FrameTwists, Neighbourhood, Tangent, Unknown};
+
+/// Forces that balance a load: g + Jᵀλ + Sᵀτ = 0 with the generalised forces g of the load, the closure Jacobian J
+/// with nothing held, and S the derivatives of what is held.
+#[derive(Clone, Debug)]
+pub struct Equilibrium {
+    /// [Jᵀ, Sᵀ]
+    pub equations: Decomposition,
+    /// g, in N·m, in the order of the unknowns.
+    pub generalised: Vec<f64>,
+    /// λ, then τ, in N·m: of many solutions that of least norm.
+    pub forces: Vec<f64>,
+    /// What is left of the equations: not zero where nothing resists the load.
+    pub left: Vec<f64>,
+}
+
+impl Equilibrium {
+    /// At a configuration, with nothing held in `near`.
+    pub fn of(near: &Neighbourhood, tangent: &Tangent, held: &[Coordinate], load: &Load) -> Self {
+        let system = near.system();
+        let (unknowns, rows) = (system.unknowns().len(), system.rows());
+        // Jᵀ and Sᵀ beside one another, column by column
+        let mut entries = Vec::with_capacity(unknowns * (rows + held.len()));
+        for row in 0..rows {
+            let columns = tangent.jacobian.chunks_exact(rows);
+            entries.extend(columns.map(|column| column[row]));
+        }
+        for coordinate in held {
+            let first = entries.len();
+            entries.resize(first + unknowns, 0.0);
+            for (place, slope) in coordinate.slope_in(system, &tangent.at) {
+                entries[first + place] = slope;
+            }
+        }
+        let equations = Decomposition::of(unknowns, rows + held.len(), &entries);
+        let generalised = generalised(near, &tangent.at, load);
+        let opposite: Vec<f64> = generalised.iter().map(|g| -g).collect();
+        let forces = equations.solve(&opposite);
+        let mut left = generalised.clone();
+        for (column, force) in entries.chunks_exact(unknowns.max(1)).zip(&forces) {
+            add(&mut left, *force, column);
+        }
+        Equilibrium {
+            equations,
+            generalised,
+            forces,
+            left,
+        }
+    }
+
+    /// Whether equilibrium determines a force: no state of stress without load changes it.
+    pub fn determines(&self, force: usize) -> bool {
+        let stresses = self.equations.null_space();
+        (stresses.iter()).all(|stress| stress[force].abs() <= RANK_TOLERANCE)
+    }
+}
+
+/// The work of a load for a unit of each unknown, in N·m.
+fn generalised(near: &Neighbourhood, at: &Configuration<f64>, load: &Load) -> Vec<f64> {
+    let (mechanism, unknowns) = (near.mechanism(), near.system().unknowns());
+    let points: Vec<Point> = load.wrenches.iter().map(|(point, ..)| *point).collect();
+    let twists = FrameTwists::new(mechanism.dimensions(), unknowns, &points);
+    let placement = twists.placed(at);
+    let mut rates = vec![0.0; unknowns.len()];
+    let mut work = vec![0.0; unknowns.len()];
+    for (k, unknown) in unknowns.iter().enumerate() {
+        rates[k] = 1.0;
+        for (i, (_, force, moment)) in load.wrenches.iter().enumerate() {
+            let twist = twists.twist(i, &placement, &rates);
+            work[k] += dot(force, &twist.velocity.0) + dot(moment, &twist.omega.0);
+        }
+        rates[k] = 0.0;
+        if let Unknown::Joint(joint) = *unknown {
+            let loads = load.joints.iter().filter(|(loaded, _)| *loaded == joint);
+            let sum: f64 = loads.map(|(_, force)| force).sum();
+            work[k] += sum * mechanism.dimensions().joint_scales[joint];
+        }
+    }
+    work
+}

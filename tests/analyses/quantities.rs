@@ -1,0 +1,362 @@
+//! Quantities over a motion against closed forms, differences of rows and the analyses they come from.
+
+use std::f64::consts::{FRAC_PI_2, PI, TAU};
+use std::path::Path;
+
+use linkwork::algebra::SiUnit;
+use linkwork::analysis::singularities::SingularitiesSettings;
+use linkwork::analysis::sweep::{Extreme, Law, MotionReport, Pace, SweepSettings};
+use linkwork::ask::{AskError, Question, Unmeasured};
+use linkwork::description::{Description, ProblemKind};
+use linkwork::mechanism::{Mechanism, QuantityError};
+use linkwork::solve::Watch;
+
+fn load(name: &str) -> Mechanism {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("mechanisms");
+    Mechanism::load(folder.join(format!("{name}.ron"))).unwrap()
+}
+
+fn written(text: &str) -> Mechanism {
+    Mechanism::new(&Description::read(text).unwrap()).unwrap()
+}
+
+fn moved(question: &Question, steps: usize, pace: Pace) -> MotionReport {
+    let settings = SweepSettings {
+        steps,
+        pace,
+        ..SweepSettings::default()
+    };
+    let motions = question.motions(&settings, &Watch::none()).unwrap();
+    let mut report = motions.report(usize::MAX, &mut |_, _| {}, &Watch::none());
+    report.motions.remove(0)
+}
+
+/// The values of a column at the rows of steps.
+fn column(motion: &MotionReport, name: &str) -> Vec<f64> {
+    let place = motion.columns.iter().position(|of| of.name == name);
+    let place = place.unwrap_or_else(|| panic!("no column {name}: {:?}", motion.columns));
+    let steps = motion.values.iter().filter(|row| row[0].is_some());
+    steps.map(|row| row[place].unwrap_or(f64::NAN)).collect()
+}
+
+fn extremes<'m>(motion: &'m MotionReport, name: &str) -> [&'m Extreme; 2] {
+    let found = motion.extremes.iter().find(|of| of.name == name).unwrap();
+    [
+        found.least.as_ref().unwrap(),
+        found.greatest.as_ref().unwrap(),
+    ]
+}
+
+/// The 4-bar of the file with its coupler as a `Distance`.
+const WITH_ROD: &str = r#"Mechanism(version: 1, name: "rod", convention: Modified,
+    joints: { "theta1": Actuated(home: "60 deg"), "phi1": Passive(home: "129 deg") },
+    chains: {
+        "left": Chain(rows: [(theta: "theta1")], tip: [Tx(1)]),
+        "right": Chain(base: [BASE], rows: [(theta: "phi1")], tip: [Tx(4)]),
+    },
+    closures: { "rod": Distance("left", "right", LENGTH) },
+)"#;
+
+#[test]
+fn the_transmission_angle_of_a_four_bar_follows_the_law_of_cosines() {
+    let question = Question::new(load("four_bar"))
+        .input("theta1", 0.0, TAU)
+        .report("transmission, transmission:joint3");
+    let motion = moved(&question, 50, Pace::default());
+    // ground 5, crank 1, coupler 3, rocker 4
+    let angle = |theta: f64| {
+        let diagonal = 25.0 + 1.0 - 10.0 * theta.cos();
+        let between = ((9.0 + 16.0 - diagonal) / 24.0f64).acos();
+        between.min(PI - between)
+    };
+    let crank = column(&motion, "theta1");
+    assert_eq!(crank.len(), 51);
+    for name in ["transmission", "transmission:joint3"] {
+        for (theta, found) in crank.iter().zip(column(&motion, name)) {
+            assert!((found - angle(*theta)).abs() < 1e-12, "{theta}");
+        }
+    }
+    // the same with the coupler as a rod of given length, and none where the loop is not planar
+    let rod = WITH_ROD.replace("LENGTH", "3").replace("BASE", "Tx(5)");
+    let rod = Question::new(written(&rod))
+        .input("theta1", 0.0, TAU)
+        .report("transmission");
+    let moving = moved(&rod, 50, Pace::default());
+    for (theta, found) in crank.iter().zip(column(&moving, "transmission")) {
+        // closures are solved to 1e-12 of the 5 m between the pivots
+        assert!((found - angle(*theta)).abs() < 5e-12, "{theta}");
+    }
+    let skew = WITH_ROD
+        .replace("LENGTH", "3.5")
+        .replace("BASE", "Tx(5), Rx(\"30 deg\")");
+    let skew = Question::new(written(&skew))
+        .input("theta1", "60 deg", "80 deg")
+        .report("transmission");
+    let moving = moved(&skew, 4, Pace::default());
+    assert!(column(&moving, "transmission").iter().all(|x| x.is_nan()));
+    assert!(moving.extremes[0].least.is_none());
+    // a quarter of a turn between no rows: where the diagonal is 5
+    let [least, greatest] = extremes(&motion, "transmission");
+    assert!((least.value - angle(PI)).abs() < 1e-13);
+    assert!((least.inputs[0] - PI).abs() < 1e-7, "{}", least.inputs[0]);
+    assert!((greatest.value - FRAC_PI_2).abs() < 1e-7);
+    assert!(((greatest.inputs[0]).cos() - 0.1).abs() < 1e-6);
+}
+
+#[test]
+fn rates_are_differences_of_rows_by_every_law() {
+    let point = "[left+0.7,-0.4]";
+    for (law, duration) in [
+        (Law::Constant, 1.0),
+        (Law::Quintic, 2.5),
+        (Law::Cycloidal, 0.5),
+    ] {
+        let list = format!(
+            "x={point}.x, vx=velocity:{point}.x, ax=acceleration:{point}.x, v=velocity:{point}, \
+             vy=velocity:{point}.y, turn=left.yaw, omega=velocity:left.yaw, alpha=acceleration:left.yaw, \
+             phi=velocity:phi1, power=velocity:phi1*2"
+        );
+        let question = Question::new(load("four_bar"))
+            .input("theta1", "20 deg", "200 deg")
+            .report(list);
+        let motion = moved(&question, 2000, Pace { law, duration });
+        let times = column(&motion, "time");
+        let step = duration / 2000.0;
+        assert!((times[2000] - duration).abs() < 1e-15);
+        for (place, speed, change) in [("x", "vx", "ax"), ("turn", "omega", "alpha")] {
+            let [place, speed, change] = [place, speed, change].map(|name| column(&motion, name));
+            let most = |x: &[f64]| x.iter().fold(1.0f64, |most, x| most.max(x.abs()));
+            for i in 2..1999 {
+                let slope = |x: &[f64]| {
+                    (8.0 * (x[i + 1] - x[i - 1]) - (x[i + 2] - x[i - 2])) / (12.0 * step)
+                };
+                let error = (slope(&place) - speed[i]).abs();
+                assert!(error < 1e-8 * most(&speed), "{} {i} {error:e}", law.word());
+                let error = (slope(&speed) - change[i]).abs();
+                assert!(error < 1e-8 * most(&change), "{} {i} {error:e}", law.word());
+            }
+        }
+        let [vx, vy, v] = ["vx", "vy", "v"].map(|name| column(&motion, name));
+        for i in 0..=2000 {
+            assert!((vx[i].hypot(vy[i]) - v[i]).abs() <= 1e-12 * (1.0 + v[i]));
+        }
+        // inputs go by the law
+        let crank = column(&motion, "theta1");
+        let middle = 20.0 + 180.0 * law.at(0.25)[0];
+        assert!((crank[500].to_degrees() - middle).abs() < 1e-12 * middle);
+    }
+}
+
+#[test]
+fn the_moment_on_a_slider_crank_is_that_of_virtual_work() {
+    let question = Question::new(load("slider_crank"))
+        .input("theta", "10 deg", "350 deg")
+        .load("s", "-7")
+        .report("force:theta, ds=velocity:s/velocity:theta");
+    let motion = moved(&question, 90, Pace::default());
+    let (r, l, e) = (1.0f64, 3.0f64, 0.5f64);
+    for (theta, found) in column(&motion, "theta")
+        .iter()
+        .zip(column(&motion, "force:theta"))
+    {
+        let (sin, cos) = theta.sin_cos();
+        let up = r * sin - e;
+        let slope = -r * sin - up * r * cos / (l * l - up * up).sqrt();
+        // τ δθ + F δs = 0
+        assert!((found - 7.0 * slope).abs() < 1e-11, "{theta}: {found}");
+    }
+    let ratio = motion.extremes.iter().find(|of| of.name == "ds").unwrap();
+    assert_eq!(ratio.unit, SiUnit::METRE);
+}
+
+/// Two equal links between a pivot and a slide, which the knee drives.
+const TOGGLE: &str = r#"Mechanism(version: 1, name: "toggle press", convention: Modified,
+    parameters: { "l": "0.2 m" },
+    joints: { "a": Actuated(home: "30 deg"), "b": Passive(home: "-60 deg"), "s": Passive(home: "0.34 m") },
+    chains: {
+        "links": Chain(rows: [(theta: "a"), (a: "l", theta: "b")], tip: [Tx("l")]),
+        "ram": Chain(base: [Ry("90 deg")], rows: [(d: "s")], tip: [Ry("-90 deg")]),
+    },
+    closures: { "pin": Revolute("links", "ram") },
+    outputs: { "advantage": "-l*cos(a)/force:a" },
+)"#;
+
+#[test]
+fn the_mechanical_advantage_of_a_toggle_press_grows_as_its_links_align() {
+    let question = Question::new(written(TOGGLE))
+        .input("a", "40 deg", "2 deg")
+        .load("s", "-1")
+        .report("advantage");
+    let motion = moved(&question, 38, Pace::default());
+    assert_eq!(motion.extremes[0].unit.to_string(), "1/N");
+    for (a, found) in column(&motion, "a")
+        .iter()
+        .zip(column(&motion, "advantage"))
+    {
+        // a force across at the knee does the work of 2 tan a times it along the ram
+        let exact = 1.0 / (2.0 * a.tan());
+        assert!(
+            (found.abs() - exact).abs() < 1e-10 * exact,
+            "{a}: {found} for {exact}"
+        );
+    }
+    // named in the file, it is reported without being asked for
+    let unasked = Question::new(written(TOGGLE)).input("a", "40 deg", "2 deg");
+    assert!(moved(&unasked, 4, Pace::default()).extremes.is_empty());
+    let unasked = unasked.load("s", "1");
+    assert_eq!(moved(&unasked, 4, Pace::default()).extremes.len(), 1);
+}
+
+/// Two wishbones of unlike lengths seen from the front, with the upright between them.
+const WISHBONES: &str = r#"Mechanism(version: 1, name: "wishbones", convention: Modified,
+    joints: { "lower": Actuated(home: "0 deg"), "k": Passive(home: "90 deg"), "upper": Passive(home: "5 deg") },
+    chains: {
+        "upright": Chain(rows: [(theta: "lower"), (a: "350 mm", theta: "k")], tip: [Tx("260 mm")]),
+        "upper_arm": Chain(base: [T("60 mm", "240 mm", 0)], rows: [(theta: "upper")], tip: [Tx("270 mm")]),
+    },
+    closures: { "ball": Revolute("upright", "upper_arm") },
+    outputs: { "camber": "upright.yaw - 90 deg", "travel": "upright.1.y" },
+)"#;
+
+#[test]
+fn the_camber_of_a_planar_suspension_is_that_of_two_circles() {
+    let mechanism = written(WISHBONES);
+    let question = Question::new(mechanism).input("lower", "-15 deg", "15 deg");
+    let motion = moved(&question, 60, Pace::default());
+    let camber = |lower: f64| {
+        // the upper ball is 260 mm from the lower one and 270 mm from the upper pivot
+        let (x, y) = (0.35 * lower.cos() - 0.06, 0.35 * lower.sin() - 0.24);
+        let d = x.hypot(y);
+        let along = (d * d + 0.26f64.powi(2) - 0.27f64.powi(2)) / (2.0 * d);
+        let across = (0.26f64.powi(2) - along * along).sqrt();
+        // from the lower ball towards the upper pivot, and to the side of it
+        let (ux, uy) = (-x / d, -y / d);
+        let (bx, by) = (along * ux + across * uy, along * uy - across * ux);
+        by.atan2(bx) - FRAC_PI_2
+    };
+    let lower = column(&motion, "lower");
+    for (lower, found) in lower.iter().zip(column(&motion, "camber")) {
+        assert!(
+            (found - camber(*lower)).abs() < 1e-11,
+            "{lower}: {found} for {}",
+            camber(*lower)
+        );
+    }
+    let [least, _] = extremes(&motion, "camber");
+    let (mut best, mut at) = (f64::INFINITY, 0.0);
+    for k in 0..=300_000 {
+        let lower = (-15.0 + 1e-4 * f64::from(k)).to_radians();
+        if camber(lower) < best {
+            (best, at) = (camber(lower), lower);
+        }
+    }
+    assert!((least.value - best).abs() < 1e-10, "{} {best}", least.value);
+    assert!(
+        (least.inputs[0] - at).abs() < 1e-5,
+        "{} {at}",
+        least.inputs[0]
+    );
+}
+
+#[test]
+fn figures_are_those_of_velocity_and_of_singularities() {
+    let question = Question::new(load("three_rps"))
+        .input("l1", "0.6", "0.7")
+        .report(
+            "condition, manipulability, distance:direct, distance:inverse, distance:constraint",
+        );
+    let motion = moved(&question, 4, Pace::default());
+    let [condition, manipulability] = ["condition", "manipulability"].map(|n| column(&motion, n));
+    let near = ["direct", "inverse", "constraint"]
+        .map(|name| column(&motion, &format!("distance:{name}")));
+    for (i, l1) in column(&motion, "l1").into_iter().enumerate() {
+        let question = Question::new(load("three_rps")).hold("l1", l1);
+        let found = question.velocity(&Watch::none()).unwrap().closed().unwrap();
+        let jacobian = found.jacobian.unwrap();
+        let same = |a: f64, b: f64| assert!((a - b).abs() < 1e-9 * b.abs(), "{a} {b}");
+        same(condition[i], jacobian.condition.unwrap());
+        same(manipulability[i], jacobian.manipulability);
+        let settings = SingularitiesSettings::default();
+        let found = question.singularities(&settings, &Watch::none()).unwrap();
+        let exact = found.closed().unwrap().singularity.distances;
+        same(near[0][i], exact.direct.unwrap());
+        same(near[1][i], exact.inverse.unwrap());
+        same(near[2][i], exact.constraint.unwrap());
+    }
+}
+
+#[test]
+fn quantities_that_mean_nothing_are_refused() {
+    let refused = |list: &str| {
+        let question = Question::new(load("four_bar")).input("theta1", "0 deg", "90 deg");
+        let question = question.report(list);
+        let found = question.motions(&SweepSettings::default(), &Watch::none());
+        found.map(|_| ()).unwrap_err()
+    };
+    let quantity = |list: &str| match refused(list) {
+        AskError::Quantity { error, .. } => *error,
+        other => panic!("{list}: {other:?}"),
+    };
+    let unmeasured = |list: &str| match refused(list) {
+        AskError::Unmeasured { error, .. } => error,
+        other => panic!("{list}: {other:?}"),
+    };
+    let suggested = |list: &str| match quantity(list) {
+        QuantityError::Unknown { suggestion, .. } => suggestion.unwrap_or_default(),
+        other => panic!("{list}: {other:?}"),
+    };
+    assert_eq!(suggested("transmision"), "transmission");
+    assert_eq!(suggested("2*velocty:phi1"), "velocity:phi1");
+    assert!(matches!(
+        quantity("theta1 + left.x"),
+        QuantityError::Unit(_)
+    ));
+    assert!(matches!(
+        quantity("velocity:nothing"),
+        QuantityError::Point { .. }
+    ));
+    assert!(matches!(quantity("2*"), QuantityError::Parse(_)));
+    assert_eq!(unmeasured("force:theta1"), Unmeasured::NoLoad);
+    assert!(matches!(
+        unmeasured("force:phi1"),
+        Unmeasured::NotHeld { .. }
+    ));
+    let still = Question::new(load("four_bar")).report("velocity:phi1");
+    let settings = SweepSettings {
+        follow: true,
+        ..SweepSettings::default()
+    };
+    assert!(matches!(
+        still.motions(&settings, &Watch::none()).map(|_| ()),
+        Err(AskError::Unmeasured {
+            error: Unmeasured::NoInput,
+            ..
+        })
+    ));
+}
+
+#[test]
+fn outputs_of_a_file_are_checked_where_they_stand() {
+    let wrong = |output: &str| {
+        let text = TOGGLE.replace("-l*cos(a)/force:a", output);
+        let problems = Mechanism::problems(&text);
+        let [problem] = &problems[..] else {
+            panic!("{output}: {problems:?}")
+        };
+        (problem.kind.clone(), text[problem.span.clone()].to_owned())
+    };
+    let (kind, place) = wrong("a + links.y");
+    assert!(matches!(kind, ProblemKind::Unit(_)));
+    assert_eq!(place, "a + links.y");
+    let (kind, place) = wrong("2*velocity:c");
+    assert!(matches!(kind, ProblemKind::UnknownFrame { .. }), "{kind:?}");
+    assert_eq!(place, "velocity:c");
+    let (kind, place) = wrong("1 + lnks.x");
+    assert!(matches!(kind, ProblemKind::UnknownName { .. }), "{kind:?}");
+    assert_eq!(place, "lnks.x");
+    let (kind, _) = wrong("2 +");
+    assert!(matches!(kind, ProblemKind::Expression(_)), "{kind:?}");
+    let again = Description::read(TOGGLE).unwrap();
+    let text = again.to_ron().unwrap();
+    assert_eq!(Description::read(&text).unwrap(), again);
+}
