@@ -33,7 +33,7 @@ pub use model::{
     Parameter, Platform, Row, Symbol,
 };
 
-use crate::description::Problem;
+use crate::description::{Coordinates, Problem};
 
 pub(crate) use closure::{Closure, Side, needs};
 pub(crate) use coordinate::orientation_rows;
@@ -53,6 +53,7 @@ pub struct Mechanism {
     closures: Vec<model::Closure>,
     closed_forms: Vec<ClosedForm>,
     dimensions: Dimensions<f64>,
+    coordinates: Option<Box<Coordinates>>,
     warnings: Vec<Problem>,
 }
 

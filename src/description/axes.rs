@@ -1,14 +1,27 @@
-//! The contents of a file of joint axes: like a mechanism file, before frames are placed.
+//! The contents of a file of joint coordinates: like a mechanism file, before frames are placed.
+
+mod closing;
+mod graph;
+mod places;
+mod rods;
+mod tables;
+mod values;
 
 use std::ops::Range;
 
+pub(crate) use graph::Graph;
+pub use tables::Coordinates;
 use thiserror::Error;
 
-use super::{ClosureKind, Convention, Displacement, Entry, GROUND, Named, Role, Spanned};
+use super::words::cycle;
+use super::{
+    ClosedFormDescription, ClosureKind, Convention, Displacement, Entry, GROUND, Named, Problem,
+    ProblemKind, Role, Spanned,
+};
 use crate::algebra::words;
 
 /// A whole file of joint axes. Everything is in the order of the file.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, Default, PartialEq)]
 pub struct AxesDescription {
     /// The name of the mechanism.
     pub name: Spanned<String>,
@@ -20,12 +33,27 @@ pub struct AxesDescription {
     pub parameters: Vec<Named<Entry>>,
     /// The joints; in a serial chain from the base to the tool.
     pub joints: Vec<Named<AxisDescription>>,
+    /// Where bodies have their frames in the drawing; at the joint that carries them, if not given.
+    pub bodies: Vec<Named<AxisPlace>>,
+    /// Points on bodies, and frames.
+    pub points: Vec<Named<PointDescription>>,
     /// The frame from which the tables should start.
     pub base: Option<Vec<Displacement>>,
     /// The frame at which a serial chain ends.
     pub tool: Option<Vec<Displacement>>,
     /// The joints at which closed loops are to be cut.
     pub cut: Vec<Spanned<String>>,
+    /// Formulas to be checked.
+    pub closed_forms: Vec<Named<ClosedFormDescription>>,
+}
+
+/// A point on a body, or a frame.
+#[derive(Debug, Clone, PartialEq)]
+pub struct PointDescription {
+    /// The body.
+    pub body: Spanned<String>,
+    /// Where it is in the drawing.
+    pub place: AxisPlace,
 }
 
 /// A joint given by its axis.
@@ -33,12 +61,20 @@ pub struct AxesDescription {
 pub struct AxisDescription {
     /// How it moves.
     pub kind: AxisKind,
-    /// Where its axis lies in the home configuration.
+    /// Where its axis lies in the drawing.
     pub place: AxisPlace,
+    /// Where it lies on the second body, if the drawing shows the bodies apart.
+    pub second: Option<AxisPlace>,
     /// Whether it is driven, if the file says so.
     pub role: Option<Role>,
-    /// The value of its variable in the home configuration; 0 if not given.
-    pub home: Entry,
+    /// The value of its variable in the home configuration; 0 if not given, for a rod the length drawn.
+    pub home: Option<Entry>,
+    /// The value in the drawing; that at home, if not given.
+    pub drawn: Option<Entry>,
+    /// Its value in terms of other joints, or the length of a rod; the joint then has no variable of its own.
+    pub value: Option<Entry>,
+    /// The travel of a screw for a full turn (m).
+    pub pitch: Option<Entry>,
     /// Lowest and highest value.
     pub limits: Option<(Entry, Entry)>,
     /// The two bodies it connects; the second moves positively against the first.
@@ -54,8 +90,20 @@ words! {
         Revolute = "Revolute",
         /// Prismatic along its axis, which has a direction only.
         Prismatic = "Prismatic",
+        /// A screw about its axis.
+        Helical = "Helical",
+        /// Revolute and prismatic about and along its axis.
+        Cylindrical = "Cylindrical",
+        /// Revolute about two axes through a point, the first fixed to the first body, the second to the second.
+        Universal = "Universal",
         /// Spherical, with a centre only. It is always cut.
         Spherical = "Spherical",
+        /// Planar, with the normal of its plane. It is always cut.
+        Planar = "Planar",
+        /// No motion.
+        Fixed = "Fixed",
+        /// A rod with a ball at each end. It is always cut.
+        Distance = "Distance",
     }
 }
 
@@ -66,18 +114,107 @@ pub enum AxisPlace {
     Along(Option<[Entry; 3]>, [Entry; 3]),
     /// Two points, the axis directed from the first to the second.
     Through([Entry; 3], [Entry; 3]),
-    /// The centre of a ball.
+    /// A point and the directions of two axes.
+    Cross([Entry; 3], [[Entry; 3]; 2]),
+    /// The centre of a ball, or a point.
     Centre([Entry; 3]),
+    /// A frame, whose z axis is the axis.
+    Frame(Vec<Displacement>),
+}
+
+impl AxisPlace {
+    /// Everything written in it.
+    pub fn entries(&self) -> Vec<&Entry> {
+        match self {
+            AxisPlace::Along(point, direction) => point.iter().flatten().chain(direction).collect(),
+            AxisPlace::Through(first, second) => first.iter().chain(second).collect(),
+            AxisPlace::Cross(point, directions) => {
+                point.iter().chain(directions.iter().flatten()).collect()
+            }
+            AxisPlace::Centre(point) => point.iter().collect(),
+            AxisPlace::Frame(steps) => steps.iter().flat_map(Displacement::entries).collect(),
+        }
+    }
+}
+
+impl AxesDescription {
+    /// Where joints, points and bodies are.
+    pub fn places(&self) -> impl Iterator<Item = &AxisPlace> {
+        let joints = self.joints.iter().map(|joint| &joint.value);
+        let joints = joints.flat_map(|joint| [Some(&joint.place), joint.second.as_ref()]);
+        let points = self.points.iter().map(|point| &point.value.place);
+        let bodies = self.bodies.iter().map(|body| &body.value);
+        joints.flatten().chain(points).chain(bodies)
+    }
 }
 
 impl AxisKind {
-    /// The closure that restores such a joint.
-    pub fn closure(self) -> ClosureKind {
-        match self {
+    /// The closure that restores such a joint; none for a screw, which cannot be cut.
+    pub fn closure(self) -> Option<ClosureKind> {
+        Some(match self {
             Self::Revolute => ClosureKind::Revolute,
             Self::Prismatic => ClosureKind::Prismatic,
+            Self::Helical => return None,
+            Self::Cylindrical => ClosureKind::Cylindrical,
+            Self::Universal => ClosureKind::Universal,
             Self::Spherical => ClosureKind::Spherical,
+            Self::Planar => ClosureKind::Planar,
+            Self::Fixed => ClosureKind::Rigid,
+            Self::Distance => ClosureKind::Distance,
+        })
+    }
+
+    /// Whether it is one joint with one variable.
+    pub fn has_variable(self) -> bool {
+        matches!(self, Self::Revolute | Self::Prismatic | Self::Helical)
+    }
+
+    /// Whether its variable is a length.
+    pub fn is_length(self) -> bool {
+        matches!(self, Self::Prismatic | Self::Distance)
+    }
+
+    /// Whether it is a closure wherever it stands.
+    pub fn always_cut(self) -> bool {
+        matches!(self, Self::Spherical | Self::Planar | Self::Distance)
+    }
+}
+
+impl AxisDescription {
+    /// A joint of a kind at a place, passive and without limits.
+    pub fn new(kind: AxisKind, place: AxisPlace) -> Self {
+        AxisDescription {
+            kind,
+            place,
+            second: None,
+            role: None,
+            home: None,
+            drawn: None,
+            value: None,
+            pitch: None,
+            limits: None,
+            between: None,
+            span: 0..0,
         }
+    }
+
+    /// The value of its variable in the drawing.
+    pub fn at_drawing(&self) -> Entry {
+        // where the bodies are drawn apart, the frames of the joint on them would coincide at 0
+        let home = self.home.as_ref().filter(|_| self.second.is_none());
+        let given = self.drawn.as_ref().or(home);
+        given.cloned().unwrap_or_else(Entry::absent)
+    }
+
+    /// Whether the length of a rod is a variable of its own.
+    pub fn is_driven_length(&self) -> bool {
+        let said = self.role.is_some() || self.limits.is_some() || self.home.is_some();
+        self.kind == AxisKind::Distance && self.value.is_none() && said
+    }
+
+    /// Whether it has a variable if it is not cut.
+    pub fn is_variable(&self) -> bool {
+        self.value.is_none() && (self.kind.has_variable() || self.is_driven_length())
     }
 }
 
@@ -111,12 +248,36 @@ pub enum AxesProblem {
     /// A loop that no cut opens; the joint is one of it that could be cut.
     #[error("the cuts leave a closed loop through the joint `{joint}`")]
     StillClosed { joint: String },
-    #[error("a loop has no joint to cut, because all its joints are driven")]
+    #[error("a loop has no joint to cut, because all its joints are driven or move with others")]
     NothingToCut,
     #[error("`{field}` is for serial chains, but these joints connect named bodies")]
     SerialOnly { field: &'static str },
     #[error("a serial chain cannot contain the spherical joint `{joint}`")]
     SphericalInSerial { joint: String },
+    #[error("no joint is at the body `{name}`")]
+    UnknownBody {
+        name: String,
+        suggestion: Option<String>,
+    },
+    /// Values of joints given by one another; the first follows the last.
+    #[error("the value of a joint is given by itself: {}", cycle(joints))]
+    FollowsItself { joints: Vec<String> },
+    #[error("the joint `{joint}` follows others by its {by} and has no `{field}` of its own")]
+    Follows {
+        joint: String,
+        by: &'static str,
+        field: &'static str,
+    },
+    #[error(
+        "the axes of the universal joint `{joint}` are not perpendicular: they stand at {angle:.6} rad"
+    )]
+    NotPerpendicular { joint: String, angle: f64 },
+    #[error(
+        "`frames` makes tables of revolute, prismatic and spherical joints only, and `{joint}` is none"
+    )]
+    NotPlaced { joint: String },
+    #[error("the screw `{joint}` cannot be cut")]
+    ScrewCut { joint: String },
     #[error("there are {joints} joints, more than can be placed")]
     TooMany { joints: usize },
     #[error("the driven joint `{joint}` is cut and loses its variable")]
@@ -144,6 +305,11 @@ pub enum AxesProblem {
 }
 
 impl AxesProblem {
+    /// The problem at a place of the file.
+    pub(crate) fn at(self, span: &Range<usize>) -> Problem {
+        ProblemKind::Axes(Box::new(self)).at(span.clone())
+    }
+
     /// Whether tables are made nevertheless.
     pub fn is_warning(&self) -> bool {
         matches!(

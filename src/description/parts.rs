@@ -56,6 +56,8 @@ pub struct Description {
     pub closures: Vec<Named<ClosureDescription>>,
     /// Formulas to be checked against the chains.
     pub closed_forms: Vec<Named<ClosedFormDescription>>,
+    /// The joint coordinates from which all this was made, if it was.
+    pub coordinates: Option<Box<super::Coordinates>>,
 }
 
 words! {
@@ -342,7 +344,7 @@ macro_rules! equal_up_to_place {
 equal_up_to_place! {
     Entry: expression;
     JointDescription: role, home, limits;
-    super::AxisDescription: kind, place, role, home, limits, between;
+    super::AxisDescription: kind, place, second, role, home, drawn, value, pitch, limits, between;
     Row: alpha, a, d, theta;
     ClosureDescription: kind, frames, length;
 }

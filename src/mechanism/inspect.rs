@@ -61,7 +61,9 @@ fn unused(mechanism: &Mechanism, description: &Description, problems: &mut Vec<P
     });
     let platform_homes = description.platforms.iter();
     let platform_homes = platform_homes.flat_map(|p| p.value.home.iter().flat_map(|d| d.entries()));
-    let evaluated: HashSet<&str> = (homes_and_limits.chain(platform_homes))
+    let coordinates = description.coordinates.iter();
+    let places = coordinates.flat_map(|c| c.axes.places().flat_map(|place| place.entries()));
+    let evaluated: HashSet<&str> = (homes_and_limits.chain(platform_homes).chain(places))
         .flat_map(|entry| entry.expression.names().map(|(name, _)| name.as_str()))
         .collect();
     for (i, named) in description.parameters.iter().enumerate() {
