@@ -1,7 +1,8 @@
 //! Lists of displacements as they are written: put together, undone, and where they lead.
 
-use super::{Axis, Displacement, Entry};
+use super::{Displacement, Entry};
 use crate::algebra::{Expression, Function, Node};
+use crate::geometry::Axis;
 
 pub(crate) fn zero() -> Entry {
     Expression::number(0.0).into()

@@ -1,7 +1,7 @@
 //! What a mechanism file means, drawn as a lecture draws it, as a document.
 
+use super::coordinates as given_coordinates;
 use super::document::{Document, Section, Table, TableOf};
-use super::frames;
 use super::quantity::{at, degrees, number, quantity, signed};
 use super::report::Report;
 use crate::algebra::SiUnit;
@@ -45,7 +45,7 @@ fn coordinates(given: &CoordinatesOverview) -> Section {
             ["has", "have"][usize::from(given.rods.len() > 1)]
         ),
     };
-    frames::coordinates(&given.axes).text(cut).text(rods)
+    given_coordinates::section(&given.axes).text(cut).text(rods)
 }
 
 fn parameters(overview: &Overview) -> TableOf<&ParameterOverview> {

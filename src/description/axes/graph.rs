@@ -2,9 +2,9 @@
 
 use std::collections::{BTreeSet, VecDeque};
 
-use super::{AxesDescription, AxesProblem, AxisDescription, AxisKind};
+use super::{AxesDescription, AxisDescription, AxisKind};
 use crate::description::{
-    GROUND, Named, Problem, Role, Spanned, first_free, names_of, nearest, place_of,
+    AxesProblem, GROUND, Named, Problem, Role, Spanned, first_free, names_of, nearest, place_of,
 };
 
 /// Bodies and the joints between them.

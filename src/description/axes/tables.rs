@@ -18,13 +18,13 @@ use std::collections::BTreeSet;
 use super::graph::Graph;
 use super::places::{along, at, difference, frame_of, length, origin};
 use super::values::Values;
-use super::{AxesDescription, AxesProblem, AxisKind, AxisPlace};
+use super::{AxesDescription, AxisKind, AxisPlace};
 use crate::algebra::Expression;
 use crate::description::steps::{joined, signed_sum, undone, zero};
 use crate::description::{
-    ChainDescription, ClosureDescription, Convention, Description, Displacement, Entry, GROUND,
-    JointDescription, Named, PlatformDescription, Problem, Role, Row, Spanned, first_free,
-    names_of, nearest, place_of,
+    AxesProblem, ChainDescription, ClosureDescription, Convention, Description, Displacement,
+    Entry, GROUND, JointDescription, Named, PlatformDescription, Problem, Role, Row, Spanned,
+    first_free, names_of, nearest, place_of,
 };
 
 /// Joint coordinates, and what was chosen to make tables of them.

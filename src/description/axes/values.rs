@@ -1,9 +1,9 @@
 //! The values of joints: variables, and sums of the variables of others.
 
-use super::{AxesDescription, AxesProblem};
+use super::AxesDescription;
 use crate::algebra::{Affine, Expression};
 use crate::description::steps::{signed_sum, zero};
-use crate::description::{Entry, Problem, ProblemKind, place_of};
+use crate::description::{AxesProblem, Entry, Problem, ProblemKind, place_of};
 
 /// The values of joints as sums of variables.
 pub(super) struct Values {

@@ -2,7 +2,7 @@
 
 use super::*;
 use crate::description::axes::{
-    AxesDescription, AxesProblem, AxisDescription, AxisKind, AxisPlace, PointDescription,
+    AxesDescription, AxisDescription, AxisKind, AxisPlace, PointDescription,
 };
 
 impl Reader {
