@@ -5,6 +5,7 @@
 //! to it.
 
 mod affine;
+mod arithmetic;
 mod arrangement;
 mod display;
 mod evaluation;

@@ -20,10 +20,12 @@ mod piece;
 mod problem;
 mod reader;
 mod replacement;
+pub(crate) mod steps;
 mod suggestion;
 mod words;
 mod write;
 
+pub(crate) use axes::Graph;
 pub use axes::*;
 pub use embedded::{axes_text, mechanism_text};
 pub use expectation::*;
@@ -62,7 +64,7 @@ impl Draft {
     /// Reads the text of a mechanism file as far as possible; nothing of a text without any structure.
     pub fn read(text: &str) -> Result<Self, Vec<Problem>> {
         let (description, mut problems, mut doubtful) = reader::read(text);
-        if let Some(description) = &description {
+        if let Some(description) = description.as_ref().filter(|d| d.coordinates.is_none()) {
             checks::check(description, &mut problems);
         }
         let mut double = HashSet::new();

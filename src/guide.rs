@@ -5,6 +5,7 @@
 //! | Page | Subject |
 //! |---|---|
 //! | [`file`](mod@file) | the mechanism file |
+//! | [`coordinates`] | the same by joint coordinates, as a drawing gives them |
 //! | [`solve`] | the assembled configuration near a guess: direct, inverse and mixed kinematics |
 //! | [`assemblies`] | all assemblies, with certificates |
 //! | [`mobility`] | mobility, velocities and forces |
@@ -29,6 +30,10 @@ pub mod assemblies {}
 /// Units, frames, tables, angles, names, exit status.
 #[cfg_attr(doc, doc = "", doc = include_str!("guide/links.txt"), doc = "", doc = include_str!("guide/conventions.md"))]
 pub mod conventions {}
+
+/// Joint coordinates: points and directions as a drawing gives them; gears, cylinders, rods, slots.
+#[cfg_attr(doc, doc = "", doc = include_str!("guide/links.txt"), doc = "", doc = include_str!("guide/coordinates.md"))]
+pub mod coordinates {}
 
 /// Pictures of the mechanism in any configuration.
 #[cfg_attr(doc, doc = "", doc = include_str!("guide/links.txt"), doc = "", doc = include_str!("guide/drawing.md"))]

@@ -40,7 +40,7 @@ pub use model::{
     Parameter, Platform, Row, Symbol,
 };
 
-use crate::description::Problem;
+use crate::description::{Coordinates, Problem};
 
 pub(crate) use closure::{Closure, Side, needs};
 pub(crate) use coordinate::orientation_rows;
@@ -61,6 +61,7 @@ pub struct Mechanism {
     closed_forms: Vec<ClosedForm>,
     outputs: Vec<Quantity>,
     dimensions: Dimensions<f64>,
+    coordinates: Option<Box<Coordinates>>,
     warnings: Vec<Problem>,
 }
 

@@ -21,6 +21,7 @@ pub mod closing;
 pub mod comparison;
 pub mod complaint;
 pub mod conversion;
+mod coordinates;
 #[cfg(feature = "cli")]
 pub mod diagnostics;
 #[cfg(feature = "plot")]

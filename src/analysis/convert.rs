@@ -4,17 +4,16 @@
 //! expressions stay. Only home values of new variables are numbers.
 
 mod convention;
+mod coordinates;
 mod cut;
 mod references;
 
 use serde::{Deserialize, Serialize};
 
-use crate::algebra::{Expression, Node, Operator};
-use crate::description::{
-    Axis, Convention, Description, Displacement, Entry, Problem, mechanism_text,
-};
+use crate::description::{Convention, Description, Problem, mechanism_text};
 use crate::mechanism::Mechanism;
 
+pub use coordinates::to_axes;
 pub use cut::CutError;
 
 /// What is to be changed.
@@ -79,6 +78,12 @@ pub enum ConvertError {
     /// It cannot be broken there.
     #[error(transparent)]
     Cut(#[from] CutError),
+    /// A variable that moves no joint of its own.
+    #[error("the variable `{joint}` stands nowhere alone, with the factor 1 or -1")]
+    NotAlone {
+        /// The variable.
+        joint: String,
+    },
     /// What came out is not a mechanism.
     #[error("the converted file is not a mechanism: {}", titles(.0))]
     Wrong(Vec<Problem>),
@@ -120,59 +125,4 @@ pub fn convert(
 /// The joints at which a mechanism can be broken instead, in the order of the file.
 pub fn possible_cuts(mechanism: &Mechanism, description: &Description) -> Vec<String> {
     cut::possible(mechanism, description)
-}
-
-fn zero() -> Entry {
-    Expression::number(0.0).into()
-}
-
-/// −e, as it would be written.
-fn negated(e: &Entry) -> Entry {
-    Entry::from(match e.expression.as_number() {
-        Some(x) => Expression::number(0.0 - x),
-        None => negative(&e.expression),
-    })
-}
-
-/// −e as the parser would read it: signs stand before numbers.
-fn negative(e: &Expression) -> Expression {
-    let node = match &e.node {
-        Node::Number(x) if *x <= 0.0 => Node::Number(-x),
-        Node::Negate(inner) => return (**inner).clone(),
-        Node::Binary(Operator::Subtract, x, y) => {
-            Node::Binary(Operator::Subtract, y.clone(), x.clone())
-        }
-        Node::Binary(Operator::Add, x, y) => {
-            Node::Binary(Operator::Subtract, Box::new(negative(x)), y.clone())
-        }
-        Node::Binary(operator @ (Operator::Multiply | Operator::Divide), x, y) => {
-            Node::Binary(*operator, Box::new(negative(x)), y.clone())
-        }
-        _ => Node::Negate(Box::new(e.clone())),
-    };
-    node.at(0..0)
-}
-
-/// Tx(a)·Rx(α), without what is zero.
-fn link(alpha: &Entry, a: &Entry) -> Vec<Displacement> {
-    let along = Displacement::Translate(Axis::X, a.clone());
-    let about = Displacement::Rotate(Axis::X, alpha.clone());
-    doing_something([along, about])
-}
-
-fn doing_something(steps: impl IntoIterator<Item = Displacement>) -> Vec<Displacement> {
-    let something = |step: &Displacement| step.entries().iter().any(|e| !e.expression.is_zero());
-    steps.into_iter().filter(something).collect()
-}
-
-/// The displacements undone, last first.
-fn undone(steps: &[Displacement]) -> Vec<Displacement> {
-    let undo = |step: &Displacement| match step {
-        Displacement::Translate(axis, e) => Displacement::Translate(*axis, negated(e)),
-        Displacement::Rotate(axis, e) => Displacement::Rotate(*axis, negated(e)),
-        Displacement::TranslateBy(entries) => {
-            Displacement::TranslateBy([0, 1, 2].map(|i| negated(&entries[i])))
-        }
-    };
-    steps.iter().rev().map(undo).collect()
 }

@@ -6,7 +6,6 @@
 mod build;
 mod chains;
 mod given;
-mod graph;
 mod loops;
 mod values;
 
@@ -15,8 +14,8 @@ use std::ops::Range;
 use serde::{Deserialize, Serialize};
 
 use crate::description::{
-    AxesDescription, AxesProblem, AxisKind, Convention, Description, Displacement, Problem,
-    ProblemKind, Role, axes_text, mechanism_text, place_of,
+    AxesDescription, AxesProblem, AxisDescription, AxisKind, AxisPlace, Convention, Description,
+    Displacement, Named, Problem, ProblemKind, axes_text, mechanism_text, place_of,
 };
 use crate::geometry::{Line, Pose, Relation, Vector3};
 use crate::mechanism::{Assignment, Mechanism, Normal, SerialAxes, TableRow};
@@ -231,23 +230,6 @@ impl PlacedChain {
     }
 }
 
-/// What cut joints lose with their variables.
-fn lost_by_cuts(axes: &AxesDescription, cuts: Option<&CutReport>) -> Vec<Problem> {
-    let is_cut = |name: &String| cuts.is_some_and(|cuts| cuts.cut.contains(name));
-    let mut lost = Vec::new();
-    for joint in axes.joints.iter().filter(|joint| is_cut(&joint.name.value)) {
-        let (name, at) = (joint.name.value.clone(), &joint.name.span);
-        if joint.value.role == Some(Role::Actuated) {
-            let joint = name.clone();
-            lost.push(problem(AxesProblem::DriveCut { joint }, at));
-        }
-        if joint.value.limits.is_some() {
-            lost.push(problem(AxesProblem::LimitsCut { joint: name }, at));
-        }
-    }
-    lost
-}
-
 /// An offset so many times as long as the mechanism is large is worth a warning.
 const FAR: f64 = 1e3;
 
@@ -298,7 +280,7 @@ fn far_normals(
 }
 
 fn problem(problem: AxesProblem, at: &Range<usize>) -> Problem {
-    ProblemKind::Axes(Box::new(problem)).at(at.clone())
+    problem.at(at)
 }
 
 /// Places frames on joint axes and reads the tables off them.
@@ -314,8 +296,23 @@ pub fn frames(
         .convention
         .or(of_file)
         .unwrap_or(Convention::Modified);
+    let unplaced = |joint: &&Named<AxisDescription>| {
+        use AxisKind::{Prismatic, Revolute, Spherical};
+        let part = &joint.value;
+        let placed = matches!(part.kind, Revolute | Prismatic | Spherical);
+        let frame = matches!(part.place, AxisPlace::Frame(_));
+        !placed || frame || part.second.is_some() || part.value.is_some()
+    };
+    let unplaced = axes.joints.iter().filter(unplaced).map(|joint| {
+        let name = joint.name.value.clone();
+        problem(AxesProblem::NotPlaced { joint: name }, &joint.name.span)
+    });
+    let unplaced: Vec<Problem> = unplaced.collect();
+    if !unplaced.is_empty() {
+        return Err(unplaced);
+    }
     let values = values::Values::of(axes)?;
-    let closed = (axes.joints.iter()).any(|joint| joint.value.between.is_some());
+    let closed = !axes.is_serial();
     let built = match closed {
         true => loops::closed(axes, &values, convention)?,
         false => chains::serial(axes, &values, convention)?,
@@ -326,7 +323,13 @@ pub fn frames(
     let mechanism = Mechanism::new(&description)?;
     let kept = |problem: &&Problem| matches!(problem.kind, ProblemKind::HomeOutsideLimits { .. });
     warnings.extend(mechanism.warnings().iter().filter(kept).cloned());
-    warnings.extend(lost_by_cuts(axes, built.cuts.as_ref()));
+    let is_cut = |name: &str| {
+        built
+            .cuts
+            .iter()
+            .any(|c| c.cut.iter().any(|cut| cut == name))
+    };
+    warnings.extend(axes.lost_by_cuts(is_cut));
     if let [chain] = &built.chains[..]
         && let Some(base) = axes.base.as_deref().filter(|_| !closed)
         && !chain.starts_at_base

@@ -11,6 +11,7 @@ pub use count::{MobilityCount, PlanarCount};
 pub use loops::{Loop, LoopStep};
 
 use crate::algebra::{Affine, Node, SiUnit};
+use crate::description::{AxesDescription, axes_text};
 use crate::geometry::{Pose, Quaternion, RollPitchYaw};
 use crate::mechanism::{
     Chain, ClosureKind, Convention, FixedStep, Formula, Frame, Given, Joint, JointKind, Mechanism,
@@ -25,6 +26,9 @@ pub struct Overview {
     pub name: String,
     /// Where it comes from.
     pub source: Option<String>,
+    /// The joint coordinates from which the tables were made, if they were.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub coordinates: Option<CoordinatesOverview>,
     /// The parameters.
     pub parameters: Vec<ParameterOverview>,
     /// The joints.
@@ -43,6 +47,18 @@ pub struct Overview {
     pub closed_forms: Vec<ClosedFormOverview>,
     /// What is odd about the file, one sentence each.
     pub warnings: Vec<String>,
+}
+
+/// Joint coordinates, and what was chosen to make tables of them.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct CoordinatesOverview {
+    /// The file of joint coordinates, serialised as its text.
+    #[serde(rename = "file", with = "axes_text")]
+    pub axes: AxesDescription,
+    /// The joints that are cut, beside balls and rods.
+    pub cut: Vec<String>,
+    /// Bodies with nothing but two balls, taken for rods.
+    pub rods: Vec<String>,
 }
 
 /// A parameter.
@@ -199,6 +215,11 @@ pub fn overview(mechanism: &Mechanism) -> Overview {
     Overview {
         name: mechanism.name().into(),
         source: mechanism.source().map(str::to_owned),
+        coordinates: mechanism.coordinates().map(|made| CoordinatesOverview {
+            axes: made.axes.clone(),
+            cut: made.cut.clone(),
+            rods: made.rods.clone(),
+        }),
         parameters: parameters
             .map(|parameter| ParameterOverview {
                 name: parameter.name.clone(),

@@ -15,7 +15,7 @@ use super::{Answer, Refusal, style};
 
 #[derive(Args)]
 pub struct Source {
-    /// The mechanism file.
+    /// The mechanism file: tables, or joint coordinates.
     file: PathBuf,
     /// Give a parameter another value, an expression as in the file, e.g. --set l2="3.5 m"
     #[arg(long, value_name = "NAME=VALUE")]

@@ -1,14 +1,24 @@
-//! The contents of a file of joint axes: like a mechanism file, before frames are placed.
+//! The contents of a file of joint coordinates: like a mechanism file, before frames are placed.
+
+mod closing;
+mod graph;
+mod places;
+mod rods;
+mod tables;
+mod values;
 
 use std::ops::Range;
 
-use thiserror::Error;
+pub(crate) use graph::Graph;
+pub use tables::Coordinates;
 
-use super::{ClosureKind, Convention, Displacement, Entry, GROUND, Named, Role, Spanned};
+use super::{
+    ClosedFormDescription, ClosureKind, Convention, Displacement, Entry, Named, Role, Spanned,
+};
 use crate::algebra::words;
 
 /// A whole file of joint axes. Everything is in the order of the file.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, Default, PartialEq)]
 pub struct AxesDescription {
     /// The name of the mechanism.
     pub name: Spanned<String>,
@@ -20,12 +30,29 @@ pub struct AxesDescription {
     pub parameters: Vec<Named<Entry>>,
     /// The joints; in a serial chain from the base to the tool.
     pub joints: Vec<Named<AxisDescription>>,
+    /// Where bodies have their frames in the drawing; at the joint that carries them, if not given.
+    pub bodies: Vec<Named<AxisPlace>>,
+    /// Points on bodies, and frames.
+    pub points: Vec<Named<PointDescription>>,
     /// The frame from which the tables should start.
     pub base: Option<Vec<Displacement>>,
     /// The frame at which a serial chain ends.
     pub tool: Option<Vec<Displacement>>,
     /// The joints at which closed loops are to be cut.
     pub cut: Vec<Spanned<String>>,
+    /// Formulas to be checked.
+    pub closed_forms: Vec<Named<ClosedFormDescription>>,
+    /// Quantities of interest, over joints, coordinates of points, rates and forces.
+    pub outputs: Vec<Named<Entry>>,
+}
+
+/// A point on a body, or a frame.
+#[derive(Debug, Clone, PartialEq)]
+pub struct PointDescription {
+    /// The body.
+    pub body: Spanned<String>,
+    /// Where it is in the drawing.
+    pub place: AxisPlace,
 }
 
 /// A joint given by its axis.
@@ -33,12 +60,20 @@ pub struct AxesDescription {
 pub struct AxisDescription {
     /// How it moves.
     pub kind: AxisKind,
-    /// Where its axis lies in the home configuration.
+    /// Where its axis lies in the drawing.
     pub place: AxisPlace,
+    /// Where it lies on the second body, if the drawing shows the bodies apart.
+    pub second: Option<AxisPlace>,
     /// Whether it is driven, if the file says so.
     pub role: Option<Role>,
-    /// The value of its variable in the home configuration; 0 if not given.
-    pub home: Entry,
+    /// The value of its variable in the home configuration; 0 if not given, for a rod the length drawn.
+    pub home: Option<Entry>,
+    /// The value in the drawing; that at home, if not given.
+    pub drawn: Option<Entry>,
+    /// Its value in terms of other joints, or the length of a rod; the joint then has no variable of its own.
+    pub value: Option<Entry>,
+    /// The travel of a screw for a full turn (m).
+    pub pitch: Option<Entry>,
     /// Lowest and highest value.
     pub limits: Option<(Entry, Entry)>,
     /// The two bodies it connects; the second moves positively against the first.
@@ -54,8 +89,20 @@ words! {
         Revolute = "Revolute",
         /// Prismatic along its axis, which has a direction only.
         Prismatic = "Prismatic",
+        /// A screw about its axis.
+        Helical = "Helical",
+        /// Revolute and prismatic about and along its axis.
+        Cylindrical = "Cylindrical",
+        /// Revolute about two axes through a point, the first fixed to the first body, the second to the second.
+        Universal = "Universal",
         /// Spherical, with a centre only. It is always cut.
         Spherical = "Spherical",
+        /// Planar, with the normal of its plane. It is always cut.
+        Planar = "Planar",
+        /// No motion.
+        Fixed = "Fixed",
+        /// A rod with a ball at each end. It is always cut.
+        Distance = "Distance",
     }
 }
 
@@ -66,92 +113,106 @@ pub enum AxisPlace {
     Along(Option<[Entry; 3]>, [Entry; 3]),
     /// Two points, the axis directed from the first to the second.
     Through([Entry; 3], [Entry; 3]),
-    /// The centre of a ball.
+    /// A point and the directions of two axes.
+    Cross([Entry; 3], [[Entry; 3]; 2]),
+    /// The centre of a ball, or a point.
     Centre([Entry; 3]),
+    /// A frame, whose z axis is the axis.
+    Frame(Vec<Displacement>),
 }
 
-impl AxisKind {
-    /// The closure that restores such a joint.
-    pub fn closure(self) -> ClosureKind {
+impl AxisPlace {
+    /// Everything written in it.
+    pub fn entries(&self) -> Vec<&Entry> {
         match self {
-            Self::Revolute => ClosureKind::Revolute,
-            Self::Prismatic => ClosureKind::Prismatic,
-            Self::Spherical => ClosureKind::Spherical,
+            AxisPlace::Along(point, direction) => point.iter().flatten().chain(direction).collect(),
+            AxisPlace::Through(first, second) => first.iter().chain(second).collect(),
+            AxisPlace::Cross(point, directions) => {
+                point.iter().chain(directions.iter().flatten()).collect()
+            }
+            AxisPlace::Centre(point) => point.iter().collect(),
+            AxisPlace::Frame(steps) => steps.iter().flat_map(Displacement::entries).collect(),
         }
     }
 }
 
-/// Problems of meaning in a well-formed file of axes. Lengths are in m, angles in rad.
-#[derive(Debug, Clone, Error, PartialEq)]
-#[allow(missing_docs)]
-pub enum AxesProblem {
-    /// A direction of zero length, or two points that coincide.
-    #[error("the axis of joint `{joint}` has no direction")]
-    NoDirection { joint: String },
-    /// Fewer joints than a chain needs for a table.
-    #[error("there {}", if *joints == 0 { "are no joints" } else { "is only one joint" })]
-    TooFew { joints: usize },
-    #[error("the axis is given in two ways")]
-    TwoPlaces { joint: &'static str },
-    #[error("the joint `{joint}` does not name the bodies that it connects, as other joints do")]
-    NotBetween { joint: String },
-    #[error("the joint connects the body `{body}` with itself")]
-    OneBody { body: String },
-    #[error("no joint connects anything with `{GROUND}`")]
-    NoGround,
-    #[error("no joints connect the body `{body}` with `{GROUND}`")]
-    NotConnected { body: String },
-    #[error("there is no joint `{name}` to cut")]
-    UnknownCut {
-        name: String,
-        suggestion: Option<String>,
-    },
-    #[error("cutting the joint `{joint}` disconnects bodies instead of opening a loop")]
-    CutsOff { joint: String },
-    /// A loop that no cut opens; the joint is one of it that could be cut.
-    #[error("the cuts leave a closed loop through the joint `{joint}`")]
-    StillClosed { joint: String },
-    #[error("a loop has no joint to cut, because all its joints are driven")]
-    NothingToCut,
-    #[error("`{field}` is for serial chains, but these joints connect named bodies")]
-    SerialOnly { field: &'static str },
-    #[error("a serial chain cannot contain the spherical joint `{joint}`")]
-    SphericalInSerial { joint: String },
-    #[error("there are {joints} joints, more than can be placed")]
-    TooMany { joints: usize },
-    #[error("the driven joint `{joint}` is cut and loses its variable")]
-    DriveCut { joint: String },
-    #[error("the joint `{joint}` is cut and loses its variable and its limits")]
-    LimitsCut { joint: String },
-    /// A base from which no row leads to the first axis.
-    #[error("frame 0 cannot be placed as `base` says; it is placed freely")]
-    BaseUnused { convention: Convention },
-    /// Nearly parallel axes whose common normal is far away.
-    #[error(
-        "the axes of `{}` and `{}` are nearly parallel, {angle:.1e} rad apart: their common normal is \
-         {offset:.1e} m away, {:.0e} times the size of the mechanism",
-        joints[0], joints[1], offset / size
-    )]
-    FarNormal {
-        joints: [String; 2],
-        /// Angle between the axes.
-        angle: f64,
-        /// Offset that leads to the normal.
-        offset: f64,
-        /// Size of the mechanism.
-        size: f64,
-    },
+impl AxesDescription {
+    /// Where joints, points and bodies are.
+    pub fn places(&self) -> impl Iterator<Item = &AxisPlace> {
+        let joints = self.joints.iter().map(|joint| &joint.value);
+        let joints = joints.flat_map(|joint| [Some(&joint.place), joint.second.as_ref()]);
+        let points = self.points.iter().map(|point| &point.value.place);
+        let bodies = self.bodies.iter().map(|body| &body.value);
+        joints.flatten().chain(points).chain(bodies)
+    }
 }
 
-impl AxesProblem {
-    /// Whether tables are made nevertheless.
-    pub fn is_warning(&self) -> bool {
-        matches!(
-            self,
-            Self::DriveCut { .. }
-                | Self::LimitsCut { .. }
-                | Self::BaseUnused { .. }
-                | Self::FarNormal { .. }
-        )
+impl AxisKind {
+    /// The closure that restores such a joint; none for a screw, which cannot be cut.
+    pub fn closure(self) -> Option<ClosureKind> {
+        Some(match self {
+            Self::Revolute => ClosureKind::Revolute,
+            Self::Prismatic => ClosureKind::Prismatic,
+            Self::Helical => return None,
+            Self::Cylindrical => ClosureKind::Cylindrical,
+            Self::Universal => ClosureKind::Universal,
+            Self::Spherical => ClosureKind::Spherical,
+            Self::Planar => ClosureKind::Planar,
+            Self::Fixed => ClosureKind::Rigid,
+            Self::Distance => ClosureKind::Distance,
+        })
+    }
+
+    /// Whether it is one joint with one variable.
+    pub fn has_variable(self) -> bool {
+        matches!(self, Self::Revolute | Self::Prismatic | Self::Helical)
+    }
+
+    /// Whether its variable is a length.
+    pub fn is_length(self) -> bool {
+        matches!(self, Self::Prismatic | Self::Distance)
+    }
+
+    /// Whether it is a closure wherever it stands.
+    pub fn always_cut(self) -> bool {
+        matches!(self, Self::Spherical | Self::Planar | Self::Distance)
+    }
+}
+
+impl AxisDescription {
+    /// A joint of a kind at a place, passive and without limits.
+    pub fn new(kind: AxisKind, place: AxisPlace) -> Self {
+        AxisDescription {
+            kind,
+            place,
+            second: None,
+            role: None,
+            home: None,
+            drawn: None,
+            value: None,
+            pitch: None,
+            limits: None,
+            between: None,
+            span: 0..0,
+        }
+    }
+
+    /// The value of its variable in the drawing.
+    pub fn at_drawing(&self) -> Entry {
+        // where the bodies are drawn apart, the frames of the joint on them would coincide at 0
+        let home = self.home.as_ref().filter(|_| self.second.is_none());
+        let given = self.drawn.as_ref().or(home);
+        given.cloned().unwrap_or_else(Entry::absent)
+    }
+
+    /// Whether the length of a rod is a variable of its own.
+    pub fn is_driven_length(&self) -> bool {
+        let said = self.role.is_some() || self.limits.is_some() || self.home.is_some();
+        self.kind == AxisKind::Distance && self.value.is_none() && said
+    }
+
+    /// Whether it has a variable if it is not cut.
+    pub fn is_variable(&self) -> bool {
+        self.value.is_none() && (self.kind.has_variable() || self.is_driven_length())
     }
 }

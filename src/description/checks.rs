@@ -31,11 +31,29 @@ pub(super) fn check(description: &Description, problems: &mut Vec<Problem>) {
     }
 }
 
-/// The same for a file of joint axes, as far as it differs from a mechanism file.
+/// The same for a file of joint coordinates.
 pub(super) fn check_axes(description: &AxesDescription, problems: &mut Vec<Problem>) {
     let parameters = names(Noun::Parameter, &description.parameters);
     let joints = names(Noun::Axis, &description.joints);
-    check_quantities(parameters.chain(joints), problems);
+    let quantities = check_quantities(parameters.chain(joints), problems);
+    let mut bodies: Vec<(Noun, &Spanned<String>)> = Vec::new();
+    for joint in &description.joints {
+        for body in joint.value.between.iter().flatten() {
+            let known = |(_, other): &(Noun, &Spanned<String>)| other.value == body.value;
+            if body.value != GROUND && !bodies.iter().any(known) {
+                bodies.push((Noun::Body, body));
+            }
+        }
+    }
+    bodies.extend(names(Noun::Point, &description.points));
+    for &(noun, name) in &bodies {
+        check_body(noun, name, problems);
+    }
+    check_distinct(&bodies, problems);
+    for closed_form in &description.closed_forms {
+        check_not_empty(Noun::ClosedForm, &closed_form.name, problems);
+        check_locals(&closed_form.value, &quantities, problems);
+    }
 }
 
 /// Names that expressions use; where the first of each stands.

@@ -58,6 +58,8 @@ pub struct Description {
     pub closed_forms: Vec<Named<ClosedFormDescription>>,
     /// Quantities of interest, over joints, coordinates of points, rates and forces.
     pub outputs: Vec<Named<Entry>>,
+    /// The joint coordinates from which all this was made, if it was.
+    pub coordinates: Option<Box<super::Coordinates>>,
 }
 
 words! {
@@ -403,7 +405,7 @@ macro_rules! equal_up_to_place {
 equal_up_to_place! {
     Entry: expression;
     JointDescription: role, home, limits;
-    super::AxisDescription: kind, place, role, home, limits, between;
+    super::AxisDescription: kind, place, second, role, home, drawn, value, pitch, limits, between;
     Row: alpha, a, d, theta;
     ClosureDescription: kind, frames, length;
 }

@@ -1,14 +1,16 @@
 //! What can be wrong with a mechanism file, as data with a title; `advice.rs` says what to do about it.
 
 mod advice;
+mod coordinates;
 mod parts;
 
 use std::ops::Range;
 
+pub use coordinates::AxesProblem;
 use thiserror::Error;
 
 use super::words::{count, cycle, syntax};
-use super::{AxesProblem, Expected, Found, MAX_BYTES, Noun, Structure};
+use super::{Expected, Found, MAX_BYTES, Noun, Structure};
 use crate::algebra::{EvaluationErrorKind, MeasureErrorKind, ParseErrorKind};
 
 /// A problem of a mechanism file.

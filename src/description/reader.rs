@@ -15,8 +15,15 @@ use super::piece::{Piece, Shape};
 use super::*;
 use shapes::Fields;
 
-/// The description as far as it could be read, the problems, and the names affected by them.
+/// The description as far as it could be read, the problems, and the names affected by them. Joint coordinates become
+/// tables.
 pub(super) fn read(text: &str) -> (Option<Description>, Vec<Problem>, HashSet<String>) {
+    if first_word(text) == Some(Structure::Axes.word()) {
+        return match AxesDescription::read(text).and_then(|axes| axes.tables()) {
+            Ok(description) => (Some(description), Vec::new(), HashSet::new()),
+            Err(problems) => (None, problems, HashSet::new()),
+        };
+    }
     let (description, reader) = read_with(text, Reader::mechanism);
     (description, reader.problems, reader.broken)
 }
@@ -108,6 +115,7 @@ impl Reader {
             closures: self.named(f, "closures", Noun::Closure, Self::closure),
             closed_forms: self.named(f, "closed_forms", Noun::ClosedForm, Self::closed_form),
             outputs: self.named(f, "outputs", Noun::Output, Self::quantity),
+            coordinates: None,
         })
     }
 

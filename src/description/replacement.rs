@@ -64,10 +64,14 @@ impl Description {
             return Err(ReplacementError::Value(problems));
         }
         let span = self.parameters[index].value.span.clone();
-        self.parameters[index].value = Entry {
+        let value = Entry {
             expression: expression.relocate(&|_| span.clone()),
             span,
         };
+        if let Some(coordinates) = &mut self.coordinates {
+            coordinates.axes.parameters[index].value = value.clone();
+        }
+        self.parameters[index].value = value;
         Ok(self)
     }
 }

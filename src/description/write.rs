@@ -9,7 +9,7 @@ use super::*;
 
 /// Writes the fields that are given.
 macro_rules! fields {
-    ($start:expr, $($name:literal: $value:expr, if $given:expr;)+) => {{
+    ($start:expr, $($name:tt: $value:expr, if $given:expr;)+) => {{
         let mut fields = $start?;
         $(if $given { fields.serialize_field($name, $value)?; })+
         fields.end()
@@ -26,7 +26,7 @@ impl Description {
 }
 
 impl AxesDescription {
-    /// The text of an equivalent file of joint axes. Comments are not kept.
+    /// The text of an equivalent file of joint coordinates. Comments are not kept.
     pub fn to_ron(&self) -> Result<String, ron::Error> {
         let layout = PrettyConfig::new().depth_limit(2);
         Ok(ron::ser::to_string_pretty(self, layout)? + "\n")
@@ -35,17 +35,108 @@ impl AxesDescription {
 
 impl Serialize for AxesDescription {
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
-        fields!(serializer.serialize_struct_variant("File", 0, "Axes", 9),
+        fields!(serializer.serialize_struct_variant("File", 0, "Axes", 13),
             "version": &VERSION, if true;
             "name": &self.name, if true;
             "source": &Bare(&self.source), if self.source.is_some();
             "convention": &Bare(&self.convention), if self.convention.is_some();
             "parameters": &Map(&self.parameters), if !self.parameters.is_empty();
             "joints": &Map(&self.joints), if true;
+            "bodies": &Bodies(&self.bodies), if !self.bodies.is_empty();
+            "points": &Map(&self.points), if !self.points.is_empty();
             "base": &Bare(&self.base), if self.base.is_some();
             "tool": &Bare(&self.tool), if self.tool.is_some();
             "cut": &self.cut, if !self.cut.is_empty();
+            "closed_forms": &Map(&self.closed_forms), if !self.closed_forms.is_empty();
+            "outputs": &Map(&self.outputs), if !self.outputs.is_empty();
         )
+    }
+}
+
+/// The frames of bodies, as a map in the same order.
+struct Bodies<'a>(&'a [Named<AxisPlace>]);
+
+impl Serialize for Bodies<'_> {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        struct Body<'a>(&'a AxisPlace);
+        impl Serialize for Body<'_> {
+            fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+                let (origin, frame) = self.0.point_or_frame();
+                fields!(serializer.serialize_struct("Body", 2),
+                    "origin": &Bare(&origin), if origin.is_some();
+                    "frame": &Bare(&frame), if frame.is_some();
+                )
+            }
+        }
+        let bodies = self.0.iter();
+        serializer.collect_map(bodies.map(|named| (&named.name, Body(&named.value))))
+    }
+}
+
+impl Serialize for PointDescription {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        let (at, frame) = self.place.point_or_frame();
+        fields!(serializer.serialize_struct("Point", 3),
+            "body": &self.body, if true;
+            "at": &Bare(&at), if at.is_some();
+            "frame": &Bare(&frame), if frame.is_some();
+        )
+    }
+}
+
+/// The place of a joint on its second body.
+impl Serialize for AxisPlace {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        let mut fields = serializer.serialize_struct("Place", 1)?;
+        for (name, value) in self.fields() {
+            fields.serialize_field(name, &value)?;
+        }
+        fields.end()
+    }
+}
+
+/// The value of a field that places something.
+enum Placed<'a> {
+    Vector(&'a [Entry; 3]),
+    Pair(&'a [Entry; 3], &'a [Entry; 3]),
+    Frame(&'a [Displacement]),
+}
+
+impl Serialize for Placed<'_> {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        match self {
+            Placed::Vector(vector) => vector.serialize(serializer),
+            Placed::Pair(first, second) => (first, second).serialize(serializer),
+            Placed::Frame(steps) => steps.serialize(serializer),
+        }
+    }
+}
+
+impl AxisPlace {
+    /// The fields that say it, in their order.
+    fn fields(&self) -> Vec<(&'static str, Placed<'_>)> {
+        match self {
+            AxisPlace::Along(point, direction) => {
+                let point = point.as_ref().map(|point| ("point", Placed::Vector(point)));
+                let direction = ("direction", Placed::Vector(direction));
+                point.into_iter().chain([direction]).collect()
+            }
+            AxisPlace::Through(first, second) => vec![("through", Placed::Pair(first, second))],
+            AxisPlace::Cross(point, [first, second]) => vec![
+                ("point", Placed::Vector(point)),
+                ("directions", Placed::Pair(first, second)),
+            ],
+            AxisPlace::Centre(point) => vec![("point", Placed::Vector(point))],
+            AxisPlace::Frame(steps) => vec![("frame", Placed::Frame(steps))],
+        }
+    }
+
+    fn point_or_frame(&self) -> (Option<&[Entry; 3]>, Option<&Vec<Displacement>>) {
+        match self {
+            AxisPlace::Centre(point) => (Some(point), None),
+            AxisPlace::Frame(steps) => (None, Some(steps)),
+            _ => (None, None),
+        }
     }
 }
 
@@ -60,17 +151,25 @@ impl Serialize for Word {
 
 impl Serialize for AxisDescription {
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
-        let (point, direction, through) = match &self.place {
-            AxisPlace::Along(point, direction) => (point.as_ref(), Some(direction), None),
-            AxisPlace::Through(first, second) => (None, None, Some((first, second))),
-            AxisPlace::Centre(point) => (Some(point), None, None),
-        };
         let role = self.role.map(|role| Word(role.word()));
-        fields!(serializer.serialize_struct_variant("Axis", 0, self.kind.word(), 7),
-            "point": &Bare(&point), if point.is_some();
-            "direction": &Bare(&direction), if direction.is_some();
-            "through": &Bare(&through), if through.is_some();
-            "home": &self.home, if !self.home.expression.is_zero();
+        let by = match self.kind {
+            AxisKind::Distance => "length",
+            _ => "value",
+        };
+        let nothing = |place: &Placed| matches!(place, Placed::Frame(steps) if steps.is_empty());
+        let name = self.kind.word();
+        let mut fields = serializer.serialize_struct_variant("Axis", 0, name, 12)?;
+        for (name, value) in self.place.fields() {
+            if !nothing(&value) {
+                fields.serialize_field(name, &value)?;
+            }
+        }
+        fields!(Ok::<_, S::Error>(fields),
+            "second": &Bare(&self.second), if self.second.is_some();
+            "pitch": &Bare(&self.pitch), if self.pitch.is_some();
+            by: &Bare(&self.value), if self.value.is_some();
+            "home": &Bare(&self.home), if self.home.is_some();
+            "drawn": &Bare(&self.drawn), if self.drawn.is_some();
             "limits": &Bare(&self.limits), if self.limits.is_some();
             "role": &Bare(&role), if role.is_some();
             "between": &Bare(&self.between), if self.between.is_some();

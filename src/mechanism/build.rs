@@ -2,6 +2,7 @@
 
 mod closed_form;
 mod closures;
+mod coordinates;
 mod entries;
 mod outputs;
 mod parameters;
@@ -129,6 +130,9 @@ impl Mechanism {
         let platforms = builder.platforms(description);
         let closures = builder.closures(description, &chains);
         let closed_forms = builder.closed_forms(description);
+        if let Some(coordinates) = &description.coordinates {
+            builder.check_coordinates(coordinates);
+        }
         if description.chains.is_empty() && description.platforms.is_empty() {
             builder.refuse(ProblemKind::NothingToAnalyse, &description.name.span);
         }
@@ -146,6 +150,7 @@ impl Mechanism {
             closed_forms,
             outputs: Vec::new(),
             dimensions: super::Dimensions::empty(),
+            coordinates: description.coordinates.clone(),
             warnings: Vec::new(),
         };
         let refused = |problem: &Problem| problem.severity() == Severity::Error;
@@ -164,6 +169,8 @@ impl Mechanism {
         }
         let problems = &mut builder.problems;
         problems.sort_by_key(|problem| (problem.span.start, problem.span.end));
+        // a coordinate stands in several entries of the tables
+        problems.dedup();
         if builder.problems.iter().any(refused) {
             return Err(builder.problems);
         }

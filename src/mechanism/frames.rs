@@ -9,7 +9,7 @@ use super::model::{
 };
 use super::{Dimensions, Frame, Mechanism, Quantity};
 use crate::algebra::Affine;
-use crate::description::{GROUND, Problem};
+use crate::description::{Coordinates, GROUND, Problem};
 use crate::geometry::Pose;
 
 /// A rigid body: what is fixed to one another whatever the joints do.
@@ -80,6 +80,11 @@ impl Mechanism {
         &self.outputs
     }
 
+    /// The joint coordinates from which the tables were made, if they were.
+    pub fn coordinates(&self) -> Option<&Coordinates> {
+        self.coordinates.as_deref()
+    }
+
     /// Warnings: peculiarities that do not prevent an analysis.
     pub fn warnings(&self) -> &[Problem] {
         &self.warnings
@@ -135,6 +140,8 @@ impl Mechanism {
         match body {
             Body::Ground => Frame::Ground,
             Body::Platform(platform) => Frame::Platform { platform },
+            // tables made of coordinates end in the body's own frame, under its name
+            Body::Link { chain, .. } if self.coordinates.is_some() => Frame::Tip { chain },
             Body::Link { chain, row } => Frame::Link { chain, row },
         }
     }

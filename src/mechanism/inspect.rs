@@ -60,9 +60,14 @@ fn unused(mechanism: &Mechanism, description: &Description, problems: &mut Vec<P
     let platform_homes = description.platforms.iter();
     let platform_homes = platform_homes.flat_map(|p| p.value.home.iter().flat_map(|d| d.entries()));
     let outputs = description.outputs.iter().map(|output| &output.value);
-    let evaluated: HashSet<&str> = (homes_and_limits.chain(platform_homes).chain(outputs))
-        .flat_map(|entry| entry.expression.names().map(|(name, _)| name.as_str()))
-        .collect();
+    let coordinates = description.coordinates.iter();
+    let places = coordinates.flat_map(|c| c.axes.places().flat_map(|place| place.entries()));
+    let evaluated: HashSet<&str> = (homes_and_limits
+        .chain(platform_homes)
+        .chain(outputs)
+        .chain(places))
+    .flat_map(|entry| entry.expression.names().map(|(name, _)| name.as_str()))
+    .collect();
     for (i, named) in description.parameters.iter().enumerate() {
         let name = named.name.value.clone();
         if !used.contains(&Symbol::Parameter(i)) && !evaluated.contains(name.as_str()) {

@@ -22,7 +22,8 @@ impl Report for Conversion {
     }
 }
 
-fn note(note: &ConversionNote) -> String {
+/// What a converted file says differently, in words.
+pub fn note(note: &ConversionNote) -> String {
     match note {
         ConversionNote::Renamed { from, to } => format!("the frame `{from}` is now `{to}`"),
         ConversionNote::Dropped { closed_form, joint } => format!(

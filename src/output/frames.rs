@@ -6,17 +6,15 @@ use super::report::Report;
 use serde::Serialize;
 
 use super::complaint::Complaint;
+use super::coordinates;
 use super::document::{Document, Section, Table};
 use super::overview;
-use super::quantity::{degrees, metres, number, quantity, size, triple};
-use crate::algebra::SiUnit;
+use super::quantity::{degrees, metres, size, triple};
 use crate::analysis::frames::{
     AxesError, AxesReport, CutChoice, CutReport, FramesReport, PlacedChain, PlacedNormal,
 };
 use crate::analysis::overview::overview;
-use crate::description::{
-    AxisDescription, AxisKind, AxisPlace, Convention, Entry, Named, count, listed, quoted,
-};
+use crate::description::{Convention, count, listed, quoted};
 use crate::geometry::Relation;
 use crate::linear::RANK_TOLERANCE;
 use crate::mechanism::Mechanism;
@@ -260,52 +258,13 @@ fn accuracy(report: &FramesReport) -> String {
 pub const NOT_ASSEMBLED: &str = "the mechanism could not be assembled near home; these are the axes at home, and \
      tables made from them will not close";
 
-/// A joint with its name.
-type Axis = Named<AxisDescription>;
-
 impl Report for AxesReport {
     fn document(&self) -> Document {
-        let vector = |v: &[Entry; 3]| -> String {
-            let shown = v.each_ref().map(|x| match x.expression.as_number() {
-                Some(value) => number(value),
-                None => x.expression.to_string(),
-            });
-            format!("({})", shown.join(", "))
-        };
-        let point = |joint: &Axis| match &joint.value.place {
-            AxisPlace::Along(point, _) => point.as_ref().map_or("any".into(), vector),
-            AxisPlace::Through(point, _) | AxisPlace::Centre(point) => vector(point),
-        };
-        let direction = |joint: &Axis| match &joint.value.place {
-            AxisPlace::Along(_, direction) => Some(vector(direction)),
-            AxisPlace::Through(_, second) => Some(format!("to {}", vector(second))),
-            AxisPlace::Centre(_) => None,
-        };
-        let table = Table::of(&self.axes.joints)
-            .words("joint", |joint| &joint.name.value)
-            .words("kind", |joint| joint.value.kind.word().to_lowercase())
-            .words("point (m)", point)
-            .words("direction", direction)
-            .words("home", |joint| home(&joint.value))
-            .words("between", |joint| {
-                let between = joint.value.between.as_ref();
-                between.map(|[a, b]| format!("{} and {}", a.value, b.value))
-            });
-        Document::new(&self.mechanism, "").section(Section::new("Joint axes").table(table))
+        Document::new(&self.mechanism, "").section(coordinates::section(&self.axes))
     }
 
     fn file(&self) -> Option<Result<String, ron::Error>> {
         Some(self.axes.to_ron())
-    }
-}
-
-/// The value of a joint's variable, with its unit.
-fn home(axis: &AxisDescription) -> String {
-    let value = axis.home.expression.evaluate(&|_| f64::NAN);
-    match (axis.kind, value) {
-        (AxisKind::Spherical, _) => String::new(),
-        (kind, Ok(value)) => quantity(value, SiUnit::of_coordinate(kind != AxisKind::Prismatic)),
-        (_, Err(_)) => axis.home.expression.to_string(),
     }
 }
 

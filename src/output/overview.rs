@@ -1,20 +1,22 @@
 //! What a mechanism file means, drawn as a lecture draws it, as a document.
 
+use super::coordinates as given_coordinates;
 use super::document::{Document, Section, Table, TableOf};
 use super::quantity::{at, degrees, number, quantity, signed};
 use super::report::Report;
 use crate::algebra::SiUnit;
 use crate::analysis::overview::{
-    ChainOverview, ClosedFormOverview, ClosureOverview, JointOverview, LoopStep, MobilityCount,
-    Overview, ParameterOverview, PlatformOverview, RowOverview,
+    ChainOverview, ClosedFormOverview, ClosureOverview, CoordinatesOverview, JointOverview,
+    LoopStep, MobilityCount, Overview, ParameterOverview, PlatformOverview, RowOverview,
 };
-use crate::description::{ClosureKind, Convention, count};
+use crate::description::{ClosureKind, Convention, count, quoted};
 
 impl Report for Overview {
     fn document(&self) -> Document {
         Document::new(&self.name, "")
             .notes(self.source.clone())
             .section(Section::new("Parameters").table(parameters(self)))
+            .sections(self.coordinates.as_ref().map(coordinates))
             .section(Section::new("Joints").table(joints(self)))
             .sections(self.chains.iter().map(chain))
             .sections(platforms(self))
@@ -23,6 +25,27 @@ impl Report for Overview {
             .section(mobility(&self.count))
             .section(Section::new("Closed forms").table(closed_forms(self)))
     }
+}
+
+/// The coordinates as given, and what was chosen on the way to the tables.
+fn coordinates(given: &CoordinatesOverview) -> Section {
+    let cut = match (given.cut.is_empty(), given.axes.cut.is_empty()) {
+        (true, _) => String::new(),
+        (false, false) => format!("cut at {}, as the file says", quoted(&given.cut)),
+        (false, true) => format!(
+            "cut at {}, the farthest from the ground that need not be kept; `cut` in the file chooses others",
+            quoted(&given.cut)
+        ),
+    };
+    let rods = match given.rods.is_empty() {
+        true => String::new(),
+        false => format!(
+            "{} {} two balls and nothing else: a rod, whose spin is left out",
+            quoted(&given.rods),
+            ["has", "have"][usize::from(given.rods.len() > 1)]
+        ),
+    };
+    given_coordinates::section(&given.axes).text(cut).text(rods)
 }
 
 fn parameters(overview: &Overview) -> TableOf<&ParameterOverview> {

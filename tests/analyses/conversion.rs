@@ -238,7 +238,7 @@ fn a_mechanism_broken_at_another_joint_is_assembled_where_it_was() {
                         refused += 1;
                         continue;
                     }
-                    Err(ConvertError::Wrong(problems)) => panic!("{what}: {problems:?}"),
+                    Err(error) => panic!("{what}: {error:?}"),
                 };
                 cuts += 1;
                 let new = Mechanism::new(&conversion.description).unwrap();

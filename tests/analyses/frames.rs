@@ -433,7 +433,7 @@ mod files {
             let (point, along) = match &joint.value.place {
                 AxisPlace::Along(point, along) => (point.as_ref().map(vector), Some(vector(along))),
                 AxisPlace::Centre(point) => (Some(vector(point)), None),
-                AxisPlace::Through(..) => {
+                AxisPlace::Through(..) | AxisPlace::Cross(..) | AxisPlace::Frame(_) => {
                     unreachable!("axes of tables are written with directions")
                 }
             };

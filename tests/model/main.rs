@@ -1,5 +1,6 @@
 //! Numbers, mechanism files and their exchange with other programs, and published numbers of the model itself.
 
+mod coordinates;
 mod description;
 mod exchange;
 mod golden;

@@ -5,7 +5,8 @@
 //! row, what is left over at an end into base or tip. Frame k moves by L_k.
 
 use super::references::{Substitute, exchange, link_of};
-use super::{Conversion, ConversionNote, link, undone, zero};
+use super::{Conversion, ConversionNote};
+use crate::description::steps::{link, undone, zero};
 use crate::description::{ChainDescription, Convention, Displacement, Entry, Row, Spanned};
 
 /// (α, a) of L₀ … L_n.

@@ -14,8 +14,9 @@ mod closure_rows;
 mod error;
 
 use super::references::{Substitute, exchange, free_name, link_of};
-use super::{Conversion, ConversionNote, doing_something, link, negated, undone, zero};
+use super::{Conversion, ConversionNote};
 use crate::algebra::Affine;
+use crate::description::steps::{doing_something, link, negated, undone, zero};
 use crate::description::{
     Axis, ChainDescription, ClosureDescription, ClosureKind, Convention, Description, Displacement,
     Entry, Named, Role, Row, Spanned, first_free, names_of, nearest, place_of,

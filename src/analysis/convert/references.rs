@@ -4,7 +4,7 @@ use std::convert::Infallible;
 use std::ops::Range;
 
 use crate::description::{
-    ChainDescription, Description, Displacement, Named, Spanned, first_free, place_of,
+    ChainDescription, Description, Displacement, Entry, Named, Spanned, first_free, place_of,
 };
 use crate::mechanism::PoseCoordinate;
 
@@ -83,7 +83,13 @@ pub(super) fn exchange(
         let frames = form.value.of.iter_mut().chain(&mut form.value.relative_to);
         frames.for_each(|frame| new_name(&mut frame.value));
     }
-    for output in &mut description.outputs {
+    rename_in_outputs(&mut description.outputs, &new_name);
+    renamed
+}
+
+/// Exchanges the names of frames in quantities.
+pub(super) fn rename_in_outputs(outputs: &mut [Named<Entry>], new_name: &impl Fn(&mut String)) {
+    for output in outputs {
         let exchanged = output.value.expression.try_resolve(|name, _| {
             let (place, mut name) = (frame_in(name), name.clone());
             let mut frame = name[place.clone()].to_owned();
@@ -93,7 +99,6 @@ pub(super) fn exchange(
         });
         output.value.expression = exchanged.expect("every name is kept or exchanged");
     }
-    renamed
 }
 
 /// Where the name of a quantity, such as `velocity:[left+1].x`, names a frame, if it does.

@@ -4,11 +4,10 @@ use std::collections::BTreeSet;
 
 use super::PlacedChain;
 use super::chains::{self, Built, between, declarations, joint_axis, turned_to};
-use super::graph::{Graph, driven};
 use super::values::Values;
 use crate::description::{
     AxesDescription, AxisKind, ChainDescription, ClosureDescription, Convention, Description,
-    Displacement, GROUND, Named, PlatformDescription, Role, Spanned, place_of,
+    Displacement, GROUND, Graph, Named, PlatformDescription, Role, Spanned, place_of,
 };
 use crate::geometry::{Axis, Line, Pose, Rotation, Vector3};
 use crate::mechanism::{Assignment, JointAxis, SerialAxes};
@@ -69,7 +68,7 @@ impl<'a> Build<'a> {
             let points = joints.iter().map(|&j| self.values.lines[j].point);
             let sum = points.fold(Vector3::zero(), |sum, point| sum + point);
             let pose = Pose::translation(sum.times(1.0 / joints.len() as f64));
-            let name = self.free_name(&self.graph.bodies[root], "platform");
+            let name = self.free_name(&self.graph.bodies[root].value, "platform");
             let (home, frames) = (Displacement::of_pose(&pose), vec![]);
             let platform = PlatformDescription { home, frames };
             self.platforms.push(Named::new(name.clone(), platform));
@@ -77,7 +76,7 @@ impl<'a> Build<'a> {
             self.grow(root);
         }
         self.put_back();
-        let driven = driven(self.axes);
+        let driven = self.axes.driven();
         let role = |j: usize| [Role::Passive, Role::Actuated][usize::from(driven[j])];
         let kept = |j: usize| !self.cuts.contains(&j);
         let joints = declarations(self.axes, self.values, kept, role);
@@ -177,7 +176,7 @@ impl<'a> Build<'a> {
             None => return,
         };
         let end = way.last().map_or(from, |&(_, body)| body);
-        let name = self.free_name(&self.graph.bodies[end], "chain");
+        let name = self.free_name(&self.graph.bodies[end].value, "chain");
         let mut before = from;
         let mut joints = Vec::new();
         for &(joint, body) in way {
@@ -301,12 +300,12 @@ impl<'a> Build<'a> {
                 let kind = self.axes.joints[joint].value.kind;
                 // only of a sliding joint the x axes must agree
                 let pose = match kind {
-                    AxisKind::Revolute => turned_to(&pose, &parent),
                     AxisKind::Spherical => Pose {
                         rotation: parent.rotation,
                         ..pose
                     },
                     AxisKind::Prismatic => pose,
+                    _ => turned_to(&pose, &parent),
                 };
                 let steps = between(&parent, &pose);
                 self.cut_frames[joint][side] = Some(self.fixed_frame(joint, body, on, steps));
@@ -333,7 +332,7 @@ impl<'a> Build<'a> {
                 .push(Named::new(joint.clone(), steps));
             return format!("{on}.{joint}");
         }
-        let wanted = format!("{joint} on {}", self.graph.bodies[body]);
+        let wanted = format!("{joint} on {}", self.graph.bodies[body].value);
         let name = self.free_name(&wanted, "frame");
         let chain = ChainDescription::frame(&on, steps);
         self.chains.push(Named::new(name.clone(), chain));
@@ -362,7 +361,8 @@ impl<'a> Build<'a> {
             Spanned::nowhere(self.cut_frames[joint][side].clone().unwrap_or_default())
         };
         let closure = ClosureDescription {
-            kind: described.value.kind.closure(),
+            kind: (described.value.kind.closure())
+                .expect("tables are made of joints that can be cut"),
             frames: [frame(0), frame(1)],
             length: None,
             span: 0..0,

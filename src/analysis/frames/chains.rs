@@ -29,7 +29,7 @@ pub(super) fn joint_axis(
     let (line, home) = (values.lines[joint], values.homes[joint]);
     let axis = match axes.joints[joint].value.kind {
         AxisKind::Prismatic => JointAxis::prismatic(line, home),
-        AxisKind::Revolute | AxisKind::Spherical => JointAxis::revolute(line, home),
+        _ => JointAxis::revolute(line, home),
     };
     // the first body moves against the second the other way
     let sense = if forwards { 1.0 } else { -1.0 };
@@ -98,7 +98,7 @@ pub(super) fn declarations(
             }
             let number = match joint.value.kind {
                 AxisKind::Prismatic => Entry::length(value),
-                AxisKind::Revolute | AxisKind::Spherical => Entry::angle(value),
+                _ => Entry::angle(value),
             };
             Entry {
                 span: written.span.clone(),
@@ -110,7 +110,7 @@ pub(super) fn declarations(
             name: joint.name.clone(),
             value: JointDescription {
                 role: role(i),
-                home: number(&joint.value.home, values.homes[i]),
+                home: number(&joint.value.at_drawing(), values.homes[i]),
                 limits: limits
                     .map(|((low, high), (least, most))| (number(low, least), number(high, most))),
                 span: joint.value.span.clone(),

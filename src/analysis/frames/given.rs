@@ -48,22 +48,19 @@ impl Joint {
         let vector = |v: Vector3<f64>| v.0.map(Entry::length);
         let value = |x: f64| match self.kind {
             AxisKind::Prismatic => Entry::length(x),
-            AxisKind::Revolute | AxisKind::Spherical => Entry::angle(x),
+            _ => Entry::angle(x),
+        };
+        let place = match self.kind {
+            AxisKind::Spherical => AxisPlace::Centre(vector(self.point)),
+            AxisKind::Prismatic => AxisPlace::Along(None, vector(self.direction)),
+            _ => AxisPlace::Along(Some(vector(self.point)), vector(self.direction)),
         };
         let axis = AxisDescription {
-            kind: self.kind,
-            place: match self.kind {
-                AxisKind::Spherical => AxisPlace::Centre(vector(self.point)),
-                AxisKind::Prismatic => AxisPlace::Along(None, vector(self.direction)),
-                AxisKind::Revolute => {
-                    AxisPlace::Along(Some(vector(self.point)), vector(self.direction))
-                }
-            },
             role: self.role,
-            home: value(self.home),
+            home: (self.home != 0.0).then(|| value(self.home)),
             limits: self.limits.map(|(low, high)| (value(low), value(high))),
             between: closed.then(|| self.bodies.map(Spanned::nowhere)),
-            span: 0..0,
+            ..AxisDescription::new(self.kind, place)
         };
         Named::new(self.name, axis)
     }
@@ -117,11 +114,10 @@ pub fn joint_axes(
             .source()
             .map(|source| Spanned::nowhere(source.into())),
         convention: convention.map(Spanned::nowhere),
-        parameters: vec![],
         joints: joints.collect(),
         base: chain.map(|chain| ends(Frame::Link { chain, row: 0 })),
         tool: chain.map(|chain| ends(Frame::Tip { chain })),
-        cut: vec![],
+        ..AxesDescription::default()
     })
 }
 

@@ -4,11 +4,10 @@ use std::collections::BTreeSet;
 
 use super::build::Build;
 use super::chains::Built;
-use super::graph::{Graph, driven};
 use super::values::Values;
 use super::{CutChoice, CutReport, problem};
 use crate::description::{
-    AxesDescription, AxesProblem, AxisKind, Convention, Problem, names_of, nearest, place_of,
+    AxesDescription, AxesProblem, AxisKind, Convention, Graph, Problem, place_of,
 };
 
 /// The most ways to cut that are compared.
@@ -23,9 +22,7 @@ pub(super) fn closed(
     convention: Convention,
 ) -> Result<Built, Vec<Problem>> {
     let graph = Graph::of(axes)?;
-    let balls: BTreeSet<usize> = (0..axes.joints.len())
-        .filter(|&j| axes.joints[j].value.kind == AxisKind::Spherical)
-        .collect();
+    let balls = axes.always_cut();
     let ways = match axes.cut.is_empty() {
         true => proposed(axes, &graph, &balls)?,
         false => (vec![given(axes, &graph, &balls)?], false),
@@ -89,21 +86,14 @@ fn given(
     graph: &Graph,
     balls: &BTreeSet<usize>,
 ) -> Result<BTreeSet<usize>, Vec<Problem>> {
-    let mut cuts = balls.clone();
+    let cuts = axes.named_cuts(graph)?;
     let mut named = BTreeSet::new();
     let mut problems = Vec::new();
     for cut in &axes.cut {
         let Some(joint) = place_of(&axes.joints, &cut.value) else {
-            let names = names_of(&axes.joints);
-            let kind = AxesProblem::UnknownCut {
-                name: cut.value.clone(),
-                suggestion: nearest(&cut.value, names).map(str::to_owned),
-            };
-            problems.push(problem(kind, &cut.span));
             continue;
         };
         let [a, b] = graph.ends[joint];
-        cuts.insert(joint);
         // balls, cut in any case, hold bodies too
         named.insert(joint);
         let parts = graph.parts(|j| !named.contains(&j));
@@ -112,20 +102,6 @@ fn given(
             let joint = cut.value.clone();
             problems.push(problem(AxesProblem::CutsOff { joint }, &cut.span));
         }
-    }
-    if problems.is_empty() && graph.loops(|j| !cuts.contains(&j)) > 0 {
-        // a joint whose cut keeps everything together
-        let opens = |&joint: &usize| {
-            let [a, b] = graph.ends[joint];
-            let parts = graph.parts(|j| !cuts.contains(&j) && j != joint);
-            !cuts.contains(&joint) && parts[a] == parts[b]
-        };
-        let joint = (0..axes.joints.len()).find(opens).unwrap_or(0);
-        let joint = axes.joints[joint].name.value.clone();
-        problems.push(problem(
-            AxesProblem::StillClosed { joint },
-            &axes.cut[0].span,
-        ));
     }
     match problems.is_empty() {
         true => Ok(cuts),
@@ -140,7 +116,7 @@ fn proposed(
     balls: &BTreeSet<usize>,
 ) -> Result<(Vec<BTreeSet<usize>>, bool), Vec<Problem>> {
     let number = graph.loops(|j| !balls.contains(&j));
-    let driven = driven(axes);
+    let driven = axes.driven();
     let free: Vec<usize> = (0..axes.joints.len())
         .filter(|j| !balls.contains(j) && !driven[*j])
         .collect();

@@ -45,7 +45,10 @@ impl Values {
                     (point.as_ref().map(&mut vector), Some(vector(direction)))
                 }
                 AxisPlace::Through(first, second) => (Some(vector(first)), Some(vector(second))),
-                AxisPlace::Centre(point) => (Some(vector(point)), None),
+                AxisPlace::Centre(point) | AxisPlace::Cross(point, _) => {
+                    (Some(vector(point)), None)
+                }
+                AxisPlace::Frame(_) => (None, None),
             })
             .collect();
         let base = axes.base.clone().map(&mut add);
@@ -113,7 +116,7 @@ fn variables(axes: &AxesDescription) -> ChainDescription {
         let variable = Expression::name(joint.name.value.clone()).into();
         match joint.value.kind {
             AxisKind::Prismatic => Row::new(zero(), zero(), variable, zero()),
-            AxisKind::Revolute | AxisKind::Spherical => Row::new(zero(), zero(), zero(), variable),
+            _ => Row::new(zero(), zero(), zero(), variable),
         }
     };
     ChainDescription {
@@ -128,7 +131,7 @@ fn declared(joint: &Named<AxisDescription>) -> Named<JointDescription> {
         name: joint.name.clone(),
         value: JointDescription {
             role: joint.value.role.unwrap_or(Role::Passive),
-            home: joint.value.home.clone(),
+            home: joint.value.at_drawing(),
             limits: joint.value.limits.clone(),
             span: joint.value.span.clone(),
         },
@@ -141,6 +144,7 @@ fn place_span(joint: &AxisDescription) -> std::ops::Range<usize> {
     match &joint.place {
         AxisPlace::Along(_, direction) => span(direction),
         AxisPlace::Through(first, second) => span(first).start..span(second).end,
-        AxisPlace::Centre(point) => span(point),
+        AxisPlace::Centre(point) | AxisPlace::Cross(point, _) => span(point),
+        AxisPlace::Frame(_) => joint.span.clone(),
     }
 }

@@ -1,8 +1,8 @@
-//! Files of joint axes.
+//! Files of joint coordinates.
 
 use super::*;
 use crate::description::axes::{
-    AxesDescription, AxesProblem, AxisDescription, AxisKind, AxisPlace,
+    AxesDescription, AxisDescription, AxisKind, AxisPlace, PointDescription,
 };
 
 impl Reader {
@@ -21,6 +21,17 @@ impl Reader {
             convention: self.convention_field(f),
             parameters: self.named(f, "parameters", Noun::Parameter, Self::entry),
             joints: self.named(f, "joints", Noun::Axis, Self::axis),
+            bodies: self.named(f, "bodies", Noun::Body, |reader, piece| {
+                let mut fields = reader.fields(piece, Structure::BodyFrame)?;
+                reader.point_or_frame(&mut fields, "origin")
+            }),
+            points: self.named(f, "points", Noun::Point, |reader, piece| {
+                let mut fields = reader.fields(piece, Structure::Point)?;
+                let body = reader.require(&mut fields, "body");
+                let body = body.and_then(|body| reader.text(body, Expected::Body));
+                let place = reader.point_or_frame(&mut fields, "at")?;
+                body.map(|body| PointDescription { body, place })
+            }),
             base: f.take("base").map(|piece| self.transform(piece)),
             tool: f.take("tool").map(|piece| self.transform(piece)),
             cut: f.take("cut").map_or_else(Vec::new, |piece| {
@@ -28,6 +39,8 @@ impl Reader {
                     reader.text(name, Expected::NameOf(Noun::Axis))
                 })
             }),
+            closed_forms: self.named(f, "closed_forms", Noun::ClosedForm, Self::closed_form),
+            outputs: self.named(f, "outputs", Noun::Output, Self::quantity),
         })
     }
 
@@ -37,58 +50,116 @@ impl Reader {
         let structure = match kind {
             AxisKind::Revolute => Structure::RevoluteAxis,
             AxisKind::Prismatic => Structure::PrismaticAxis,
+            AxisKind::Helical => Structure::HelicalAxis,
+            AxisKind::Cylindrical => Structure::CylindricalAxis,
+            AxisKind::Universal => Structure::UniversalAxes,
             AxisKind::Spherical => Structure::SphericalCentre,
+            AxisKind::Planar => Structure::PlanarAxis,
+            AxisKind::Fixed => Structure::FixedJoint,
+            AxisKind::Distance => Structure::RodEnds,
         };
         let mut fields = self.fields(piece, structure)?;
-        let place = self.axis_place(kind, &mut fields);
-        let role = fields.take("role").and_then(|piece| {
+        let f = &mut fields;
+        let place = self.axis_place(kind, f);
+        let second = f.take("second").and_then(|piece| {
+            let mut fields = self.fields(piece, Structure::SecondPlace)?;
+            self.axis_place(kind, &mut fields)
+        });
+        let role = f.take("role").and_then(|piece| {
             let known = [Role::Passive, Role::Actuated];
             self.bare_word(piece, Expected::Role, &known, Role::word)
         });
-        let home = self.entry_or_zero(&mut fields, "home");
-        let limits = self.limits(&mut fields);
-        let between = fields.take("between").and_then(|piece| {
+        let home = self.optional_entry(f, "home");
+        let drawn = self.optional_entry(f, "drawn");
+        let by = match kind {
+            AxisKind::Distance => "length",
+            _ => "value",
+        };
+        let value = self.optional_entry(f, by);
+        let pitch = match kind {
+            AxisKind::Helical => self.require(f, "pitch").and_then(|piece| self.entry(piece)),
+            _ => None,
+        };
+        let limits = self.limits(f);
+        let between = f.take("between").and_then(|piece| {
             let bodies = self.tuple(piece, Expected::Bodies)?;
             let [first, second] = bodies.map(|body| self.text(body, Expected::Body));
             Some([first?, second?])
         });
         Some(AxisDescription {
-            kind,
-            place: place?,
+            second,
             role,
             home,
+            drawn,
+            value,
+            pitch,
             limits,
             between,
             span: fields.span,
+            ..AxisDescription::new(kind, place?)
         })
     }
 
-    fn axis_place(&mut self, kind: AxisKind, fields: &mut Fields) -> Option<AxisPlace> {
-        if kind == AxisKind::Spherical {
-            let centre = self.require(fields, "point")?;
-            let centre = self.vector(centre, Expected::Vector);
-            return centre.map(AxisPlace::Centre);
+    fn optional_entry(&mut self, fields: &mut Fields, field: &str) -> Option<Entry> {
+        let piece = fields.take(field)?;
+        self.entry(piece)
+    }
+
+    /// A point under a name, or a whole frame.
+    fn point_or_frame(&mut self, fields: &mut Fields, name: &'static str) -> Option<AxisPlace> {
+        if let Some(frame) = fields.take("frame") {
+            return Some(AxisPlace::Frame(self.transform(frame)));
         }
-        if let Some(through) = fields.take("through") {
-            if fields.gives(&["point", "direction"]) {
+        let point = self.require(fields, name)?;
+        self.vector(point, Expected::Vector).map(AxisPlace::Centre)
+    }
+
+    fn axis_place(&mut self, kind: AxisKind, fields: &mut Fields) -> Option<AxisPlace> {
+        for whole in ["through", "frame"] {
+            if fields.gives(&[whole]) && fields.gives(&["point", "direction"]) {
                 let joint = kind.word();
-                let kind = ProblemKind::Axes(Box::new(AxesProblem::TwoPlaces { joint }));
-                self.note(kind, through.span());
+                let problem = ProblemKind::Axes(Box::new(AxesProblem::TwoPlaces { joint }));
+                let span = fields.take(whole).map(|piece| piece.span());
+                self.note(problem, span.unwrap_or(fields.head()));
+                return None;
             }
+        }
+        if let Some(frame) = fields.take("frame") {
+            return Some(AxisPlace::Frame(self.transform(frame)));
+        }
+        if kind == AxisKind::Fixed {
+            return Some(AxisPlace::Frame(Vec::new()));
+        }
+        if kind == AxisKind::Distance || fields.gives(&["through"]) {
+            let through = self.require(fields, "through")?;
             let points = self.tuple(through, Expected::TwoPoints)?;
             let [first, second] = points.map(|point| self.vector(point, Expected::Vector));
             return Some(AxisPlace::Through(first?, second?));
         }
         let point = match kind {
-            AxisKind::Revolute => Some(self.require(fields, "point")),
-            _ => fields.take("point").map(Some),
+            AxisKind::Prismatic => fields.take("point").map(Some),
+            _ => Some(self.require(fields, "point")),
         };
-        let direction = self.require(fields, "direction");
+        if kind == AxisKind::Spherical {
+            return self
+                .vector(point??, Expected::Vector)
+                .map(AxisPlace::Centre);
+        }
+        let directions = match kind {
+            AxisKind::Universal => "directions",
+            _ => "direction",
+        };
+        let directions = self.require(fields, directions);
         let point = match point {
             Some(piece) => Some(self.vector(piece?, Expected::Vector)?),
             None => None,
         };
-        let direction = self.vector(direction?, Expected::Vector)?;
+        if kind == AxisKind::Universal {
+            let both = self.tuple(directions?, Expected::TwoDirections)?;
+            let [first, second] = both.map(|one| self.vector(one, Expected::Vector));
+            return Some(AxisPlace::Cross(point?, [first?, second?]));
+        }
+        let direction = self.vector(directions?, Expected::Vector)?;
         Some(AxisPlace::Along(point, direction))
     }
 }

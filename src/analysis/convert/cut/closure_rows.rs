@@ -11,7 +11,7 @@
 use std::f64::consts::FRAC_PI_2;
 
 use crate::algebra::{Expression, Node, Operator};
-use crate::analysis::convert::zero;
+use crate::description::steps::zero;
 use crate::description::{
     Axis, ClosureKind, Convention, Description, Displacement, Entry, JointDescription, Named, Role,
     Row, free_variable, names_of,

@@ -7,7 +7,7 @@ pub(super) fn help(problem: &AxesProblem) -> Option<String> {
     Some(match problem {
         NoDirection { .. } => "give a nonzero vector, or two different points".into(),
         TooFew { .. } => "a table needs at least two axes".into(),
-        TwoPlaces { .. } => "give either `point` and `direction`, or `through` two points".into(),
+        TwoPlaces { .. } => "give either `point` and `direction`, or `through` two points, or `frame`".into(),
         NotBetween { .. } => {
             "write `between: (\"body\", \"body\")` in all joints or in none".into()
         }
@@ -17,6 +17,16 @@ pub(super) fn help(problem: &AxesProblem) -> Option<String> {
             suggestion: Some(meant),
             ..
         } => format!("did you mean `{meant}`?"),
+        UnknownBody {
+            suggestion: Some(meant),
+            ..
+        } => format!("did you mean `{meant}`?"),
+        UnknownBody { .. } => "connect it with others by the `between` of a joint, or leave it out".into(),
+        FollowsItself { .. } => "leave out the `value` of one of them: it is then the variable".into(),
+        Follows { field, by, .. } => format!("leave out `{field}`, or else `{by}`"),
+        NotPerpendicular { .. } => "turn one of them, or write two revolute joints with a body between them".into(),
+        NotPlaced { .. } => "`check` and all other commands take all kinds of joints".into(),
+        ScrewCut { .. } => "cut another joint of its loop".into(),
         CutsOff { .. } => "cut one joint of each loop only".into(),
         StillClosed { joint } => format!("cut `{joint}` too, or leave out `cut` and let the program choose"),
         NothingToCut => "give one joint of each loop `role: Passive`".into(),

@@ -1,0 +1,477 @@
+//! Tables → joint coordinates, as they are written.
+//!
+//! The drawing shows the chains with all variables at zero, the two sides of each closure where the chains then have
+//! them: nothing has to be assembled, so parameters and expressions stay. Where parameters turn an axis, the
+//! displacements of the tables themselves are its place.
+
+use std::collections::{BTreeMap, BTreeSet};
+
+use super::references::rename_in_outputs;
+use super::{ConversionNote, ConvertError};
+use crate::algebra::{Affine, Expression};
+use crate::description::steps::{carried, doing_something, joined, zero};
+use crate::description::{
+    AxesDescription, Axis, AxisDescription, AxisKind, AxisPlace, ClosureKind, Convention,
+    Description, Displacement, Entry, GROUND, Named, PointDescription, Row, Spanned, first_free,
+    free_variable, place_of,
+};
+use crate::mechanism::{Body, Frame, Mechanism};
+
+type Steps = Vec<Displacement>;
+
+/// The joint coordinates of a mechanism, with what they say by other names.
+///
+/// # Errors
+/// If a variable moves no joint by itself.
+pub fn to_axes(
+    mechanism: &Mechanism,
+    description: &Description,
+) -> Result<(AxesDescription, Vec<ConversionNote>), ConvertError> {
+    if let Some(coordinates) = &description.coordinates {
+        return Ok((coordinates.axes.clone(), Vec::new()));
+    }
+    let mut drawing = Drawing {
+        mechanism,
+        description,
+        places: BTreeMap::new(),
+        bodies: BTreeMap::new(),
+        joints: Vec::new(),
+        own: BTreeSet::new(),
+        cut: Vec::new(),
+    };
+    drawing.place();
+    drawing.name_bodies();
+    drawing.rows();
+    drawing.closures();
+    if let Some(lost) = (description.joints.iter()).find(|j| !drawing.own.contains(&j.name.value)) {
+        let joint = lost.name.value.clone();
+        return Err(ConvertError::NotAlone { joint });
+    }
+    let (bodies, points, renamed) = drawing.frames();
+    let new_name = |name: &mut String| {
+        if let Some((_, new)) = renamed.iter().find(|(old, _)| old == name) {
+            name.clone_from(new);
+        }
+    };
+    let mut closed_forms = description.closed_forms.clone();
+    for form in &mut closed_forms {
+        let frames = form.value.of.iter_mut().chain(&mut form.value.relative_to);
+        frames.for_each(|frame| new_name(&mut frame.value));
+    }
+    let mut outputs = description.outputs.clone();
+    rename_in_outputs(&mut outputs, &new_name);
+    let axes = AxesDescription {
+        name: description.name.clone(),
+        source: description.source.clone(),
+        convention: description.convention.clone(),
+        parameters: description.parameters.clone(),
+        joints: drawing.joints,
+        bodies,
+        points,
+        cut: drawing.cut,
+        closed_forms,
+        outputs,
+        ..AxesDescription::default()
+    };
+    let tables = axes.tables().map_err(ConvertError::Wrong)?;
+    Mechanism::new(&tables).map_err(ConvertError::Wrong)?;
+    let renamed = renamed.into_iter().filter(|(from, to)| from != to);
+    let notes = renamed.map(|(from, to)| ConversionNote::Renamed { from, to });
+    Ok((axes, notes.collect()))
+}
+
+struct Drawing<'a> {
+    mechanism: &'a Mechanism,
+    description: &'a Description,
+    /// Ground from each frame in the drawing, and from the axis before each row.
+    places: BTreeMap<Frame, Steps>,
+    bodies: BTreeMap<Body, String>,
+    joints: Vec<Named<AxisDescription>>,
+    /// The variables that have a joint of their name.
+    own: BTreeSet<String>,
+    cut: Vec<Spanned<String>>,
+}
+
+/// The joint of a row: where it is, counted with the constant parts of its entries.
+fn axis_of(before: &[Displacement], row: &Row, convention: Convention, fixed: [Entry; 2]) -> Steps {
+    let [d, theta] = fixed;
+    let link = [
+        Displacement::Rotate(Axis::X, row.alpha.clone()),
+        Displacement::Translate(Axis::X, row.a.clone()),
+    ];
+    let joint = [
+        Displacement::Rotate(Axis::Z, theta),
+        Displacement::Translate(Axis::Z, d),
+    ];
+    let steps = before.iter().cloned();
+    match convention {
+        Convention::Modified => joined(steps.chain(doing_something(link)).chain(joint)),
+        Convention::Standard => joined(steps.chain(joint)),
+    }
+}
+
+/// Whether a parameter turns something.
+fn turned_by_parameters(steps: &[Displacement]) -> bool {
+    let turned = |step: &Displacement| match step {
+        Displacement::Rotate(_, angle) => angle.expression.names().next().is_some(),
+        _ => false,
+    };
+    steps.iter().any(turned)
+}
+
+fn point_of(steps: &[Displacement]) -> [Entry; 3] {
+    carried(steps, [zero(), zero(), zero()], true)
+}
+
+fn axis_along(steps: &[Displacement], axis: Axis, sense: f64) -> [Entry; 3] {
+    let mut along = [zero(), zero(), zero()];
+    along[axis as usize] = Entry::number(sense, 0..0);
+    carried(steps, along, false)
+}
+
+/// A frame by its origin where nothing is turned.
+fn place_at(steps: &[Displacement]) -> AxisPlace {
+    let turns = |step: &Displacement| matches!(step, Displacement::Rotate(..));
+    match steps.iter().any(turns) {
+        true => AxisPlace::Frame(steps.to_vec()),
+        false => AxisPlace::Centre(point_of(steps)),
+    }
+}
+
+impl Drawing<'_> {
+    fn entry(&self, entry: &Entry) -> Affine<String> {
+        let is_joint = |name: &String| place_of(&self.description.joints, name).is_some();
+        let affine = entry.expression.affine(is_joint);
+        affine.unwrap_or_else(|_| entry.expression.clone().into())
+    }
+
+    fn constants(&self, row: &Row) -> [Entry; 2] {
+        [&row.d, &row.theta].map(|entry| self.entry(entry).constant.into())
+    }
+
+    /// Places every frame; chains after those that carry them.
+    fn place(&mut self) {
+        self.places.insert(Frame::Ground, Vec::new());
+        for (platform, part) in self.description.platforms.iter().enumerate() {
+            let home = part.value.home.clone();
+            for (frame, named) in part.value.frames.iter().enumerate() {
+                let steps = joined(home.iter().chain(&named.value).cloned());
+                self.places
+                    .insert(Frame::OnPlatform { platform, frame }, steps);
+            }
+            self.places
+                .insert(Frame::Platform { platform }, joined(home));
+        }
+        let chains = self.description.chains.len();
+        let mut waiting: Vec<usize> = (0..chains).collect();
+        while !waiting.is_empty() {
+            let on = |chain: usize| self.mechanism.chains()[chain].on;
+            let ready = (waiting.iter()).position(|&c| self.places.contains_key(&on(c)));
+            // a valid mechanism has no chain that stands on itself
+            let Some(next) = ready else { return };
+            self.place_chain(waiting.remove(next));
+        }
+    }
+
+    fn place_chain(&mut self, chain: usize) {
+        let part = &self.description.chains[chain].value;
+        let built = &self.mechanism.chains()[chain];
+        let start = self.places[&built.on].iter().chain(&part.base).cloned();
+        let mut at = joined(start);
+        self.places
+            .insert(Frame::Link { chain, row: 0 }, at.clone());
+        for (k, row) in part.rows.iter().enumerate() {
+            at = axis_of(&at, row, built.convention, self.constants(row));
+            if built.convention == Convention::Standard {
+                let link = [
+                    Displacement::Translate(Axis::X, row.a.clone()),
+                    Displacement::Rotate(Axis::X, row.alpha.clone()),
+                ];
+                at = joined(at.into_iter().chain(link));
+            }
+            self.places
+                .insert(Frame::Link { chain, row: k + 1 }, at.clone());
+        }
+        let tip = joined(at.into_iter().chain(part.tip.iter().cloned()));
+        self.places.insert(Frame::Tip { chain }, tip);
+    }
+
+    fn name_bodies(&mut self) {
+        for body in self.mechanism.bodies() {
+            let name = match body {
+                Body::Ground => GROUND.to_owned(),
+                Body::Platform(platform) => self.mechanism.platforms()[platform].name.clone(),
+                Body::Link { chain, row } => {
+                    let wanted = format!("{}_{row}", self.mechanism.chains()[chain].name);
+                    let taken = |name: &str| {
+                        !self.description.is_free_body(name)
+                            || self.bodies.values().any(|other| other == name)
+                    };
+                    first_free(&wanted, "_", |name| !taken(name))
+                }
+            };
+            self.bodies.insert(body, name);
+        }
+    }
+
+    fn body(&self, frame: Frame) -> String {
+        self.bodies[&self.mechanism.body(frame)].clone()
+    }
+
+    /// A name for a joint that no variable and no other joint has.
+    fn free(&self, wanted: &str) -> String {
+        free_variable(wanted, |name| {
+            place_of(&self.description.joints, name).is_none()
+                && place_of(&self.description.parameters, name).is_none()
+                && place_of(&self.joints, name).is_none()
+        })
+    }
+
+    fn rows(&mut self) {
+        for (chain, named) in self.description.chains.iter().enumerate() {
+            let convention = self.mechanism.chains()[chain].convention;
+            for (k, row) in named.value.rows.iter().enumerate() {
+                let link = |row: usize| Frame::Link { chain, row };
+                let before = &self.places[&link(k)];
+                let at = axis_of(before, row, convention, self.constants(row));
+                let [from, to] = [k, k + 1].map(|row| self.body(link(row)));
+                let (slide, turn) = (self.entry(&row.d), self.entry(&row.theta));
+                let wanted = format!("{}_{}", named.name.value, k + 1);
+                match (turn.terms.is_empty(), slide.terms.is_empty()) {
+                    (true, true) => {}
+                    (false, true) => {
+                        self.joint(AxisKind::Revolute, &turn, &at, [from, to], &wanted)
+                    }
+                    (true, false) => {
+                        self.joint(AxisKind::Prismatic, &slide, &at, [from, to], &wanted);
+                    }
+                    (false, false) => {
+                        let screw = match (&turn.terms[..], &slide.terms[..]) {
+                            ([(one, factor)], [(two, travel)]) if one == two => {
+                                (factor.as_number() == Some(1.0)).then(|| travel.clone())
+                            }
+                            _ => None,
+                        };
+                        if let Some(travel) = screw {
+                            let turns = Expression::parse("2*pi").unwrap_or(travel.clone());
+                            self.joint(AxisKind::Helical, &turn, &at, [from, to], &wanted);
+                            if let Some(joint) = self.joints.last_mut() {
+                                joint.value.pitch = Some(turns.times(&travel).into());
+                            }
+                            continue;
+                        }
+                        let middle = first_free(&format!("{to}_turned"), "_", |name| {
+                            self.description.is_free_body(name)
+                        });
+                        let ends = [from, middle.clone()];
+                        self.joint(AxisKind::Revolute, &turn, &at, ends, &wanted);
+                        let wanted = format!("{wanted}_slide");
+                        self.joint(AxisKind::Prismatic, &slide, &at, [middle, to], &wanted);
+                    }
+                }
+            }
+        }
+    }
+
+    /// A joint that a sum of variables moves: one of its own, or one that follows.
+    fn joint(
+        &mut self,
+        kind: AxisKind,
+        sum: &Affine<String>,
+        at: &[Displacement],
+        between: [String; 2],
+        wanted: &str,
+    ) {
+        let own = match &sum.terms[..] {
+            [(name, factor)] if !self.own.contains(name) => {
+                let sense = factor.as_number().filter(|factor| factor.abs() == 1.0);
+                // a frame has its own sense
+                let sense = sense.filter(|sense| *sense > 0.0 || !turned_by_parameters(at));
+                sense.map(|sense| (name.clone(), sense))
+            }
+            _ => None,
+        };
+        let sense = own.as_ref().map_or(1.0, |(_, sense)| *sense);
+        let place = match turned_by_parameters(at) {
+            true => AxisPlace::Frame(at.to_vec()),
+            false => AxisPlace::Along(Some(point_of(at)), axis_along(at, Axis::Z, sense)),
+        };
+        let mut joint = AxisDescription::new(kind, place);
+        joint.between = Some(between.map(Spanned::nowhere));
+        let name = match own {
+            Some((name, _)) => {
+                let known = place_of(&self.description.joints, &name);
+                if let Some(declared) = known.map(|i| &self.description.joints[i].value) {
+                    joint.role = Some(declared.role);
+                    joint.limits = declared.limits.clone();
+                    if !declared.home.expression.is_zero() {
+                        joint.home = Some(declared.home.clone());
+                        joint.drawn = Some(zero());
+                    }
+                }
+                self.own.insert(name.clone());
+                name
+            }
+            None => {
+                joint.value = Some(written(sum));
+                self.free(wanted)
+            }
+        };
+        self.joints.push(Named::new(name, joint));
+    }
+
+    fn closures(&mut self) {
+        for (index, named) in self.description.closures.iter().enumerate() {
+            let frames = self.mechanism.closures()[index].frames;
+            let at = frames.map(|frame| self.places[&frame].clone());
+            let between = frames.map(|frame| self.body(frame));
+            let turned = at.iter().any(|steps| turned_by_parameters(steps));
+            let [first, second] = at;
+            let along = |steps: &Steps| match turned {
+                true => AxisPlace::Frame(steps.clone()),
+                false => AxisPlace::Along(Some(point_of(steps)), axis_along(steps, Axis::Z, 1.0)),
+            };
+            let (kind, places) = match named.value.kind {
+                ClosureKind::Spherical => {
+                    let centre = |steps: &Steps| AxisPlace::Centre(point_of(steps));
+                    (AxisKind::Spherical, [&first, &second].map(centre))
+                }
+                ClosureKind::Distance => {
+                    self.rod(
+                        index,
+                        [&first, &second].map(|steps| point_of(steps)),
+                        between,
+                    );
+                    continue;
+                }
+                ClosureKind::Revolute => (AxisKind::Revolute, [&first, &second].map(along)),
+                ClosureKind::Cylindrical => (AxisKind::Cylindrical, [&first, &second].map(along)),
+                ClosureKind::Planar => (AxisKind::Planar, [&first, &second].map(along)),
+                // the axis that the other body has is any perpendicular one
+                ClosureKind::Universal => {
+                    let cross = |steps: &Steps, axes: [Axis; 2]| {
+                        let along = axes.map(|axis| axis_along(steps, axis, 1.0));
+                        AxisPlace::Cross(point_of(steps), along)
+                    };
+                    let places = [
+                        cross(&first, [Axis::Z, Axis::X]),
+                        cross(&second, [Axis::X, Axis::Z]),
+                    ];
+                    (AxisKind::Universal, places)
+                }
+                kind => {
+                    let kind = match kind {
+                        ClosureKind::Prismatic => AxisKind::Prismatic,
+                        _ => AxisKind::Fixed,
+                    };
+                    let frame = |steps: &Steps| AxisPlace::Frame(steps.clone());
+                    (kind, [&first, &second].map(frame))
+                }
+            };
+            let [place, second] = places;
+            let name = self.free(&named.name.value);
+            let mut joint = AxisDescription::new(kind, place);
+            joint.between = Some(between.map(Spanned::nowhere));
+            if second != joint.place {
+                joint.second = Some(second);
+            }
+            if !kind.always_cut() {
+                self.cut.push(Spanned::nowhere(name.clone()));
+            }
+            self.joints.push(Named::new(name, joint));
+        }
+    }
+
+    /// A rod: of a length that is a variable of its own, or that is given.
+    fn rod(&mut self, index: usize, points: [[Entry; 3]; 2], between: [String; 2]) {
+        let named = &self.description.closures[index];
+        let [first, second] = points;
+        let mut rod = AxisDescription::new(AxisKind::Distance, AxisPlace::Through(first, second));
+        rod.between = Some(between.map(Spanned::nowhere));
+        let length = named.value.length.clone().unwrap_or_else(zero);
+        let sum = self.entry(&length);
+        let own = match &sum.terms[..] {
+            [(name, factor)] if factor.as_number() == Some(1.0) && sum.constant.is_zero() => {
+                Some(name.clone()).filter(|name| !self.own.contains(name))
+            }
+            _ => None,
+        };
+        let name = match own {
+            Some(name) => {
+                let known = place_of(&self.description.joints, &name);
+                if let Some(declared) = known.map(|i| &self.description.joints[i].value) {
+                    rod.role = Some(declared.role);
+                    rod.limits = declared.limits.clone();
+                    rod.home = Some(declared.home.clone());
+                }
+                self.own.insert(name.clone());
+                name
+            }
+            None => {
+                rod.value = Some(length);
+                self.free(&named.name.value)
+            }
+        };
+        self.joints.push(Named::new(name, rod));
+    }
+
+    /// The frames of bodies, the points, and the new names of frames.
+    #[allow(clippy::type_complexity)]
+    fn frames(
+        &self,
+    ) -> (
+        Vec<Named<AxisPlace>>,
+        Vec<Named<PointDescription>>,
+        Vec<(String, String)>,
+    ) {
+        let connected = |body: &String| {
+            let mut joints = self
+                .joints
+                .iter()
+                .flat_map(|j| j.value.between.iter().flatten());
+            body == GROUND || joints.any(|end| end.value == *body)
+        };
+        let (mut bodies, mut points, mut renamed) = (Vec::new(), Vec::new(), Vec::new());
+        for frame in self.mechanism.frames() {
+            let (old, body) = (self.mechanism.frame_name(frame), self.body(frame));
+            if !connected(&body) || frame == Frame::Ground {
+                continue;
+            }
+            let steps = &self.places[&frame];
+            let moves = self.mechanism.body_frame(self.mechanism.body(frame)) == frame;
+            let asked = self.description.closed_forms.iter().any(|form| {
+                let mut frames = form.value.of.iter().chain(&form.value.relative_to);
+                frames.any(|name| name.value == old)
+            });
+            match frame {
+                Frame::Platform { .. } => bodies.push(Named::new(body, place_at(steps))),
+                Frame::Link { .. } if !asked => {}
+                Frame::Link { .. } if moves => {
+                    bodies.push(Named::new(body.clone(), AxisPlace::Frame(steps.clone())));
+                    renamed.push((old, body));
+                }
+                _ => {
+                    let wanted = old.replace('.', "_");
+                    let free = |name: &str| {
+                        !self.bodies.values().any(|other| other == name)
+                            && place_of(&points, name).is_none()
+                    };
+                    let name = first_free(&wanted, "_", free);
+                    let body = Spanned::nowhere(body);
+                    let place = place_at(steps);
+                    points.push(Named::new(name.clone(), PointDescription { body, place }));
+                    renamed.push((old, name));
+                }
+            }
+        }
+        (bodies, points, renamed)
+    }
+}
+
+/// Σ factor·variable.
+fn written(sum: &Affine<String>) -> Entry {
+    let terms: Vec<Expression> = (sum.terms.iter())
+        .map(|(name, factor)| factor.times(&Expression::name(name.clone())))
+        .collect();
+    Expression::sum(terms.iter().map(|term| (1.0, term))).into()
+}

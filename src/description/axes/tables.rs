@@ -1,0 +1,429 @@
+//! Joint coordinates → tables, as they are written.
+//!
+//! Nothing is evaluated: coordinates stay expressions of the parameters, so that another value of a parameter moves
+//! everything that depends on it, and the structure never depends on values. Each body becomes a chain of one row,
+//!
+//! ```text
+//! base = F_parent⁻¹·J,  row = the motion about or along z,  tip = J'⁻¹·F_body
+//! ```
+//!
+//! with J the frame of the joint on its parent, J' that on the body, which is the same where the drawing shows them
+//! together, and F the frames of the bodies in the drawing (a product of exponentials, as in R. W.
+//! Brockett, Robotic manipulators and the product of exponentials formula, 1984): the tip carries the name of the
+//! body. Common normals, which would need divisions by zero where axes become parallel, are not needed for that;
+//! `frames` places them on numbers. Joints that are cut become closures, bodies that only these hold become platforms.
+
+use std::collections::BTreeSet;
+
+use super::graph::Graph;
+use super::places::{along, at, difference, frame_of, length, origin};
+use super::values::Values;
+use super::{AxesDescription, AxisKind, AxisPlace};
+use crate::algebra::Expression;
+use crate::description::steps::{joined, signed_sum, undone, zero};
+use crate::description::{
+    AxesProblem, ChainDescription, ClosureDescription, Convention, Description, Displacement,
+    Entry, GROUND, JointDescription, Named, PlatformDescription, Problem, Role, Row, Spanned,
+    first_free, names_of, nearest, place_of,
+};
+
+/// Joint coordinates, and what was chosen to make tables of them.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Coordinates {
+    /// The file, rods of bodies written as such.
+    pub axes: AxesDescription,
+    /// The joints that are cut, beside rods and balls.
+    pub cut: Vec<String>,
+    /// Bodies with nothing but two balls, taken for rods.
+    pub rods: Vec<String>,
+    /// What is odd.
+    pub warnings: Vec<Problem>,
+}
+
+/// A body with its frame: how that is called, and where it is in the drawing.
+#[derive(Clone)]
+pub(super) struct Placed {
+    pub name: String,
+    pub frame: Vec<Displacement>,
+    pub platform: Option<usize>,
+}
+
+/// Tables being made.
+pub(super) struct Tables<'a> {
+    pub axes: &'a AxesDescription,
+    pub graph: &'a Graph,
+    values: Values,
+    cuts: &'a BTreeSet<usize>,
+    pub bodies: Vec<Option<Placed>>,
+    pub taken: Vec<String>,
+    joints: Vec<Named<JointDescription>>,
+    pub chains: Vec<Named<ChainDescription>>,
+    pub platforms: Vec<Named<PlatformDescription>>,
+    pub closures: Vec<Named<ClosureDescription>>,
+}
+
+impl AxesDescription {
+    /// The mechanism file of the same mechanism; it remembers the coordinates.
+    ///
+    /// # Errors
+    /// With all that is wrong with the way bodies hang together.
+    pub fn tables(&self) -> Result<Description, Vec<Problem>> {
+        let (axes, rods) = self.with_rods();
+        let graph = Graph::of(&axes)?;
+        let mut problems = axes.misplaced(&graph);
+        let cuts = match axes.cut.is_empty() {
+            true => axes.placed_cuts(&graph),
+            false => axes.named_cuts(&graph),
+        };
+        let values = Values::of(&axes);
+        let values = values.map_err(|found| problems.extend(found));
+        let cuts = cuts.map_err(|found| problems.extend(found));
+        let screws = cuts.iter().flatten().map(|&joint| &axes.joints[joint]);
+        for screw in screws.filter(|joint| joint.value.kind == AxisKind::Helical) {
+            let joint = screw.name.value.clone();
+            problems.push(AxesProblem::ScrewCut { joint }.at(&screw.name.span));
+        }
+        let (Ok(cuts), Ok(values), true) = (cuts, values, problems.is_empty()) else {
+            return Err(problems);
+        };
+        let mut tables = Tables {
+            axes: &axes,
+            graph: &graph,
+            values,
+            cuts: &cuts,
+            bodies: vec![None; graph.bodies.len()],
+            taken: Vec::new(),
+            joints: Vec::new(),
+            chains: Vec::new(),
+            platforms: Vec::new(),
+            closures: Vec::new(),
+        };
+        tables.all();
+        let (joints, chains) = (tables.joints, tables.chains);
+        let (platforms, closures) = (tables.platforms, tables.closures);
+        let always = axes.always_cut();
+        let name = |j: &usize| axes.joints[*j].name.value.clone();
+        let cut: Vec<String> = cuts.difference(&always).map(name).collect();
+        let warnings = axes.lost_by_cuts(|name| cut.iter().any(|cut| cut == name));
+        let convention = Spanned::nowhere(Convention::Modified);
+        Ok(Description {
+            name: axes.name.clone(),
+            source: axes.source.clone(),
+            convention: Some(axes.convention.clone().unwrap_or(convention)),
+            parameters: axes.parameters.clone(),
+            joints,
+            chains,
+            platforms,
+            closures,
+            closed_forms: axes.closed_forms.clone(),
+            outputs: axes.outputs.clone(),
+            coordinates: Some(Box::new(Coordinates {
+                axes,
+                cut,
+                rods,
+                warnings,
+            })),
+        })
+    }
+
+    /// Bodies of points and frames that no joint connects, and values given twice.
+    fn misplaced(&self, graph: &Graph) -> Vec<Problem> {
+        let mut problems = Vec::new();
+        let points = self.points.iter().map(|point| &point.value.body);
+        let bodies = self.bodies.iter().map(|body| &body.name);
+        for body in points.chain(bodies) {
+            if graph.body(&body.value).is_none() {
+                let known = graph.bodies.iter().map(|body| body.value.as_str());
+                let kind = AxesProblem::UnknownBody {
+                    name: body.value.clone(),
+                    suggestion: nearest(&body.value, known).map(str::to_owned),
+                };
+                problems.push(kind.at(&body.span));
+            }
+        }
+        for Named { name, value } in &self.joints {
+            let fields = [
+                ("role", value.role.is_some()),
+                ("home", value.home.is_some()),
+                ("limits", value.limits.is_some()),
+            ];
+            let by = match value.kind {
+                AxisKind::Distance => "length",
+                _ => "value",
+            };
+            for (field, _) in fields
+                .iter()
+                .filter(|(_, given)| *given && value.value.is_some())
+            {
+                let joint = name.value.clone();
+                problems.push(AxesProblem::Follows { joint, by, field }.at(&name.span));
+            }
+        }
+        problems
+    }
+}
+
+impl Tables<'_> {
+    fn all(&mut self) {
+        let bodies = self.graph.bodies.iter().map(|body| body.value.clone());
+        let points = names_of(&self.axes.points).map(str::to_owned);
+        self.taken = bodies.chain(points).collect();
+        self.variables();
+        self.bodies[0] = Some(Placed {
+            name: GROUND.into(),
+            frame: self.frame_given(0).unwrap_or_default(),
+            platform: None,
+        });
+        self.grow(0);
+        while let Some(root) = self.next_platform() {
+            let frame = self
+                .frame_given(root)
+                .unwrap_or_else(|| self.first_point(root));
+            let name = self.graph.bodies[root].clone();
+            self.bodies[root] = Some(Placed {
+                name: name.value.clone(),
+                frame: frame.clone(),
+                platform: Some(self.platforms.len()),
+            });
+            let home = joined(frame);
+            let frames = Vec::new();
+            let value = PlatformDescription { home, frames };
+            self.platforms.push(Named { name, value });
+            self.grow(root);
+        }
+        for &joint in self.cuts {
+            self.close(joint);
+        }
+        let axes = self.axes;
+        for point in &axes.points {
+            let Some(body) = self.graph.body(&point.value.body.value) else {
+                continue;
+            };
+            let steps = frame_of(&point.value.place, 0, &[]);
+            self.stand(body, point.name.clone(), &steps);
+        }
+        if let (Some(tool), true) = (&axes.tool, axes.is_serial()) {
+            let name = first_free("tool", "_", |name| !self.taken.iter().any(|t| t == name));
+            let last = self.graph.bodies.len() - 1;
+            self.stand(last, Spanned::nowhere(name), tool);
+        }
+    }
+
+    /// The joint variables, those of cut joints left out.
+    fn variables(&mut self) {
+        let driven = self.axes.driven();
+        for (j, joint) in self.axes.joints.iter().enumerate() {
+            let Named { name, value } = joint;
+            let kept = !self.cuts.contains(&j) || value.kind == AxisKind::Distance;
+            if !value.is_variable() || !kept {
+                continue;
+            }
+            let home = match (&value.home, &value.place) {
+                (Some(home), _) => home.clone(),
+                (None, AxisPlace::Through(first, second)) if value.kind == AxisKind::Distance => {
+                    length(&difference(first, second))
+                }
+                (None, _) => zero(),
+            };
+            let joint = JointDescription {
+                role: [Role::Passive, Role::Actuated][usize::from(driven[j])],
+                home,
+                limits: value.limits.clone(),
+                span: value.span.clone(),
+            };
+            let name = name.clone();
+            self.joints.push(Named { name, value: joint });
+        }
+    }
+
+    /// A passive variable of a joint that has several.
+    fn variable(&mut self, wanted: &str) -> Entry {
+        let taken = |name: &str| {
+            place_of(&self.joints, name).is_some()
+                || place_of(&self.axes.joints, name).is_some()
+                || place_of(&self.axes.parameters, name).is_some()
+        };
+        let name = first_free(wanted, "_", |name| !taken(name));
+        let joint = JointDescription {
+            role: Role::Passive,
+            home: zero(),
+            limits: None,
+            span: 0..0,
+        };
+        self.joints.push(Named::new(name.clone(), joint));
+        Expression::name(name).into()
+    }
+
+    /// Where the file wants the frame of a body.
+    fn frame_given(&self, body: usize) -> Option<Vec<Displacement>> {
+        let index = place_of(&self.axes.bodies, &self.graph.bodies[body].value)?;
+        Some(frame_of(&self.axes.bodies[index].value, 0, &[]))
+    }
+
+    fn first_point(&self, body: usize) -> Vec<Displacement> {
+        let mut joints = (0..self.graph.ends.len()).filter(|&j| self.graph.ends[j].contains(&body));
+        let Some(joint) = joints.next() else {
+            return Vec::new();
+        };
+        let side = usize::from(self.graph.ends[joint][1] == body);
+        at(&origin(&self.joint_frame(joint, side, side, &[])))
+    }
+
+    /// The frame of a joint where one of its bodies has it, along the axis of the first body or the second.
+    pub(super) fn joint_frame(
+        &self,
+        joint: usize,
+        side: usize,
+        axis: usize,
+        otherwise: &[Displacement],
+    ) -> Vec<Displacement> {
+        let joint = &self.axes.joints[joint].value;
+        let place = match &joint.second {
+            Some(second) if side == 1 => second,
+            _ => &joint.place,
+        };
+        match (place, joint.kind) {
+            (AxisPlace::Through(first, second), AxisKind::Distance) => at([first, second][side]),
+            (AxisPlace::Frame(steps), AxisKind::Fixed) if steps.is_empty() => otherwise.to_vec(),
+            _ => frame_of(place, axis, otherwise),
+        }
+    }
+
+    /// A body that nothing holds yet: of its part the one with the most joints, which carries the others.
+    fn next_platform(&self) -> Option<usize> {
+        let parts = self.graph.parts(|j| !self.cuts.contains(&j));
+        let first = self.bodies.iter().position(Option::is_none)?;
+        let same = (0..parts.len()).filter(|&b| parts[b] == parts[first]);
+        let joints = |b: usize| {
+            self.graph
+                .ends
+                .iter()
+                .filter(move |e| e.contains(&b))
+                .count()
+        };
+        // the first of those with the most
+        same.rev().max_by_key(|&b| joints(b))
+    }
+
+    /// Places everything that hangs on a body.
+    fn grow(&mut self, root: usize) {
+        let mut waiting = vec![root];
+        while !waiting.is_empty() {
+            let mut next = Vec::new();
+            for body in waiting {
+                for joint in 0..self.graph.ends.len() {
+                    let ends = self.graph.ends[joint];
+                    let side = usize::from(ends[1] == body);
+                    if self.cuts.contains(&joint) || !ends.contains(&body) {
+                        continue;
+                    }
+                    let end = ends[1 - side];
+                    if self.bodies[end].is_none() {
+                        self.hang(joint, side, body, end);
+                        next.push(end);
+                    }
+                }
+            }
+            waiting = next;
+        }
+    }
+
+    /// Hangs a body on another one by a joint; `side` is that of the body already placed.
+    fn hang(&mut self, joint: usize, side: usize, on: usize, body: usize) {
+        let Some(parent) = self.bodies[on].clone() else {
+            return;
+        };
+        let described = &self.axes.joints[joint];
+        let kind = described.value.kind;
+        let forwards = side == 0;
+        let mut from = parent.name.clone();
+        let mut before = parent.frame.clone();
+        let mut moving = self.joint_frame(joint, side, side, &parent.frame);
+        let on_body = self.joint_frame(joint, 1 - side, 1 - side, &parent.frame);
+        let frame = self
+            .frame_given(body)
+            .unwrap_or_else(|| match &described.value.place {
+                AxisPlace::Frame(_) => on_body.clone(),
+                _ => at(&origin(&on_body)),
+            });
+        let wanted = &described.name.value;
+        let (d, theta) = match kind {
+            AxisKind::Cylindrical => {
+                let turn = self.variable(&format!("{wanted}_turn"));
+                let slide = self.variable(&format!("{wanted}_slide"));
+                match forwards {
+                    true => (slide, turn),
+                    false => (signed_sum([(-1.0, &slide)]), signed_sum([(-1.0, &turn)])),
+                }
+            }
+            AxisKind::Universal => {
+                // a cross between the two bodies
+                let turns = ["1", "2"].map(|axis| self.variable(&format!("{wanted}_{axis}")));
+                let [first, second] = match forwards {
+                    true => turns,
+                    false => turns.map(|turn| signed_sum([(-1.0, &turn)])),
+                };
+                let (near, far) = match forwards {
+                    true => (first, second),
+                    false => (second, first),
+                };
+                let cross = format!("{wanted}_cross");
+                let name = first_free(&cross, "_", |name| !self.taken.iter().any(|t| t == name));
+                self.taken.push(name.clone());
+                let middle = at(&origin(&moving));
+                let label = Spanned::nowhere(name.clone());
+                let both = [&moving[..], &moving[..]];
+                self.chain(label, (&from, &before), both, &middle, (zero(), near));
+                moving = self.joint_frame(joint, side, 1 - side, &parent.frame);
+                (from, before) = (name, middle);
+                (zero(), far)
+            }
+            AxisKind::Fixed => (zero(), zero()),
+            _ => {
+                let value = self.values.moved(joint, forwards);
+                match (kind, &described.value.pitch) {
+                    (AxisKind::Prismatic, _) => (value, zero()),
+                    (AxisKind::Helical, Some(pitch)) => (along(&value, pitch), value),
+                    _ => (zero(), value),
+                }
+            }
+        };
+        let name = self.graph.bodies[body].clone();
+        self.bodies[body] = Some(Placed {
+            name: name.value.clone(),
+            frame: frame.clone(),
+            platform: None,
+        });
+        self.chain(
+            name,
+            (&from, &before),
+            [&moving, &on_body],
+            &frame,
+            (d, theta),
+        );
+    }
+
+    fn chain(
+        &mut self,
+        name: Spanned<String>,
+        (on, before): (&str, &[Displacement]),
+        [near, far]: [&[Displacement]; 2],
+        frame: &[Displacement],
+        (d, theta): (Entry, Entry),
+    ) {
+        let after = |from: &[Displacement], to: &[Displacement]| {
+            joined(undone(from).into_iter().chain(to.iter().cloned()))
+        };
+        let (base, tip) = (after(before, near), after(far, frame));
+        let moves = !d.expression.is_zero() || !theta.expression.is_zero();
+        let chain = match moves {
+            true => ChainDescription {
+                rows: vec![Row::new(zero(), zero(), d, theta)],
+                tip,
+                ..ChainDescription::frame(on, base)
+            },
+            false => ChainDescription::frame(on, joined(base.into_iter().chain(tip))),
+        };
+        self.chains.push(Named { name, value: chain });
+    }
+}

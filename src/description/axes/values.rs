@@ -1,0 +1,94 @@
+//! The values of joints: variables, and sums of the variables of others.
+
+use super::AxesDescription;
+use crate::algebra::{Affine, Expression};
+use crate::description::steps::{signed_sum, zero};
+use crate::description::{AxesProblem, Entry, Problem, ProblemKind, place_of};
+
+/// The values of joints as sums of variables.
+pub(super) struct Values {
+    /// For each joint the change of its value against the drawing.
+    moved: Vec<Entry>,
+}
+
+impl Values {
+    /// The values of all joints.
+    ///
+    /// # Errors
+    /// If values are given by one another, or are no sums.
+    pub fn of(axes: &AxesDescription) -> Result<Self, Vec<Problem>> {
+        let mut problems = Vec::new();
+        let sums: Vec<Option<Affine<String>>> = (axes.joints.iter())
+            .map(|joint| {
+                let value = joint.value.value.as_ref()?;
+                let is_joint = |name: &String| place_of(&axes.joints, name).is_some();
+                let sum = value.expression.affine(is_joint);
+                sum.map_err(|e| problems.push(ProblemKind::NotAffine.at(e.span)))
+                    .ok()
+            })
+            .collect();
+        let mut moved = Vec::new();
+        for joint in 0..axes.joints.len() {
+            let mut path = Vec::new();
+            moved.push(
+                change(axes, &sums, joint, &mut path).unwrap_or_else(|cycle| {
+                    let names = cycle.iter().map(|&j| axes.joints[j].name.value.clone());
+                    let first = cycle.iter().copied().min() == Some(joint);
+                    if first && cycle[0] == joint {
+                        let joints = names.collect();
+                        let at = &axes.joints[joint].name.span;
+                        problems.push(AxesProblem::FollowsItself { joints }.at(at));
+                    }
+                    zero()
+                }),
+            );
+        }
+        match problems.is_empty() {
+            true => Ok(Values { moved }),
+            false => Err(problems),
+        }
+    }
+
+    /// The entry of a table for a joint, traversed from its first body or from its second.
+    pub fn moved(&self, joint: usize, forwards: bool) -> Entry {
+        match forwards {
+            true => self.moved[joint].clone(),
+            false => signed_sum([(-1.0, &self.moved[joint])]),
+        }
+    }
+}
+
+/// value − value in the drawing, over variables; or the cycle of joints that prevents it.
+fn change(
+    axes: &AxesDescription,
+    sums: &[Option<Affine<String>>],
+    joint: usize,
+    path: &mut Vec<usize>,
+) -> Result<Entry, Vec<usize>> {
+    if let Some(first) = path.iter().position(|&j| j == joint) {
+        return Err(path[first..].to_vec());
+    }
+    let described = &axes.joints[joint];
+    let Some(sum) = &sums[joint] else {
+        let name: Entry = Expression::name(described.name.value.clone()).into();
+        let drawn = described.value.at_drawing();
+        return Ok(signed_sum([(1.0, &name), (-1.0, &drawn)]));
+    };
+    path.push(joint);
+    let mut terms = Vec::new();
+    for (name, factor) in &sum.terms {
+        let Some(leader) = place_of(&axes.joints, name) else {
+            continue;
+        };
+        let change = change(axes, sums, leader, path)?;
+        terms.push(Entry::from(factor.times(&change.expression)));
+    }
+    path.pop();
+    let entry = signed_sum(terms.iter().map(|term| (1.0, term)));
+    let span = described
+        .value
+        .value
+        .as_ref()
+        .map_or(0..0, |value| value.span.clone());
+    Ok(Entry { span, ..entry })
+}

@@ -1,0 +1,182 @@
+//! Lists of displacements as they are written: put together, undone, and where they lead.
+
+use super::{Displacement, Entry};
+use crate::algebra::{Expression, Function, Node};
+use crate::geometry::Axis;
+
+pub(crate) fn zero() -> Entry {
+    Expression::number(0.0).into()
+}
+
+/// −e, as it would be written.
+pub(crate) fn negated(e: &Entry) -> Entry {
+    Entry::from(match e.expression.as_number() {
+        Some(x) => Expression::number(0.0 - x),
+        None => e.expression.negative(),
+    })
+}
+
+/// Tx(a)·Rx(α), without what is zero.
+pub(crate) fn link(alpha: &Entry, a: &Entry) -> Vec<Displacement> {
+    let along = Displacement::Translate(Axis::X, a.clone());
+    let about = Displacement::Rotate(Axis::X, alpha.clone());
+    doing_something([along, about])
+}
+
+pub(crate) fn doing_something(steps: impl IntoIterator<Item = Displacement>) -> Vec<Displacement> {
+    let something = |step: &Displacement| !step.entries().iter().all(is_zero);
+    steps.into_iter().filter(something).collect()
+}
+
+/// The displacements undone, last first.
+pub(crate) fn undone(steps: &[Displacement]) -> Vec<Displacement> {
+    let undo = |step: &Displacement| match step {
+        Displacement::Translate(axis, e) => Displacement::Translate(*axis, negated(e)),
+        Displacement::Rotate(axis, e) => Displacement::Rotate(*axis, negated(e)),
+        Displacement::TranslateBy(entries) => {
+            Displacement::TranslateBy([0, 1, 2].map(|i| negated(&entries[i])))
+        }
+    };
+    steps.iter().rev().map(undo).collect()
+}
+
+/// Displacements one after the other, what undoes itself left out: neighbours of one kind become one.
+pub(crate) fn joined(steps: impl IntoIterator<Item = Displacement>) -> Vec<Displacement> {
+    let mut joined: Vec<Displacement> = Vec::new();
+    for step in steps {
+        let merged = match (joined.last(), &step) {
+            (Some(Displacement::Rotate(a, x)), Displacement::Rotate(b, y)) if a == b => {
+                Some(Displacement::Rotate(*a, sum([x, y])))
+            }
+            (Some(Displacement::Rotate(..)), _) | (None, _) | (_, Displacement::Rotate(..)) => None,
+            (Some(last), step) => {
+                let (x, y) = (translation(last), translation(step));
+                Some(Displacement::TranslateBy(
+                    [0, 1, 2].map(|i| sum([&x[i], &y[i]])),
+                ))
+            }
+        };
+        match merged {
+            Some(merged) => {
+                joined.pop();
+                joined.extend(doing_something([merged]));
+            }
+            None => joined.extend(doing_something([step])),
+        }
+    }
+    joined.into_iter().map(briefly).collect()
+}
+
+/// A translation along one axis where it is one.
+fn briefly(step: Displacement) -> Displacement {
+    let Displacement::TranslateBy(entries) = &step else {
+        return step;
+    };
+    let given: Vec<usize> = (0..3).filter(|&i| !is_zero(&entries[i])).collect();
+    match given[..] {
+        [i] => Displacement::Translate([Axis::X, Axis::Y, Axis::Z][i], entries[i].clone()),
+        _ => step,
+    }
+}
+
+fn is_zero(entry: &Entry) -> bool {
+    entry.expression.fixed_value() == Some(0.0)
+}
+
+/// The sum, with the place of the last that is not zero.
+pub(crate) fn sum<'a>(terms: impl IntoIterator<Item = &'a Entry>) -> Entry {
+    signed_sum(terms.into_iter().map(|term| (1.0, term)))
+}
+
+/// Σ factor·term, with the place of the last term that is not zero.
+pub(crate) fn signed_sum<'a>(terms: impl IntoIterator<Item = (f64, &'a Entry)>) -> Entry {
+    let terms: Vec<(f64, &Entry)> = terms.into_iter().filter(|(_, e)| !is_zero(e)).collect();
+    let span = terms.last().map_or(0..0, |(_, entry)| entry.span.clone());
+    let expression = Expression::sum(terms.into_iter().map(|(f, entry)| (f, &entry.expression)));
+    let entry = match expression.as_number() {
+        Some(value) => Entry::length(value),
+        None => expression.into(),
+    };
+    Entry { span, ..entry }
+}
+
+/// The vector of a translation; zero for a rotation.
+pub(crate) fn translation(step: &Displacement) -> [Entry; 3] {
+    let mut vector = [zero(), zero(), zero()];
+    match step {
+        Displacement::Translate(axis, entry) => vector[*axis as usize] = entry.clone(),
+        Displacement::TranslateBy(entries) => vector = entries.clone(),
+        Displacement::Rotate(..) => {}
+    }
+    vector
+}
+
+/// A vector seen from where displacements start: turned by their rotations, and moved if it is a point.
+pub(crate) fn carried(steps: &[Displacement], vector: [Entry; 3], is_point: bool) -> [Entry; 3] {
+    steps.iter().rev().fold(vector, |vector, step| match step {
+        Displacement::Rotate(axis, angle) => turned(*axis, angle, vector),
+        _ if !is_point => vector,
+        _ => {
+            let by = translation(step);
+            [0, 1, 2].map(|i| sum([&by[i], &vector[i]]))
+        }
+    })
+}
+
+fn turned(axis: Axis, angle: &Entry, vector: [Entry; 3]) -> [Entry; 3] {
+    let [cos, sin] = [Function::Cos, Function::Sin].map(|function| {
+        let value = angle.expression.fixed_value().map(|angle| match function {
+            Function::Cos => angle.cos(),
+            _ => angle.sin(),
+        });
+        match value {
+            Some(value) => Entry::length(value),
+            None => Node::Call(function, vec![angle.expression.clone()])
+                .at(0..0)
+                .into(),
+        }
+    });
+    let product = |x: &Entry, y: &Entry| Entry::from(x.expression.times(&y.expression));
+    let along = axis as usize;
+    let (u, v) = ((along + 1) % 3, (along + 2) % 3);
+    let mut turned = vector.clone();
+    // the second axis turns to the third
+    let parts = [&vector[u], &vector[v]].map(|x| (product(&cos, x), product(&sin, x)));
+    turned[u] = signed_sum([(1.0, &parts[0].0), (-1.0, &parts[1].1)]);
+    turned[v] = signed_sum([(1.0, &parts[0].1), (1.0, &parts[1].0)]);
+    turned
+}
+
+/// Rotations that turn z into a direction: about one axis where that does.
+pub(crate) fn towards(direction: &[Entry; 3]) -> Vec<Displacement> {
+    let [x, y, z] = direction;
+    let call = |function, arguments: [&Entry; 2]| {
+        let arguments = arguments.map(|entry| entry.expression.clone());
+        Entry::from(Node::Call(function, arguments.to_vec()).at(direction[2].span.clone()))
+    };
+    // an angle between numbers is a number
+    let angle = |y: &Entry, x: &Entry| {
+        let values = (y.expression.fixed_value(), x.expression.fixed_value());
+        let entry = match values {
+            (Some(y), Some(x)) => Entry::angle(y.atan2(x)),
+            _ => call(Function::Atan2, [y, x]),
+        };
+        let span = direction[2].span.clone();
+        Entry { span, ..entry }
+    };
+    let steps = match (is_zero(x), is_zero(y)) {
+        (_, true) => vec![Displacement::Rotate(Axis::Y, angle(x, z))],
+        (true, false) => vec![Displacement::Rotate(Axis::X, angle(&negated(y), z))],
+        (false, false) => {
+            let across = match (x.expression.fixed_value(), y.expression.fixed_value()) {
+                (Some(x), Some(y)) => Entry::length(x.hypot(y)),
+                _ => call(Function::Hypot, [x, y]),
+            };
+            vec![
+                Displacement::Rotate(Axis::Z, angle(y, x)),
+                Displacement::Rotate(Axis::Y, angle(&across, z)),
+            ]
+        }
+    };
+    doing_something(steps)
+}
