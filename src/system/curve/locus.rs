@@ -1,7 +1,7 @@
 //! Singular configurations with two inputs free, as a curve.
 
 use super::{ConfigurationCurve, Curve};
-use crate::linear::{add, dot};
+use crate::linear::{Decomposition, add, dot};
 use crate::mechanism::{Configuration, Mechanism};
 use crate::solve::SolutionCurve;
 use crate::system::{Coordinate, Held, Lock, Locked, Unknown};
@@ -83,6 +83,18 @@ impl LocusCurve {
             );
         }
         change
+    }
+
+    /// What of (∂M/∂v) v is outside the image of M. It is where inputs or outputs would have to move
+    /// for the motion v to go on to second order.
+    pub fn bend(&mut self, point: &Singular) -> Vec<f64> {
+        let (rows, columns) = (self.locked.rows(), self.locked.columns());
+        let change = self.change(point);
+        let mut bend = product(&change, rows, &point.motion);
+        let matrix = self.locked.jacobian(&point.at);
+        let within = Decomposition::of_rank(rows, columns, &matrix, columns - 1).solve(&bend);
+        add(&mut bend, -1.0, &product(&matrix, rows, &within));
+        bend
     }
 
     /// M(x) v.
