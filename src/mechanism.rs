@@ -13,6 +13,7 @@ mod lift;
 mod model;
 mod names;
 mod parameters;
+mod section;
 mod serial_axes;
 mod turns;
 mod variable;
