@@ -6,6 +6,7 @@
 
 mod along;
 mod classify;
+mod cusps;
 mod drops;
 mod extents;
 mod locus;
@@ -16,7 +17,7 @@ mod starts;
 pub use crate::system::{LocusEnd, default_outputs, inputs_of};
 pub use along::{AlongEnd, AlongReport, Crossing, along};
 pub use classify::{Distances, Kind, Movement, Resisted, Singularity, Zlatanov};
-pub use locus::{Bound, Locus, LocusReport, loci};
+pub use locus::{Bound, Cusp, Locus, LocusReport, loci};
 pub use outputs::Coupled;
 pub use projected::Shape;
 

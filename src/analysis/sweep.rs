@@ -11,6 +11,7 @@ mod follow;
 mod law;
 mod met;
 mod motion;
+mod paths;
 mod points;
 mod rows;
 
@@ -22,6 +23,7 @@ pub use follow::follow;
 pub use law::{Law, Pace};
 pub use met::{Met, MetKind, Passing};
 pub use motion::{Columns, Extreme, Extremum, KeptRows, MotionReport, MotionsReport};
+pub use paths::{PathPoint, PathReport};
 
 use std::ops::ControlFlow;
 
@@ -29,10 +31,13 @@ use serde::{Deserialize, Serialize};
 
 use crate::algebra::SiUnit;
 use crate::mechanism::{Configuration, Mechanism, Point};
-use crate::solve::{Continuation, Progress, Stage, Watch};
+use crate::solve::{Continuation, Place, Progress, Stage, Watch};
 use crate::system::{Curve, Driven, Event, Held, Walk};
 use met::Record;
+use paths::Trail;
 use rows::Rows;
+
+type At = Place<Configuration<f64>>;
 
 /// How to sweep.
 #[derive(Clone, Debug, PartialEq)]
@@ -154,6 +159,9 @@ pub struct SweepReport {
     pub length: f64,
     /// The characteristic length in m.
     pub characteristic_length: f64,
+    /// Cusps and double points of the paths that were traced.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub paths: Vec<PathReport>,
     /// Whether the work was stopped before the motion ended.
     #[serde(default, skip_serializing_if = "std::ops::Not::not")]
     pub interrupted: bool,
@@ -188,7 +196,7 @@ pub fn sweep(
         ..report
     };
     let mut curve = Curve::along(mechanism, held, inputs.to_vec());
-    let mut record = Record::new(mechanism, inputs);
+    let mut record = Record::new(mechanism, inputs, &settings.points);
     let mut start = start.clone();
     let method = &settings.continuation;
     let place = match curve.begin(mechanism, &mut start, method) {
@@ -205,6 +213,7 @@ pub fn sweep(
         return record.report(SweepEnd::Fold, 1, 0.0);
     }
     let mut walk = Walk::new(mechanism, &curve, place, method.clone());
+    let mut trail = Trail::new(mechanism, &curve, &settings.points, method);
     let mut length = 0.0;
     let ending = walk.follow(&mut curve, |curve, leg| {
         let done = curve.part(&leg.from.at).clamp(0.0, 1.0) * settings.steps as f64;
@@ -214,7 +223,8 @@ pub fn sweep(
         record.steps += 1;
         let stopped = |()| SweepEnd::Stopped;
         let mut from = &leg.from;
-        for (place, event) in &leg.events {
+        let events = trail.events(curve, leg);
+        for (place, event) in &events {
             // a turn of the inputs closes the curve and is not the end of the sweep
             if let Event::Closed = event
                 && curve.part(&place.at).abs() > 1e-9
@@ -225,14 +235,11 @@ pub fn sweep(
             from = place;
             length = leg.gone_at(curve, place);
             record.meet(curve, place, event);
-            let special = matches!(
-                event,
-                Event::Fold | Event::Limit { .. } | Event::Branches(_) | Event::Closed
-            );
+            let special = !matches!(event, Event::Turning(_) | Event::End(_));
             if special {
                 (rows.special(place, record.latest(), sink)).map_break(stopped)?;
             }
-            match event {
+            let flow = match event {
                 Event::End(end) if *end => ControlFlow::Break(SweepEnd::Complete),
                 Event::End(_) => ControlFlow::Break(SweepEnd::Returned),
                 Event::Closed => ControlFlow::Break(SweepEnd::Closed),
@@ -240,8 +247,13 @@ pub fn sweep(
                 Event::Fold if !settings.follow => ControlFlow::Break(SweepEnd::Fold),
                 Event::Branches(_) if !settings.follow => ControlFlow::Break(SweepEnd::Crossing),
                 _ => ControlFlow::Continue(()),
-            }?;
+            };
+            if flow.is_break() || matches!(event, Event::Root(_)) {
+                trail.reach(place, Some(event));
+            }
+            flow?;
         }
+        trail.reach(&leg.to, None);
         rows.between(curve, from, &leg.to, sink)
             .map_break(stopped)?;
         length = leg.gone_at(curve, &leg.to);
@@ -252,5 +264,8 @@ pub fn sweep(
         }
     });
     let ending = ending.unwrap_or(SweepEnd::Lost);
-    interrupted(record.report(ending, rows.count(), length))
+    interrupted(SweepReport {
+        paths: trail.reports(&mut curve, ending == SweepEnd::Closed),
+        ..record.report(ending, rows.count(), length)
+    })
 }

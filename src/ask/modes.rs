@@ -178,7 +178,7 @@ impl Question {
         Ok(starts.swap_remove(0).1)
     }
 
-    fn all(
+    pub(super) fn all(
         &self,
         question: &system::Question,
         wanted: Wanted,

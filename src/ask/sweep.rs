@@ -260,7 +260,8 @@ impl Question {
         })
     }
 
-    /// All circuits and branches of a mechanism with one freedom.
+    /// All circuits and branches of a mechanism with one freedom, with the cusps and double points of the paths of the
+    /// question's points.
     ///
     /// # Errors
     /// If the question is wrong or leaves another number of freedoms.
@@ -272,8 +273,64 @@ impl Question {
         let solver = self.solver(&question, watch)?;
         let seeds = seeds(mechanism, &question, &solver, input, watch);
         let held = question.with_still(released.held());
-        let settings = CircuitsSettings::default();
-        Ok(circuits(mechanism, &held, input, &seeds, &settings, watch))
+        let settings = CircuitsSettings {
+            points: self.asked_points()?,
+            ..CircuitsSettings::default()
+        };
+        let mut report = circuits(mechanism, &held, input, &seeds, &settings, watch);
+        for (path, point) in report.paths.iter_mut().zip(&settings.points) {
+            path.order = self.order(point, watch);
+        }
+        report.interrupted |= watch.is_stopped();
+        Ok(report)
+    }
+
+    /// The order of the path of a point: with so many different points, real or complex, a plane meets it. `None` if
+    /// the search for them may have missed some.
+    fn order(&self, point: &Point, watch: &Watch) -> Option<usize> {
+        /// Points this near, over the characteristic length, are one that several configurations share.
+        const SAME: f64 = 1e-6;
+        let cut = (self.mechanism).with_point_on_a_plane(point.frame, point.offset);
+        let length = cut.characteristic_length();
+        let asked = Question {
+            mechanism: cut.into(),
+            store: None,
+            ..self.clone()
+        };
+        let question = asked.released().ok()?;
+        check_count(&question).ok()?;
+        let wanted = Wanted {
+            certificates: false,
+            all_complex: true,
+            starts: false,
+        };
+        let report = asked
+            .all(&question.with_spins_still(), wanted, watch)
+            .ok()?;
+        if report.may_lack_some() || report.not_isolated > 0 || report.interrupted {
+            return None;
+        }
+        let real = report.assemblies.iter().map(|of| {
+            let values = of.joints.0.iter().map(|(_, x)| [*x, 0.0]);
+            values.collect::<Vec<_>>()
+        });
+        let complex = report.complex_assemblies.iter().map(|of| {
+            let values = of.joints.0.iter().map(|(_, x)| *x);
+            values.collect::<Vec<_>>()
+        });
+        let mut places: Vec<Vec<[f64; 2]>> = Vec::new();
+        for joints in real.chain(complex) {
+            // the slides in the plane
+            let place = joints[joints.len() - 2..].to_vec();
+            let known = places.iter().any(|other| {
+                let parts = other.iter().flatten().zip(place.iter().flatten());
+                parts.map(|(a, b)| (a - b).abs()).fold(0.0, f64::max) < SAME * length
+            });
+            if !known {
+                places.push(place);
+            }
+        }
+        Some(places.len())
     }
 
     /// The question that leaves one freedom: actuated joints are held only if that is asked for.

@@ -59,7 +59,8 @@ pub struct Sweep {
     /// joint moves
     #[arg(long, conflicts_with_all = ["input", "follow", "mode", "all_modes", "guess", "svg"])]
     circuits: bool,
-    /// Trace a frame's origin, or a point beside it in its axes, e.g. --of left+0.5,0.2
+    /// Trace a frame's origin, or a point beside it in its axes, e.g. --of left+0.5,0.2: its path with cusps and double
+    /// points; with --circuits over all of them
     #[arg(long, value_name = "FRAME[+X,Y,Z]")]
     of: Vec<String>,
     /// Report quantities, e.g. --report transmission,velocity:left+1,"atan2(left.y, left.x)": expressions over joints,
@@ -170,6 +171,7 @@ impl Sweep {
         let report = worded(watched(|watch| all.report(kept, &mut sink, watch)));
         csv.finish().map_err(unwritten)?.finish()?;
         if let Some(path) = &self.svg {
+            picture.crossed(&report);
             save(path, &picture.svg())?;
         }
         let unfinished = report.motions.iter().filter(|m| !m.sweep.ending.is_whole());

@@ -163,11 +163,13 @@ impl Mechanism {
             true => own,
             false => asked,
         };
-        (length != self.dimensions.characteristic_length).then(|| {
-            let mut measured = self.clone();
-            measure(&mut measured.dimensions, length, &self.joints);
-            measured
-        })
+        (length != self.dimensions.characteristic_length).then(|| self.clone().measured(length))
+    }
+
+    /// The same mechanism with a characteristic length, in m.
+    pub(super) fn measured(mut self, length: f64) -> Self {
+        measure(&mut self.dimensions, length, &self.joints);
+        self
     }
 
     /// The lengths that the file holds.

@@ -1,6 +1,7 @@
 //! Motions as documents, as rows and as pictures.
 
 mod circuits;
+mod paths;
 #[cfg(feature = "plot")]
 mod picture;
 mod words;
@@ -30,7 +31,9 @@ impl Report for MotionsReport {
                 let document = Document::new(&self.mechanism, mode + &sentence);
                 let document = document.notes(words::paced(one));
                 let document = document.section(extremes(one));
-                let document = document.sections(words::met(one)).section(rows(one));
+                let document = document.sections(words::met(one));
+                let document = document.sections(paths::sections(&one.sweep.paths, false));
+                let document = document.section(rows(one));
                 document.method(words::work(&one.sweep))
             }
             several => {
@@ -45,6 +48,8 @@ impl Report for MotionsReport {
                     let section = section.list(words::paced(motion)).section(extremes(motion));
                     let met = words::met(motion).into_iter();
                     let section = met.fold(section, Section::section);
+                    let paths = paths::sections(&motion.sweep.paths, false);
+                    let section = paths.fold(section, Section::section);
                     section
                         .section(rows(motion))
                         .text(words::work(&motion.sweep))
@@ -161,6 +166,7 @@ fn word(kind: &MetKind) -> &'static str {
         MetKind::Fold { .. } => "fold",
         MetKind::Limit { .. } => "limit",
         MetKind::End => "end",
+        MetKind::Cusp { .. } => "cusp",
         MetKind::Closed => "closed",
         MetKind::Crossing { .. } => "crossing",
     }

@@ -140,11 +140,20 @@ impl Continuation {
     pub fn settle<C: SolutionCurve>(
         &self,
         curve: &mut C,
+        at: C::Point,
+    ) -> Result<Place<C::Point>, StepFailure> {
+        self.settle_after(curve, at, f64::INFINITY)
+    }
+
+    /// The same after a step of the size `before`.
+    fn settle_after<C: SolutionCurve>(
+        &self,
+        curve: &mut C,
         mut at: C::Point,
+        mut before: f64,
     ) -> Result<Place<C::Point>, StepFailure> {
         const STEPS: usize = 30;
         let unknowns = curve.unknowns();
-        let mut before = f64::INFINITY;
         for _ in 0..STEPS {
             let (residual, jacobian) = curve.linearise(&at);
             let rows = residual.len();
@@ -227,6 +236,18 @@ impl Continuation {
         from: &Place<C::Point>,
         length: f64,
     ) -> Option<Place<C::Point>> {
+        let (at, size) = self.ahead(curve, from, length)?;
+        let place = self.settle_after(curve, at, size).ok()?;
+        Some(place.towards(&from.tangent))
+    }
+
+    /// The point of that place, which takes no decomposition, with the size of the last step to it.
+    pub fn ahead<C: SolutionCurve>(
+        &self,
+        curve: &mut C,
+        from: &Place<C::Point>,
+        length: f64,
+    ) -> Option<(C::Point, f64)> {
         const STEPS: usize = 40;
         const CONTRACTION: f64 = 0.5;
         let ahead: Vec<f64> = from.tangent.iter().map(|x| x * length).collect();
@@ -236,19 +257,19 @@ impl Continuation {
             let residual = curve.residual(&at);
             let step = back(&from.decomposition, &residual);
             let size = norm(&step);
-            if size < 1e-13 || (size < 1e-11 && size >= CONTRACTION * before) {
-                break;
-            }
+            let there = size < 1e-13 || (size < 1e-11 && size >= CONTRACTION * before);
             // a NaN is refused too
             let sure = size <= 0.5 * length.abs() && size < CONTRACTION * before;
-            if !sure {
+            if !sure && !there {
                 return None;
             }
             before = size;
             at = curve.displaced(&at, &step);
+            if there {
+                break;
+            }
         }
-        let place = self.settle(curve, at).ok()?;
-        Some(place.towards(&from.tangent))
+        Some((at, before))
     }
 
     /// The place between two where a function of places vanishes, to rounding: `f` must have

@@ -4,6 +4,7 @@ mod closed_reports;
 mod closing;
 mod comparison;
 mod conversion;
+mod cusps;
 mod cylinders;
 mod formulas;
 mod frames;

@@ -1,7 +1,7 @@
 //! The extents of a locus in the coordinates of the box.
 
 use crate::solve::Place;
-use crate::system::{Driven, LocusCurve, Region, Singular, Traced};
+use crate::system::{ConfigurationCurve, Driven, LocusCurve, Region, Singular, Traced};
 
 type At = Place<Singular>;
 

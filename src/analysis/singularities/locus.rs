@@ -3,6 +3,7 @@
 use serde::{Deserialize, Serialize};
 
 use super::classify::{Classifier, Kind, Singularity};
+use super::cusps::cusps;
 use super::extents::extents;
 use super::outputs::{Coupled, coupled, outputs_of};
 use super::projected::{Projection, Shape, groups};
@@ -11,7 +12,9 @@ use super::{SingularitiesSettings, names, output_names};
 use crate::algebra::SiUnit;
 use crate::mechanism::{Configuration, PoseCoordinate, Variable};
 use crate::solve::{Place, Progress, Stage, Watch};
-use crate::system::{Coordinate, Driven, Held, Lock, LocusEnd, Question, Region, Singular};
+use crate::system::{
+    Coordinate, Driven, Held, Lock, LocusCurve, LocusEnd, Question, Region, Singular, Traced,
+};
 
 type At = Place<Singular>;
 
@@ -95,6 +98,21 @@ pub struct Locus {
     pub singularity: Singularity,
     /// Where other loci cross it: the two coordinates.
     pub crossings: Vec<[f64; 2]>,
+    /// Where three solutions meet on it, with their configurations, in order of the coordinates.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub cusps: Vec<Cusp>,
+}
+
+/// A configuration of a locus in which three assemblies meet, or three configurations for the same
+/// outputs on an inverse one.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Cusp {
+    /// The two coordinates of the box, rad or m, located to rounding.
+    pub point: [f64; 2],
+    /// The joints, rad or m, in the order of the file.
+    pub joints: Vec<f64>,
+    /// The platforms: position (m), quaternion (w, x, y, z), and roll, pitch and yaw (rad).
+    pub poses: Vec<[f64; 10]>,
 }
 
 /// Finds the singularity loci in a box of two coordinates.
@@ -230,6 +248,13 @@ impl Search<'_> {
             let chosen = group[0];
             let traced = &known[chosen].0;
             let shape = projections[chosen].shape();
+            let cusps = match shape {
+                Shape::Point => Vec::new(),
+                Shape::Curve => {
+                    let members = group.iter().map(|member| &known[*member].0);
+                    self.cusps(&mut curve, &projections[chosen], members)
+                }
+            };
             let (places, extents, crossings) = match shape {
                 Shape::Point => {
                     let extents = self.coordinates(&traced.places[0]).map(|x| [x; 2]);
@@ -262,6 +287,7 @@ impl Search<'_> {
                 poses: places.iter().map(poses).collect(),
                 singularity: kinds[chosen].clone(),
                 crossings,
+                cusps,
             }
         });
         let mut loci: Vec<Locus> = loci.collect();
@@ -271,6 +297,32 @@ impl Search<'_> {
         };
         loci.sort_by(|a, b| (order(a).partial_cmp(&order(b))).unwrap_or(std::cmp::Ordering::Equal));
         loci
+    }
+
+    /// The cusps of curves that coincide in the box, each point once.
+    fn cusps<'t>(
+        &self,
+        curve: &mut LocusCurve,
+        projection: &Projection,
+        members: impl Iterator<Item = &'t Traced<Singular>>,
+    ) -> Vec<Cusp> {
+        let mut places = Vec::new();
+        for traced in members.take_while(|_| !self.watch.is_stopped()) {
+            places.extend(cusps(curve, &self.region, traced));
+        }
+        let points = places.iter().map(|place| self.coordinates(place));
+        let mut distinct = projection.distinct(points.clone());
+        distinct.sort_by(|a, b| a.partial_cmp(b).unwrap_or(std::cmp::Ordering::Equal));
+        let first = |point: &[f64; 2]| points.clone().position(|own| own == *point);
+        let cusps = distinct.into_iter().filter_map(|point| {
+            let place = &places[first(&point)?];
+            Some(Cusp {
+                point,
+                joints: place.at.at.joints.clone(),
+                poses: poses(place),
+            })
+        });
+        cusps.collect()
     }
 
     fn coordinates(&self, place: &At) -> [f64; 2] {

@@ -13,15 +13,15 @@ use std::ops::ControlFlow;
 use serde::{Deserialize, Serialize};
 
 use super::follow::forwards;
+use super::paths::Tracer;
+use super::{At, PathReport};
 use crate::algebra::SiUnit;
 use crate::linear::{dot, norm};
-use crate::mechanism::{Configuration, Mechanism, Role, turns};
+use crate::mechanism::{Configuration, Mechanism, Point, Role, turns};
 use crate::solve::{BranchPoint, Continuation, Place, Stage, Watch};
 use crate::system::{Coordinate, Curve, Event, Held, Walk};
 use course::platform_courses;
 use described::{branches, class};
-
-type At = Place<Configuration<f64>>;
 
 /// How to look for circuits.
 #[derive(Clone, Debug, PartialEq)]
@@ -30,6 +30,8 @@ pub struct CircuitsSettings {
     pub continuation: Continuation,
     /// Steps after which a curve is given up.
     pub most_steps: usize,
+    /// Points whose paths are looked at.
+    pub points: Vec<Point>,
 }
 
 impl Default for CircuitsSettings {
@@ -37,6 +39,7 @@ impl Default for CircuitsSettings {
         CircuitsSettings {
             continuation: Continuation::default(),
             most_steps: 50_000,
+            points: Vec::new(),
         }
     }
 }
@@ -128,6 +131,9 @@ pub struct CircuitsReport {
     pub unusable: usize,
     /// The characteristic length in m.
     pub characteristic_length: f64,
+    /// Cusps and double points of the paths of points over all circuits.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub paths: Vec<PathReport>,
     /// Whether the work was stopped before it was done: circuits may be missing.
     #[serde(default, skip_serializing_if = "std::ops::Not::not")]
     pub interrupted: bool,
@@ -196,7 +202,16 @@ pub fn circuits(
     let all: Vec<Circuit> = (0..traced.len())
         .map(|i| described(mechanism, (&mut curve, method), input, &traced, i))
         .collect();
+    let places: Vec<(&[At], bool)> = (traced.iter())
+        .map(|found| (&found.places[..], found.closed))
+        .collect();
+    let paths = settings.points.iter().map(|point| {
+        let mut tracer = Tracer::new(mechanism, &curve, point);
+        tracer.report(&mut curve, method, &places)
+    });
+    let paths = paths.collect();
     CircuitsReport {
+        paths,
         mechanism: mechanism.name().to_owned(),
         input: input.name(mechanism),
         class: class(mechanism, &all),

@@ -3,6 +3,7 @@
 use std::ops::ControlFlow;
 
 use super::met::Record;
+use super::paths::Trail;
 use super::rows::Sent;
 use super::{Flow, Sink, SweepEnd, SweepReport, SweepSettings};
 use crate::mechanism::{Configuration, Mechanism, Role};
@@ -25,7 +26,7 @@ pub fn follow(
     watch: &Watch,
 ) -> SweepReport {
     let mut curve = Curve::new(mechanism, held);
-    let mut record = Record::new(mechanism, &[]);
+    let mut record = Record::new(mechanism, &[], &settings.points);
     let mut start = start.clone();
     let method = &settings.continuation;
     let mut place = match curve.begin(mechanism, &mut start, method) {
@@ -49,6 +50,7 @@ pub fn follow(
     let mut sent = Sent::new(mechanism, &settings.points);
     let mut flow = sent.row(&place.at, None, None, sink);
     let mut walk = Walk::new(mechanism, &curve, place, method.clone());
+    let mut trail = Trail::new(mechanism, &curve, &settings.points, method);
     let stopped = |()| SweepEnd::Stopped;
     let mut length = 0.0;
     let ending = walk.follow(&mut curve, |curve, leg| {
@@ -57,8 +59,11 @@ pub fn follow(
         if record.steps > MOST_STEPS {
             return ControlFlow::Break(SweepEnd::Stopped);
         }
-        for (place, event) in &leg.events {
+        for (place, event) in &trail.events(curve, leg) {
             record.meet(curve, place, event);
+            if event.ends() || matches!(event, Event::Root(_)) {
+                trail.reach(place, Some(event));
+            }
             length = leg.gone_at(curve, place);
             flow = sent.row(&place.at, None, record.latest(), sink);
             match event {
@@ -67,6 +72,7 @@ pub fn follow(
                 _ => flow.map_break(stopped)?,
             }
         }
+        trail.reach(&leg.to, None);
         let branches = |(_, event): &(_, Event)| matches!(event, Event::Branches(_));
         if !leg.events.iter().any(branches) {
             flow = sent.row(&leg.to.at, None, None, sink);
@@ -77,6 +83,7 @@ pub fn follow(
     let ending = ending.unwrap_or(SweepEnd::Lost);
     SweepReport {
         interrupted: watch.is_stopped(),
+        paths: trail.reports(&mut curve, ending == SweepEnd::Closed),
         ..record.report(ending, sent.count, length)
     }
 }

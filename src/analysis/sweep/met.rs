@@ -4,7 +4,7 @@ use serde::{Deserialize, Serialize};
 
 use super::{InputReport, SweepEnd, SweepReport};
 use crate::algebra::SiUnit;
-use crate::mechanism::{Configuration, Mechanism, Role};
+use crate::mechanism::{Configuration, Mechanism, Point, Role};
 use crate::solve::{Continuation, Place};
 use crate::system::{Coordinate, Curve, Driven, Event, NoStart, Unknown};
 
@@ -53,6 +53,11 @@ pub enum MetKind {
         /// Whether it is the upper one.
         upper: bool,
     },
+    /// A traced point stands still for an instant: its path has a cusp.
+    Cusp {
+        /// The point, as it was asked for.
+        point: String,
+    },
     /// The inputs are at an end of their segment.
     End,
     /// The curve has closed.
@@ -80,6 +85,7 @@ pub struct Passing {
 pub(super) struct Record<'m> {
     mechanism: &'m Mechanism,
     inputs: Vec<Driven>,
+    points: &'m [Point],
     met: Vec<Met>,
     more: usize,
     pub steps: usize,
@@ -89,10 +95,11 @@ pub(super) struct Record<'m> {
 const MOST: usize = 1000;
 
 impl<'m> Record<'m> {
-    pub fn new(mechanism: &'m Mechanism, inputs: &[Driven]) -> Self {
+    pub fn new(mechanism: &'m Mechanism, inputs: &[Driven], points: &'m [Point]) -> Self {
         Record {
             mechanism,
             inputs: inputs.to_vec(),
+            points,
             met: Vec::new(),
             more: 0,
             steps: 0,
@@ -140,7 +147,10 @@ impl<'m> Record<'m> {
             } => (self.limit(*joint, *value, *upper), None),
             Event::End(_) => (MetKind::End, None),
             Event::Closed => (MetKind::Closed, None),
-            Event::Root(_) => return,
+            Event::Root(number) => {
+                let point = self.points[*number].name(self.mechanism);
+                (MetKind::Cusp { point }, None)
+            }
             Event::Branches(point) => {
                 let along = |d: &Vec<f64>| crate::linear::dot(d, &place.tangent).abs();
                 let most = point.directions.iter().map(along).fold(0.0, f64::max);
@@ -245,6 +255,7 @@ impl<'m> Record<'m> {
             sure_steps: self.steps,
             length,
             characteristic_length: mechanism.characteristic_length(),
+            paths: Vec::new(),
             interrupted: false,
         }
     }

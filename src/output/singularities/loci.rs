@@ -1,7 +1,7 @@
 //! Singularity loci in a box of two coordinates.
 
 use super::{Once, kind_word, note, words};
-use crate::analysis::singularities::{Locus, LocusReport, Shape};
+use crate::analysis::singularities::{Cusp, Kind, Locus, LocusReport, Shape};
 use crate::description::count;
 use crate::mechanism::Variable;
 use crate::output::document::{Cell, Document, Section, Table, cells};
@@ -20,6 +20,7 @@ impl Report for LocusReport {
             .notes(note(&self.coupled))
             .interrupted(self.interrupted, "loci")
             .section(curves(self))
+            .sections(cusps(self))
             .method(words::completeness(self))
     }
 
@@ -35,7 +36,7 @@ impl Report for LocusReport {
         }
     }
 
-    /// The points of the loci, in SI units and rad.
+    /// The points of the loci, then their cusps, in SI units and rad.
     fn rows(&self) -> Option<Rows<'_>> {
         let own = ["locus", "kind", "type", "shape", "configurations"];
         let sides = self.bounds.iter().map(|b| Variable::new(&b.name, b.unit));
@@ -45,17 +46,20 @@ impl Report for LocusReport {
         let columns = once.columns.clone();
         let points = self.loci.iter().enumerate().flat_map(|(i, locus)| {
             let points = locus.points.iter().zip(&locus.joints).zip(&locus.poses);
-            points.map(move |((point, joints), poses)| (i, locus, point, joints, poses))
+            let points = points.map(|((point, joints), poses)| (None, point, joints, poses));
+            let cusps =
+                (locus.cusps.iter()).map(|of| (Some("cusp"), &of.point, &of.joints, &of.poses));
+            (points.chain(cusps)).map(move |point| (i, locus, point))
         });
-        let rows = points.map(move |(i, locus, point, joints, poses)| {
+        let rows = points.map(move |(i, locus, (cusp, point, joints, poses))| {
             let mut row = cells![
                 i + 1,
                 kind_word(locus.kind),
                 locus.singularity.gosselin_angeles.map(usize::from),
-                match locus.shape {
+                cusp.unwrap_or(match locus.shape {
                     Shape::Curve => "curve",
                     Shape::Point => "point",
-                },
+                }),
                 locus.configurations,
             ];
             let values = point.iter().chain(joints).chain(poses.iter().flatten());
@@ -102,4 +106,44 @@ fn curves(report: &LocusReport) -> Section {
     Section::new("Loci")
         .table(table)
         .list(several.into_iter().chain(crossings))
+}
+
+/// Where three solutions meet.
+fn cusps(report: &LocusReport) -> Option<Section> {
+    let loci = (1..).zip(&report.loci);
+    let cusps: Vec<(i64, &Locus, &Cusp)> = loci
+        .flat_map(|(i, locus)| locus.cusps.iter().map(move |cusp| (i, locus, cusp)))
+        .collect();
+    let direct = cusps.iter().any(|(_, locus, _)| locus.kind == Kind::Direct);
+    let inverse = cusps
+        .iter()
+        .any(|(_, locus, _)| locus.kind == Kind::Inverse);
+    let meaning = [
+        direct.then(|| {
+            "direct: three assemblies meet there, and round it one turns into another without a singularity".to_owned()
+        }),
+        inverse.then(|| "inverse: three configurations for the same outputs meet there".to_owned()),
+    ];
+    let bounds = &report.bounds;
+    let side = |k: usize| {
+        move |(_, _, cusp): (i64, &Locus, &Cusp)| Cell::quantity(cusp.point[k], bounds[k].unit)
+    };
+    let table = Table::of(cusps.iter().copied())
+        .numbers("locus", |(i, _, _)| Cell::Count(i))
+        .words("kind", |(_, locus, _)| kind_word(locus.kind))
+        .numbers(&bounds[0].name, side(0))
+        .numbers(&bounds[1].name, side(1));
+    let boxed = |name: &str| bounds.iter().any(|bound| bound.name == name);
+    let joints = report.variables.iter().enumerate();
+    let joints = joints.filter(|(_, joint)| !boxed(&joint.name));
+    let table = joints.fold(table, |table, (k, joint)| {
+        table.numbers(&joint.name, move |(_, _, cusp)| {
+            Cell::quantity(cusp.joints[k], joint.unit)
+        })
+    });
+    (!cusps.is_empty()).then(|| {
+        Section::new("Cusps")
+            .table(table)
+            .list(meaning.into_iter().flatten())
+    })
 }

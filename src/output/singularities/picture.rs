@@ -57,6 +57,14 @@ pub fn svg(report: &LocusReport) -> String {
             points: crossings,
         });
     }
+    let cusps = report.loci.iter().flat_map(|locus| &locus.cusps);
+    let cusps: Vec<(f64, f64)> = cusps.map(|cusp| point(&cusp.point)).collect();
+    if !cusps.is_empty() {
+        marks.push(Marks {
+            label: "cusps".into(),
+            points: cusps,
+        });
+    }
     plot::svg(&[Chart {
         title: format!("{}: singularities", report.mechanism),
         x,

@@ -203,10 +203,23 @@ pub(super) fn loci(report: &LocusReport) -> String {
                   inputs"
             .into(),
     };
+    let cusps = |kind: Kind| {
+        let loci = report.loci.iter().filter(|locus| locus.kind == kind);
+        loci.map(|locus| locus.cusps.len()).sum::<usize>()
+    };
+    let meeting = [
+        (cusps(Kind::Direct), "assemblies"),
+        (cusps(Kind::Inverse), "configurations for the same outputs"),
+    ];
+    let meeting = meeting.into_iter().filter(|(number, _)| *number > 0);
+    let meeting: Vec<String> = meeting
+        .map(|(number, what)| format!(" At {} three {what} meet.", count(number, "cusp")))
+        .collect();
     format!(
-        "In the box {}: {} and {inverse}.",
+        "In the box {}: {} and {inverse}.{}",
         listed(&in_box),
         curves(Kind::Direct, "direct"),
+        meeting.concat(),
     )
 }
 

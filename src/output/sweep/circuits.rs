@@ -1,5 +1,6 @@
 //! Circuits and branches in words.
 
+use super::paths;
 use crate::algebra::SiUnit;
 use crate::analysis::sweep::{Circuit, CircuitsReport, FourBarClass, JointMotion};
 use crate::description::{count, listed};
@@ -25,6 +26,7 @@ impl Report for CircuitsReport {
         Document::new(&self.mechanism, sentence(self))
             .interrupted(self.interrupted, "circuits")
             .sections(self.circuits.iter().map(|circuit| one(self, circuit)))
+            .sections(paths::sections(&self.paths, true))
             .method(seeds)
     }
 

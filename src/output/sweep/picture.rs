@@ -1,7 +1,7 @@
 //! Motions drawn: input–output curves, or the paths of points.
 
 use crate::algebra::SiUnit;
-use crate::analysis::sweep::{MetKind, Row};
+use crate::analysis::sweep::{MetKind, MotionsReport, Row};
 use crate::mechanism::{Configuration, Mechanism, Point, Variable};
 use crate::output::plot::{self, Chart, Marks, Series, svg};
 use crate::output::quantity;
@@ -19,6 +19,7 @@ pub struct Picture {
     /// Quantities, drawn over the first input in a panel for each unit.
     quantities: Vec<Variable>,
     motions: Vec<Drawn>,
+    double_points: Vec<[f64; 3]>,
 }
 
 #[derive(Clone, Debug, Default)]
@@ -71,7 +72,16 @@ impl Picture {
                 .collect(),
             quantities: quantities.to_vec(),
             motions: Vec::new(),
+            double_points: Vec::new(),
         }
+    }
+
+    /// Also marks where paths cross themselves.
+    pub fn crossed(&mut self, report: &MotionsReport) {
+        let paths = report.motions.iter().flat_map(|motion| &motion.sweep.paths);
+        let points = paths.flat_map(|path| &path.double_points);
+        self.double_points
+            .extend(points.map(|point| point.position));
     }
 
     /// Takes in a row of the motion in a mode; another mode begins another motion.
@@ -95,6 +105,7 @@ impl Picture {
                 MetKind::Turning { .. } => "turning point",
                 MetKind::Limit { .. } => "limit",
                 MetKind::Crossing { .. } => "branches cross",
+                MetKind::Cusp { .. } => "cusp",
                 MetKind::End | MetKind::Closed => "",
             });
             if let Some(mark) = mark.filter(|mark| !mark.is_empty()) {
@@ -270,7 +281,14 @@ impl Picture {
         let pairs: Vec<(String, usize, usize)> = (self.points.iter().enumerate())
             .map(|(i, point)| (point.clone(), first + 3 * i + x, first + 3 * i + y))
             .collect();
-        let (series, marks) = self.chart(&pairs);
+        let (series, mut marks) = self.chart(&pairs);
+        if !self.double_points.is_empty() {
+            let seen = self.double_points.iter().map(|point| (point[x], point[y]));
+            marks.push(Marks {
+                label: "double points".into(),
+                points: seen.collect(),
+            });
+        }
         let axis = ["x (m)", "y (m)", "z (m)"];
         Chart {
             title: self.title.clone(),

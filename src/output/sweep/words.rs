@@ -178,6 +178,7 @@ pub(super) fn met(motion: &MotionReport) -> Option<Section> {
                 0 | 1 => "branches meet".into(),
                 n => format!("{n} branches cross"),
             },
+            MetKind::Cusp { point } => format!("cusp of the path of {point}"),
             MetKind::End | MetKind::Closed => String::new(),
         })
         .numbers("type", |met| met.singularity.map(usize::from));

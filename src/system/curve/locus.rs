@@ -1,7 +1,7 @@
 //! Singular configurations with two inputs free, as a curve.
 
 use super::{ConfigurationCurve, Curve};
-use crate::linear::{add, dot};
+use crate::linear::{Decomposition, add, dot};
 use crate::mechanism::{Configuration, Mechanism};
 use crate::solve::SolutionCurve;
 use crate::system::{Coordinate, Held, Lock, Locked, Unknown};
@@ -28,6 +28,8 @@ pub struct LocusCurve {
     locked: Locked,
     /// The unknowns of platforms and inputs.
     seen: Vec<bool>,
+    /// The columns of M of the unknowns of x.
+    columns: Vec<usize>,
 }
 
 impl LocusCurve {
@@ -40,24 +42,20 @@ impl LocusCurve {
     ) -> Self {
         let closed = Curve::along(mechanism, held, Vec::new());
         let whole = mechanism.platforms().is_empty();
-        let seen = closed
-            .system()
-            .unknowns()
-            .iter()
-            .map(|unknown| match *unknown {
-                Unknown::Joint(joint) => whole || inputs.contains(&Coordinate::Joint(joint)),
-                Unknown::Twist { .. } => true,
-            });
+        let unknowns = closed.system().unknowns();
+        let seen = unknowns.iter().map(|unknown| match *unknown {
+            Unknown::Joint(joint) => whole || inputs.contains(&Coordinate::Joint(joint)),
+            Unknown::Twist { .. } => true,
+        });
+        let locked = Locked::without_spins(mechanism, held, locks);
+        let all = locked.system().unknowns();
+        let column = |unknown| all.iter().position(|own| own == unknown);
         LocusCurve {
             seen: seen.collect(),
+            columns: unknowns.iter().filter_map(column).collect(),
             closed,
-            locked: Locked::without_spins(mechanism, held, locks),
+            locked,
         }
-    }
-
-    /// The assembled configurations with two freedoms.
-    pub fn closed(&mut self) -> &mut Curve {
-        &mut self.closed
     }
 
     /// M.
@@ -67,6 +65,36 @@ impl LocusCurve {
 
     fn freedoms(&self) -> usize {
         self.closed.unknowns()
+    }
+
+    /// The derivative of M along the motion v, column-major.
+    ///
+    /// Five points: the error is of fourth order in the step, about as small as rounding.
+    fn change(&mut self, point: &Singular) -> Vec<f64> {
+        const STEP: f64 = 1e-3;
+        let mut change = vec![0.0; self.locked.rows() * self.locked.columns()];
+        for (steps, weight) in [(1.0, 8.0), (-1.0, -8.0), (2.0, -1.0), (-2.0, 1.0)] {
+            let step: Vec<f64> = point.motion.iter().map(|v| steps * STEP * v).collect();
+            let at = self.locked.system().displaced(&point.at, &step);
+            add(
+                &mut change,
+                weight / (12.0 * STEP),
+                &self.locked.jacobian(&at),
+            );
+        }
+        change
+    }
+
+    /// What of (∂M/∂v) v is outside the image of M. It is where inputs or outputs would have to move
+    /// for the motion v to go on to second order.
+    pub fn bend(&mut self, point: &Singular) -> Vec<f64> {
+        let (rows, columns) = (self.locked.rows(), self.locked.columns());
+        let change = self.change(point);
+        let mut bend = product(&change, rows, &point.motion);
+        let matrix = self.locked.jacobian(&point.at);
+        let within = Decomposition::of_rank(rows, columns, &matrix, columns - 1).solve(&bend);
+        add(&mut bend, -1.0, &product(&matrix, rows, &within));
+        bend
     }
 
     /// M(x) v.
@@ -89,17 +117,14 @@ impl ConfigurationCurve for LocusCurve {
         &point.at
     }
 
-    fn apart(&self, from: &Singular, to: &Singular) -> Vec<f64> {
-        self.closed.difference_but_turns(&from.at, &to.at)
+    fn closed(&self) -> &Curve {
+        &self.closed
     }
 
     /// Platforms and inputs: legs that are folded the other way about their passive joints do not
     /// make another locus.
-    fn seen(&self, step: &[f64]) -> Vec<f64> {
-        let parts = step.iter().zip(&self.seen);
-        parts
-            .map(|(x, seen)| if *seen { *x } else { 0.0 })
-            .collect()
+    fn sees(&self, component: usize) -> bool {
+        self.seen[component]
     }
 }
 
@@ -117,9 +142,10 @@ impl SolutionCurve for LocusCurve {
         residual
     }
 
+    /// The derivative of M v along the unknown e is that of M e along v, but for the rotations of
+    /// platforms: with left-multiplied turns ω of the platform ∂ₑ(M v) − ∂ᵥ(M e) = M (ω_v × ω_e).
+    /// Of frames among the locks a term is left out that vanishes with M v.
     fn linearise(&mut self, point: &Singular) -> (Vec<f64>, Vec<f64>) {
-        /// Step of the differences: their error, of second order, only delays convergence.
-        const STEP: f64 = 1e-5;
         let (mut residual, closure) = self.closed.linearise(&point.at);
         let first = residual.len();
         let matrix = self.locked.jacobian(&point.at);
@@ -129,18 +155,27 @@ impl SolutionCurve for LocusCurve {
         let rows = residual.len();
         let mut jacobian = vec![0.0; rows * self.unknowns()];
         let freedoms = self.freedoms();
-        let mut step = vec![0.0; freedoms];
-        for k in 0..freedoms {
+        let change = self.change(point);
+        for (k, unknown) in self.closed.system().unknowns().iter().enumerate() {
             let column = &mut jacobian[k * rows..(k + 1) * rows];
             column[..first].copy_from_slice(&closure[k * first..(k + 1) * first]);
-            step[k] = STEP;
-            let ahead = self.closed.displaced(&point.at, &step);
-            step[k] = -STEP;
-            let back = self.closed.displaced(&point.at, &step);
-            step[k] = 0.0;
-            let [ahead, back] = [ahead, back].map(|at| self.image(&at, &point.motion));
-            for (i, (a, b)) in ahead.into_iter().zip(back).enumerate() {
-                column[first + i] = (a - b) / (2.0 * STEP);
+            let place = self.columns[k];
+            let column = &mut column[first..first + second];
+            column.copy_from_slice(&change[place * second..(place + 1) * second]);
+            if let Unknown::Twist {
+                component: c @ 0..3,
+                ..
+            } = *unknown
+            {
+                let turning = place - c;
+                let [y, z] = [(c + 1) % 3, (c + 2) % 3];
+                // ω × e with e along component c
+                for (to, factor) in [
+                    (y, point.motion[turning + z]),
+                    (z, -point.motion[turning + y]),
+                ] {
+                    add(column, factor, &matrix[(turning + to) * second..][..second]);
+                }
             }
         }
         for (k, v) in point.motion.iter().enumerate() {

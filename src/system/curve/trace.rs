@@ -12,11 +12,25 @@ use crate::system::{Coordinate, Held};
 pub trait ConfigurationCurve: SolutionCurve {
     /// The configuration of a point.
     fn configuration(point: &Self::Point) -> &Configuration<f64>;
+    /// The configurations among which it is a curve.
+    fn closed(&self) -> &Curve;
+    /// Whether a component of a step between configurations distinguishes curves.
+    fn sees(&self, component: usize) -> bool;
+
     /// The step from one configuration to another, whole turns left out: as the first components of
     /// a tangent.
-    fn apart(&self, from: &Self::Point, to: &Self::Point) -> Vec<f64>;
+    fn apart(&self, from: &Self::Point, to: &Self::Point) -> Vec<f64> {
+        let [from, to] = [from, to].map(Self::configuration);
+        self.closed().difference_but_turns(from, to)
+    }
+
     /// The part of such a step that distinguishes curves.
-    fn seen(&self, step: &[f64]) -> Vec<f64>;
+    fn seen(&self, mut step: Vec<f64>) -> Vec<f64> {
+        for (component, x) in step.iter_mut().enumerate() {
+            *x *= f64::from(u8::from(self.sees(component)));
+        }
+        step
+    }
 }
 
 impl ConfigurationCurve for Curve {
@@ -24,12 +38,12 @@ impl ConfigurationCurve for Curve {
         point
     }
 
-    fn apart(&self, from: &Configuration<f64>, to: &Configuration<f64>) -> Vec<f64> {
-        self.difference_but_turns(from, to)
+    fn closed(&self) -> &Curve {
+        self
     }
 
-    fn seen(&self, step: &[f64]) -> Vec<f64> {
-        step.to_vec()
+    fn sees(&self, _: usize) -> bool {
+        true
     }
 }
 
@@ -152,6 +166,8 @@ impl Region<'_> {
         let mut crossings = Vec::new();
         let mut place = start.clone();
         let (mut length, mut gone) = (0.1 * method.longest, 0.0);
+        // whether no crossing was found ahead of the place
+        let mut none_ahead = false;
         for _ in 0..STEPS {
             if self.watch.at(self.now).is_break() {
                 break;
@@ -165,13 +181,14 @@ impl Region<'_> {
                     length *= 0.5;
                     continue;
                 }
-                Err(_) => match self.beyond(curve, &place) {
+                Err(_) => match (!none_ahead).then(|| self.beyond(curve, &place)).flatten() {
                     Some([crossing, to]) => {
                         crossings.push(crossing);
                         length = 0.1 * method.longest;
                         to
                     }
                     None if length > method.shortest => {
+                        none_ahead = true;
                         length *= 0.5;
                         continue;
                     }
@@ -206,6 +223,7 @@ impl Region<'_> {
             }
             places.push(to.clone());
             place = to;
+            none_ahead = false;
         }
         (places, LocusEnd::Lost, crossings)
     }
@@ -277,30 +295,60 @@ pub fn met_at<C: ConfigurationCurve>(
     method: &Continuation,
 ) -> Option<f64> {
     const SAME: f64 = 1e-6;
-    let distance =
-        |curve: &C, i: usize| norm(&curve.seen(&curve.apart(&traced.places[i].at, &place.at)));
+    let goal = C::configuration(&place.at);
+    let mut step = vec![0.0; curve.closed().unknowns()];
+    let mut distance = |i: usize| {
+        let from = C::configuration(&traced.places[i].at);
+        (curve.closed()).difference_but_turns_into(from.view(), goal.view(), &mut step);
+        let seen = (step.iter().enumerate()).filter(|(component, _)| curve.sees(*component));
+        seen.map(|(_, x)| x * x).sum::<f64>().sqrt()
+    };
     let nearest = (0..traced.places.len())
-        .map(|i| (i, distance(curve, i)))
+        .map(|i| (i, distance(i)))
         .min_by(|a, b| a.1.total_cmp(&b.1));
     let (i, apart) = nearest.filter(|(_, apart)| *apart < 2.0 * method.longest)?;
     if apart < SAME {
         return Some(i as f64);
     }
-    // the foot of the place on the pieces beside the nearest point
-    let foot = |curve: &mut C, i: usize| {
-        let from = &method.restored(curve, &traced.places[i])?;
-        let to = &method.restored(curve, &traced.places[i + 1])?;
-        let way = curve.apart(&from.at, &to.at);
-        let tangent = curve.seen(&from.tangent[..way.len()]);
-        let mut ahead =
-            |curve: &mut C, p: &Place<C::Point>| dot(&curve.apart(&p.at, &place.at), &tangent);
-        let (before, after) = (ahead(curve, from), ahead(curve, to));
+    // a curve on which nothing moves that is seen may cross others, and is none of them
+    if norm(&curve.seen(place.tangent[..step.len()].to_vec())) < SAME {
+        return None;
+    }
+    // the foot of the place on a piece, by Newton steps from one of its ends
+    let foot_from = |curve: &mut C, from: &Place<C::Point>, to: &Place<C::Point>| {
+        const STEPS: usize = 12;
+        let tangent = from.tangent[..curve.closed().unknowns()].to_vec();
+        let tangent = curve.seen(tangent);
+        let [before, after] = [from, to].map(|end| dot(&curve.apart(&end.at, &place.at), &tangent));
         if (before < 0.0) == (after < 0.0) {
             return None;
         }
-        let foot = method.root(curve, from, to, &mut ahead);
-        let met = norm(&curve.seen(&curve.apart(&foot.at, &place.at))) < SAME;
-        met.then(|| i as f64 + before / (before - after))
+        let end = dot(&curve.difference(&from.at, &to.at), &from.tangent);
+        let (part, slope) = (before / (before - after), (before - after) / end);
+        let mut along = part * end;
+        for _ in 0..STEPS {
+            let (point, _) = method.ahead(curve, from, along)?;
+            let gap = curve.seen(curve.apart(&point, &place.at));
+            let apart = norm(&gap);
+            if apart < SAME {
+                return Some(part);
+            }
+            let step = dot(&gap, &tangent) / slope;
+            // tangents turn by less than 60° on a piece, so that a foot is no farther away
+            if apart > 3.0 * step.abs() {
+                return None;
+            }
+            along += step;
+        }
+        None
+    };
+    let foot = |curve: &mut C, i: usize| {
+        let from = &method.restored(curve, &traced.places[i])?;
+        let to = &method.restored(curve, &traced.places[i + 1])?;
+        // where others cross between them, only one of both leads there by sure steps
+        let part =
+            foot_from(curve, from, to).or_else(|| Some(1.0 - foot_from(curve, to, from)?))?;
+        Some(i as f64 + part)
     };
     // a closed curve begins and ends at one place
     let pieces = traced.places.len() - 1;

@@ -1,0 +1,58 @@
+//! Cusps: configurations of a locus where three solutions meet.
+
+use crate::linear::{dot, norm};
+use crate::solve::Place;
+use crate::system::{ConfigurationCurve, LocusCurve, Region, Singular, Traced};
+
+type At = Place<Singular>;
+
+/// The places on a curve where the motion v that is gained is possible to second order too, with
+/// M(x) v = 0 and nothing of (∂M/∂v) v outside the image of M.
+///
+/// Elsewhere two solutions meet on the locus, there three: in the plane of two inputs its image has a
+/// cusp, round which one solution turns into another without a singularity between them.
+/// Sources: McAree and Daniel 1999; Zein, Wenger and Chablat 2008.
+pub(super) fn cusps(curve: &mut LocusCurve, region: &Region, traced: &Traced<Singular>) -> Vec<At> {
+    /// What is less is rounding: v leads on along a whole motion.
+    const STILL: f64 = 1e-7;
+    /// What is left at a cusp.
+    const THERE: f64 = 1e-9;
+    /// Configurations this near are one; where loci cross three solutions meet as well.
+    const SAME: f64 = 1e-5;
+    let bends: Vec<Vec<f64>> = (traced.places.iter())
+        .map(|place| curve.bend(&place.at))
+        .collect();
+    let mut found: Vec<At> = Vec::new();
+    let mut take = |curve: &mut LocusCurve, from: (&At, &[f64]), to: (&At, &[f64])| {
+        let turned = dot(from.1, to.1) < 0.0;
+        if !turned || norm(from.1).max(norm(to.1)) < STILL {
+            return turned;
+        }
+        let along = from.1.to_vec();
+        let mut test = |curve: &mut LocusCurve, p: &At| dot(&curve.bend(&p.at), &along);
+        let place = region.method.root(curve, from.0, to.0, &mut test);
+        let one = |curve: &LocusCurve, other: &At| norm(&curve.apart(&other.at, &place.at)) < SAME;
+        let known = found.iter().chain(&traced.crossings);
+        if norm(&curve.bend(&place.at)) < THERE && !known.into_iter().any(|at| one(curve, at)) {
+            found.push(place);
+        }
+        true
+    };
+    for i in 1..traced.places.len() {
+        let [from, to] = [i - 1, i].map(|k| (&traced.places[k], &bends[k][..]));
+        if take(curve, from, to) {
+            continue;
+        }
+        // two within a step: towards the lesser end of three or four the bend grows less
+        let size = |k: usize| bends.get(k).map_or(0.0, |bend| norm(bend));
+        let falls = size(i - 1) < size(i.wrapping_sub(2)) && size(i) < size(i + 1);
+        let way = dot(&curve.apart(&from.0.at, &to.0.at), &from.0.tangent);
+        let middle = falls.then(|| region.method.across(curve, from.0, 0.5 * way));
+        if let Some(middle) = middle.flatten() {
+            let bend = curve.bend(&middle.at);
+            take(curve, from, (&middle, &bend));
+            take(curve, (&middle, &bend), to);
+        }
+    }
+    found
+}

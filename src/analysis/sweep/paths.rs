@@ -1,0 +1,248 @@
+//! Special points of the paths of traced points: cusps and double points.
+
+mod crossings;
+
+use serde::{Deserialize, Serialize};
+
+use super::points::Paths;
+use super::At;
+use crate::geometry::Vector3;
+use crate::linear::dot;
+use crate::mechanism::{Configuration, Mechanism, Placement, Point, Variable};
+use crate::solve::Continuation;
+use crate::system::{Curve, Event, FrameTwists, Segment};
+use crossings::double_points;
+
+/// What is special on the path of a point.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct PathReport {
+    /// The point, as it was asked for.
+    pub point: String,
+    /// The joints, in the order of the file.
+    pub variables: Vec<Variable>,
+    /// Where it stands still for an instant while the mechanism moves, in the order in which this was met.
+    pub cusps: Vec<PathPoint>,
+    /// Where its path crosses itself, sorted.
+    pub double_points: Vec<PathPoint>,
+    /// The order of the whole algebraic curve, all circuits and complex points included, where it was asked for and
+    /// is certain: with so many points a line in its plane meets it, or a plane a curve in space.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub order: Option<usize>,
+}
+
+/// A point of a path with the configurations that lead there.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct PathPoint {
+    /// Where it is, in ground, in m.
+    pub position: [f64; 3],
+    /// The joints, rad or m, in the order of the file: one row for each passage.
+    pub joints: Vec<Vec<f64>>,
+    /// The numbers of the circuits that pass, from 1, in the same order.
+    pub circuits: Vec<usize>,
+}
+
+/// Rates below this, in characteristic lengths for a step of 1 along the curve, are rounding.
+const STILL: f64 = 1e-9;
+
+/// A point whose path is looked at.
+pub(super) struct Tracer {
+    name: String,
+    variables: Vec<Variable>,
+    paths: Paths,
+    twists: FrameTwists<f64>,
+    placement: Placement<f64>,
+    length: f64,
+}
+
+impl Tracer {
+    pub fn new(mechanism: &Mechanism, curve: &Curve, point: &Point) -> Self {
+        let (dimensions, unknowns) = (mechanism.dimensions(), curve.system().unknowns());
+        let twists = FrameTwists::new(dimensions, unknowns, &[point.frame]);
+        Tracer {
+            name: point.name(mechanism),
+            variables: Variable::joints(mechanism),
+            paths: Paths::new(mechanism, std::slice::from_ref(point)),
+            placement: twists.placement(),
+            twists,
+            length: mechanism.characteristic_length(),
+        }
+    }
+
+    /// Where the point is, in m.
+    fn position(&mut self, at: &Configuration<f64>) -> Vector3<f64> {
+        self.paths.place(at);
+        Vector3(self.paths.at[0])
+    }
+
+    /// Its velocity along the tangent, in characteristic lengths.
+    fn velocity(&mut self, place: &At) -> Vector3<f64> {
+        let position = self.position(&place.at);
+        self.twists.place(&place.at, &mut self.placement);
+        let arm = position - self.twists.origin(0, &self.placement);
+        let twist = self.twists.twist(0, &self.placement, &place.tangent);
+        (twist.velocity + twist.omega.cross(&arm)).times(1.0 / self.length)
+    }
+
+    /// The place between two where the point stands still for an instant: its velocity turns back
+    /// there. It lies on the moving centrode then.
+    fn cusp(&mut self, curve: &mut Curve, method: &Continuation, from: &At, to: &At) -> Option<At> {
+        let [before, after] = [from, to].map(|place| self.velocity(place));
+        let place = if before.norm() < STILL {
+            from.clone()
+        } else if before.dot(&after) < 0.0 {
+            let along = before - after;
+            let mut test = |_: &mut Curve, place: &At| self.velocity(place).dot(&along);
+            method.root(curve, from, to, &mut test)
+        } else {
+            return None;
+        };
+        // one at the end of a step is met at the beginning of the next
+        let still = self.velocity(&place).norm() < STILL && after.norm() >= STILL;
+        (still && !self.retraces(curve, method, &place)).then_some(place)
+    }
+
+    /// Whether the path comes back the way it went where the point stands still, as at the end of an arc.
+    fn retraces(&mut self, curve: &mut Curve, method: &Continuation, still: &At) -> bool {
+        const STEPS: usize = 12;
+        /// At a cusp the way back is off by about the third power of the step.
+        const SAME_WAY: f64 = 1e-11;
+        let step = 0.5 * method.longest;
+        let Some(ahead) = method.across(curve, still, step) else {
+            return false;
+        };
+        let wanted = self.position(&ahead.at);
+        let mut back = step;
+        for _ in 0..STEPS {
+            let Some(place) = method.across(curve, still, -back) else {
+                return false;
+            };
+            let gap = (wanted - self.position(&place.at)).times(1.0 / self.length);
+            if gap.norm() < SAME_WAY {
+                return true;
+            }
+            let rate = self.velocity(&place);
+            back -= gap.dot(&rate) / rate.dot(&rate);
+        }
+        false
+    }
+}
+
+/// The tracers of a motion and the way it went.
+pub(super) struct Trail {
+    tracers: Vec<Tracer>,
+    method: Continuation,
+    places: Vec<At>,
+    cusps: Vec<Vec<At>>,
+}
+
+impl Trail {
+    pub fn new(
+        mechanism: &Mechanism,
+        curve: &Curve,
+        points: &[Point],
+        method: &Continuation,
+    ) -> Self {
+        let tracers = points
+            .iter()
+            .map(|point| Tracer::new(mechanism, curve, point));
+        Trail {
+            tracers: tracers.collect(),
+            method: method.clone(),
+            places: Vec::new(),
+            cusps: vec![Vec::new(); points.len()],
+        }
+    }
+
+    /// What was met on a step, with the cusps of paths: roots, by the number of their point.
+    pub fn events(&mut self, curve: &mut Curve, leg: &Segment) -> Vec<(At, Event)> {
+        let mut events = leg.events.clone();
+        let met = events.len();
+        for (number, tracer) in self.tracers.iter_mut().enumerate() {
+            let cusp = tracer.cusp(curve, &self.method, &leg.from, &leg.to);
+            events.extend(cusp.map(|place| (place, Event::Root(number))));
+        }
+        if events.len() > met {
+            let along = |p: &At| {
+                dot(
+                    &curve.difference_but_turns(&leg.from.at, &p.at),
+                    &leg.from.tangent,
+                )
+            };
+            events.sort_by(|(a, _), (b, _)| along(a).total_cmp(&along(b)));
+        }
+        if self.places.is_empty() && !self.tracers.is_empty() {
+            self.places.push(leg.from.clone());
+        }
+        events
+    }
+
+    /// Goes on to a place, past what was met there.
+    pub fn reach(&mut self, place: &At, event: Option<&Event>) {
+        match event {
+            Some(Event::Root(number)) => self.cusps[*number].push(place.clone()),
+            _ if !self.tracers.is_empty() => self.places.push(place.clone()),
+            _ => {}
+        }
+    }
+
+    pub fn reports(self, curve: &mut Curve, closed: bool) -> Vec<PathReport> {
+        let Trail {
+            tracers,
+            method,
+            places,
+            cusps,
+        } = self;
+        let of_point = tracers.into_iter().zip(cusps);
+        let reports = of_point.map(|(mut tracer, cusps)| {
+            let cusps = cusps.iter().map(|place| tracer.told(&[(place, 1)]));
+            let cusps = cusps.collect();
+            tracer.told_all(cusps, curve, &method, &[(&places[..], closed)])
+        });
+        reports.collect()
+    }
+}
+
+impl Tracer {
+    /// What there is on the path over several curves; none if it is a point.
+    pub fn report(
+        &mut self,
+        curve: &mut Curve,
+        method: &Continuation,
+        curves: &[(&[At], bool)],
+    ) -> PathReport {
+        let mut cusps = Vec::new();
+        for (number, (places, _)) in curves.iter().enumerate() {
+            for pair in places.windows(2) {
+                let cusp = self.cusp(curve, method, &pair[0], &pair[1]);
+                cusps.extend(cusp.map(|place| self.told(&[(&place, number + 1)])));
+            }
+        }
+        self.told_all(cusps, curve, method, curves)
+    }
+
+    fn told_all(
+        &mut self,
+        cusps: Vec<PathPoint>,
+        curve: &mut Curve,
+        method: &Continuation,
+        curves: &[(&[At], bool)],
+    ) -> PathReport {
+        PathReport {
+            point: self.name.clone(),
+            variables: self.variables.clone(),
+            cusps,
+            double_points: double_points(self, curve, method, curves),
+            order: None,
+        }
+    }
+
+    fn told(&mut self, passages: &[(&At, usize)]) -> PathPoint {
+        PathPoint {
+            position: self.position(&passages[0].0.at).0,
+            joints: (passages.iter())
+                .map(|(place, _)| place.at.joints.clone())
+                .collect(),
+            circuits: passages.iter().map(|(_, circuit)| *circuit).collect(),
+        }
+    }
+}
