@@ -67,7 +67,7 @@ fn derivatives(rho: [f64; 3], angle: f64) -> [f64; 4] {
     result
 }
 
-fn angle(pose: &[f64; 7]) -> f64 {
+fn angle(pose: &[f64; 10]) -> f64 {
     assert!(pose[4].abs() < 1e-9 && pose[5].abs() < 1e-9, "{pose:?}");
     2.0 * pose[6].atan2(pose[3])
 }
