@@ -609,8 +609,20 @@ mod files {
 
     #[test]
     fn shipped_axes_give_mechanisms_in_both_conventions() {
+        let mut placed_all = 0;
         for path in shipped(&folder().join("axes")) {
             let axes = AxesDescription::read(&std::fs::read_to_string(&path).unwrap()).unwrap();
+            if let Err(problems) = frames(&axes, &FramesSettings::default()) {
+                // rods, gears and frames have no rows among these tables
+                let kinds = problems.iter().map(|problem| problem.kind.title());
+                let only = "`frames` makes tables of revolute, prismatic and spherical joints only";
+                assert!(
+                    kinds.clone().all(|title| title.starts_with(only)),
+                    "{path:?}"
+                );
+                continue;
+            }
+            placed_all += 1;
             for convention in Convention::ALL {
                 let mechanism = placed(&axes, convention);
                 let gap = close(
@@ -622,6 +634,7 @@ mod files {
                 assert!(mechanism.closures().is_empty() || gap.is_ok(), "{path:?}");
             }
         }
+        assert!(placed_all >= 2, "{placed_all}");
     }
 
     #[test]
@@ -693,7 +706,7 @@ mod files {
                 "{q}\"p\": Revolut(point: (0, 0, 0), direction: (0, 1, l))"
             ))),
             [
-                "3:6 expected `Revolute(…)`, `Prismatic(…)` or `Spherical(…)`, found `Revolut` (did you mean `Revolute`?)"
+                "3:6 expected a joint such as `Revolute(…)`, `Prismatic(…)` or `Spherical(…)`, found `Revolut` (did you mean `Revolute`?)"
             ]
         );
         assert_eq!(

@@ -73,7 +73,8 @@ fn the_transmission_angle_of_a_four_bar_follows_the_law_of_cosines() {
     assert_eq!(crank.len(), 51);
     for name in ["transmission", "transmission:joint3"] {
         for (theta, found) in crank.iter().zip(column(&motion, name)) {
-            assert!((found - angle(*theta)).abs() < 1e-12, "{theta}");
+            // closed to 1e-12 of 5 m, and the angle is steeper than the diagonal
+            assert!((found - angle(*theta)).abs() < 1e-11, "{theta}");
         }
     }
     // the same with the coupler as a rod of given length, and none where the loop is not planar

@@ -121,6 +121,16 @@ pub fn joint_axes(
     })
 }
 
+/// The name of a body in joint coordinates, where a dot is reserved for frames.
+fn plain_name(mechanism: &Mechanism, body: Body) -> String {
+    let plain = |body| mechanism.body_name(body).replace('.', "_");
+    let name = plain(body);
+    let before = mechanism.bodies().into_iter();
+    let before = before.take_while(|other| *other != body);
+    let alike = before.filter(|other| plain(*other) == name).count();
+    name + &"_".repeat(alike)
+}
+
 fn rows(mechanism: &Mechanism, at: &Configuration<f64>) -> Result<Vec<Joint>, AxesError> {
     let mut joints: Vec<Joint> = Vec::new();
     for (chain, part) in mechanism.dimensions().chains.iter().enumerate() {
@@ -131,7 +141,7 @@ fn rows(mechanism: &Mechanism, at: &Configuration<f64>) -> Result<Vec<Joint>, Ax
             };
             let frame = |row: usize| Frame::Link { chain, row };
             let before = mechanism.transform(Frame::Ground, frame(k), at) * dims.before;
-            let body = |row: usize| mechanism.body_name(mechanism.body(frame(row)));
+            let body = |row: usize| plain_name(mechanism, mechanism.body(frame(row)));
             let (turn, slide) = (AxisKind::Revolute, AxisKind::Prismatic);
             let moves = match (&dims.turn.0[..], &dims.slide.0[..]) {
                 (&[term], []) => vec![(term, turn, [body(k), body(k + 1)])],
@@ -178,7 +188,7 @@ fn closures(
         let poses = mechanism.poses(closure.frames, at);
         use AxisKind::{Prismatic, Revolute, Spherical};
         let bodies = closure.frames.map(|frame| mechanism.body(frame));
-        let names = bodies.map(|body| mechanism.body_name(body));
+        let names = bodies.map(|body| plain_name(mechanism, body));
         let joint = |suffix: &str, kind, pose: &Pose<f64>, bodies: [String; 2]| {
             let wanted = format!("{}{suffix}", closure.name);
             let free = |name: &str| mechanism.joint(name).is_none();
