@@ -1238,7 +1238,10 @@ fn formats_agree_and_hold_no_nan() {
     };
     let json: serde_json::Value = serde_json::from_str(&with(&["--format", "json"])).unwrap();
     let points = json["loci"].as_array().unwrap().iter();
-    let points: usize = points.map(|l| l["points"].as_array().unwrap().len()).sum();
+    let listed = |locus: &serde_json::Value, what: &str| locus[what].as_array().unwrap().len();
+    let points: usize = points
+        .map(|l| listed(l, "points") + listed(l, "cusps"))
+        .sum();
     let folder = tempfile::tempdir().unwrap();
     let picture = folder.path().join("loci.svg");
     let csv = with(&["--format", "csv", "--svg", picture.to_str().unwrap()]);

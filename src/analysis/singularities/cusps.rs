@@ -28,9 +28,14 @@ pub(super) fn cusps(curve: &mut LocusCurve, region: &Region, traced: &Traced<Sin
         if !turned || norm(from.1).max(norm(to.1)) < STILL {
             return turned;
         }
+        // places of a traced curve are kept without what steps need
+        let ends = [from.0, to.0].map(|place| region.method.restored(curve, place));
+        let [Some(start), Some(end)] = ends else {
+            return turned;
+        };
         let along = from.1.to_vec();
         let mut test = |curve: &mut LocusCurve, p: &At| dot(&curve.bend(&p.at), &along);
-        let place = region.method.root(curve, from.0, to.0, &mut test);
+        let place = region.method.root(curve, &start, &end, &mut test);
         let one = |curve: &LocusCurve, other: &At| norm(&curve.apart(&other.at, &place.at)) < SAME;
         let known = found.iter().chain(&traced.crossings);
         if norm(&curve.bend(&place.at)) < THERE && !known.into_iter().any(|at| one(curve, at)) {
@@ -47,7 +52,10 @@ pub(super) fn cusps(curve: &mut LocusCurve, region: &Region, traced: &Traced<Sin
         let size = |k: usize| bends.get(k).map_or(0.0, |bend| norm(bend));
         let falls = size(i - 1) < size(i.wrapping_sub(2)) && size(i) < size(i + 1);
         let way = dot(&curve.apart(&from.0.at, &to.0.at), &from.0.tangent);
-        let middle = falls.then(|| region.method.across(curve, from.0, 0.5 * way));
+        let middle = falls.then(|| {
+            let from = region.method.restored(curve, from.0)?;
+            region.method.across(curve, &from, 0.5 * way)
+        });
         if let Some(middle) = middle.flatten() {
             let bend = curve.bend(&middle.at);
             take(curve, from, (&middle, &bend));

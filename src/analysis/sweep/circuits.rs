@@ -207,7 +207,14 @@ pub fn circuits(
         .collect();
     let paths = settings.points.iter().map(|point| {
         let mut tracer = Tracer::new(mechanism, &curve, point);
-        tracer.report(&mut curve, method, &places)
+        let mut path = tracer.report(&mut curve, method, &places);
+        let special = path.cusps.iter_mut().chain(&mut path.double_points);
+        for joints in special.flat_map(|point| &mut point.joints) {
+            for (joint, value) in joints.iter_mut().enumerate() {
+                *value = mechanism.as_told(joint, *value);
+            }
+        }
+        path
     });
     let paths = paths.collect();
     CircuitsReport {

@@ -4,8 +4,8 @@ mod crossings;
 
 use serde::{Deserialize, Serialize};
 
-use super::points::Paths;
 use super::At;
+use super::points::Paths;
 use crate::geometry::Vector3;
 use crate::linear::dot;
 use crate::mechanism::{Configuration, Mechanism, Placement, Point, Variable};

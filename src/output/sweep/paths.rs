@@ -7,10 +7,10 @@ use crate::output::document::{Cell, Section, Table};
 
 /// What is special on the path of each point over circuits, or along one motion if there is anything.
 pub(super) fn sections(paths: &[PathReport], circuits: bool) -> impl Iterator<Item = Section> {
-    let told = move |path: &&PathReport| {
+    let worth = move |path: &&PathReport| {
         circuits || !path.cusps.is_empty() || !path.double_points.is_empty()
     };
-    (paths.iter().filter(told)).map(move |path| section(path, circuits))
+    (paths.iter().filter(worth)).map(move |path| section(path, circuits))
 }
 
 fn section(path: &PathReport, circuits: bool) -> Section {
@@ -18,13 +18,13 @@ fn section(path: &PathReport, circuits: bool) -> Section {
     let found = [(cusps, "cusp"), (double, "double point")];
     let found = found.into_iter().filter(|(number, _)| *number > 0);
     let found: Vec<String> = found.map(|(number, what)| count(number, what)).collect();
-    let found = match found.is_empty() {
-        true => "no cusp and no double point".to_owned(),
-        false => listed(&found),
-    };
     let order = path.order.map(|order| format!("; order {order}"));
     let order = order.unwrap_or_default();
-    let section = Section::new(format!("Path of {}: {found}{order}", path.point));
+    let title = format!("Path of {}", path.point);
+    if found.is_empty() {
+        return Section::new(title).text(format!("No cusp and no double point{order}."));
+    }
+    let section = Section::new(format!("{title}: {}{order}", listed(&found)));
     let passages = |what: &'static str, points: &[PathPoint]| {
         let rows = points.iter().enumerate().flat_map(|(number, point)| {
             let passages = point.joints.iter().zip(&point.circuits);
@@ -39,9 +39,6 @@ fn section(path: &PathReport, circuits: bool) -> Section {
     };
     let cusps = passages("cusp", &path.cusps);
     let double = passages("double point", &path.double_points);
-    if cusps.is_empty() && double.is_empty() {
-        return section;
-    }
     let metres = |k: usize| move |row: &Row| Cell::quantity(row.position[k], SiUnit::METRE);
     let rows = [cusps, double].concat();
     let table = Table::of(&rows).words("what", |row| row.what.clone());
