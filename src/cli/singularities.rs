@@ -19,7 +19,7 @@ use super::{Answer, Refusal};
 /// The inputs are the joints that are held, and the outputs the platforms; without platforms the joints on the ground
 /// that are not driven, or else the points where chains are joined. Where coordinates of platforms are held or moved
 /// these are the outputs, the actuated joints are free, and are the inputs. Every singularity is located to rounding
-/// and told by its types (Gosselin and Angeles 1, 2, 3; Zlatanov, Fenton and Benhabib), by the freedoms lost and gained,
+/// and classified by type (Gosselin and Angeles 1, 2, 3; Zlatanov, Fenton and Benhabib), by the freedoms lost and gained,
 /// and by what moves.
 #[derive(Args)]
 #[command(after_help = "Examples:\n  \

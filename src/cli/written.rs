@@ -56,7 +56,7 @@ impl Lines {
     }
 }
 
-/// Never fails: what goes wrong is told at the end.
+/// Never fails: what goes wrong is reported at the end.
 impl Write for Lines {
     fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
         if self.wanted {

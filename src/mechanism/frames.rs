@@ -299,14 +299,16 @@ impl Mechanism {
         }
     }
 
-    /// The joints that some closure feels.
-    pub(super) fn felt_joints(&self) -> BTreeSet<usize> {
+    /// The joints that affect some closure.
+    pub(super) fn joints_in_closures(&self) -> BTreeSet<usize> {
         let closures = self.closures.iter();
-        closures.flat_map(|closure| self.felt_by(closure)).collect()
+        closures
+            .flat_map(|closure| self.joints_moving(closure))
+            .collect()
     }
 
     /// The joints that move one side of this closure or change its length.
-    pub(crate) fn felt_by(&self, closure: &Closure) -> Vec<usize> {
+    pub(crate) fn joints_moving(&self, closure: &Closure) -> Vec<usize> {
         let length = closure.length.iter().flat_map(joints_of);
         let frames = closure.frames.into_iter();
         length
@@ -315,10 +317,10 @@ impl Mechanism {
     }
 
     /// The joints that affect no closure: those of open chains.
-    pub fn unfelt_joints(&self) -> BTreeSet<usize> {
-        let felt = self.felt_joints();
+    pub fn joints_outside_closures(&self) -> BTreeSet<usize> {
+        let inside = self.joints_in_closures();
         let all = 0..self.joints.len();
-        all.filter(|joint| !felt.contains(joint)).collect()
+        all.filter(|joint| !inside.contains(joint)).collect()
     }
 
     /// The joints between a frame and the ground or platform that carries it.

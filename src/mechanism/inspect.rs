@@ -75,13 +75,13 @@ fn unused(mechanism: &Mechanism, description: &Description, problems: &mut Vec<P
             problems.push(problem.at(named.name.span.clone()));
         }
     }
-    let felt = mechanism.felt_joints();
+    let inside = mechanism.joints_in_closures();
     for (i, named) in description.joints.iter().enumerate() {
         let name = named.name.value.clone();
         let span = named.name.span.clone();
         if !in_rows_and_lengths.contains(&i) {
             problems.push(ProblemKind::UnusedJoint { name }.at(span));
-        } else if !mechanism.closures.is_empty() && !felt.contains(&i) {
+        } else if !mechanism.closures.is_empty() && !inside.contains(&i) {
             problems.push(ProblemKind::UnfeltJoint { name }.at(span));
         }
     }
@@ -102,7 +102,7 @@ fn unused(mechanism: &Mechanism, description: &Description, problems: &mut Vec<P
 
 impl Mechanism {
     /// What turns with the x axis along the link of a row of a chain, counted from 0. `None` if something else is
-    /// written in the frame that turns: a closure that feels its x axis, or a closed form.
+    /// written in the frame that turns: a closure that its x axis affects, or a closed form.
     fn turned_with(&self, chain: usize, row: usize) -> Option<Turned> {
         let rows = self.chains[chain].rows.len();
         let (turning, beside) = match self.chains[chain].convention {

@@ -80,7 +80,7 @@ impl Mechanism {
 
     /// The value of a joint for reports: where full turns change nothing, the equivalent value within its
     /// limits, or else in (−π, π]. In rad or m.
-    pub fn as_told(&self, joint: usize, value: f64) -> f64 {
+    pub fn as_given(&self, joint: usize, value: f64) -> f64 {
         let of = &self.joints[joint];
         match (self.repeats(joint), of.limits) {
             (false, _) => value,

@@ -114,7 +114,7 @@ impl<T: Factorable> System<T> {
         match self.empty.blocks().eq(work.jacobian.blocks()) {
             true => {
                 work.placement = self.kinematics.placement();
-                // what a closure felt there it need not feel here
+                // what affected a closure there need not affect it here
                 work.jacobian.clear();
             }
             // a coefficient that is zero there and not here
@@ -142,8 +142,8 @@ impl<T: Factorable> System<T> {
         self.plans.iter().map(|plan| plan.row..plan.row + plan.rows)
     }
 
-    /// For each closure the unknown joints that it feels.
-    pub fn felt_joints(&self) -> impl Iterator<Item = Vec<usize>> {
+    /// For each closure the unknown joints that affect it.
+    pub fn joints_of_closures(&self) -> impl Iterator<Item = Vec<usize>> {
         self.plans.iter().map(|plan| {
             let movers = plan.movers.iter().map(|(_, mover, _)| mover.joint);
             let extensions = plan.extensions.iter().map(|(joint, _)| *joint);
@@ -251,7 +251,7 @@ impl<T: Factorable> System<T> {
                 let start = column * plan.block_rows + plan.block_row;
                 start..start + plan.rows
             };
-            // what this closure does not feel is zero from the beginning
+            // what does not affect this closure is zero from the beginning
             for column in &plan.sums {
                 entries[place(*column)].fill(T::zero());
             }

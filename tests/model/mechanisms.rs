@@ -550,8 +550,8 @@ fn a_four_bar_broken_at_any_joint_has_the_same_assemblies_over_a_full_turn() {
 }
 
 #[test]
-fn storage_of_another_dimension_forgets_what_a_closure_felt_there() {
-    // with k = 0 the first loop does not feel b, which the second still does
+fn storage_of_another_dimension_forgets_what_affected_a_closure_there() {
+    // with k = 0 b does not affect the first loop, which the second still does
     let text = r#"Mechanism(version: 1, name: "coupled", convention: Standard,
         parameters: { "k": 0.5 },
         joints: { "a": Actuated(home: "20 deg"), "b": Passive(home: "30 deg") },

@@ -391,7 +391,7 @@ fn described(
             .map(|point| {
                 let joints = point.at.joints.iter().enumerate();
                 joints
-                    .map(|(joint, x)| mechanism.as_told(joint, *x))
+                    .map(|(joint, x)| mechanism.as_given(joint, *x))
                     .collect()
             })
             .collect(),
@@ -407,7 +407,7 @@ fn described(
 /// told as a value is.
 fn turned(mechanism: &Mechanism, joint: usize, low: f64, high: f64) -> f64 {
     let middle = 0.5 * (low + high);
-    mechanism.as_told(joint, middle) - middle
+    mechanism.as_given(joint, middle) - middle
 }
 
 impl CircuitsReport {

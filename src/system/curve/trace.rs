@@ -85,7 +85,7 @@ pub struct Region<'m> {
     pub method: &'m Continuation,
     /// Asked at every step whether to go on; a curve that is not ends there as lost.
     pub watch: &'m Watch<'m>,
-    /// What it is told.
+    /// The progress reported to it.
     pub now: Progress,
 }
 

@@ -198,14 +198,14 @@ impl Layout {
             return Layout::of_single_closures(closures, unknowns, &joint_unknown, &first_twist);
         }
         let mut owner: Vec<usize> = (0..closures.len()).collect();
-        let mut felt_by: Vec<Option<usize>> = vec![None; joints];
+        let mut closure_of: Vec<Option<usize>> = vec![None; joints];
         for (c, closure) in closures.iter().enumerate() {
             for joint in closure.joints() {
                 let Some(unknown) = joint_unknown[joint] else {
                     continue;
                 };
-                match felt_by[unknown] {
-                    None => felt_by[unknown] = Some(c),
+                match closure_of[unknown] {
+                    None => closure_of[unknown] = Some(c),
                     Some(other) => {
                         let (a, b) = (root(&owner, c), root(&owner, other));
                         owner[a.max(b)] = a.min(b);
@@ -232,7 +232,7 @@ impl Layout {
                 }
             }
         }
-        for (unknown, closure) in felt_by.iter().enumerate() {
+        for (unknown, closure) in closure_of.iter().enumerate() {
             match closure {
                 Some(c) => blocks[places[*c].0].own.push(unknown),
                 None => blocks.push(Block {

@@ -5,7 +5,7 @@ use crate::mechanism::Mechanism;
 
 /// For each independent part of a mechanism which of the unknowns are its own.
 ///
-/// Unknowns belong together if a closure feels both. The configurations of a mechanism are the
+/// Unknowns belong together if both affect one closure. The configurations of a mechanism are the
 /// product of those of its parts.
 pub fn independent_parts(mechanism: &Mechanism, unknowns: &[Unknown]) -> Vec<Vec<bool>> {
     let mut label: Vec<usize> = (0..unknowns.len()).collect();
@@ -13,7 +13,7 @@ pub fn independent_parts(mechanism: &Mechanism, unknowns: &[Unknown]) -> Vec<Vec
     let closures = mechanism.closures().iter().map(|closure| {
         let carriers = closure.frames.into_iter();
         let carriers = carriers.filter_map(|frame| mechanism.carrier(frame));
-        (mechanism.felt_by(closure), carriers.collect())
+        (mechanism.joints_moving(closure), carriers.collect())
     });
     for (joints, platforms) in platforms.chain(closures) {
         let own: Vec<usize> = (0..unknowns.len())

@@ -279,7 +279,7 @@ fn with_file_loose(
     (report.stop == Stop::Solved).then_some(at)
 }
 
-/// What is told of the way from the pose given: how far guesses moved, and how far the file's pose
+/// How far assembling moved from the pose given: how far guesses moved, and how far the file's pose
 /// if that is more than rounding.
 fn moved(
     question: &Question,

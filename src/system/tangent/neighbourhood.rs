@@ -78,8 +78,8 @@ impl<'a> Neighbourhood<'a> {
         let columns = self.system.unknowns().len();
         let decomposition = Decomposition::of(self.system.rows(), columns, &jacobian);
         let all = decomposition.null_space();
-        let felt = self.felt(&at, &all);
-        let split = Decomposition::of(felt.len() / all.len().max(1), all.len(), &felt);
+        let moved = self.displacements(&at, &all);
+        let split = Decomposition::of(moved.len() / all.len().max(1), all.len(), &moved);
         let combine = |weights: &Vec<f64>| -> Vec<f64> {
             let along = |i: usize| all.iter().zip(weights).map(|(m, w)| m[i] * w).sum();
             (0..columns).map(along).collect()
@@ -135,13 +135,13 @@ impl<'a> Neighbourhood<'a> {
 
     /// Whether motions are local freedoms: links turn about their own axes and nothing else moves.
     pub fn are_local(&self, at: &Configuration<f64>, motions: &[Vec<f64>]) -> bool {
-        let felt = self.felt(at, motions);
-        felt.iter().all(|rate| rate.abs() < STILL)
+        let moved = self.displacements(at, motions);
+        moved.iter().all(|rate| rate.abs() < STILL)
     }
 
     /// For each motion the rates that vanish in local freedoms: of origins of frames, platforms, driven
-    /// joints, links that do not end in a ball, joints that no closure feels.
-    fn felt(&self, at: &Configuration<f64>, motions: &[Vec<f64>]) -> Vec<f64> {
+    /// joints, links that do not end in a ball, joints that affect no closure.
+    fn displacements(&self, at: &Configuration<f64>, motions: &[Vec<f64>]) -> Vec<f64> {
         let mechanism = self.mechanism;
         let mut placement = self.frames.placement();
         self.frames.place(at, &mut placement);
@@ -167,7 +167,7 @@ impl<'a> Neighbourhood<'a> {
                 (!cut).then_some(place)
             })
             .collect();
-        let unfelt = mechanism.unfelt_joints();
+        let outside = mechanism.joints_outside_closures();
         // platforms on several balls can only spin about the line of these
         let balls = |platform: usize| {
             let closures = mechanism.closures().iter();
@@ -179,28 +179,28 @@ impl<'a> Neighbourhood<'a> {
         let rods: Vec<usize> = (0..mechanism.platforms().len())
             .filter(|&platform| balls(platform).any(|i| balls(platform).any(|j| apart(i, j))))
             .collect();
-        let mut felt = Vec::new();
+        let mut moved = Vec::new();
         for motion in motions {
             for i in 0..frames.len() {
                 let twist = self.frames.twist(i, &placement, motion);
-                felt.extend(twist.velocity.times(scale).0);
+                moved.extend(twist.velocity.times(scale).0);
             }
             for &i in &turning {
-                felt.extend(self.frames.twist(i, &placement, motion).omega.0);
+                moved.extend(self.frames.twist(i, &placement, motion).omega.0);
             }
             for (unknown, &rate) in self.system.unknowns().iter().zip(motion) {
                 let idle = match *unknown {
                     Unknown::Joint(joint) => {
-                        mechanism.joints()[joint].role == Role::Passive && !unfelt.contains(&joint)
+                        mechanism.joints()[joint].role == Role::Passive && !outside.contains(&joint)
                     }
                     Unknown::Twist { platform, .. } => rods.contains(&platform),
                 };
                 if !idle {
-                    felt.push(rate);
+                    moved.push(rate);
                 }
             }
         }
-        felt
+        moved
     }
 }
 

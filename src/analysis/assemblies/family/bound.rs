@@ -47,8 +47,8 @@ fn bound(count: usize, structure: &'static str, source: &'static str) -> Option<
 struct Link {
     kind: ClosureKind,
     frames: [Frame; 2],
-    /// Unknown joints that it feels.
-    feels: Vec<usize>,
+    /// Unknown joints that affect it.
+    joints: Vec<usize>,
     axes: ClosureAxes<C>,
 }
 
@@ -77,14 +77,17 @@ impl<'a> Structure<'a> {
         way.linearise(C::from_f64(0.0), &family.random_point(&mut rng, 1.0));
         let here = &mut way.here;
         let axes = here.system.axes(&here.at, &mut here.work);
-        let links = dimensions.closures.iter().zip(here.system.felt_joints());
-        let links = links.zip(axes).map(|((closure, mut feels), axes)| {
-            feels.sort_unstable();
-            feels.dedup();
+        let links = dimensions
+            .closures
+            .iter()
+            .zip(here.system.joints_of_closures());
+        let links = links.zip(axes).map(|((closure, mut joints), axes)| {
+            joints.sort_unstable();
+            joints.dedup();
             Link {
                 kind: closure.kind,
                 frames: closure.frames,
-                feels,
+                joints,
                 axes,
             }
         });
@@ -120,7 +123,7 @@ impl<'a> Structure<'a> {
         let mut count = 1;
         while !left.is_empty() {
             let ways = |link: &Link| {
-                let open: Vec<usize> = (link.feels.iter().copied())
+                let open: Vec<usize> = (link.joints.iter().copied())
                     .filter(|joint| !known.contains(joint))
                     .collect();
                 let meets = matches!(
@@ -142,7 +145,7 @@ impl<'a> Structure<'a> {
             let (place, ways) = (left.iter().enumerate())
                 .filter_map(|(place, link)| Some((place, ways(link)?)))
                 .min_by_key(|(_, ways)| *ways)?;
-            known.extend(&left.swap_remove(place).feels);
+            known.extend(&left.swap_remove(place).joints);
             count *= ways;
         }
         bound(
@@ -173,7 +176,7 @@ impl<'a> Structure<'a> {
         self.links
             .iter()
             .all(|link| link.kind == ClosureKind::Revolute)
-            && self.links.iter().all(|link| self.turns(&link.feels))
+            && self.links.iter().all(|link| self.turns(&link.joints))
             && all.windows(2).all(|pair| parallel(&pair[0], &pair[1]))
     }
 
@@ -183,7 +186,7 @@ impl<'a> Structure<'a> {
         let [a, b] = self.links.as_slice() else {
             return None;
         };
-        let mut joints = [a.feels.as_slice(), &b.feels].concat();
+        let mut joints = [a.joints.as_slice(), &b.joints].concat();
         joints.sort_unstable();
         joints.dedup();
         match self.planar() && joints.len() == 4 {
@@ -199,13 +202,13 @@ impl<'a> Structure<'a> {
     /// Three points, each turned by a hinge, two and two at given distances: the points of a rigid
     /// triangle on three circles.
     fn hinged_points(&self) -> Option<KnownBound> {
-        let mut pairs: Vec<&[usize]> = self.links.iter().map(|l| l.feels.as_slice()).collect();
+        let mut pairs: Vec<&[usize]> = self.links.iter().map(|l| l.joints.as_slice()).collect();
         pairs.sort_unstable();
         let [[a, b], [c, d], [e, f]] = pairs.as_slice() else {
             return None;
         };
         let ring = a == c && b == e && d == f;
-        let rods = |link: &Link| link.kind == ClosureKind::Distance && self.turns(&link.feels);
+        let rods = |link: &Link| link.kind == ClosureKind::Distance && self.turns(&link.joints);
         match ring && self.links.iter().all(rods) {
             true => bound(
                 16,
@@ -223,14 +226,14 @@ impl<'a> Structure<'a> {
             return None;
         };
         let is = |kind: JointKind| {
-            let joints = link.feels.iter().map(|j| self.mechanism.joints()[*j].kind);
+            let joints = link.joints.iter().map(|j| self.mechanism.joints()[*j].kind);
             joints.filter(|of| *of == kind).count()
         };
         let turning = is(JointKind::Revolute);
-        if turning + is(JointKind::Prismatic) != link.feels.len() {
+        if turning + is(JointKind::Prismatic) != link.joints.len() {
             return None;
         }
-        match (link.kind, link.feels.len(), link.feels.len() - turning) {
+        match (link.kind, link.joints.len(), link.joints.len() - turning) {
             (ClosureKind::Rigid, 6, 0) | (ClosureKind::Revolute, 5, 0) => bound(
                 16,
                 "six revolute joints in one loop",
@@ -262,17 +265,17 @@ impl<'a> Structure<'a> {
         let mut joints: Vec<usize> = self
             .links
             .iter()
-            .flat_map(|link| link.feels.clone())
+            .flat_map(|link| link.joints.clone())
             .collect();
         joints.sort_unstable();
         let shared = joints.windows(2).any(|pair| pair[0] == pair[1]);
         if shared || !self.links.iter().all(to_platform) {
             return None;
         }
-        let hinged = |link: &Link| link.feels.len() == 1 && self.turns(&link.feels);
+        let hinged = |link: &Link| link.joints.len() == 1 && self.turns(&link.joints);
         let all = |kind: ClosureKind| self.links.iter().all(|link| link.kind == kind);
         match self.links.len() {
-            1 if self.links[0].feels.is_empty() && all(ClosureKind::Rigid) => bound(
+            1 if self.links[0].joints.is_empty() && all(ClosureKind::Rigid) => bound(
                 1,
                 "a body fixed to what is held",
                 "its pose is the product of the displacements that lead to it",
@@ -291,7 +294,7 @@ impl<'a> Structure<'a> {
                 // each leg keeps a point of the platform on a sphere; a universal joint stands in
                 // two ways for each of its points
                 let ways = self.links.iter().map(|link| match link.kind {
-                    ClosureKind::Distance if link.feels.is_empty() => Some(1),
+                    ClosureKind::Distance if link.joints.is_empty() => Some(1),
                     ClosureKind::Spherical if self.universal(link) => Some(2),
                     _ => None,
                 });
@@ -324,8 +327,8 @@ impl<'a> Structure<'a> {
             return false;
         };
         let size = self.dimensions.characteristic_length;
-        self.turns(&link.feels)
-            && link.feels.len() == 2
+        self.turns(&link.joints)
+            && link.joints.len() == 2
             && !parallel(a, b)
             && (a.dot(vb) + b.dot(va)).norm() <= SMALL * size
     }

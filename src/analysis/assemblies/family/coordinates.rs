@@ -51,7 +51,7 @@ pub(crate) struct Coordinates {
     /// Whether a free joint turns something and never comes back to the same place, as a screw or a gear whose ratio is
     /// no fraction: then solutions need not be finite in number.
     pub winding: bool,
-    /// Free joints, as places among the flat unknowns, by the closures that feel them: two legs meet
+    /// Free joints, as places among the flat unknowns, by the closures that they affect: two legs meet
     /// in the poses of platforms only.
     pub legs: Vec<Vec<usize>>,
 }
@@ -285,13 +285,15 @@ fn pose_gaps<'a>(x: &'a [C], y: &'a [C]) -> impl Iterator<Item = f64> + 'a {
     })
 }
 
-/// Places of free joints that stand in one leg: those felt by one closure, or by closures that such
+/// Places of free joints that stand in one leg: those that affect one closure, or by closures that such
 /// joints join.
 fn legs(free_joints: &[usize], system: &System<f64>) -> Vec<Vec<usize>> {
     let mut legs: Vec<Vec<usize>> = (0..free_joints.len()).map(|place| vec![place]).collect();
-    for felt in system.felt_joints() {
-        let touched =
-            |leg: &Vec<usize>| leg.iter().any(|&place| felt.contains(&free_joints[place]));
+    for joints in system.joints_of_closures() {
+        let touched = |leg: &Vec<usize>| {
+            leg.iter()
+                .any(|&place| joints.contains(&free_joints[place]))
+        };
         let (joined, apart): (Vec<_>, Vec<_>) = legs.into_iter().partition(touched);
         legs = apart;
         if !joined.is_empty() {

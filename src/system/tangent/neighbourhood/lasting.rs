@@ -20,7 +20,7 @@ impl Tangent {
     /// The same motions, where only so many idle ones count as idle as are so beside the
     /// configuration too. In gimbal lock, where the axes of the first and the last
     /// of three joints are one line, these turn against each other and move nothing; a little
-    /// further on the same freedom moves links. Those that turn so are told too.
+    /// further on the same freedom moves links. Those that turn so are listed too.
     ///
     /// The number of idle freedoms is the least that any configuration near has, so it does not
     /// depend on which of them is looked at: the rank of what idle freedoms leave at rest is lower
