@@ -211,7 +211,7 @@ pub fn circuits(
         let special = path.cusps.iter_mut().chain(&mut path.double_points);
         for joints in special.flat_map(|point| &mut point.joints) {
             for (joint, value) in joints.iter_mut().enumerate() {
-                *value = mechanism.as_told(joint, *value);
+                *value = mechanism.as_given(joint, *value);
             }
         }
         path
