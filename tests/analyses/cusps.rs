@@ -30,6 +30,13 @@ fn slice(rho1: f64) -> LocusReport {
 /// distances less this one linear in the position of B1, that position is eliminated. In tan φ/2 it is the
 /// sextic of Gosselin, Sefrioui and Richard 1992.
 fn sextic(rho: [f64; 3], angle: f64) -> f64 {
+    let [x, y, d] = eliminated(rho, angle);
+    x * x + y * y - rho[0] * rho[0] * d * d
+}
+
+/// B1 = (x/d, y/d). Where d vanishes at an assembly, two assemblies share the angle, and the sextic has one root more
+/// than either is worth.
+fn eliminated(rho: [f64; 3], angle: f64) -> [f64; 3] {
     let (a2x, a3y): (f64, f64) = (15.91, 10.0);
     let (b12, b23, b31): (f64, f64, f64) = (17.04, 16.54, 20.84);
     let b3x = (b12 * b12 + b31 * b31 - b23 * b23) / (2.0 * b12);
@@ -41,8 +48,7 @@ fn sextic(rho: [f64; 3], angle: f64) -> f64 {
         |rho_i: f64, u: f64, v: f64| 0.5 * (rho_i * rho_i - rho[0] * rho[0] - u * u - v * v);
     let (k2, k3) = (constant(rho[1], u2, v2), constant(rho[2], u3, v3));
     let (x, y) = (k2 * v3 - k3 * v2, u2 * k3 - u3 * k2);
-    let d = u2 * v3 - u3 * v2;
-    x * x + y * y - rho[0] * rho[0] * d * d
+    [x, y, u2 * v3 - u3 * v2]
 }
 
 /// Its first three derivatives by the angle: it is a trigonometric polynomial of degree 4 or less, so that nine
@@ -103,8 +109,11 @@ fn cusps_of_the_3rpr_are_the_triple_roots_of_its_sextic_and_none_is_missed() {
                 largest(1),
                 largest(2)
             );
-            // triple ones where the second derivative changes its sign
-            let turns = all.windows(2).filter(|pair| pair[0][2] * pair[1][2] < 0.0);
+            // triple ones where the second derivative changes its sign, but for a double one beside another assembly
+            let poses = locus.poses.iter().map(|poses| angle(&poses[0]));
+            let shared: Vec<f64> = poses.map(|angle| eliminated([0.0; 3], angle)[2]).collect();
+            let turns = (all.windows(2).zip(shared.windows(2)))
+                .filter(|(pair, d)| pair[0][2] * pair[1][2] < 0.0 && d[0] * d[1] > 0.0);
             assert_eq!(turns.count(), locus.cusps.len(), "ρ1 = {rho1}");
             for cusp in &locus.cusps {
                 let d = at(&cusp.point, &cusp.poses[0]);
