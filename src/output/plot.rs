@@ -370,7 +370,7 @@ fn stroke(sheet: &Area, points: Vec<(i32, i32)>, i: usize) -> Drawn {
         1 => (6.0, 4.0),
         _ => (1.5, 3.0),
     };
-    let dashes = DashedPathElement::new(points.into_iter(), fine(dash), fine(gap), style);
+    let dashes = DashedPathElement::new(points, fine(dash), fine(gap), style);
     sheet.draw(&dashes)
 }
 

@@ -80,8 +80,8 @@ fn mode(motion: &MotionReport) -> String {
 
 /// The least and greatest values of the quantities, and where they are.
 fn extremes(motion: &MotionReport) -> Section {
-    let sides: [(&str, fn(&Extremum) -> &Option<Extreme>); 2] =
-        [("least", |of| &of.least), ("greatest", |of| &of.greatest)];
+    type Side = fn(&Extremum) -> &Option<Extreme>;
+    let sides: [(&str, Side); 2] = [("least", |of| &of.least), ("greatest", |of| &of.greatest)];
     // without inputs the first joint says where
     let driven: Vec<(&str, SiUnit)> = match &motion.sweep.inputs[..] {
         [] => (motion.columns.get(1).iter().take(1))
@@ -102,7 +102,7 @@ fn extremes(motion: &MotionReport) -> Section {
             .iter()
             .enumerate()
             .fold(table, |table, (i, &(name, unit))| {
-                table.numbers(&format!("at {name}"), move |of| {
+                table.numbers(format!("at {name}"), move |of| {
                     let found = side(of).as_ref()?;
                     let place = found.inputs.get(i).or(found.joints.first());
                     place.map(|x| Cell::quantity(*x, unit))

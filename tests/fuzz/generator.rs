@@ -183,7 +183,7 @@ impl Sketch {
             false => self.angle(),
         };
         let scale = if slides { self.scale } else { 1.0 };
-        let limits = (self.dice.chance(0.1)).then(|| (home - 1.5 * scale, home + scale));
+        let limits = (self.dice.chance(0.1)).then_some((home - 1.5 * scale, home + scale));
         self.joints.push(Joint {
             home,
             slides,

@@ -21,8 +21,9 @@ pub type Broken = Result<(), String>;
 
 macro_rules! hold {
     ($holds:expr, $($said:tt)+) => {
-        if !$holds {
-            return Err(format!($($said)+));
+        match $holds {
+            true => {}
+            false => return Err(format!($($said)+)),
         }
     };
 }
@@ -307,7 +308,7 @@ fn consistent(
             .map(|c| c.multiplicity)
             .sum();
         hold!(
-            others % 2 == 0,
+            others.is_multiple_of(2),
             "{others} solutions that are not real: {words}"
         );
         if !report.may_lack_some() {

@@ -85,12 +85,12 @@ fn answers_about_many_random_mechanisms_keep_the_invariants() {
         };
         let seconds = start.elapsed().as_secs_f64();
         if seconds > 20.0 {
-            println!("seed {seed}: {seconds:.0} s");
+            eprintln!("seed {seed}: {seconds:.0} s");
         }
         match (said, &file) {
             (Some(said), _) => {
                 broken += 1;
-                println!("seed {seed} ({seconds:.1} s): {said}");
+                eprintln!("seed {seed} ({seconds:.1} s): {said}");
             }
             (None, Some(file)) => std::fs::remove_file(file).unwrap(),
             (None, None) => {}

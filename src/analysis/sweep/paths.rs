@@ -194,7 +194,7 @@ impl Trail {
         } = self;
         let of_point = tracers.into_iter().zip(cusps);
         let reports = of_point.map(|(mut tracer, cusps)| {
-            let cusps = cusps.iter().map(|place| tracer.told(&[(place, 1)]));
+            let cusps = cusps.iter().map(|place| tracer.passed(&[(place, 1)]));
             let cusps = cusps.collect();
             tracer.told_all(cusps, curve, &method, &[(&places[..], closed)])
         });
@@ -214,7 +214,7 @@ impl Tracer {
         for (number, (places, _)) in curves.iter().enumerate() {
             for pair in places.windows(2) {
                 let cusp = self.cusp(curve, method, &pair[0], &pair[1]);
-                cusps.extend(cusp.map(|place| self.told(&[(&place, number + 1)])));
+                cusps.extend(cusp.map(|place| self.passed(&[(&place, number + 1)])));
             }
         }
         self.told_all(cusps, curve, method, curves)
@@ -236,7 +236,7 @@ impl Tracer {
         }
     }
 
-    fn told(&mut self, passages: &[(&At, usize)]) -> PathPoint {
+    fn passed(&mut self, passages: &[(&At, usize)]) -> PathPoint {
         PathPoint {
             position: self.position(&passages[0].0.at).0,
             joints: (passages.iter())

@@ -6,6 +6,9 @@ use crate::linear::{dot, norm};
 use crate::solve::Continuation;
 use crate::system::Curve;
 
+/// A configuration in which the point is there, and the number of its circuit.
+type Passage = (At, usize);
+
 /// Configurations, and points over the characteristic length, this near are the same.
 const SAME: f64 = 1e-8;
 
@@ -48,7 +51,7 @@ pub(super) fn double_points(
         }
     }
     pieces.sort_by(|a, b| a.low[0].total_cmp(&b.low[0]));
-    let mut found: Vec<(Vector3<f64>, Vec<(At, usize)>)> = Vec::new();
+    let mut found: Vec<(Vector3<f64>, Vec<Passage>)> = Vec::new();
     for (i, a) in pieces.iter().enumerate() {
         let near = pieces[i + 1..].iter().take_while(|b| b.low[0] <= a.high[0]);
         for b in near {
@@ -79,7 +82,7 @@ pub(super) fn double_points(
             }
         }
     }
-    let mut told: Vec<PathPoint> = (found.iter_mut())
+    let mut reported: Vec<PathPoint> = (found.iter_mut())
         .filter(|(_, passages)| passages.len() > 1)
         .map(|(_, passages)| {
             passages.sort_by(|(a, i), (b, j)| {
@@ -87,14 +90,14 @@ pub(super) fn double_points(
                 i.cmp(j).then(joints.unwrap_or(std::cmp::Ordering::Equal))
             });
             let passages: Vec<(&At, usize)> = passages.iter().map(|(p, n)| (p, *n)).collect();
-            tracer.told(&passages)
+            tracer.passed(&passages)
         })
         .collect();
-    told.sort_by(|a, b| {
+    reported.sort_by(|a, b| {
         let order = a.position.partial_cmp(&b.position);
         order.unwrap_or(std::cmp::Ordering::Equal)
     });
-    told
+    reported
 }
 
 /// The configurations on two pieces in which the point is in one place, with different tangents of its
