@@ -55,6 +55,35 @@ impl Asked {
     }
 }
 
+/// What loads the mechanism.
+#[derive(Args)]
+pub struct Forces {
+    /// Force in N and moment in N·m, in ground, at a frame's origin or at a point beside it in its axes, e.g. --wrench
+    /// top=0,0,-100,0,0,5 or --wrench left+0.5,0.2=0,-10,0
+    #[arg(
+        long,
+        value_name = "FRAME[+X,Y,Z]=Fx,Fy,Fz[,Mx,My,Mz]",
+        allow_hyphen_values = true
+    )]
+    wrench: Vec<Assignment>,
+    /// Force in N or moment in N·m along a joint variable, e.g. --load phi1=2
+    #[arg(long, value_name = "JOINT=FORCE")]
+    load: Vec<Assignment>,
+}
+
+impl Forces {
+    /// Puts the forces into a question.
+    pub fn pose<'o>(&'o self, posed: &mut Posed<'o>) {
+        posed.values(
+            Role::Wrench,
+            "--wrench",
+            &self.wrench,
+            Question::wrench_text,
+        );
+        posed.values(Role::Load, "--load", &self.load, Question::load);
+    }
+}
+
 pub use words::Ranged as Ranges;
 
 /// A question with the file and the options that posed it.

@@ -1,11 +1,11 @@
 //! `linkwork statics`
 
 use clap::Args;
-use linkwork::ask::{Question, Role};
+use linkwork::ask::Question;
 
-use super::asked::Asked;
+use super::asked::{Asked, Forces};
 use super::format::{Format, readable};
-use super::source::{Assignment, Source};
+use super::source::Source;
 use super::{Answer, Refusal};
 
 /// Find the actuator forces that balance a load, and what every joint has to carry.
@@ -22,17 +22,8 @@ pub struct Statics {
     source: Source,
     #[command(flatten)]
     asked: Asked,
-    /// Force in N and moment in N·m, in ground, at a frame's origin or at a point beside it in its axes, e.g. --wrench
-    /// top=0,0,-100,0,0,5 or --wrench left+0.5,0.2=0,-10,0
-    #[arg(
-        long,
-        value_name = "FRAME[+X,Y,Z]=Fx,Fy,Fz[,Mx,My,Mz]",
-        allow_hyphen_values = true
-    )]
-    wrench: Vec<Assignment>,
-    /// Force in N or moment in N·m along a joint variable, e.g. --load phi1=2
-    #[arg(long, value_name = "JOINT=FORCE")]
-    load: Vec<Assignment>,
+    #[command(flatten)]
+    forces: Forces,
     /// How to write the answer; where there is none, stderr says why as text
     #[arg(long, value_name = "FORMAT", default_value = "text", value_parser = readable())]
     format: Format,
@@ -41,13 +32,7 @@ pub struct Statics {
 impl Statics {
     pub fn run(&self) -> Result<Answer, Refusal> {
         let mut posed = self.asked.pose(&self.source)?;
-        posed.values(
-            Role::Wrench,
-            "--wrench",
-            &self.wrench,
-            Question::wrench_text,
-        );
-        posed.values(Role::Load, "--load", &self.load, Question::load);
+        self.forces.pose(&mut posed);
         posed.answer(self.format, Question::statics)
     }
 }

@@ -10,7 +10,7 @@ use linkwork::output::Report;
 use linkwork::output::csv::Csv;
 use linkwork::output::sweep::{Picture, row_columns, row_values, worded};
 
-use super::asked::{Asked, Posed, Ranges};
+use super::asked::{Asked, Forces, Posed, Ranges};
 use super::format::{Format, with_rows};
 use super::search::{Search, mode};
 use super::source::{Assignment, Source};
@@ -79,16 +79,8 @@ pub struct Sweep {
     #[arg(long, value_name = "SECONDS", default_value_t = Pace::default().duration)]
     #[arg(allow_negative_numbers = true)]
     duration: f64,
-    /// Force in N and moment in N·m that a reported `force:` balances, as for `linkwork statics`
-    #[arg(
-        long,
-        value_name = "FRAME[+X,Y,Z]=Fx,Fy,Fz[,Mx,My,Mz]",
-        allow_hyphen_values = true
-    )]
-    wrench: Vec<Assignment>,
-    /// Force in N or moment in N·m along a joint variable, e.g. --load phi1=2
-    #[arg(long, value_name = "JOINT=FORCE")]
-    load: Vec<Assignment>,
+    #[command(flatten)]
+    forces: Forces,
     #[command(flatten)]
     search: Search,
     /// How to write the answer
@@ -117,13 +109,7 @@ impl Sweep {
         posed.ranges(Ranges::Input, &self.input)?;
         posed.names(Role::Point, "--of", &self.of, Question::point);
         posed.names(Role::Quantity, "--report", &self.report, Question::report);
-        posed.values(
-            Role::Wrench,
-            "--wrench",
-            &self.wrench,
-            Question::wrench_text,
-        );
-        posed.values(Role::Load, "--load", &self.load, Question::load);
+        self.forces.pose(&mut posed);
         posed.mode(self.mode);
         if self.all_modes {
             posed.ask_with(|question| question.mode(Mode::All));

@@ -114,7 +114,7 @@ pub(crate) struct SingularityMeter<'m>(Classifier<'m>);
 
 impl<'m> SingularityMeter<'m> {
     /// For inputs and outputs; without outputs those of the [default](crate::system::default_outputs). What vanishes
-    /// everywhere is told near an assembled configuration.
+    /// everywhere is decided near an assembled configuration.
     pub fn new(
         mechanism: &'m Mechanism,
         inputs: &[Coordinate],
