@@ -124,51 +124,35 @@ pub fn import(
     loops: Option<&Description>,
     settings: &ImportSettings,
 ) -> Result<Imported, WrongFile> {
-    let whole = |problem: ImportProblem| WrongFile {
+    let wrong = |problems: Vec<ImportProblem>| WrongFile {
         files: vec![(name.to_owned(), text.to_owned())],
-        problems: vec![(0, problem)],
+        problems: problems.into_iter().map(|problem| (0, problem)).collect(),
     };
-    let page = super::page::document(text).map_err(whole)?;
+    let whole = |kind: ImportProblemKind| wrong(vec![kind.anywhere()]);
+    let page = super::page::document(text).map_err(|problem| wrong(vec![problem]))?;
     let (tree, mut remarks) = match page.root_element().tag_name().name() {
-        "robot" => urdf::read(text).map_err(|problems| WrongFile {
-            files: vec![(name.to_owned(), text.to_owned())],
-            problems: problems.into_iter().map(|problem| (0, problem)).collect(),
-        })?,
+        "robot" => urdf::read(text).map_err(wrong)?,
         "mujoco" => {
             let spliced = mjcf::splice(name, text, files)?;
-            mjcf::read(&spliced.text).map_err(|problems| {
-                let located = problems.into_iter().map(|problem| match &problem.span {
-                    None => (0, problem),
-                    Some(span) => {
-                        let (file, span) = spliced.locate(span);
-                        (file, problem.kind.at(span))
-                    }
-                });
-                WrongFile {
-                    problems: located.collect(),
-                    files: spliced.files.clone(),
-                }
-            })?
+            mjcf::read(&spliced.text).map_err(|problems| spliced.wrong(problems))?
         }
         found => {
-            let problem = ImportProblemKind::NotThisFormat {
+            return Err(whole(ImportProblemKind::NotThisFormat {
                 found: found.to_owned(),
                 expected: &["robot", "mujoco"],
-            };
-            return Err(whole(problem.anywhere()));
+            }));
         }
     };
-    let asked = asked(&tree, loops, settings).map_err(|kind| whole(kind.anywhere()))?;
+    let kept = kept_frames(&tree, loops, settings).map_err(whole)?;
     let source = Path::new(name)
         .file_name()
         .map_or(name.to_owned(), |name| name.to_string_lossy().into_owned());
     let source = format!("imported from {source}");
-    let unrolled = describe(&tree, settings.convention, &asked, source);
     let Unrolled {
         mut description,
         remarks: more,
         references,
-    } = unrolled.map_err(|kind| whole(kind.anywhere()))?;
+    } = describe(&tree, settings.convention, &kept, source).map_err(whole)?;
     remarks.extend(more);
     if let Some(loops) = loops {
         let references = references
@@ -185,7 +169,7 @@ pub fn import(
 }
 
 /// The frames of the tree that keep their names.
-fn asked(
+fn kept_frames(
     tree: &Tree,
     loops: Option<&Description>,
     settings: &ImportSettings,
@@ -195,7 +179,7 @@ fn asked(
     if settings.all_frames {
         return Ok(known.into_iter().cloned().collect());
     }
-    let mut asked = Vec::new();
+    let mut kept = Vec::new();
     for name in &settings.frames {
         if !known.contains(&name) {
             let suggestion = nearest(name, known.iter().map(|name| name.as_str()));
@@ -205,17 +189,17 @@ fn asked(
                 suggestion: suggestion.map(str::to_owned),
             });
         }
-        asked.push(name.clone());
+        kept.push(name.clone());
     }
     if let Some(loops) = loops {
         let stands = loops.chains.iter().filter_map(|c| c.value.on.as_ref());
         let joined = loops.closures.iter().flat_map(|c| &c.value.frames);
         for name in stands.chain(joined) {
             let meant = known.iter().filter(|known| fit(known) == name.value);
-            asked.extend(meant.map(|name| (*name).clone()));
+            kept.extend(meant.map(|name| (*name).clone()));
         }
     }
-    Ok(asked)
+    Ok(kept)
 }
 
 /// Adds the contents of a file of loops; its names of links become names of frames.

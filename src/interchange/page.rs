@@ -230,21 +230,21 @@ impl Problems {
         pose_of(position, [roll, pitch, yaw])
     }
 
-    /// The word of an attribute that must be one of those known.
-    pub fn word(
+    /// The meaning of an attribute that must be one of the known words.
+    pub fn word<T: Copy>(
         &mut self,
         node: Node,
         name: &str,
-        known: &'static [&'static str],
-    ) -> Option<&'static str> {
+        known: &[(&'static str, T)],
+    ) -> Option<T> {
         let word = self.needed(node, name)?;
-        if let Some(found) = known.iter().find(|known| **known == word) {
-            return Some(found);
+        let found = known.iter().find(|(known, _)| *known == word);
+        if found.is_none() {
+            let (word, known) = (word.into(), known.iter().map(|(word, _)| *word).collect());
+            let problem = ImportProblemKind::UnknownWord { word, known };
+            self.0.push(problem.at(value_span(node, name)));
         }
-        let word = word.into();
-        let problem = ImportProblemKind::UnknownWord { word, known };
-        self.0.push(problem.at(value_span(node, name)));
-        None
+        found.map(|(_, meaning)| *meaning)
     }
 
     /// What an attribute names, if it was found.

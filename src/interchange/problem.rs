@@ -73,7 +73,7 @@ pub enum ImportProblemKind {
     #[error("unknown word `{word}`")]
     UnknownWord {
         word: String,
-        known: &'static [&'static str],
+        known: Vec<&'static str>,
     },
     #[error("linkwork cannot read {what}")]
     Unsupported { what: String, help: &'static str },

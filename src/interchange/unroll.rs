@@ -38,7 +38,7 @@ pub(super) struct Unrolled {
 pub(super) fn describe(
     tree: &Tree,
     convention: Convention,
-    asked: &[String],
+    kept: &[String],
     source: String,
 ) -> Result<Unrolled, ImportProblemKind> {
     within_reason(tree)?;
@@ -57,7 +57,7 @@ pub(super) fn describe(
         remarks: Vec::new(),
     };
     unroller.variables();
-    unroller.needs(asked);
+    unroller.needs(kept);
     let platforms = unroller.platforms();
     unroller.chains();
     let (platforms, closures) = unroller.closures(platforms);
@@ -140,9 +140,9 @@ impl Unroller<'_> {
     }
 
     /// Names for the frames of loops and the requested frames.
-    fn needs(&mut self, asked: &[String]) {
+    fn needs(&mut self, kept: &[String]) {
         let mut found = Vec::new();
-        for name in asked {
+        for name in kept {
             for (body, &(carrier, own)) in self.tree.bodies.iter().zip(&self.carriers) {
                 let named = body.frames.iter().filter(|(frame, _)| frame == name);
                 found.extend(named.map(|(frame, pose)| (frame.clone(), carrier, own * *pose)));

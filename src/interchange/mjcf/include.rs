@@ -30,12 +30,27 @@ pub(crate) struct Spliced {
     /// The origin of each part of the text: a file and a position in it.
     pieces: Vec<(Range<usize>, usize, usize)>,
     /// The files: names and texts; the first is the main one.
-    pub files: Vec<(String, String)>,
+    files: Vec<(String, String)>,
 }
 
 impl Spliced {
+    /// Problems of the text as problems of its files.
+    pub fn wrong(&self, problems: Vec<ImportProblem>) -> WrongFile {
+        let located = problems.into_iter().map(|problem| match &problem.span {
+            None => (0, problem),
+            Some(span) => {
+                let (file, span) = self.locate(span);
+                (file, problem.kind.at(span))
+            }
+        });
+        WrongFile {
+            problems: located.collect(),
+            files: self.files.clone(),
+        }
+    }
+
     /// The file from which a place of the text comes, and the place in it.
-    pub fn locate(&self, span: &Range<usize>) -> (usize, Range<usize>) {
+    fn locate(&self, span: &Range<usize>) -> (usize, Range<usize>) {
         let mut pieces = self.pieces.iter();
         let found = pieces
             .find(|(piece, ..)| piece.contains(&span.start))

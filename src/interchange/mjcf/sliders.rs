@@ -54,12 +54,7 @@ pub(super) fn with_sliders(tree: &Tree) -> (Tree, Vec<Remark>) {
             frames: vec![(frame.clone(), Pose::identity())],
             ..Body::new(frame, Some(a.body), a.pose)
         });
-        tree.loops[i] = Loop {
-            name,
-            kind: ClosureKind::Rigid,
-            sides: [side, b],
-            length: None,
-        };
+        tree.loops[i] = Loop::new(name, ClosureKind::Rigid, [side, b]);
     }
     (tree, remarks)
 }

@@ -109,12 +109,9 @@ impl Unroller<'_> {
             let ball = body.joints.iter().find(|joint| joint.motion.floats())?;
             let point = Pose::translation(ball.point);
             let ends = [(body.parent?, body.pose * point), (i, point)];
-            (ball.motion == Motion::Ball).then(|| Loop {
-                name: ball.name.clone(),
-                kind: ClosureKind::Spherical,
-                sides: Loop::sides(&ball.name, ends),
-                length: None,
-            })
+            let sides = Loop::sides(&ball.name, ends);
+            let closing = || Loop::new(ball.name.clone(), ClosureKind::Spherical, sides);
+            (ball.motion == Motion::Ball).then(closing)
         });
         balls.collect()
     }

@@ -18,17 +18,17 @@ use crate::interchange::remark::Remark;
 use crate::interchange::tree::{Loop, Tree};
 
 /// The types of joints that can close a loop, in the words of the formats.
-const TYPES: &[&str] = &[
-    "revolute",
-    "continuous",
-    "hinge",
-    "spherical",
-    "ball",
-    "fixed",
-    "prismatic",
-    "universal",
-    "cylindrical",
-    "planar",
+const TYPES: [(&str, ClosureKind); 10] = [
+    ("revolute", ClosureKind::Revolute),
+    ("continuous", ClosureKind::Revolute),
+    ("hinge", ClosureKind::Revolute),
+    ("spherical", ClosureKind::Spherical),
+    ("ball", ClosureKind::Spherical),
+    ("fixed", ClosureKind::Rigid),
+    ("prismatic", ClosureKind::Prismatic),
+    ("universal", ClosureKind::Universal),
+    ("cylindrical", ClosureKind::Cylindrical),
+    ("planar", ClosureKind::Planar),
 ];
 
 /// Whether an element of a robot is one of them.
@@ -116,7 +116,7 @@ impl LoopReader<'_> {
 
     /// `loop_joint`, `constraint`, `loop`: two links, a frame on each, a type, and axes in the frames.
     fn joined(&mut self, node: Node) -> Option<Closing> {
-        let kind = self.problems.word(node, "type", TYPES)?;
+        let kind = self.problems.word(node, "type", &TYPES)?;
         // the documentation of Isaac Sim writes `link1` for both
         let mut ends = [children(node, "link1"), children(node, "link2")].concat();
         for pair in [["parent", "child"], ["predecessor", "successor"]] {
@@ -128,7 +128,7 @@ impl LoopReader<'_> {
             return None;
         };
         let mut axes = match kind {
-            "universal" => [Vector3::unit(0), Vector3::unit(1)],
+            ClosureKind::Universal => [Vector3::unit(0), Vector3::unit(1)],
             _ => [Vector3::unit(0); 2],
         };
         let mut sides = Vec::new();
@@ -147,7 +147,6 @@ impl LoopReader<'_> {
             }
             sides.push((body, pose));
         }
-        let kind = kind_of(kind);
         let sides = [0, 1].map(|side| {
             let (body, pose) = sides[side];
             match kind {
@@ -174,7 +173,7 @@ impl LoopReader<'_> {
 
     /// A joint of SDFormat: its frame is given in the child, and where that is at zero it is on the parent too.
     fn gazebo(&mut self, node: Node) -> Option<Closing> {
-        let kind = self.problems.word(node, "type", TYPES)?;
+        let kind = self.problems.word(node, "type", &TYPES)?;
         let mut bodies = Vec::new();
         for end in ["parent", "child"] {
             let part = self.problems.needed_child(node, end)?;
@@ -198,7 +197,7 @@ impl LoopReader<'_> {
         }
         // a universal joint has a second axis, which the child carries
         let names = match kind {
-            "universal" => ["axis", "axis2"],
+            ClosureKind::Universal => ["axis", "axis2"],
             _ => ["axis"; 2],
         };
         let mut axes = [Vector3::unit(2); 2];
@@ -218,18 +217,6 @@ impl LoopReader<'_> {
         let [on_parent, on_child] = axes.map(|axis| pose * along_z(&axis));
         let on_parent = poses[parent].inverse() * poses[child_body] * on_parent;
         let ends = [(parent, on_parent), (child_body, on_child)];
-        Some((kind_of(kind), ends))
-    }
-}
-
-fn kind_of(word: &str) -> ClosureKind {
-    match word {
-        "spherical" | "ball" => ClosureKind::Spherical,
-        "fixed" => ClosureKind::Rigid,
-        "prismatic" => ClosureKind::Prismatic,
-        "universal" => ClosureKind::Universal,
-        "cylindrical" => ClosureKind::Cylindrical,
-        "planar" => ClosureKind::Planar,
-        _ => ClosureKind::Revolute,
+        Some((kind, ends))
     }
 }

@@ -9,12 +9,32 @@ use crate::interchange::page::{child, children, least_along};
 use crate::interchange::remark::Remark;
 use crate::interchange::tree::{Joint, Motion};
 
+/// The type of a joint.
+#[derive(Clone, Copy)]
+pub(super) enum JointType {
+    /// A motion, and whether limits bound it.
+    Moving(Motion, bool),
+    /// Two slides across the axis and a turn about it.
+    Planar,
+    Fixed,
+}
+
+/// The types of joints, in the words of the format.
+pub(super) const TYPES: [(&str, JointType); 7] = [
+    ("revolute", JointType::Moving(Motion::Turn, true)),
+    ("continuous", JointType::Moving(Motion::Turn, false)),
+    ("prismatic", JointType::Moving(Motion::Slide, true)),
+    ("fixed", JointType::Fixed),
+    ("floating", JointType::Moving(Motion::Free, false)),
+    ("planar", JointType::Planar),
+    ("spherical", JointType::Moving(Motion::Ball, false)),
+];
+
 /// A joint: the links that it joins, and how the child moves.
 pub(super) struct Hanging {
     pub parent: String,
     pub child: String,
-    /// One of [`TYPES`].
-    pub kind: &'static str,
+    pub kind: JointType,
     pub origin: Pose<f64>,
     /// Unit vector in the child's frame.
     pub axis: Vector3<f64>,
@@ -39,14 +59,12 @@ pub(super) fn moving(part: &Hanging, name: &str, actuated: bool) -> Vec<Joint> {
             ..Joint::new(name, motion, axis)
         }
     };
-    let one = |motion, limited| vec![joint(name.to_owned(), motion, axis, limited)];
     match part.kind {
-        "revolute" => one(Motion::Turn, limited),
-        "continuous" => one(Motion::Turn, false),
-        "prismatic" => one(Motion::Slide, limited),
-        "floating" => one(Motion::Free, false),
-        "spherical" => one(Motion::Ball, false),
-        "planar" => {
+        JointType::Fixed => Vec::new(),
+        JointType::Moving(motion, bounded) => {
+            vec![joint(name.to_owned(), motion, axis, bounded && limited)]
+        }
+        JointType::Planar => {
             // in the plane that the axis is normal to
             let across = axis.cross(&Vector3::unit(least_along(&axis)));
             let x = across.times(1.0 / across.norm());
@@ -56,7 +74,6 @@ pub(super) fn moving(part: &Hanging, name: &str, actuated: bool) -> Vec<Joint> {
                 joint(format!("{name}_turn"), Motion::Turn, axis, false),
             ]
         }
-        _ => Vec::new(),
     }
 }
 

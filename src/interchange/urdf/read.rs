@@ -10,23 +10,12 @@ use std::collections::{BTreeMap, HashMap, HashSet};
 use roxmltree::Node;
 
 use super::loops;
-use super::motion::{AXIS, Hanging, driven, moving};
+use super::motion::{AXIS, Hanging, JointType, TYPES, driven, moving};
 use crate::geometry::{Pose, Vector3};
 use crate::interchange::page::{Problems, child, children, direction, document, turned};
 use crate::interchange::problem::{ImportProblem, ImportProblemKind};
 use crate::interchange::remark::Remark;
-use crate::interchange::tree::{Body, Coupling, Tree};
-
-/// The types of joints.
-pub(super) const TYPES: &[&str] = &[
-    "revolute",
-    "continuous",
-    "prismatic",
-    "fixed",
-    "floating",
-    "planar",
-    "spherical",
-];
+use crate::interchange::tree::{Body, Coupling, Motion, Tree};
 
 /// A tree with remarks.
 pub(crate) type Read = Result<(Tree, Vec<Remark>), Vec<ImportProblem>>;
@@ -193,7 +182,7 @@ impl<'a, 'i> Reader<'a, 'i> {
 
     /// What a joint joins, where, and how it moves.
     fn hanging(&mut self, node: Node, name: &str) -> Option<Hanging> {
-        let kind = self.problems.word(node, "type", TYPES);
+        let kind = self.problems.word(node, "type", &TYPES);
         let mut origin = None;
         for part in children(node, "origin") {
             let pose = self.origin(part);
@@ -203,12 +192,11 @@ impl<'a, 'i> Reader<'a, 'i> {
         if let Some(axis) = child(node, "axis")
             && let Some(given) = self.problems.numbers::<3>(axis, "xyz")
         {
-            let needs_axis = kind.is_some_and(|kind| {
-                matches!(kind, "revolute" | "continuous" | "prismatic" | "planar")
-            });
-            let unit = match needs_axis {
-                true => self.problems.axis(given, name, AXIS, axis),
-                false => direction(given),
+            let unit = match kind {
+                Some(JointType::Planar | JointType::Moving(Motion::Turn | Motion::Slide, _)) => {
+                    self.problems.axis(given, name, AXIS, axis)
+                }
+                _ => direction(given),
             };
             along = unit.unwrap_or(along);
         }

@@ -258,12 +258,12 @@ impl UrdfWriter<'_> {
 
     /// The closures and lengths that are left out.
     fn losses(&self) -> Vec<Remark> {
-        let said = |of: &Loop| {
-            let told = |remark: &Remark| matches!(remark, Remark::Fixed { closure, .. } if *closure == of.name);
-            self.remarks.iter().any(told)
+        let fixes = |of: &Loop| {
+            let fixes = |remark: &Remark| matches!(remark, Remark::Fixed { closure, .. } if *closure == of.name);
+            self.remarks.iter().any(fixes)
         };
         let mut losses = Vec::new();
-        for of in self.tree.loops.iter().filter(|of| !said(of)) {
+        for of in self.tree.loops.iter().filter(|of| !fixes(of)) {
             losses.push(Remark::ClosureLost {
                 closure: of.name.clone(),
                 kind: of.kind,
