@@ -9,8 +9,6 @@ mod given;
 mod loops;
 mod values;
 
-use std::ops::Range;
-
 use serde::{Deserialize, Serialize};
 
 use crate::description::{
@@ -273,14 +271,10 @@ fn far_normals(
                 offset,
                 size,
             };
-            found.push(problem(far, &span));
+            found.push(far.at(&span));
         }
     }
     found
-}
-
-fn problem(problem: AxesProblem, at: &Range<usize>) -> Problem {
-    problem.at(at)
 }
 
 /// Places frames on joint axes and reads the tables off them.
@@ -305,7 +299,7 @@ pub fn frames(
     };
     let unplaced = axes.joints.iter().filter(unplaced).map(|joint| {
         let name = joint.name.value.clone();
-        problem(AxesProblem::NotPlaced { joint: name }, &joint.name.span)
+        AxesProblem::NotPlaced { joint: name }.at(&joint.name.span)
     });
     let unplaced: Vec<Problem> = unplaced.collect();
     if !unplaced.is_empty() {
@@ -338,7 +332,7 @@ pub fn frames(
         let end = |step: &Displacement| Some(step.entries().last()?.span.end);
         let span = base.first().and_then(start).zip(base.last().and_then(end));
         let span = span.map_or(axes.name.span.clone(), |(start, end)| start..end);
-        warnings.push(problem(AxesProblem::BaseUnused { convention }, &span));
+        warnings.push(AxesProblem::BaseUnused { convention }.at(&span));
     }
     warnings.extend(far_normals(axes, &values, &built.chains));
     Ok(FramesReport {

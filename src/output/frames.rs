@@ -270,19 +270,14 @@ impl Report for AxesReport {
 
 /// Why the joints of a mechanism are not given by axes.
 pub fn no_axes(error: &AxesError) -> Complaint {
+    let complaint = Complaint::new(error.to_string());
     match error {
-        AxesError::Row { chain, row } => Complaint::new(format!(
-            "row {row} of chain `{chain}` is not one joint with a variable of its own"
-        ))
-        .help(
+        AxesError::Row { .. } => complaint.help(
             "give each joint a variable of its own, so that it turns, slides, or does both by two variables; or ask \
              `linkwork formulas` for the transforms as they are",
         ),
-        AxesError::Closure { closure, kind } => Complaint::new(format!(
-            "the length of the {} closure `{closure}` is not one joint",
-            kind.word().to_lowercase()
-        ))
-        .help("write the length as a constant plus a variable that stands nowhere else"),
-        AxesError::TooFew => Complaint::new("the mechanism has no joints with axes"),
+        AxesError::Closure { .. } => complaint
+            .help("write the length as a constant plus a variable that stands nowhere else"),
+        AxesError::TooFew => complaint,
     }
 }

@@ -1,7 +1,7 @@
 //! Chains of a mechanism file from assigned frames.
 
 use super::values::Values;
-use super::{CutReport, PlacedChain, problem};
+use super::{CutReport, PlacedChain};
 use crate::algebra::{Expression, Node, Operator};
 use crate::description::{
     AxesDescription, AxesProblem, AxisKind, ChainDescription, Convention, Description,
@@ -129,11 +129,11 @@ pub(super) fn serial(
     let balls = (axes.joints.iter()).filter(|joint| joint.value.kind == AxisKind::Spherical);
     let problems = balls.map(|ball| {
         let joint = ball.name.value.clone();
-        problem(AxesProblem::SphericalInSerial { joint }, &ball.value.span)
+        AxesProblem::SphericalInSerial { joint }.at(&ball.value.span)
     });
     let cut = axes.cut.first().map(|cut| {
         let joint = cut.value.clone();
-        problem(AxesProblem::CutsOff { joint }, &cut.span)
+        AxesProblem::CutsOff { joint }.at(&cut.span)
     });
     let problems: Vec<Problem> = problems.chain(cut).collect();
     if !problems.is_empty() {

@@ -5,7 +5,7 @@ use std::collections::BTreeSet;
 use super::build::Build;
 use super::chains::Built;
 use super::values::Values;
-use super::{CutChoice, CutReport, problem};
+use super::{CutChoice, CutReport};
 use crate::description::{
     AxesDescription, AxesProblem, AxisKind, Convention, Graph, Problem, place_of,
 };
@@ -100,7 +100,7 @@ fn given(
         let before = graph.parts(|j| !named.contains(&j) || j == joint);
         if !balls.contains(&joint) && parts[a] != parts[b] && before[a] == before[b] {
             let joint = cut.value.clone();
-            problems.push(problem(AxesProblem::CutsOff { joint }, &cut.span));
+            problems.push(AxesProblem::CutsOff { joint }.at(&cut.span));
         }
     }
     match problems.is_empty() {
@@ -154,7 +154,7 @@ fn proposed(
     }
     let more = choices > MOST_CHOICES || found.len() == MOST_WAYS;
     match found.is_empty() {
-        true => Err(vec![problem(AxesProblem::NothingToCut, &axes.name.span)]),
+        true => Err(vec![AxesProblem::NothingToCut.at(&axes.name.span)]),
         false => Ok((found, more)),
     }
 }

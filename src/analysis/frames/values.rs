@@ -1,6 +1,6 @@
 //! The numbers behind the expressions of a file of axes.
 
-use super::{MOST_JOINTS, problem};
+use super::MOST_JOINTS;
 use crate::algebra::Expression;
 use crate::description::{
     AxesDescription, AxesProblem, AxisDescription, AxisKind, AxisPlace, ChainDescription,
@@ -30,7 +30,7 @@ impl Values {
         let joints = axes.joints.len();
         if joints > MOST_JOINTS {
             let kind = AxesProblem::TooMany { joints };
-            return Err(vec![problem(kind, &axes.name.span)]);
+            return Err(vec![kind.at(&axes.name.span)]);
         }
         let mut frames: Vec<Named<Vec<Displacement>>> = Vec::new();
         let mut add = |steps: Vec<Displacement>| {
@@ -78,12 +78,12 @@ impl Values {
             if line.is_none() {
                 let name = joint.name.value.clone();
                 let kind = AxesProblem::NoDirection { joint: name };
-                problems.push(problem(kind, &place_span(&joint.value)));
+                problems.push(kind.at(&place_span(&joint.value)));
             }
             lines.extend(line);
         }
         if joints < 2 {
-            problems.push(problem(AxesProblem::TooFew { joints }, &axes.name.span));
+            problems.push(AxesProblem::TooFew { joints }.at(&axes.name.span));
         }
         if !problems.is_empty() {
             return Err(problems);
