@@ -9,21 +9,22 @@ mod branches;
 mod cone;
 mod loops;
 mod redundancy;
+mod report;
 
 use rand::SeedableRng;
 use rand_pcg::Pcg64Mcg;
-use serde::{Deserialize, Serialize};
 
 use crate::linear::axis_aligned;
 use crate::mechanism::{Configuration, Mechanism, Variable};
 use crate::solve::{Newton, Stage, Watch};
 use crate::system::{
-    Analysed, Closing, Coordinate, Held, HeldPlatform, Lasting, Moved, Named, Neighbourhood,
-    Question, STILL, TwistSpace, Unknown, WidestGap, random_configuration,
+    Analysed, Closing, Coordinate, Held, HeldPlatform, Lasting, Neighbourhood, Question, STILL,
+    Unknown, random_configuration,
 };
 
 pub use loops::LoopCount;
 pub use redundancy::{Redundancy, Wrench};
+pub use report::{BranchReport, Character, Elsewhere, LocalFreedom, MobilityReport};
 
 /// How to look for freedoms.
 #[derive(Clone, Debug, PartialEq)]
@@ -57,168 +58,6 @@ impl Default for MobilitySettings {
             locked: Vec::new(),
         }
     }
-}
-
-/// What an assembled mechanism can do.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub struct MobilityReport {
-    /// Name of the mechanism.
-    pub mechanism: String,
-    /// The joint variables with their units, in the order of the file.
-    pub variables: Vec<Variable>,
-    /// Names of what is locked: everything else in the report is about the mechanism in which these stand still.
-    #[serde(default, skip_serializing_if = "Vec::is_empty")]
-    pub locked: Vec<String>,
-    /// Finite freedoms at the configuration without local ones: the largest dimension of a branch.
-    pub mobility: usize,
-    /// Kutzbach's count: joint variables and 6 for each platform less closure equations, where what is
-    /// locked is no variable.
-    pub kutzbach: i64,
-    /// Rank of the closure Jacobian with nothing held but what is locked.
-    pub rank: usize,
-    /// Infinitesimal freedoms without local ones.
-    pub infinitesimal: usize,
-    /// Closure equations that depend on the others.
-    pub redundant: usize,
-    /// Joints that stand still in every finite motion, or move in local freedoms only.
-    pub idle_joints: Vec<String>,
-    /// Those of the idle joints that spin a link about its own axis.
-    pub spinning_joints: Vec<String>,
-    /// Joints that only turn in place at the configuration, though they move links beside it:
-    /// those in gimbal lock.
-    #[serde(default, skip_serializing_if = "Vec::is_empty")]
-    pub gimbal_locked_joints: Vec<String>,
-    /// How many freedoms are lost so at the configuration.
-    #[serde(default, skip_serializing_if = "is_zero")]
-    pub gimbal_locked: usize,
-    /// Joints that move.
-    pub moving_joints: Vec<String>,
-    /// Joint values of the closed configuration, rad or m.
-    pub joints: Named<f64>,
-    /// What kind of point of the configuration space this is.
-    pub character: Character,
-    /// The branches through a singular configuration, the first of very many.
-    pub branches: Vec<BranchReport>,
-    /// How many there are, found by steps in many directions.
-    pub branch_count: usize,
-    /// Whether it is certain that there are no more.
-    pub branches_complete: bool,
-    /// Another mobility that the mechanism has in another assembly.
-    pub elsewhere: Vec<Elsewhere>,
-    /// Random starts from which one was sought.
-    pub elsewhere_starts: usize,
-    /// Joint variables and six for each platform.
-    pub unknowns: usize,
-    /// Closure equations, and one for each coordinate of a platform that is locked by itself.
-    pub equations: usize,
-    /// How many of the equations lock coordinates of platforms.
-    #[serde(default, skip_serializing_if = "is_zero")]
-    pub locking: usize,
-    /// Local (passive) freedoms: a link turns about its own axis and nothing else moves.
-    pub idle_freedoms: Vec<LocalFreedom>,
-    /// Kutzbach's count loop by loop.
-    pub loops: Vec<LoopCount>,
-    /// The dependent equations as wrenches.
-    pub redundancies: Vec<Redundancy>,
-    /// Infinitesimal motions of the platforms, or of the links at the closures if there are none.
-    pub twists: Vec<TwistSpace>,
-    /// Condition number of the dimensionless Jacobian over its rank.
-    pub condition: f64,
-    /// About how far a singular configuration is where a regular one is nearer to it than the
-    /// length of a step, in rad and normalising lengths: to first order, along the motions.
-    pub singular_at: Option<f64>,
-    /// The characteristic length that makes it dimensionless, in m.
-    #[serde(rename = "normalising_length")]
-    pub length: f64,
-    /// The widest gap of the pose given, before it was closed.
-    #[serde(rename = "given_gap")]
-    pub given: Option<WidestGap>,
-    /// What moved most from the values guessed, or from a pose of the file that was more than
-    /// rounded.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub moved: Option<Moved>,
-    /// Whether joints held by the file kept their values when the mechanism was closed.
-    pub kept: bool,
-    /// Names of the joints that are outside their limits.
-    pub outside_limits: Vec<String>,
-    /// What is left of the closure equations after a finite step along the infinitesimal freedoms,
-    /// dimensionless; `None` if the step does not settle.
-    pub gap_after_step: Option<f64>,
-    /// Whether the work was stopped before it was done: branches and other assemblies may be missing.
-    #[serde(default, skip_serializing_if = "std::ops::Not::not")]
-    pub interrupted: bool,
-}
-
-/// What kind of point of the configuration space a configuration is.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(rename_all = "snake_case")]
-pub enum Character {
-    /// No freedom, not even an infinitesimal one.
-    Structure,
-    /// Every infinitesimal freedom is finite.
-    Regular,
-    /// Infinitesimal freedoms, none of them finite.
-    Shaky,
-    /// One branch with fewer freedoms than the infinitesimal ones.
-    Singular,
-    /// Several branches of the same number of freedoms meet.
-    Bifurcation,
-    /// Branches of different numbers of freedoms meet (Wohlhart 1996).
-    Kinematotropic,
-}
-
-/// A local (passive) freedom: a link turns about its own axis and nothing else moves.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(rename_all = "snake_case")]
-pub enum LocalFreedom {
-    /// The link turns in joints of its own, which these are.
-    Joints(Vec<String>),
-    /// The link is a platform on closures, which turns in joints too if it has some.
-    Platforms {
-        /// The platform, or those that turn together.
-        platforms: Vec<String>,
-        /// The joints that turn with it.
-        joints: Vec<String>,
-    },
-    /// The rod of a `Distance` turns in the balls at its ends, which the closure does not model.
-    Rod(String),
-}
-
-impl LocalFreedom {
-    /// Whether the joint turns in it.
-    fn moves(&self, joint: &String) -> bool {
-        match self {
-            LocalFreedom::Joints(joints) | LocalFreedom::Platforms { joints, .. } => {
-                joints.contains(joint)
-            }
-            LocalFreedom::Rod(_) => false,
-        }
-    }
-}
-
-/// A branch of assembled configurations through the one given.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub struct BranchReport {
-    /// Its freedoms.
-    pub mobility: usize,
-    /// Joints that move on it.
-    pub moving_joints: Vec<String>,
-    /// Its motions at the configuration, as for the whole.
-    pub twists: Vec<TwistSpace>,
-    /// Whether these motions are a curved cone that its `twists` span: not each of them is possible.
-    pub cone: bool,
-    /// Whether `twists` are known to about the length of a step only: those of a branch of several
-    /// freedoms that is shaky throughout.
-    pub approximate: bool,
-}
-
-/// An assembly of another mobility.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub struct Elsewhere {
-    /// Its freedoms.
-    pub mobility: usize,
-    /// Joint values there, rad or m.
-    pub joints: Named<f64>,
 }
 
 /// Counts the freedoms of a mechanism, closed near the start of a question.
@@ -386,12 +225,6 @@ fn names(mechanism: &Mechanism, held: &Held<f64>, locking: &Question) -> Vec<Str
             .collect(),
     });
     joints.chain(platforms).collect()
-}
-
-/// Whether a count is left out of a report.
-#[allow(clippy::trivially_copy_pass_by_ref)] // serde passes it so
-fn is_zero(number: &usize) -> bool {
-    *number == 0
 }
 
 /// The joints that turn in any of some motions.

@@ -1,0 +1,199 @@
+//! What is reported of a mechanism file.
+
+use serde::{Deserialize, Serialize};
+
+use super::count::MobilityCount;
+use super::loops::Loop;
+use crate::algebra::SiUnit;
+use crate::description::{AxesDescription, axes_text};
+use crate::mechanism::{ClosureKind, Convention, JointKind, Role};
+
+/// What a mechanism file means.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Overview {
+    /// What the mechanism is called.
+    #[serde(rename = "mechanism")]
+    pub name: String,
+    /// Where it comes from.
+    pub source: Option<String>,
+    /// The joint coordinates from which the tables were made, if they were.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub coordinates: Option<CoordinatesOverview>,
+    /// The parameters.
+    pub parameters: Vec<ParameterOverview>,
+    /// The joints.
+    pub joints: Vec<JointOverview>,
+    /// The chains with their tables.
+    pub chains: Vec<ChainOverview>,
+    /// The platforms.
+    pub platforms: Vec<PlatformOverview>,
+    /// The closures.
+    pub closures: Vec<ClosureOverview>,
+    /// Independent loops.
+    pub loops: Vec<Loop>,
+    /// How many freedoms counting leads to expect.
+    pub count: MobilityCount,
+    /// The closed forms.
+    pub closed_forms: Vec<ClosedFormOverview>,
+    /// What is odd about the file, one sentence each.
+    pub warnings: Vec<String>,
+}
+
+/// Joint coordinates, and what was chosen to make tables of them.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct CoordinatesOverview {
+    /// The file of joint coordinates, serialised as its text.
+    #[serde(rename = "file", with = "axes_text")]
+    pub axes: AxesDescription,
+    /// The joints that are cut, beside balls and rods.
+    pub cut: Vec<String>,
+    /// Bodies with nothing but two balls, taken for rods.
+    pub rods: Vec<String>,
+}
+
+/// A parameter.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct ParameterOverview {
+    /// Its name.
+    pub name: String,
+    /// What it is defined as.
+    pub definition: String,
+    /// Its value, in m or rad or without unit.
+    pub value: f64,
+}
+
+/// A joint.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct JointOverview {
+    /// Its name.
+    pub name: String,
+    /// How it moves.
+    pub kind: JointUse,
+    /// Whether it is driven.
+    pub role: Role,
+    /// Unit of its values, rad or m; none if it is unused.
+    pub unit: Option<SiUnit>,
+    /// Its value in the home configuration, rad or m.
+    pub home: f64,
+    /// Lowest and highest value, rad or m.
+    pub limits: Option<(f64, f64)>,
+}
+
+/// How a joint moves.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum JointUse {
+    /// It turns.
+    Revolute,
+    /// It slides.
+    Prismatic,
+    /// It turns and slides at once.
+    Helical,
+    /// It stands nowhere.
+    Unused,
+}
+
+impl JointUse {
+    /// What it is called.
+    pub fn word(self) -> &'static str {
+        match self {
+            JointUse::Revolute => JointKind::Revolute.word(),
+            JointUse::Prismatic => JointKind::Prismatic.word(),
+            JointUse::Helical => JointKind::Helical.word(),
+            JointUse::Unused => "unused",
+        }
+    }
+}
+
+/// A chain.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct ChainOverview {
+    /// Its name.
+    pub name: String,
+    /// The frame it stands on.
+    pub on: String,
+    /// How its rows are read.
+    pub convention: Convention,
+    /// From that frame to the chain's frame 0, as written.
+    pub base: Vec<String>,
+    /// The rows of its table.
+    pub rows: Vec<RowOverview>,
+    /// From its last link frame to its tip, as written.
+    pub tip: Vec<String>,
+}
+
+/// A row of a table.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct RowOverview {
+    /// Twist.
+    pub alpha: EntryOverview,
+    /// Length.
+    pub a: EntryOverview,
+    /// Offset.
+    pub d: EntryOverview,
+    /// Joint angle.
+    pub theta: EntryOverview,
+}
+
+/// An entry of a table.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct EntryOverview {
+    /// As written in the file.
+    pub written: String,
+    /// Its value (rad or m), if no joint variable stands in it.
+    pub value: Option<f64>,
+    /// Whether parameters stand in it, so that the value says more than what is written.
+    pub uses_parameters: bool,
+}
+
+/// A platform.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct PlatformOverview {
+    /// Its name.
+    pub name: String,
+    /// Where its origin is at home (m).
+    pub position: [f64; 3],
+    /// Its orientation at home, scalar part first.
+    pub quaternion: [f64; 4],
+    /// Its orientation at home: roll, pitch, yaw (rad), Rz(yaw)·Ry(pitch)·Rx(roll).
+    pub roll_pitch_yaw: [f64; 3],
+    /// Frames fixed in it, as written.
+    pub frames: Vec<PlatformFrameOverview>,
+}
+
+/// A frame of a platform.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct PlatformFrameOverview {
+    /// Its name.
+    pub name: String,
+    /// Where it is in the platform, as written.
+    pub placed: Vec<String>,
+}
+
+/// A closure.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct ClosureOverview {
+    /// Its name.
+    pub name: String,
+    /// The kind of joint.
+    pub kind: ClosureKind,
+    /// The frames it joins.
+    pub frames: [String; 2],
+    /// Its length, if it is a `Distance`.
+    pub length: Option<String>,
+    /// How many equations it adds.
+    pub equations: usize,
+}
+
+/// A closed form.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct ClosedFormOverview {
+    /// Its name.
+    pub name: String,
+    /// How many entries of a pose or identities it gives.
+    pub formulas: usize,
+    /// The frame whose pose it gives and the frame this is seen from; none for identities.
+    pub pose_of: Option<[String; 2]>,
+    /// Where it is printed.
+    pub source: Option<String>,
+}
