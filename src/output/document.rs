@@ -5,8 +5,10 @@
 //! each analysis has one file that makes its document and knows no format.
 
 mod cell;
+mod inline;
 
 pub use cell::{Cell, Digits};
+pub(super) use inline::{Piece, address, one_line, pieces};
 
 use serde::{Deserialize, Serialize};
 
@@ -258,60 +260,20 @@ impl Section {
 }
 
 impl Table {
-    /// A table without rows.
-    pub fn new(columns: impl IntoIterator<Item = Column>) -> Self {
-        Table {
-            columns: columns.into_iter().collect(),
-            rows: Vec::new(),
-            ruled: false,
-        }
-    }
-
     /// A table with a row for each item; its columns follow, each with what stands in it:
     /// `Table::of(joints).words("name", |j| &j.name).numbers("home", |j| j.home)`.
     pub(super) fn of<T: Copy>(items: impl IntoIterator<Item = T>) -> TableOf<T> {
         let items: Vec<T> = items.into_iter().collect();
-        let rows = vec![Vec::new(); items.len()];
-        TableOf {
-            items,
-            table: Table {
-                rows,
-                ..Table::new([])
-            },
-        }
-    }
-
-    /// Adds a row.
-    pub fn row(&mut self, cells: Vec<Cell>) {
-        debug_assert_eq!(cells.len(), self.columns.len());
-        self.rows.push(cells);
+        let table = Table {
+            columns: Vec::new(),
+            rows: vec![Vec::new(); items.len()],
+            ruled: false,
+        };
+        TableOf { items, table }
     }
 }
 
 impl Column {
-    /// A column of words.
-    pub fn words(title: impl Into<String>) -> Self {
-        Column {
-            title: title.into(),
-            unit: SiUnit::ONE,
-            align: Align::Left,
-        }
-    }
-
-    /// A column of numbers.
-    pub fn numbers(title: impl Into<String>) -> Self {
-        Column {
-            align: Align::Right,
-            ..Column::words(title)
-        }
-    }
-
-    /// With a unit for all its numbers.
-    #[must_use]
-    pub fn in_unit(self, unit: SiUnit) -> Self {
-        Column { unit, ..self }
-    }
-
     /// Title and unit: `Fx (N)`.
     pub fn header(&self) -> String {
         match self.unit {
@@ -330,16 +292,17 @@ pub(super) struct TableOf<T> {
 impl<T: Copy> TableOf<T> {
     /// With a column of words.
     pub fn words<C: Into<Cell>>(self, title: impl Into<String>, cell: impl Fn(T) -> C) -> Self {
-        self.column(Column::words(title), cell)
+        self.column(title.into(), Align::Left, cell)
     }
 
     /// With a column of numbers.
     pub fn numbers<C: Into<Cell>>(self, title: impl Into<String>, cell: impl Fn(T) -> C) -> Self {
-        self.column(Column::numbers(title), cell)
+        self.column(title.into(), Align::Right, cell)
     }
 
-    fn column<C: Into<Cell>>(mut self, column: Column, cell: impl Fn(T) -> C) -> Self {
-        self.table.columns.push(column);
+    fn column<C: Into<Cell>>(mut self, title: String, align: Align, cell: impl Fn(T) -> C) -> Self {
+        let unit = SiUnit::ONE;
+        self.table.columns.push(Column { title, unit, align });
         for (row, &item) in self.table.rows.iter_mut().zip(&self.items) {
             row.push(cell(item).into());
         }
@@ -379,66 +342,21 @@ impl Matrix {
     }
 }
 
-/// A piece of text: as it stands, or a name or command that stood between back quotes.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Piece<'a> {
-    Plain(&'a str),
-    Quoted(&'a str),
-}
-
-/// The pieces of a text; a back quote without a partner is plain.
-pub(super) fn pieces(text: &str) -> Vec<Piece<'_>> {
-    let mut pieces = Vec::new();
-    let mut rest = text;
-    while let Some(start) = rest.find('`') {
-        let Some(length) = rest[start + 1..].find('`').filter(|length| *length > 0) else {
-            break;
-        };
-        pieces.push(Piece::Plain(&rest[..start]));
-        pieces.push(Piece::Quoted(&rest[start + 1..start + 1 + length]));
-        rest = &rest[start + length + 2..];
-    }
-    pieces.push(Piece::Plain(rest));
-    pieces.retain(|piece| *piece != Piece::Plain(""));
-    pieces
-}
-
-/// The text on one line.
-pub(super) fn one_line(text: &str) -> String {
-    text.replace(['\n', '\r'], " ")
-}
-
-/// An SVG document as an address that pages can show without running anything in it.
-pub(super) fn address(svg: &str) -> String {
-    let mut address = String::from("data:image/svg+xml,");
-    for byte in svg.bytes() {
-        match byte {
-            b'a'..=b'z' | b'A'..=b'Z' | b'0'..=b'9' | b'-' | b'.' | b'_' | b'/' | b':' | b'=' => {
-                address.push(byte as char);
-            }
-            _ => address += &format!("%{byte:02X}"),
-        }
-    }
-    address
-}
-
 #[cfg(test)]
 pub(super) mod tests {
     use super::*;
 
     /// One of everything, with names that mean something in some format.
     pub fn sample() -> Document {
-        let mut table = Table::new([
-            Column::words("on|<b>"),
-            Column::numbers("Fx").in_unit(SiUnit::NEWTON),
-            Column::numbers("angle"),
-        ]);
-        table.row(cells!["a|b", -0.5, Cell::quantity(0.5, SiUnit::RADIAN)]);
-        table.row(cells![
-            "<script>",
-            Cell::from(10.0).starred(true),
-            Cell::Empty
-        ]);
+        let rows = [
+            cells!["a|b", -0.5, Cell::quantity(0.5, SiUnit::RADIAN)],
+            cells!["<script>", Cell::from(10.0).starred(true), Cell::Empty],
+        ];
+        let table = Table::of(&rows)
+            .words("on|<b>", |row| row[0].clone())
+            .numbers("Fx", |row| row[1].clone())
+            .in_unit(SiUnit::NEWTON)
+            .numbers("angle", |row| row[2].clone());
         let matrix = Matrix {
             rows_are: "output".into(),
             rows: vec!["x (m/s)".into()],
@@ -470,13 +388,5 @@ pub(super) mod tests {
             serde_json::from_str::<Document>(&written).unwrap(),
             sample()
         );
-    }
-
-    #[test]
-    fn quoted_pieces_need_two_back_quotes() {
-        use Piece::{Plain, Quoted};
-        assert_eq!(pieces("a `b` c"), [Plain("a "), Quoted("b"), Plain(" c")]);
-        assert_eq!(pieces("`b` and `c"), [Quoted("b"), Plain(" and `c")]);
-        assert_eq!(pieces("``"), [Plain("``")]);
     }
 }

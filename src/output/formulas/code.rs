@@ -74,12 +74,13 @@ fn unique(name: &str, taken: &mut BTreeSet<String>) -> String {
 }
 
 fn identifier(name: &str) -> String {
-    const KEYWORDS: [&str; 43] = [
+    const RESERVED: [&str; 53] = [
         "as", "break", "const", "continue", "crate", "else", "enum", "extern", "false", "fn",
         "for", "if", "impl", "in", "let", "loop", "match", "mod", "move", "mut", "pub", "ref",
         "return", "self", "static", "struct", "super", "trait", "true", "type", "unsafe", "use",
         "where", "while", "async", "await", "dyn", "abstract", "become", "box", "do", "final",
-        "gen",
+        "gen", "Self", "macro", "override", "priv", "try", "typeof", "unsized", "virtual", "yield",
+        "_",
     ];
     let mut plain = String::new();
     for c in name.chars() {
@@ -93,12 +94,7 @@ fn identifier(name: &str) -> String {
         .chars()
         .next()
         .is_some_and(|c| c.is_alphabetic() || c == '_');
-    let reserved = KEYWORDS.contains(&plain.as_str())
-        || [
-            "Self", "macro", "override", "priv", "try", "typeof", "unsized", "virtual", "yield",
-            "_",
-        ]
-        .contains(&plain.as_str())
+    let reserved = RESERVED.contains(&plain.as_str())
         || plain.starts_with("sin_")
         || plain.starts_with("cos_");
     match starts && !reserved {

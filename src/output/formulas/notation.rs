@@ -42,12 +42,22 @@ struct Printed {
     compact: bool,
 }
 
-fn operand(text: String) -> Printed {
-    Printed {
-        text,
-        tightness: Tightness::Operand,
-        compact: false,
+impl Printed {
+    fn new(text: String, tightness: Tightness) -> Self {
+        Printed {
+            text,
+            tightness,
+            compact: false,
+        }
     }
+}
+
+fn operand(text: String) -> Printed {
+    Printed::new(text, Tightness::Operand)
+}
+
+fn product(text: String) -> Printed {
+    Printed::new(text, Tightness::Product)
 }
 
 impl Notation {
@@ -189,11 +199,7 @@ impl Notation {
             _ => text,
         };
         match value.is_sign_negative() && value != 0.0 {
-            true => Printed {
-                text: self.minus().to_owned() + &text,
-                tightness: Tightness::Product,
-                compact: false,
-            },
+            true => product(self.minus().to_owned() + &text),
             false => operand(text),
         }
     }
@@ -229,11 +235,10 @@ impl Notation {
                 compact: self.is_compact(name),
                 ..operand(self.name(name))
             },
-            Node::Negate(x) => Printed {
-                text: format!("{}{}", self.minus(), self.part(x, Tightness::Product)),
-                tightness: Tightness::Product,
-                compact: false,
-            },
+            Node::Negate(x) => {
+                let x = self.part(x, Tightness::Product);
+                product(format!("{}{x}", self.minus()))
+            }
             Node::Binary(operator, x, y) => self.operation(*operator, x, y, expression),
             Node::Call(function, arguments) => self.call(*function, arguments),
         }
@@ -265,27 +270,17 @@ impl Notation {
         y: &Expression,
         whole: &Expression,
     ) -> Printed {
-        let of = |text, tightness| Printed {
-            text,
-            tightness,
-            compact: false,
-        };
         match operator {
-            Operator::Add => {
-                let (x, y) = (
-                    self.part(x, Tightness::Sum),
-                    self.part(y, Tightness::Product),
-                );
-                of(format!("{x} + {y}"), Tightness::Sum)
+            Operator::Add | Operator::Subtract => {
+                let x = self.part(x, Tightness::Sum);
+                let y = self.part(y, Tightness::Product);
+                let sign = match operator {
+                    Operator::Add => "+",
+                    _ => self.minus(),
+                };
+                Printed::new(format!("{x} {sign} {y}"), Tightness::Sum)
             }
-            Operator::Subtract => {
-                let (x, y) = (
-                    self.part(x, Tightness::Sum),
-                    self.part(y, Tightness::Product),
-                );
-                of(format!("{x} {} {y}", self.minus()), Tightness::Sum)
-            }
-            Operator::Multiply => of(self.product(whole), Tightness::Product),
+            Operator::Multiply => product(self.product(whole)),
             Operator::Divide => self.quotient(x, y),
             Operator::Power => {
                 let base = self.part(x, Tightness::Operand);
@@ -299,48 +294,29 @@ impl Notation {
                     (Script::Latex, _) => format!("{{{base}}}^{{{}}}", self.print(y)),
                 };
                 Printed {
-                    text,
-                    tightness: Tightness::Operand,
                     compact,
+                    ..operand(text)
                 }
             }
         }
     }
 
     fn quotient(&self, x: &Expression, y: &Expression) -> Printed {
-        if self.script == Script::Latex {
-            let (sign, x) = match &x.node {
-                Node::Negate(x) => ("-", &**x),
-                _ => ("", x),
-            };
-            return Printed {
-                text: format!("{sign}\\frac{{{}}}{{{}}}", self.print(x), self.print(y)),
-                tightness: Tightness::Product,
-                compact: false,
-            };
-        }
         if let Node::Negate(x) = &x.node {
-            let Printed { text, .. } = self.quotient(x, y);
-            return Printed {
-                text: format!("−{text}"),
-                tightness: Tightness::Product,
-                compact: false,
-            };
+            return product(self.minus().to_owned() + &self.quotient(x, y).text);
+        }
+        if self.script == Script::Latex {
+            let [x, y] = [x, y].map(|part| self.print(part));
+            return product(format!("\\frac{{{x}}}{{{y}}}"));
         }
         let numbers = x.as_number().zip(y.as_number());
         let vulgar = VULGAR.iter().find(|(p, q, _)| numbers == Some((*p, *q)));
         if let Some((_, _, sign)) = vulgar {
             return operand(sign.to_string());
         }
-        Printed {
-            text: format!(
-                "{}/{}",
-                self.part(x, Tightness::Product),
-                self.part(y, Tightness::Operand)
-            ),
-            tightness: Tightness::Product,
-            compact: false,
-        }
+        let x = self.part(x, Tightness::Product);
+        let y = self.part(y, Tightness::Operand);
+        product(format!("{x}/{y}"))
     }
 
     fn product(&self, whole: &Expression) -> String {
@@ -391,36 +367,21 @@ impl Notation {
         let inside: Vec<String> = arguments.iter().map(|x| self.print(x)).collect();
         let inside = inside.join(", ");
         let simple = matches!(arguments[0].node, Node::Name(_) | Node::Quantity(..));
+        let word = function.word();
+        use Function::{Cos, Exp, Ln, Max, Min, Sin, Tan};
+        let name = match (self.script, function) {
+            (Script::Unicode, _) => word.to_owned(),
+            (Script::Latex, Sin | Cos | Tan | Exp | Ln | Min | Max) => format!("\\{word}"),
+            (Script::Latex, _) => format!("\\operatorname{{{word}}}"),
+        };
         operand(match (self.script, function) {
             (Script::Unicode, Function::Sqrt) => match arguments[0].node {
                 Node::Number(_) | Node::Name(_) => format!("√{inside}"),
                 _ => format!("√({inside})"),
             },
             (Script::Latex, Function::Sqrt) => format!("\\sqrt{{{inside}}}"),
-            (Script::Unicode, _) if circular && simple => format!("{} {inside}", function.word()),
-            (Script::Unicode, _) => format!("{}({inside})", function.word()),
-            (Script::Latex, _) if circular && simple => {
-                format!("\\{} {inside}", function.word())
-            }
-            (
-                Script::Latex,
-                Function::Sin
-                | Function::Cos
-                | Function::Tan
-                | Function::Exp
-                | Function::Ln
-                | Function::Min
-                | Function::Max,
-            ) => {
-                format!("\\{}{}", function.word(), self.enclosed(&inside))
-            }
-            (Script::Latex, _) => {
-                format!(
-                    "\\operatorname{{{}}}{}",
-                    function.word(),
-                    self.enclosed(&inside)
-                )
-            }
+            _ if circular && simple => format!("{name} {inside}"),
+            _ => name + &self.enclosed(&inside),
         })
     }
 }

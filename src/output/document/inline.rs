@@ -1,0 +1,57 @@
+//! Texts within a line: names between back quotes, and addresses of pictures.
+
+/// A piece of text: as it stands, or a name or command that stood between back quotes.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Piece<'a> {
+    Plain(&'a str),
+    Quoted(&'a str),
+}
+
+/// The pieces of a text; a back quote without a partner is plain.
+pub fn pieces(text: &str) -> Vec<Piece<'_>> {
+    let mut pieces = Vec::new();
+    let mut rest = text;
+    while let Some(start) = rest.find('`') {
+        let Some(length) = rest[start + 1..].find('`').filter(|length| *length > 0) else {
+            break;
+        };
+        pieces.push(Piece::Plain(&rest[..start]));
+        pieces.push(Piece::Quoted(&rest[start + 1..start + 1 + length]));
+        rest = &rest[start + length + 2..];
+    }
+    pieces.push(Piece::Plain(rest));
+    pieces.retain(|piece| *piece != Piece::Plain(""));
+    pieces
+}
+
+/// The text on one line.
+pub fn one_line(text: &str) -> String {
+    text.replace(['\n', '\r'], " ")
+}
+
+/// An SVG document as an address that pages can show without running anything in it.
+pub fn address(svg: &str) -> String {
+    let mut address = String::from("data:image/svg+xml,");
+    for byte in svg.bytes() {
+        match byte {
+            b'a'..=b'z' | b'A'..=b'Z' | b'0'..=b'9' | b'-' | b'.' | b'_' | b'/' | b':' | b'=' => {
+                address.push(byte as char);
+            }
+            _ => address += &format!("%{byte:02X}"),
+        }
+    }
+    address
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn quoted_pieces_need_two_back_quotes() {
+        use Piece::{Plain, Quoted};
+        assert_eq!(pieces("a `b` c"), [Plain("a "), Quoted("b"), Plain(" c")]);
+        assert_eq!(pieces("`b` and `c"), [Quoted("b"), Plain(" and `c")]);
+        assert_eq!(pieces("``"), [Plain("``")]);
+    }
+}
