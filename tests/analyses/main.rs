@@ -2,6 +2,7 @@
 
 mod closed_reports;
 mod closing;
+mod commands;
 mod comparison;
 mod conversion;
 mod cusps;
@@ -20,7 +21,22 @@ mod spins;
 mod statics;
 mod suspension;
 mod sweep;
-mod told;
 mod velocity;
 mod watched;
 mod workspace;
+
+/// The exit status of a command, its output and its messages.
+fn linkwork(arguments: &[&str]) -> (i32, String, String) {
+    let output = assert_cmd::Command::cargo_bin("linkwork")
+        .unwrap()
+        .current_dir(env!("CARGO_MANIFEST_DIR"))
+        .args(arguments)
+        .output()
+        .unwrap();
+    let text = |bytes: Vec<u8>| String::from_utf8(bytes).unwrap();
+    (
+        output.status.code().unwrap(),
+        text(output.stdout),
+        text(output.stderr),
+    )
+}

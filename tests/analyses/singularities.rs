@@ -1158,20 +1158,11 @@ fn columns_of_rows_are_named_once() {
 // ---- the command
 
 fn run(arguments: &[&str]) -> (i32, String, String) {
-    let output = assert_cmd::Command::cargo_bin("linkwork")
-        .unwrap()
-        .current_dir(env!("CARGO_MANIFEST_DIR"))
-        .arg("singularities")
-        .args(arguments)
-        .output()
-        .unwrap();
-    let text = |bytes: Vec<u8>| String::from_utf8(bytes).unwrap();
-    let code = output.status.code().unwrap();
-    (code, text(output.stdout), text(output.stderr))
+    crate::linkwork(&[&["singularities"], arguments].concat())
 }
 
 #[test]
-fn questions_that_make_no_sense_are_told_what_to_ask_instead() {
+fn questions_without_a_meaning_are_refused_with_a_remedy() {
     let rps = "mechanisms/three_rps.ron";
     for (arguments, said) in [
         (

@@ -4,6 +4,7 @@ use std::collections::BTreeMap;
 use std::f64::consts::PI;
 use std::path::Path;
 
+use crate::linkwork;
 use linkwork::analysis::workspace::{BoundaryKind, Cell, WorkspaceReport, WorkspaceSettings};
 use linkwork::ask::Question;
 use linkwork::description::Description;
@@ -725,23 +726,8 @@ fn lanes_and_threads_change_nothing() {
     }
 }
 
-fn linkwork(arguments: &[&str]) -> (i32, String, String) {
-    let output = assert_cmd::Command::cargo_bin("linkwork")
-        .unwrap()
-        .args(arguments)
-        .current_dir(env!("CARGO_MANIFEST_DIR"))
-        .output()
-        .unwrap();
-    let text = |bytes: Vec<u8>| String::from_utf8(bytes).unwrap();
-    (
-        output.status.code().unwrap(),
-        text(output.stdout),
-        text(output.stderr),
-    )
-}
-
 #[test]
-fn questions_that_make_no_sense_are_told_what_to_ask_instead() {
+fn questions_without_a_meaning_are_refused_with_a_remedy() {
     let hand = "mechanisms/five_bar_hand.ron";
     let x = ["--map", "hand.x=0..0.2"];
     let cases: &[(&[&str], &str)] = &[

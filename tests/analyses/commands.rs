@@ -1,28 +1,12 @@
-//! What users are told and how the program ends: help that can be followed, values that were given, exit statuses.
+//! Commands from end to end: help that can be followed, values kept as given, exit statuses.
 #![cfg(feature = "cli")]
 
-use std::process::Command;
-
-use assert_cmd::cargo::CommandCargoExt;
 use serde_json::Value;
+
+use crate::linkwork;
 
 const FOUR_BAR: &str = "mechanisms/four_bar.ron";
 const THREE_RPS: &str = "mechanisms/three_rps.ron";
-
-fn linkwork(arguments: &[&str]) -> (i32, String, String) {
-    let mut command = Command::cargo_bin("linkwork").unwrap();
-    let output = command
-        .current_dir(env!("CARGO_MANIFEST_DIR"))
-        .args(arguments)
-        .output()
-        .unwrap();
-    let text = |bytes: Vec<u8>| String::from_utf8(bytes).unwrap();
-    (
-        output.status.code().unwrap(),
-        text(output.stdout),
-        text(output.stderr),
-    )
-}
 
 fn json(arguments: &[&str]) -> Value {
     let (_, out, err) = linkwork(&[arguments, &["--format", "json"]].concat());
@@ -41,7 +25,7 @@ fn proposed(help: &str) -> Vec<String> {
 }
 
 #[test]
-fn a_motion_begins_exactly_where_it_is_said_to_begin() {
+fn a_motion_begins_exactly_at_the_value_given() {
     let (code, out, _) = linkwork(&[
         "sweep",
         FOUR_BAR,
@@ -94,7 +78,7 @@ fn a_file_that_cannot_be_assembled_is_no_success() {
 }
 
 #[test]
-fn what_is_least_at_a_closest_approach_is_said() {
+fn the_measure_of_a_closest_approach_is_stated() {
     let squared = "counts by (d² − L²)/2";
     for command in ["solve", "assemblies"] {
         let (code, out, _) = linkwork(&[
