@@ -32,9 +32,7 @@ pub struct CompareSettings {
     pub samples: usize,
     /// Seed of the random joint values.
     pub seed: u64,
-    /// A difference beside the size of what is compared above which a form disagrees. Formulas of a
-    /// page and products of ten matrices differ by some 1e-15; solved configurations carry a
-    /// residual of 1e-12 at most.
+    /// The relative difference above which a form disagrees; rounding gives some 1e-15, solved configurations 1e-12.
     pub tolerance: f64,
 }
 
@@ -66,7 +64,7 @@ pub struct CompareReport {
     pub not_assembled: usize,
     /// Seed of the random joint values.
     pub seed: u64,
-    /// A difference beside the size of what is compared above which a form disagrees.
+    /// The relative difference above which a form disagrees.
     pub tolerance: f64,
     /// Whether the work was stopped before it was done: fewer samples were tried, and perhaps nothing proved.
     #[serde(default, skip_serializing_if = "std::ops::Not::not")]
@@ -80,7 +78,7 @@ pub struct FormReport {
     pub name: String,
     /// Whether it agrees; false also if it could not be tried.
     pub agree: bool,
-    /// What can be said of it.
+    /// Whether it agrees, disagrees or could not be tried.
     pub verdict: Verdict,
     /// The largest difference of any component: m, or without unit.
     pub max_difference: f64,
@@ -95,7 +93,7 @@ pub struct FormReport {
     pub worst: Named<f64>,
 }
 
-/// What can be said of a closed form.
+/// Whether a closed form agrees with the chains.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Verdict {

@@ -13,15 +13,14 @@ use crate::number::Number;
 
 pub use report::*;
 
-/// What is asked for, and how much work it may be.
+/// Which formulas are made, and how much work they may be.
 #[derive(Clone, Debug, PartialEq)]
 pub struct FormulasSettings {
     /// One transform, of the first frame seen from the second; `None` for everything the mechanism has.
     pub transform: Option<(Frame, Frame)>,
     /// Names of parameters that stand as what defines them instead of as letters.
     pub numbers: Vec<String>,
-    /// Products of two terms made at most for each formula that is multiplied out. What would take more is left out,
-    /// and said so.
+    /// Products of two terms made at most for each formula; one that takes more is listed as left out.
     pub most_products: usize,
     /// Terms of the longest formula that is printed.
     pub most_terms: usize,
@@ -257,16 +256,14 @@ impl Writer<'_> {
             let lengths = expressions.iter().map(|e| e.to_string().chars().count());
             lengths.sum::<usize>()
         };
-        let mut vector = None;
-        if let Some((gap, mut length)) = distance
-            && equations
-                .as_ref()
-                .is_none_or(|equations| written(&gap) + written(&length) + 12 < written(equations))
-            && let ([x, y, z], Some(length)) = (gap.as_slice(), length.pop())
-        {
-            vector = Some(([x.clone(), y.clone(), z.clone()], length));
-        }
-        let equations = match vector {
+        let distance = distance.filter(|(gap, length)| {
+            let size = written(gap) + written(length) + 12;
+            (equations.as_ref()).is_none_or(|equations| size < written(equations))
+        });
+        let distance = distance.and_then(|(gap, mut length)| {
+            Some((<[Expression; 3]>::try_from(gap).ok()?, length.pop()?))
+        });
+        let equations = match distance {
             Some(_) => vec![],
             None => equations.unwrap_or_default(),
         };
@@ -276,7 +273,7 @@ impl Writer<'_> {
             between: own.frames.map(|frame| self.mechanism.frame_name(frame)),
             equations,
             identically_zero,
-            distance: vector,
+            distance,
             same_axes,
             admits_flipped: !same_axes && own.kind.aligns_axes(),
         });

@@ -117,25 +117,25 @@ fn factors(equations: &[Trigonometric]) -> Vec<Trigonometric> {
         };
         keys.insert(bare.min(opposite));
     }
-    let mut factors = Vec::new();
-    for key in keys {
-        let one = Trigonometric::one_of;
-        if key.wave.0.is_empty() {
-            factors.push(one(key));
-            continue;
-        }
-        let opposite = Key {
-            wave: key.wave.times(-1),
-            ..key.clone()
-        };
-        let turned = |key: Key| Key {
-            imaginary: true,
-            ..key
-        };
-        factors.push(one(key.clone()).plus(&one(opposite.clone())));
-        factors.push(one(turned(key)).minus(&one(turned(opposite))));
+    keys.into_iter().flat_map(circular).collect()
+}
+
+/// Twice the cosine and the sine of a wave times letters; the letters alone if the wave is zero.
+pub(super) fn circular(key: Key) -> Vec<Trigonometric> {
+    let one = Trigonometric::one_of;
+    if key.wave.0.is_empty() {
+        return vec![one(key)];
     }
-    factors
+    let opposite = Key {
+        wave: key.wave.times(-1),
+        ..key.clone()
+    };
+    let turned = |key: Key| Key {
+        imaginary: true,
+        ..key
+    };
+    let cosine = one(key.clone()).plus(&one(opposite.clone()));
+    vec![cosine, one(turned(key)).minus(&one(turned(opposite)))]
 }
 
 /// What the axes n, s, a of platforms obey, times squares of the lengths they are multiplied with. `first` is the symbol

@@ -13,7 +13,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use num_rational::Ratio;
 use num_traits::{One, Signed, Zero};
 
-use super::consequence::Span;
+use super::consequence::{Span, circular};
 use crate::algebra::{Atom, Budget, Key, Symbolic, Trigonometric, Wave};
 use crate::geometry::Axis;
 use crate::mechanism::{Formal, Frame, Mechanism};
@@ -87,8 +87,8 @@ fn degrees(formula: &Trigonometric) -> Option<BTreeMap<u32, Ratio<i64>>> {
     Some(degrees)
 }
 
-/// Whether all angles of the formulas are letters alone, from the first that stands for a joint on: where constant angles
-/// stand beside them the coefficients are no sums of roots, and elimination with rational numbers tells nothing.
+/// Whether all angles of the formulas are joint variables alone: with constant angles beside them the coefficients are no
+/// sums of roots, and elimination over the rationals decides nothing.
 pub(super) fn has_plain_angles(formulas: &[Trigonometric], first_joint: u32) -> bool {
     let plain = |formula| {
         let found = degrees(formula);
@@ -97,25 +97,13 @@ pub(super) fn has_plain_angles(formulas: &[Trigonometric], first_joint: u32) -> 
     formulas.iter().all(plain)
 }
 
-/// e^iw + e^−iw and (e^iw − e^−iw)/i·(−1) for w = Σ k times a letter; only the first if w is zero.
-fn circular(factors: &[(u32, Ratio<i64>)]) -> Vec<Trigonometric> {
+/// Twice the cosine and the sine of Σ k times a letter; 1 if that is zero.
+fn waves(factors: &[(u32, Ratio<i64>)]) -> Vec<Trigonometric> {
     let parts = factors.iter().filter(|(_, k)| !k.is_zero());
     let parts = parts.map(|(symbol, k)| (vec![(Atom::Symbol(*symbol), 1)], *k));
     let mut wave = Wave(parts.collect());
     wave.0.sort();
-    if wave.0.is_empty() {
-        return vec![Trigonometric::one()];
-    }
-    let term = |wave: Wave, imaginary: bool| {
-        Trigonometric::one_of(Key {
-            imaginary,
-            ..Key::turning(wave)
-        })
-    };
-    let opposite = wave.times(-1);
-    let cosine = term(wave.clone(), false).plus(&term(opposite.clone(), false));
-    let sine = term(wave, true).minus(&term(opposite, true));
-    vec![cosine, sine]
+    circular(Key::turning(wave))
 }
 
 /// The formula times every product of sines and cosines of half the angles of which it has odd halves: it vanishes where all
@@ -128,7 +116,7 @@ fn whole(formula: &Trigonometric, budget: &mut Budget) -> Option<Vec<Trigonometr
         }
         let mut longer = Vec::new();
         for product in &products {
-            for factor in circular(&[(symbol, Ratio::new(1, 2))]) {
+            for factor in waves(&[(symbol, Ratio::new(1, 2))]) {
                 longer.push(product.times(&factor, budget)?);
             }
         }
@@ -157,7 +145,7 @@ fn roots<'a>(formulas: impl Iterator<Item = &'a Trigonometric>) -> Vec<u64> {
     }
 }
 
-/// Whether the formula vanishes where the equations do, as far as elimination in few angles tells.
+/// Whether elimination in few angles shows that the formula vanishes where the equations do.
 pub(super) fn eliminated(formula: &Trigonometric, equations: &[Trigonometric]) -> bool {
     let mut budget = Budget {
         products: MOST_PRODUCTS,
@@ -237,7 +225,7 @@ fn rows(
             parts.next().is_none_or(|(_, k)| k.is_positive())
         };
         for factor in factors.iter().filter(leads) {
-            for factor in circular(factor) {
+            for factor in waves(factor) {
                 let row = equation.times(&factor, budget)?;
                 entries += row.len() * field;
                 rows.insert(row);

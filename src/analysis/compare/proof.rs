@@ -6,7 +6,8 @@
 use serde::{Deserialize, Serialize};
 
 use super::formula::Values;
-use super::variables::own_variables;
+use super::must_be_assembled;
+use super::variables::{formulas, own_variables};
 use crate::algebra::{Budget, Expression, Symbolic, Trigonometric, arrange, with_letters};
 use crate::mechanism::{ClosedForm, Formal, Formula, Given, Letters, MatrixEntry, Mechanism};
 use crate::number::Number;
@@ -58,7 +59,7 @@ pub enum Reason {
     NotPolynomial,
     /// It holds, if at all, only where the closures are whole, and is no sum of multiples of their equations.
     NeedsElimination,
-    /// It depends on where a platform is, which only the closures tell.
+    /// It depends on the pose of a platform, which follows from the closures only.
     NeedsPlatform,
     /// It is too long.
     TooLong,
@@ -111,16 +112,17 @@ pub(super) fn proofs(mechanism: &Mechanism, form: &ClosedForm) -> Vec<Proof> {
 
 /// How identities that numbers refute differ from what the closures give, in order; nothing where that is too long.
 pub(super) fn refutations(mechanism: &Mechanism, form: &ClosedForm) -> Vec<Option<Difference>> {
-    let Given::Identities(identities) = &form.gives else {
+    let formulas = formulas(form);
+    if matches!(form.gives, Given::Pose { .. }) {
         return vec![];
-    };
+    }
     let refutations = over_letters(mechanism, form, || {
         let setting = Setting::new(mechanism, form, false)?;
         let equations = setting.equations();
-        let refuted = |(_, formula): &(_, _)| setting.refuted(formula, &equations);
-        Some(identities.iter().map(refuted).collect())
+        let refuted = |formula: &&Formula| setting.refuted(formula, &equations);
+        Some(formulas.iter().map(refuted).collect())
     });
-    refutations.unwrap_or_else(|| vec![None; identities.len()])
+    refutations.unwrap_or_else(|| vec![None; formulas.len()])
 }
 
 /// Runs some work over the letters of a mechanism and a form.
@@ -137,19 +139,9 @@ fn over_letters<R>(mechanism: &Mechanism, form: &ClosedForm, work: impl FnOnce()
 
 /// What can be proved with parameters as letters, or with the numbers of the file.
 fn attempt(mechanism: &Mechanism, form: &ClosedForm, numbers: bool) -> Vec<Proof> {
-    let (count, moves) = match &form.gives {
-        Given::Identities(identities) => (identities.len(), false),
-        Given::Pose {
-            of,
-            relative_to,
-            entries,
-        } => {
-            let moves = mechanism.carrier(*of) != mechanism.carrier(*relative_to);
-            (entries.len(), moves)
-        }
-    };
-    if moves {
-        return vec![Proof::undecided(Reason::NeedsPlatform); count];
+    let undecided = |reason| vec![Proof::undecided(reason); formulas(form).len()];
+    if matches!(form.gives, Given::Pose { .. }) && must_be_assembled(mechanism, form) {
+        return undecided(Reason::NeedsPlatform);
     }
     let proofs = over_letters(mechanism, form, || {
         let setting = Setting::new(mechanism, form, numbers)?;
@@ -176,7 +168,7 @@ fn attempt(mechanism: &Mechanism, form: &ClosedForm, numbers: bool) -> Vec<Proof
             }
         })
     });
-    proofs.unwrap_or_else(|| vec![Proof::undecided(Reason::TooLong); count])
+    proofs.unwrap_or_else(|| undecided(Reason::TooLong))
 }
 
 /// The chains and the names of a closed form in letters.
@@ -213,13 +205,9 @@ impl<'a> Setting<'a> {
 
     fn name(&self, symbol: u32) -> String {
         let first = self.letters.local(0);
-        match symbol
-            .checked_sub(first)
-            .and_then(|local| self.form.locals.get(local as usize))
-        {
-            Some((name, _)) => name.clone(),
-            None => self.letters.name(symbol),
-        }
+        let local = symbol.checked_sub(first).map(|local| local as usize);
+        let local = local.and_then(|local| self.form.locals.get(local));
+        local.map_or_else(|| self.letters.name(symbol), |(name, _)| name.clone())
     }
 
     fn compared(&self, formula: &Formula, chains: Symbolic) -> Proof {

@@ -4,6 +4,14 @@ use crate::algebra::Symbolic;
 use crate::mechanism::{ClosedForm, Formula, Given, Letters, Symbol};
 use crate::number::Number;
 
+/// The entries of the pose, or the identities, that a form gives.
+pub(super) fn formulas(form: &ClosedForm) -> Vec<&Formula> {
+    match &form.gives {
+        Given::Pose { entries, .. } => entries.iter().map(|(_, formula)| formula).collect(),
+        Given::Identities(identities) => identities.iter().map(|(_, formula)| formula).collect(),
+    }
+}
+
 /// Joint variables in terms of the form's own ones: where it defines θ₂ as 90° − φ₂ and uses φ₂ nowhere else, the joint is
 /// 90° − θ₂, and a difference is printed in θ₂. Also which locals are letters for that reason.
 pub(super) fn own_variables(
@@ -13,22 +21,16 @@ pub(super) fn own_variables(
 ) -> (Vec<Symbolic>, Vec<Option<Symbolic>>) {
     let mut joints = letters.joints();
     let mut replaced = vec![None; form.locals.len()];
-    let formulas: Vec<&Formula> = match &form.gives {
-        Given::Pose { entries, .. } => entries.iter().map(|(_, formula)| formula).collect(),
-        Given::Identities(identities) => identities.iter().map(|(_, formula)| formula).collect(),
-    };
     let locals = form.locals.iter().map(|(_, formula)| formula);
-    let all: Vec<&Formula> = locals.chain(formulas).collect();
+    let all: Vec<&Formula> = locals.chain(formulas(form)).collect();
     for (local, (_, definition)) in form.locals.iter().enumerate() {
         let used: Vec<Symbol> = definition.names().map(|(symbol, _)| *symbol).collect();
         let [Symbol::Joint(joint)] = used.as_slice() else {
             continue;
         };
         let uses = all.iter().flat_map(|formula| formula.names());
-        let alone = uses
-            .filter(|(symbol, _)| **symbol == Symbol::Joint(*joint))
-            .count()
-            == 1;
+        let uses = uses.filter(|(symbol, _)| **symbol == Symbol::Joint(*joint));
+        let alone = uses.count() == 1;
         let of = |value: Symbolic| {
             let value = definition.evaluate(&|symbol| match *symbol {
                 Symbol::Parameter(i) => parameters[i],

@@ -17,7 +17,7 @@ pub struct FormulasReport {
     pub letters: Vec<Letter>,
     /// From link to link, chain by chain.
     pub links: Vec<TransformFormula>,
-    /// The tip of every chain in ground, or the transform asked for.
+    /// The tip of every chain in ground, or the one transform chosen.
     pub transforms: Vec<TransformFormula>,
     /// The closure equations.
     pub closures: Vec<ClosureFormula>,
@@ -70,7 +70,7 @@ pub struct TransformFormula {
     pub position: [Expression; 3],
 }
 
-/// What a closure asks for.
+/// The equations of a closure.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct ClosureFormula {
     /// Its name.
