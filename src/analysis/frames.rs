@@ -258,7 +258,7 @@ fn far_normals(
             let offset = pair[0].d.abs().max(pair[1].d.abs()).max(away);
             let parallel = normal.relation.is_none_or(Relation::is_parallel);
             let angle = normal.angle.min(std::f64::consts::PI - normal.angle);
-            // an offset that large at axes not nearly parallel was asked for
+            // an offset that large at axes not nearly parallel is intended
             if parallel || angle * FAR > 1.0 || offset <= FAR * size {
                 continue;
             }

@@ -1,9 +1,8 @@
 //! What an assembled mechanism can do: how many freedoms, which joints move, what is redundant.
 //!
-//! Three numbers are told apart. *Kutzbach's count* is unknowns less equations. The *infinitesimal*
-//! mobility is unknowns less the rank of the closure Jacobian. The *finite* mobility is the largest
-//! dimension of the assembled configurations through the one given; it is found by moving a finite
-//! step, never from a rank alone.
+//! *Kutzbach's count* is unknowns less equations, the *infinitesimal* mobility unknowns less the rank of the closure
+//! Jacobian. The *finite* mobility is the largest dimension of the assembled configurations through the one given; it is
+//! found by moving a finite step, never from a rank alone.
 
 mod branches;
 mod cone;
@@ -62,11 +61,9 @@ impl Default for MobilitySettings {
 
 /// Counts the freedoms of a mechanism, closed near the start of a question.
 ///
-/// What the question holds only decides which configuration is looked at. Then all is free but what the
-/// settings lock: that stands still where it is, a joint as one variable less and a coordinate of a
-/// platform as one equation more, so that all counts are those of the mechanism with it locked. The
-/// finite mobility follows from a reduction of Lyapunov and Schmidt; where that finds the
-/// configuration singular, from the branches that small steps in many directions settle on.
+/// What the question holds only decides which configuration is looked at; then all is free but what the settings lock: a
+/// joint is one variable less, a coordinate of a platform one equation more. The finite mobility follows from a reduction
+/// of Lyapunov and Schmidt, and at a singular configuration from the branches that small steps in many directions reach.
 pub fn mobility(
     question: &Question,
     settings: &MobilitySettings,

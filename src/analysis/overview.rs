@@ -13,8 +13,8 @@ pub use report::*;
 use crate::algebra::{Affine, Node, SiUnit};
 use crate::geometry::{Pose, Quaternion, RollPitchYaw};
 use crate::mechanism::{
-    Chain, FixedStep, Formula, Frame, Given, Joint, JointKind, Mechanism, NamedClosure, Platform,
-    Row, Symbol,
+    Chain, FixedStep, Formula, Frame, Given, JointKind, Mechanism, NamedClosure, Platform, Row,
+    Symbol,
 };
 
 /// Says what a mechanism consists of.
@@ -85,28 +85,23 @@ fn joints(mechanism: &Mechanism) -> Vec<JointOverview> {
     let used: HashSet<Symbol> = entries
         .flat_map(|entry| entry.terms.iter().map(|(symbol, _)| *symbol))
         .collect();
-    let joints = mechanism.joints().iter().enumerate();
-    joints
-        .map(|(i, part)| joint(part, used.contains(&Symbol::Joint(i))))
-        .collect()
-}
-
-fn joint(joint: &Joint, used: bool) -> JointOverview {
-    let unit = SiUnit::of_coordinate(joint.kind.is_angle());
-    let kind = match joint.kind {
-        _ if !used => JointUse::Unused,
-        JointKind::Revolute => JointUse::Revolute,
-        JointKind::Prismatic => JointUse::Prismatic,
-        JointKind::Helical => JointUse::Helical,
-    };
-    JointOverview {
-        name: joint.name.clone(),
-        kind,
-        role: joint.role,
-        unit: used.then_some(unit),
-        home: joint.home,
-        limits: joint.limits,
-    }
+    let joints = mechanism.joints().iter().enumerate().map(|(i, joint)| {
+        let used = used.contains(&Symbol::Joint(i));
+        JointOverview {
+            name: joint.name.clone(),
+            kind: match joint.kind {
+                _ if !used => JointUse::Unused,
+                JointKind::Revolute => JointUse::Revolute,
+                JointKind::Prismatic => JointUse::Prismatic,
+                JointKind::Helical => JointUse::Helical,
+            },
+            role: joint.role,
+            unit: used.then_some(SiUnit::of_coordinate(joint.kind.is_angle())),
+            home: joint.home,
+            limits: joint.limits,
+        }
+    });
+    joints.collect()
 }
 
 fn chain(mechanism: &Mechanism, chain: &Chain) -> ChainOverview {

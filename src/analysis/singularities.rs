@@ -1,8 +1,8 @@
 //! Singularities: at a configuration, along a segment of inputs, and as loci in two inputs.
 //!
-//! With J the closure Jacobian with nothing held, and H and O the rates of inputs and outputs, three
-//! matrices tell everything: J itself, the *direct* [J; H] and the *inverse* [J; O]. What they map to
-//! zero beyond what they do at a configuration nearby that is not special is what is gained or lost.
+//! With J the closure Jacobian with nothing held, and H and O the rates of inputs and outputs, three matrices decide: J,
+//! the *direct* [J; H] and the *inverse* [J; O]. Freedoms gained or lost are what their null spaces have beyond those at a
+//! regular configuration nearby.
 
 mod along;
 mod classify;
@@ -17,17 +17,18 @@ mod starts;
 pub use crate::system::{LocusEnd, default_outputs, inputs_of};
 pub use along::{AlongEnd, AlongReport, Crossing, along};
 pub use classify::{Distances, Kind, Movement, Resisted, Singularity, Zlatanov};
-pub use locus::{Bound, Cusp, Locus, LocusReport, loci};
+pub use locus::{Cusp, Locus, LocusReport, loci};
 pub use outputs::Coupled;
 pub use projected::Shape;
 
 use serde::{Deserialize, Serialize};
 
+use crate::algebra::SiUnit;
 use crate::mechanism::{Mechanism, Variable};
 use crate::solve::{Continuation, Watch};
 use crate::system::{
-    Analysed, Closing, Coordinate, Lock, Moved, Question, QuestionError, WidestGap, check_angle,
-    check_angles,
+    Analysed, Closing, Coordinate, Driven, Lock, Moved, Question, QuestionError, WidestGap,
+    check_angle, check_angles,
 };
 use classify::Classifier;
 pub(crate) use classify::SingularityMeter;
@@ -92,6 +93,30 @@ pub struct SingularitiesReport {
     pub outside_limits: Vec<String>,
 }
 
+/// A coordinate and the values between which it moves, or which bound a side of a box.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Bound {
+    /// The coordinate.
+    pub name: String,
+    /// rad or m.
+    pub unit: SiUnit,
+    /// Its first value, the least of a box.
+    pub from: f64,
+    /// Its last value, the greatest of a box.
+    pub to: f64,
+}
+
+impl Bound {
+    fn new(mechanism: &Mechanism, driven: &Driven) -> Self {
+        Bound {
+            name: driven.coordinate.name(mechanism),
+            unit: SiUnit::of_coordinate(driven.coordinate.is_angle(mechanism)),
+            from: driven.from,
+            to: driven.to,
+        }
+    }
+}
+
 fn names(mechanism: &Mechanism, inputs: &[Coordinate]) -> Vec<String> {
     inputs.iter().map(|input| input.name(mechanism)).collect()
 }
@@ -100,7 +125,7 @@ fn output_names(mechanism: &Mechanism, outputs: &[Lock]) -> Vec<String> {
     (outputs.iter().map(|output| output.name(mechanism))).collect()
 }
 
-/// Tells whether and how the assembled configuration near the start of a question is singular.
+/// Finds whether and how the assembled configuration near the start of a question is singular.
 ///
 /// Sources: Gosselin and Angeles 1990; Zlatanov, Fenton and Benhabib 1994; Zlatanov, Bonev and
 /// Gosselin 2002 (constraint singularities); Ghosal and Ravani 2001 (loss and gain of freedoms).

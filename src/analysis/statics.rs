@@ -41,9 +41,8 @@ pub struct StaticsReport {
     pub closures: Vec<Reaction>,
     /// What each joint of a chain passes on, its drive included.
     pub joints: Vec<Reaction>,
-    /// How many independent states of stress need no load: 0 if all forces are determined. What is
-    /// not `unique` is then the choice of least norm of what all closures and joints pass on,
-    /// moments and forces times the normalising length taken together: wherever loops are broken.
+    /// How many independent states of stress need no load: 0 if all forces are determined. What is not `unique` is then
+    /// the choice of least norm of all reactions, forces times the normalising length taken with moments.
     pub self_stresses: usize,
     /// Ratio of the largest to the smallest singular value that counts, of the equilibrium equations.
     pub condition: f64,

@@ -42,7 +42,7 @@ pub struct VelocityReport {
     pub inputs: Vec<Rate>,
     /// Every joint; rates are `None` where nothing determines them.
     pub joints: Vec<JointRate>,
-    /// Platforms, then the points asked for; empty if nothing determines their motion.
+    /// Platforms, then the points followed; empty if nothing determines their motion.
     pub frames: Vec<FrameRate>,
     /// The input–output Jacobian; `None` where the inputs do not determine the outputs.
     pub jacobian: Option<InputOutput>,
@@ -77,7 +77,7 @@ impl VelocityReport {
     pub fn is_determined(&self) -> bool {
         self.gain.is_none()
             && self.first_order_only.is_none()
-            && self.accuracy.tells_accelerations()
+            && self.accuracy.determines_accelerations()
     }
 }
 
@@ -173,13 +173,13 @@ impl Accuracy {
     const LOST: f64 = 0.01;
 
     /// Whether rates are certain enough to report.
-    pub fn tells_rates(&self) -> bool {
+    pub fn determines_rates(&self) -> bool {
         self.rates <= Accuracy::LOST
     }
 
     /// Whether accelerations are certain enough to report.
-    pub fn tells_accelerations(&self) -> bool {
-        self.tells_rates() && self.accelerations <= Accuracy::LOST
+    pub fn determines_accelerations(&self) -> bool {
+        self.determines_rates() && self.accelerations <= Accuracy::LOST
     }
 }
 
@@ -212,7 +212,7 @@ pub fn velocity(
     let rest = held.tangent(at.clone());
     let gain = gain(mechanism, &mut held, &rest);
     let accuracy = accuracy::of(&mut motion, &mut held, &rest, drive);
-    let determined = gain.is_none() && accuracy.tells_rates();
+    let determined = gain.is_none() && accuracy.determines_rates();
 
     motion.at(at);
     let spins = Spins::of(&held, &rest);
@@ -233,7 +233,7 @@ pub fn velocity(
     let rates = motion.rates(&drive.rates).to_vec();
     let mismatch = determined.then(|| motion.mismatch(at));
     let changes = motion.accelerations(at, &drive.rates, &drive.accelerations);
-    let exist = first_order_only.is_none() && accuracy.tells_accelerations();
+    let exist = first_order_only.is_none() && accuracy.determines_accelerations();
     let scales = &mechanism.dimensions().joint_scales;
     let joints = mechanism.joints().iter().enumerate();
     let joints = joints.map(|(i, joint)| {

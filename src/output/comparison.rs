@@ -115,16 +115,16 @@ fn units(report: &CompareReport) -> String {
         let mut tried = components.filter(|component| component.samples > 0);
         tried.any(|component| component.quantity == quantity)
     };
-    let mut said = Vec::new();
+    let mut units = Vec::new();
     if tried(Quantity::Rotation) {
-        said.push("in R, of entries of rotation matrices, have no unit");
+        units.push("in R, of entries of rotation matrices, have no unit");
     }
     if tried(Quantity::Identity) {
-        said.push("of identities have the unit of their formula");
+        units.push("of identities have the unit of their formula");
     }
-    match said.is_empty() {
+    match units.is_empty() {
         true => String::new(),
-        false => format!("Differences {}.", said.join("; those ")),
+        false => format!("Differences {}.", units.join("; those ")),
     }
 }
 
@@ -223,7 +223,7 @@ fn why(reason: Reason) -> &'static str {
     }
 }
 
-/// What is to be said of a component that does not simply agree; nothing of others.
+/// The remarks on a component that does not simply agree; none on others.
 fn remark(report: &CompareReport, form: &FormReport, component: &ComponentReport) -> Vec<String> {
     let ComponentReport {
         name,
@@ -270,7 +270,7 @@ fn sentence(report: &CompareReport) -> String {
     let (disagree, untried) = (having(Verdict::Disagrees), having(Verdict::NotTried));
     let all = count(forms.len(), "closed form");
     let verb = form(disagree, "disagrees", "disagree");
-    let said = match (disagree, untried, forms.len()) {
+    let outcome = match (disagree, untried, forms.len()) {
         (0, 0, 1) => "The closed form agrees with the chains".into(),
         (0, 0, 2) => "Both closed forms agree with the chains".into(),
         (0, 0, _) => format!("All {all} agree with the chains"),
@@ -278,5 +278,5 @@ fn sentence(report: &CompareReport) -> String {
         (_, 0, _) => format!("{disagree} of {all} {verb} with the chains"),
         _ => format!("{disagree} of {all} {verb} with the chains, {untried} could not be tried"),
     };
-    format!("{said} (seed {}).", report.seed)
+    format!("{outcome} (seed {}).", report.seed)
 }

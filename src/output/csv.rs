@@ -5,7 +5,7 @@ use std::io::{self, Write};
 use super::document::Cell;
 use super::report::Rows;
 
-/// Writes rows as they come, quoted as RFC 4180 asks, with `\n` after each.
+/// Writes rows as they come, quoted as in RFC 4180, with `\n` after each.
 #[derive(Debug)]
 pub struct Csv<W: Write> {
     writer: csv::Writer<W>,
@@ -50,7 +50,7 @@ impl<W: Write> Csv<W> {
     }
 
     fn value(&mut self, value: f64) -> io::Result<()> {
-        // a zero has no sign: what is left of one tells of the way a number was computed
+        // zeros without sign: the sign depends on how a number was computed
         let value = value + 0.0;
         match value.abs() {
             size if !size.is_finite() => self.number(format_args!("")),

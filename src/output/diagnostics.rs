@@ -76,7 +76,7 @@ pub fn import(wrong: &WrongFile, style: Style) -> String {
     let one = |(file, problem): &(usize, ImportProblem)| {
         let (name, text) = &wrong.files[*file];
         let page = Page::new(name.clone(), text);
-        let said = Complaint {
+        let complaint = Complaint {
             help: problem.kind.help(),
             ..Complaint::new(problem.to_string())
         };
@@ -90,7 +90,7 @@ pub fn import(wrong: &WrongFile, style: Style) -> String {
                 related: Vec::new(),
             }
         });
-        renderer.render(&page.report(Level::ERROR, &said, places.as_ref()))
+        renderer.render(&page.report(Level::ERROR, &complaint, places.as_ref()))
     };
     let mut parts: Vec<String> = wrong.problems.iter().take(MAX_SHOWN).map(one).collect();
     let all = wrong.problems.len();
@@ -128,19 +128,19 @@ impl<'a> Page<'a> {
     fn report<'p>(
         &'p self,
         level: Level<'static>,
-        said: &'p Complaint,
+        complaint: &'p Complaint,
         places: Option<&Places>,
     ) -> Vec<Group<'p>> {
-        let title = level.primary_title(said.title.as_str());
+        let title = level.primary_title(complaint.title.as_str());
         let group = match places {
-            Some(places) if !self.text.trim().is_empty() => match self.excerpt(said, places) {
+            Some(places) if !self.text.trim().is_empty() => match self.excerpt(complaint, places) {
                 Some(excerpt) => title.element(excerpt),
                 None => {
                     let at = |what: &str, span: &Range<usize>| {
                         let (line, column) = self.lines.position(span.start);
                         Level::NOTE.message(format!("{what}at {}:{line}:{column}", self.path))
                     };
-                    let group = title.element(self.cut(said, &places.span));
+                    let group = title.element(self.cut(complaint, &places.span));
                     let group = group.element(at("", &places.span));
                     let related = places.related.iter();
                     related.fold(group, |group, (span, note)| {
@@ -150,11 +150,11 @@ impl<'a> Page<'a> {
             },
             _ => title.element(Level::NOTE.message(format!("in {}", self.path))),
         };
-        vec![helped(group, said)]
+        vec![helped(group, complaint)]
     }
 
     /// The lines from the first to the last place of a problem; the unconcerned ones among them are folded.
-    fn excerpt<'p>(&'p self, said: &'p Complaint, places: &Places) -> Option<Drawn<'p>> {
+    fn excerpt<'p>(&'p self, complaint: &'p Complaint, places: &Places) -> Option<Drawn<'p>> {
         let line = |at: usize| self.lines.position(at).0;
         let first = places.all().map(|span| line(span.start)).min()?;
         let last = places.all().map(|span| line(span.end)).max()?;
@@ -177,14 +177,14 @@ impl<'a> Page<'a> {
             .path(self.path.as_str());
         Some(
             snippet
-                .annotation(main.label(label(said)))
+                .annotation(main.label(label(complaint)))
                 .annotations(related),
         )
     }
 
     /// What stands around the beginning of the offending text, if its line is too long to be shown. The columns are not
-    /// those of the file, so that the place has to be said beside it.
-    fn cut<'p>(&'p self, said: &'p Complaint, span: &Range<usize>) -> Drawn<'p> {
+    /// those of the file, so that the place stands beside it.
+    fn cut<'p>(&'p self, complaint: &'p Complaint, span: &Range<usize>) -> Drawn<'p> {
         let line = self.lines.position(span.start).0;
         let window = self.lines.start(line)..self.lines.start(line + 1);
         let start = span.start.clamp(window.start, window.end);
@@ -205,7 +205,9 @@ impl<'a> Page<'a> {
         if tail.chars().nth(FROM).is_some() {
             source.push('…');
         }
-        let annotation = AnnotationKind::Primary.span(from..to).label(label(said));
+        let annotation = AnnotationKind::Primary
+            .span(from..to)
+            .label(label(complaint));
         Snippet::source(source)
             .line_start(line)
             .annotation(annotation)
@@ -257,12 +259,12 @@ impl Complaint {
 
 type Drawn<'p> = Snippet<'p, annotate_snippets::Annotation<'p>>;
 
-fn label(said: &Complaint) -> Option<&str> {
-    Some(said.label.as_str()).filter(|label| !label.is_empty())
+fn label(complaint: &Complaint) -> Option<&str> {
+    Some(complaint.label.as_str()).filter(|label| !label.is_empty())
 }
 
-fn helped<'p>(group: Group<'p>, said: &'p Complaint) -> Group<'p> {
-    match &said.help {
+fn helped<'p>(group: Group<'p>, complaint: &'p Complaint) -> Group<'p> {
+    match &complaint.help {
         Some(help) => group.element(Level::HELP.message(help.as_str())),
         None => group,
     }

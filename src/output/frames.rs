@@ -100,7 +100,7 @@ fn cut_section(cuts: &CutReport) -> Section {
         None => {}
         Some((best, _)) if best.cut.is_empty() => {}
         Some((best, _)) if cuts.given => {
-            lines.push(format!("as the file asks: {}", simple(best)));
+            lines.push(format!("as the file specifies: {}", simple(best)));
         }
         Some((best, others)) => {
             const SHOWN: usize = 5;
@@ -254,7 +254,7 @@ fn accuracy(report: &FramesReport) -> String {
     )
 }
 
-/// What is said where the axes are those of a configuration that is not assembled.
+/// The warning where the axes are those of a configuration that is not assembled.
 pub const NOT_ASSEMBLED: &str = "the mechanism could not be assembled near home; these are the axes at home, and \
      tables made from them will not close";
 

@@ -33,14 +33,6 @@ pub struct Envelope {
     pub remarks: Remarks,
 }
 
-impl<R: Report> Answer<R> {
-    /// The report with what is said about it.
-    pub fn new(report: R) -> Self {
-        let envelope = Envelope::of(&report);
-        Answer { envelope, report }
-    }
-}
-
 impl Envelope {
     fn of(report: &impl Report) -> Self {
         let document = report.shown();
@@ -83,7 +75,7 @@ fn written(answer: &impl Serialize) -> String {
     format!("{value:#}\n")
 }
 
-/// A zero has no sign: what is left of one tells of the way a number was computed.
+/// Zeros without sign: the sign depends on how a number was computed.
 fn unsign_zeros(value: &mut Value) {
     match value {
         Value::Number(number) if number.is_f64() && number.as_f64() == Some(0.0) => {

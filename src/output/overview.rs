@@ -2,7 +2,7 @@
 
 use super::coordinates as given_coordinates;
 use super::document::{Document, Section, Table, TableOf};
-use super::quantity::{at, degrees, number, quantity, signed};
+use super::quantity::{at, degrees, form, number, quantity, signed};
 use super::report::Report;
 use crate::algebra::SiUnit;
 use crate::analysis::overview::{
@@ -33,16 +33,16 @@ fn coordinates(given: &CoordinatesOverview) -> Section {
         (true, _) => String::new(),
         (false, false) => format!("cut at {}, as the file says", quoted(&given.cut)),
         (false, true) => format!(
-            "cut at {}, the farthest from the ground that need not be kept; `cut` in the file chooses others",
+            "cut at {}, as far from the ground as possible; `cut` in the file chooses others",
             quoted(&given.cut)
         ),
     };
     let rods = match given.rods.is_empty() {
         true => String::new(),
         false => format!(
-            "{} {} two balls and nothing else: a rod, whose spin is left out",
+            "{} {} only: a rod, whose spin is left out",
             quoted(&given.rods),
-            ["has", "have"][usize::from(given.rods.len() > 1)]
+            form(given.rods.len(), "has two balls", "have two balls each")
         ),
     };
     given_coordinates::section(&given.axes).text(cut).text(rods)
@@ -91,9 +91,9 @@ pub(super) fn chain(chain: &ChainOverview) -> Section {
     let mut values: Vec<String> = Vec::new();
     for (entry, unit) in chain.rows.iter().flat_map(entries) {
         if let (Some(value), true) = (entry.value, entry.uses_parameters) {
-            let said = at(&entry.written, value, unit);
-            if !values.contains(&said) {
-                values.push(said);
+            let value = at(&entry.written, value, unit);
+            if !values.contains(&value) {
+                values.push(value);
             }
         }
     }
@@ -198,9 +198,9 @@ fn mobility(of: &MobilityCount) -> Section {
     let mut terms = vec![(format!("6·({} − 1)", of.bodies), bodies)];
     for (freedoms, constraints) in [(1, 5), (2, 4)] {
         let rows = of.row_freedoms.iter().filter(|f| **f == freedoms).count();
-        let said = format!("{} with {}", count(rows, "row"), count(freedoms, "freedom"));
+        let meaning = format!("{} with {}", count(rows, "row"), count(freedoms, "freedom"));
         if rows > 0 {
-            terms.push((format!(" − {constraints}·{rows}"), said));
+            terms.push((format!(" − {constraints}·{rows}"), meaning));
         }
     }
     let size = of.correction.unsigned_abs() as usize;
@@ -211,13 +211,13 @@ fn mobility(of: &MobilityCount) -> Section {
             count(size, "variable") + " in distances",
         )),
         _ => {
-            let said = count(size, "row") + " driven together with another";
-            terms.push((format!(" − {size}"), said));
+            let meaning = count(size, "row") + " driven together with another";
+            terms.push((format!(" − {size}"), meaning));
         }
     }
     let closure_equations = count(equations, "closure equation");
     terms.push((format!(" − {equations}"), closure_equations.clone()));
-    let (terms, said): (Vec<String>, Vec<String>) = terms.into_iter().unzip();
+    let (terms, meanings): (Vec<String>, Vec<String>) = terms.into_iter().unzip();
     let planar = of.planar.as_ref().map(|planar| {
         format!(
             "planar: {variables} + 3·{platforms} − {} = {}, as all joints move parallel to one \
@@ -228,7 +228,7 @@ fn mobility(of: &MobilityCount) -> Section {
     });
     let lines = [
         format!("{} = {}", terms.concat(), signed(of.mobility)),
-        said.join(", "),
+        meanings.join(", "),
         format!(
             "the same as {variables} + 6·{platforms} − {equations}: {}, {}, {closure_equations}",
             count(variables, "joint variable"),

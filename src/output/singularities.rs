@@ -103,7 +103,7 @@ fn distances(distances: &Distances, length: f64) -> Section {
         ("constraint, nothing held", distances.constraint),
     ];
     let value = |(_, value): Row| match value {
-        None => "none can vanish".into(),
+        None => "cannot vanish".into(),
         Some(value) if value < 1e-12 => "0".into(),
         Some(value) => format!("{value:.4e}"),
     };

@@ -42,7 +42,7 @@ fn sentence(report: &VelocityReport) -> String {
         return gained(gain, report.inputs.is_empty());
     }
     let doubt = doubt(report);
-    if !report.accuracy.tells_rates() {
+    if !report.accuracy.determines_rates() {
         return doubt;
     }
     let inputs = report.inputs.iter();
@@ -136,7 +136,10 @@ fn doubt(report: &VelocityReport) -> String {
         size(accuracy.configuration)
     );
     let parts = |share: f64| format!("{share:.0e}");
-    match (accuracy.tells_rates(), accuracy.tells_accelerations()) {
+    match (
+        accuracy.determines_rates(),
+        accuracy.determines_accelerations(),
+    ) {
         (false, _) => format!("Too near {near}; the rates are not determined."),
         (true, false) => format!(
             " Too near {near}: rates are known to {} of the largest, accelerations are not \

@@ -37,7 +37,7 @@ pub(super) struct Finite {
 }
 
 /// A branch through a singular configuration.
-#[derive(Clone)]
+#[derive(Clone, Default)]
 pub(super) struct Branch {
     pub freedoms: usize,
     /// Basis of its motions at the configuration.
@@ -184,9 +184,8 @@ fn part(
         let branch = Branch {
             freedoms: tangent.motions.len(),
             motions: tangent.motions.clone(),
-            cone: false,
-            approximate: false,
             moved,
+            ..Branch::default()
         };
         return Part {
             branches: vec![branch],
@@ -298,13 +297,11 @@ fn is_curved<R: Rng>(walk: &mut Walk<R>, cone: &Cone, motions: &[Vec<f64>]) -> b
     !walk.fills(&along, STEP)
 }
 
-/// The branches that were seen, and which share of all that there can be they are: 1 if there are
-/// certainly no others, 0 if that is not known.
+/// The branches that were seen, and their share of all that can be: 1 if there are certainly no others, 0 if not known.
 ///
-/// The reduction of Lyapunov and Schmidt leaves k equations with independent quadratic parts and
-/// perhaps more. If each branch has n − k freedoms, the tangent cone is that of a complete
-/// intersection of k quadrics, whose components have degrees that add up to no more than 2ᵏ
-/// (Bézout): a linear space has degree 1, and a single quadric that is curved has 2.
+/// The reduction of Lyapunov and Schmidt leaves k equations with independent quadratic parts. If each branch has n − k
+/// freedoms, the tangent cone is a complete intersection of k quadrics, whose components have degrees that add up to 2ᵏ at
+/// most (Bézout): 1 for a linear space, 2 for a single curved quadric.
 fn branches(cone: &Cone, n: usize, seen: &[Seen], limits: &[Limit]) -> (Vec<Branch>, f64) {
     let mut branches: Vec<(bool, Branch)> = Vec::new();
     for (seen, Limit { motions, curved }) in seen.iter().zip(limits) {
@@ -350,22 +347,15 @@ fn branches(cone: &Cone, n: usize, seen: &[Seen], limits: &[Limit]) -> (Vec<Bran
     let single = forms == 1 || branches.iter().all(|branch| !branch.cone);
     let most = 1usize.checked_shl(forms as u32).unwrap_or(usize::MAX);
     let known = (1..16).contains(&forms) && even && single;
-    let share = if known {
-        degrees as f64 / most as f64
-    } else {
-        0.0
-    };
-    (branches, share)
+    let share = degrees as f64 / most as f64;
+    (branches, if known { share } else { 0.0 })
 }
 
 /// The branches of the whole: each part is on one of its own. The first of them.
 fn products(parts: &[Part], tangent: &Tangent) -> Vec<Branch> {
     let mut products: Vec<Branch> = vec![Branch {
-        freedoms: 0,
-        motions: vec![],
-        cone: false,
-        approximate: false,
         moved: vec![false; tangent.columns()],
+        ..Branch::default()
     }];
     for part in parts.iter().filter(|part| !part.branches.is_empty()) {
         let all = products.iter().flat_map(|known| {

@@ -7,8 +7,7 @@ use serde::{Deserialize, Serialize};
 use super::classify::{Classifier, DIRECT, INVERSE, Singularity};
 use super::drops::Drops;
 use super::outputs::{Coupled, coupled, outputs_of};
-use super::{SingularitiesSettings, names, output_names};
-use crate::algebra::SiUnit;
+use super::{Bound, SingularitiesSettings, names, output_names};
 use crate::linear::norm;
 use crate::mechanism::{Configuration, Mechanism, Variable};
 use crate::solve::{Continuation, Place, SolutionCurve, Stage, Watch};
@@ -29,8 +28,8 @@ pub struct AlongReport {
     pub outputs: Vec<String>,
     /// Outputs that may hide what their positions lose.
     pub coupled: Vec<Coupled>,
-    /// What is moved: name, unit (rad or m), from, to.
-    pub moved: Vec<Moved>,
+    /// What is moved, from its value at the start to that at the end.
+    pub moved: Vec<Bound>,
     /// How the motion ended.
     pub ending: AlongEnd,
     /// The joint whose limit was reached, if one was.
@@ -46,19 +45,6 @@ pub struct AlongReport {
     /// Whether the work was stopped before the motion ended.
     #[serde(default, skip_serializing_if = "std::ops::Not::not")]
     pub interrupted: bool,
-}
-
-/// What is moved.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub struct Moved {
-    /// Its name.
-    pub name: String,
-    /// rad or m.
-    pub unit: SiUnit,
-    /// Its value at the start.
-    pub from: f64,
-    /// Its value at the end.
-    pub to: f64,
 }
 
 /// A singularity that was met.
@@ -124,12 +110,7 @@ pub fn along(
         outputs: output_names(mechanism, &outputs),
         coupled: coupled(mechanism, inputs, &outputs, start, settings, false),
         moved: (moved.iter())
-            .map(|input| Moved {
-                name: input.coordinate.name(mechanism),
-                unit: SiUnit::of_coordinate(input.coordinate.is_angle(mechanism)),
-                from: input.from,
-                to: input.to,
-            })
+            .map(|input| Bound::new(mechanism, input))
             .collect(),
         ending: AlongEnd::Lost,
         limit: None,
@@ -170,15 +151,15 @@ pub fn along(
         return report;
     }
     let mut walk = Walk::new(mechanism, &curve, place, method.clone());
-    let ending = walk.follow(&mut curve, |curve, leg| {
+    let ending = walk.follow(&mut curve, |curve, step| {
         let done = report.part.clamp(0.0, 1.0) * f64::from(PARTS);
         if watch.stops(Stage::Motion, done as usize, Some(PARTS as usize)) {
             report.interrupted = true;
             return ControlFlow::Break(AlongEnd::Stopped);
         }
         report.sure_steps += 1;
-        report.part = curve.part(&leg.to.at);
-        for met in search.met(curve, leg, method) {
+        report.part = curve.part(&step.to.at);
+        for met in search.met(curve, step, method) {
             report.part = curve.part(&met.place.at);
             let known = report.crossings.last().is_some_and(|last| {
                 let apart = (last.joints.iter().zip(&met.place.at.joints))
@@ -218,7 +199,7 @@ pub fn along(
 /// Parts of the segment in reports of progress.
 const PARTS: u16 = 1000;
 
-/// Something on a leg.
+/// Something in a step.
 struct Met {
     place: At,
     along: f64,
@@ -252,10 +233,10 @@ struct Tests<'m> {
 }
 
 impl Tests<'_> {
-    /// What is met on a leg, in order; things at the same place are one.
-    fn met(&mut self, curve: &mut Curve, leg: &Segment, method: &Continuation) -> Vec<Met> {
+    /// What is met in a step, in order; things at the same place are one.
+    fn met(&mut self, curve: &mut Curve, step: &Segment, method: &Continuation) -> Vec<Met> {
         let mut found: Vec<Met> = Vec::new();
-        for (place, event) in &leg.events {
+        for (place, event) in &step.events {
             let ends = match event {
                 // a turn of what is moved closes the curve and is not the end of the motion
                 Event::Closed => curve.part(&place.at).abs() < 1e-9,
@@ -274,7 +255,7 @@ impl Tests<'_> {
                 });
             }
         }
-        for place in self.vanishing(curve, leg, method) {
+        for place in self.vanishing(curve, step, method) {
             let near = |met: &&mut Met| {
                 met.end.is_none() && norm(&curve.difference(&met.place.at, &place.at)) < SAME
             };
@@ -287,20 +268,20 @@ impl Tests<'_> {
             }
         }
         for met in &mut found {
-            met.along = norm(&curve.difference(&leg.from.at, &met.place.at));
+            met.along = norm(&curve.difference(&step.from.at, &met.place.at));
         }
         found.sort_by(|a, b| a.along.total_cmp(&b.along));
         found
     }
 
-    /// Places on a leg where the direct or the inverse matrix loses rank.
-    fn vanishing(&mut self, curve: &mut Curve, leg: &Segment, method: &Continuation) -> Vec<At> {
+    /// Places in a step where the direct or the inverse matrix loses rank.
+    fn vanishing(&mut self, curve: &mut Curve, step: &Segment, method: &Continuation) -> Vec<At> {
         let ranks = self.classifier.regular_ranks();
         // steps are made from the regular end
-        let singular = leg.from.is_singular();
+        let singular = step.from.is_singular();
         let (from, to) = match singular {
-            true => (leg.to.clone().reversed(), leg.from.clone().reversed()),
-            false => (leg.from.clone(), leg.to.clone()),
+            true => (step.to.clone().reversed(), step.from.clone().reversed()),
+            false => (step.from.clone(), step.to.clone()),
         };
         let mut places = Vec::new();
         for (k, rank) in [DIRECT, INVERSE].into_iter().zip(ranks) {
@@ -314,7 +295,7 @@ impl Tests<'_> {
             places.extend(drops.between(&from, &to));
         }
         if singular {
-            places.retain(|place| norm(&curve.difference(&leg.from.at, &place.at)) >= SAME);
+            places.retain(|place| norm(&curve.difference(&step.from.at, &place.at)) >= SAME);
         }
         places
     }

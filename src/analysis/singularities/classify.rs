@@ -55,8 +55,7 @@ pub struct Singularity {
     pub resisted: Vec<Resisted>,
     /// How far the nearest singularity is.
     pub distances: Distances,
-    /// Whether a regular configuration nearby was found. Without it, ranks that are lost everywhere are
-    /// not told from those lost here only.
+    /// Whether a regular configuration nearby was found; without it a rank lost everywhere looks regular.
     pub compared: bool,
 }
 

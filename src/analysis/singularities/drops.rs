@@ -48,12 +48,9 @@ impl Drops<'_> {
     /// The places after `from` up to `to`, reached from it by one step, where the last singular
     /// value σ within the rank vanishes.
     ///
-    /// Between two places with the matrices A and B it cannot vanish as long as
-    /// σ(A) + σ(B) > ‖B − A‖ and the matrix goes straight from one to the other (Weyl: σ changes no
-    /// more than the matrix does); a half more is allowed for its not going straight. Where that
-    /// does not exclude it, the stretch is halved. What is left is short: either the determinant of
-    /// [`Locked::orientation`] changes sign on it, or σ, of even order there, falls from both
-    /// ends to a least value that is zero or not.
+    /// Between places with the matrices A and B it cannot vanish while σ(A) + σ(B) > 1.5 ‖B − A‖ (Weyl: σ changes no more
+    /// than the matrix; a half more allows for a path that is not straight). Otherwise the stretch is halved until it is
+    /// short; there the determinant of [`Locked::orientation`] changes sign, or σ falls from both ends to a minimum.
     pub fn between(&mut self, from: &At, to: &At) -> Vec<At> {
         let from = self.sample(from.clone());
         let to = self.sample(to.clone());

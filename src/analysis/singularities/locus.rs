@@ -4,12 +4,10 @@ use serde::{Deserialize, Serialize};
 
 use super::classify::{Classifier, Kind, Singularity};
 use super::cusps::cusps;
-use super::extents::extents;
 use super::outputs::{Coupled, coupled, outputs_of};
 use super::projected::{Projection, Shape, groups};
 use super::starts::{Found, Search};
-use super::{SingularitiesSettings, names, output_names};
-use crate::algebra::SiUnit;
+use super::{Bound, SingularitiesSettings, names, output_names};
 use crate::mechanism::{Configuration, PoseCoordinate, Variable};
 use crate::solve::{Place, Progress, Stage, Watch};
 use crate::system::{
@@ -58,19 +56,6 @@ pub struct LocusReport {
     pub interrupted: bool,
 }
 
-/// A side of the box.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub struct Bound {
-    /// The coordinate.
-    pub name: String,
-    /// rad or m.
-    pub unit: SiUnit,
-    /// Its least value.
-    pub from: f64,
-    /// Its greatest value.
-    pub to: f64,
-}
-
 /// What a curve of singular configurations is in the box, or several that look alike there.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Locus {
@@ -117,18 +102,15 @@ pub struct Cusp {
 
 /// Finds the singularity loci in a box of two coordinates.
 ///
-/// The question holds the two coordinates in the middle of the box, `held` leaves them free; `inputs`
-/// are those that singularities refer to. Random configurations are brought onto the augmented system closure and
-/// singularity condition by Gauss–Newton steps, and the curve through each that is not on a known one
-/// is followed both ways: to its own beginning, an edge of the box or a limit. Singular points through
-/// which no curve passes are found too. Where inverse loci cross there may be a direct singularity that
-/// random starts hardly meet, and the other way round: crossings are starts as well.
+/// The question holds the two coordinates in the middle of the box, `held` leaves them free; singularities refer to
+/// `inputs`. Gauss–Newton steps lead from random configurations to closure and singularity at once; the curve through
+/// each new one is followed both ways, to its beginning, an edge of the box or a limit. Isolated points are found too.
+/// Where loci of one kind cross there may be one of the other that random starts hardly meet: crossings are starts too.
 ///
-/// Links may spin about their own lines. For the motion that is gained to be unique their spins are to
-/// stand still in the question; what is singular with these at rest only is left out.
+/// Spins of links about their own lines must stand still in the question, for the motion gained to be unique.
 ///
 /// # Errors
-/// If links spin all the same. The number of freedoms of links that spin is given.
+/// If links spin all the same; gives the number of these freedoms.
 pub fn loci(
     question: &Question,
     held: &Held<f64>,
@@ -156,11 +138,9 @@ pub fn loci(
             watch,
             now: Progress::of(Stage::Loci),
         },
-        sides,
         start: start.clone(),
         inputs: inputs.to_vec(),
         settings,
-        watch,
         spins,
         classifier,
     };
@@ -174,12 +154,7 @@ pub fn loci(
         pinned: (still.iter())
             .map(|still| still.name(mechanism).to_owned())
             .collect(),
-        bounds: sides.map(|side| Bound {
-            name: side.coordinate.name(mechanism),
-            unit: SiUnit::of_coordinate(side.coordinate.is_angle(mechanism)),
-            from: side.from,
-            to: side.to,
-        }),
+        bounds: sides.map(|side| Bound::new(mechanism, &side)),
         loci: Vec::new(),
         starts: [0; 2],
         arrived: [0; 2],
@@ -220,7 +195,7 @@ pub fn loci(
         report.starts[i] = found.starts;
         report.arrived[i] = found.arrived;
         report.last_new[i] = found.last_new;
-        report.loci.extend(search.told(found));
+        report.loci.extend(search.loci(found));
     }
     report.interrupted = watch.is_stopped();
     Ok(report)
@@ -228,7 +203,7 @@ pub fn loci(
 
 impl Search<'_> {
     /// The loci that curves of configurations are in the box, sorted by where they begin.
-    fn told(&mut self, found: Found) -> Vec<Locus> {
+    fn loci(&mut self, found: Found) -> Vec<Locus> {
         let (kind, mut curve) = (found.kind, found.curve);
         let kinds: Vec<Singularity> = (found.known.iter())
             .map(|(traced, _)| {
@@ -248,29 +223,17 @@ impl Search<'_> {
             let chosen = group[0];
             let traced = &known[chosen].0;
             let shape = projections[chosen].shape();
-            let cusps = match shape {
-                Shape::Point => Vec::new(),
-                Shape::Curve => {
-                    let members = group.iter().map(|member| &known[*member].0);
-                    self.cusps(&mut curve, &projections[chosen], members)
-                }
-            };
-            let (places, extents, crossings) = match shape {
-                Shape::Point => {
-                    let extents = self.coordinates(&traced.places[0]).map(|x| [x; 2]);
-                    (&traced.places[..1], extents, Vec::new())
-                }
-                Shape::Curve => {
-                    let crossings = group.iter().flat_map(|member| &known[*member].0.crossings);
-                    let crossings = crossings.map(|place| self.coordinates(place));
-                    let extents = extents(&mut curve, &self.region, traced);
-                    (
-                        &traced.places[..],
-                        extents,
-                        projections[chosen].distinct(crossings),
-                    )
-                }
-            };
+            let (mut places, mut crossings, mut cusps) = (&traced.places[..1], vec![], vec![]);
+            let mut extents = self.coordinates(&places[0]).map(|x| [x; 2]);
+            if shape == Shape::Curve {
+                let members = group.iter().map(|member| &known[*member].0);
+                cusps = self.cusps(&mut curve, &projections[chosen], members.clone());
+                let crossed = members.flat_map(|traced| &traced.crossings);
+                let crossed = crossed.map(|place| self.coordinates(place));
+                crossings = projections[chosen].distinct(crossed);
+                extents = super::extents::extents(&mut curve, &self.region, traced);
+                places = &traced.places;
+            }
             Locus {
                 kind,
                 shape,
@@ -280,8 +243,7 @@ impl Search<'_> {
                 ends: traced.ends,
                 extents,
                 points: places.iter().map(|place| self.coordinates(place)).collect(),
-                joints: places
-                    .iter()
+                joints: (places.iter())
                     .map(|place| place.at.at.joints.clone())
                     .collect(),
                 poses: places.iter().map(poses).collect(),
@@ -307,7 +269,7 @@ impl Search<'_> {
         members: impl Iterator<Item = &'t Traced<Singular>>,
     ) -> Vec<Cusp> {
         let mut places = Vec::new();
-        for traced in members.take_while(|_| !self.watch.is_stopped()) {
+        for traced in members.take_while(|_| !self.region.watch.is_stopped()) {
             places.extend(cusps(curve, &self.region, traced));
         }
         let points = places.iter().map(|place| self.coordinates(place));
@@ -326,7 +288,7 @@ impl Search<'_> {
     }
 
     fn coordinates(&self, place: &At) -> [f64; 2] {
-        self.sides.map(|side| self.region.side(&place.at.at, &side))
+        [0, 1].map(|k| self.region.side(&place.at.at, &self.region.sides[k]))
     }
 }
 

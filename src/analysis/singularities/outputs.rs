@@ -40,7 +40,7 @@ pub struct Coupled {
     pub origin_loses: Option<usize>,
 }
 
-/// The coupled outputs, unless outputs were chosen; `here` asks what their origins lose.
+/// The coupled outputs, unless outputs were chosen; with `here` what their origins lose too.
 pub(super) fn coupled(
     mechanism: &Mechanism,
     inputs: &[Coordinate],

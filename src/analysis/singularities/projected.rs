@@ -115,11 +115,9 @@ impl<'t> Projection<'t> {
         false
     }
 
-    /// Whether the curve passes over all of another, as far as points spread over that tell: both
-    /// are pieces of algebraic curves, which share a whole component or only so many points.
+    /// Whether the curve passes over points spread over all of another: algebraic curves share a component or few points.
     ///
-    /// Where curves cross in the space of configurations a point may be lost to rounding: a place
-    /// is not covered if none of three points there is.
+    /// Where curves cross a point may be lost to rounding, so that one of three neighbours suffices.
     fn covers(&self, other: &Projection, curve: &mut LocusCurve, region: &Region) -> bool {
         /// Points that are tested, and parts of the distance between two of them.
         const TRIED: usize = 12;
@@ -156,8 +154,7 @@ impl<'t> Projection<'t> {
 /// Curves that lie over one another in the box, by their numbers: in each group the first passes
 /// over all the others, and is the shortest that does.
 ///
-/// Where several motions are possible at once they turn into one another while the mechanism stands
-/// still. That is no locus of its own where others cross there.
+/// A curve along which the configuration stands still is no locus of its own where others cross there.
 pub(super) fn groups(
     curve: &mut LocusCurve,
     region: &Region,

@@ -6,24 +6,22 @@ use rand_pcg::Pcg64Mcg;
 use super::SingularitiesSettings;
 use super::classify::{Classifier, Kind};
 use crate::mechanism::{Configuration, PlatformPose, turn_near};
-use crate::solve::{Newton, Place, Progress, SolutionCurve, Stage, Watch};
+use crate::solve::{Newton, Place, Progress, SolutionCurve, Stage};
 use crate::system::{
-    Coordinate, Driven, Lock, LocusCurve, LocusEnd, Region, Singular, System, Traced, met_at,
-    neared, random_configuration, with_coordinates,
+    Coordinate, Lock, LocusCurve, LocusEnd, Region, Singular, System, Traced, met_at, neared,
+    random_configuration, with_coordinates,
 };
 
-/// So many times the starts that are asked for are made while more curves are likely.
+/// While more curves are likely, at most so many times the starts of the settings are made.
 const MORE: usize = 10;
 
 /// A search for loci in a box.
 pub(super) struct Search<'m> {
     pub region: Region<'m>,
-    pub sides: [Driven; 2],
     pub start: Configuration<f64>,
     pub inputs: Vec<Coordinate>,
     pub settings: &'m SingularitiesSettings,
-    pub watch: &'m Watch<'m>,
-    /// Idle freedoms.
+    /// Local freedoms: spins of links about their own lines.
     pub spins: usize,
     pub classifier: Classifier<'m>,
 }
@@ -43,20 +41,16 @@ pub(super) struct Found {
 
 /// The singular configuration that Gauss–Newton steps lead to from a start.
 ///
-/// Where the determinant of the matrix is least or greatest and just vanishes, as for a 5-bar whose
-/// cranks part as far as its couplers reach, the locus is an isolated point: there the augmented system
-/// loses rank, and the steps come nearer by half each time.
+/// Where the determinant has an extremum of zero, as for a 5-bar whose cranks part as far as its couplers reach, the locus
+/// is an isolated point: the augmented system loses rank, and each step halves the distance only.
 struct Arrival {
     /// On a curve; of an isolated point the tangent has no meaning.
     place: Place<Singular>,
     isolated: bool,
 }
 
-/// Whether more starts are likely to lead to new curves: while some curve was met only once, the
-/// chance that the next arrival is on a new one is about that of such meetings among all (Good
-/// 1953).
-///
-/// Steps lead to an isolated point too seldom for this to say anything of it.
+/// Whether more starts are likely to lead to new curves: the chance of a new one is about the share of curves met once
+/// (Good 1953). Isolated points are met too seldom to count.
 fn more_is_likely(found: &Found) -> bool {
     /// Fewer arrivals say nothing.
     const ARRIVALS: usize = 20;
@@ -93,7 +87,7 @@ impl Search<'_> {
                 of: least.then_some(self.settings.starts),
             };
             self.region.now = now;
-            if !least && !more_is_likely(&found) || self.watch.at(now).is_break() {
+            if !least && !more_is_likely(&found) || self.region.watch.at(now).is_break() {
                 break;
             }
             found.starts = number;
@@ -231,7 +225,7 @@ impl Search<'_> {
         const BESIDE: f64 = 0.1;
         let mut at = at.clone();
         self.bring_home(&mut at);
-        self.sides.iter().all(|side| {
+        self.region.sides.iter().all(|side| {
             let (x, slack) = (self.region.side(&at, side), BESIDE * (side.to - side.from));
             x >= side.from - slack && x <= side.to + slack
         })

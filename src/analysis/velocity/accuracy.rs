@@ -21,9 +21,8 @@ fn largest(values: &[f64]) -> f64 {
     values.iter().fold(0.0, |most: f64, x| most.max(x.abs()))
 }
 
-/// Rates and accelerations change by as much as they are uncertain where the configuration is moved
-/// as far as it may be off: by r/σ, with r what is left of the closure equations and σ the smallest
-/// singular value that counts, along its direction.
+/// The change of rates and accelerations for a shift of the configuration by its uncertainty: r/σ along the direction of
+/// the smallest singular value σ, with r the residual of the closure equations.
 pub(super) fn of(
     motion: &mut Motion,
     held: &mut Neighbourhood,
@@ -72,11 +71,10 @@ pub(super) fn of(
     }
 }
 
-/// Whether the rates asked for exist to first order only.
+/// Whether the rates given exist to first order only.
 ///
-/// With one infinitesimal freedom a finite step along it tells. With several the step would have to
-/// follow curves that it does not know, but accelerations tell at second order: none meet the
-/// closure equations. `motion` must be factorised at the configuration.
+/// One infinitesimal freedom is decided by a finite step, several by second order: no accelerations meet the closure
+/// equations. `motion` must be factorised at the configuration.
 pub(super) fn first_order_only(
     near: &mut Neighbourhood,
     motion: &mut Motion,

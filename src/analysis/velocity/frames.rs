@@ -36,7 +36,7 @@ impl Spins {
     }
 }
 
-/// How platforms, then the points asked for, move.
+/// How platforms, then the points followed, move.
 pub(super) fn rates(
     mechanism: &Mechanism,
     motion: &mut Motion,

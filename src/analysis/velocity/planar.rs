@@ -129,9 +129,8 @@ struct Known {
 }
 
 impl Known {
-    /// For each part of a loop whether its relative motion follows from what is known: a joint's
-    /// from its variables, a hinge's at a cut also from the sum of all turns around the loop, which
-    /// is zero: where a loop is cut must not matter.
+    /// For each part of a loop whether its relative motion is known: a joint's by its variables, that of a hinge at the cut
+    /// also by the turns around the loop, whose sum is zero.
     fn parts(&self, one: &HingedLoop) -> Vec<bool> {
         let parts = &one.all.parts;
         let is_known = |part: &LoopPart| match part.closure {
@@ -171,9 +170,8 @@ fn name(mechanism: &Mechanism, part: &LoopPart) -> String {
     }
 }
 
-/// The known joints of a loop that has three others, each with whether these follow forwards:
-/// one that is alone drives the link beyond it, the ends of several the links towards the others,
-/// unless that is the ground.
+/// The joints that drive the three others of a loop, and whether these follow forwards: one alone drives the link beyond
+/// it, of several the outer ones drive the links towards the others, unless that is the ground.
 fn drivers(found: &MechanismLoop, known: &[bool]) -> Vec<(usize, bool)> {
     let parts = &found.parts;
     let count = parts.len();

@@ -66,8 +66,7 @@ impl Digits {
 }
 
 impl Cell {
-    /// A number with its unit. Angles, which are given in rad, are shown in degrees; what is infinite or not known is
-    /// said in words.
+    /// A number with its unit. Angles, given in rad, are shown in degrees; infinite or unknown values in words.
     pub fn quantity(value: f64, unit: SiUnit) -> Self {
         Cell::Number {
             value,

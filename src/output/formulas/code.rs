@@ -52,15 +52,25 @@ pub fn rust(report: &FormulasReport) -> String {
     text
 }
 
-/// Letters as identifiers: of ASCII letters and digits, none twice, none a keyword or a name the functions use.
-fn arguments(letters: &[Letter]) -> BTreeMap<String, (String, Meaning)> {
+/// Letters and identifiers for them: parameters, joints, platforms, each by name. Identifiers have letters and digits, none
+/// twice, none a keyword or a name the functions use.
+fn arguments(letters: &[Letter]) -> Vec<(&str, String)> {
     let mut taken: BTreeSet<String> = BTreeSet::new();
-    let mut arguments = BTreeMap::new();
-    for letter in letters {
-        let name = unique(&identifier(&letter.name), &mut taken);
-        arguments.insert(letter.name.clone(), (name, letter.meaning));
-    }
-    arguments
+    let rank = |meaning: Meaning| match meaning {
+        Meaning::Parameter => 0,
+        Meaning::Angle | Meaning::Slide | Meaning::Screw => 1,
+        Meaning::Platform => 2,
+    };
+    let named = letters.iter().map(|letter| {
+        let argument = unique(&identifier(&letter.name), &mut taken);
+        (rank(letter.meaning), letter.name.as_str(), argument)
+    });
+    let mut named: Vec<_> = named.collect();
+    named.sort();
+    let named = named.into_iter();
+    named
+        .map(|(_, letter, argument)| (letter, argument))
+        .collect()
 }
 
 fn unique(name: &str, taken: &mut BTreeSet<String>) -> String {
@@ -108,15 +118,15 @@ fn spaced(code: &str) -> String {
     code.replace('*', " * ").replace('/', " / ")
 }
 
-struct Writer {
-    arguments: BTreeMap<String, (String, Meaning)>,
+struct Writer<'r> {
+    arguments: Vec<(&'r str, String)>,
     functions: BTreeSet<String>,
 }
 
 /// The sines and cosines of a function, by the text of their angle, with their number.
 type Angles = BTreeMap<String, (usize, bool, bool)>;
 
-impl Writer {
+impl Writer<'_> {
     fn function(
         &mut self,
         name: &str,
@@ -130,13 +140,9 @@ impl Writer {
             .flat_map(|e| e.names())
             .map(|(name, _)| name.as_str())
             .collect();
-        let mut given: Vec<String> = Vec::new();
-        // in the order of the letters: parameters, joints, platforms
-        for (letter, (argument, _)) in self.in_order() {
-            if used.contains(letter.as_str()) {
-                given.push(format!("{argument}: f64"));
-            }
-        }
+        let given = self.arguments.iter();
+        let given = given.filter(|(letter, _)| used.contains(letter));
+        let given: Vec<String> = given.map(|(_, name)| format!("{name}: f64")).collect();
         let mut angles = Angles::new();
         let rows: Vec<String> = rows
             .iter()
@@ -168,17 +174,6 @@ impl Writer {
             given.join(", "),
             rows.concat()
         )
-    }
-
-    fn in_order(&self) -> Vec<(&String, &(String, Meaning))> {
-        let rank = |meaning: Meaning| match meaning {
-            Meaning::Parameter => 0,
-            Meaning::Angle | Meaning::Slide | Meaning::Screw => 1,
-            Meaning::Platform => 2,
-        };
-        let mut letters: Vec<_> = self.arguments.iter().collect();
-        letters.sort_by_key(|(_, (_, meaning))| rank(*meaning));
-        letters
     }
 
     fn closure(&mut self, closure: &ClosureFormula) -> String {
@@ -231,10 +226,10 @@ impl Writer {
             Node::Quantity(value, unit) => format!("{:?}_f64", unit.to_si(*value)),
             Node::Constant(Constant::Pi) => "std::f64::consts::PI".into(),
             Node::Constant(other) => format!("{:?}_f64", other.over::<f64>()),
-            Node::Name(name) => match self.arguments.get(name) {
-                Some((argument, _)) => argument.clone(),
-                None => identifier(name),
-            },
+            Node::Name(name) => {
+                let known = self.arguments.iter().find(|(letter, _)| letter == name);
+                known.map_or_else(|| identifier(name), |(_, argument)| argument.clone())
+            }
             Node::Call(function @ (Function::Sin | Function::Cos), arguments) => {
                 let angle = self.code(&arguments[0], angles);
                 let next = angles.len() + 1;

@@ -3,8 +3,7 @@
 use crate::analysis::mobility::{
     Character, Elsewhere, LocalFreedom, MobilityReport, Redundancy, Wrench,
 };
-use crate::description::count;
-use crate::description::listed;
+use crate::description::{count, listed};
 use crate::output::closing;
 use crate::output::quantity::{coarse, form, metres, signed, triple, values};
 
@@ -151,12 +150,8 @@ pub(super) fn mobility(report: &MobilityReport) -> String {
             let each: Vec<String> = branches.map(|branch| branch.mobility.to_string()).collect();
             let least = report.branches.iter().map(|branch| branch.mobility).min();
             let of = match report.branch_count {
-                ..=8 => listed(&each),
+                ..=8 => format!("branches of {}", listed(&each)),
                 many => format!("{many} branches, of {} to {mobility}", least.unwrap_or(0)),
-            };
-            let of = match report.branch_count {
-                ..=8 => format!("branches of {of}"),
-                _ => of,
             };
             format!(
                 "{}inematotropic: {}{of} freedoms meet here, where {infinitesimal} are \
@@ -171,7 +166,7 @@ pub(super) fn mobility(report: &MobilityReport) -> String {
     }
 }
 
-/// What must be said where a step in another direction might find more.
+/// The qualification where a step in another direction might find more.
 fn at_least(report: &MobilityReport) -> &'static str {
     match report.branches_complete {
         true => "",

@@ -14,9 +14,9 @@ impl Report for AlongReport {
     fn document(&self) -> Document {
         let crossings = self.crossings.iter().enumerate().map(|(i, crossing)| {
             let title = format!("{}. {}", i + 1, words::place(self, &crossing.moved));
-            let said = words::crossing(crossing, self);
+            let text = words::crossing(crossing, self);
             let details = details(&crossing.singularity).into_iter();
-            details.fold(Section::new(title).text(said), Section::section)
+            details.fold(Section::new(title).text(text), Section::section)
         });
         Document::new(&self.mechanism, words::ending(self))
             .note(words::split(&self.inputs, &self.outputs))

@@ -1,4 +1,4 @@
-//! What is said of outputs that may hide what their positions lose.
+//! Outputs that may hide what their positions lose, in sentences.
 
 use super::names;
 use crate::analysis::singularities::Coupled;

@@ -1,4 +1,4 @@
-//! What is said about singularities.
+//! Singularities in sentences.
 
 use super::names;
 use crate::analysis::singularities::{
@@ -123,16 +123,16 @@ pub(super) fn place(report: &AlongReport, moved: &[f64]) -> String {
 
 /// What a crossing is.
 pub(super) fn crossing(crossing: &Crossing, report: &AlongReport) -> String {
-    let mut said = sentence(&crossing.singularity, &report.inputs, &report.outputs);
+    let mut text = sentence(&crossing.singularity, &report.inputs, &report.outputs);
     if crossing.fold {
         let names: Vec<String> = report.moved.iter().map(|m| m.name.clone()).collect();
         let verb = form(names.len(), "turns back and locks", "turn back and lock");
-        said = format!("{} {verb}, a fold. {said}", listed(&names));
+        text = format!("{} {verb}, a fold. {text}", listed(&names));
     }
     if crossing.branches {
-        said = format!("Branches cross. {said}");
+        text = format!("Branches cross. {text}");
     }
-    said
+    text
 }
 
 /// How a motion ended, in a sentence.
@@ -223,12 +223,12 @@ pub(super) fn loci(report: &LocusReport) -> String {
     )
 }
 
-/// What was held because links spin.
+/// What is held still because links spin.
 pub(super) fn pinned(report: &LocusReport) -> Option<String> {
     let names = listed(&report.pinned);
     (!report.pinned.is_empty()).then(|| {
         format!(
-            "Links spin about their own lines, which changes nothing else; kept from it: {names}."
+            "Links can spin about their own lines without moving anything else; held still: {names}."
         )
     })
 }
@@ -265,8 +265,7 @@ pub(super) fn completeness(report: &LocusReport) -> String {
     )
 }
 
-/// What may be missing though nothing hints at it. What n starts in a row do not lead to, a start leads
-/// to with a probability below 3/n, with a confidence of 95 % (the rule of three).
+/// What may be missing: what n starts do not lead to has a probability below 3/n, at 95 % confidence (rule of three).
 fn missing(report: &LocusReport) -> String {
     let starts = report.starts.iter().zip(report.sought);
     let fewest = starts.filter(|(_, sought)| *sought).map(|(n, _)| n / 3);

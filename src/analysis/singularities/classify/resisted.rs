@@ -21,9 +21,7 @@ impl Classifier<'_> {
         orthonormal(&rates, RANK_TOLERANCE)
     }
 
-    /// Wrenches reciprocal to all that the outputs can do here, but not to all they can do nearby.
-    /// The latter must contain the former: it does if the outputs have all freedoms, or stay in a
-    /// plane.
+    /// Wrenches reciprocal to all motions of the outputs here, but not to all nearby, which must contain the former.
     pub(super) fn resisted(&mut self, at: &Configuration<f64>) -> Vec<Resisted> {
         let Some(beside) = self.beside.clone() else {
             return Vec::new();
