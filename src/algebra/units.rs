@@ -1,7 +1,7 @@
 //! The unit of an expression over quantities of which each has one.
 
 use super::{
-    Constant, Expression, Function, MeasureError, MeasureErrorKind, Node, Operator, SiUnit, Unit,
+    Constant, Expression, Function, MeasureError, MeasureErrorKind, Node, Operator, SiUnit,
 };
 
 /// What is known of the unit of a part of an expression.
@@ -31,9 +31,8 @@ impl<N> Expression<N> {
         use Known::{Number, Open};
         Ok(match &self.node {
             Node::Number(_) | Node::Constant(Constant::Pi) => Number,
-            Node::Constant(Constant::Degree | Constant::Radian)
-            | Node::Quantity(_, Unit::Degree | Unit::Radian) => Known::Unit(SiUnit::RADIAN),
-            Node::Quantity(..) => Known::Unit(SiUnit::METRE),
+            Node::Constant(Constant::Degree | Constant::Radian) => Known::Unit(SiUnit::RADIAN),
+            Node::Quantity(_, unit) => unit.measure().si_unit().map_or(Open, Known::Unit),
             Node::Name(name) => of(name).map_or(Open, Known::Unit),
             Node::Negate(x) => x.known(of)?,
             Node::Binary(operator, x, y) => {

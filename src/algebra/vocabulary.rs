@@ -64,12 +64,12 @@ words! {
         Degree = "deg",
         /// Radian.
         Radian = "rad",
-        /// Millimetre.
-        Millimetre = "mm",
-        /// Centimetre.
-        Centimetre = "cm",
         /// Metre.
         Metre = "m",
+        /// Centimetre.
+        Centimetre = "cm",
+        /// Millimetre.
+        Millimetre = "mm",
         /// Inch, 25.4 mm.
         Inch = "in",
     }

@@ -170,12 +170,9 @@ fn closure(mechanism: &Mechanism, closure: &NamedClosure) -> ClosureOverview {
 /// A fixed transform as in the file: `Tx(l2)`.
 fn steps(mechanism: &Mechanism, steps: &[FixedStep]) -> Vec<String> {
     let written = |formula: &Formula| written(mechanism, formula);
-    let step = |step: &FixedStep| match step {
-        FixedStep::Translate(axis, length) => format!("T{}({})", axis.letter(), written(length)),
-        FixedStep::Rotate(axis, angle) => format!("R{}({})", axis.letter(), written(angle)),
-        FixedStep::TranslateBy(vector) => {
-            format!("T({})", vector.each_ref().map(&written).join(", "))
-        }
+    let step = |step: &FixedStep| {
+        let entries: Vec<String> = step.entries().iter().map(written).collect();
+        format!("{}({})", step.word(), entries.join(", "))
     };
     steps.iter().map(step).collect()
 }

@@ -1,16 +1,9 @@
 //! Files as texts within other data, as reports carry them: `#[serde(with = "…")]`.
 
-use std::fmt::Display;
-
 use serde::de::{Deserialize, Deserializer, Error as _};
 use serde::ser::{Error as _, Serializer};
 
-use super::Problem;
-
-fn said(problems: Vec<Problem>) -> impl Display {
-    let titles = problems.iter().map(|problem| problem.kind.title());
-    titles.collect::<Vec<String>>().join("; ")
-}
+use super::problem::titles;
 
 /// A mechanism file.
 pub mod mechanism_text {
@@ -31,7 +24,7 @@ pub mod mechanism_text {
     /// With what is wrong with the text.
     pub fn deserialize<'de, D: Deserializer<'de>>(reader: D) -> Result<Description, D::Error> {
         let text = String::deserialize(reader)?;
-        Description::read(&text).map_err(|problems| D::Error::custom(said(problems)))
+        Description::read(&text).map_err(|problems| D::Error::custom(titles(&problems)))
     }
 }
 
@@ -57,6 +50,6 @@ pub mod axes_text {
     /// With what is wrong with the text.
     pub fn deserialize<'de, D: Deserializer<'de>>(reader: D) -> Result<AxesDescription, D::Error> {
         let text = String::deserialize(reader)?;
-        AxesDescription::read(&text).map_err(|problems| D::Error::custom(said(problems)))
+        AxesDescription::read(&text).map_err(|problems| D::Error::custom(titles(&problems)))
     }
 }

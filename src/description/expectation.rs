@@ -3,28 +3,27 @@
 use super::parts::ClosureKind;
 use crate::algebra::words;
 
-/// The kinds of named items.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
-#[allow(missing_docs)]
-pub enum Noun {
-    Field,
-    Parameter,
-    Joint,
-    Axis,
-    Body,
-    Point,
-    Chain,
-    Platform,
-    PlatformFrame,
-    Closure,
-    ClosedForm,
-    LocalName,
-    MatrixEntry,
-    Identity,
-    Output,
-}
-
 words! {
+    /// The kinds of named items, as sentences call them.
+    #[allow(missing_docs)]
+    Noun {
+        Field = "a field",
+        Parameter = "a parameter",
+        Joint = "a joint",
+        Axis = "a joint",
+        Body = "a body",
+        Point = "a point",
+        Chain = "a chain",
+        Platform = "a platform",
+        PlatformFrame = "a platform frame",
+        Closure = "a closure",
+        ClosedForm = "a closed form",
+        LocalName = "a local name",
+        MatrixEntry = "an entry of a pose",
+        Identity = "an identity",
+        Output = "an output",
+    }
+
     /// The groups of named fields in a file, with the names that stand before them.
     #[allow(missing_docs)]
     Structure {
@@ -108,93 +107,38 @@ pub enum Found {
 
 impl Structure {
     /// The fields it may have.
-    pub fn fields(self) -> &'static [&'static str] {
-        match self {
-            Self::Mechanism => &[
-                "version",
-                "name",
-                "source",
-                "convention",
-                "parameters",
-                "joints",
-                "chains",
-                "platforms",
-                "closures",
-                "closed_forms",
-                "outputs",
-            ],
-            Self::Passive | Self::Actuated => &["home", "limits"],
-            Self::Axes => &[
-                "version",
-                "name",
-                "source",
-                "convention",
-                "parameters",
-                "joints",
-                "bodies",
-                "points",
-                "base",
-                "tool",
-                "cut",
-                "closed_forms",
-                "outputs",
-            ],
-            Self::RevoluteAxis | Self::PrismaticAxis => &[
-                "point",
-                "direction",
-                "through",
-                "frame",
-                "second",
-                "home",
-                "drawn",
-                "value",
-                "limits",
-                "role",
-                "between",
-            ],
-            Self::HelicalAxis => &[
-                "point",
-                "direction",
-                "through",
-                "frame",
-                "pitch",
-                "home",
-                "drawn",
-                "value",
-                "limits",
-                "role",
-                "between",
-            ],
-            Self::CylindricalAxis | Self::PlanarAxis => &[
-                "point",
-                "direction",
-                "through",
-                "frame",
-                "second",
-                "between",
-            ],
-            Self::UniversalAxes => &["point", "directions", "second", "between"],
-            Self::SphericalCentre => &["point", "second", "between"],
-            Self::FixedJoint => &["frame", "second", "between"],
-            Self::RodEnds => &["through", "length", "home", "limits", "role", "between"],
-            Self::SecondPlace => &["point", "direction", "directions", "through", "frame"],
-            Self::Point => &["body", "at", "frame"],
-            Self::BodyFrame => &["origin", "frame"],
-            Self::Chain => &["on", "convention", "base", "rows", "tip"],
-            Self::Row => &["alpha", "a", "d", "theta"],
-            Self::Platform => &["home", "frames"],
-            Self::ClosedForm => &[
-                "of",
-                "in",
-                "where",
-                "source",
-                "position",
-                "rotation",
-                "transform",
-                "entries",
-                "identity",
-                "identities",
-            ],
-        }
+    pub fn fields(self) -> Vec<&'static str> {
+        let fields = match self {
+            Self::Mechanism => {
+                "version name source convention parameters joints chains platforms closures closed_forms outputs"
+            }
+            Self::Passive | Self::Actuated => "home limits",
+            Self::Axes => {
+                "version name source convention parameters joints bodies points base tool cut closed_forms outputs"
+            }
+            Self::RevoluteAxis | Self::PrismaticAxis => {
+                "point direction through frame second home drawn value limits role between"
+            }
+            Self::HelicalAxis => {
+                "point direction through frame pitch home drawn value limits role between"
+            }
+            Self::CylindricalAxis | Self::PlanarAxis => {
+                "point direction through frame second between"
+            }
+            Self::UniversalAxes => "point directions second between",
+            Self::SphericalCentre => "point second between",
+            Self::FixedJoint => "frame second between",
+            Self::RodEnds => "through length home limits role between",
+            Self::SecondPlace => "point direction directions through frame",
+            Self::Point => "body at frame",
+            Self::BodyFrame => "origin frame",
+            Self::Chain => "on convention base rows tip",
+            Self::Row => "alpha a d theta",
+            Self::Platform => "home frames",
+            Self::ClosedForm => {
+                "of in where source position rotation transform entries identity identities"
+            }
+        };
+        fields.split(' ').collect()
     }
 }

@@ -7,6 +7,8 @@ use std::ops::Range;
 
 use crate::algebra::{Expression, words};
 pub use crate::geometry::Axis;
+use crate::geometry::{Pose, Vector3};
+use crate::number::Number;
 
 /// A value and the bytes of the file where it stands.
 #[derive(Debug, Clone, Default)]
@@ -100,62 +102,83 @@ words! {
     }
 }
 
+/// What a closure requires of the z axes of its two frames.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+pub enum AxisCondition {
+    /// Nothing.
+    Free,
+    /// They are perpendicular.
+    Perpendicular,
+    /// They are parallel and point the same way.
+    Aligned,
+    /// The orientations of the frames are equal.
+    Oriented,
+}
+
+/// The conditions that a closure consists of. [`ClosureKind::Distance`] has one of its own and none of these.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct ClosureConditions {
+    /// Whether the origins coincide.
+    pub origins: bool,
+    /// The condition on the axes.
+    pub axes: AxisCondition,
+    /// The axes of the first frame along which the origins do not differ.
+    pub offsets: Range<usize>,
+}
+
 impl ClosureKind {
-    /// Whether it brings the origins of the two frames together.
-    pub fn joins_origins(self) -> bool {
-        match self {
-            Self::Spherical | Self::Revolute | Self::Universal | Self::Rigid => true,
-            Self::Prismatic | Self::Cylindrical | Self::Planar | Self::Distance => false,
+    /// The conditions that it consists of.
+    pub fn conditions(self) -> ClosureConditions {
+        use AxisCondition::{Aligned, Free, Oriented, Perpendicular};
+        let (origins, axes, offsets) = match self {
+            Self::Spherical => (true, Free, 0..0),
+            Self::Revolute => (true, Aligned, 0..0),
+            Self::Prismatic => (false, Oriented, 0..2),
+            Self::Universal => (true, Perpendicular, 0..0),
+            Self::Cylindrical => (false, Aligned, 0..2),
+            Self::Planar => (false, Aligned, 2..3),
+            Self::Rigid => (true, Oriented, 0..0),
+            Self::Distance => (false, Free, 0..0),
+        };
+        ClosureConditions {
+            origins,
+            axes,
+            offsets,
         }
     }
 
     /// Whether it brings the z axes together.
     pub fn joins_axes(self) -> bool {
-        match self {
-            Self::Revolute | Self::Prismatic | Self::Cylindrical | Self::Rigid => true,
-            Self::Spherical | Self::Universal | Self::Planar | Self::Distance => false,
-        }
+        let conditions = self.conditions();
+        self.aligns_axes() && (conditions.origins || conditions.offsets == (0..2))
     }
 
     /// Whether it makes the z axes parallel.
     pub fn aligns_axes(self) -> bool {
-        match self {
-            Self::Revolute | Self::Prismatic | Self::Cylindrical | Self::Planar | Self::Rigid => {
-                true
-            }
-            Self::Spherical | Self::Universal | Self::Distance => false,
-        }
-    }
-
-    /// Whether it holds the orientation of one frame against the other.
-    pub fn holds_orientation(self) -> bool {
-        match self {
-            Self::Prismatic | Self::Rigid => true,
-            Self::Spherical
-            | Self::Revolute
-            | Self::Universal
-            | Self::Cylindrical
-            | Self::Planar
-            | Self::Distance => false,
-        }
+        self.conditions().axes >= AxisCondition::Aligned
     }
 
     /// Whether nothing but the origins of its frames matters.
     pub fn leaves_orientation(self) -> bool {
-        match self {
-            Self::Spherical | Self::Distance => true,
-            Self::Revolute
-            | Self::Prismatic
-            | Self::Universal
-            | Self::Cylindrical
-            | Self::Planar
-            | Self::Rigid => false,
-        }
+        self.conditions().axes == AxisCondition::Free
     }
 
     /// Whether it has a given length, as a rod with a ball at each end.
     pub fn has_length(self) -> bool {
         self == Self::Distance
+    }
+
+    /// The number of independent equations it imposes on two free bodies.
+    pub fn equations(self) -> usize {
+        let conditions = self.conditions();
+        let turns = match conditions.axes {
+            AxisCondition::Free => 0,
+            AxisCondition::Perpendicular => 1,
+            AxisCondition::Aligned => 2,
+            AxisCondition::Oriented => 3,
+        };
+        let points = if conditions.origins { 3 } else { 0 };
+        points + turns + conditions.offsets.len() + usize::from(self.has_length())
     }
 }
 
@@ -202,15 +225,16 @@ pub struct Row {
     pub span: Range<usize>,
 }
 
-/// One step of a transform; a list of them is read left to right.
+/// One step of a transform; a list of them is read left to right. Its entries are as in a file, resolved formulas or
+/// numbers.
 #[derive(Debug, Clone, PartialEq)]
-pub enum Displacement {
+pub enum Displacement<E = Entry> {
     /// `Tx(e)`, `Ty(e)`, `Tz(e)`: by a length (m) along an axis.
-    Translate(Axis, Entry),
+    Translate(Axis, E),
     /// `Rx(e)`, `Ry(e)`, `Rz(e)`: by an angle (rad) about an axis.
-    Rotate(Axis, Entry),
+    Rotate(Axis, E),
     /// `T(e, e, e)`: by a vector (m).
-    TranslateBy([Entry; 3]),
+    TranslateBy([E; 3]),
 }
 
 /// A rigid body whose pose is unknown.
@@ -339,38 +363,68 @@ impl ChainDescription {
 /// The name of the fixed frame.
 pub const GROUND: &str = "ground";
 
-impl ClosureKind {
-    /// The number of independent equations it imposes on two free bodies.
-    pub fn equations(self) -> usize {
-        match self {
-            Self::Distance => 1,
-            Self::Spherical | Self::Planar => 3,
-            Self::Universal | Self::Cylindrical => 4,
-            Self::Revolute | Self::Prismatic => 5,
-            Self::Rigid => 6,
-        }
-    }
-}
+impl<E> Displacement<E> {
+    /// The words of displacements along and about x, y and z, and by a vector.
+    pub(crate) const WORDS: [&str; 7] = ["Tx", "Ty", "Tz", "Rx", "Ry", "Rz", "T"];
 
-impl Displacement {
+    /// The displacement of a word with its entries, if it has as many.
+    pub(crate) fn of_word(word: &str, entries: Vec<E>) -> Option<Self> {
+        let place = Self::WORDS.iter().position(|known| *known == word)?;
+        if place == 6 {
+            return Some(Self::TranslateBy(entries.try_into().ok()?));
+        }
+        let [entry] = <[E; 1]>::try_from(entries).ok()?;
+        let axis = [Axis::X, Axis::Y, Axis::Z][place % 3];
+        Some(match place < 3 {
+            true => Self::Translate(axis, entry),
+            false => Self::Rotate(axis, entry),
+        })
+    }
+
     /// How it is written in a file.
     pub fn word(&self) -> &'static str {
-        match self {
-            Self::Translate(Axis::X, _) => "Tx",
-            Self::Translate(Axis::Y, _) => "Ty",
-            Self::Translate(Axis::Z, _) => "Tz",
-            Self::Rotate(Axis::X, _) => "Rx",
-            Self::Rotate(Axis::Y, _) => "Ry",
-            Self::Rotate(Axis::Z, _) => "Rz",
-            Self::TranslateBy(_) => "T",
-        }
+        Self::WORDS[match self {
+            Self::Translate(axis, _) => *axis as usize,
+            Self::Rotate(axis, _) => 3 + *axis as usize,
+            Self::TranslateBy(_) => 6,
+        }]
     }
 
     /// Its lengths or its angle.
-    pub fn entries(&self) -> &[Entry] {
+    pub fn entries(&self) -> &[E] {
         match self {
             Self::Translate(_, entry) | Self::Rotate(_, entry) => std::slice::from_ref(entry),
             Self::TranslateBy(entries) => entries,
+        }
+    }
+
+    /// The displacement with other entries. All are tried before an error is returned.
+    pub(crate) fn try_map<F, X>(
+        &self,
+        change: impl FnMut(&E) -> Result<F, X>,
+    ) -> Result<Displacement<F>, X> {
+        let mut changed = self
+            .entries()
+            .iter()
+            .map(change)
+            .collect::<Vec<_>>()
+            .into_iter();
+        let mut next = || changed.next().expect("as many entries as before");
+        Ok(match self {
+            Self::Translate(axis, _) => Displacement::Translate(*axis, next()?),
+            Self::Rotate(axis, _) => Displacement::Rotate(*axis, next()?),
+            Self::TranslateBy(_) => Displacement::TranslateBy([next()?, next()?, next()?]),
+        })
+    }
+}
+
+impl<T: Number> Displacement<T> {
+    /// The displacement as a pose.
+    pub fn pose(&self) -> Pose<T> {
+        match *self {
+            Self::Translate(axis, by) => Pose::translation(Vector3::unit(axis as usize).times(by)),
+            Self::Rotate(axis, by) => Pose::rotation(axis, by),
+            Self::TranslateBy(by) => Pose::translation(Vector3(by)),
         }
     }
 }

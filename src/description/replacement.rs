@@ -2,6 +2,7 @@
 
 use thiserror::Error;
 
+use super::problem::titles;
 use super::{Description, Entry, Problem, ProblemKind, Scope, names_of, nearest, place_of};
 use crate::algebra::Expression;
 
@@ -19,11 +20,6 @@ pub enum ReplacementError {
     /// The value is wrong. Spans count bytes of the text of the value.
     #[error("{}", titles(_0))]
     Value(Vec<Problem>),
-}
-
-fn titles(problems: &[Problem]) -> String {
-    let titles: Vec<String> = problems.iter().map(|p| p.kind.title()).collect();
-    titles.join("; ")
 }
 
 impl Description {

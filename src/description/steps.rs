@@ -1,11 +1,13 @@
 //! Lists of displacements as they are written: put together, undone, and where they lead.
 
+use std::convert::Infallible;
+
 use super::{Displacement, Entry};
 use crate::algebra::{Expression, Function, Node};
 use crate::geometry::Axis;
 
 pub(crate) fn zero() -> Entry {
-    Expression::number(0.0).into()
+    Entry::number(0.0, 0..0)
 }
 
 /// −e, as it would be written.
@@ -30,14 +32,10 @@ pub(crate) fn doing_something(steps: impl IntoIterator<Item = Displacement>) -> 
 
 /// The displacements undone, last first.
 pub(crate) fn undone(steps: &[Displacement]) -> Vec<Displacement> {
-    let undo = |step: &Displacement| match step {
-        Displacement::Translate(axis, e) => Displacement::Translate(*axis, negated(e)),
-        Displacement::Rotate(axis, e) => Displacement::Rotate(*axis, negated(e)),
-        Displacement::TranslateBy(entries) => {
-            Displacement::TranslateBy([0, 1, 2].map(|i| negated(&entries[i])))
-        }
-    };
-    steps.iter().rev().map(undo).collect()
+    let undo = |step: &Displacement| step.try_map(|e| Ok::<_, Infallible>(negated(e)));
+    let undone: Result<_, Infallible> = steps.iter().rev().map(undo).collect();
+    let Ok(undone) = undone;
+    undone
 }
 
 /// Displacements one after the other, what undoes itself left out: neighbours of one kind become one.

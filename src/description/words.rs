@@ -27,13 +27,17 @@ pub fn plural(noun: &str) -> String {
 
 /// `a, b and c`.
 pub fn listed<S: AsRef<str>>(words: &[S]) -> String {
+    joined(words, "and")
+}
+
+/// The same with another word before the last.
+pub(super) fn joined<S: AsRef<str>>(words: &[S], last_by: &str) -> String {
     match words {
-        [] => String::new(),
-        [word] => word.as_ref().into(),
-        [words @ .., last] => {
+        [words @ .., last] if !words.is_empty() => {
             let words: Vec<&str> = words.iter().map(AsRef::as_ref).collect();
-            format!("{} and {}", words.join(", "), last.as_ref())
+            format!("{} {last_by} {}", words.join(", "), last.as_ref())
         }
+        words => words.iter().map(AsRef::as_ref).collect(),
     }
 }
 

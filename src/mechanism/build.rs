@@ -10,11 +10,12 @@ mod parameters;
 use std::collections::HashSet;
 use std::path::Path;
 
-use super::model::{Chain, FixedStep, Formula, Joint, JointKind, Platform, Row};
+use super::lift::product;
+use super::model::{Chain, FixedStep, Joint, JointKind, Platform, Row};
 use super::names::{Names, definition_order};
 use super::{Frame, Mechanism, inspect};
 use crate::algebra::Measure;
-use crate::description::{self, Description, Displacement, Draft, Named};
+use crate::description::{self, Description, Displacement, Draft, Entry, Named};
 use crate::description::{FileError, LoadError, Problem, ProblemKind, Severity};
 use crate::geometry::Pose;
 
@@ -214,22 +215,11 @@ impl Builder<'_> {
                 Displacement::Rotate(..) => Measure::Angle,
                 _ => Measure::Length,
             };
-            let entries = displacement.entries().iter();
-            let formulas: Vec<Option<Formula>> = entries
-                .map(|entry| Some(self.measured(entry, measure)?.0))
-                .collect();
-            let formulas: Option<Vec<Formula>> = formulas.into_iter().collect();
-            steps.extend(formulas.and_then(|formulas| {
-                let mut formulas = formulas.into_iter();
-                let mut next = || formulas.next();
-                Some(match displacement {
-                    Displacement::Translate(along, _) => FixedStep::Translate(*along, next()?),
-                    Displacement::Rotate(about, _) => FixedStep::Rotate(*about, next()?),
-                    Displacement::TranslateBy(_) => {
-                        FixedStep::TranslateBy([next()?, next()?, next()?])
-                    }
-                })
-            }));
+            let formula = |entry: &Entry| {
+                let measured = self.measured(entry, measure);
+                measured.map(|(formula, _)| formula).ok_or(())
+            };
+            steps.extend(displacement.try_map(formula));
         }
         steps
     }
@@ -307,13 +297,9 @@ impl Builder<'_> {
         let mut platforms = Vec::new();
         for Named { name, value } in &description.platforms {
             let home = self.fixed(&value.home);
-            let values = self.values.clone();
-            let home = home.iter().try_fold(Pose::identity(), |pose, step| {
-                Ok::<_, crate::algebra::EvaluationError>(pose * step.over(&values)?)
-            });
             platforms.push(Platform {
                 name: name.value.clone(),
-                home: home.unwrap_or_else(|_| Pose::identity()),
+                home: product(&home, &self.values).unwrap_or_else(|_| Pose::identity()),
                 frames: (value.frames.iter())
                     .map(|frame| (frame.name.value.clone(), self.fixed(&frame.value)))
                     .collect(),

@@ -21,6 +21,7 @@ use super::ClosureKind;
 use super::configuration::Configuration;
 use super::dimensions::{ClosureDimensions, Dimensions, LinearForm};
 use super::kinematics::{Kinematics, Mover, Need, Placement, Slot};
+use crate::description::AxisCondition;
 use crate::geometry::{Pose, Vector3};
 use crate::number::Number;
 
@@ -77,13 +78,11 @@ pub(crate) struct Rows<T> {
 
 /// How much of the poses of its two frames the rows of a closure use.
 pub(crate) fn needs(kind: ClosureKind) -> [Need; 2] {
-    match kind {
-        ClosureKind::Spherical | ClosureKind::Distance => [Need::Position; 2],
-        ClosureKind::Universal => [Need::Axis; 2],
-        ClosureKind::Revolute | ClosureKind::Cylindrical | ClosureKind::Planar => {
-            [Need::Pose, Need::Axis]
-        }
-        ClosureKind::Prismatic | ClosureKind::Rigid => [Need::Pose; 2],
+    match kind.conditions().axes {
+        AxisCondition::Free => [Need::Position; 2],
+        AxisCondition::Perpendicular => [Need::Axis; 2],
+        AxisCondition::Aligned => [Need::Pose, Need::Axis],
+        AxisCondition::Oriented => [Need::Pose; 2],
     }
 }
 
@@ -114,7 +113,7 @@ impl<T: Number> Closure<T> {
     /// The joint variables that occur in the length of a `Distance`, with the derivative of its residual for
     /// a unit of the scaled variable: −s cⱼ/L².
     pub(crate) fn length_column(&self, joint: usize, at: &Configuration<T>) -> T {
-        let length = self.length + self.extension.at(&at.joints);
+        let length = self.length(&at.joints);
         let factor = self.joint_scales[joint] * self.inverse_length * self.inverse_length;
         -(length * self.extension.coefficient(joint)).scale(factor)
     }
@@ -141,8 +140,8 @@ impl<T: Number> Closure<T> {
 
     /// The length of a `Distance` in m.
     #[inline]
-    pub(crate) fn length(&self, at: &Configuration<T>) -> T {
-        self.length + self.extension.at(&at.joints)
+    pub(crate) fn length(&self, joints: &[T]) -> T {
+        self.length + self.extension.at(joints)
     }
 
     /// Residuals only. Nothing allocates.
@@ -158,7 +157,7 @@ impl<T: Number> Closure<T> {
             }
             ClosureKind::Distance => {
                 let mut rows = Rows::new(self.inverse_length, [a.position, b.position]);
-                rows.distance(&gap, self.length(at));
+                rows.distance(&gap, self.length(&at.joints));
                 out[0] = rows.residual[0];
             }
             _ => {
@@ -174,25 +173,24 @@ impl<T: Number> Closure<T> {
     pub(crate) fn conditions(&self, placement: &Placement<T>, joints: &[T]) -> Vec<T> {
         let [a, b] = self.frames(placement);
         let gap = b.position - a.position;
-        let point = || gap.0.to_vec();
-        let offsets =
-            |axes: &[Vector3<T>]| -> Vec<T> { axes.iter().map(|z| z.dot(&gap)).collect() };
-        let aligned = || misalignment(a, b).0.to_vec();
-        let oriented = || disorientation(a, b).0.to_vec();
+        let conditions = self.kind.conditions();
         let axes = &a.rotation.0;
-        match self.kind {
-            ClosureKind::Spherical => point(),
-            ClosureKind::Revolute => [point(), aligned()].concat(),
-            ClosureKind::Universal => [point(), vec![axes[2].dot(&b.rotation.0[2])]].concat(),
-            ClosureKind::Rigid => [point(), oriented()].concat(),
-            ClosureKind::Prismatic => [oriented(), offsets(&axes[..2])].concat(),
-            ClosureKind::Cylindrical => [aligned(), offsets(&axes[..2])].concat(),
-            ClosureKind::Planar => [aligned(), offsets(&axes[2..])].concat(),
-            ClosureKind::Distance => {
-                let length = self.length + self.extension.at(joints);
-                vec![gap.dot(&gap) - length * length]
-            }
+        let mut all = Vec::with_capacity(MOST_ROWS);
+        if conditions.origins {
+            all.extend(gap.0);
         }
+        match conditions.axes {
+            AxisCondition::Free => {}
+            AxisCondition::Perpendicular => all.push(axes[2].dot(&b.rotation.0[2])),
+            AxisCondition::Aligned => all.extend(misalignment(a, b).0),
+            AxisCondition::Oriented => all.extend(disorientation(a, b).0),
+        }
+        all.extend(axes[conditions.offsets].iter().map(|axis| axis.dot(&gap)));
+        if self.kind.has_length() {
+            let length = self.length(joints);
+            all.push(gap.dot(&gap) - length * length);
+        }
+        all
     }
 
     /// Residuals and wrenches.
@@ -227,7 +225,7 @@ impl<T: Number> Closure<T> {
                 rows.alignment(a, b);
                 rows.offsets(&gap, &a.rotation.0[2..]);
             }
-            ClosureKind::Distance => rows.distance(&gap, self.length(at)),
+            ClosureKind::Distance => rows.distance(&gap, self.length(&at.joints)),
         }
         rows
     }

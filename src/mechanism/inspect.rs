@@ -5,7 +5,9 @@ use std::collections::HashSet;
 use super::frames::joints_of;
 use super::model::{FixedStep, Formula, Given, Symbol};
 use super::{Frame, Mechanism};
-use crate::description::{Beside, Convention, Description, Problem, ProblemKind, Turned};
+use crate::description::{
+    AxisCondition, Beside, ClosureKind, Convention, Description, Problem, ProblemKind, Turned,
+};
 
 pub(super) fn inspect(
     mechanism: &Mechanism,
@@ -115,9 +117,10 @@ impl Mechanism {
             chain,
             row: turning,
         };
+        let oriented = |kind: ClosureKind| kind.conditions().axes == AxisCondition::Oriented;
         let mut closures = self.closures.iter();
-        let closed = closures
-            .any(|closure| closure.kind.holds_orientation() && closure.frames.contains(&frame));
+        let closed =
+            closures.any(|closure| oriented(closure.kind) && closure.frames.contains(&frame));
         let printed = self.closed_forms.iter().any(|form| match &form.gives {
             Given::Pose {
                 of, relative_to, ..
@@ -135,7 +138,7 @@ impl Mechanism {
     fn for_each_formula(&self, visit: &mut impl FnMut(&Formula)) {
         let fixed = |steps: &[FixedStep], visit: &mut dyn FnMut(&Formula)| {
             for step in steps {
-                step.formulas().iter().for_each(&mut *visit);
+                step.entries().iter().for_each(&mut *visit);
             }
         };
         for parameter in &self.parameters {

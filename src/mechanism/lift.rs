@@ -38,34 +38,13 @@ fn along<T: Number>(axis: Axis, length: T) -> Pose<T> {
     Pose::translation(Vector3::unit(axis as usize).times(length))
 }
 
-impl FixedStep {
-    /// The formulas it is made of.
-    pub(super) fn formulas(&self) -> &[Formula] {
-        match self {
-            FixedStep::Translate(_, formula) | FixedStep::Rotate(_, formula) => {
-                std::slice::from_ref(formula)
-            }
-            FixedStep::TranslateBy(formulas) => formulas,
-        }
-    }
-
-    /// The displacement for given values of the parameters.
-    pub(super) fn over<T: Number>(&self, parameters: &[T]) -> Result<Pose<T>, EvaluationError> {
-        Ok(match self {
-            FixedStep::Translate(axis, length) => along(*axis, value(length, parameters)?),
-            FixedStep::Rotate(axis, angle) => Pose::rotation(*axis, value(angle, parameters)?),
-            FixedStep::TranslateBy([x, y, z]) => Pose::translation(Vector3([
-                value(x, parameters)?,
-                value(y, parameters)?,
-                value(z, parameters)?,
-            ])),
-        })
-    }
-}
-
-fn product<T: Number>(steps: &[FixedStep], parameters: &[T]) -> Result<Pose<T>, EvaluationError> {
+pub(super) fn product<T: Number>(
+    steps: &[FixedStep],
+    parameters: &[T],
+) -> Result<Pose<T>, EvaluationError> {
     (steps.iter()).try_fold(Pose::identity(), |pose, step| {
-        Ok(pose * step.over(parameters)?)
+        let step = step.try_map(|formula| value(formula, parameters))?;
+        Ok(pose * step.pose())
     })
 }
 

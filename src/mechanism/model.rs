@@ -1,8 +1,8 @@
 //! The parts of a mechanism, every name resolved.
 
 use crate::algebra::{Affine, Expression, Measure, words};
-use crate::description::{ClosureKind, Convention, MatrixEntry, Role};
-use crate::geometry::{Axis, Pose};
+use crate::description::{ClosureKind, Convention, Displacement, MatrixEntry, Role};
+use crate::geometry::Pose;
 
 /// The meaning of a name in an expression.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
@@ -90,16 +90,8 @@ impl Joint {
     }
 }
 
-/// One step of a fixed transform.
-#[derive(Clone, Debug, PartialEq)]
-pub enum FixedStep {
-    /// By a length (m) along an axis.
-    Translate(Axis, Formula),
-    /// By an angle (rad) about an axis.
-    Rotate(Axis, Formula),
-    /// By a vector (m).
-    TranslateBy([Formula; 3]),
-}
+/// One step of a fixed transform, in m or rad.
+pub type FixedStep = Displacement<Formula>;
 
 /// One row of a Denavit–Hartenberg table.
 #[derive(Clone, Debug, PartialEq)]

@@ -7,8 +7,8 @@ use super::Mechanism;
 use crate::algebra::{
     EvaluationErrorKind, Expression, LARGEST, Measure, MeasureErrorKind, ParseErrorKind,
 };
-use crate::description::{ProblemKind, Scope, nearest};
-use crate::geometry::{Axis, Pose, Vector3};
+use crate::description::{Displacement, ProblemKind, Scope, nearest};
+use crate::geometry::Pose;
 
 /// A value that is given to a coordinate or a pose.
 #[derive(Clone, Debug, PartialEq)]
@@ -243,17 +243,8 @@ pub fn pose(mechanism: &Mechanism, text: &str) -> Result<Pose<f64>, ValueError> 
             .into_iter()
             .map(|value| Value::from(value.trim().trim_matches('"')).coordinate(mechanism, wanted))
             .collect::<Result<Vec<f64>, _>>()?;
-        let step = match (word, values.as_slice()) {
-            ("Tx", &[x]) => Pose::translation(Vector3([x, 0.0, 0.0])),
-            ("Ty", &[y]) => Pose::translation(Vector3([0.0, y, 0.0])),
-            ("Tz", &[z]) => Pose::translation(Vector3([0.0, 0.0, z])),
-            ("T", &[x, y, z]) => Pose::translation(Vector3([x, y, z])),
-            ("Rx", &[angle]) => Pose::rotation(Axis::X, angle),
-            ("Ry", &[angle]) => Pose::rotation(Axis::Y, angle),
-            ("Rz", &[angle]) => Pose::rotation(Axis::Z, angle),
-            _ => return Err(refusal(part)),
-        };
-        pose = pose * step;
+        let step = Displacement::of_word(word, values).ok_or_else(|| refusal(part))?;
+        pose = pose * step.pose();
     }
     Ok(pose)
 }

@@ -35,7 +35,7 @@ pub(super) fn equations(mechanism: &Mechanism, formal: &Formal) -> Vec<Trigonome
         if closure.frames.iter().any(carried) {
             continue;
         }
-        let (origin, axis) = (closure.kind.joins_origins(), closure.kind.joins_axes());
+        let (origin, axis) = (closure.kind.conditions().origins, closure.kind.joins_axes());
         let stands = closure.frames.map(|frame| mechanism.stands_on(frame));
         let mut links: Vec<Frame> = Vec::new();
         for frame in stands.into_iter().flatten() {

@@ -6,22 +6,7 @@ use crate::description::{Expected, Found, Noun, Scope, Structure};
 
 impl Display for Noun {
     fn fmt(&self, f: &mut Formatter) -> fmt::Result {
-        f.write_str(match self {
-            Self::Field => "a field",
-            Self::Parameter => "a parameter",
-            Self::Joint | Self::Axis => "a joint",
-            Self::Body => "a body",
-            Self::Point => "a point",
-            Self::Chain => "a chain",
-            Self::Platform => "a platform",
-            Self::PlatformFrame => "a platform frame",
-            Self::Closure => "a closure",
-            Self::ClosedForm => "a closed form",
-            Self::LocalName => "a local name",
-            Self::MatrixEntry => "an entry of a pose",
-            Self::Identity => "an identity",
-            Self::Output => "an output",
-        })
+        f.write_str(self.word())
     }
 }
 

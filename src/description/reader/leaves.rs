@@ -159,23 +159,15 @@ impl Reader {
     }
 
     fn displacement(&mut self, piece: Piece) -> Option<Displacement> {
-        const KNOWN: [&str; 7] = ["Tx", "Ty", "Tz", "Rx", "Ry", "Rz", "T"];
-        let (known, content) = self.word(piece, Expected::Displacement, &KNOWN, |word| word)?;
-        let expected = Expected::DisplacementEntries(known);
-        if known == "T" {
-            let pieces = self.content(piece, content, expected)?;
-            return self.entries(pieces).map(Displacement::TranslateBy);
-        }
-        let [entry] = self.content(piece, content, expected)?;
-        let entry = self.entry(entry)?;
-        let axis = match &known[1..] {
-            "x" => Axis::X,
-            "y" => Axis::Y,
-            _ => Axis::Z,
+        let words = &Displacement::<Entry>::WORDS;
+        let (word, content) = self.word(piece, Expected::Displacement, words, |word| word)?;
+        let expected = Expected::DisplacementEntries(word);
+        let entries = match word {
+            "T" => Vec::from(self.content::<3>(piece, content, expected)?),
+            _ => Vec::from(self.content::<1>(piece, content, expected)?),
         };
-        Some(match known.starts_with('T') {
-            true => Displacement::Translate(axis, entry),
-            false => Displacement::Rotate(axis, entry),
-        })
+        // all are read before one that is wrong ends it
+        let entries: Vec<_> = entries.into_iter().map(|entry| self.entry(entry)).collect();
+        Displacement::of_word(word, entries.into_iter().collect::<Option<_>>()?)
     }
 }

@@ -113,7 +113,7 @@ impl Reader {
                 fields.pieces.insert(name.value, value);
             } else {
                 let field = name.value.to_owned();
-                let meant = nearest(&field, structure.fields().iter().copied());
+                let meant = nearest(&field, structure.fields());
                 fields.misspelt.extend(meant);
                 let suggestion = meant.map(str::to_owned);
                 let kind = ProblemKind::UnknownField {

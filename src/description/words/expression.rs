@@ -1,6 +1,6 @@
 //! Words for what is wrong with an expression.
 
-use super::quoted;
+use super::{joined, quoted};
 use crate::algebra::{Function, Measure, MeasureErrorKind, ParseErrorKind, Unit};
 use crate::description::nearest;
 
@@ -78,31 +78,42 @@ pub(in crate::description) fn unit_label(error: &MeasureErrorKind) -> &'static s
 }
 
 pub(in crate::description) fn unit_help(error: &MeasureErrorKind) -> String {
-    let help = match error {
-        MeasureErrorKind::BareAngle(value) => {
-            let radians = value.to_radians();
-            return format!(
-                "write `{value}deg`, which is `{radians:.6}rad`, or `{value}rad` if so many turns are meant"
-            );
-        }
-        MeasureErrorKind::Wrong { wanted, .. } => match wanted {
-            Measure::Length => "write m, cm, mm or in; a number without unit is in m",
-            Measure::Angle => "write deg or rad; a number without unit is in rad",
-            Measure::Force => "write the number alone; it is in N",
-            Measure::Moment => "write the number alone; it is in N·m",
-            Measure::Number | Measure::Open => "write the number alone",
+    match error {
+        MeasureErrorKind::BareAngle(value) => format!(
+            "write `{value}deg`, which is `{:.6}rad`, or `{value}rad` if so many turns are meant",
+            value.to_radians()
+        ),
+        MeasureErrorKind::Wrong { wanted, .. } => match (units_of(*wanted), wanted.si_unit()) {
+            (units, Some(si)) if units.is_empty() => {
+                format!("write the number alone; it is in {si}")
+            }
+            (units, Some(si)) => {
+                format!(
+                    "write {}; a number without unit is in {si}",
+                    joined(&units, "or")
+                )
+            }
+            (_, None) => "write the number alone".into(),
         },
-        MeasureErrorKind::Mixed => "give both the same unit, or none",
+        MeasureErrorKind::Mixed => "give both the same unit, or none".into(),
         MeasureErrorKind::Units(..) => {
-            "only what has the same unit can be added or compared: divide one by something"
+            "only what has the same unit can be added or compared: divide one by something".into()
         }
         MeasureErrorKind::Argument(function, _) if function.takes_angle() => {
-            "divide by a length, or give it an angle"
+            "divide by a length, or give it an angle".into()
         }
-        MeasureErrorKind::Argument(..) => "divide by something that has the same unit",
-        MeasureErrorKind::LengthAsAngle(_) => {
-            "write deg or rad, or divide by a length; a number without unit is in rad"
-        }
-    };
-    help.into()
+        MeasureErrorKind::Argument(..) => "divide by something that has the same unit".into(),
+        MeasureErrorKind::LengthAsAngle(_) => format!(
+            "write {}, or divide by a length; a number without unit is in rad",
+            joined(&units_of(Measure::Angle), "or")
+        ),
+    }
+}
+
+/// The units that can be written for a measure.
+fn units_of(measure: Measure) -> Vec<&'static str> {
+    let units = Unit::ALL
+        .into_iter()
+        .filter(|unit| unit.measure() == measure);
+    units.map(Unit::word).collect()
 }

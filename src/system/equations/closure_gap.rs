@@ -1,4 +1,6 @@
-use crate::description::ClosureKind;
+use std::f64::consts::FRAC_PI_2;
+
+use crate::description::AxisCondition;
 use crate::geometry::Quaternion;
 use crate::mechanism::{Configuration, Mechanism};
 
@@ -29,22 +31,22 @@ impl Gap {
                     let [w, x, y, z] = Quaternion::from_rotation(&relative).canonical().0;
                     2.0 * x.hypot(y).hypot(z).atan2(w)
                 };
-                let apart = g[0].hypot(g[1]).hypot(g[2]);
-                let (distance, angle) = match closure.kind {
-                    ClosureKind::Spherical => (apart, 0.0),
-                    ClosureKind::Revolute => (apart, between_axes()),
-                    ClosureKind::Universal => {
-                        (apart, (between_axes() - std::f64::consts::FRAC_PI_2).abs())
-                    }
-                    ClosureKind::Rigid => (apart, between_frames()),
-                    ClosureKind::Prismatic => (g[0].hypot(g[1]), between_frames()),
-                    ClosureKind::Cylindrical => (g[0].hypot(g[1]), between_axes()),
-                    ClosureKind::Planar => (g[2].abs(), between_axes()),
-                    ClosureKind::Distance => {
-                        let dimensions = &mechanism.dimensions().closures[i];
-                        let length = dimensions.length + dimensions.extension.at(&at.joints);
-                        ((apart - length.abs()).abs(), 0.0)
-                    }
+                let conditions = closure.kind.conditions();
+                let blocked = match conditions.origins || closure.kind.has_length() {
+                    true => 0..3,
+                    false => conditions.offsets,
+                };
+                let mut distance = g[blocked].iter().fold(0.0, |sum: f64, x| sum.hypot(*x));
+                if closure.kind.has_length() {
+                    let dimensions = &mechanism.dimensions().closures[i];
+                    let length = dimensions.length + dimensions.extension.at(&at.joints);
+                    distance = (distance - length.abs()).abs();
+                }
+                let angle = match conditions.axes {
+                    AxisCondition::Free => 0.0,
+                    AxisCondition::Perpendicular => (between_axes() - FRAC_PI_2).abs(),
+                    AxisCondition::Aligned => between_axes(),
+                    AxisCondition::Oriented => between_frames(),
                 };
                 Gap { distance, angle }
             })
