@@ -30,7 +30,7 @@ mod svd;
 pub use aligned::axis_aligned;
 pub use block::{Block, DenseOnly, SparseStep};
 pub use bordered::Bordered;
-pub use decomposition::{Decomposition, add, complement, dot, norm, orthonormal, remove};
+pub use decomposition::{Decomposition, add, complement, dot, norm, orthonormal, product, remove};
 pub use factorable::Factorable;
 pub use qr::Qr;
 #[cfg(feature = "sparse")]
@@ -47,15 +47,15 @@ pub const RANK_TOLERANCE: f64 = 1e-7;
 
 /// The other limits of rank decisions, all relative to the largest singular value or to the row itself.
 ///
-/// Places of a curve are located to rounding, so a place where branches cross is told from a regular one
-/// by less than [`RANK_TOLERANCE`].
+/// Places of a curve are located to rounding, so a crossing of branches is distinguished from a regular
+/// place by less than [`RANK_TOLERANCE`].
 pub const SINGULAR_PLACE: f64 = 1e-9;
 
-/// Nearer to a crossing than this the tangent of a curve has lost the digits that tell its branches apart.
+/// Nearer to a crossing than this, rounding no longer lets the tangent of a curve distinguish branches.
 pub const BESIDE_A_CROSSING: f64 = 1e-5;
 
-/// Of rows that are chosen one after another, one counts as independent if Gram–Schmidt leaves this part
-/// of it: the choice shall be well conditioned, so it is stricter than a decision of rank.
+/// The part of a row that Gram–Schmidt must leave for it to be chosen as independent; stricter than the
+/// rank tolerance, so that the choice is well conditioned.
 pub const INDEPENDENT: f64 = 1e-6;
 
 /// A curvature counts as negative from this part of the largest on: it is taken by differences.
@@ -92,24 +92,3 @@ pub fn rank_of(rows: usize, columns: usize, entries: &[f64]) -> usize {
 
 /// The most columns whose spectrum is computed: it takes a second for so many, and grows as the cube.
 pub const SPECTRUM_LIMIT: usize = 500;
-
-/// Singular values of a column-major matrix, largest first, one for each column, and an orthonormal
-/// basis of the directions that it maps to zero.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Spectrum {
-    /// The singular values; zero where there are fewer rows than columns.
-    pub values: Vec<f64>,
-    /// The null space, one vector each.
-    pub null_space: Vec<Vec<f64>>,
-}
-
-impl Spectrum {
-    /// Of a matrix of the given size.
-    pub fn of(rows: usize, columns: usize, entries: &[f64]) -> Self {
-        let Svd { values, right, .. } = Svd::of(rows, columns, entries);
-        Spectrum {
-            null_space: right[rank(&values)..].to_vec(),
-            values,
-        }
-    }
-}

@@ -37,8 +37,8 @@ pub trait Number:
     + SubAssign
     + MulAssign
 {
-    /// Whether the numbers lie on a line, where roots and the angle of a point have one branch. In
-    /// the complex plane going round zero exchanges their branches.
+    /// Whether the numbers are real, where roots and angles have one branch; round a complex zero
+    /// branches change places.
     const REAL: bool = true;
 
     /// The constant `x`.
@@ -131,7 +131,7 @@ pub trait Number:
     }
 }
 
-/// The operators of a number, `+=`, `-=` and `*=` among them: all that are not given are there already.
+/// The operators of a number; `+=`, `-=` and `*=` follow from the others.
 macro_rules! operators {
     ($number:tt $(#[$inline:meta] $op:ident $name:ident |$a:ident $(, $b:ident)?| $value:expr;)*) => {
         $($crate::number::operators!(@of $number #[$inline] $op $name |$a $(, $b)?| $value);)*
@@ -175,8 +175,7 @@ use functions;
 
 /// A number with a conjugate and a size: what orthogonal factorisations need beyond [`Number`].
 ///
-/// A dual has the size of its value, so that everything solved over duals takes the same way as over
-/// its inner number and carries derivatives along.
+/// A dual has the size of its value, so that every decision over duals is that over its inner number.
 pub trait Field: Number {
     /// What sizes are measured by.
     type Size: Extent;

@@ -49,6 +49,17 @@ pub enum LoadError {
     Wrong(FileError),
 }
 
+impl LoadError {
+    /// A file with problems.
+    pub fn wrong(path: impl AsRef<Path>, text: String, problems: Vec<Problem>) -> Self {
+        LoadError::Wrong(FileError {
+            path: path.as_ref().to_owned(),
+            text,
+            problems,
+        })
+    }
+}
+
 /// A file with all its problems.
 #[derive(Debug, Clone, PartialEq)]
 pub struct FileError {
@@ -62,15 +73,10 @@ pub struct FileError {
 
 /// Reads a mechanism file. Returns its text too, to which later problems refer.
 pub fn load(path: impl AsRef<Path>) -> Result<(String, Description), LoadError> {
-    let path = path.as_ref().to_owned();
-    let text = read_text(&path)?;
+    let text = load_text(&path)?;
     match Description::read(&text) {
         Ok(description) => Ok((text, description)),
-        Err(problems) => Err(LoadError::Wrong(FileError {
-            path,
-            text,
-            problems,
-        })),
+        Err(problems) => Err(LoadError::wrong(path, text, problems)),
     }
 }
 
@@ -79,10 +85,7 @@ pub fn load(path: impl AsRef<Path>) -> Result<(String, Description), LoadError> 
 /// # Errors
 /// If it cannot be read, is too large or is not text.
 pub fn load_text(path: impl AsRef<Path>) -> Result<String, LoadError> {
-    read_text(path.as_ref())
-}
-
-fn read_text(path: &Path) -> Result<String, LoadError> {
+    let path = path.as_ref();
     let unreadable = |error| LoadError::Unreadable {
         path: path.to_owned(),
         error,

@@ -42,6 +42,12 @@ impl<T: Number> Quaternion<T> {
         Quaternion([w * factor, x * factor, y * factor, z * factor])
     }
 
+    /// The cosine of half the angle to another rotation; its sign depends on those of the quaternions.
+    pub fn half_cosine(&self, other: &Self) -> T {
+        let products = self.0.into_iter().zip(other.0).map(|(a, b)| a * b);
+        products.fold(T::zero(), |sum, product| sum + product)
+    }
+
     /// The rotation matrix of a unit quaternion.
     #[inline(always)]
     pub fn rotation(&self) -> Rotation<T> {

@@ -1,11 +1,11 @@
-//! Bases that lie along axes as far as they can.
+//! Bases along coordinate axes, as far as possible.
 
 use super::{norm, orthonormal, remove};
 
 /// What counts as zero in a direction.
 const ALIGNED: f64 = 1e-6;
 
-/// A basis of a space that has unit vectors where it can, and for the rest echelon form.
+/// A basis of a space: the unit vectors in it, and the rest in echelon form.
 pub fn axis_aligned(vectors: &[Vec<f64>]) -> Vec<Vec<f64>> {
     let space = orthonormal(vectors, ALIGNED);
     let Some(size) = space.first().map(Vec::len) else {

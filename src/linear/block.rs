@@ -1,6 +1,6 @@
 use std::fmt::Debug;
 
-/// Where one block of rows stands: its own unknowns, and the shared ones it touches.
+/// The columns of one block of rows: unknowns of its own, and shared ones.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Block {
     /// Number of rows.

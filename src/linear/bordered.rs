@@ -26,8 +26,8 @@ pub struct Bordered<T: Factorable> {
     sparse: Option<T::Sparse>,
 }
 
-/// Elimination without exchange of columns can hide a loss of rank behind pivots that are merely
-/// small, so it is trusted only far from the rank tolerance.
+/// Without column exchange pivots may stay well above a lost rank, so elimination is used only if all
+/// are this large.
 const TRUSTED_PIVOT: f64 = 1e-3;
 
 #[derive(Clone, Debug)]
@@ -176,7 +176,7 @@ impl<T: Factorable> Bordered<T> {
                 self.border.column_mut(place)[row + place] = root;
             }
         }
-        // a square border is the rule; its smallest pivot tells whether elimination may be trusted
+        // the border is usually square, and elimination is faster where its pivots are large
         self.square = border_rows == self.shared.len()
             && self.square_border.factorise(self.border.entries()) > TRUSTED_PIVOT;
         if !self.square {
@@ -196,7 +196,7 @@ impl<T: Factorable> Bordered<T> {
             let rows = block.layout.rows;
             let r = &r[row..row + rows];
             row += rows;
-            // without own unknowns there is nothing to rotate: the rows stand in the border
+            // without own unknowns there is nothing to rotate: the rows go to the border
             if block.layout.own.is_empty() {
                 negate(r, &mut self.border_rhs[border_row..]);
                 border_row += rows;

@@ -74,15 +74,8 @@ impl Decomposition {
     /// det(Uᵀ B V Σ⁻¹) of another matrix B of the same shape, column-major; 1 for A itself.
     pub fn determinant_beside(&self, entries: &[f64]) -> f64 {
         let rank = self.rank();
-        let images: Vec<Vec<f64>> = (self.right.iter())
-            .map(|v| {
-                let mut image = vec![0.0; self.rows];
-                for (x, column) in v.iter().zip(entries.chunks_exact(self.rows.max(1))) {
-                    add(&mut image, *x, column);
-                }
-                image
-            })
-            .collect();
+        let images = self.right.iter().map(|v| product(entries, self.rows, v));
+        let images: Vec<Vec<f64>> = images.collect();
         nalgebra::DMatrix::from_fn(rank, rank, |i, j| {
             dot(&self.left[i], &images[j]) / self.values[j]
         })
@@ -126,6 +119,15 @@ pub fn norm(a: &[f64]) -> f64 {
 /// x ← x + factor·y.
 pub fn add(x: &mut [f64], factor: f64, y: &[f64]) {
     x.iter_mut().zip(y).for_each(|(x, y)| *x += factor * y);
+}
+
+/// A x for a column-major matrix of so many rows.
+pub fn product(entries: &[f64], rows: usize, x: &[f64]) -> Vec<f64> {
+    let mut product = vec![0.0; rows];
+    for (column, x) in entries.chunks_exact(rows.max(1)).zip(x) {
+        add(&mut product, *x, column);
+    }
+    product
 }
 
 /// Orthonormal basis of what the given vectors span, leaving out what is within the tolerance of

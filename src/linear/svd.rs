@@ -1,5 +1,7 @@
 use nalgebra::DMatrix;
 
+use super::rank;
+
 /// A = U·Σ·Vᵀ.
 pub struct Svd {
     /// The columns of U, as long as A has rows. Those of singular values zero may be zero.
@@ -26,6 +28,11 @@ impl Svd {
         let mut svd = Svd::by_iteration(&matrix).unwrap_or_else(|| Svd::by_rotations(&matrix));
         svd.left.iter_mut().for_each(|column| column.truncate(rows));
         svd
+    }
+
+    /// An orthonormal basis of the directions that the matrix maps to zero.
+    pub fn null_space(&self) -> &[Vec<f64>] {
+        &self.right[rank(&self.values)..]
     }
 
     /// `None` if the result is not the matrix to rounding.

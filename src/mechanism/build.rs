@@ -16,7 +16,7 @@ use super::names::{Names, definition_order};
 use super::{Frame, Mechanism, inspect};
 use crate::algebra::Measure;
 use crate::description::{self, Description, Displacement, Draft, Entry, Named};
-use crate::description::{FileError, LoadError, Problem, ProblemKind, Severity};
+use crate::description::{LoadError, Problem, ProblemKind, Severity, load_text};
 use crate::geometry::Pose;
 
 /// A chain as far as it could be resolved.
@@ -67,13 +67,7 @@ impl Mechanism {
     /// If the file cannot be read, or has problems; then with all of them.
     pub fn load(path: impl AsRef<Path>) -> Result<Self, LoadError> {
         let (text, description) = Mechanism::read(&path)?;
-        Mechanism::new(&description).map_err(|problems| {
-            LoadError::Wrong(FileError {
-                path: path.as_ref().to_owned(),
-                text,
-                problems,
-            })
-        })
+        Mechanism::new(&description).map_err(|problems| LoadError::wrong(path, text, problems))
     }
 
     /// Reads a mechanism file as a description, to be changed before it becomes a mechanism. Returns its text too.
@@ -81,13 +75,14 @@ impl Mechanism {
     /// # Errors
     /// If the file cannot be read or is not well formed; then with all its problems.
     pub fn read(path: impl AsRef<Path>) -> Result<(String, Description), LoadError> {
-        description::load(path).map_err(|error| match error {
-            LoadError::Wrong(mut error) => {
-                error.problems = Mechanism::problems(&error.text);
-                LoadError::Wrong(error)
+        let text = load_text(&path)?;
+        match Description::read(&text) {
+            Ok(description) => Ok((text, description)),
+            Err(_) => {
+                let problems = Mechanism::problems(&text);
+                Err(LoadError::wrong(path, text, problems))
             }
-            other => other,
-        })
+        }
     }
 
     /// All problems in the text of a mechanism file, of form and of meaning, in the order of the text; empty if it

@@ -41,18 +41,6 @@ impl From<Frame> for Point {
     }
 }
 
-impl From<&Frame> for Point {
-    fn from(frame: &Frame) -> Self {
-        Point::from(*frame)
-    }
-}
-
-impl From<&Point> for Point {
-    fn from(point: &Point) -> Self {
-        *point
-    }
-}
-
 impl Point {
     /// A frame's origin, `left`, or a point beside it in its own axes, `left+0.5,0.2,0`: offsets
     /// along x, y, z are expressions as in the file, and those left out are zero.

@@ -2,6 +2,7 @@
 
 use thiserror::Error;
 
+use super::value::split_at_commas;
 use super::{Frame, Mechanism, Point, PointError, PoseCoordinate};
 use crate::algebra::{Expression, MeasureError, ParseError, SiUnit, words};
 use crate::description::nearest;
@@ -161,23 +162,12 @@ impl Quantity {
     /// follows a point belongs to its offsets: `velocity:left+0.5,0.2, transmission` are two.
     pub fn split(list: &str) -> Vec<String> {
         let mut parts: Vec<String> = Vec::new();
-        let (mut depth, mut start) = (0i32, 0);
-        let ends = list.char_indices().chain([(list.len(), ',')]);
-        for (at, c) in ends {
-            match c {
-                '(' | '[' => depth += 1,
-                ')' | ']' => depth -= 1,
-                ',' if depth <= 0 || at == list.len() => {
-                    let part = list[start..at].trim();
-                    start = (at + 1).min(list.len());
-                    match parts.last_mut() {
-                        Some(last) if last.contains('+') && part.parse::<f64>().is_ok() => {
-                            *last += &format!(",{part}");
-                        }
-                        _ => parts.push(part.to_owned()),
-                    }
+        for part in split_at_commas(list).into_iter().map(str::trim) {
+            match parts.last_mut() {
+                Some(last) if last.contains('+') && part.parse::<f64>().is_ok() => {
+                    *last += &format!(",{part}");
                 }
-                _ => {}
+                _ => parts.push(part.to_owned()),
             }
         }
         parts.retain(|part| !part.is_empty());

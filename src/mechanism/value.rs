@@ -231,7 +231,7 @@ pub fn pose(mechanism: &Mechanism, text: &str) -> Result<Pose<f64>, ValueError> 
         .and_then(|rest| rest.strip_suffix(']'));
     let inside = inside.ok_or_else(|| refusal(text))?;
     let mut pose = Pose::identity();
-    for part in split_outside_parentheses(inside) {
+    for part in split_at_commas(inside) {
         let (word, arguments) = part.trim().split_once('(').ok_or_else(|| refusal(part))?;
         let arguments = arguments.strip_suffix(')').ok_or_else(|| refusal(part))?;
         let word = word.trim();
@@ -239,7 +239,7 @@ pub fn pose(mechanism: &Mechanism, text: &str) -> Result<Pose<f64>, ValueError> 
             true => Measure::Angle,
             false => Measure::Length,
         };
-        let values = split_outside_parentheses(arguments)
+        let values = split_at_commas(arguments)
             .into_iter()
             .map(|value| Value::from(value.trim().trim_matches('"')).coordinate(mechanism, wanted))
             .collect::<Result<Vec<f64>, _>>()?;
@@ -249,23 +249,17 @@ pub fn pose(mechanism: &Mechanism, text: &str) -> Result<Pose<f64>, ValueError> 
     Ok(pose)
 }
 
-/// The parts between commas that stand in no parentheses; none if there is only space.
-fn split_outside_parentheses(text: &str) -> Vec<&str> {
-    let mut parts = Vec::new();
-    let (mut depth, mut start) = (0i32, 0);
-    for (i, character) in text.char_indices() {
-        match character {
-            '(' => depth += 1,
-            ')' => depth -= 1,
-            ',' if depth == 0 => {
-                parts.push(&text[start..i]);
-                start = i + 1;
-            }
-            _ => {}
-        }
-    }
-    if !text[start..].trim().is_empty() {
-        parts.push(&text[start..]);
+/// The parts of a text between commas outside all brackets; none if there is only space.
+pub(super) fn split_at_commas(text: &str) -> Vec<&str> {
+    let mut depth = 0i32;
+    let outside = |c: char| {
+        depth += i32::from(matches!(c, '(' | '[')) - i32::from(matches!(c, ')' | ']'));
+        c == ',' && depth <= 0
+    };
+    let mut parts: Vec<&str> = text.split(outside).collect();
+    // nothing stands behind a last comma
+    if parts.last().is_some_and(|last| last.trim().is_empty()) {
+        parts.pop();
     }
     parts
 }

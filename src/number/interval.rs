@@ -16,7 +16,7 @@ pub struct Interval {
 
 const WHOLE: Interval = interval(f64::NEG_INFINITY, f64::INFINITY);
 
-/// The elementary functions of `pxfm` are within half a unit in the last place; two are granted.
+/// The elementary functions of `pxfm` are within half a unit in the last place; two are allowed for.
 #[inline]
 fn outward(low: f64, high: f64) -> Interval {
     rounded(low.next_down(), high.next_up())

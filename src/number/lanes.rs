@@ -5,11 +5,10 @@ use super::{Extent, Field, Number, Packed, functions, operators, trigonometry};
 /// How many numbers stand side by side: two registers of AVX2, one of AVX-512.
 pub const LANES: usize = 8;
 
-/// Eight real numbers that take the same way through the kinematics.
+/// Eight real numbers on which the kinematics is evaluated at once.
 ///
-/// Each operation does in every lane what it does over `f64`, bit by bit. The numbers are held as
-/// vectors of the processor: eight in an array the compiler leaves in memory between operations, and
-/// a map of the workspace took a quarter longer so.
+/// Each operation gives in every lane the bits it gives over `f64`. Held as vectors of the processor:
+/// the compiler keeps an array in memory between operations, a quarter slower for a workspace map.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Lanes(wide::f64x8);
 
@@ -41,7 +40,7 @@ impl Lanes {
         Lanes::new(lanes)
     }
 
-    /// One number of all: halves first, which are as many operations, but side by side.
+    /// All lanes combined, by halves, so that the operations are independent of one another.
     #[inline(always)]
     fn reduced(self, f: impl Fn(f64, f64) -> f64) -> f64 {
         let mut lanes = self.lanes();

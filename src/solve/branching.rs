@@ -2,7 +2,7 @@
 
 use super::continuation::{Continuation, Place, SolutionCurve};
 use crate::linear::{
-    BESIDE_A_CROSSING, Decomposition, RANK_TOLERANCE, SINGULAR_PLACE, add, dot, norm,
+    BESIDE_A_CROSSING, Decomposition, RANK_TOLERANCE, SINGULAR_PLACE, add, dot, norm, product,
 };
 
 /// A point where the Jacobian of a curve loses rank.
@@ -90,7 +90,7 @@ impl Continuation {
             }
             for v in &right {
                 let bent = bent(curve, &at, v);
-                let along = times(&jacobian, rows, v);
+                let along = product(&jacobian, rows, v);
                 for w in &left {
                     matrix.push((bent.chunks_exact(rows.max(1)).map(|c| dot(w, c))).collect());
                     wanted.push(dot(w, &along));
@@ -221,15 +221,6 @@ fn decomposed(rows: &[Vec<f64>], columns: usize) -> Decomposition {
     Decomposition::of(rows.len(), columns, &entries)
 }
 
-/// J v.
-fn times(jacobian: &[f64], rows: usize, v: &[f64]) -> Vec<f64> {
-    let mut product = vec![0.0; rows];
-    for (column, v) in jacobian.chunks_exact(rows.max(1)).zip(v) {
-        add(&mut product, *v, column);
-    }
-    product
-}
-
 /// For every left null vector w the symmetric form wᵀ H(vᵢ, vⱼ), row after row.
 fn forms<C: SolutionCurve>(
     curve: &mut C,
@@ -243,7 +234,7 @@ fn forms<C: SolutionCurve>(
         let bent = bent(curve, at, v);
         let rows = bent.len() / curve.unknowns();
         for (j, u) in right.iter().enumerate() {
-            let along = times(&bent, rows, u);
+            let along = product(&bent, rows, u);
             for (form, w) in forms.iter_mut().zip(left) {
                 let half = 0.5 * dot(w, &along);
                 form[i * n + j] += half;

@@ -204,10 +204,7 @@ impl<T: Factorable> System<T> {
         let width = self.empty.shared().len();
         let first = self.rows() - self.empty.extra_rows();
         let twist_place = |platform| {
-            let twist = Unknown::Twist {
-                platform,
-                component: 0,
-            };
+            let twist = Unknown::first_twist(platform);
             let unknown = self.unknowns.iter().position(|u| *u == twist);
             unknown.expect("a partly held platform is unknown") - self.empty.shared()[0]
         };

@@ -14,14 +14,15 @@ pub use drive::{Drive, DriveError};
 pub use equilibrium::Equilibrium;
 pub use error::QuestionError;
 pub use forces::{ForceError, Load};
+pub use held::with_coordinates;
 pub use outputs::{
     actuated, coordinate_outputs, default_outputs, free_outputs, inputs_of, platform_outputs,
 };
 pub use spins::Still;
 
 use super::equations::System;
-use crate::description::{Role, nearest};
-use crate::geometry::{Pose, RollPitchYaw};
+use crate::description::Role;
+use crate::geometry::Pose;
 use crate::linear::Factorable;
 use crate::mechanism::{Configuration, Mechanism, PlatformPose, PoseCoordinate, Value};
 use crate::system::{Coordinate, Held, HeldPlatform};
@@ -31,7 +32,7 @@ use demand::Target;
 ///
 /// A fresh question holds the actuated joints at home and starts at the home configuration. Joints
 /// are named as in the file, platform coordinates `top.x`, `top.y`, `top.z` (m) and `top.roll`,
-/// `top.pitch`, `top.yaw` (rad, see [`RollPitchYaw`]), a whole pose by the platform's name.
+/// `top.pitch`, `top.yaw` (rad, see [`RollPitchYaw`](crate::geometry::RollPitchYaw)), a whole pose by the platform's name.
 #[derive(Clone, Debug)]
 pub struct Question<'a> {
     mechanism: &'a Mechanism,
@@ -162,41 +163,6 @@ impl<'a> Question<'a> {
         self.guessed_joints.fill(true);
         self.guessed_platforms.fill(true);
         self
-    }
-
-    /// The coordinates that a name stands for: one, the six of a platform, or all actuated joints for
-    /// `actuated`.
-    ///
-    /// # Errors
-    /// If there is no such joint or coordinate.
-    pub fn coordinates(&self, name: &str) -> Result<Vec<Coordinate>, QuestionError> {
-        if name == "actuated" && self.mechanism.joint(name).is_none() {
-            let joints = self.mechanism.joints().iter().enumerate();
-            let actuated = joints.filter(|(_, joint)| joint.role == Role::Actuated);
-            return Ok(actuated.map(|(i, _)| Coordinate::Joint(i)).collect());
-        }
-        Ok(match self.target(name)? {
-            Target::Coordinate(coordinate) => vec![coordinate],
-            Target::Pose(platform) => PoseCoordinate::ALL
-                .map(|c| Coordinate::Pose(platform, c))
-                .to_vec(),
-        })
-    }
-
-    /// The joint or platform coordinate of that name, and the value of an expression for it, in m
-    /// or rad.
-    ///
-    /// # Errors
-    /// If there is no such joint or coordinate, or the expression has no value.
-    pub fn value(
-        &self,
-        name: &str,
-        value: impl Into<Value>,
-    ) -> Result<(Coordinate, f64), QuestionError> {
-        let Target::Coordinate(coordinate) = self.target(name)? else {
-            return Err(QuestionError::NotAJoint { name: name.into() });
-        };
-        Ok((coordinate, self.number(name, &value.into(), coordinate)?))
     }
 
     /// The same question with some held coordinates at other values, in m or rad.
@@ -350,37 +316,6 @@ impl<'a> Question<'a> {
         self.split_changed
     }
 
-    /// What a name stands for, unless something else was demanded of it before.
-    fn demand(
-        &mut self,
-        verb: Verb,
-        name: &str,
-        value: Option<&Value>,
-    ) -> Result<Target, QuestionError> {
-        let target = self.target(name)?;
-        let second = Demand {
-            verb,
-            name: name.into(),
-            value: value.map(Value::to_string),
-        };
-        let mut demands = self.demands.iter();
-        let clash = demands.find(|(of, first)| of.meets(target) && first.verb.clashes(verb));
-        if let Some((_, first)) = clash {
-            let first = first.clone();
-            return Err(QuestionError::Contradiction { first, second });
-        }
-        self.demands.push((target, second));
-        Ok(target)
-    }
-
-    fn number(&self, name: &str, value: &Value, of: Coordinate) -> Result<f64, QuestionError> {
-        if value.is_home() {
-            return Ok(of.home(self.mechanism));
-        }
-        let number = value.coordinate(self.mechanism, of.measure(self.mechanism));
-        number.map_err(|error| QuestionError::value(name, value, error))
-    }
-
     /// Starts at the pose that a value stands for.
     fn guess_pose(
         &mut self,
@@ -401,57 +336,4 @@ impl<'a> Question<'a> {
         self.start.platforms[platform] = PlatformPose::from_pose(pose);
         self.guessed_platforms[platform] = true;
     }
-
-    fn target(&self, name: &str) -> Result<Target, QuestionError> {
-        if let Some(joint) = self.mechanism.joint(name) {
-            return Ok(Target::Coordinate(Coordinate::Joint(joint)));
-        }
-        if let Some(platform) = self.mechanism.platform(name) {
-            return Ok(Target::Pose(platform));
-        }
-        if let Some((platform, coordinate)) = name.rsplit_once('.')
-            && let (Some(platform), Some(coordinate)) = (
-                self.mechanism.platform(platform),
-                PoseCoordinate::from_word(coordinate),
-            )
-        {
-            return Ok(Target::Coordinate(Coordinate::Pose(platform, coordinate)));
-        }
-        let platforms = self.mechanism.platforms().iter();
-        let coordinates = Coordinate::all(self.mechanism).map(|of| of.name(self.mechanism));
-        let known: Vec<String> = coordinates
-            .chain(platforms.map(|platform| platform.name.clone()))
-            .collect();
-        Err(QuestionError::UnknownName {
-            name: name.into(),
-            suggestion: nearest(name, known.iter().map(String::as_str)).map(str::to_owned),
-        })
-    }
-}
-
-/// The pose with some coordinates exchanged.
-pub fn with_coordinates(
-    pose: &Pose<f64>,
-    values: impl IntoIterator<Item = (PoseCoordinate, f64)>,
-) -> Pose<f64> {
-    let mut angles = RollPitchYaw::from_rotation(&pose.rotation);
-    let mut position = pose.position;
-    let mut turned = false;
-    for (coordinate, value) in values {
-        turned |= coordinate.is_angle();
-        match coordinate {
-            PoseCoordinate::X | PoseCoordinate::Y | PoseCoordinate::Z => {
-                position.0[coordinate as usize] = value
-            }
-            PoseCoordinate::Roll => angles.roll = value,
-            PoseCoordinate::Pitch => angles.pitch = value,
-            PoseCoordinate::Yaw => angles.yaw = value,
-        }
-    }
-    let rotation = if turned {
-        angles.rotation()
-    } else {
-        pose.rotation
-    };
-    Pose { rotation, position }
 }

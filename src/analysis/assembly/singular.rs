@@ -1,7 +1,7 @@
 //! What makes a configuration singular for the held inputs.
 
 use super::Outcome;
-use crate::linear::{Spectrum, dot};
+use crate::linear::{Svd, dot};
 use crate::mechanism::{Configuration, Mechanism};
 use crate::solve::Equations;
 use crate::system::{Freedoms, Held, HeldPlatform, STILL, System, Unknown};
@@ -40,10 +40,10 @@ pub(super) fn blame(
         .flat_map(|i| free.iter().map(move |c| c[i]))
         .collect();
     let mut strongest = (0.0, 0, Vec::new());
-    for w in Spectrum::of(free.len(), rows, &transposed).null_space {
+    for w in Svd::of(free.len(), rows, &transposed).null_space() {
         let drives = inputs
             .iter()
-            .map(|(joint, column)| (*joint, dot(column, &w).abs()));
+            .map(|(joint, column)| (*joint, dot(column, w).abs()));
         let drives: Vec<(usize, f64)> = drives.collect();
         let most = drives.iter().fold(0.0, |m: f64, (_, d)| m.max(*d));
         if most >= strongest.0 {

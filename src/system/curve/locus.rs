@@ -1,7 +1,7 @@
 //! Singular configurations with two inputs free, as a curve.
 
 use super::{ConfigurationCurve, Curve};
-use crate::linear::{Decomposition, add, dot};
+use crate::linear::{Decomposition, add, dot, product};
 use crate::mechanism::{Configuration, Mechanism};
 use crate::solve::SolutionCurve;
 use crate::system::{Coordinate, Held, Lock, Locked, Unknown};
@@ -102,14 +102,6 @@ impl LocusCurve {
         let entries = self.locked.jacobian(at);
         product(&entries, self.locked.rows(), motion)
     }
-}
-
-fn product(entries: &[f64], rows: usize, vector: &[f64]) -> Vec<f64> {
-    let mut image = vec![0.0; rows];
-    for (column, x) in entries.chunks_exact(rows.max(1)).zip(vector) {
-        add(&mut image, *x, column);
-    }
-    image
 }
 
 impl ConfigurationCurve for LocusCurve {

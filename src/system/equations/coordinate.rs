@@ -111,10 +111,7 @@ impl Coordinate {
                 column.map(|c| (c, 1.0)).into_iter().collect()
             }
             Coordinate::Pose(platform, _) | Coordinate::Turn(platform, _) => {
-                let first = column(Unknown::Twist {
-                    platform,
-                    component: 0,
-                });
+                let first = column(Unknown::first_twist(platform));
                 let pose = at.platforms[platform].pose();
                 let slope = self.slope(&pose, system.characteristic_length());
                 let places = first.into_iter().flat_map(|first| first..first + 6);

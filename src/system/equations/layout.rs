@@ -137,6 +137,14 @@ pub enum Unknown {
 }
 
 impl Unknown {
+    /// The first of the six components of a platform's twist; the others follow it.
+    pub fn first_twist(platform: usize) -> Self {
+        Unknown::Twist {
+            platform,
+            component: 0,
+        }
+    }
+
     /// The name of the joint or platform it belongs to.
     pub fn owner(self, mechanism: &Mechanism) -> &str {
         match self {

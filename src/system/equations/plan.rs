@@ -55,11 +55,7 @@ impl<T: Factorable> ClosurePlan<T> {
             platforms: (sides.into_iter().zip(closure.platforms))
                 .filter_map(|(side, platform)| {
                     let platform = platform?;
-                    let first = Unknown::Twist {
-                        platform,
-                        component: 0,
-                    };
-                    Some((side, platform, column(first)?))
+                    Some((side, platform, column(Unknown::first_twist(platform))?))
                 })
                 .collect(),
         }

@@ -3,7 +3,7 @@
 use std::error::Error;
 use std::fmt::{self, Display, Formatter};
 
-use super::demand::{Demand, Verb};
+use super::demand::Demand;
 use crate::description::{count, listed};
 use crate::mechanism::{Value, ValueError};
 
@@ -143,17 +143,6 @@ impl Error for QuestionError {
         match self {
             QuestionError::Value { error, .. } => Some(error),
             _ => None,
-        }
-    }
-}
-
-impl Verb {
-    /// What it is called.
-    pub fn word(self) -> &'static str {
-        match self {
-            Verb::Hold => "hold",
-            Verb::Free => "free",
-            Verb::Guess => "guess",
         }
     }
 }

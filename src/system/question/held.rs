@@ -1,6 +1,6 @@
 //! What a question holds.
 
-use super::{Question, with_coordinates};
+use super::Question;
 use crate::geometry::{Pose, RollPitchYaw};
 use crate::mechanism::PoseCoordinate;
 use crate::system::{Coordinate, HeldPlatform};
@@ -76,4 +76,31 @@ impl Question<'_> {
         });
         held.map(|of| of.name(self.mechanism)).collect()
     }
+}
+
+/// The pose with some coordinates exchanged.
+pub fn with_coordinates(
+    pose: &Pose<f64>,
+    values: impl IntoIterator<Item = (PoseCoordinate, f64)>,
+) -> Pose<f64> {
+    let mut angles = RollPitchYaw::from_rotation(&pose.rotation);
+    let mut position = pose.position;
+    let mut turned = false;
+    for (coordinate, value) in values {
+        turned |= coordinate.is_angle();
+        match coordinate {
+            PoseCoordinate::X | PoseCoordinate::Y | PoseCoordinate::Z => {
+                position.0[coordinate as usize] = value
+            }
+            PoseCoordinate::Roll => angles.roll = value,
+            PoseCoordinate::Pitch => angles.pitch = value,
+            PoseCoordinate::Yaw => angles.yaw = value,
+        }
+    }
+    let rotation = if turned {
+        angles.rotation()
+    } else {
+        pose.rotation
+    };
+    Pose { rotation, position }
 }

@@ -343,9 +343,7 @@ fn farthest(
     let platforms = platforms.flat_map(|(i, platform)| {
         let (a, b) = (&from.platforms[i], &to.platforms[i]);
         let shift = (b.position - a.position).norm();
-        let cos: f64 = (a.orientation.0.iter().zip(b.orientation.0))
-            .map(|(a, b)| a * b)
-            .sum();
+        let cos = a.orientation.half_cosine(&b.orientation);
         let turn = 2.0 * cos.abs().min(1.0).acos();
         [
             moved(&platform.name, false, shift),

@@ -76,10 +76,8 @@ impl Search<'_> {
             }
             if *held == HeldPlatform::Pose {
                 let shift = (to.position - home.position).norm() / length;
-                let turn: f64 = (home.orientation.0.iter().zip(to.orientation.0))
-                    .map(|(a, b)| a * b)
-                    .sum();
-                longest = longest.max(shift).max(2.0 * turn.abs().min(1.0).acos());
+                let cos = home.orientation.half_cosine(&to.orientation);
+                longest = longest.max(shift).max(2.0 * cos.abs().min(1.0).acos());
             }
         }
         longest
@@ -107,7 +105,7 @@ fn pose_between(from: &PlatformPose<f64>, to: &PlatformPose<f64>, share: f64) ->
         return *to;
     }
     let (a, b) = (from.orientation.0, to.orientation.0);
-    let cos: f64 = a.iter().zip(b).map(|(a, b)| a * b).sum();
+    let cos = from.orientation.half_cosine(&to.orientation);
     let toward = share * cos.signum();
     let mixed = std::array::from_fn(|i| (1.0 - share) * a[i] + toward * b[i]);
     PlatformPose {

@@ -1,7 +1,7 @@
 use super::neighbourhood::Neighbourhood;
 use super::shake::shaken;
 use crate::geometry::RollPitchYaw;
-use crate::linear::{INDEPENDENT, SPECTRUM_LIMIT, Spectrum, norm, rank, remove};
+use crate::linear::{INDEPENDENT, SPECTRUM_LIMIT, Svd, norm, rank, remove};
 use crate::mechanism::{Configuration, Dimensions, Mechanism, PoseCoordinate};
 use crate::solve::{Equations, Newton, Stop};
 use crate::system::{Coordinate, Held, System, Unknown};
@@ -28,8 +28,8 @@ impl Freedoms {
             let mut work = system.work();
             system.linearise(at, &mut work);
             let jacobian = system.dense_jacobian(&mut work);
-            let spectrum = Spectrum::of(system.rows(), unknowns.len(), &jacobian);
-            (motions, singular_values) = (spectrum.null_space, spectrum.values);
+            let svd = Svd::of(system.rows(), unknowns.len(), &jacobian);
+            (motions, singular_values) = (svd.null_space().to_vec(), svd.values);
         }
         Freedoms {
             unknowns,
@@ -234,11 +234,7 @@ impl Mobility {
                     }
                     _ => candidate.slope(&pose, mechanism.characteristic_length()),
                 };
-                let first = Unknown::Twist {
-                    platform,
-                    component: 0,
-                };
-                self.freedoms.rates(first, &slope)
+                self.freedoms.rates(Unknown::first_twist(platform), &slope)
             }
         }
     }

@@ -45,11 +45,12 @@ struct Plan<T> {
 
 impl<T: Number> FrameTwists<T> {
     /// For points, or origins of frames, of a mechanism whose unknowns are all free, in the given order.
-    pub fn new<P>(dimensions: &Dimensions<T>, unknowns: &[Unknown], points: &[P]) -> Self
-    where
-        for<'p> &'p P: Into<Point>,
-    {
-        let points: Vec<Point> = points.iter().map(Into::into).collect();
+    pub fn new(
+        dimensions: &Dimensions<T>,
+        unknowns: &[Unknown],
+        points: &[impl Copy + Into<Point>],
+    ) -> Self {
+        let points: Vec<Point> = points.iter().map(|&point| point.into()).collect();
         let kinematics = Kinematics::new(dimensions, points.iter().map(|point| point.frame));
         let column = |unknown| unknowns.iter().position(|u| *u == unknown);
         let plans = points.into_iter().map(|point| {
@@ -62,13 +63,8 @@ impl<T: Number> FrameTwists<T> {
                 movers: (movers.into_iter())
                     .filter_map(|mover| Some((mover, column(Unknown::Joint(mover.joint))?)))
                     .collect(),
-                platform: platform.and_then(|platform| {
-                    let first = Unknown::Twist {
-                        platform,
-                        component: 0,
-                    };
-                    Some((platform, column(first)?))
-                }),
+                platform: platform
+                    .and_then(|platform| Some((platform, column(Unknown::first_twist(platform))?))),
             }
         });
         FrameTwists {

@@ -27,10 +27,7 @@ pub struct FrameMotion {
 
 impl FrameMotions {
     /// For points, or origins of frames, of a mechanism.
-    pub fn new<P>(mechanism: &Mechanism, motion: &Motion, points: &[P]) -> Self
-    where
-        for<'p> &'p P: Into<Point>,
-    {
+    pub fn new(mechanism: &Mechanism, motion: &Motion, points: &[impl Copy + Into<Point>]) -> Self {
         let dimensions = mechanism.dimensions().map(&mut Dual::constant);
         let twists = FrameTwists::new(&dimensions, motion.unknowns(), points);
         FrameMotions {
