@@ -33,12 +33,12 @@ use std::ops::Range;
 
 /// An expression whose names are of type `N`: text when just read, something resolved later.
 ///
-/// Two expressions are equal when they are the same tree, wherever they stand.
+/// Two expressions are equal when they are the same tree, wherever they are in a text.
 #[derive(Debug, Clone)]
 pub struct Expression<N = String> {
     /// What the expression is.
     pub node: Node<N>,
-    /// Where it stands: bytes of the text it was parsed from, or of the file when it is part of a description.
+    /// Its place: bytes of the text it was parsed from, or of the file when it is part of a description.
     pub span: Range<usize>,
 }
 
@@ -95,12 +95,12 @@ impl Expression<String> {
 }
 
 impl<N> Expression<N> {
-    /// The expression that is only a number; it stands nowhere.
+    /// The expression that is only a number, without a place.
     pub fn number(value: f64) -> Self {
         Node::Number(value).at(0..0)
     }
 
-    /// The expression that is only a name; it stands nowhere.
+    /// The expression that is only a name, without a place.
     pub fn name(name: N) -> Self {
         Node::Name(name).at(0..0)
     }

@@ -56,7 +56,7 @@ pub struct Draft {
     pub doubtful: HashSet<String>,
     /// Names given twice.
     double: HashSet<String>,
-    /// Kinds of names of which some may stand in unread parts of the file.
+    /// Kinds of names of which some may be in unread parts of the file.
     lost: HashSet<Noun>,
 }
 

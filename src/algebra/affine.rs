@@ -19,7 +19,7 @@ pub struct Affine<N> {
 #[derive(Debug, Clone, Error, PartialEq, Eq)]
 #[error("a variable may only be added, subtracted and multiplied by constants here")]
 pub struct NonAffine {
-    /// Where it stands.
+    /// Its place in the text.
     pub span: Range<usize>,
 }
 
@@ -145,7 +145,7 @@ fn divide<N: PartialEq>(x: Expression<N>, y: Expression<N>) -> Expression<N> {
     match (&x.node, &y.node) {
         (_, Node::Number(1.0)) => x,
         (Node::Number(a), Node::Number(b)) if *b != 0.0 => Node::Number(a / b).at(span),
-        // A zero divided by something that may itself be zero is not simplified: evaluation will tell.
+        // Zero over something that may itself be zero is left to evaluation.
         _ => Node::binary(Operator::Divide, x, y).at(span),
     }
 }

@@ -109,7 +109,7 @@ impl<N: Clone + PartialEq> Expression<N> {
         }
     }
 
-    /// −e as the parser would read it: signs stand before numbers.
+    /// −e as the parser would read it, with signs before numbers.
     pub(crate) fn negative(&self) -> Self {
         let node = match &self.node {
             Node::Number(x) if *x <= 0.0 => Node::Number(-x),
@@ -141,7 +141,7 @@ impl<N: Clone + PartialEq> Expression<N> {
         Some(Node::binary(*operator, x, (**y).clone()).at(self.span.clone()))
     }
 
-    /// The value, if no name stands in it.
+    /// The value, if no name occurs in it.
     pub(crate) fn fixed_value(&self) -> Option<f64> {
         let constant = self.names().next().is_none();
         let value = || self.evaluate(&|_| f64::NAN).ok();

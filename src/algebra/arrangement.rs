@@ -187,7 +187,7 @@ enum Factor {
 }
 
 impl Product {
-    /// Where it stands in a sum: letters alone first, then long products before short ones.
+    /// Its place in a sum: letters alone first, then long products before short ones.
     fn rank(&self) -> impl Ord + use<> {
         let length = self.circular.len();
         (

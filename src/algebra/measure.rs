@@ -52,8 +52,7 @@ pub enum MeasureErrorKind {
     BareAngle(f64),
 }
 
-/// The largest angle, in rad, that a number without a unit may be: what is larger was meant in degrees more often
-/// than in rad.
+/// The largest angle, in rad, that a number without a unit may be: larger ones are mostly meant in degrees.
 const LARGEST_BARE: f64 = 2.0 * std::f64::consts::TAU;
 
 /// A unit in a sentence.
@@ -180,8 +179,8 @@ impl<N> Expression<N> {
         }
     }
 
-    /// Refuses an angle of more than two turns that is a number without a unit; `says` tells whether a unit, or `pi`,
-    /// stands in the definition of a name.
+    /// Refuses a number without a unit as an angle of more than two turns; `says` is whether the definition of a name
+    /// contains a unit or `pi`.
     ///
     /// # Errors
     /// With the whole expression.
@@ -192,7 +191,7 @@ impl<N> Expression<N> {
         }
     }
 
-    /// Whether nothing in it says what its unit is as an angle: no unit, no `pi`, no inverse function.
+    /// Whether it contains no unit, no `pi` and no inverse function that would make its unit clear as an angle.
     pub fn is_bare(&self, says: &impl Fn(&N) -> bool) -> bool {
         match &self.node {
             Node::Number(_) => true,

@@ -89,8 +89,7 @@ pub(super) fn parse(text: &str) -> Result<Expression, ParseError> {
     read(text, false)
 }
 
-/// The same where names are those of quantities: with dots, `top.x`, after a kind, `velocity:l1`, and with what stands
-/// in brackets, `[left+0.5,0.2].x`.
+/// The same with names of quantities, which contain dots, kinds and brackets: `top.x`, `velocity:l1`, `[left+0.5,0.2].x`.
 pub(super) fn parse_quantity(text: &str) -> Result<Expression, ParseError> {
     read(text, true)
 }

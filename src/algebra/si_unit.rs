@@ -83,7 +83,7 @@ impl SiUnit {
         SiUnit([0, n, m, s])
     }
 
-    /// The unit as it is written for a result: rad stands only in angles and their rates.
+    /// The unit as it is written for a result: rad only in angles and their rates.
     pub fn of_result(self) -> Self {
         match self.0 {
             [1, 0, 0, ..=0] => self,

@@ -1,13 +1,10 @@
 //! Formulas as numbers: the kinematics evaluated over symbols.
 //!
-//! [`Number`] is `Copy`, and the kernels of the kinematics rely on it: relaxing it to `Clone` would put a clone into every
-//! product of every number for the sake of the one that is no plain value. A [`Symbolic`] is therefore a
-//! handle to a [`Trigonometric`] kept in an arena of its thread. [`with_letters`] opens the arena, runs the work and
-//! drops everything in it; what is to last is taken out with [`Symbolic::formula`]. The arena counts its work
-//! against a [`Budget`]; what would exceed it becomes *undefined*, as NaN does, and
-//! [`Number::is_finite`] tells.
+//! [`Number`] is `Copy`, so a [`Symbolic`] is a handle to a [`Trigonometric`] in an arena of its thread.
+//! [`with_letters`] opens the arena, runs the work and drops the arena; [`Symbolic::formula`] takes a result out.
+//! Work beyond a [`Budget`] gives an *undefined* value, which is not finite ([`Number::is_finite`]).
 //!
-//! Equal formulas have equal handles, so that what is structurally zero is found to be zero.
+//! Equal formulas have equal handles, so that structural zeros are recognised.
 
 use std::cell::RefCell;
 use std::ops::{Add, Div, Mul, Neg, Sub};
@@ -55,7 +52,7 @@ impl Drop for Closing {
     }
 }
 
-/// Runs `work` with an open arena. `values` are those of the symbols 0, 1, …: what [`Number::real`] tells.
+/// Runs `work` with an open arena. `values` are those of the symbols 0, 1, …, from which [`Number::real`] follows.
 pub fn with_letters<R>(values: Vec<f64>, budget: Budget, work: impl FnOnce() -> R) -> R {
     let number = OPENED.with(|opened| {
         let next = opened.get().wrapping_add(1).max(1);

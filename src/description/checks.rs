@@ -56,7 +56,7 @@ pub(super) fn check_axes(description: &AxesDescription, problems: &mut Vec<Probl
     }
 }
 
-/// Names that expressions use; where the first of each stands.
+/// Names that expressions use, with the place of the first of each.
 fn check_quantities<'a>(
     names: impl Iterator<Item = (Noun, &'a Spanned<String>)>,
     problems: &mut Vec<Problem>,

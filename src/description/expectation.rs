@@ -24,7 +24,7 @@ words! {
         Output = "an output",
     }
 
-    /// The groups of named fields in a file, with the names that stand before them.
+    /// The groups of named fields in a file, with the names before them.
     #[allow(missing_docs)]
     Structure {
         Mechanism = "Mechanism",

@@ -1,4 +1,4 @@
-//! Names of things: where one stands among others, and new ones.
+//! Names of things: their places in lists, and new ones.
 
 use super::{Description, GROUND, Named};
 use crate::algebra::{is_name, is_reserved};

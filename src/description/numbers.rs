@@ -39,7 +39,7 @@ impl Entry {
         }
     }
 
-    /// An angle written in degrees, as the parser reads it: a sign stands before the quantity.
+    /// An angle written in degrees, with its sign before the quantity as the parser reads it.
     pub(crate) fn degrees(degrees: f64) -> Self {
         Entry::signed(degrees, Unit::Degree)
     }

@@ -1,6 +1,6 @@
 //! The contents of a mechanism file, part by part.
 //!
-//! Parts are equal if their contents are, wherever they stand in their files.
+//! Parts are equal if their contents are, wherever they are in their files.
 
 use std::fmt::{self, Display, Formatter};
 use std::ops::Range;
@@ -10,12 +10,12 @@ pub use crate::geometry::Axis;
 use crate::geometry::{Pose, Vector3};
 use crate::number::Number;
 
-/// A value and the bytes of the file where it stands.
+/// A value and its place in the file, in bytes.
 #[derive(Debug, Clone, Default)]
 pub struct Spanned<T> {
     /// The value.
     pub value: T,
-    /// Where it stands.
+    /// Its place.
     pub span: Range<usize>,
 }
 
@@ -221,7 +221,7 @@ pub struct Row {
     pub d: Entry,
     /// Angle about the joint axis (rad).
     pub theta: Entry,
-    /// Where the row stands.
+    /// The place of the row.
     pub span: Range<usize>,
 }
 
@@ -255,7 +255,7 @@ pub struct ClosureDescription {
     pub frames: [Spanned<String>; 2],
     /// The distance (m), for [`ClosureKind::Distance`] only.
     pub length: Option<Entry>,
-    /// Where the closure stands.
+    /// The place of the closure.
     pub span: Range<usize>,
 }
 

@@ -49,7 +49,7 @@ pub(super) struct Literal<'a> {
 }
 
 enum Places {
-    /// The text stands in the file as it is, from here on.
+    /// The text is in the file as it is, from here on.
     Straight(usize),
     /// Where each byte, and the end, is escaped to.
     Escaped(Vec<usize>),
@@ -58,7 +58,7 @@ enum Places {
 }
 
 impl<'a> Piece<'a> {
-    /// `text` stands at byte `start` of the file.
+    /// Of a text that begins at byte `start` of the file.
     pub fn new(text: &'a str, start: usize) -> Self {
         let trimmed = skip_blank(text);
         Self {
@@ -71,13 +71,13 @@ impl<'a> Piece<'a> {
         Self::new(slice, self.place(slice).start)
     }
 
-    /// Where a slice of this piece stands in the file.
+    /// The place of a slice of this piece in the file.
     fn place(&self, slice: &str) -> Range<usize> {
         let start = self.start + (slice.as_ptr() as usize - self.text.as_ptr() as usize);
         start..start + slice.len()
     }
 
-    /// Where the value stands.
+    /// The place of the value in the file.
     pub fn span(&self) -> Range<usize> {
         let end = self.deserializer().and_then(|mut deserializer| {
             IgnoredAny::deserialize(&mut deserializer)?;

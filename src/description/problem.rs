@@ -62,7 +62,7 @@ pub enum Scope {
     Outputs,
 }
 
-/// What is wrong, said in one sentence without a full stop. Lengths are in m, angles in rad.
+/// What is wrong, in one sentence without a full stop. Lengths are in m, angles in rad.
 #[derive(Debug, Clone, Error, PartialEq)]
 #[allow(missing_docs)]
 pub enum ProblemKind {
@@ -169,7 +169,7 @@ pub enum ProblemKind {
     /// Parameters or local names defined through one another; the first follows the last.
     #[error("{noun} is defined in terms of itself: {}", cycle(names))]
     DefinitionCycle { noun: Noun, names: Vec<String> },
-    /// Chains that stand on one another; the first follows the last.
+    /// Chains that are attached to one another; the first follows the last.
     #[error("a chain is attached to itself: {}", cycle(names))]
     ChainCycle { names: Vec<String> },
     #[error("the expression is not a constant plus multiples of joint variables")]
@@ -228,11 +228,11 @@ pub enum ProblemKind {
 pub struct Turned {
     /// The part beside the row.
     pub beside: Beside,
-    /// The chains that stand on the frame.
+    /// The chains attached to the frame.
     pub on_it: Vec<String>,
 }
 
-/// What lies on the other side of a link frame than a row of a table.
+/// The part beyond a link frame, seen from a row of a table.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Beside {
     /// The base of the chain.

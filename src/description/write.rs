@@ -19,7 +19,7 @@ macro_rules! fields {
 impl Description {
     /// The text of an equivalent mechanism file. Comments are not kept.
     pub fn to_ron(&self) -> Result<String, ron::Error> {
-        // Rows and vectors stand on one line, as in a printed table.
+        // rows and vectors on one line, as in a printed table
         let layout = PrettyConfig::new().depth_limit(4);
         Ok(ron::ser::to_string_pretty(self, layout)? + "\n")
     }

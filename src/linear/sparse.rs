@@ -151,7 +151,7 @@ impl<T: Field + ComplexField> SparseStep<T> for SparseNormal<T> {
     }
 }
 
-/// Places [i, j] of two columns whose product stands on or below the diagonal, and where it does.
+/// Pairs [i, j] of columns whose product is on or below the diagonal, with its row and column.
 fn lower(
     columns: impl Iterator<Item = usize> + Clone,
 ) -> impl Iterator<Item = ([usize; 2], Pair<usize, usize>)> {

@@ -54,7 +54,7 @@ pub(super) struct Builder<'a> {
     pub values: Vec<f64>,
     /// The dimensions of the parameters: length, angle or none.
     pub measures: Vec<Measure>,
-    /// For each parameter whether no unit stands in its definition.
+    /// For each parameter whether its definition contains no unit.
     pub bare: Vec<bool>,
     /// Names whose meaning is uncertain after an error; expressions that use them are not checked further.
     doubtful: &'a HashSet<String>,
@@ -165,7 +165,7 @@ impl Mechanism {
         }
         let problems = &mut builder.problems;
         problems.sort_by_key(|problem| (problem.span.start, problem.span.end));
-        // a coordinate stands in several entries of the tables
+        // a coordinate occurs in several entries of the tables
         problems.dedup();
         if builder.problems.iter().any(refused) {
             return Err(builder.problems);

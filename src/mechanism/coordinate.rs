@@ -63,8 +63,8 @@ impl PoseCoordinate {
     /// jump at ±π.
     ///
     /// Over complex numbers the row is entire instead: y c − x s for roll and yaw, y − s for pitch.
-    /// No analytic row can tell φ from φ + π there, nor the two signs of cos(pitch), so it vanishes
-    /// for both; [`PoseCoordinate::along`] tells them apart.
+    /// No analytic row distinguishes φ from φ + π there, nor the two signs of cos(pitch), so it vanishes
+    /// for both; [`PoseCoordinate::along`] distinguishes them.
     pub(crate) fn row<T: Number>(self, pose: &Pose<T>, value: T, length: f64) -> (T, [T; 6]) {
         let gap = match self {
             Self::X | Self::Y | Self::Z => {

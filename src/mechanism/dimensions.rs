@@ -46,7 +46,7 @@ pub struct RowDimensions<T> {
 }
 
 impl<T> RowDimensions<T> {
-    /// Whether a joint variable stands in the row.
+    /// Whether a joint variable occurs in the row.
     pub fn moves(&self) -> bool {
         !self.turn.0.is_empty() || !self.slide.0.is_empty()
     }
@@ -136,8 +136,7 @@ impl<T> Dimensions<T> {
         }
     }
 
-    /// The same dimensions with a link or tip frame taken for the ground. Only frames that stand on it are then where
-    /// they were, seen from it.
+    /// The same dimensions with a link or tip frame as ground; only the frames that it carries keep their place.
     pub(super) fn standing_on(&self, frame: Frame) -> Dimensions<T>
     where
         T: Number,

@@ -1,4 +1,4 @@
-//! What a mechanism tells about itself: parts, names, bodies, frames.
+//! Parts, names, bodies and frames of a mechanism.
 
 use std::collections::BTreeSet;
 
@@ -347,15 +347,14 @@ pub(super) fn joints_of(affine: &Affine<Symbol>) -> impl Iterator<Item = usize> 
 }
 
 impl Row {
-    /// The joints whose variables stand in the row.
+    /// The joints whose variables occur in the row.
     pub fn joints(&self) -> Vec<usize> {
         let joints: BTreeSet<usize> = joints_of(&self.theta).chain(joints_of(&self.d)).collect();
         joints.into_iter().collect()
     }
 }
 
-/// The factor that brings a guessed length back to the size of the mechanism, both in m, where it is so far off that
-/// it says nothing: then only its sense is kept.
+/// The factor that brings a guessed length, in m, back to the size of the mechanism if it is far beyond it.
 fn within_reach(guess: f64, length: f64) -> f64 {
     const FAR: f64 = 1e3;
     match guess.abs() > FAR * length {

@@ -158,8 +158,8 @@ impl Mechanism {
         driven.map(|joint| joint.home).collect()
     }
 
-    /// The largest of the dimensions and of the lengths that are held, in m. Where there are none, the
-    /// home values of slides; 1 m if there are none of these either. A guess decides nothing else.
+    /// The largest of the dimensions and of the lengths that are held, in m; without any the largest home
+    /// value of a slide, or else 1 m.
     fn largest_length<T: Number>(&self, dimensions: &Dimensions<T>, held: &[f64]) -> f64 {
         let size = |pose: &Pose<T>| {
             let squares = pose.position.0.map(|x| x.real() * x.real());

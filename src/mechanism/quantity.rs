@@ -51,7 +51,7 @@ pub enum Order {
 }
 
 words! {
-    /// A figure that tells how well the inputs drive the outputs; none has a unit.
+    /// A measure of how well the inputs drive the outputs; none has a unit.
     Figure {
         /// Condition number of the input–output Jacobian.
         Condition = "condition",
@@ -158,8 +158,8 @@ impl Quantity {
         self.expression.names().map(|(measured, _)| measured)
     }
 
-    /// The parts of a list between commas that stand in no brackets. A number cannot be a quantity, so that one that
-    /// follows a point belongs to its offsets: `velocity:left+0.5,0.2, transmission` are two.
+    /// The parts of a list between commas outside brackets. A number after a point belongs to its offsets:
+    /// `velocity:left+0.5,0.2, transmission` are two.
     pub fn split(list: &str) -> Vec<String> {
         let mut parts: Vec<String> = Vec::new();
         for part in split_at_commas(list).into_iter().map(str::trim) {

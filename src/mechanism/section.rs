@@ -1,4 +1,4 @@
-//! A mechanism cut with a plane: one of its points is to lie there.
+//! A mechanism with one of its points held on a plane.
 
 use std::f64::consts::FRAC_PI_2;
 
@@ -8,12 +8,12 @@ use crate::algebra::Affine;
 use crate::geometry::Axis;
 
 impl Mechanism {
-    /// The mechanism with a point fixed to a frame, at an offset in m, on a plane that has nothing to do with its
-    /// dimensions: closed by a ball to the end of two slides. The slides are its last joints.
+    /// The mechanism with a point of a frame, at an offset in m, held on a plane in general position by a ball at the
+    /// end of two slides. The slides are its last joints.
     ///
     /// A curve of order n has n points in such a plane, real or complex.
     pub fn with_point_on_a_plane(&self, frame: Frame, offset: [f64; 3]) -> Mechanism {
-        /// The plane in units of the characteristic length and in rad: no numbers of a drawing.
+        /// The plane, in characteristic lengths and rad: numbers that no drawing has.
         const ORIGIN: [f64; 3] = [0.137_035, -0.291_549, 0.083_144];
         const TURNS: [(Axis, f64); 2] = [(Axis::Z, 0.729_735), (Axis::X, 1.054_571)];
         let mut cut = self.clone();

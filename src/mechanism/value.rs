@@ -156,7 +156,7 @@ pub enum ValueError {
 }
 
 impl ValueError {
-    /// The problem that it would be in a file, where a number or an expression stands.
+    /// The same problem in a file, for a number or an expression.
     pub(super) fn problem(&self) -> Option<ProblemKind> {
         Some(match self {
             ValueError::Parse(kind) => ProblemKind::Expression(kind.clone()),
@@ -257,7 +257,7 @@ pub(super) fn split_at_commas(text: &str) -> Vec<&str> {
         c == ',' && depth <= 0
     };
     let mut parts: Vec<&str> = text.split(outside).collect();
-    // nothing stands behind a last comma
+    // a comma at the end is allowed
     if parts.last().is_some_and(|last| last.trim().is_empty()) {
         parts.pop();
     }

@@ -12,7 +12,7 @@ pub struct BranchPoint<P> {
     pub at: P,
     /// How many infinitesimal freedoms there are: 2 or more.
     pub freedoms: usize,
-    /// Unit tangents of the branches that pass, each once; none if no branch could be told apart.
+    /// Unit tangents of the branches that pass, each once; none if no branch could be distinguished.
     pub directions: Vec<Vec<f64>>,
     /// Whether nothing passes: no direction leads on even to second order, and no other solution
     /// is near.
@@ -57,7 +57,7 @@ impl Continuation {
         let unknowns = curve.unknowns();
         (1..unknowns).take(4).find_map(|lost| {
             let found = self.rank_drop(curve, near, reach, lost)?;
-            // of higher order than asked for: Newton's method was slow, and its end uncertain
+            // of higher order, where Newton's method was slow and its end uncertain
             let free = freedoms(curve, &found);
             (free == lost + 1).then(|| self.described(curve, found, free))
         })

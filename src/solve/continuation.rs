@@ -12,9 +12,8 @@
 //! norm, so an upper bound of the spectral one). As long as the same holds between them, x ↦ J⁺F(x) is
 //! one to one on each plane across the tangent (the affine covariant theorem of Newton and
 //! Kantorovich; Deuflhard, Newton Methods for Nonlinear Problems, 2004, §2.1): there is no other
-//! solution for the step to end at. No step passes a point where branches cross: there J⁺ is
-//! infinite, steps become shorter in geometric progression and the point must be located and left by
-//! name ([`BranchPoint`](super::BranchPoint)).
+//! solution for the step to end at. No step passes a crossing of branches, where J⁺ is infinite: it is
+//! located and left as a [`BranchPoint`](super::BranchPoint).
 
 use crate::linear::{BESIDE_A_CROSSING, Decomposition, SINGULAR_PLACE, dot, norm, rank};
 
@@ -209,10 +208,10 @@ impl Continuation {
         }
     }
 
-    /// The place at the distance `length` along the tangent, if the way there is sure.
+    /// The place at the distance `length` along the tangent, if the step meets the conditions above.
     ///
     /// # Errors
-    /// [`StepFailure::TooShort`] if it is not: try half the length.
+    /// [`StepFailure::TooShort`] if it does not: try half the length.
     pub fn step<C: SolutionCurve>(
         &self,
         curve: &mut C,

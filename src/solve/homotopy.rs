@@ -2,9 +2,8 @@
 //!
 //! Nothing here knows joints: a homotopy offers flat complex coordinates, the velocity dx/ds and a
 //! Newton correction. Predictor: the Runge–Kutta method of order four on dx/ds (Kutta 1901).
-//! Corrector: Newton. A step is accepted when the correction is small and the next one much smaller;
-//! that quotient is what tells Newton's region of quadratic convergence from a neighbour's
-//! (Timme 2021 uses the same measure).
+//! Corrector: Newton. A step is accepted when the correction is small and the next one much smaller,
+//! the measure by which Timme 2021 avoids jumping to a neighbouring path.
 
 use super::{Progress, Watch};
 use crate::number::Complex;

@@ -12,8 +12,8 @@ struct Smooth<'a, C, G> {
     evaluations: Cell<usize>,
 }
 
-/// A line search that meets values without order may never end; a walk of a hundred steps takes a
-/// few hundred evaluations.
+/// A line search on values dominated by rounding may never end; a hundred steps take a few hundred
+/// evaluations.
 const MOST_EVALUATIONS: usize = 2000;
 
 impl<C: Fn(&[f64]) -> f64, G> CostFunction for Smooth<'_, C, G> {
@@ -23,7 +23,7 @@ impl<C: Fn(&[f64]) -> f64, G> CostFunction for Smooth<'_, C, G> {
         let cost = (self.cost)(x);
         self.evaluations.set(self.evaluations.get() + 1);
         if !cost.is_finite() || self.evaluations.get() > MOST_EVALUATIONS {
-            return Err(Error::msg("the walk ends where it stands"));
+            return Err(Error::msg("no further evaluations"));
         }
         let mut lowest = self.lowest.borrow_mut();
         if cost < lowest.0 {
@@ -44,9 +44,8 @@ impl<C, G: Fn(&[f64]) -> Vec<f64>> Gradient for Smooth<'_, C, G> {
 /// Walks down from `start` to where the gradient vanishes, by limited-memory BFGS with the line
 /// search of Moré and Thuente (argmin).
 ///
-/// Where a residual does not vanish Gauss–Newton converges slowly or not at all, because it leaves
-/// the curvature of the equations out; a quasi-Newton method learns it. Returns the lowest point
-/// reached; `start` if the search cannot move.
+/// Gauss–Newton ignores the curvature of the equations and converges slowly to a residual that is not
+/// zero. Returns the lowest point reached; `start` if the search cannot move.
 pub fn walk_down(
     start: Vec<f64>,
     cost: impl Fn(&[f64]) -> f64,

@@ -10,8 +10,8 @@ pub struct Newton {
     pub tolerance: f64,
     /// Steps after which to give up.
     pub max_steps: usize,
-    /// The longest step in any unknown: 1 rad or one characteristic length, beyond which a
-    /// linearised rotation predicts nothing.
+    /// The longest step in any unknown, in rad or characteristic lengths: a linearised rotation is no use
+    /// beyond about 1 rad.
     pub longest_step: f64,
     /// The first damping tried after a failed step.
     pub first_damping: f64,
@@ -132,9 +132,8 @@ impl Newton {
         }
     }
 
-    /// Steps on for as long as they pay: at a regular solution one more brings the residual down to
-    /// rounding, at a double one, where convergence is linear, a dozen more tell it from a regular
-    /// solution with a poor condition.
+    /// Further steps while they reduce the residual: one at a regular solution, about a dozen at a double
+    /// one, which distinguishes it from a badly conditioned regular one.
     fn polish<E: Equations>(
         &self,
         equations: &E,

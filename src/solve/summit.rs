@@ -1,11 +1,9 @@
 //! The highest point of a function of one variable.
 
-/// The highest point between two places that have it between them, and its height: by golden section, which needs no
-/// slope and so stops where rounding hides one, then where the slope vanishes if that is higher or as high.
+/// The maximum between two places, and its height: by golden section, accurate to √ε, then by the zero of the slope
+/// (central differences of fourth order), accurate to about 10⁻¹⁰ of the interval, unless that is lower.
 ///
-/// Values are known to rounding ε, so that golden section alone places a smooth summit to √ε; central differences of
-/// fourth order over steps of a hundredth of the way place it to about 10⁻¹⁰ of it. Source: Brent, Algorithms for Minimization
-/// without Derivatives, 1973, chapter 5.
+/// Source: Brent, Algorithms for Minimization without Derivatives, 1973, chapter 5.
 pub fn summit(
     from: f64,
     to: f64,

@@ -37,7 +37,7 @@ type Next<'a> = dyn Fn() -> Option<usize> + 'a;
 
 /// Runs `work` on every thread; each asks for the next piece until none of `count` is left.
 ///
-/// Not generic: with rayon's parallel iterators in each of some sixty places, they were a twentieth of the code to compile.
+/// Not generic: rayon's parallel iterators in each of some sixty places took a twentieth of the compile time.
 #[cfg(feature = "parallel")]
 fn share(count: usize, work: &(dyn Fn(&Next) + Sync)) {
     let taken = AtomicUsize::new(0);

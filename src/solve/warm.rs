@@ -12,9 +12,8 @@ pub struct Warm {
     pub tolerance: f64,
     /// Steps after which to give up.
     pub max_steps: usize,
-    /// A step must multiply the residual by less than this, or the Jacobian is renewed. Renewing
-    /// costs as much as one to three steps: at three digits a step, a solve takes one more step than
-    /// Newton's and a Jacobian serves some twenty-five solves of a finely divided motion.
+    /// A step must multiply the residual by less than this, or the Jacobian is renewed, which costs as
+    /// much as one to three steps.
     pub contraction: f64,
     /// The longest step in any unknown, in rad or characteristic lengths. A longer one means that
     /// the guess was not nearly right, and that another branch may be nearer than the one followed.
@@ -51,12 +50,11 @@ pub struct WarmReport {
 /// Orders of extrapolation: none, constant moves, moves that change linearly, quadratically.
 const ORDERS: usize = 4;
 
-/// What following a motion remembers: whether factors of a Jacobian are at hand, and the backward
-/// differences m, ∇m, ∇²m, ∇³m of the latest moves m from solution to solution.
+/// The past of a motion: whether a Jacobian is factorised, and the backward differences m, ∇m, ∇²m,
+/// ∇³m of the latest moves m from solution to solution.
 ///
-/// Extrapolation of order p adds the first p of them, and would have missed the latest move by
-/// ∇ᵖm. So the order with the smallest ∇ᵖm is the one to use: a smooth motion earns a high one, a
-/// jump or noise leads back to none.
+/// Extrapolation of order p adds the first p of them and would have missed the latest move by ∇ᵖm, so
+/// the order with the smallest ∇ᵖm is used.
 #[derive(Clone, Debug)]
 pub struct Trail<P, T> {
     next: P,

@@ -71,8 +71,8 @@ pub type Observer<'a> = dyn Fn(Progress) -> ControlFlow<()> + Sync + 'a;
 
 /// Shows how far long work is, and stops it.
 ///
-/// Work that is stopped ends soon with what it has, and its report is marked as interrupted. A watch that has stopped
-/// one piece of work stops all that it is given to afterwards.
+/// Stopped work ends soon with partial results, and its report is marked as interrupted. A watch that has stopped once
+/// stops all further work that it is given to.
 ///
 /// ```
 /// use std::ops::ControlFlow;
@@ -127,7 +127,7 @@ impl<'a> Watch<'a> {
         flow
     }
 
-    /// The same for work whose amount is known, or unknown as `None`.
+    /// Whether the work is to stop, with its amount, or `None` if that is unknown.
     #[inline]
     pub fn stops(&self, stage: Stage, done: usize, of: Option<usize>) -> bool {
         self.at(Progress { stage, done, of }).is_break()

@@ -37,8 +37,8 @@ use demand::Target;
 pub struct Question<'a> {
     mechanism: &'a Mechanism,
     joints: Vec<bool>,
-    /// Joints held by the asker rather than by the file.
-    asked: Vec<bool>,
+    /// Joints held by name rather than by the file.
+    held_by_name: Vec<bool>,
     coordinates: Vec<[Option<f64>; 6]>,
     start: Configuration<f64>,
     guessed_joints: Vec<bool>,
@@ -59,7 +59,7 @@ impl<'a> Question<'a> {
             joints: (mechanism.joints().iter())
                 .map(|joint| joint.role == Role::Actuated)
                 .collect(),
-            asked: vec![false; mechanism.joints().len()],
+            held_by_name: vec![false; mechanism.joints().len()],
             coordinates: vec![[None; 6]; platforms],
             start: mechanism.home(),
             guessed_joints: vec![false; mechanism.joints().len()],
@@ -86,7 +86,7 @@ impl<'a> Question<'a> {
                 let number = self.number(name, value, of)?;
                 self.split_changed |= match of {
                     Coordinate::Joint(joint) => {
-                        self.asked[joint] = true;
+                        self.held_by_name[joint] = true;
                         !self.joints[joint]
                     }
                     Coordinate::Pose(..) | Coordinate::Turn(..) => true,
@@ -133,7 +133,7 @@ impl<'a> Question<'a> {
             Target::Coordinate(of) => {
                 let number = self.number(name, value, of)?;
                 match of {
-                    Coordinate::Joint(joint) if !self.asked[joint] => {
+                    Coordinate::Joint(joint) if !self.held_by_name[joint] => {
                         self.start.joints[joint] = number;
                         self.guessed_joints[joint] = true;
                         self.changed = true;
@@ -231,12 +231,12 @@ impl<'a> Question<'a> {
             .collect()
     }
 
-    /// The mechanism that is asked about.
+    /// The mechanism.
     pub fn mechanism(&self) -> &'a Mechanism {
         self.mechanism
     }
 
-    /// What is held, in the form the solver takes; what stands still too.
+    /// What is held, in the form the solver takes, with the spins that are stopped.
     pub fn held(&self) -> Held<f64> {
         let platforms = (0..self.coordinates.len()).map(|platform| {
             let given = self.held_values(platform);

@@ -110,7 +110,7 @@ impl PlatformRecord {
     }
 }
 
-/// The names that stand in formulas about a mechanism.
+/// The names in formulas about a mechanism.
 #[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub struct FormulaNames {
     /// The joint variables, in the order of the file.
@@ -130,7 +130,7 @@ impl Mechanism {
             .collect()
     }
 
-    /// The names that stand in formulas.
+    /// The names in formulas.
     pub fn names_in_formulas(&self) -> FormulaNames {
         let parameters = self.parameters().iter().map(|part| part.name.clone());
         let platforms = self.platforms().iter().map(|part| part.name.clone());

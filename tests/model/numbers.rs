@@ -1,6 +1,6 @@
 //! One suite run over every number: whatever the kinematics is evaluated with obeys the same laws.
 
-use linkwork::number::{Complex, Dual, Extent, Field, Lanes, Number};
+use linkwork::number::{Complex, Dual, Extent, Field, Interval, Lanes, Number};
 
 /// A number with generic parts, derived from a real part and a seed.
 trait Sample: Field {
@@ -36,6 +36,16 @@ impl Sample for Lanes {
     }
     fn size(self) -> f64 {
         self.abs().greatest()
+    }
+}
+
+/// Points, which operations widen by rounding: the laws hold for both ends.
+impl Sample for Interval {
+    fn sample(real: f64, _: f64) -> Self {
+        Interval::point(real)
+    }
+    fn size(self) -> f64 {
+        self.magnitude()
     }
 }
 
@@ -298,7 +308,9 @@ suite! {
     dual: Dual<f64>,
     dual_complex: Dual<Complex<f64>>,
     lanes: Lanes,
-    dual_lanes: Dual<Lanes>
+    dual_lanes: Dual<Lanes>,
+    interval: Interval,
+    dual_interval: Dual<Interval>
 }
 
 #[test]

@@ -18,7 +18,7 @@ const LARGEST_PRIME: i64 = 61;
 impl Trigonometric {
     /// Whether it is zero for all values of its letters at which its denominators are not.
     ///
-    /// `None` if undecided: not zero as it stands, but it contains letters such as roots and inverse functions that may
+    /// `None` if undecided: not zero in this form, but it contains letters such as roots and inverse functions that may
     /// depend on others, or it is too long.
     pub fn vanishes(&self, budget: &mut Budget) -> Option<bool> {
         if self.is_empty() {
@@ -39,7 +39,7 @@ impl Trigonometric {
         }
     }
 
-    /// Multiplied by every denominator P that stands in it as 1/P; `None` if that is too long.
+    /// Multiplied by every denominator P that occurs in it as 1/P; `None` if that is too long.
     pub fn without_denominators(&self, budget: &mut Budget) -> Option<Self> {
         let mut sum = self.clone();
         loop {

@@ -5,7 +5,7 @@ use super::*;
 impl Reader {
     pub(super) fn closed_form(&mut self, piece: Piece) -> Option<ClosedFormDescription> {
         let mut fields = self.fields(piece, Structure::ClosedForm)?;
-        // Reading takes the fields out, so what kind of formula it is must be asked first.
+        // reading takes the fields out, so the kind of formula is decided first
         let pose = fields.gives(&["position", "rotation", "transform", "entries"]);
         let identity = fields.gives(&["identity", "identities"]);
         if pose && !fields.gives(&["of"]) {

@@ -100,7 +100,7 @@ impl Reader {
         self.entries(vector)
     }
 
-    /// One of the words known, with what stands in parentheses behind it.
+    /// One of the known words, with the parentheses after it.
     pub(super) fn word<'a, T: Copy>(
         &mut self,
         piece: Piece<'a>,

@@ -33,7 +33,7 @@ impl<'a> Fields<'a> {
 }
 
 impl Reader {
-    /// What stands in the parentheses behind a word.
+    /// The contents of the parentheses after a word.
     pub(super) fn content<'a, const N: usize>(
         &mut self,
         whole: Piece,
@@ -162,7 +162,7 @@ impl Reader {
         let mut named = Vec::new();
         for (key, value) in self.split(piece, piece.pairs()).unwrap_or_default() {
             let name = self.text(key, Expected::NameOf(noun));
-            // What a name stands for is read even if the name is wrong, to find what else is.
+            // a value is read even if its name is wrong, to find its problems too
             let before = self.problems.len();
             let value = read(self, value);
             let Some(name) = name else { continue };

@@ -1,4 +1,4 @@
-//! Joint coordinates whose tables are being resolved: what only their values can tell.
+//! Checks of joint coordinates that need their values.
 
 use std::ops::Range;
 

@@ -32,7 +32,7 @@ impl Builder<'_> {
         resolved.map_err(refused).ok()
     }
 
-    /// What a name measures; that of a joint shows only when all rows are known.
+    /// The dimension of a name; that of a joint is known only once all rows are.
     pub(super) fn measure(&self, symbol: &Symbol) -> Measure {
         match *symbol {
             Symbol::Parameter(i) => self.measures[i],
@@ -47,7 +47,7 @@ impl Builder<'_> {
         }
     }
 
-    /// Whether a unit, or `pi`, stands in the definition of a name.
+    /// Whether the definition of a name contains a unit or `pi`.
     pub(super) fn says_unit(&self, symbol: &Symbol) -> bool {
         match *symbol {
             Symbol::Parameter(i) => !self.bare[i],
@@ -115,7 +115,7 @@ impl Builder<'_> {
             Ok(value) => Some(value),
             Err(error) => {
                 let problem = ProblemKind::NoValue(error.kind).at(error.span);
-                // a divisor stands in the constant and in every coefficient of an entry
+                // a divisor occurs in the constant and in every coefficient of an entry
                 let mut latest = self.problems.iter().rev().take(8);
                 if latest.all(|known| *known != problem) {
                     self.problems.push(problem);

@@ -15,7 +15,7 @@ use super::SerialAxes;
 use crate::geometry::{Line, Vector3};
 
 /// Places the run of prismatic axes that begins with index `first`, if there is one. `near` is where
-/// the axis before them is left if its own offset is zero; without one, where the base stands.
+/// the axis before them is left if its own offset is zero; without one, the place of the base.
 /// Returns where the first of them starts if all offsets are to be zero and that is not `near`.
 pub(super) fn place(
     axes: &SerialAxes,

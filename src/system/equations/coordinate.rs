@@ -13,8 +13,8 @@ pub enum Coordinate {
     Joint(usize),
     /// A platform coordinate.
     Pose(usize, PoseCoordinate),
-    /// A turn of a platform that is held whole about an axis of ground, where roll, pitch and yaw do
-    /// not tell its motion: at a pitch of ±90°. It has a rate, and no value.
+    /// A turn about an axis of ground of a platform that is held whole, where roll and yaw are
+    /// dependent (pitch ±90°). It has a rate and no value.
     Turn(usize, Axis),
 }
 

@@ -171,7 +171,7 @@ impl<T> HoldRow<T> {
     }
 }
 
-/// The unknowns, the blocks they make of the closures, and where each closure stands.
+/// The unknowns, the blocks they make of the closures, and the place of each closure.
 pub(crate) struct Layout {
     pub unknowns: Vec<Unknown>,
     pub blocks: Vec<Block>,
@@ -288,7 +288,7 @@ impl Layout {
         }
     }
 
-    /// The column of a block in which an unknown stands.
+    /// The column of an unknown in a block.
     pub fn column(&self, block: usize, unknown: Unknown) -> Option<usize> {
         let index = self.unknowns.iter().position(|u| *u == unknown)?;
         let Block { own, shared, .. } = &self.blocks[block];

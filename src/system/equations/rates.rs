@@ -90,7 +90,7 @@ impl<T: Factorable> System<T> {
     }
 
     /// The largest and the smallest pivot of a full orthogonal factorisation of the Jacobian last
-    /// evaluated: their quotient tells how near it is to losing rank. The smallest is zero when
+    /// evaluated: their quotient measures how near it is to losing rank. The smallest is zero when
     /// there are more unknowns than rows.
     ///
     /// Rows and columns longer than 1 are shortened first: complex rotations and positions have no

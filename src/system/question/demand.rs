@@ -1,4 +1,4 @@
-//! What a question was asked by name, and which demands contradict one another.
+//! Demands made by name, and which of them contradict one another.
 
 use super::{Question, QuestionError, actuated};
 use crate::algebra::words;
@@ -6,7 +6,7 @@ use crate::description::nearest;
 use crate::mechanism::{PoseCoordinate, Value};
 use crate::system::Coordinate;
 
-/// What is asked by name of one joint, coordinate or platform.
+/// A demand on one joint, coordinate or platform, by name.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Demand {
     /// What to do with it.

@@ -96,7 +96,7 @@ pub enum DriveError {
 }
 
 impl Drive {
-    /// Everything held stands still.
+    /// Everything held is at rest.
     pub fn still(question: &Question) -> Self {
         let coordinates = question.driven_coordinates();
         Drive {

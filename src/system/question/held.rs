@@ -6,8 +6,8 @@ use crate::mechanism::PoseCoordinate;
 use crate::system::{Coordinate, HeldPlatform};
 
 impl Question<'_> {
-    /// The held coordinates, those asked for before the joints that are held only because the file
-    /// says so. A whole pose pitched by ±90° turns about the axes of ground.
+    /// The held coordinates, those held by name before the joints held by the file alone. A whole pose
+    /// pitched by ±90° turns about the axes of ground.
     pub fn held_coordinates(&self) -> Vec<Coordinate> {
         let platforms = self.coordinates.iter().enumerate();
         let coordinates = platforms.flat_map(|(platform, values)| {
@@ -22,9 +22,10 @@ impl Question<'_> {
             })
         });
         let held = (0..self.joints.len()).filter(|&joint| self.joints[joint]);
-        let (asked, by_file): (Vec<usize>, Vec<usize>) = held.partition(|&joint| self.asked[joint]);
+        let (by_name, by_file): (Vec<usize>, Vec<usize>) =
+            held.partition(|&joint| self.held_by_name[joint]);
         let joints = |joints: Vec<usize>| joints.into_iter().map(Coordinate::Joint);
-        (joints(asked).chain(coordinates).chain(joints(by_file))).collect()
+        (joints(by_name).chain(coordinates).chain(joints(by_file))).collect()
     }
 
     /// The held coordinates as they are driven and as they carry loads: a platform whose whole
@@ -51,9 +52,9 @@ impl Question<'_> {
         })
     }
 
-    /// For each joint whether it is held by the asker rather than by the file.
-    pub fn asked_joints(&self) -> &[bool] {
-        &self.asked
+    /// For each joint whether it is held by name rather than by the file.
+    pub fn joints_held_by_name(&self) -> &[bool] {
+        &self.held_by_name
     }
 
     /// Whether a whole pose is given: that of the file, or a guess for all that is to be found.

@@ -1,7 +1,7 @@
 //! Inputs and outputs of a question that does not name them.
 //!
-//! Velocities have rows for all that is free ([`free_outputs`]); singularities ask what stands still
-//! ([`platform_outputs`], [`default_outputs`]); maps need as many coordinates as are held
+//! Velocities have rows for all that is free ([`free_outputs`]), singularities for what is at rest
+//! ([`platform_outputs`], [`default_outputs`]), maps as many coordinates as are held
 //! ([`coordinate_outputs`]). Inputs are those of [`inputs_of`] or [`actuated`].
 
 use super::Question;
@@ -34,8 +34,8 @@ pub fn inputs_of(question: &Question) -> Vec<Coordinate> {
     }
 }
 
-/// What moves out where nothing else is asked for: the platforms; of an open chain the tips; else
-/// the joints on the ground that are not driven; else the points where the chains are joined.
+/// The outputs by default: the platforms; of an open chain the tips; else the joints on the ground
+/// that are not driven; else the points where the chains are joined.
 pub fn default_outputs(mechanism: &Mechanism, inputs: &[Coordinate]) -> Vec<Lock> {
     let platforms = 0..mechanism.platforms().len();
     let platforms: Vec<Lock> = platforms

@@ -185,10 +185,9 @@ pub struct TooLarge {
 
 /// Closes a mechanism as a question asks, the same way as for the question itself.
 ///
-/// What is held keeps its values. Where the question gives a whole pose, an assembly beside it is
-/// taken before one far from it: if none there has the values that the file holds, those may move
-/// too, because the pose may be rounded or overdetermined. If the file's own pose leads nowhere else,
-/// they may move in the end however far that is.
+/// What is held keeps its values. Near a whole pose, which may be rounded or overdetermined, values
+/// held by the file alone may move if no assembly beside it has them, and in the end however far if
+/// the file's own pose leads to no other.
 pub fn close(
     question: &Question,
     newton: &Newton,
@@ -197,7 +196,7 @@ pub fn close(
 ) -> Result<Closed, NotClosed> {
     let mechanism = question.mechanism();
     let start = question.start();
-    // values that were asked for move the mechanism: that says nothing about the file
+    // values held by name move the mechanism, whatever the file's pose
     let given = match question.gives_pose() {
         true => widest(mechanism, &start),
         false => None,
@@ -260,7 +259,7 @@ impl Closed {
     }
 }
 
-/// The assembly that a start leads to if only what was asked for keeps its values.
+/// The assembly that a start leads to if only what is held by name keeps its values.
 fn with_file_loose(
     question: &Question,
     newton: &Newton,
@@ -270,7 +269,7 @@ fn with_file_loose(
         return None;
     }
     let held = Held {
-        joints: question.asked_joints().to_vec(),
+        joints: question.joints_held_by_name().to_vec(),
         ..question.held()
     };
     let system = System::new(question.mechanism().dimensions(), &held);
@@ -355,7 +354,7 @@ fn farthest(
     all.max_by(|a, b| a.size.total_cmp(&b.size))
 }
 
-/// What is to be said if there are more unknowns than the whole spectrum is computed for.
+/// Whether there are more unknowns than the spectrum is computed for.
 pub fn too_large(mechanism: &Mechanism) -> Option<TooLarge> {
     let unknowns = mechanism.joints().len() + 6 * mechanism.platforms().len();
     (unknowns > SPECTRUM_LIMIT).then(|| TooLarge {

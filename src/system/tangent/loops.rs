@@ -97,7 +97,7 @@ pub fn loops(near: &mut Neighbourhood, at: &Configuration<f64>) -> Vec<Mechanism
         .collect()
 }
 
-/// The rows of the tables in which a joint variable stands.
+/// The rows of the tables that contain a joint variable.
 fn rows(near: &Neighbourhood, at: &Configuration<f64>) -> Vec<LoopPart> {
     let mechanism = near.mechanism();
     let length = mechanism.characteristic_length();

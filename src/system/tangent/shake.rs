@@ -1,4 +1,4 @@
-//! Configurations beside one, so that what is special about it is not taken for general.
+//! Configurations beside one, to distinguish what is special to it.
 
 use crate::geometry::Vector3;
 use crate::mechanism::{Configuration, Mechanism};

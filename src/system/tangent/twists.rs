@@ -26,7 +26,7 @@ impl Twist<f64> {
 /// Twists of chosen frames at chosen points for rates of all joints and platforms, in dimensionless unknowns.
 ///
 /// ω = Σ z q̇ and v = Σ z × (p − o) q̇ (or z q̇ for a slide) over the joints on the way to the frame,
-/// beside the twist of the platform it stands on.
+/// beside the twist of the platform that carries it.
 #[derive(Clone, Debug)]
 pub struct FrameTwists<T> {
     kinematics: Kinematics<T>,
@@ -39,7 +39,7 @@ struct Plan<T> {
     point: Point,
     /// Joints on the way with the columns of their rates.
     movers: Vec<(Mover<T>, usize)>,
-    /// The platform it stands on and the column of its first twist component.
+    /// The platform that carries it and the column of its first twist component.
     platform: Option<(usize, usize)>,
 }
 
@@ -96,14 +96,14 @@ impl<T: Number> FrameTwists<T> {
         placement
     }
 
-    /// Point `i` of those asked for, in ground, in m.
+    /// Point `i`, in ground, in m.
     pub fn origin(&self, i: usize, placement: &Placement<T>) -> Vector3<T> {
         let point = &self.plans[i].point;
         let pose = self.kinematics.pose(point.frame, placement);
         point.placed(pose.expect("the plan was made for it"))
     }
 
-    /// The twist at point `i` of those asked for. Nothing allocates.
+    /// The twist at point `i`. Nothing allocates.
     pub fn twist(&self, i: usize, placement: &Placement<T>, rates: &[T]) -> Twist<T> {
         let Plan {
             movers, platform, ..

@@ -47,7 +47,7 @@ impl FrameMotions {
         }
     }
 
-    /// The motion at point `i` of those asked for. Nothing allocates.
+    /// The motion at point `i`. Nothing allocates.
     pub fn motion(&self, i: usize) -> FrameMotion {
         let twist = self.twists.twist(i, &self.placement, &self.rates);
         let value = |v: Vector3<Dual<f64>>| Vector3(v.0.map(|x| x.value));

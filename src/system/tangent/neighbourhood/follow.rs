@@ -189,7 +189,7 @@ impl Neighbourhood<'_> {
                 let further = self.system.difference(point, &settled);
                 let left = self.along_motions(&settled, &further);
                 let (before, after) = (norm(&away), norm(&further));
-                // a distance is flat where it is least: there its slope tells more
+                // a distance is flat where it is least: there its slope decides
                 let nearer = match (after - before).abs() <= ROUNDED * before {
                     true => norm(&left) < norm(&along),
                     false => after < before,

@@ -1,4 +1,4 @@
-//! Telling idle freedoms from those that are idle at one configuration only.
+//! Distinguishing local freedoms from those that are local at one configuration only.
 
 use super::{Neighbourhood, Tangent};
 use crate::linear::{complement, dot, orthonormal};
@@ -76,5 +76,5 @@ impl Tangent {
     }
 }
 
-/// Below this a part of a unit vector does not tell one direction from another.
+/// Parts of a unit vector smaller than this do not distinguish directions.
 const DISTINCT: f64 = 1e-3;
