@@ -87,8 +87,8 @@ pub struct PlacedChain {
     pub ends_at_tool: bool,
     /// The common normals N₀ … N_n that x₀ … x_n lie on.
     pub normals: Vec<PlacedNormal>,
-    /// The rows, constant parts.
-    pub rows: Vec<PlacedRow>,
+    /// The rows, constant parts; home values are not serialised.
+    pub rows: Vec<TableRow>,
     /// Frames 0 to n at home.
     pub frames: Vec<PlacedFrame>,
     /// The joint axes at home.
@@ -110,23 +110,6 @@ pub struct PlacedNormal {
     pub to: [f64; 3],
     /// Unit vector along it.
     pub x: [f64; 3],
-}
-
-/// The constant parts of a row.
-#[derive(Clone, Copy, Debug, Serialize, Deserialize)]
-pub struct PlacedRow {
-    /// Twist in rad.
-    pub alpha: f64,
-    /// Length in m.
-    pub a: f64,
-    /// Offset in m at the variable's zero.
-    pub d: f64,
-    /// Angle in rad at the variable's zero.
-    pub theta: f64,
-    /// Factor of the variable in θ.
-    pub turn: f64,
-    /// Factor of the variable in d.
-    pub slide: f64,
 }
 
 /// A frame at home, in ground.
@@ -192,14 +175,6 @@ impl PlacedChain {
             to: normal.feet[1].0,
             x: normal.x.0,
         };
-        let row = |row: &TableRow| PlacedRow {
-            alpha: row.alpha,
-            a: row.a,
-            d: row.d,
-            theta: row.theta,
-            turn: row.turn,
-            slide: row.slide,
-        };
         let frame = |pose: &Pose<f64>| {
             let [x, y, z] = pose.rotation.0.map(|column| column.0);
             PlacedFrame {
@@ -220,7 +195,7 @@ impl PlacedChain {
             starts_at_base: made.starts_at_base,
             ends_at_tool: made.ends_at_tool && made.table.rows.len() == count,
             normals: made.normals[..=count].iter().map(normal).collect(),
-            rows: rows.iter().map(row).collect(),
+            rows: rows.to_vec(),
             frames: made.table.frames()[..=count].iter().map(frame).collect(),
             axes: made.axes.iter().zip(rows).map(axis).collect(),
             joints,

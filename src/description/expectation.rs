@@ -1,6 +1,7 @@
 //! The values expected at each place of a mechanism file.
 
-use super::parts::ClosureKind;
+use super::AxisKind;
+use super::parts::{ClosureKind, Role};
 use crate::algebra::words;
 
 words! {
@@ -23,31 +24,26 @@ words! {
         Identity = "an identity",
         Output = "an output",
     }
+}
 
-    /// The groups of named fields in a file, with the names before them.
-    #[allow(missing_docs)]
-    Structure {
-        Mechanism = "Mechanism",
-        Passive = "Passive",
-        Actuated = "Actuated",
-        Chain = "Chain",
-        Row = "Row",
-        Platform = "Platform",
-        ClosedForm = "ClosedForm",
-        Axes = "Axes",
-        RevoluteAxis = "Revolute",
-        PrismaticAxis = "Prismatic",
-        HelicalAxis = "Helical",
-        CylindricalAxis = "Cylindrical",
-        UniversalAxes = "Universal",
-        SphericalCentre = "Spherical",
-        PlanarAxis = "Planar",
-        FixedJoint = "Fixed",
-        RodEnds = "Distance",
-        SecondPlace = "Place",
-        Point = "Point",
-        BodyFrame = "Body",
-    }
+/// The groups of named fields in a file.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+#[allow(missing_docs)]
+pub enum Structure {
+    Mechanism,
+    /// A joint variable.
+    Variable(Role),
+    Chain,
+    Row,
+    Platform,
+    ClosedForm,
+    Axes,
+    /// A joint given by its axis.
+    Joint(AxisKind),
+    /// The place of a joint on its second body.
+    SecondPlace,
+    Point,
+    BodyFrame,
 }
 
 /// The value expected at a place of the file.
@@ -106,29 +102,48 @@ pub enum Found {
 }
 
 impl Structure {
+    /// The name before its fields.
+    pub fn word(self) -> &'static str {
+        match self {
+            Self::Mechanism => "Mechanism",
+            Self::Variable(role) => role.word(),
+            Self::Chain => "Chain",
+            Self::Row => "Row",
+            Self::Platform => "Platform",
+            Self::ClosedForm => "ClosedForm",
+            Self::Axes => "Axes",
+            Self::Joint(kind) => kind.word(),
+            Self::SecondPlace => "Place",
+            Self::Point => "Point",
+            Self::BodyFrame => "Body",
+        }
+    }
+
     /// The fields it may have.
     pub fn fields(self) -> Vec<&'static str> {
         let fields = match self {
             Self::Mechanism => {
                 "version name source convention parameters joints chains platforms closures closed_forms outputs"
             }
-            Self::Passive | Self::Actuated => "home limits",
+            Self::Variable(_) => "home limits",
             Self::Axes => {
                 "version name source convention parameters joints bodies points base tool cut closed_forms outputs"
             }
-            Self::RevoluteAxis | Self::PrismaticAxis => {
-                "point direction through frame second home drawn value limits role between"
-            }
-            Self::HelicalAxis => {
-                "point direction through frame pitch home drawn value limits role between"
-            }
-            Self::CylindricalAxis | Self::PlanarAxis => {
-                "point direction through frame second between"
-            }
-            Self::UniversalAxes => "point directions second between",
-            Self::SphericalCentre => "point second between",
-            Self::FixedJoint => "frame second between",
-            Self::RodEnds => "through length home limits role between",
+            Self::Joint(kind) => match kind {
+                AxisKind::Revolute | AxisKind::Prismatic => {
+                    "point direction through frame second home drawn value limits role between"
+                }
+                AxisKind::Helical => {
+                    "point direction through frame pitch home drawn value limits role between"
+                }
+                AxisKind::Cylindrical | AxisKind::Planar => {
+                    "point direction through frame second between"
+                }
+                AxisKind::Universal => "point directions second between",
+                AxisKind::Spherical => "point second between",
+                AxisKind::Fixed => "frame second between",
+                AxisKind::Distance => "through length home limits role between",
+            },
             Self::SecondPlace => "point direction directions through frame",
             Self::Point => "body at frame",
             Self::BodyFrame => "origin frame",

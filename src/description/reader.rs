@@ -160,11 +160,7 @@ impl Reader {
     fn joint(&mut self, piece: Piece) -> Option<JointDescription> {
         let known = [Role::Passive, Role::Actuated];
         let (role, _) = self.word(piece, Expected::Joint, &known, Role::word)?;
-        let structure = match role {
-            Role::Passive => Structure::Passive,
-            Role::Actuated => Structure::Actuated,
-        };
-        let mut fields = self.fields(piece, structure)?;
+        let mut fields = self.fields(piece, Structure::Variable(role))?;
         Some(JointDescription {
             role,
             home: self.entry_or_zero(&mut fields, "home"),

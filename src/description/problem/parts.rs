@@ -2,7 +2,7 @@
 
 use std::fmt::{self, Display, Formatter};
 
-use crate::description::{Expected, Found, Noun, Scope, Structure};
+use crate::description::{AxisKind, Expected, Found, Noun, Scope, Structure};
 
 impl Display for Noun {
     fn fmt(&self, f: &mut Formatter) -> fmt::Result {
@@ -14,17 +14,10 @@ impl Display for Structure {
     fn fmt(&self, f: &mut Formatter) -> fmt::Result {
         f.write_str(match self {
             Self::Mechanism => "a mechanism",
-            Self::Passive | Self::Actuated => "a joint",
+            Self::Variable(_) => "a joint",
             Self::Axes => "a file of joint coordinates",
-            Self::RevoluteAxis => "a revolute joint",
-            Self::PrismaticAxis => "a prismatic joint",
-            Self::HelicalAxis => "a helical joint",
-            Self::CylindricalAxis => "a cylindrical joint",
-            Self::UniversalAxes => "a universal joint",
-            Self::SphericalCentre => "a spherical joint",
-            Self::PlanarAxis => "a planar joint",
-            Self::FixedJoint => "a fixed joint",
-            Self::RodEnds => "a rod",
+            Self::Joint(AxisKind::Distance) => "a rod",
+            Self::Joint(kind) => return write!(f, "a {} joint", kind.word().to_lowercase()),
             Self::SecondPlace => "the place on the second body",
             Self::Point => "a point",
             Self::BodyFrame => "a body",

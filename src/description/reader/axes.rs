@@ -47,18 +47,7 @@ impl Reader {
     fn axis(&mut self, piece: Piece) -> Option<AxisDescription> {
         let (known, word) = (&AxisKind::ALL, AxisKind::word);
         let (kind, _) = self.word(piece, Expected::Axis, known, word)?;
-        let structure = match kind {
-            AxisKind::Revolute => Structure::RevoluteAxis,
-            AxisKind::Prismatic => Structure::PrismaticAxis,
-            AxisKind::Helical => Structure::HelicalAxis,
-            AxisKind::Cylindrical => Structure::CylindricalAxis,
-            AxisKind::Universal => Structure::UniversalAxes,
-            AxisKind::Spherical => Structure::SphericalCentre,
-            AxisKind::Planar => Structure::PlanarAxis,
-            AxisKind::Fixed => Structure::FixedJoint,
-            AxisKind::Distance => Structure::RodEnds,
-        };
-        let mut fields = self.fields(piece, structure)?;
+        let mut fields = self.fields(piece, Structure::Joint(kind))?;
         let f = &mut fields;
         let place = self.axis_place(kind, f);
         let second = f.take("second").and_then(|piece| {

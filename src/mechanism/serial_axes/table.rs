@@ -1,3 +1,5 @@
+use serde::{Deserialize, Serialize};
+
 use super::{JointAxis, SerialAxes};
 use crate::description::Convention;
 use crate::geometry::{Axis, Line, Pose, Vector3};
@@ -16,7 +18,7 @@ pub struct Table {
 }
 
 /// One row: the constant parts of its entries, and how the variable enters.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct TableRow {
     /// Twist of the link, in rad.
     pub alpha: f64,
@@ -31,6 +33,7 @@ pub struct TableRow {
     /// Factor of the variable in d.
     pub slide: f64,
     /// The variable's value in the home configuration, rad or m.
+    #[serde(skip)]
     pub home: f64,
 }
 

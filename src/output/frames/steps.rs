@@ -2,8 +2,9 @@
 
 use super::super::quantity::{degrees, metres, number, triple};
 use super::{relation, sense_of_first};
-use crate::analysis::frames::{PlacedChain, PlacedRow};
+use crate::analysis::frames::PlacedChain;
 use crate::geometry::Relation;
+use crate::mechanism::TableRow;
 use crate::output::document::Section;
 
 fn place(v: [f64; 3]) -> String {
@@ -56,7 +57,7 @@ pub(super) fn steps(chain: &PlacedChain, modified: bool) -> Section {
     let n = chain.joints.len();
     let mut lines = Vec::new();
     let mut say = |step: usize, what: String| lines.push(format!("{step:>2}. {what}"));
-    let kind = |row: &PlacedRow| {
+    let kind = |row: &TableRow| {
         if row.turn == 0.0 {
             "prismatic"
         } else {
