@@ -64,9 +64,8 @@ pub const CURVED: f64 = 1e-6;
 /// A condition number beyond the inverse of this has no digit in double precision.
 pub const ILL_CONDITIONED: f64 = 1e-12;
 
-/// The most unknowns that are factorised together as a dense matrix: beyond it the cubic growth of
-/// dense factors costs more than the bookkeeping of sparse ones (a row of 30 four-bars steps 15 times
-/// faster with sparse ones).
+/// The most unknowns that are factorised as one dense matrix; beyond it sparse factors are faster (15
+/// times for a row of 30 four-bars).
 pub const DENSE_LIMIT: usize = 30;
 
 /// What rounding leaves of a sum of numbers about 1 that cancel: dimensionless matrices whose entries

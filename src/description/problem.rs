@@ -203,7 +203,7 @@ pub enum ProblemKind {
     UnusedParameter { name: String },
     /// A joint variable that moves no closure.
     #[error("the joint `{name}` moves no closure")]
-    UnfeltJoint { name: String },
+    JointOutsideClosures { name: String },
     /// A link length below zero: the x axis points the other way. Rows count from 1.
     #[error("row {row} of chain `{chain}` has the negative link length {a} m")]
     NegativeLinkLength {
@@ -250,7 +250,7 @@ impl ProblemKind {
             Self::UnusedJoint { .. }
             | Self::UnusedParameter { .. }
             | Self::UnusedPlatform { .. }
-            | Self::UnfeltJoint { .. }
+            | Self::JointOutsideClosures { .. }
             | Self::NegativeLinkLength { .. }
             | Self::HomeOutsideLimits { .. } => Severity::Warning,
             Self::Axes(problem) if problem.is_warning() => Severity::Warning,

@@ -104,8 +104,8 @@ impl<T: Number> Quaternion<T> {
 /// Roll, pitch and yaw in radians: rotations about the fixed x, then y, then z axis,
 /// R = Rz(yaw)·Ry(pitch)·Rx(roll).
 ///
-/// This is the order of URDF and of most robotics texts. Slides that name the angles after the
-/// tool's vectors (yaw about n, roll about a) swap the words roll and yaw.
+/// This is the order of URDF and of most robotics texts; where the angles are named after the tool's
+/// vectors (yaw about n, roll about a), roll and yaw are exchanged.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct RollPitchYaw<T> {
     /// Angle about x, in (−π, π].

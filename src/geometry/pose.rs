@@ -80,8 +80,7 @@ impl<T: Number> Mul<Vector3<T>> for Pose<T> {
 
 /// Sine and cosine of a fixed angle, exact where the angle is a right one.
 ///
-/// `90 deg` is not exactly π/2 in binary; a twist typed as a right angle must still make exact
-/// zeros, so that planar linkages stay planar and printed tables stay clean.
+/// `90 deg` is not exactly π/2 in binary, but planar linkages stay planar only with exact zeros.
 pub(crate) fn exact_sin_cos<T: Number>(angle: T) -> (T, T) {
     let quarters = angle.real() / std::f64::consts::FRAC_PI_2;
     let whole = quarters.round();

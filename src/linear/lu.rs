@@ -1,8 +1,7 @@
 use crate::number::{Extent, Field};
 
-/// Gaussian elimination with row exchanges of a square matrix: three times cheaper than an
-/// orthogonal factorisation, but a poor judge of rank, so it reports its smallest pivot and leaves
-/// doubtful matrices to [`Qr`](super::Qr).
+/// Gaussian elimination with row exchanges of a square matrix: three times cheaper than [`Qr`](super::Qr),
+/// but unreliable about rank, so it returns its smallest pivot.
 #[derive(Clone, Debug)]
 pub(super) struct Lu<T> {
     size: usize,

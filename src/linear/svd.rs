@@ -16,9 +16,9 @@ impl Svd {
     /// The decomposition of a column-major matrix, with V square also where there are fewer rows than
     /// columns.
     ///
-    /// The QR iteration of nalgebra 0.35 leaves the vectors, and with them the values, of one matrix in
-    /// some hundreds wrong by up to a percent. So its result is multiplied out, and what is not A again
-    /// to rounding is decomposed by rotations of pairs of columns (Hestenes 1958), which are slower.
+    /// The QR iteration of nalgebra 0.35 is wrong by up to a percent for one matrix in some hundreds. A
+    /// result whose product is not A to rounding is replaced by slower rotations of pairs of columns
+    /// (Hestenes 1958).
     pub fn of(rows: usize, columns: usize, entries: &[f64]) -> Self {
         let mut matrix = DMatrix::zeros(rows.max(columns), columns);
         if rows > 0 && columns > 0 {

@@ -84,7 +84,7 @@ fn unused(mechanism: &Mechanism, description: &Description, problems: &mut Vec<P
         if !in_rows_and_lengths.contains(&i) {
             problems.push(ProblemKind::UnusedJoint { name }.at(span));
         } else if !mechanism.closures.is_empty() && !inside.contains(&i) {
-            problems.push(ProblemKind::UnfeltJoint { name }.at(span));
+            problems.push(ProblemKind::JointOutsideClosures { name }.at(span));
         }
     }
     let touched: HashSet<usize> = (mechanism.closures.iter().flat_map(|c| c.frames))

@@ -107,9 +107,7 @@ impl<T: Factorable> System<T> {
         }
     }
 
-    /// Makes storage of a system that differs in its dimensions only serve this one.
-    ///
-    /// Factors last made stay, those of the other system.
+    /// Adapts storage of a system that differs in its dimensions only; its factors stay as they are.
     pub fn refit(&self, work: &mut Work<T>) {
         match self.empty.blocks().eq(work.jacobian.blocks()) {
             true => {

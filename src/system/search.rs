@@ -80,9 +80,8 @@ impl<'a> Search<'a> {
         &self.system
     }
 
-    /// Moves the mechanism from home to what is held, or starts from the guess if there is one; if
-    /// that fails, or ends outside the limits, starts from the guess and then from seeded random
-    /// starts within the limits, until it is stopped.
+    /// Moves the mechanism from home to what is held, unless there is a guess. If that fails or ends
+    /// outside limits, starts from the guess, then from seeded random starts within the limits.
     pub fn run(&mut self, restarts: usize, seed: u64, watch: &Watch) -> Searched {
         let mut rng = Pcg64Mcg::seed_from_u64(seed);
         let guesses = [

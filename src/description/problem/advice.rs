@@ -38,7 +38,7 @@ impl ProblemKind {
             NoValue(_) => "has no value".into(),
             Unit(error) => expression::unit_label(error).into(),
             EmptyClosedForm => "no formula".into(),
-            UnfeltJoint { .. } => "no effect on any closure".into(),
+            JointOutsideClosures { .. } => "no effect on any closure".into(),
             UnusedJoint { .. } | UnusedParameter { .. } | UnusedPlatform { .. } => {
                 "not used".into()
             }
@@ -91,7 +91,7 @@ impl ProblemKind {
             JointNotAllowed { .. } => "only parameters, numbers and constants can be used here".into(),
             NotAffine => "only theta, d and distances may contain joints, as in `\"pi/2 - 2*phi1\"`".into(),
             SameBody { .. } => "a closure within one body is either always or never satisfied".into(),
-            UnfeltJoint { .. } => "its value is arbitrary; remove it, or close the chain that it moves".into(),
+            JointOutsideClosures { .. } => "its value is arbitrary; remove it, or close the chain that it moves".into(),
             NegativeLinkLength { turned: None, .. } => "it may stay as it is".into(),
             NegativeLinkLength { row, turned: Some(turned), .. } => positive(*row, turned),
             ZeroDistance { .. } => "use `Spherical` for two points that coincide".into(),

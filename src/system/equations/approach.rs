@@ -14,9 +14,8 @@ const KEPT: f64 = 1e-10;
 /// A gradient this small beside the gaps vanishes.
 const LEVEL: f64 = 1e-6;
 
-/// Comes as close to assembled as possible near a configuration, with what is held kept, and tells
-/// whether no small motion comes closer: the gradient of the squared gaps vanishes and their
-/// curvature is nowhere negative.
+/// The closest approach to assembly near a configuration, with what is held kept, and whether it is a
+/// minimum: the gradient of the squared gaps vanishes and their curvature is nowhere negative.
 pub fn approach(system: &System<f64>, start: &Configuration<f64>) -> (Configuration<f64>, bool) {
     let unknowns = system.unknowns().len();
     let work = RefCell::new(system.work());

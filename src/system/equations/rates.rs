@@ -93,8 +93,8 @@ impl<T: Factorable> System<T> {
     /// evaluated: their quotient measures how near it is to losing rank. The smallest is zero when
     /// there are more unknowns than rows.
     ///
-    /// Rows and columns longer than 1 are shortened first: complex rotations and positions have no
-    /// bound, and a solution far out is not near a singularity because of that.
+    /// Rows and columns longer than 1 are shortened first, because complex rotations and positions have
+    /// no bound.
     pub fn pivots(&self, work: &mut Work<T>) -> (f64, f64) {
         let (rows, columns) = (self.rows(), self.unknowns().len());
         let mut dense = self.dense_jacobian(work);

@@ -3,12 +3,11 @@
 use crate::geometry::{Quaternion, Vector3};
 use crate::number::Number;
 
-/// A platform that would spin about a line u of its own, as a rod between two balls, and does not.
+/// The condition that a platform does not spin about a line u of its own, as a rod between two balls.
 ///
-/// A spin by an angle s takes its quaternion q to q (cos s/2 + u sin s/2). Where q is to be
-/// perpendicular to a quaternion c there is thus one s for every direction of the line, other than
-/// where an angle of the platform is held, which leaves two or none. The exception is one
-/// direction, for which c·q and c·q u both vanish.
+/// A spin by an angle s takes its quaternion q to q (cos s/2 + u sin s/2), so c·q = 0 for a fixed
+/// quaternion c leaves one s for every direction of the line but one, for which c·q and c·q u both
+/// vanish. Holding an angle of the platform instead would leave two or none.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Spin {
     /// The platform.
@@ -20,9 +19,8 @@ pub struct Spin {
 impl Spin {
     /// Of a platform about a line of unit direction in its own frame; at home it has not spun.
     pub fn about(line: &Vector3<f64>, platform: usize, home: &Quaternion<f64>) -> Self {
-        // c = q_home (k u + l v + m w): c·q_home = 0 whatever k, l, m, and c·q u = 0 with it where the
-        // line points opposite to where it does at home, turned by an odd angle about an odd axis:
-        // lines that are just reversed occur
+        // c = q_home (k u + l v + m w): c·q_home = 0 whatever k, l, m, which are chosen so that the
+        // exceptional direction is not just the reversed line
         const PARTS: [f64; 3] = [0.92, 0.31, -0.24];
         let least = (0..3).min_by(|&i, &j| line.0[i].abs().total_cmp(&line.0[j].abs()));
         let across = line.cross(&Vector3::unit(least.unwrap_or(0)));

@@ -22,9 +22,8 @@ pub struct Count {
 
 /// Compares the held coordinates with the freedoms of the mechanism.
 ///
-/// A mechanism may have other freedoms elsewhere, so it is looked at near the start, at the
-/// assembly that Newton's method reaches from there with everything held, and at home. What can be
-/// held at one of these is a good question.
+/// A mechanism may have other freedoms elsewhere, so it is examined near the start, at the assembly that
+/// Newton's method reaches from there with everything held, and at home; one of these must fit.
 ///
 /// # Errors
 /// If everywhere more or less is held than the mechanism has freedoms, or what is held depends on
@@ -39,7 +38,7 @@ pub fn check_count(question: &Question) -> Result<Count, QuestionError> {
         return Ok(count);
     }
     let home = mechanism.home();
-    let others = [asked(question, &start), Some(home)];
+    let others = [solved(question, &start), Some(home)];
     let mut refused = first;
     for at in others.into_iter().flatten() {
         let Some(mobility) = Mobility::near(mechanism, &at) else {
@@ -60,7 +59,7 @@ pub fn check_count(question: &Question) -> Result<Count, QuestionError> {
 }
 
 /// The assembled configuration that is reached from a start with everything held.
-fn asked(question: &Question, start: &Configuration<f64>) -> Option<Configuration<f64>> {
+fn solved(question: &Question, start: &Configuration<f64>) -> Option<Configuration<f64>> {
     let system = System::new(question.mechanism().dimensions(), &question.held());
     let (mut at, mut trial) = (start.clone(), start.clone());
     let report = Newton::default().solve(&system, &mut at, &mut trial, &mut system.work());
@@ -86,7 +85,7 @@ fn compared(
         });
     let candidates = [&held[..], &actuated, &others].concat();
     let chosen = mobility.independent(mechanism, &candidates);
-    let name = |holdable: &Coordinate| holdable.name(mechanism);
+    let name = |of: &Coordinate| of.name(mechanism);
     let free = held.iter().filter(|h| !chosen.contains(h)).map(name);
     let hold = chosen.iter().filter(|c| !held.contains(c)).map(name);
     let (free, hold): (Vec<String>, Vec<String>) = (free.collect(), hold.collect());

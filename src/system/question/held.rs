@@ -28,9 +28,8 @@ impl Question<'_> {
         (joints(by_name).chain(coordinates).chain(joints(by_file))).collect()
     }
 
-    /// The held coordinates as they are driven and as they carry loads: a platform whose whole
-    /// orientation is held turns about the axes of ground, which is never singular, where roll, pitch
-    /// and yaw are near a pitch of ±90°.
+    /// The held coordinates as they are driven and as they carry loads: with turns about the axes of
+    /// ground, never singular, for a platform whose whole orientation is held.
     pub fn driven_coordinates(&self) -> Vec<Coordinate> {
         let held = self.held_coordinates().into_iter();
         held.map(|coordinate| match coordinate {

@@ -69,9 +69,8 @@ pub fn default_outputs(mechanism: &Mechanism, inputs: &[Coordinate]) -> Vec<Lock
         .collect()
 }
 
-/// The coordinates of platforms that a question is about, where it is about nothing else: those that
-/// are held, and those that move. A whole orientation turns about the axes of ground, and a whole
-/// pose is the platform.
+/// The held and the moved coordinates of platforms, if no joint is held or moved. A whole orientation
+/// turns about the axes of ground, and a whole pose is the platform.
 pub fn platform_outputs(
     held: &Held<f64>,
     moved: &[Coordinate],
@@ -133,9 +132,8 @@ pub fn coordinate_outputs(mechanism: &Mechanism, held: &[Coordinate]) -> Vec<Coo
     })
 }
 
-/// The outputs of a question: what is free of the platforms, and with a platform coordinate held the
-/// driven joints that are free; if there is nothing of that, the free joints that something
-/// determines.
+/// The outputs of a question: the free coordinates of platforms, with a platform coordinate held also
+/// the free driven joints; without any of these the free joints that something determines.
 ///
 /// Of a platform that is partly held the angular velocity is free if no angle is held, else the
 /// other angles.

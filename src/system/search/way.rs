@@ -13,9 +13,8 @@ const STEP: f64 = 0.2;
 const MOST: f64 = 64.0;
 
 impl Search<'_> {
-    /// Where the mechanism comes when what is held moves from home to its values: the assembly mode
-    /// of home, where one long step may end in another. `None` if home does not assemble or the way
-    /// is long or leads through a configuration from which Newton's method does not go on.
+    /// Where the mechanism arrives, in the assembly mode of home, when what is held moves from home to its
+    /// values in small steps. `None` if home does not assemble, the way is long or a step fails.
     pub(crate) fn moved_from_home(&self) -> Option<Attempt> {
         let home = self.mechanism.home();
         let to = self.question.start();

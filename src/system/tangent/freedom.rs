@@ -122,9 +122,9 @@ pub struct Mobility {
 }
 
 impl Mobility {
-    /// Of the assembled configurations near one given the one with the fewest freedoms, and of these the one with
-    /// the fewest local ones: what is gained or lost at a special configuration, such as the turn in place that joints
-    /// have in gimbal lock, does not count. `None` if none is found, or there are too many unknowns.
+    /// At the assembled configuration near one given that has the fewest freedoms, and of these the fewest local
+    /// ones, so that freedoms of a special configuration, as in gimbal lock, do not count. `None` if none is found, or
+    /// there are too many unknowns.
     pub fn near(mechanism: &Mechanism, start: &Configuration<f64>) -> Option<Self> {
         Mobility::among(mechanism, start, 0..4)
     }

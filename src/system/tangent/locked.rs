@@ -169,8 +169,7 @@ impl Locked {
     }
 
     /// det(Uᵀ M V Σ⁻¹) with the decomposition U Σ Vᵀ of M at a configuration nearby: 1 there, and of
-    /// the other sign beyond a loss of an odd number of ranks. It is smooth, and redundant rows do it
-    /// no harm.
+    /// the other sign beyond a loss of an odd number of ranks. It is smooth, also with redundant rows.
     pub fn orientation(&mut self, near: &Decomposition, at: &Configuration<f64>) -> f64 {
         let entries = self.jacobian(at);
         near.determinant_beside(&entries)

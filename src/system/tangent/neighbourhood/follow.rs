@@ -163,8 +163,8 @@ impl Neighbourhood<'_> {
     /// The assembled configuration nearest to a point, downhill from an assembled one: where no motion
     /// brings it nearer, distances being in rad and characteristic lengths.
     ///
-    /// The change away from the point less its part along the motions ξ is what closing asks for; that
-    /// part is taken back: x ← x ⊖ Σ ξ (ξ · (x ⊖ point)), shortened until it does bring it nearer.
+    /// Takes back the part of the distance along the motions ξ: x ← x ⊖ Σ ξ (ξ · (x ⊖ point)), shortened
+    /// until it brings x nearer.
     pub fn nearest(
         &mut self,
         point: &Configuration<f64>,

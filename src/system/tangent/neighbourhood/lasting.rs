@@ -17,14 +17,12 @@ pub struct Lasting {
 }
 
 impl Tangent {
-    /// The same motions, where only so many idle ones count as idle as are so beside the
-    /// configuration too. In gimbal lock, where the axes of the first and the last
-    /// of three joints are one line, these turn against each other and move nothing; a little
-    /// further on the same freedom moves links. Those that turn so are listed too.
+    /// The same motions, with only as many local freedoms as there are beside the configuration too; the
+    /// others are listed apart. In gimbal lock, for example, the first and the last of three joints turn
+    /// against each other and move nothing, but beside it the same freedom moves links.
     ///
-    /// The number of idle freedoms is the least that any configuration near has, so it does not
-    /// depend on which of them is looked at: the rank of what idle freedoms leave at rest is lower
-    /// on special configurations only.
+    /// The number of local freedoms is the least at any configuration near, since the rank of what they
+    /// leave at rest is lower at special configurations only.
     pub fn lasting(self, near: &mut Neighbourhood) -> Lasting {
         let unlocked = |tangent: Tangent| Lasting {
             idle_beside: tangent.idle.clone(),
